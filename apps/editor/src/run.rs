@@ -13,7 +13,7 @@ use crate::report;
 /// Runs what the command line asks for.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let (Some(script), Some(output)) = (&arguments.run, &arguments.output) else {
-        return Err("a script and an output are needed: --run SCRIPT --output FILE".into());
+        return Err("write both a script and an output: --run SCRIPT --output FILE".into());
     };
     let script = read_script(script)?;
     let mut document = open(arguments)?;
@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     if !losses.is_empty() {
         losses.iter().for_each(|loss| report("warning", &format!("would be lost: {loss}")));
         if !arguments.accept_losses {
-            return Err("nothing is written; --accept-losses writes the file all the same".into());
+            return Err("nothing was written; --accept-losses writes the file anyway".into());
         }
     }
     save(&mut Disk, output, &file.to_bytes()).map_err(|error| error.to_string())

@@ -193,7 +193,7 @@ impl Framing {
         let distance = position.distance(center);
         if !(distance.is_finite() && distance > 0.0) {
             return Err(Failure::Usage(format!(
-                "--camera-position is {}, the middle of the model, so the camera looks nowhere; say with --camera-focal-point where it is to look, or move it",
+                "--camera-position is {}, the middle of the model, so the view direction is undefined; set --camera-focal-point, or move the camera",
                 Coordinates(position)
             )));
         }

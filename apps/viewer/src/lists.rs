@@ -68,7 +68,7 @@ pub(crate) fn print_lines(lines: impl IntoIterator<Item = String>, reporter: Rep
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
         Err(error) => {
             reporter.error(format_args!(
-                "standard output cannot be written ({error}); check that where it leads is writable and has room"
+                "standard output cannot be written ({error}); check that its destination is writable and has room"
             ));
             1
         }

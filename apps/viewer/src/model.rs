@@ -67,7 +67,7 @@ impl Source {
             match request.for_source(&source).and_then(|request| visit(&source, &request)) {
                 Ok(()) => {}
                 Err(Failure::Empty(what)) if request.skip_empty => {
-                    reporter.info(format_args!("{what}; passed over"));
+                    reporter.info(format_args!("{what}; skipped"));
                 }
                 Err(failure) => {
                     reporter.error(&failure);

@@ -56,7 +56,7 @@ impl Moment {
         let beyond = !(0.0..=duration).contains(&seconds);
         Ok(beyond.then(|| {
             let (stays, end) = if seconds < 0.0 { ("start", 0.0) } else { ("end", duration) };
-            format!("there is no animation at {seconds} s: the {stays} is at {end} s, and its pose is shown")
+            format!("there is no animation at {seconds} s; the pose of the {stays}, at {end} s, is shown")
         }))
     }
 

@@ -154,7 +154,7 @@ fn unwritten(path: &Path, error: WriteError) -> Failure {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     match (error, folder) {
         (WriteError::File { .. }, Some(folder)) if !folder.exists() => Failure::work(format!(
-            "{}: the folder {} does not exist; make it, or name another",
+            "{}: the folder {} does not exist; create it, or name another",
             path.display(),
             folder.display()
         )),

@@ -127,7 +127,7 @@ fn deliver(
     if !reference.file.exists() {
         let written = outlet.put(subject, frame)?;
         let remedy = match written {
-            Some(path) => format!("{} was written: give it that name if it is right", path.display()),
+            Some(path) => format!("{} was written: rename it to that if it is right", path.display()),
             None => "write one with --output, look at it, and give it that name".to_owned(),
         };
         return Err(Failure::Mismatch(format!("{name}: there is no picture to compare with; {remedy}")));
@@ -234,7 +234,7 @@ fn draw(model: &Model, camera: &Camera, request: &Request, reporter: Reporter) -
     let pixels_shaded = renderer.stats().pixels_shaded;
     if pixels_shaded == 0 {
         reporter.warning(format_args!(
-            "{title}: nothing of the model is in the picture; look from elsewhere (--view=back), or show faces that point away (--backface-type=visible)"
+            "{title}: the model is not in view; look from another side (--view=back), or show faces that point away (--backface-type=visible)"
         ));
     }
     let (seconds, faces) = (started.elapsed().as_secs_f64(), model.face_count());

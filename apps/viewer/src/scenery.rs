@@ -61,7 +61,7 @@ impl Scenery {
         let points: Vec<DVec3> = scene.visible_points().filter(|point| point.is_finite()).collect();
         if points.len() > MOST_SPRITES {
             return Err(Failure::work(format!(
-                "--point-sprites: the model has {} vertices, and balls are drawn for {MOST_SPRITES} at most; leave it out",
+                "--point-sprites: the model has {} vertices, and at most {MOST_SPRITES} are drawn as balls; leave it out",
                 points.len()
             )));
         }

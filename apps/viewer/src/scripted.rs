@@ -107,7 +107,7 @@ impl Session {
             }
             Step::Increase(flag, up) => self.line.with([self.increased(&flag, up)]),
             Step::Cycle(flag) => self.line.with([self.line.next_value(&flag, &self.value(&flag))?]),
-            other => return Err(format!("{other:?} changes no flag; this is a defect of trigon")),
+            other => return Err(format!("{other:?} changes no flag; this is a bug in trigon")),
         };
         changed.raw(self.source().first_file()).map_err(|error| plain(&error))?;
         self.line = changed;

@@ -48,7 +48,7 @@ impl Series {
         let frames = (left / speed.abs() * rate + 1e-9).floor() + 1.0;
         if frames > f64::from(MOST_FRAMES) {
             return Err(Failure::Usage(format!(
-                "the animation makes {frames} frames, more than {MOST_FRAMES}; write a smaller --frame-rate or a larger --animation-speed-factor"
+                "the animation has {frames} frames, more than {MOST_FRAMES}; write a smaller --frame-rate or a larger --animation-speed-factor"
             )));
         }
         let camera = model.shot(&request.framing, aspect)?.camera;

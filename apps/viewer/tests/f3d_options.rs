@@ -268,7 +268,7 @@ const OPTIONS: &[Row] = &[
     ("configuration: exact", BOX, "--config=exact.json", Keeps),
     ("configuration: imperative", BOX, "--config=imperative.json --edges=false", Shows("--edges")),
     ("configuration: the command line wins", BOX, "--config=blue.json --background-color=red", Shows("--background-color=red")),
-    ("configuration: bindings", BOX, "--config=bindings.json --output=o.png", Exit(0, "bindings are left out")),
+    ("configuration: bindings", BOX, "--config=bindings.json --output=o.png", Exit(0, "bindings are ignored")),
     ("configuration: a folder", BOX, "--config=config.d", Shows("--background-color=blue")),
     // 08-PARSING.
     ("bool: yes", BOX, "--edges=Yes", Shows("--edges")),

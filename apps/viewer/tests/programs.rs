@@ -197,14 +197,13 @@ fn a_time_budget_says_what_it_chose_and_what_that_gives_up() {
     let folder = Folder::new();
     // The longest and the shortest that there is: on any machine a picture of this size
     // fits into the one, and none into the other.
-    for (time, quality, gives_up) in [
-        ("3600s", "4×4 samples of 16,", "gives up nothing"),
-        ("0.001ms", "1 sample,", "nothing is quicker; gives up "),
-    ] {
+    for (time, quality, gave_up) in
+        [("3600s", "4×4 samples of 16,", "gave up nothing"), ("0.001ms", "1 sample,", "; gave up ")]
+    {
         let flags = format!("--output o.png --capture o.trigon --resolution 60,40 --time-budget={time}");
         let said = folder.said(&format!("corner.obj {flags}"), 0);
         let choice = said.lines().next().expect("a line");
-        assert!(choice.contains(quality) && choice.contains(gives_up), "{choice}");
+        assert!(choice.contains(quality) && choice.contains(gave_up), "{choice}");
         assert!(choice.contains("; took ") && choice.contains("RMSE"), "time and error: {choice}");
         folder.said("--replay o.trigon", 0);
     }
@@ -284,7 +283,7 @@ fn a_picture_that_shows_nothing_of_the_model_says_so() {
     let folder = Folder::new();
     let away = "--camera-position 9,9,9 --camera-focal-point 20,20,20 --output o.png --resolution 20,20";
     let said = folder.said(&format!("corner.obj {away}"), 0);
-    assert!(said.contains("nothing of the model is in the picture"), "{said}");
+    assert!(said.contains("the model is not in view"), "{said}");
 }
 
 /// A level that only other processors have.
@@ -302,7 +301,7 @@ fn a_senseless_command_line_exits_with_2() {
         ("--output o.exr --outputs depth.png corner.obj", "without an ending"),
         ("--output o.png --outputs dept corner.obj", "triangle-ids"),
         ("--camera-position 1,2,3 --camera-focal-point 1,2,3 --output o.png", "same point"),
-        ("corner.obj --camera-position 0.5,0.5,0.5 --output o.png", "looks nowhere"),
+        ("corner.obj --camera-position 0.5,0.5,0.5 --output o.png", "view direction is undefined"),
         ("--background-color=blurple", "CSS name"),
         ("--simd=mmx", "mmx is not available here; write one of"),
         (ELSEWHERE, "is not available here; write one of"),
@@ -330,7 +329,7 @@ fn a_model_may_come_through_standard_input() {
         assert!(output.status.success() && facts.contains("faces     3"), "{flags}: {output:?}");
     }
     let said = folder.said("corner.obj --force-reader=ply --output o.png", 1);
-    assert!(said.contains("is no PLY file"), "{said}");
+    assert!(said.contains("not a PLY file"), "{said}");
     let said = folder.said("corner.obj --force-reader=doc --output o.png", 2);
     assert!(said.contains("obj, gltf, glb, ply, stl, off"), "{said}");
 }
@@ -542,9 +541,9 @@ fn a_capture_is_replayed_without_its_model() {
     assert!(said.contains("captured by trigon ") && said.contains("its hash was "), "{said}");
 
     folder.write("corner.trigon", "no capture");
-    assert!(folder.failed("--replay corner.trigon").contains("it is no capture"), "another file");
+    assert!(folder.failed("--replay corner.trigon").contains("it is not a capture"), "another file");
     folder.said("--replay corner.trigon corner.obj", 2);
-    assert!(folder.said("a.obj b.obj --capture c.trigon", 2).contains("--capture takes one"), "two models");
+    assert!(folder.said("a.obj b.obj --capture c.trigon", 2).contains("--capture stores one"), "two models");
 }
 
 /// A triangle that goes 3 m to the right within a second, in a scene called "near",

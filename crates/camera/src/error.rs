@@ -4,8 +4,8 @@
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CameraError {
-    /// One number is outside its range (or is not a number).
-    #[error("{what} is {value}, but has to be {allowed}")]
+    /// A number is outside its range (or NaN).
+    #[error("{what} is {value}, but must be {allowed}")]
     OutOfRange {
         /// The name of the parameter in the constructor.
         what: &'static str,
@@ -17,7 +17,7 @@ pub enum CameraError {
     /// Two bounds are equal, in the wrong order, or so close together that nothing fits between
     /// them.
     #[error(
-        "{low_name} is {low} and {high_name} is {high}, but {low_name} has to be clearly less than {high_name}"
+        "{low_name} is {low} and {high_name} is {high}, but {low_name} must be clearly less than {high_name}"
     )]
     Unordered {
         /// The parameter that must be less.

@@ -40,7 +40,7 @@ pub fn load_environment(
 
 fn decode(bytes: &[u8], limits: &Limits, warnings: &mut Warnings) -> Result<Environment, String> {
     if !bytes.starts_with(b"#?") {
-        return Err("its first bytes are not those of a Radiance picture".to_owned());
+        return Err("its first bytes are not those of a Radiance image".to_owned());
     }
     let reader = || {
         let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Hdr);

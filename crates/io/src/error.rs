@@ -97,7 +97,7 @@ impl LoadError {
     pub(crate) fn read(file: &Path, error: &io::Error) -> Self {
         let remedy = match error.kind() {
             io::ErrorKind::NotFound => "check the name and the folder",
-            io::ErrorKind::PermissionDenied => "allow reading it",
+            io::ErrorKind::PermissionDenied => "change its permissions",
             _ => "check the disk or the connection and try again",
         };
         Self::new(LoadErrorKind::Read, file, format!("cannot be read ({error})"), remedy)

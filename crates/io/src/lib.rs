@@ -1,12 +1,11 @@
-//! Model and picture files for trigon: OBJ with MTL, glTF and GLB, PLY, STL, OFF, PNG,
-//! JPEG, WebP and Radiance in; OBJ, GLB, PLY, STL, OFF, PNG, OpenEXR and NumPy arrays out. And captures: all that a
-//! picture was drawn from, and the picture, in one file.
+//! Model and image files for trigon. It reads OBJ with MTL, glTF and GLB, PLY, STL, OFF, PNG, JPEG, WebP and
+//! Radiance, and writes OBJ, GLB, PLY, STL, OFF, PNG, OpenEXR and NumPy arrays. Captures store everything a
+//! frame was drawn from, and its image, in one file.
 //!
-//! A file becomes a [`Scene`](trigon_scene::Scene) and a list of warnings. What
-//! cannot be used is an error. Both name the file, the place in it, and what to
-//! do, in one line. Files are data from strangers: nothing outside the model's
-//! folder is opened, every claim is checked before memory is allocated for it,
-//! and no file makes the loader panic. This crate never draws and never prints.
+//! A file becomes a [`Scene`](trigon_scene::Scene) and a list of warnings; an unusable file is an
+//! error. Both name the file, the location in it, and a remedy, in one line. Files are untrusted:
+//! nothing outside the model's folder is opened, every size is checked before memory is allocated
+//! for it, and no file makes the loader panic. This crate never draws and never prints.
 //!
 //! ```
 //! use trigon_io::{LoadOptions, load_from_slice};
@@ -24,18 +23,17 @@
 //! let error = load_from_slice("square.obj", b"v 0 0 0\nf 1 2 3\n", &LoadOptions::default()).unwrap_err();
 //! assert_eq!(
 //!     error.to_string(),
-//!     "square.obj, line 2: face index \"2\" leads nowhere; the file has 1 vertex; \
-//!      export the model again, or mend the line"
+//!     "square.obj, line 2: face index \"2\" does not exist; the file has 1 vertex; \
+//!      export the model again, or fix the line"
 //! );
 //! # Ok::<(), trigon_io::LoadError>(())
 //! ```
 //!
 //! # Conventions
-//! Right-handed, +Y up, metres, counter-clockwise faces: what glTF and OBJ have
-//! already. PLY, STL and OFF do not say which way is up or how long a unit is: their numbers are
-//! taken as they are. Texture coordinates count v downwards from the upper left. Colours
-//! are linear light. Positions far from the origin are rebased, and the offset
-//! goes into the node. One node of the file is one node of the scene.
+//! Right-handed, +Y up, metres, counter-clockwise faces, as in glTF and OBJ. PLY, STL and OFF
+//! define neither the up axis nor the unit: their numbers are used as they are. Texture coordinates
+//! count v downwards from the upper left. Colours are linear light. Positions far from the origin
+//! are rebased, and the offset goes into the node. One node of the file is one node of the scene.
 
 mod capture;
 mod compare;

@@ -91,7 +91,7 @@ fn import_on(
     let Some(threads) = options.threads else { return import(path, bytes, folder, options) };
     let pool = ThreadPoolBuilder::new().num_threads(threads.get()).build().map_err(|error| {
         let what = format!("there are no {threads} threads to load it with ({error})");
-        LoadError::new(LoadErrorKind::Read, path, what, "ask for fewer threads")
+        LoadError::new(LoadErrorKind::Read, path, what, "use fewer threads")
     })?;
     pool.install(|| import(path, bytes, folder, options))
 }
@@ -103,7 +103,12 @@ fn import(
     options: &LoadOptions<'_>,
 ) -> Result<Loaded, LoadError> {
     let format = options.format.map_or_else(|| detect_format(path, &bytes), Ok).map_err(|what| {
-        LoadError::new(LoadErrorKind::Unsupported, path, what, format!("convert it; {}", supported()))
+        LoadError::new(
+            LoadErrorKind::Unsupported,
+            path,
+            what,
+            format!("export it as GLB, for example from Blender; {}", supported()),
+        )
     })?;
     let mut import = Import {
         path,

@@ -121,7 +121,7 @@ fn picture_format(bytes: &[u8]) -> Result<ImageFormat, String> {
         Err(_) if bytes.starts_with(b"version https://git-lfs") => {
             Err("the picture is a Git LFS pointer; run `git lfs pull`".to_owned())
         }
-        Err(_) => Err("its first bytes are those of no known picture format".to_owned()),
+        Err(_) => Err("its first bytes match no known image format".to_owned()),
     }
 }
 

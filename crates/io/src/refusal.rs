@@ -18,7 +18,7 @@ pub(crate) enum Refusal {
     Outside,
     #[error("it is not a regular file")]
     NotAFile,
-    #[error("it is no valid file name")]
+    #[error("it is not a valid file name")]
     BadName,
     #[error("there is no such file")]
     Missing,

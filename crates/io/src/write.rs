@@ -19,8 +19,8 @@ pub enum WriteError {
         /// The number of values passed.
         length: usize,
     },
-    /// The frame does not hold what is to be written.
-    #[error("the frame holds no {what}; ask for it in RenderSettings::outputs")]
+    /// The frame does not contain the requested output.
+    #[error("the frame has no {what}; request it in RenderSettings::outputs")]
     Absent {
         /// The output.
         what: &'static str,
@@ -41,10 +41,8 @@ pub enum WriteError {
         /// The extensions of those that are written.
         writers: String,
     },
-    /// The format cannot count so much.
-    #[error(
-        "the file would have {bytes} bytes, and its format cannot count so many; save fewer meshes in it"
-    )]
+    /// The file would be too large for its format.
+    #[error("the file would have {bytes} bytes, and its format cannot exceed 4 GiB; save fewer meshes in it")]
     TooLarge {
         /// The size that the file would have, in bytes.
         bytes: u64,
@@ -65,8 +63,8 @@ pub enum WriteError {
         /// The system's error.
         source: io::Error,
     },
-    /// The writer said no.
-    #[error("the picture cannot be written ({0}); check that the other end still listens")]
+    /// The writer failed.
+    #[error("the picture cannot be written ({0}); check that the receiving program is still running")]
     Stream(#[from] io::Error),
 }
 

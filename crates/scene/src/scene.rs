@@ -39,10 +39,12 @@ pub(crate) struct Place {
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum SceneError {
     /// The node was removed, or belongs to another scene.
-    #[error("node {0:?} is not in the scene; it was removed, or belongs to another one")]
+    #[error("node {0:?} is not in this scene; it was removed, or belongs to another scene")]
     NoSuchNode(NodeId),
-    /// A node cannot hang on itself or on one of its descendants.
-    #[error("node {child:?} cannot hang on {parent:?}, which hangs on it; detach {parent:?} first")]
+    /// A node cannot become its own descendant.
+    #[error(
+        "node {parent:?} cannot become the parent of {child:?}, because it is its descendant; detach {parent:?} first"
+    )]
     Cycle {
         /// The node to move.
         child: NodeId,

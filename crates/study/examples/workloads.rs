@@ -13,6 +13,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use trigon_raster::simd::SimdLevel;
 use trigon_raster::{DepthTest, ExecuteSettings, Rasterizer, StageTimes, TileSize};
+use trigon_scene::quality::Preset;
 use trigon_study::workloads::{Canvas, Scene, Timings, Workload};
 
 /// Draw the workloads over and over, and print how long a frame takes.
@@ -30,6 +31,9 @@ struct Arguments {
     /// Cut the picture into squares of 8, 16, 32 or 64 pixels
     #[arg(long, value_name = "PIXELS", value_parser = tile_size)]
     tile: Option<TileSize>,
+    /// Draw with the samples of this preset: draft, standard, high or reference; with those of the workload, unless given
+    #[arg(long, value_name = "PRESET")]
+    preset: Option<Preset>,
     /// Test depth at every sample, leaving nothing out as a whole
     #[arg(long)]
     late: bool,
@@ -87,6 +91,8 @@ impl Arguments {
 
 /// One workload with one number of threads.
 struct Line<'a> {
+    /// Who draws.
+    renderer: &'a str,
     workload: Workload,
     threads: NonZeroUsize,
     work: f64,
@@ -97,10 +103,10 @@ impl Line<'_> {
     const CSV_HEADER: &'static str = "peer,workload,threads,ms_median,ms_min,ms_max,unit_rate";
 
     fn csv(&self) -> String {
-        let Self { workload, threads, timings, .. } = self;
+        let Self { renderer, workload, threads, timings, .. } = self;
         let [median, min, max] = [timings.median(), timings.min(), timings.max()];
         let rate = self.work / median / 1e3;
-        format!("trigon,{},{threads},{median:.3},{min:.3},{max:.3},{rate:.2}", workload.name())
+        format!("{renderer},{},{threads},{median:.3},{min:.3},{max:.3},{rate:.2}", workload.name())
     }
 
     fn text(&self) -> String {
@@ -112,7 +118,8 @@ impl Line<'_> {
     fn samples(&self) -> String {
         let times: Vec<String> =
             self.timings.milliseconds().iter().map(|time| format!("{time:.4}")).collect();
-        format!("trigon,{},{},{},{}", self.workload.name(), self.threads, self.work / 1e6, times.join(","))
+        let Self { renderer, workload, threads, .. } = self;
+        format!("{renderer},{},{threads},{},{}", workload.name(), self.work / 1e6, times.join(","))
     }
 }
 
@@ -148,15 +155,23 @@ fn main() -> Result<(), Box<dyn Error>> {
     if arguments.csv {
         println!("{}", Line::CSV_HEADER);
     }
+    let renderer = arguments.preset.map_or_else(|| "trigon".to_owned(), |preset| format!("trigon-{preset}"));
     for workload in arguments.chosen()? {
         let scene = workload.scene();
+        let scene = arguments.preset.map_or(scene.clone(), |preset| scene.at_quality(preset.quality()));
         let mut pixels = vec![[0; 4]; scene.pixel_count()];
         for &threads in &arguments.threads {
             let rasterizer = Rasterizer::new(arguments.settings(threads))?;
             let mut canvas = Canvas::new(rasterizer, &scene, &mut pixels)?;
             let mut stages = StageTimes::default();
             let timings = Timings::of_frames(arguments.repetitions, || stages = canvas.draw(&scene).times);
-            let line = Line { workload, threads, work: workload.work(&scene), timings: &timings };
+            let line = Line {
+                renderer: &renderer,
+                workload,
+                threads,
+                work: workload.work(&scene),
+                timings: &timings,
+            };
             println!("{}", if arguments.csv { line.csv() } else { line.text() });
             if arguments.stages {
                 println!("{}", stage_line(stages));

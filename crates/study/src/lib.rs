@@ -4,7 +4,7 @@
 //!   engine, each in a file of its own with its source: [`fill`], [`visibility`],
 //!   [`mod@line`], [`shading`], [`interpolation`], [`depth`], [`antialiasing`], [`texture`],
 //!   [`transparency`], [`shadow`], [`color`], [`coordinates`], [`same_bytes`], [`storage`], [`threads`];
-//!   [`frames`] for whole pictures.
+//!   [`frames`] for whole pictures; [`rivals`] for those of other renderers.
 //! - Exact answers to hold them against: [`oracle`].
 //! - What all that costs: [`report`].
 //! - [`workloads`] that other renderers draw too, and the harness that times them. The
@@ -42,6 +42,7 @@ pub mod interpolation;
 pub mod line;
 pub mod oracle;
 pub mod report;
+pub mod rivals;
 pub mod same_bytes;
 pub mod shading;
 pub mod shadow;

@@ -34,7 +34,7 @@ pub(crate) fn act(stage: &mut Stage, action: Action) {
 /// Tells which object was selected.
 pub(crate) fn announce_selection(stage: &mut Stage) {
     let Some(node) = stage.selection.and_then(|id| stage.scene.node(id)) else { return };
-    let name = if node.name.is_empty() { "an object without a name" } else { node.name.as_str() };
+    let name = if node.name.is_empty() { "an unnamed object" } else { node.name.as_str() };
     let text = format!("Selected: {name}");
     stage.overlay.notify(text);
 }
@@ -99,5 +99,6 @@ fn cycle_samples(stage: &mut Stage) {
     const MOST: u32 = 4;
     let next = stage.settings.samples_per_axis % MOST + 1;
     (stage.settings.samples_per_axis, stage.settings.samples) = (next, 1);
-    stage.overlay.notify(format!("{} samples per pixel", next * next));
+    let unit = if next == 1 { "sample" } else { "samples" };
+    stage.overlay.notify(format!("{} {unit} per pixel", next * next));
 }

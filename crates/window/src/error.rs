@@ -6,7 +6,7 @@
 pub enum WindowError {
     /// No display: a server, a container, or a session without graphics.
     #[error(
-        "there is no display to open a window on ({reason}); on Linux, DISPLAY or WAYLAND_DISPLAY has to be set"
+        "there is no display to open a window on ({reason}); on Linux, DISPLAY or WAYLAND_DISPLAY must be set"
     )]
     NoDisplay {
         /// The window system's message.
@@ -21,8 +21,8 @@ pub enum WindowError {
         /// The window system's message.
         reason: String,
     },
-    /// The window refused pictures.
-    #[error("the window cannot show pictures: {reason}")]
+    /// The window cannot display images.
+    #[error("the window cannot show images: {reason}")]
     Surface {
         /// The window system's message.
         reason: String,

@@ -29,7 +29,7 @@ struct Step {
 
 /// A text is not a recording.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("line {line} is no part of an interaction: {reason}; record it again with this version")]
+#[error("line {line} is not part of an interaction: {reason}; record it again with this version")]
 pub struct InteractionError {
     /// From 1.
     pub line: usize,
@@ -60,7 +60,7 @@ impl Interaction {
             let step: Step = serde_json::from_str(text)
                 .map_err(|error| InteractionError { line, reason: error.to_string() })?;
             let possible = step.ms.is_finite() && (0.0..=1e12).contains(&step.ms);
-            let reason = || format!("{} ms is no moment", step.ms);
+            let reason = || format!("{} ms is not a valid time", step.ms);
             if possible { Ok(step) } else { Err(InteractionError { line, reason: reason() }) }
         });
         Ok(Self { steps: steps.collect::<Result<_, _>>()? })

@@ -13,12 +13,12 @@ pub(crate) fn history(ui: &mut Ui, document: &Document, requests: &mut Vec<Reque
     let history = document.history();
     let (done, undone) = (history.done(), history.undone());
     for (index, entry) in undone.iter().enumerate().take(MOST).rev() {
-        if line(ui, entry, false).on_hover_text("Does again what was taken back up to here").clicked() {
+        if line(ui, entry, false).on_hover_text("Redoes everything up to here").clicked() {
             requests.extend(std::iter::repeat_n(Request::Redo, index + 1));
         }
     }
     for (undos, entry) in done.iter().rev().enumerate().take(MOST) {
-        if line(ui, entry, undos == 0).on_hover_text("Takes back what was done after this").clicked() {
+        if line(ui, entry, undos == 0).on_hover_text("Undoes everything after this").clicked() {
             requests.extend(std::iter::repeat_n(Request::Undo, undos));
         }
     }

@@ -121,7 +121,7 @@ impl LoopCutTool {
     /// The first click cuts in the middle; from now on the pointer slides.
     fn begin_to_slide(&mut self, document: &mut Document, hands: Hands, view: &ToolView) -> ToolState {
         let Some((id, edge)) = self.hovered else {
-            return self.modal.refuse("no face with four corners is under the pointer");
+            return self.modal.refuse("there is no quad under the pointer");
         };
         let to_world = document.mesh_transform(id);
         let way = document.mesh(id).and_then(|mesh| {

@@ -112,7 +112,7 @@ impl FileWindow {
             Ok(path) => path,
         };
         let (purpose, _) = self.dialog.take()?;
-        self.note = "no file was chosen; where the system shows no dialog, type a path";
+        self.note = "no file was chosen; if the system shows no dialog, type a path";
         let path = ended?;
         self.purpose = None;
         Some(purpose.request(path))

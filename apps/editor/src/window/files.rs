@@ -311,7 +311,7 @@ impl Editor {
                 self.file = OpenFile::opened(path);
                 self.file.changed();
                 left.discard();
-                self.message = Message::Info("Recovered what was not saved; save it now".into());
+                self.message = Message::Info("Recovered unsaved work; save it now".into());
                 self.show(stage);
                 navigation::frame_all(self, stage);
             }

@@ -88,7 +88,7 @@ impl Loading {
     }
 }
 
-const NO_RESULT: &str = "loading ended without a result; this is a defect of trigon";
+const NO_RESULT: &str = "loading ended without a result; this is a bug in trigon";
 
 fn read(path: &Path, purpose: LoadPurpose, state: &State, wake: &(impl Fn() + Sync)) -> Outcome {
     let follow = |progress: Progress| {

@@ -72,7 +72,7 @@ impl Saving {
     }
 }
 
-const NO_RESULT: &str = "saving ended without a result; this is a defect of trigon";
+const NO_RESULT: &str = "saving ended without a result; this is a bug in trigon";
 
 fn write(
     document: &NativeDocument,

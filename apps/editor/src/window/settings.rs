@@ -121,7 +121,7 @@ pub(crate) fn drags(emulates_mouse: bool) -> Keymap {
         (Modifiers::CTRL | Modifiers::SHIFT, DragAction::Zoom, "zoom"),
     ];
     let mut keymap = Keymap::empty();
-    let description = "into the interface (Escape: out of it)";
+    let description = "focus the interface (Escape: leave it)";
     keymap.bind(Key::Function(6), "interface", Action::EnterInterface, description);
     let emulated = emulates_mouse.then_some((PointerButton::Left, Modifiers::ALT));
     for (button, base) in [(PointerButton::Middle, none)].into_iter().chain(emulated) {

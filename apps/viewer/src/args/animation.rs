@@ -1,11 +1,11 @@
-//! Flags of animations and of pictures that follow each other.
+//! Flags for animations and image sequences.
 
 use std::str::FromStr;
 
 use super::values;
 use crate::moment::{Clip, Jump};
 
-/// Flags of animations.
+/// Flags for animations.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct AnimationArgs {
     /// Animations to show, by numbers from 0 or by names; a negative number means all of them
@@ -33,11 +33,12 @@ pub(crate) struct AnimationArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Animation")]
     pub(crate) animation_autoplay: Option<bool>,
 
-    /// Show the bar of time in the window: none, default or advanced (with names and times) [default: advanced, where there are animations]
+    /// Show the animation bar in the window: none, default or advanced (with names and times) [default:
+    /// advanced, if there are animations]
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "default", value_name = "KIND", help_heading = "Animation")]
     pub(crate) animation_progress: Option<AnimationProgress>,
 
-    /// Frames of a second, for --output with {frame} and for moving pictures
+    /// Frames per second, for --output with {frame} and for animated images
     #[arg(long, value_name = "N", default_value = "30", value_parser = values::frame_rate, allow_negative_numbers = true, help_heading = "Animation")]
     pub(crate) frame_rate: f64,
 
@@ -45,12 +46,12 @@ pub(crate) struct AnimationArgs {
     #[arg(long, value_name = "N", value_parser = values::count::<1, 3600>, allow_negative_numbers = true, requires = "output", help_heading = "Animation")]
     pub(crate) turntable: Option<u32>,
 
-    /// A jump in time, as command scripts say it.
+    /// A jump in time, as in command scripts.
     #[arg(long, hide = true, allow_hyphen_values = true)]
     pub(crate) animation_jump: Vec<Jump>,
 }
 
-/// What is shown of the time.
+/// How the time is displayed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum AnimationProgress {
     None,
@@ -72,7 +73,7 @@ impl FromStr for Clip {
 impl FromStr for Jump {
     type Err = String;
 
-    /// `frame:3`, `time-by:0.5` and the like.
+    /// `frame:3`, `time-by:0.5` and similar.
     fn from_str(text: &str) -> Result<Self, String> {
         let (kind, amount) = text.split_once(':').unwrap_or((text, ""));
         let seconds = || values::seconds(amount);

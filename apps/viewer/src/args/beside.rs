@@ -1,29 +1,29 @@
-//! What is written beside a picture: outputs by name, and in which format.
+//! Additional outputs: their names and file formats.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use trigon_io::Output;
 
-/// An output that is asked for, and how it is written when it gets its own file.
+/// A requested output, and the format of its own file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Beside {
     pub(crate) output: Output,
-    /// `None` when nothing was said.
+    /// `None` if no format is given.
     format: Option<Format>,
 }
 
 /// The format of a file for one output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
-    /// A NumPy array.
+    /// A 16-bit PNG.
     Npy,
     /// A PNG of 16 bits.
     Png16,
 }
 
 impl Beside {
-    /// Whether the name has an ending, as in `depth.png`.
+    /// Whether the name has an extension, as in `depth.png`.
     pub(crate) fn names_format(self) -> bool {
         self.format.is_some()
     }
@@ -32,7 +32,7 @@ impl Beside {
         self.format.unwrap_or(Format::Npy)
     }
 
-    /// The name of its file, next to the picture's: `chair.png` and `chair.depth.npy`.
+    /// The name of its file, next to the image's: `chair.png` and `chair.depth.npy`.
     pub(crate) fn path(self, picture: &Path) -> PathBuf {
         let ending = match self.format() {
             Format::Npy => "npy",
@@ -51,13 +51,13 @@ impl FromStr for Beside {
             Some((name, "npy")) => (name, Some(Format::Npy)),
             Some((name, "png")) => (name, Some(Format::Png16)),
             Some((_, ending)) => {
-                return Err(format!(".{ending} is no format for one output; there are .npy and .png"));
+                return Err(format!(".{ending} is not a format for one output; write .npy or .png"));
             }
         };
         let output: Output = name.parse().map_err(|error: trigon_io::UnknownOutput| error.to_string())?;
         if format == Some(Format::Png16) && !output.fits_png16() {
             return Err(format!(
-                "{output} has no place in a PNG of 16 bits; write it as {output}.npy or into an OpenEXR file"
+                "{output} does not fit into a 16-bit PNG; write it as {output}.npy or into an OpenEXR file"
             ));
         }
         Ok(Self { output, format })
@@ -84,7 +84,7 @@ mod tests {
     fn mistakes_are_named() {
         for (text, words) in [
             ("dept", "geometric-normals"),
-            ("depth.tiff", ".npy and .png"),
+            ("depth.tiff", ".npy or .png"),
             ("", "albedo"),
             ("albedo.png", "albedo.npy"),
         ] {

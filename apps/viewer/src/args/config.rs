@@ -1,8 +1,8 @@
-//! Configuration files: JSON as F3D has it, a list of blocks with flags for the files that
-//! a pattern matches.
+//! Configuration files: JSON in F3D's format, a list of blocks with flags for the files that match
+//! a pattern.
 //!
-//! What the command line says wins over them, and what a name with `!` before it says wins
-//! over the command line. Of several blocks, the later one counts.
+//! The command line overrides them, except names with `!` in front, which override the command
+//! line. Later blocks override earlier ones.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,13 +12,13 @@ use serde_json::{Map, Value};
 
 use super::names;
 
-/// All blocks of all configuration files, in the order in which they count.
+/// All blocks of all configuration files, in order of precedence.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Config {
     blocks: Vec<Block>,
     /// The files that were read.
     pub(crate) files: Vec<PathBuf>,
-    /// What in them does nothing, and why.
+    /// Entries that have no effect, with the reason.
     pub(crate) warnings: Vec<String>,
 }
 
@@ -30,7 +30,7 @@ struct Block {
     options: Vec<Setting>,
 }
 
-/// A flag, its value, and whether it wins over the command line.
+/// A flag, its value, and whether it overrides the command line.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Setting {
     pub(crate) flag: String,
@@ -39,11 +39,11 @@ pub(crate) struct Setting {
 }
 
 impl Config {
-    /// Reads what `--config` names: a file, a folder of files, or the stem of those in the
-    /// user's folder. Without it, the user's own `config`, if there is one.
+    /// Reads what `--config` names: a file, a folder of files, or the stem of files in the user's
+    /// folder. Without it, the user's own `config`, if it exists.
     ///
     /// # Errors
-    /// When it is named and not there, or says something that cannot be understood.
+    /// The named file does not exist, or is invalid.
     pub(crate) fn read(named: Option<&Path>) -> Result<Self, String> {
         let places = match named {
             Some(path) if path.exists() => vec![path.to_owned()],
@@ -75,7 +75,8 @@ impl Config {
         Ok(())
     }
 
-    /// The settings for a file (`None` for the built-in scene), those that win last.
+    /// The settings for a file (`None` for the built-in scene); those with the highest precedence
+    /// come last.
     pub(crate) fn settings(&self, file: Option<&Path>) -> Vec<Setting> {
         let name = file.map(|file| std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
         let name = name.map(|name| name.to_string_lossy().into_owned());
@@ -93,7 +94,7 @@ impl Config {
     }
 }
 
-/// `trigon/NAME.json` and the folder `trigon/NAME.d` where users keep such files.
+/// `trigon/NAME.json` and the folder `trigon/NAME.d` in the user's configuration folder.
 fn users(name: &Path) -> Vec<PathBuf> {
     let home = std::env::var_os("XDG_CONFIG_HOME").filter(|folder| !folder.is_empty()).map(PathBuf::from);
     let home = home.or_else(|| std::env::home_dir().map(|home| home.join(".config")));
@@ -101,7 +102,7 @@ fn users(name: &Path) -> Vec<PathBuf> {
     vec![folder.join(name).with_extension("json"), folder.join(name).with_extension("d")]
 }
 
-/// A file itself, or those of a folder that end in `.json`, by name.
+/// The file itself, or the files of a folder that end in `.json`, by name.
 fn json_files(place: &Path) -> Result<Vec<PathBuf>, String> {
     if !place.is_dir() {
         return Ok(vec![place.to_owned()]);
@@ -116,7 +117,7 @@ fn json_files(place: &Path) -> Result<Vec<PathBuf>, String> {
 }
 
 fn blocks(text: &str, warnings: &mut Vec<String>) -> Result<Vec<Block>, String> {
-    let json: Value = serde_json::from_str(text).map_err(|error| format!("it is no JSON ({error})"))?;
+    let json: Value = serde_json::from_str(text).map_err(|error| format!("it is not JSON ({error})"))?;
     let Value::Array(list) = json else {
         return Err("write a list of blocks, [{\"options\": {…}}]".to_owned());
     };
@@ -125,24 +126,24 @@ fn blocks(text: &str, warnings: &mut Vec<String>) -> Result<Vec<Block>, String> 
 }
 
 fn block(value: &Value, warnings: &mut Vec<String>) -> Result<Block, String> {
-    let Value::Object(fields) = value else { return Err("it is no object".to_owned()) };
+    let Value::Object(fields) = value else { return Err("it is not an object".to_owned()) };
     if let Some(other) = fields.keys().find(|key| !KEYS.contains(&key.as_str())) {
-        return Err(format!("{other:?} is none of {}", KEYS.join(", ")));
+        return Err(format!("{other:?} is unknown; write one of {}", KEYS.join(", ")));
     }
     if fields.contains_key("bindings") {
-        warnings.push("bindings are left out: keys cannot be changed by a file".to_owned());
+        warnings.push("bindings are ignored: a file cannot change keys".to_owned());
     }
     let options = match fields.get("options") {
         None => Vec::new(),
         Some(Value::Object(options)) => settings(options, warnings)?,
-        Some(_) => return Err("options is no object".to_owned()),
+        Some(_) => return Err("options is not an object".to_owned()),
     };
     Ok(Block { files: pattern(fields)?, options })
 }
 
 const KEYS: [&str; 4] = ["match", "match-type", "options", "bindings"];
 
-/// What files a block is for.
+/// The files that a block applies to.
 fn pattern(fields: &Map<String, Value>) -> Result<Option<Regex>, String> {
     let text = |key: &str| fields.get(key).and_then(Value::as_str);
     let Some(wanted) = text("match") else { return Ok(None) };
@@ -155,8 +156,8 @@ fn pattern(fields: &Map<String, Value>) -> Result<Option<Regex>, String> {
     Regex::new(&expression).map(Some).map_err(|error| format!("match: {error}"))
 }
 
-/// A glob as a regular expression: `*` and `?` within a folder, `**` across folders, and
-/// `{a,b}` for one of several. Without a slash it is matched against the file's name.
+/// Converts a glob to a regular expression: `*` and `?` within a folder, `**` across folders, and
+/// `{a,b}` for alternatives. Without a slash it is matched against the file's name.
 fn glob(wanted: &str) -> String {
     let mut expression = if wanted.contains('/') { "^".to_owned() } else { "(?:^|/)".to_owned() };
     let mut rest = wanted.chars().peekable();
@@ -185,7 +186,7 @@ fn glob(wanted: &str) -> String {
 }
 
 fn settings(options: &Map<String, Value>, warnings: &mut Vec<String>) -> Result<Vec<Setting>, String> {
-    /// These say where settings come from, or what is done with none.
+    /// These choose the configuration itself, or replace drawing.
     const NOT_HERE: [&str; 8] =
         ["help", "version", "list-readers", "list-bindings", "config", "no-config", "define", "input"];
     let mut settings = Vec::new();
@@ -194,11 +195,10 @@ fn settings(options: &Map<String, Value>, warnings: &mut Vec<String>) -> Result<
         if NOT_HERE.contains(&name) {
             return Err(format!("{name} belongs on the command line"));
         }
-        let value =
-            text(value).ok_or_else(|| format!("{name} is {value}; write a text, a number or true"))?;
+        let value = text(value).ok_or_else(|| format!("{name} is {value}; write text, a number or true"))?;
         match names::flag(name) {
             Ok(flag) => settings.push(Setting { flag: flag.to_owned(), value, imperative }),
-            Err(why) => warnings.push(format!("{why}; it is left out")),
+            Err(why) => warnings.push(format!("{why}; it is ignored")),
         }
     }
     Ok(settings)
@@ -262,10 +262,10 @@ mod tests {
     #[test]
     fn mistakes_are_named() {
         for (text, word) in [
-            ("{", "no JSON"),
+            ("{", "not JSON"),
             ("{}", "list of blocks"),
             ("[3]", "block 0"),
-            (r#"[{"option": {}}]"#, "\"option\" is none of"),
+            (r#"[{"option": {}}]"#, "\"option\" is unknown"),
             (r#"[{"match": "(", "options": {}}]"#, "match"),
             (r#"[{"match": "a", "match-type": "like"}]"#, "regex, glob or exact"),
             (r#"[{"options": {"config": "x"}}]"#, "command line"),

@@ -1,5 +1,5 @@
-//! Flags of effects: shadows, ambient light, mist, tones; and of the shading model.
-//! Names follow F3D where it has such a thing.
+//! Flags for effects (shadows, ambient light, fog, tone mapping) and for the shading model. Names
+//! follow F3D where it has them.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -14,89 +14,91 @@ use trigon_scene::{
 use super::quality::Insisted;
 use super::values;
 
-/// Width and height of shadow maps when nobody says anything, in texels.
+/// Default width and height of shadow maps, in texels.
 const USUAL_SHADOW_RESOLUTION: u32 = 2048;
 
-/// Rays of each sample for ambient occlusion when nobody says anything.
+/// Default number of rays per sample for ambient occlusion.
 const USUAL_OCCLUSION_RAYS: u32 = 16;
 
-/// Flags of effects.
+/// Flags for effects.
 #[derive(Debug, clap::Args)]
 pub(crate) struct EffectArgs {
-    /// Where on surfaces light is found: flat is once for each triangle, gouraud at its corners, phong at each pixel [default: phong]
+    /// Compute lighting per triangle (flat), per vertex (gouraud) or per pixel (phong) [default: phong]
     #[arg(long, value_name = "MODEL", help_heading = "Effects")]
     pub(crate) shading: Option<ShadingArg>,
 
-    /// By which law surfaces answer to light, instead of the one that their materials name
+    /// Use this reflection model instead of those of the materials
     #[arg(long, value_name = "LAW", default_value = "material", help_heading = "Effects")]
     pub(crate) reflection: ReflectionArg,
 
-    /// How lamps cast shadows: maps are quick, rays exact, and on is as --preset says or else maps
+    /// How lamps cast shadows: maps are fast, rays exact, and on follows --preset or means maps
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "on", default_value = "off", value_name = "WAY", help_heading = "Effects")]
     pub(crate) shadows: ShadowsArg,
 
-    /// Width and height of shadow maps in texels [default: 2048, or as --preset says]
+    /// Width and height of shadow maps in texels [default: 2048, or from --preset]
     #[arg(long, value_name = "TEXELS", value_parser = values::count::<16, 8192>, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) shadow_resolution: Option<u32>,
 
-    /// Darken ambient light where the surroundings are near, by rays
+    /// Darken ambient light near other surfaces, by tracing rays
     #[arg(long, short = 'q', num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) ambient_occlusion: Option<bool>,
 
-    /// Rays of each sample for ambient occlusion [default: 16, or as --preset says]
+    /// Rays per sample for ambient occlusion [default: 16, or from --preset]
     #[arg(long, value_name = "N", value_parser = values::count::<1, 256>, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) ambient_occlusion_rays: Option<u32>,
 
-    /// How far surroundings count for ambient occlusion, in metres
+    /// The distance within which surfaces occlude ambient light, in metres
     #[arg(long, value_name = "METRES", default_value = "1", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) ambient_occlusion_distance: f32,
 
-    /// Light the model by a clear sky
+    /// Light the model with a clear sky
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) sky: Option<bool>,
 
-    /// Light the model by a Radiance picture (.hdr) of all directions
+    /// Light the model with an environment image (Radiance, .hdr)
     #[arg(long, value_name = "FILE", conflicts_with = "sky", help_heading = "Effects")]
     pub(crate) hdri_file: Option<PathBuf>,
 
-    /// Light the model from all around, by the picture of --hdri-file or else a sky; =false keeps that picture from lighting it
+    /// Light the model from all around, with the image of --hdri-file or else a sky; =false keeps that image
+    /// from lighting it
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) hdri_ambient: Option<bool>,
 
-    /// Show what lights the model behind it: the picture of --hdri-file, or the sky
+    /// Show the environment behind the model: the image of --hdri-file, or the sky
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) hdri_skybox: Option<bool>,
 
-    /// What metals mirror where nothing else lights the model from all around: a clear sky, or ambient light, which leaves them dark
+    /// What metals mirror if there is no environment: a clear sky, or ambient light, which leaves them dark
     #[arg(long, value_name = "WHAT", default_value = "sky", help_heading = "Effects")]
     pub(crate) metal_reflection: MetalReflectionArg,
 
-    /// Follow rays of sight so many times at mirrors (metals without roughness) and through glass
+    /// Maximum number of reflections at mirrors (metals without roughness) and passages through
+    /// glass
     #[arg(long, value_name = "N", default_value = "0", value_parser = values::count::<0, 16>, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) bounces: u32,
 
-    /// Mist that leaves exp(-DENSITY × distance) of what is seen; per metre
+    /// Fog that leaves exp(-DENSITY × distance) of the colour; per metre
     #[arg(long, value_name = "DENSITY", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) fog: Option<f32>,
 
-    /// Colour of the mist
+    /// Colour of the fog
     #[arg(long, value_name = "COLOR", default_value = "#b8bec6", value_parser = values::color, help_heading = "Effects")]
     pub(crate) fog_color: Vec3,
 
-    /// Make the picture brighter by so many stops; 1 is twice as bright
+    /// Brighten the image by this many stops; 1 is twice as bright
     #[arg(long, value_name = "STOPS", default_value = "0", value_parser = values::stops, allow_hyphen_values = true, help_heading = "Effects")]
     pub(crate) exposure: f32,
 
-    /// Show light brighter than white by Khronos PBR Neutral
+    /// Tone mapping: compress light brighter than white (Khronos PBR Neutral)
     #[arg(long, short, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) tone_mapping: Option<bool>,
 
-    /// Say which effects the model calls for and why, instead of drawing; with =time also what each of them costs
+    /// List the effects that the model needs and why, instead of drawing; =time adds what each of them costs
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "reasons", value_name = "WHAT", help_heading = "Effects")]
     pub(crate) explain: Option<Explanation>,
 }
 
-/// Where light is found.
+/// Where lighting is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ShadingArg {
     Flat,
@@ -104,7 +106,7 @@ pub(crate) enum ShadingArg {
     Phong,
 }
 
-/// By which law surfaces answer to light.
+/// The reflection model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ReflectionArg {
     Material,
@@ -113,7 +115,7 @@ pub(crate) enum ReflectionArg {
     MetallicRoughness,
 }
 
-/// How shadows are found.
+/// How shadows are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ShadowsArg {
     Off,
@@ -129,21 +131,21 @@ pub(crate) enum MetalReflectionArg {
     Ambient,
 }
 
-/// What is said about effects.
+/// What to print about effects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Explanation {
-    /// Why each is on or off
+    /// Why each one is on or off
     Reasons,
-    /// And how long a picture takes with and without it
+    /// Also how long an image takes with and without it
     Time,
 }
 
 impl EffectArgs {
-    /// What is seen behind the model, if it is what lights it.
+    /// The environment behind the model, if it lights it.
     pub(crate) fn skybox(&self) -> Result<Option<Background>, String> {
         match (self.hdri_skybox, self.hdri_ambient) {
             (Some(true), Some(false)) => Err(
-                "--hdri-skybox shows what lights the model; leave out --hdri-ambient=false, or --hdri-skybox"
+                "--hdri-skybox shows the environment that lights the model; leave out --hdri-ambient=false, or --hdri-skybox"
                     .to_owned(),
             ),
             (Some(true), _) => Ok(Some(Background::Environment)),
@@ -151,19 +153,19 @@ impl EffectArgs {
         }
     }
 
-    /// Whether a clear sky lights the model: it was asked for, or light from all around was
-    /// and there is no picture of it.
+    /// Whether a clear sky lights the model: requested directly, or by requesting light from all
+    /// around without an image.
     fn is_lit_by_sky(&self) -> bool {
         let around = self.hdri_ambient == Some(true) || self.hdri_skybox == Some(true);
         self.sky == Some(true) || (around && self.hdri_file.is_none())
     }
 
-    /// The picture that lights the model.
+    /// The environment image.
     pub(crate) fn environment(&self) -> Option<PathBuf> {
         self.hdri_file.clone().filter(|_| self.hdri_ambient != Some(false))
     }
 
-    /// What they say about the quality.
+    /// The quality settings among these flags.
     pub(crate) fn insisted(&self) -> Insisted {
         Insisted {
             shading: self.shading_model(),
@@ -189,7 +191,7 @@ impl EffectArgs {
         Shadows::Maps { resolution: self.shadow_resolution.unwrap_or(USUAL_SHADOW_RESOLUTION) }
     }
 
-    /// Puts them into the settings.
+    /// Applies them to the settings.
     pub(crate) fn apply(&self, settings: &mut RenderSettings) {
         settings.shading = self.shading_model().unwrap_or_default();
         settings.reflection = match self.reflection {

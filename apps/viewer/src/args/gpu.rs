@@ -1,6 +1,6 @@
-//! Flags of F3D that steer a graphics card, a ray tracer or plugins.
+//! F3D flags for graphics cards, ray tracers or plugins.
 
-/// Scripts that use these flags keep running; a warning says that they do nothing.
+/// Scripts that use these flags keep running; a warning says that they have no effect.
 #[derive(Debug, clap::Args)]
 pub(crate) struct GpuOnly {
     #[arg(long, hide = true)]
@@ -27,14 +27,14 @@ pub(crate) struct GpuOnly {
     scan_plugins: Option<String>,
 }
 
-const NO_GPU: &str = "trigon draws on the CPU and has no such choice";
+const NO_GPU: &str = "trigon draws on the CPU, so this option does not apply";
 const NO_RAY_TRACER: &str =
     "write --shadows=rays and --bounces=N for rays, --samples for the number of samples";
-const NO_VOLUME: &str = "there are no volumes in the formats that are read (-v is --volume; more is said with --verbose, the version with --version)";
+const NO_VOLUME: &str = "there are no volumes in the formats that are read (-v is --volume; for more output use --verbose, for the version --version)";
 const NO_PLUGINS: &str = "there are no plugins; --list-readers lists all formats";
 
 impl GpuOnly {
-    /// A warning for each flag that was given.
+    /// A warning for each flag given.
     pub(crate) fn warnings(&self) -> Vec<String> {
         let flags = [
             ("--rendering-backend", &self.rendering_backend, NO_GPU),

@@ -1,29 +1,28 @@
-//! `--help`: what most people need, in two screens. `--help=all` is clap's.
+//! `--help`: the most important flags, in two screens. `--help=all` is clap's help.
 
 use std::fmt::Write;
 
 use clap::{Arg, Command};
 
-/// A flag of the short help, and what is said of it; nothing where the long help's first
-/// words do.
+/// A flag of the short help and its description; empty for the first words of the long help.
 type Row = (&'static str, &'static str);
 
-/// What is in the short help, group by group.
+/// The contents of the short help, by group.
 const ESSENTIAL: [(&str, &[Row]); 7] = [
     (
         "Files",
         &[
             ("output", ""),
             ("resolution", ""),
-            ("outputs", "Write depth, normals and other outputs beside the picture"),
+            ("outputs", "Also write depth, normals and other outputs"),
             ("multi-file-mode", "Several files: one at a time, all together, or by folder"),
             ("reference", ""),
-            ("compare", "Show another model beside it, and where they differ"),
-            ("explain-pixel", "Say why this pixel looks as it does"),
-            ("check", "Say what is wrong with the files; exit code 1 for errors"),
+            ("compare", "Show another model next to it, and the differences"),
+            ("explain-pixel", "Explain why this pixel looks as it does"),
+            ("check", "List faults of the files; exit code 1 for errors"),
             ("no-render", ""),
-            ("capture", "Write scene, camera, settings and picture to one file"),
-            ("replay", "Draw that again, and tell whether it is the same"),
+            ("capture", "Write scene, camera, settings and image to one file"),
+            ("replay", "Draw a capture again, and check that it is identical"),
         ],
     ),
     (
@@ -65,13 +64,13 @@ const ESSENTIAL: [(&str, &[Row]); 7] = [
             ("tone-mapping", ""),
         ],
     ),
-    ("Beside the model", &[("grid", ""), ("axis", ""), ("filename", ""), ("metadata", "")]),
+    ("Overlays", &[("grid", ""), ("axis", ""), ("filename", ""), ("metadata", "")]),
     (
         "Animation",
         &[
             ("animation-indices", ""),
             ("animation-time", ""),
-            ("frame-rate", "Frames of a second, for {frame}, .gif and .apng"),
+            ("frame-rate", "Frames per second, for {frame}, .gif and .apng"),
             ("turntable", ""),
         ],
     ),
@@ -79,10 +78,10 @@ const ESSENTIAL: [(&str, &[Row]); 7] = [
         "Program",
         &[
             ("config", ""),
-            ("command-script", "Do what is written in this file, line by line"),
+            ("command-script", "Run the commands in this file, line by line"),
             ("watch", ""),
             ("verbose", ""),
-            ("json", "Write facts to standard output, one JSON object a line"),
+            ("json", "Print facts to standard output, one JSON object per line"),
             ("list-readers", ""),
             ("list-bindings", ""),
             ("version", "Print version"),
@@ -92,18 +91,18 @@ const ESSENTIAL: [(&str, &[Row]); 7] = [
 
 /// Before the groups.
 const HEAD: &str = "\
-Look at 3D models, or turn them into pictures, with no GPU and no display needed.
+Show 3D models, or render them to image files. No GPU is needed, and no display for image files.
 
-  trigon-viewer chair.glb                      look at a model; H in the window shows its keys
-  trigon-viewer chair.glb --output chair.png   write a picture (PNG, JPEG, WebP, OpenEXR)
-  trigon-viewer *.obj --output '{model}.png'   a picture of each
+  trigon-viewer chair.glb                      show a model; H in the window lists its keys
+  trigon-viewer chair.glb --output chair.png   write an image (PNG, JPEG, WebP, OpenEXR)
+  trigon-viewer *.obj --output '{model}.png'   an image of each
   trigon-viewer chair.glb --turntable=36 --output chair.gif
 ";
 
 /// After them.
 const FOOT: &str = "
 Exit codes: 0 done; 1 something was not loaded, drawn or written, or --check found errors;
-2 the command line makes no sense; 3 a picture differs from --reference or --replay.
+2 the command line is invalid; 3 an image differs from --reference or --replay.
 More: --help=all for every flag, values and examples; trigon-viewer study --help.
 ";
 
@@ -157,7 +156,7 @@ mod tests {
     use super::super::RawArgs;
     use super::*;
 
-    /// A screen of 100 × 45 characters is what terminals of today show.
+    /// A common terminal size of 100 × 45 characters.
     #[test]
     fn the_help_fits_two_screens() {
         let text = short(&RawArgs::command());

@@ -1,5 +1,5 @@
-//! The command line as a whole: what was typed, what configuration files add to it for a
-//! file, and what a command script has changed since.
+//! The whole command line: the words as typed, the flags that configuration files add for a file,
+//! and the changes that a command script made since.
 
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
@@ -13,21 +13,21 @@ use super::raw::RawArgs;
 use super::{names, words};
 use crate::state::State;
 
-/// All words that flags are read from.
+/// All words from which flags are read.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CommandLine {
     /// Without the program's name.
     typed: Vec<OsString>,
     config: Config,
-    /// Later ones count.
+    /// Later ones override earlier ones.
     edits: Vec<String>,
 }
 
 impl CommandLine {
-    /// Reads words without the program's name, and the configuration files that they ask for.
+    /// Reads words without the program's name, and the configuration files that they name.
     ///
     /// # Errors
-    /// When they make no sense, with what is meant where that can be told.
+    /// The words are invalid; with a suggestion if there is one.
     pub(crate) fn new(typed: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
         let command = RawArgs::command();
         let typed = words::prepared(&command, typed).map_err(conflict)?;
@@ -52,29 +52,29 @@ impl CommandLine {
     /// The flags for a file, `None` for the built-in scene.
     ///
     /// # Errors
-    /// When they make no sense.
+    /// The flags are invalid.
     pub(crate) fn raw(&self, file: Option<&Path>) -> Result<RawArgs, clap::Error> {
         RawArgs::from_arg_matches(&self.matches(file)?)
     }
 
-    /// What in configuration files does nothing.
+    /// Entries of configuration files that have no effect.
     pub(crate) fn warnings(&self) -> &[String] {
         &self.config.warnings
     }
 
-    /// Whether each file may have flags of its own.
+    /// Whether files may have different flags.
     pub(crate) fn differs_by_file(&self) -> bool {
         !self.config.files.is_empty()
     }
 
-    /// The same with more flags, which count most.
+    /// The same with more flags, which override the others.
     pub(crate) fn with(&self, edits: impl IntoIterator<Item = String>) -> Self {
         let mut line = self.clone();
         line.edits.extend(edits);
         line
     }
 
-    /// The same without what was changed about a flag.
+    /// The same without the changes to a flag.
     pub(crate) fn without(&self, flag: &str) -> Self {
         let mut line = self.clone();
         line.edits.retain(|edit| flag_of(edit) != flag);
@@ -82,7 +82,7 @@ impl CommandLine {
         line
     }
 
-    /// What was typed, and what was changed since.
+    /// The words as typed, and the changes since.
     pub(crate) fn text(&self) -> String {
         let typed = self.typed.iter().map(|word| word.to_string_lossy().into_owned());
         typed.chain(self.edits.iter().cloned()).collect::<Vec<_>>().join(" ")
@@ -151,14 +151,14 @@ impl CommandLine {
     /// end.
     ///
     /// # Errors
-    /// When it takes no such list.
+    /// The flag has no such list.
     pub(crate) fn next_value(&self, flag: &str, now: &str) -> Result<String, String> {
         let command = RawArgs::command();
         let argument = command.get_arguments().find(|argument| argument.get_long() == Some(flag));
         let choices = argument.map(clap::Arg::get_possible_values).unwrap_or_default();
         let index = choices.iter().position(|choice| choice.matches(now, true));
         let next = choices.get(index.map_or(0, |index| (index + 1) % choices.len()));
-        let next = next.ok_or_else(|| format!("{flag} is no choice of a few values; write set {flag}"))?;
+        let next = next.ok_or_else(|| format!("{flag} does not have a list of values; write set {flag}"))?;
         Ok(format!("--{flag}={}", next.get_name()))
     }
 
@@ -188,7 +188,7 @@ fn parsed(words: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Resul
     RawArgs::command().try_get_matches_from(words).map_err(explained)
 }
 
-/// A mistake with what is meant, or why trigon has not what F3D has.
+/// An error with a suggestion, or with the reason why trigon lacks an F3D flag.
 fn explained(error: clap::Error) -> clap::Error {
     let unknown = match error.get(ContextKind::InvalidArg) {
         Some(clap::error::ContextValue::String(flag)) if error.kind() == ErrorKind::UnknownArgument => {
@@ -210,12 +210,12 @@ fn conflict(message: impl std::fmt::Display) -> clap::Error {
     RawArgs::command().error(ErrorKind::ArgumentConflict, message)
 }
 
-/// The flag of a word such as `--up=+Z`, without dashes; empty for others.
+/// The flag in a word such as `--up=+Z`, without dashes; empty for other words.
 fn flag_of(word: &str) -> &str {
     word.strip_prefix("--").map_or("", |rest| rest.split('=').next().unwrap_or_default())
 }
 
-/// A setting as a word. `true` of a flag that takes no such value stands for it alone.
+/// A setting as a word. `true` for a flag that takes no such value becomes the flag alone.
 fn word(setting: &Setting) -> OsString {
     let command = RawArgs::command();
     let argument = command.get_arguments().find(|argument| argument.get_long() == Some(&setting.flag));
@@ -226,7 +226,7 @@ fn word(setting: &Setting) -> OsString {
     format!("--{}={}", setting.flag, setting.value).into()
 }
 
-/// Whether neither the flag nor one that contradicts it was typed.
+/// Whether neither the flag nor a conflicting one was typed.
 fn is_free(setting: &Setting, typed: &ArgMatches) -> bool {
     let is_typed = |id: &str| typed.value_source(id) == Some(ValueSource::CommandLine);
     let unset =
@@ -242,7 +242,7 @@ fn is_free(setting: &Setting, typed: &ArgMatches) -> bool {
     !unset && !is_typed(argument.get_id().as_str()) && !others.any(|other| is_typed(other.get_id().as_str()))
 }
 
-/// How clap calls a flag.
+/// clap's name of a flag.
 fn identifier(flag: &str) -> Option<String> {
     let command = RawArgs::command();
     let found = command.get_arguments().find(|argument| {
@@ -283,7 +283,7 @@ mod tests {
         assert_eq!(value(&reset, "up").as_deref(), Some("+Y"), "the default");
     }
 
-    /// A direction in a file and a camera on the command line were told to contradict.
+    /// A direction in a file and a camera on the command line were reported as conflicting.
     #[test]
     fn what_is_typed_takes_the_place_of_what_contradicts_it() {
         let config = r#"[{"options": {"camera-direction": "-1,-0.5,-1"}}]"#;
@@ -308,7 +308,7 @@ mod tests {
             ("--bg-color red", "--background-color"),
             ("--quiet", "--verbose=quiet"),
             ("--final-shader x", "no GPU"),
-            ("-s", "values of a simulation"),
+            ("-s", "simulation values"),
             ("--resolutoin 1,1", "--resolution"),
         ] {
             let words = typed.split_whitespace().map(OsString::from);

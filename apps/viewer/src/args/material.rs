@@ -1,4 +1,4 @@
-//! Flags that change the materials and the geometry of what a file holds.
+//! Flags that change the model's materials and geometry.
 
 use std::path::PathBuf;
 
@@ -7,10 +7,10 @@ use trigon_math::glam::Affine2;
 
 use super::values;
 
-/// Flags of materials.
+/// Flags for materials.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct MaterialArgs {
-    /// Colour of the model; textures are tinted by it
+    /// Colour of the model; tints its textures
     #[arg(long, value_name = "COLOR", value_parser = values::color, help_heading = "Material")]
     pub(crate) color: Option<Vec3>,
 
@@ -18,35 +18,35 @@ pub(crate) struct MaterialArgs {
     #[arg(long, value_name = "RATIO", value_parser = values::unit_ratio, allow_negative_numbers = true, help_heading = "Material")]
     pub(crate) opacity: Option<f32>,
 
-    /// Roughness of the model, 0 (a mirror) to 1 (matt); textures are multiplied by it
+    /// Roughness of the model, 0 (a mirror) to 1 (matt); multiplies its textures
     #[arg(long, value_name = "RATIO", value_parser = values::unit_ratio, allow_negative_numbers = true, help_heading = "Material")]
     pub(crate) roughness: Option<f32>,
 
-    /// Whether the model is metal, 0 to 1; textures are multiplied by it
+    /// Metalness of the model, 0 to 1; multiplies its textures
     #[arg(long, value_name = "RATIO", value_parser = values::unit_ratio, allow_negative_numbers = true, help_heading = "Material")]
     pub(crate) metallic: Option<f32>,
 
-    /// Index of refraction of the model, 1 to 2.5: how much it reflects seen head-on
+    /// Index of refraction of the model, 1 to 2.5; determines its reflectance
     #[arg(long, value_name = "INDEX", value_parser = values::refraction, allow_negative_numbers = true, help_heading = "Material")]
     pub(crate) base_ior: Option<f32>,
 
-    /// Colour that the model gives off; the texture of what it gives off is multiplied by it
+    /// Colour of the light that the model emits; multiplies its emissive texture
     #[arg(long, value_name = "COLOR", value_parser = values::bright_color, help_heading = "Material")]
     pub(crate) emissive_factor: Option<Vec3>,
 
-    /// How much normal maps bend normals
+    /// Strength of normal maps
     #[arg(long, value_name = "FACTOR", value_parser = values::factor, allow_negative_numbers = true, help_heading = "Material")]
     pub(crate) normal_scale: Option<f32>,
 
-    /// A picture for the colours of the model; an empty name takes its own off
+    /// A texture for the colours of the model; an empty name removes the model's own
     #[arg(long, value_name = "FILE", help_heading = "Material")]
     pub(crate) texture_base_color: Option<PathBuf>,
 
-    /// A picture for occlusion (red), roughness (green) and metal (blue)
+    /// A texture for occlusion (red), roughness (green) and metalness (blue)
     #[arg(long, value_name = "FILE", help_heading = "Material")]
     pub(crate) texture_material: Option<PathBuf>,
 
-    /// A picture of the light that the model gives off
+    /// A texture for the light that the model emits
     #[arg(long, value_name = "FILE", help_heading = "Material")]
     pub(crate) texture_emissive: Option<PathBuf>,
 
@@ -54,36 +54,37 @@ pub(crate) struct MaterialArgs {
     #[arg(long, value_name = "FILE", help_heading = "Material")]
     pub(crate) texture_normal: Option<PathBuf>,
 
-    /// Move all textures: scale:S,T;translation:S,T;angle:DEGREES in any order, or nine numbers
+    /// Transform all textures: scale:S,T;translation:S,T;angle:DEGREES in any order, or nine
+    /// numbers
     #[arg(long, value_name = "TRANSFORM", value_parser = values::transform, allow_hyphen_values = true, help_heading = "Material")]
     pub(crate) textures_transform: Option<Affine2>,
 
-    /// Show a checkerboard in place of the model's colours
+    /// Show a checkerboard instead of the model's colours
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Material")]
     pub(crate) checkerboard: Option<bool>,
 
-    /// Show the model's colours as they are, without light
+    /// Show the model's colours without lighting
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Material")]
     pub(crate) unlit: Option<bool>,
 
-    /// Show the model's vertices in place of its faces
+    /// Show the model's vertices instead of its faces
     #[arg(long, short = 'o', num_args = 0..=1, require_equals = true, default_missing_value = "sphere", value_name = "KIND", help_heading = "Material")]
     pub(crate) point_sprites: Option<PointSprites>,
 
-    /// Diameter of those in thousandths of the model's size
+    /// Diameter of these points in thousandths of the model's size
     #[arg(long, value_name = "SIZE", default_value = "10", value_parser = values::line_width, allow_negative_numbers = true, help_heading = "Material")]
     pub(crate) point_sprites_size: f32,
 
-    /// Then count that diameter in the model's own unit
+    /// Measure this diameter in the model's own unit
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Material")]
     pub(crate) point_sprites_absolute_size: Option<bool>,
 
-    /// Diameter in pixels of points that a file holds
+    /// Diameter in pixels of points in the file
     #[arg(long, value_name = "PIXELS", value_parser = values::line_width, allow_negative_numbers = true, help_heading = "Material")]
     pub(crate) point_size: Option<f32>,
 }
 
-/// How vertices are shown in place of faces.
+/// How vertices are shown instead of faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum PointSprites {
     None,

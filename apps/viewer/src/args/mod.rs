@@ -1,5 +1,5 @@
-//! The command line, in two steps: [`RawArgs`] is what was typed, flag by flag;
-//! [`Request`] is what it means as a whole.
+//! The command line, in two steps: [`RawArgs`] holds the flags as typed; [`Request`] is their
+//! combined meaning.
 
 mod animation;
 mod beside;

@@ -1,5 +1,5 @@
-//! F3D's names of its library's options, which `-D`, configuration files and command
-//! scripts use, as flags; and its flags that trigon has not, with the reason.
+//! Maps option names of F3D's library, which `-D`, configuration files and command scripts use, to
+//! flags; and lists F3D flags that trigon lacks, with the reason.
 
 use clap::CommandFactory;
 
@@ -96,12 +96,12 @@ const REFUSED: [(&str, &str, &str); 22] = [
     (
         "axes-grid",
         "",
-        "there is no grid with numbers around the model; --grid shows one below it, and --metadata its size",
+        "there is no labelled grid around the model; --grid shows one below it, and --metadata its size",
     ),
-    ("backdrop-color", "", "text has a backdrop of its own, which cannot be changed"),
-    ("backdrop-opacity", "", "text has a backdrop of its own, which cannot be changed"),
-    ("blur-background", "u", "the background is not blurred; use a picture that is"),
-    ("blur-coc", "", "the background is not blurred; use a picture that is"),
+    ("backdrop-color", "", "text has its own backdrop, which cannot be changed"),
+    ("backdrop-opacity", "", "text has its own backdrop, which cannot be changed"),
+    ("blur-background", "u", "the background cannot be blurred; use a blurred image"),
+    ("blur-coc", "", "the background cannot be blurred; use a blurred image"),
     ("coloring-array", "", NO_ARRAYS),
     ("coloring-by-cells", "c", NO_ARRAYS),
     ("coloring-component", "y", NO_ARRAYS),
@@ -110,9 +110,9 @@ const REFUSED: [(&str, &str, &str); 22] = [
     ("colormap", "", NO_ARRAYS),
     ("colormap-discretization", "", NO_ARRAYS),
     ("colormap-file", "", NO_ARRAYS),
-    ("final-shader", "", "there is no GPU to run a shader; change the written picture instead"),
+    ("final-shader", "", "there is no GPU to run a shader; change the written image instead"),
     ("font-color", "", "the colour of text follows its backdrop"),
-    ("font-file", "", "text has a font of its own"),
+    ("font-file", "", "text has its own font"),
     ("grid-reflection", "", "the grid is lines, which reflect nothing"),
     ("invert-zoom", "", "the wheel zooms in when it turns away from you, in every window"),
     ("position", "", "the window manager places the window"),
@@ -122,7 +122,7 @@ const REFUSED: [(&str, &str, &str); 22] = [
 ];
 
 const NO_ARRAYS: &str =
-    "values of a simulation are not coloured; colours that a file gives its vertices are shown without it";
+    "simulation values are not shown as colours; vertex colours in a file are shown without this flag";
 
 const NO_STATE: &str =
     "state files are saved in the window, with Ctrl+S; --statefile=FILE shows what one holds";
@@ -130,7 +130,7 @@ const NO_STATE: &str =
 /// The flag for an option, by F3D's name for it in its library or on the command line.
 ///
 /// # Errors
-/// When there is none, with the reason if it is F3D's.
+/// There is none; with the reason if it is an F3D option.
 pub(crate) fn flag(name: &str) -> Result<&str, String> {
     let name = name.trim();
     let flag = LIBRARY.iter().find(|(library, _)| *library == name).map_or(name, |&(_, flag)| flag);
@@ -139,13 +139,13 @@ pub(crate) fn flag(name: &str) -> Result<&str, String> {
     }
     if !is_flag(flag) {
         return Err(format!(
-            "{name:?} is no option; use the name of a flag without its dashes, or F3D's library's"
+            "{name:?} is not an option; use the name of a flag without its dashes, or F3D's library's"
         ));
     }
     Ok(flag)
 }
 
-/// Whether there is a flag of this name.
+/// Whether a flag of this name exists.
 fn is_flag(name: &str) -> bool {
     RawArgs::command().get_arguments().any(|argument| {
         let aliases = argument.get_all_aliases().unwrap_or_default();
@@ -153,15 +153,15 @@ fn is_flag(name: &str) -> bool {
     })
 }
 
-/// The flag that gives an option a value, as a word.
+/// The word that gives an option a value.
 ///
 /// # Errors
-/// When there is no such option.
+/// There is no such option.
 pub(crate) fn set(name: &str, value: &str) -> Result<Vec<String>, String> {
     Ok(vec![format!("--{}={}", flag(name)?, value.trim())])
 }
 
-/// Why trigon has not this flag of F3D, by its long or its short name without dashes.
+/// Why trigon lacks this F3D flag, by its long or short name without dashes.
 pub(crate) fn refusal(flag: &str) -> Option<&'static str> {
     let found =
         REFUSED.iter().find(|(long, short, _)| *long == flag || (!short.is_empty() && *short == flag));
@@ -188,7 +188,7 @@ mod tests {
     #[test]
     fn mistakes_say_why() {
         assert!(set("model.matcap.texture", "a.png").expect_err("no").contains("matcap"), "a reason");
-        assert!(flag("render.nothing").expect_err("no").contains("is no option"), "unknown");
+        assert!(flag("render.nothing").expect_err("no").contains("is not an option"), "unknown");
         assert_eq!(set("grid", " true "), Ok(vec!["--grid=true".to_owned()]), "as on the command line");
     }
 }

@@ -1,11 +1,10 @@
-//! Where a picture goes: standard output, or a file whose name may hold
-//! variables.
+//! The destination of an image: standard output, or a file whose name may contain variables.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::time::SystemTime;
 
-/// Where a picture goes.
+/// The destination of an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Destination {
     /// Standard output.
@@ -32,10 +31,10 @@ impl FromStr for Destination {
     }
 }
 
-/// What the formats of pictures end in.
+/// The extensions of the image formats.
 const ENDINGS: [&str; 7] = ["png", "jpg", "jpeg", "webp", "exr", "gif", "apng"];
 
-/// The name of a picture that is one file.
+/// The name of an image that is a single file.
 pub(crate) fn picture_name(text: &str) -> Result<Template, String> {
     match text.parse()? {
         Destination::Stdout => Err("name a file".to_owned()),
@@ -50,21 +49,21 @@ pub(crate) struct Template(Vec<Piece>);
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Piece {
     Text(String),
-    /// The model's name without its ending.
+    /// The model's name without its extension.
     Model,
-    /// With its ending.
+    /// With its extension.
     ModelWithExtension,
-    /// The ending alone.
+    /// The extension alone.
     Extension,
     /// A number, padded to this many digits.
     Number(usize),
     /// The number of a frame, padded to this many digits.
     Frame(usize),
-    /// The date by a format of `strftime`.
+    /// The date in a format of `strftime`.
     Date(String),
 }
 
-/// Of what a picture is, for its name.
+/// The properties of an image that its name may use.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Subject<'a> {
     /// `None` for the built-in scene.
@@ -94,7 +93,7 @@ impl Template {
         matches!(self.0.last(), Some(Piece::Text(end)) if end.to_lowercase().ends_with(".exr"))
     }
 
-    /// Whether the name is that of a file that holds many frames.
+    /// Whether the name is that of a file that holds several frames.
     pub(crate) fn is_moving(&self) -> bool {
         let end =
             |text: &str| text.to_lowercase().ends_with(".gif") || text.to_lowercase().ends_with(".apng");
@@ -113,7 +112,7 @@ impl Template {
             .any(|piece| matches!(piece, Piece::Model | Piece::ModelWithExtension | Piece::Number(_)))
     }
 
-    /// The name for a picture, with the first number whose file does not exist yet.
+    /// The name for an image, with the first number whose file does not exist yet.
     pub(crate) fn unused(&self, subject: Subject<'_>) -> PathBuf {
         self.unused_in(Path::new(""), subject)
     }
@@ -148,7 +147,7 @@ impl Template {
     }
 }
 
-/// What the built-in scene is called in file names.
+/// The name of the built-in scene in file names.
 const BUILT_IN: &str = "trigon";
 
 /// `{{x}}` stands for `{x}`: `text` begins after the two braces.
@@ -174,7 +173,7 @@ fn variable(text: &str) -> Result<(Piece, &str), String> {
         (_, Some(("date", format))) => Piece::Date(format.to_owned()),
         _ => {
             return Err(format!(
-                "{{{name}}} is no variable; there are {{model}}, {{model.ext}}, {{model_ext}}, {{n}}, {{n:3}}, {{frame}}, {{frame:4}}, {{date}}, {{app}} and {{version}}"
+                "{{{name}}} is not a variable; there are {{model}}, {{model.ext}}, {{model_ext}}, {{n}}, {{n:3}}, {{frame}}, {{frame:4}}, {{date}}, {{app}} and {{version}}"
             ));
         }
     };
@@ -187,7 +186,7 @@ fn padding(digits: &str) -> Result<usize, String> {
     digits.ok_or_else(|| format!("after the colon comes a number of digits from 1 to {MOST}"))
 }
 
-/// A time in UTC, by the letters of `strftime` for its numbers; others stay as they are.
+/// A time in UTC, in a format of `strftime` with its numeric letters; other letters are kept.
 fn date(time: SystemTime, format: &str) -> String {
     let seconds = time.duration_since(SystemTime::UNIX_EPOCH).map_or(0, |since| since.as_secs());
     let (days, second) = (seconds / 86_400, seconds % 86_400);
@@ -210,8 +209,8 @@ fn date(time: SystemTime, format: &str) -> String {
     text
 }
 
-/// Year, month and day of a day since 1970-01-01: years are counted from March, so that the
-/// leap day is the last one, in eras of 400 years that have 146,097 days.
+/// Year, month and day of a day since 1970-01-01: years are counted from March, so that the leap
+/// day is the last one, in eras of 400 years with 146,097 days.
 fn civil(days: u64) -> (u64, u64, u64) {
     let days = days + 719_468;
     let (era, day) = (days / 146_097, days % 146_097);
@@ -223,7 +222,7 @@ fn civil(days: u64) -> (u64, u64, u64) {
     (era * 400 + year + later, month, day)
 }
 
-/// `~/…` in the home folder: shells leave it alone after `--output=`.
+/// Expands `~/…` to the home folder: shells do not do this after `--output=`.
 fn expand_home(name: &str) -> PathBuf {
     match (name.strip_prefix("~/"), std::env::home_dir()) {
         (Some(rest), Some(home)) => home.join(rest),

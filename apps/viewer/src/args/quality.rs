@@ -1,5 +1,5 @@
-//! Flags that choose a whole quality: a preset, or a time to fit into; and what other
-//! flags insist on.
+//! Flags that set the whole quality: a preset, or a time budget; and the settings that other flags
+//! fix.
 
 use std::time::Duration;
 
@@ -8,13 +8,13 @@ use trigon_scene::{ShadingModel, Shadows};
 
 use super::values;
 
-/// Flags of the quality as a whole.
+/// Flags for the quality as a whole.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct QualityArgs {
-    /// Set samples, shading, shadows and rays at once: draft, standard, high or reference
+    /// Set samples, shading, shadows and rays together: draft, standard, high or reference
     ///
-    /// What another flag says, such as --samples, wins over it. Shadows and ambient occlusion
-    /// are drawn only if they are asked for; the preset says how.
+    /// Other flags, such as --samples, override it. Shadows and ambient occlusion are drawn only on
+    /// request; the preset chooses how.
     #[arg(
         long,
         value_name = "NAME",
@@ -23,16 +23,16 @@ pub(crate) struct QualityArgs {
     )]
     pub(crate) preset: Option<Preset>,
 
-    /// Draw the picture as accurately as fits into this time, such as 16ms or 0.5s
+    /// Draw the image as accurately as this time allows, such as 16ms or 0.5s
     ///
-    /// Costs and errors are measured first, on parts of the picture, and do not count. It is
-    /// said what was chosen, and what that gives up. What another flag says, such as
-    /// --samples, is not changed.
+    /// Costs and errors are measured first, on parts of the image, and do not count. The choice,
+    /// and what it gave up, is printed. Settings from other flags, such as --samples, are not
+    /// changed.
     #[arg(long, value_name = "TIME", value_parser = values::duration, allow_negative_numbers = true, conflicts_with = "replay", help_heading = "Look")]
     pub(crate) time_budget: Option<Duration>,
 }
 
-/// What single flags say about the quality; `None` where they say nothing.
+/// Quality settings from individual flags; `None` if not given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Insisted {
     /// Samples along each side of a pixel, and in each of those.
@@ -43,7 +43,7 @@ pub(crate) struct Insisted {
 }
 
 impl Insisted {
-    /// A quality, but for what is insisted on.
+    /// A quality with the fixed settings applied.
     pub(crate) fn change(&self, quality: Quality) -> Quality {
         let (samples_per_axis, samples) = self.samples.unwrap_or((quality.samples_per_axis, quality.samples));
         Quality {
@@ -56,7 +56,7 @@ impl Insisted {
     }
 }
 
-/// A time to fit into.
+/// The time budget.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Limit {
     time: Duration,
@@ -68,7 +68,7 @@ impl Limit {
         Self { time, insisted }
     }
 
-    /// A budget that knows nothing of any scene yet.
+    /// A budget without knowledge of any scene yet.
     pub(crate) fn budget(&self) -> TimeBudget {
         TimeBudget::new(self.time).insisting(|quality| self.insisted.change(quality))
     }

@@ -1,5 +1,5 @@
-//! The flags as they are typed: one field per flag, parsed but not yet put
-//! together. What they mean as a whole is `Request`'s to say.
+//! The flags as typed: one field per flag, parsed but not yet combined. `Request` is their combined
+//! meaning.
 //!
 //! Names and defaults follow F3D (<https://f3d.app>), so that its users and
 //! their scripts feel at home.
@@ -30,10 +30,10 @@ use crate::study::StudyArgs;
 
 pub(crate) const AFTER_HELP: &str = "\
 Exit codes:
-  0  all went well
-  1  a model could not be loaded or drawn, or a picture could not be written
-  2  the command line makes no sense
-  3  a picture differs from the one that --reference or --replay names
+  0  success
+  1  a model could not be loaded or drawn, or an image could not be written
+  2  the command line is invalid
+  3  an image differs from the one that --reference or --replay names
 
 Values:
   COLOR      1,0.5,0 | #f80 | #ff8800 | a CSS name or function such as orange
@@ -43,16 +43,16 @@ Values:
   switches take --edges, --edges=false, =true, =on, =off, =1, =0
 
 Examples:
-  trigon-viewer                                   look at the built-in scene
-  trigon-viewer chair.glb                         look at a model
-  trigon-viewer chair.glb --output chair.png      write a picture, no display needed
-  trigon-viewer *.obj --output '{model}.png'      a picture of each
+  trigon-viewer                                   show the built-in scene
+  trigon-viewer chair.glb                         show a model
+  trigon-viewer chair.glb --output chair.png      write an image, no display needed
+  trigon-viewer *.obj --output '{model}.png'      an image of each
   trigon-viewer chair.glb --view=top --output - | other-program";
 
-/// Look at 3D models, or turn them into pictures, with no GPU and no display needed.
+/// Show 3D models, or render them to image files. No GPU is needed, and no display for image files.
 ///
-/// Without --output a window opens; press H in it for its keys. With --output
-/// a picture is written instead. Without FILES the built-in scene is shown.
+/// Without --output a window opens; press H for its keys. With --output an image is written
+/// instead. Without FILES the built-in scene is shown.
 #[derive(Debug, Parser)]
 #[command(name = "trigon-viewer", version, after_long_help = AFTER_HELP, disable_help_flag = true)]
 #[command(args_override_self = true, max_term_width = 100)]
@@ -61,32 +61,34 @@ pub(crate) struct RawArgs {
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
 
-    /// Models to show: OBJ, glTF, GLB, PLY, STL, OFF (see --list-readers); - is standard input, if a picture is written
+    /// Models to show: OBJ, glTF, GLB, PLY, STL, OFF (see --list-readers); - is standard input, if an image
+    /// is written
     #[arg(value_name = "FILES")]
     pub(crate) files: Vec<PathBuf>,
 
-    /// A model to show, as F3D spells it; the same as naming it without the flag
+    /// A model to show, in F3D's spelling; the same as naming it without the flag
     #[arg(long, value_name = "FILE", action = ArgAction::Append, hide = true)]
     pub(crate) input: Vec<PathBuf>,
 
-    /// Write a picture instead of opening a window (PNG, JPEG, WebP, OpenEXR); - is a PNG on standard output
+    /// Write an image instead of opening a window (PNG, JPEG, WebP, OpenEXR); - is a PNG on standard output
     ///
-    /// JPEG has no alpha: what is transparent is white. OpenEXR holds linear light, premultiplied with alpha, before exposure and tone mapping. The name may hold {model} (the file's name without its ending),
-    /// {model.ext} (with it), {model_ext} (the ending), {n:3} (the first number whose file does not
-    /// exist yet, padded to three digits), {app}, {version}, {date} and {date:%H%M} (UTC); {{x}} stands for {x} itself.
-    /// With {frame} or {frame:4} each frame of an animation becomes a picture, as many as
-    /// --frame-rate says, from --animation-time on. A name that ends in .gif or .apng holds them
-    /// all, and those of --turntable.
+    /// JPEG has no alpha: transparent areas become white. OpenEXR holds linear light, premultiplied with
+    /// alpha, before exposure and tone mapping. The name may contain {model} (the file's name without its
+    /// extension), {model.ext} (with it), {model_ext} (the extension), {n:3} (the first number whose file
+    /// does not exist yet, padded to three digits), {app}, {version}, {date} and {date:%H%M} (UTC); {{x}}
+    /// stands for {x} itself. With {frame} or {frame:4} each frame of an animation becomes an image, at
+    /// --frame-rate, from --animation-time on. A name that ends in .gif or .apng holds them all, and those of
+    /// --turntable.
     #[arg(long, value_name = "FILE|-", help_heading = "Files")]
     pub(crate) output: Option<Destination>,
 
-    /// Write this, too: depth, normals and other outputs, with a comma between them
+    /// Also write these outputs: depth, normals and others, separated by commas
     ///
-    /// There are color, radiance (linear light, premultiplied), depth (metres along the view axis), object-ids, face-ids, material-ids,
-    /// triangle-ids, barycentrics, positions, normals, geometric-normals, uvs and albedo. With
-    /// --output chair.exr they are channels of that file. With --output chair.png each becomes a
-    /// NumPy array beside it: depth goes to chair.depth.npy. Depth, ids and normals can be PNG
-    /// files of 16 bits instead: depth.png goes to chair.depth.png, in millimetres.
+    /// The outputs are color, radiance (linear light, premultiplied), depth (metres along the view axis),
+    /// object-ids, face-ids, material-ids, triangle-ids, barycentrics, positions, normals, geometric-normals,
+    /// uvs and albedo. With --output chair.exr they are channels of that file. With --output chair.png each
+    /// becomes a NumPy array next to it: depth goes to chair.depth.npy. Depth, ids and normals can be 16-bit
+    /// PNG files instead: depth.png goes to chair.depth.png, in millimetres.
     #[arg(
         long,
         value_name = "NAME,...",
@@ -97,53 +99,52 @@ pub(crate) struct RawArgs {
     )]
     pub(crate) outputs: Vec<Beside>,
 
-    /// Write scene, camera, settings and picture to one file, to draw it again elsewhere
+    /// Write scene, camera, settings and image to one file, to draw it again elsewhere
     ///
-    /// Nothing else is needed to draw it again: a bug report, or a test. With
-    /// --output the picture is written, too.
+    /// Nothing else is needed to draw it again, which makes it useful for bug reports and tests.
+    /// With --output the image is written, too.
     #[arg(long, value_name = "FILE.trigon", help_heading = "Files")]
     pub(crate) capture: Option<PathBuf>,
 
-    /// Draw what --capture wrote and tell whether the picture is the same, by exit code 3 if not
+    /// Draw what --capture wrote and check that the image is identical; exit code 3 if not
     ///
-    /// With --output the new picture is written. --threads and --simd may be
-    /// given; all else is as it was captured.
+    /// With --output the new image is written. --threads and --simd may be given; everything else
+    /// is as captured.
     #[arg(long, value_name = "FILE.trigon", help_heading = "Files", conflicts_with_all = ["files", "input", "capture"])]
     pub(crate) replay: Option<PathBuf>,
 
-    /// Width and height of the picture or window in pixels; 1000x600 works too
+    /// Width and height of the image or window in pixels; 1000x600 works too
     #[arg(long, value_name = "W,H", default_value = "1000,600", value_parser = values::size, help_heading = "Files")]
     pub(crate) resolution: Viewport,
 
     /// With several files: one at a time, or all in one scene
     ///
-    /// In a window, single starts with the first; the arrow keys go through
-    /// them. With --output, single writes one picture per file and needs
-    /// {model} or a number such as {n:1} in the name.
+    /// In a window, single starts with the first; the arrow keys switch files. With --output,
+    /// single writes one image per file and needs {model} or a number such as {n:1} in the name.
     #[arg(long, value_name = "MODE", default_value = "single", help_heading = "Files")]
     pub(crate) multi_file_mode: MultiFileMode,
 
-    /// Files whose names differ only in what the groups of this regular expression match are shown together
+    /// Show files together whose names differ only in the groups of this regular expression
     #[arg(long, value_name = "REGEX", value_parser = values::regex, conflicts_with = "multi_file_mode", help_heading = "Files")]
     pub(crate) multi_file_regex: Option<Regex>,
 
-    /// Take the models of folders in folders, too
+    /// Include models in subfolders
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Files")]
     pub(crate) recursive_dir_add: Option<bool>,
 
-    /// Pass over files with nothing to draw
+    /// Skip files with nothing to draw
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Files")]
     pub(crate) remove_empty_file_groups: Option<bool>,
 
-    /// Refuse files larger than this many MiB; a negative number refuses none
+    /// Refuse files larger than this many MiB; a negative number means no limit
     #[arg(long, value_name = "MIB", value_parser = values::mebibytes, allow_negative_numbers = true, help_heading = "Files")]
     pub(crate) max_size: Option<u64>,
 
-    /// Compare the picture with this one: exit code 3 if they differ too much
+    /// Compare the image with this one: exit code 3 if they differ too much
     ///
-    /// With --output the picture is written only then, and where they differ to a file
-    /// beside it (chair.diff.png). Without the file to compare with, the picture is
-    /// written, to become it, and the exit code is 3, too.
+    /// With --output the image is written only in that case, and a map of the differences next to
+    /// it (chair.diff.png). If the file to compare with does not exist, the image is written, so
+    /// that it can become the reference, and the exit code is 3, too.
     #[arg(long, value_name = "FILE.png", conflicts_with_all = ["replay", "turntable"], help_heading = "Files")]
     pub(crate) reference: Option<PathBuf>,
 
@@ -154,11 +155,11 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["replay", "capture", "reference", "turntable", "outputs"], help_heading = "Files")]
     pub(crate) compare: Option<PathBuf>,
 
-    /// How much is too much: 0 only for the same look, 0.04 for what is hardly seen
+    /// The largest error allowed: 0 for identical images, 0.04 for hardly visible differences
     #[arg(long, value_name = "ERROR", default_value = "0.04", value_parser = values::share, allow_negative_numbers = true, help_heading = "Files")]
     pub(crate) reference_threshold: f64,
 
-    /// Say what is wrong with the files instead of drawing them: exit code 1 if anything is
+    /// List faults of the files instead of drawing them: exit code 1 if there are any errors
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, conflicts_with_all = ["output", "capture", "replay"], help_heading = "Files")]
     pub(crate) check: Option<bool>,
 
@@ -169,19 +170,20 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "X,Y", value_parser = values::pixel, conflicts_with_all = ["output", "capture", "replay", "check", "explain"], help_heading = "Files")]
     pub(crate) explain_pixel: Option<[u32; 2]>,
 
-    /// The name of the window's screenshots; as for --output
+    /// The name of the window's screenshots, with the variables of --output
     #[arg(long, value_name = "FILE", value_parser = super::output::picture_name, default_value = "{model}_{n}.png", help_heading = "Window")]
     pub(crate) screenshot_filename: Template,
 
-    /// Load the files and say what is in them, but draw nothing
+    /// Load the files and print what is in them, but draw nothing
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Files")]
     pub(crate) no_render: Option<bool>,
 
-    /// The scene to show of a file that has several, by its number from 0 or its name [default: the file's own choice]
+    /// The scene to show from a file with several, by number from 0 or by name [default: the file's own
+    /// choice]
     #[arg(long, value_name = "N|NAME", value_parser = values::scene, help_heading = "Files")]
     pub(crate) scene: Option<SceneChoice>,
 
-    /// Which axis of the model points up
+    /// The axis of the model that points up
     #[arg(long, value_name = "DIRECTION", default_value = "+Y", value_parser = values::direction, allow_hyphen_values = true, help_heading = "Camera")]
     pub(crate) up: DVec3,
 
@@ -189,11 +191,12 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "SIDE", help_heading = "Camera", conflicts_with_all = ["camera_direction", "camera_position"])]
     pub(crate) view: Option<View>,
 
-    /// Direction in which the camera looks; the model is fitted into the picture [default: -1,-0.5,-1 for +Y up]
+    /// Direction in which the camera looks; the model is fitted into the image [default: -1,-0.5,-1 for +Y
+    /// up]
     #[arg(long, value_name = "DIRECTION", value_parser = values::direction, allow_hyphen_values = true, help_heading = "Camera")]
     pub(crate) camera_direction: Option<DVec3>,
 
-    /// Where the camera stands; overrides direction and zoom
+    /// Position of the camera; overrides direction and zoom
     #[arg(long, value_name = "POINT", value_parser = values::point, allow_hyphen_values = true, help_heading = "Camera")]
     pub(crate) camera_position: Option<DVec3>,
 
@@ -201,23 +204,23 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "POINT", value_parser = values::point, allow_hyphen_values = true, help_heading = "Camera")]
     pub(crate) camera_focal_point: Option<DVec3>,
 
-    /// What is up in the picture [default: --up]
+    /// The upward direction in the image [default: --up]
     #[arg(long, value_name = "DIRECTION", value_parser = values::direction, allow_hyphen_values = true, help_heading = "Camera")]
     pub(crate) camera_view_up: Option<DVec3>,
 
-    /// Angle between the lower and the upper edge of the picture, in degrees
+    /// Vertical field of view, in degrees
     #[arg(long, value_name = "DEGREES", default_value = "30", value_parser = values::view_angle, allow_negative_numbers = true, help_heading = "Camera")]
     pub(crate) camera_view_angle: f64,
 
-    /// How much of the picture the model fills: 0.9 leaves a margin of a tenth
+    /// The fraction of the image that the model fills: 0.9 leaves a margin of a tenth
     #[arg(long, value_name = "FACTOR", default_value = "0.9", value_parser = values::zoom, allow_negative_numbers = true, help_heading = "Camera")]
     pub(crate) camera_zoom_factor: f64,
 
-    /// Then turn the camera this far to the right around the model, in degrees
+    /// Then rotate the camera this far to the right around the model, in degrees
     #[arg(long, value_name = "DEGREES", default_value = "0", value_parser = values::angle, allow_hyphen_values = true, help_heading = "Camera")]
     pub(crate) camera_azimuth_angle: f64,
 
-    /// Then turn the camera this far up over the model, in degrees
+    /// Then rotate the camera this far up over the model, in degrees
     #[arg(long, value_name = "DEGREES", default_value = "0", value_parser = values::angle, allow_hyphen_values = true, help_heading = "Camera")]
     pub(crate) camera_elevation_angle: f64,
 
@@ -225,7 +228,7 @@ pub(crate) struct RawArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Camera")]
     pub(crate) camera_orthographic: Option<bool>,
 
-    /// Look through the file's own camera of this number, counted from 0; a negative one means none of them
+    /// Use the file's own camera of this number, from 0; a negative number uses none
     #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Camera", conflicts_with_all = ["view", "camera_direction", "camera_position", "camera_focal_point", "camera_view_up"])]
     pub(crate) camera_index: Option<i64>,
 
@@ -249,7 +252,7 @@ pub(crate) struct RawArgs {
     #[arg(long, short, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Look", conflicts_with = "style")]
     pub(crate) edges: Option<bool>,
 
-    /// What is drawn of the model's polygons
+    /// How the model's polygons are drawn
     #[arg(long, value_name = "STYLE", help_heading = "Look")]
     pub(crate) style: Option<DrawStyle>,
 
@@ -257,11 +260,12 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "PIXELS", default_value = "1", value_parser = values::line_width, allow_negative_numbers = true, help_heading = "Look")]
     pub(crate) line_width: f32,
 
-    /// Smooth outlines by drawing several samples per pixel [default: ssaa, or as --preset says]
+    /// Smooth outlines with several samples per pixel [default: ssaa, or from --preset]
     #[arg(long, short, num_args = 0..=1, require_equals = true, default_missing_value = "ssaa", value_name = "METHOD", help_heading = "Look")]
     pub(crate) anti_aliasing: Option<AntiAliasing>,
 
-    /// Samples: along each side of a pixel with ssaa, 1 to 4, so 3 means 9; in all with msaa, 1, 2, 4, 8 or 16 [default: 3, or 4 with msaa]
+    /// Samples: along each side of a pixel with ssaa, 1 to 4, so 3 means 9; in total with msaa, 1, 2, 4, 8 or
+    /// 16 [default: 3, or 4 with msaa]
     #[arg(long, value_name = "1-16", value_parser = values::count::<1, 16>, allow_negative_numbers = true, help_heading = "Look")]
     pub(crate) samples: Option<u32>,
 
@@ -276,15 +280,15 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "MODE", default_value = "shaded", value_parser = values::display, help_heading = "Look")]
     pub(crate) display: Display,
 
-    /// Show how far everything is, in grey: near is dark; the same as --display=depth
+    /// Show the distance of everything in grey: near is dark; the same as --display=depth
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, conflicts_with_all = ["replay", "display"], help_heading = "Look")]
     pub(crate) display_depth: Option<bool>,
 
-    /// Make every light this many times as bright
+    /// Multiply the intensity of all lights
     #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Look")]
     pub(crate) light_intensity: f32,
 
-    /// Whether the back sides of faces are drawn; default is what the file says
+    /// Whether the back sides of faces are drawn; default follows the file
     #[arg(long, value_name = "TYPE", default_value = "default", help_heading = "Look")]
     pub(crate) backface_type: BackfaceType,
 
@@ -292,23 +296,23 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "COLOR", value_parser = values::color, help_heading = "Look")]
     pub(crate) background_color: Option<Vec3>,
 
-    /// Leave the picture transparent where there is no model
+    /// Leave the image transparent where there is no model
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Look")]
     pub(crate) no_background: Option<bool>,
 
-    /// Use at most this many threads; the picture is the same with any number [default: one per core]
+    /// Use at most this many threads; the image does not depend on it [default: one per core]
     #[arg(long, value_name = "N", value_parser = values::threads, allow_negative_numbers = true, help_heading = "Program")]
     pub(crate) threads: Option<std::num::NonZeroUsize>,
 
-    /// Use these vector instructions; the picture is the same with any [default: the best that the processor has]
+    /// Use these vector instructions; the image does not depend on them [default: the best of the processor]
     #[arg(long, value_name = "LEVEL", value_parser = values::simd, help_heading = "Program")]
     pub(crate) simd: Option<SimdLevel>,
 
-    /// Read flags from this JSON file: a path, or a name in the folder of the user's own
+    /// Read flags from this JSON file: a path, or a name in the user's configuration folder
     ///
-    /// A list of blocks such as {"match": ".*stl", "options": {"up": "+Z"}}, as F3D has it. The
+    /// A list of blocks such as {"match": ".*stl", "options": {"up": "+Z"}}, in F3D's format. The
     /// folder is $XDG_CONFIG_HOME/trigon; config.json and config.d/*.json in it are read without
-    /// this flag. What the command line says wins, unless a name in the file begins with !.
+    /// this flag. The command line overrides them, except names that begin with !.
     #[arg(long, value_name = "FILE", help_heading = "Program")]
     pub(crate) config: Option<PathBuf>,
 
@@ -316,31 +320,31 @@ pub(crate) struct RawArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Program")]
     pub(crate) no_config: Option<bool>,
 
-    /// Do what is written in this file, line by line: set, toggle, set_camera, take_screenshot and others
+    /// Run the commands in this file, line by line: set, toggle, set_camera, take_screenshot and others
     #[arg(long, value_name = "FILE", help_heading = "Program")]
     pub(crate) command_script: Option<PathBuf>,
 
-    /// Set an option by the name that it has in F3D's library
+    /// Set an option by its name in F3D's library
     #[arg(short = 'D', long, value_name = "NAME=VALUE", help_heading = "Program")]
     pub(crate) define: Vec<String>,
 
-    /// Leave an option of the configuration file out, by that name
+    /// Ignore an option of the configuration file, by that name
     #[arg(short = 'R', long, value_name = "NAME", help_heading = "Program")]
     pub(crate) reset: Vec<String>,
 
-    /// A flag that a configuration file does not set.
+    /// A flag that a configuration file cannot set.
     #[arg(long, hide = true)]
     pub(crate) unset: Vec<String>,
 
-    /// A turn of the camera, as command scripts say it.
+    /// A rotation of the camera, as in command scripts.
     #[arg(long, hide = true, allow_hyphen_values = true)]
     pub(crate) camera_turn: Vec<Turn>,
 
-    /// Show a bar of progress at once when a file is loaded, not after a second
+    /// Show a progress bar at once while a file is loaded, not after a second
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Program")]
     pub(crate) loading_progress: Option<bool>,
 
-    /// Write facts about what was drawn, loaded or checked to standard output, one JSON object a line
+    /// Print facts about what was drawn, loaded or checked to standard output, one JSON object per line
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Program")]
     pub(crate) json: Option<bool>,
 
@@ -348,11 +352,11 @@ pub(crate) struct RawArgs {
     #[arg(long, short = 'h', num_args = 0..=1, require_equals = true, default_missing_value = "short", value_name = "HOW", help_heading = "Program")]
     pub(crate) help: Option<HelpLength>,
 
-    /// How much to say on standard error
+    /// How much to print on standard error
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "debug", default_value = "info", value_name = "LEVEL", help_heading = "Program")]
     pub(crate) verbose: Level,
 
-    /// Read all files as this format, whatever their names say: obj, gltf, glb, ply, stl or off
+    /// Read all files as this format, whatever their names: obj, gltf, glb, ply, stl or off
     #[arg(long, value_name = "FORMAT", value_parser = values::reader, help_heading = "Files")]
     pub(crate) force_reader: Option<Format>,
 
@@ -360,7 +364,7 @@ pub(crate) struct RawArgs {
     #[arg(long, help_heading = "Program")]
     pub(crate) list_readers: bool,
 
-    /// List what draws: the processor, whatever --rendering-backend says
+    /// List the rendering backends: the processor, whatever --rendering-backend says
     #[arg(long, help_heading = "Program")]
     pub(crate) list_rendering_backends: bool,
 
@@ -395,11 +399,11 @@ pub(crate) struct RawArgs {
 pub(crate) enum MultiFileMode {
     Single,
     All,
-    /// Those of a folder in one scene
+    /// All files of a folder in one scene
     Dir,
 }
 
-/// How much help.
+/// How much help to show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum HelpLength {
     Short,
@@ -418,7 +422,7 @@ pub(crate) enum View {
     Iso,
 }
 
-/// What to do instead of showing models.
+/// Subcommands.
 #[derive(Clone, Debug, Subcommand)]
 pub(crate) enum Command {
     /// Measure what accuracy costs in time on this machine, and write a report
@@ -426,16 +430,16 @@ pub(crate) enum Command {
     Study(StudyArgs),
 }
 
-/// What is drawn of polygons.
+/// How polygons are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum DrawStyle {
     /// Filled faces
     Surface,
     /// Filled faces with their edges; the same as --edges
     Edges,
-    /// Edges only, hidden ones too
+    /// Edges only, including hidden ones
     Wireframe,
-    /// Edges only, without those that a face hides
+    /// Edges only, without those that faces hide
     HiddenLine,
 }
 
@@ -444,14 +448,14 @@ pub(crate) enum DrawStyle {
 pub(crate) enum AntiAliasing {
     /// One sample per pixel
     None,
-    /// Several samples per pixel, each with a colour of its own, see --samples
+    /// Several samples per pixel, each with its own colour, see --samples
     #[value(aliases = ["fxaa", "taa"])]
     Ssaa,
-    /// Several samples per pixel, one colour for those of a triangle: quicker
+    /// Several samples per pixel, one colour per triangle: faster
     Msaa,
 }
 
-/// F3D's ways of drawing translucent surfaces. All give what its best one gives.
+/// F3D's methods for translucent surfaces. All give the result of its best one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Blending {
     None,
@@ -462,7 +466,7 @@ pub(crate) enum Blending {
     Stochastic,
 }
 
-/// What happens to faces seen from behind.
+/// How faces seen from behind are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum BackfaceType {
     Default,

@@ -1,4 +1,4 @@
-//! What the command line asks for, as a whole and checked.
+//! The meaning of the command line as a whole, checked.
 
 mod checks;
 #[cfg(test)]
@@ -34,32 +34,32 @@ use crate::moment::{Clip, Moment};
 use crate::report::Level;
 use crate::scenery::{Grid, Scenery, Sprites};
 
-/// What the command line asks for.
+/// A checked request.
 #[derive(Clone, Debug)]
 pub(crate) struct Request {
-    /// What to do.
+    /// The task.
     pub(crate) mode: Mode,
-    /// The models; none is the built-in scene.
+    /// The models; none means the built-in scene.
     pub(crate) files: Vec<PathBuf>,
     /// How several models are shown.
     pub(crate) grouping: Grouping,
     /// Larger files are refused.
     pub(crate) max_bytes: Option<u64>,
-    /// The format of all files, if not that which their names tell.
+    /// The format of all files, if it overrides their names.
     pub(crate) format: Option<Format>,
-    /// The scene of files that have several.
+    /// The scene of files with several.
     pub(crate) scene: Option<SceneChoice>,
-    /// The moment of an animation that is shown.
+    /// The moment of an animation to show.
     pub(crate) moment: Option<Moment>,
-    /// Pictures that follow each other.
+    /// Image sequences.
     pub(crate) sequence: Frames,
-    /// The picture that the model is lit by.
+    /// The environment image.
     pub(crate) environment: Option<PathBuf>,
-    /// What is shown beside the model.
+    /// Additional objects shown with the model.
     pub(crate) scenery: Scenery,
-    /// What is drawn and written over the picture.
+    /// What is drawn and written over the image.
     pub(crate) overlay: Overlay,
-    /// What the picture is compared with.
+    /// The image to compare with.
     pub(crate) reference: Option<Reference>,
     /// The model that the window shows beside the first.
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
@@ -68,9 +68,9 @@ pub(crate) struct Request {
     pub(crate) script: Option<PathBuf>,
     /// Whether facts are written as JSON.
     pub(crate) json: bool,
-    /// Whether files with nothing to draw are passed over.
+    /// Whether files with nothing to draw are skipped.
     pub(crate) skip_empty: bool,
-    /// Whether a bar of progress is shown at once.
+    /// Whether a progress bar is shown at once.
     pub(crate) shows_progress: bool,
     /// The name of screenshots.
     pub(crate) screenshot: Template,
@@ -81,47 +81,47 @@ pub(crate) struct Request {
     pub(crate) hidden: Vec<String>,
     /// What all of this was read from.
     pub(crate) line: CommandLine,
-    /// Where the camera stands.
+    /// The camera.
     pub(crate) framing: Framing,
-    /// What is changed about the model.
+    /// Changes to the model.
     pub(crate) look: Look,
-    /// What is written beside the picture.
+    /// Additional outputs.
     pub(crate) outputs: Vec<Beside>,
-    /// How it is drawn.
+    /// The render settings.
     pub(crate) settings: RenderSettings,
-    /// The time that it is to fit into.
+    /// The time budget.
     pub(crate) limit: Option<Limit>,
-    /// What the window does beside showing models.
+    /// Options of the window.
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
     pub(crate) window: WindowArgs,
-    /// Whether the window shows the time of a frame.
+    /// Whether the window shows the frame time.
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
     pub(crate) shows_frame_time: bool,
-    /// Whether the window says what keys did.
+    /// Whether the window shows messages about keys.
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
     pub(crate) notifies: bool,
-    /// How much is said.
+    /// How much is printed.
     pub(crate) level: Level,
-    /// What was accepted and does nothing.
+    /// Flags that were accepted without effect.
     pub(crate) ignored: Vec<String>,
 }
 
-/// Pictures that follow each other.
+/// Image sequences.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Frames {
-    /// Views around the model, if it is to turn.
+    /// The number of views around the model, for a turntable.
     pub(crate) turntable: Option<u32>,
-    /// Frames of a second.
+    /// Frames per second.
     pub(crate) rate: f64,
-    /// How many times as fast animations play; negative is backwards.
+    /// The speed factor of animations; negative plays backwards.
     pub(crate) speed: f64,
     /// Whether they play when the window opens.
     pub(crate) autoplay: bool,
-    /// What the window shows of the time.
+    /// How the window displays the time.
     pub(crate) progress: Option<AnimationProgress>,
 }
 
-/// What is drawn and written over the picture.
+/// What is drawn and written over the image.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Overlay {
     /// Colours of arrows for X, Y and Z: linear RGB.
@@ -132,24 +132,24 @@ pub(crate) struct Overlay {
     pub(crate) name: bool,
     pub(crate) metadata: bool,
     pub(crate) environment_name: bool,
-    /// How large text is.
+    /// Text size.
     pub(crate) text_scale: f32,
 }
 
-/// What a picture is compared with.
+/// The reference image for a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Reference {
     pub(crate) file: PathBuf,
-    /// More of an error than this is a difference.
+    /// A larger error counts as a difference.
     pub(crate) threshold: f64,
 }
 
-/// What to do.
+/// The task.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Mode {
-    /// Write pictures, and capture what they were drawn from.
+    /// Write images, and capture what they were drawn from.
     Picture {
-        /// Where each goes, if anywhere.
+        /// The destination of each, if any.
         output: Option<Destination>,
         /// The file of the capture.
         capture: Option<PathBuf>,
@@ -158,14 +158,14 @@ pub(crate) enum Mode {
     Replay {
         /// The file of the capture.
         capture: PathBuf,
-        /// Where the new picture goes, if anywhere.
+        /// The destination of the new image, if any.
         output: Option<Destination>,
     },
     /// Open a window.
     Window,
-    /// Load the models and say what is in them.
+    /// Load the models and print what is in them.
     Inspect,
-    /// Say which effects the models call for.
+    /// List the effects that the models need.
     Explain(Explanation),
     /// Draw two models, and where they differ.
     Compare {
@@ -178,7 +178,7 @@ pub(crate) enum Mode {
     ExplainPixel([u32; 2]),
     /// Say what is wrong with the models.
     Check,
-    /// Say what draws.
+    /// List the rendering backends.
     ListBackends,
     /// List the formats that can be read.
     ListReaders,
@@ -193,20 +193,20 @@ pub(crate) enum Grouping {
     OneByOne,
     /// In one scene.
     Together,
-    /// Those of a folder in one scene.
+    /// All files of a folder in one scene.
     ByFolder,
-    /// In one scene what differs only in the groups of this expression.
+    /// In one scene: files that differ only in the groups of this expression.
     ByName(Regex),
 }
 
-/// What stands for standard input among the files.
+/// The name that stands for standard input.
 pub(crate) const STDIN: &str = "-";
 
 impl Request {
     /// The request of a command line for a file, `None` for the built-in scene.
     ///
     /// # Errors
-    /// When flags make no sense, or contradict each other.
+    /// Flags are invalid, or contradict each other.
     pub(crate) fn from_line(line: &CommandLine, file: Option<&Path>) -> Result<Self, clap::Error> {
         let raw = line.raw(file)?;
         let request = Self::new(raw)
@@ -216,11 +216,11 @@ impl Request {
         Ok(Self { line: line.clone(), ignored, ..request })
     }
 
-    /// The request for one of several sources, of which configuration files may say
-    /// something of its own.
+    /// The request for one of several sources, for which configuration files may have their own
+    /// flags.
     ///
     /// # Errors
-    /// When what they say makes no sense.
+    /// The flags are invalid.
     pub(crate) fn for_source(&self, source: &Source) -> Result<Self, Failure> {
         if !self.line.differs_by_file() {
             return Ok(self.clone());
@@ -229,7 +229,7 @@ impl Request {
         of_file.map_err(|error| Failure::Usage(plain(&error)))
     }
 
-    /// Puts the flags together, or says why they do not fit each other.
+    /// Combines the flags, or explains why they conflict.
     pub(crate) fn new(raw: RawArgs) -> Result<Self, String> {
         let typed: Vec<PathBuf> = raw.files.iter().chain(&raw.input).cloned().collect();
         let files = folders::expanded(&typed, raw.recursive_dir_add == Some(true))?;
@@ -281,7 +281,7 @@ impl Request {
     }
 }
 
-/// What clap says of a mistake, on one line.
+/// clap's error message on one line.
 pub(crate) fn plain(error: &clap::Error) -> String {
     let text = error.to_string();
     let first = text.lines().next().unwrap_or_default();
@@ -347,7 +347,7 @@ fn sequence(animation: &AnimationArgs) -> Frames {
 }
 
 fn scenery(raw: &RawArgs) -> Scenery {
-    /// The length of normals, as a part of the model's diagonal.
+    /// The length of normals, as a fraction of the model's diagonal.
     const NORMALS: f64 = 0.02;
     let (flags, material) = (&raw.scenery, &raw.material);
     let grid = Grid {
@@ -390,7 +390,7 @@ fn reference(raw: &RawArgs) -> Option<Reference> {
 fn framing(raw: &RawArgs) -> Result<Framing, String> {
     if raw.camera_position.is_some() && raw.camera_position == raw.camera_focal_point {
         return Err(
-            "--camera-position and --camera-focal-point are the same point, so the camera looks nowhere; move one of them".to_owned()
+            "--camera-position and --camera-focal-point are the same point, so the view direction is undefined; move one of them".to_owned()
         );
     }
     let scene_camera = raw.camera_index.and_then(|index| usize::try_from(index).ok());
@@ -490,7 +490,7 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
     Ok(settings)
 }
 
-/// The width of lines, of which points have three.
+/// The width of lines; points are three times as wide.
 fn line_width(raw: &RawArgs, style: Style) -> Result<f32, String> {
     const POINT_TO_LINE: f32 = 3.0;
     match raw.material.point_size {
@@ -509,12 +509,12 @@ fn samples(raw: &RawArgs) -> Result<(u32, u32), String> {
     match (raw.anti_aliasing.unwrap_or(AntiAliasing::Ssaa), raw.samples) {
         (AntiAliasing::None, None | Some(1)) => Ok((1, 1)),
         (AntiAliasing::None, Some(samples)) => Err(format!(
-            "--anti-aliasing=none means one sample per pixel, but --samples={samples} asks for more; leave one of them out"
+            "--anti-aliasing=none means one sample per pixel, but --samples={samples} is more; leave one of them out"
         )),
         (AntiAliasing::Ssaa, None) => Ok((3, 1)),
         (AntiAliasing::Ssaa, Some(samples @ 1..=4)) => Ok((samples, 1)),
         (AntiAliasing::Ssaa, Some(samples)) => Err(format!(
-            "--samples={samples} along each side of a pixel are too many: write 1 to 4, or --anti-aliasing=msaa for so many in all"
+            "--samples={samples} along each side of a pixel is too many: write 1 to 4, or --anti-aliasing=msaa for so many in all"
         )),
         (AntiAliasing::Msaa, None) => Ok((1, 4)),
         (AntiAliasing::Msaa, Some(samples @ (1 | 2 | 4 | 8 | 16))) => Ok((1, samples)),
@@ -524,26 +524,26 @@ fn samples(raw: &RawArgs) -> Result<(u32, u32), String> {
     }
 }
 
-/// What single flags say about the quality.
+/// Quality settings from individual flags.
 fn insisted(raw: &RawArgs) -> Result<Insisted, String> {
     let says_samples = raw.anti_aliasing.is_some() || raw.samples.is_some();
     let samples = if says_samples { Some(samples(raw)?) } else { None };
     Ok(Insisted { samples, ..raw.effects.insisted() })
 }
 
-/// The time for a picture.
+/// The time budget for an image.
 fn limit(raw: &RawArgs, mode: &Mode) -> Result<Option<Limit>, String> {
     let Some(time) = raw.quality.time_budget else { return Ok(None) };
     if !matches!(mode, Mode::Picture { .. }) {
-        return Err("--time-budget goes with a picture, and none is drawn; name one (--output picture.png), or choose a --preset".to_owned());
+        return Err("--time-budget needs an image, and none is drawn; name one (--output image.png), or choose a --preset".to_owned());
     }
     Ok(Some(Limit::new(time, insisted(raw)?)))
 }
 
-/// The colour of edges before a background: the usual dark one, or a light one
-/// where it would not be seen. Linear RGB.
+/// The colour of edges for a background: dark by default, or light if dark would not be visible.
+/// Linear RGB.
 fn edges_before(background: Vec3, usual: Vec3) -> Vec3 {
-    /// Rec. 709: what each channel adds to the brightness.
+    /// Rec. 709: the contribution of each channel to luminance.
     const BRIGHTNESS: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
     /// Here dark and light edges have the same contrast: the root of 0.05 × 1.05, less 0.05, as WCAG 2 has it.
     const EQUALLY_FAR: f32 = 0.18;

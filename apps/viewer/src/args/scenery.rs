@@ -1,13 +1,13 @@
-//! Flags of what is shown beside the model: grid, axes, normals, bones, and text.
+//! Flags for objects shown with the model: grid, axes, normals, bones, and text.
 
 use trigon_math::Vec3;
 
 use super::values;
 
-/// Flags of what is shown beside the model.
+/// Flags for objects shown with the model.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct SceneryArgs {
-    /// Show the directions of the axes in a corner
+    /// Show the axis directions in a corner
     #[arg(long, short = 'x', num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Scenery")]
     pub(crate) axis: Option<bool>,
 
@@ -31,7 +31,7 @@ pub(crate) struct SceneryArgs {
     #[arg(long, value_name = "LENGTH", value_parser = values::length, allow_negative_numbers = true, help_heading = "Scenery")]
     pub(crate) grid_unit: Option<f64>,
 
-    /// Parts of each of those squares; 1 for none
+    /// Subdivisions of each of those squares; 1 for none
     #[arg(long, value_name = "N", default_value = "10", value_parser = values::count::<1, 100>, allow_negative_numbers = true, help_heading = "Scenery")]
     pub(crate) grid_subdivisions: u32,
 
@@ -39,11 +39,11 @@ pub(crate) struct SceneryArgs {
     #[arg(long, value_name = "COLOR", default_value = "0,0,0", value_parser = values::color, help_heading = "Scenery")]
     pub(crate) grid_color: Vec3,
 
-    /// Put the grid at the origin, not below the model
+    /// Put the grid at the origin instead of below the model
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Scenery")]
     pub(crate) grid_absolute: Option<bool>,
 
-    /// Show the normals of vertices as lines
+    /// Show vertex normals as lines
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Scenery")]
     pub(crate) normal_glyphs: Option<bool>,
 
@@ -55,11 +55,11 @@ pub(crate) struct SceneryArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Scenery")]
     pub(crate) armature: Option<bool>,
 
-    /// Write the file's name over the picture
+    /// Write the file's name over the image
     #[arg(long, short = 'n', num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Scenery")]
     pub(crate) filename: Option<bool>,
 
-    /// Write counts and sizes over the picture
+    /// Write counts and sizes over the image
     #[arg(long, short = 'm', num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Scenery")]
     pub(crate) metadata: Option<bool>,
 
@@ -71,15 +71,15 @@ pub(crate) struct SceneryArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Scenery")]
     pub(crate) hdri_filename: Option<bool>,
 
-    /// Show the time of a frame in the window
+    /// Show the frame time in the window
     #[arg(long, short = 'z', num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Window")]
     pub(crate) fps: Option<bool>,
 
-    /// Show messages about what keys did in the window [default: true]
+    /// Show messages about keys in the window [default: true]
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Window")]
     pub(crate) notifications: Option<bool>,
 
-    /// Size of text
+    /// Text size
     #[arg(long, value_name = "RATIO", default_value = "1", value_parser = values::text_scale, allow_negative_numbers = true, help_heading = "Scenery")]
     pub(crate) font_scale: f32,
 }

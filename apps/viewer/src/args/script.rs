@@ -1,44 +1,44 @@
-//! Command scripts: F3D's commands, one a line, as changes of the command line.
+//! Command scripts: F3D's commands, one per line, as changes to the command line.
 
 use std::path::PathBuf;
 
 use super::names;
 
-/// What one line of a script asks for.
+/// The meaning of one line of a script.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Step {
     /// Add these flags.
     Edit(Vec<String>),
-    /// Turn a switch over.
+    /// Toggle a switch.
     Toggle(String),
-    /// Undo what was said of a flag.
+    /// Undo changes to a flag.
     Reset(String),
     /// Move a number one step up, or down.
     Increase(String, bool),
-    /// Go to the next of several values.
+    /// Switch to the next of several values.
     Cycle(String),
-    /// Say the value of a flag.
+    /// Print the value of a flag.
     Print(String),
-    /// Say what is in the model.
+    /// Print what is in the model.
     SceneInfo,
-    /// Write a picture; without a name, to that of screenshots.
+    /// Write an image; without a name, to that of screenshots.
     Screenshot { file: Option<String>, background: bool },
-    /// Go so many files further.
+    /// Skip this many files.
     Go(isize),
-    /// Add files after all others.
+    /// Append files.
     Add(Vec<PathBuf>),
-    /// Another name for the beginning of a line.
+    /// An alias for the beginning of a line.
     Alias(String, String),
     /// Say this.
     Say(String),
-    /// Do nothing, and say why.
+    /// Do nothing, for the given reason.
     Ignored(&'static str),
-    /// Leave the rest out.
+    /// Skip the rest of the script.
     Stop,
 }
 
-/// The numbers that `increase` and `decrease` change: the flag, its least and greatest value,
-/// and a step.
+/// The numbers that `increase` and `decrease` change: the flag, its minimum and maximum, and the
+/// step.
 pub(crate) const RANGES: [(&str, f64, f64, f64); 10] = [
     ("light-intensity", 0.0, 1e6, 0.1),
     ("opacity", 0.0, 1.0, 0.05),
@@ -52,10 +52,10 @@ pub(crate) const RANGES: [(&str, f64, f64, f64); 10] = [
     ("exposure", -20.0, 20.0, 0.25),
 ];
 
-/// What a script says, line by line; `aliases` are other names for beginnings of lines.
+/// The meaning of a script, line by line; `aliases` replace beginnings of lines.
 ///
 /// # Errors
-/// The number of a line, and what is wrong with it.
+/// The number of a line, and its error.
 pub(crate) fn steps(text: &str) -> Result<Vec<(usize, Step)>, (usize, String)> {
     let mut aliases: Vec<(String, String)> = Vec::new();
     let mut steps = Vec::new();
@@ -198,14 +198,14 @@ const KNOWN: [&str; 38] = [
     "stop_interactor",
 ];
 
-/// F3D's commands that are not there, with the reason.
+/// F3D commands that trigon lacks, with the reason.
 const REFUSED: [(&str, &str); 11] = [
     ("cycle_animation", "write set animation-indices and a number or a name"),
-    ("cycle_coloring", "values of a simulation are not coloured"),
+    ("cycle_coloring", "simulation values are not shown as colours"),
     ("add_current_directories", "name the folder on the command line"),
     ("remove_current_file_group", "name the files that are to be shown on the command line"),
     ("remove_file_groups", "name the files that are to be shown on the command line"),
-    ("open_file_dialog", "a script waits for nobody; write add_files"),
+    ("open_file_dialog", "a script cannot wait for input; write add_files"),
     ("save_statefile", NO_STATE),
     ("load_statefile", NO_STATE),
     ("save_statefile_dialog", NO_STATE),
@@ -235,7 +235,7 @@ fn added(files: &[String], may_light: bool) -> Step {
 
 fn number(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
-    number.ok_or_else(|| format!("{text} is no number"))
+    number.ok_or_else(|| format!("{text} is not a number"))
 }
 
 fn side(text: &str) -> Result<&'static str, String> {
@@ -247,8 +247,8 @@ fn side(text: &str) -> Result<&'static str, String> {
     }
 }
 
-/// The words of a line: quotes `'"` and backticks hold words together, a backslash takes the
-/// next character as it is, and `#` begins a comment.
+/// The words of a line: quotes `'"` and backticks group words, a backslash escapes the next
+/// character, and `#` begins a comment.
 pub(crate) fn split(line: &str) -> Result<Vec<String>, &'static str> {
     let (mut words, mut word, mut quote) = (Vec::new(), None::<String>, None);
     let mut characters = line.chars();

@@ -1,5 +1,4 @@
-//! From the text of a flag's value to what it means. Every message says what
-//! would have been accepted.
+//! Parses the values of flags. Every error message says what would have been accepted.
 
 use std::convert::Infallible;
 use std::num::NonZeroUsize;
@@ -81,7 +80,7 @@ pub(crate) fn color(text: &str) -> Result<Vec3, String> {
     Ok(to_linear(Vec3::new(parsed.r, parsed.g, parsed.b).clamp(Vec3::ZERO, Vec3::ONE)))
 }
 
-/// F3D's own names, which CSS has not.
+/// F3D's own colour names, which CSS lacks.
 fn named(text: &str) -> Option<Vec3> {
     const NAMES: [(&str, [u8; 3]); 7] = [
         ("f3d_red", [249, 67, 6]),
@@ -97,7 +96,7 @@ fn named(text: &str) -> Option<Vec3> {
     Some(Vec3::from(found.1.map(f32::from)) / 255.0)
 }
 
-/// `cmyk(0%, 50%, 100%, 0%)`: what inks leave of white, in sRGB.
+/// `cmyk(0%, 50%, 100%, 0%)`: the fraction of white that inks leave, in sRGB.
 fn cmyk(text: &str) -> Option<Vec3> {
     let inks = text.trim().to_ascii_lowercase();
     let inks = inks.strip_prefix("cmyk(")?.strip_suffix(')')?;
@@ -135,7 +134,7 @@ fn to_linear(srgb: Vec3) -> Vec3 {
 pub(crate) fn direction(text: &str) -> Result<DVec3, String> {
     const FORMS: &str = "write axes such as +X or -y+z, or three numbers such as 1,0,-0.5";
     let found = three_numbers(text).or_else(|| signed_axes(text)).ok_or(FORMS)?;
-    if found == DVec3::ZERO { Err("all zero is no direction".to_owned()) } else { Ok(found) }
+    if found == DVec3::ZERO { Err("a direction cannot be all zeros".to_owned()) } else { Ok(found) }
 }
 
 /// `+X`, `x`, `-y+z`: every axis at most once, a sign before all but the first.
@@ -165,7 +164,7 @@ pub(crate) fn point(text: &str) -> Result<DVec3, String> {
     three_numbers(text).ok_or_else(|| "write three numbers such as 1,2.5,-3".to_owned())
 }
 
-/// Three finite numbers with commas between them.
+/// Three finite numbers separated by commas.
 fn three_numbers(text: &str) -> Option<DVec3> {
     let mut numbers =
         text.split(',').map(|number| number.trim().parse::<f64>().ok().filter(|n| n.is_finite()));
@@ -196,7 +195,7 @@ pub(crate) fn unit_ratio(text: &str) -> Result<f32, String> {
     share(text).map(|value| value as f32)
 }
 
-/// The same, as precise as it was typed.
+/// The same in double precision.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
     let inside = ratio(text).filter(|value| (0.0..=1.0).contains(value));
     inside.ok_or_else(|| "write a number from 0 to 1, or 50%, or 1/2".to_owned())
@@ -223,7 +222,7 @@ pub(crate) fn line_width(text: &str) -> Result<f32, String> {
         .ok_or_else(|| format!("write a number of pixels greater than 0, up to {WIDEST}"))
 }
 
-/// A time of an animation.
+/// A time in an animation.
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     finite(text).ok_or_else(|| "write a number of seconds, such as 1.5".to_owned())
 }
@@ -248,22 +247,22 @@ pub(crate) fn scene(text: &str) -> Result<SceneChoice, Infallible> {
     Ok(text.parse().map_or_else(|_| SceneChoice::Name(text.to_owned()), SceneChoice::Index))
 }
 
-/// A number of MiB, as bytes; a negative one is no limit.
+/// A number of MiB, as bytes; a negative one means no limit.
 pub(crate) fn mebibytes(text: &str) -> Result<u64, String> {
     const MIB: f64 = 1_048_576.0;
-    // Float to integer saturates: more than any file can be.
+    // Float to integer saturates, beyond the size of any file.
     finite(text)
         .map(|mib| if mib < 0.0 { u64::MAX } else { (mib * MIB) as u64 })
         .ok_or_else(|| "write a number of MiB, such as 100".to_owned())
 }
 
-/// How many times as fast an animation plays; negative is backwards.
+/// The speed factor of an animation; negative plays backwards.
 pub(crate) fn speed(text: &str) -> Result<f64, String> {
     let inside = ratio(text).filter(|speed| (1e-3..=1e3).contains(&speed.abs()));
     inside.ok_or_else(|| "write a number such as 2, 50% or -1; from 0.001 to 1000 times".to_owned())
 }
 
-/// Frames of a second.
+/// Frames per second.
 pub(crate) fn frame_rate(text: &str) -> Result<f64, String> {
     let inside = finite(text).filter(|rate| (0.02..=1000.0).contains(rate));
     inside.ok_or_else(|| "write a number of frames a second from 0.02 to 1000".to_owned())
@@ -289,7 +288,7 @@ pub(crate) fn length(text: &str) -> Result<f64, String> {
     inside.ok_or_else(|| "write a length greater than 0, such as 0.5".to_owned())
 }
 
-/// How large text is.
+/// A text size.
 pub(crate) fn text_scale(text: &str) -> Result<f32, String> {
     let inside = ratio(text).filter(|scale| (0.5..=4.0).contains(scale));
     inside.map(|scale| scale as f32).ok_or_else(|| "write a number from 0.5 to 4, such as 1.5".to_owned())
@@ -300,8 +299,8 @@ pub(crate) fn regex(text: &str) -> Result<regex::Regex, String> {
     regex::Regex::new(text).map_err(|error| error.to_string())
 }
 
-/// A map of texture coordinates: `scale:2;angle:45;translation:0.5,0` in any order, scaled
-/// first and moved last, or a matrix of nine numbers, row by row.
+/// A texture transform: `scale:2;angle:45;translation:0.5,0` in any order, scaled first and
+/// translated last, or a matrix of nine numbers, row by row.
 pub(crate) fn transform(text: &str) -> Result<Affine2, String> {
     let numbers: Option<Vec<f32>> =
         text.split(',').map(|number| finite(number).map(|number| number as f32)).collect();
@@ -339,7 +338,7 @@ pub(crate) fn threads(text: &str) -> Result<NonZeroUsize, String> {
     text.parse().map_err(|_| "write a whole number from 1 up".to_owned())
 }
 
-/// A set of vector instructions that this build and this processor have.
+/// A set of vector instructions that this build and this processor support.
 pub(crate) fn simd(text: &str) -> Result<SimdLevel, String> {
     let level = text.parse::<SimdLevel>().ok().filter(|level| level.is_supported());
     level.ok_or_else(|| {
@@ -449,7 +448,7 @@ mod tests {
         }
     }
 
-    /// 1e-7 is "greater than 0", which was all that was asked for.
+    /// 1e-7 is "greater than 0", which was the only condition.
     #[test]
     fn a_refused_zoom_names_the_limits() {
         for text in ["0", "1e-7", "1e7"] {

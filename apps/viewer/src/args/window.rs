@@ -1,4 +1,4 @@
-//! Flags of the window alone.
+//! Flags for the window alone.
 
 use std::path::PathBuf;
 
@@ -6,26 +6,26 @@ use clap::{Args, ValueEnum};
 
 use super::values;
 
-/// What the window does beside showing models.
+/// Options of the window.
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct WindowArgs {
-    /// Load the model again whenever one of its files changes
+    /// Reload the model when one of its files changes
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Window")]
     pub(crate) watch: Option<bool>,
 
-    /// Go on drawing at rest, better and better up to what --preset=reference gives [default: true, unless --shading says otherwise]
+    /// Refine the image at rest, up to that of --preset=reference [default: true, unless --shading is given]
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Window")]
     pub(crate) refine: Option<bool>,
 
-    /// How drags turn the model: default keeps it upright, trackball tips it over
+    /// How drags rotate the model: default keeps it upright, trackball rotates freely
     #[arg(long, short = 'k', value_name = "STYLE", help_heading = "Window")]
     pub(crate) interaction_style: Option<InteractionStyle>,
 
-    /// Text and widgets follow the display's scale; they always do.
+    /// Scale text and widgets with the display; they always do
     #[arg(long, hide = true, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch)]
     pub(crate) dpi_aware: Option<bool>,
 
-    /// Write what is done to the window to a file when it is closed
+    /// Record the window's input to a file, written when it is closed
     #[arg(
         long,
         alias = "interaction-test-record",
@@ -35,7 +35,7 @@ pub(crate) struct WindowArgs {
     )]
     pub(crate) interaction_record: Option<PathBuf>,
 
-    /// Do to the window what --interaction-record wrote
+    /// Replay in the window what --interaction-record wrote
     #[arg(
         long,
         alias = "interaction-test-play",
@@ -46,10 +46,10 @@ pub(crate) struct WindowArgs {
     pub(crate) interaction_play: Option<PathBuf>,
 }
 
-/// How drags turn the model.
+/// How drags rotate the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum InteractionStyle {
     Default,
-    /// Tips it over, too
+    /// Rotates freely
     Trackball,
 }

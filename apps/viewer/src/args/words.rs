@@ -1,5 +1,5 @@
-//! Words as they are typed, before they are read as flags: values of switches that stand
-//! as a word of their own, `-D` and `-R` of F3D, and what is meant by flags that do not exist.
+//! Preprocesses the words as typed: values of switches that stand as separate words, F3D's `-D` and
+//! `-R`, and suggestions for unknown flags.
 
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
@@ -9,14 +9,14 @@ use clap::{Arg, Command};
 use super::names;
 use super::values;
 
-/// The words after the program's name, so that each value of a switch belongs to it, and
-/// what is set by F3D's names of its library.
+/// The words after the program's name, with each value of a switch attached to it, and F3D library
+/// options translated.
 ///
-/// `--edges true model.glb` sets a switch, as in F3D's scripts, unless there is a file of
-/// that name. Anything that is no value of the flag before it stays a file.
+/// `--edges true model.glb` sets a switch, as in F3D's scripts, unless there is a file of that
+/// name. Anything that is not a value of the preceding flag stays a file.
 ///
 /// # Errors
-/// When `-D` or `-R` has no value that it can take.
+/// `-D` or `-R` has an invalid value.
 pub(crate) fn prepared(
     command: &Command,
     words: impl IntoIterator<Item = OsString>,
@@ -53,7 +53,7 @@ fn joined(flag: &OsStr, value: &OsStr) -> OsString {
     whole
 }
 
-/// Whether a word is the value of the flag before it, which also works without one.
+/// Whether a word is the value of the preceding flag, which also works without one.
 fn takes(command: &Command, flag: &str, value: &OsStr) -> bool {
     let Some(value) = value.to_str().filter(|value| !Path::new(value).exists()) else { return false };
     let Some(argument) = argument(command, flag).filter(|argument| is_optional(argument)) else {
@@ -107,8 +107,7 @@ fn library_flag(
     Ok(None)
 }
 
-/// What is meant by a flag that does not exist, if anything can be told: other programs'
-/// names, and short forms.
+/// A suggestion for an unknown flag, if there is one: other programs' names, and short forms.
 pub(crate) fn meant(flag: &str) -> Option<&'static str> {
     let name = flag.trim_start_matches('-').split('=').next().unwrap_or_default();
     Some(match name {
@@ -160,7 +159,7 @@ mod tests {
         Ok(prepared.join(OsStr::new(" ")).to_string_lossy().into_owned())
     }
 
-    /// After `--camera-orthographic true`, "2 files make 2 pictures" was said.
+    /// After `--camera-orthographic true`, the message was about two files.
     #[test]
     fn a_switch_takes_the_word_behind_it() {
         for (typed, expected) in [

@@ -58,7 +58,7 @@ impl Loading {
             Ok(outcome) => Some(outcome),
             Err(TryRecvError::Empty) => None,
             Err(TryRecvError::Disconnected) => {
-                Some(Err(Failure::work("loading ended without a result; this is a defect of trigon")))
+                Some(Err(Failure::work("loading ended without a result; this is a bug in trigon")))
             }
         }
     }

@@ -67,7 +67,7 @@ impl Command {
                 ("file.previous.same_view", ctrl(Key::Left), "the same, keeping the view")
             }
             Self::NextFileSameView => ("file.next.same_view", ctrl(Key::Right), "the same, keeping the view"),
-            Self::Reload => ("file.reload", Key::Up.into(), "load the file again"),
+            Self::Reload => ("file.reload", Key::Up.into(), "reload the file"),
             Self::Open => ("file.open", ctrl(Key::Character('o')), "open files"),
             Self::PlayOrPause => ("animation.play", Key::Space.into(), "play, pause animations"),
             Self::PlayBackward => (
@@ -78,10 +78,10 @@ impl Command {
             Self::CycleAnimation => ("animation.next", 'w'.into(), "next animation, all, none"),
             Self::CancelLoading => ("file.cancel", ctrl(Key::Character('.')), "cancel loading"),
             Self::ResetView => ("reset_view", Key::Enter.into(), "reset the view"),
-            Self::ToggleName => ("file.name", 'n'.into(), "name of the file"),
+            Self::ToggleName => ("file.name", 'n'.into(), "file name"),
             Self::ToggleMetadata => ("metadata", 'm'.into(), "counts and sizes"),
             Self::ToggleDifference => ("quality.difference", 'd'.into(), "difference from the reference"),
-            Self::ToggleQuality => ("quality", shift('d'), "accuracy and what it costs"),
+            Self::ToggleQuality => ("quality", shift('d'), "accuracy and its cost"),
             Self::Brighter => ("light.brighter", 'l'.into(), "brighter, darker light"),
             Self::Darker => ("light.darker", shift('l'), "brighter, darker light"),
             Self::UpY => ("up.y", ctrl(Key::Character('y')), "+Y up, +Z up"),

@@ -65,7 +65,7 @@ impl OpenWindow {
             Some(Err(TryRecvError::Disconnected)) => None,
         };
         self.dialog = None;
-        self.note = "no file was chosen; where the system shows no dialog, type a path";
+        self.note = "no file was chosen; if the system shows no dialog, type a path";
         self.shown &= ended.is_none();
         ended.unwrap_or_default()
     }

@@ -451,7 +451,7 @@ impl Handler for Viewer {
         let (files, others): (Vec<PathBuf>, Vec<PathBuf>) =
             paths.into_iter().partition(|path| path.is_file());
         if let Some(other) = others.first() {
-            stage.overlay.notify(format!("{} is no file; drop model files", other.display()));
+            stage.overlay.notify(format!("{} is not a file; drop model files", other.display()));
         }
         self.add(stage, files);
         self.write_overlay(stage);

@@ -49,7 +49,7 @@ impl Action for DissolveFlat {
         let limits = LimitedDissolve { angle: self.angle.to_radians() };
         let mut removed = 0;
         change.edit_selected_faces(
-            "dissolving what is flat",
+            "dissolving flat areas",
             "at least one selected face",
             |mesh, faces| {
                 removed += mesh.dissolve_limited(faces, limits)?.removed_vertices;

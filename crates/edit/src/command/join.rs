@@ -33,7 +33,7 @@ impl Action for JoinObjects {
         }
         let to_active = change.scene().world_transform(active).inverse();
         if !to_active.is_finite() {
-            let reason = "the active object is scaled to nothing";
+            let reason = "the active object is scaled to zero";
             return Err(Refusal::NotPossible { operation: "joining objects", reason }.into());
         }
         let mut slots = Slots::of_active(change, active, into)?;

@@ -29,7 +29,7 @@ impl Default for MirrorPlane {
 impl MirrorPlane {
     fn plane(&self) -> Result<Plane, Refusal> {
         let plane = Plane::from_point_and_normal(DVec3::from(self.point), DVec3::from(self.normal));
-        let reason = "the normal of the plane has no direction";
+        let reason = "the plane's normal is zero or not finite";
         plane.ok_or(Refusal::NotPossible { operation: "mirroring", reason })
     }
 }

@@ -76,7 +76,7 @@ impl Placing<'_> {
         transform: impl Fn(DVec3, &DAffine3) -> Transform,
     ) -> Result<Outcome, EditError> {
         if self.individual && self.proportional.is_some() {
-            let reason = "what is near cannot follow several middles; choose another pivot";
+            let reason = "proportional editing does not work with individual pivots; choose another pivot";
             return Err(Refusal::NotPossible { operation: self.command, reason }.into());
         }
         let into_meshes = self.space.into_meshes(self.command, change)?;

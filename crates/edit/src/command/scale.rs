@@ -94,7 +94,7 @@ impl Scale {
         let Some(given) = self.orientation else {
             return Ok(Axes { factors, axes: DMat3::IDENTITY, inverse: DMat3::IDENTITY });
         };
-        let reason = "the axes of the orientation are not independent";
+        let reason = "the axes of the orientation are not linearly independent";
         let dependent = Refusal::NotPossible { operation: "scaling", reason };
         let axes = DMat3::from_cols_array_2d(&given);
         let inverse = axes.try_inverse().filter(DMat3::is_finite).ok_or(dependent)?;

@@ -46,7 +46,7 @@ impl TransformSpace {
 
 /// The inverse map.
 pub(super) fn inverse(map: DAffine3, command: &'static str) -> Result<DAffine3, EditError> {
-    let reason = "the object or its parent is scaled to nothing; scale it up first";
+    let reason = "the object or its parent is scaled to zero; scale it up first";
     let flat = Refusal::NotPossible { operation: command, reason };
     let matrix = map.matrix3.try_inverse().filter(DMat3::is_finite).ok_or(flat)?;
     Ok(DAffine3 { matrix3: matrix, translation: -(matrix * map.translation) })

@@ -74,7 +74,7 @@ impl AssignTexture {
             TextureFormat::Linear => ("colours", "data"),
         };
         let name = &asset.name;
-        Err(EditError::Texture(format!("{name:?} holds {has}, not {needs}; assign its file once more")))
+        Err(EditError::Texture(format!("{name:?} holds {has}, not {needs}; assign its file again")))
     }
 
     fn load(&self, path: &Path) -> Result<(String, Texture), EditError> {

@@ -45,7 +45,7 @@ impl Action for ProjectUvs {
             height: self.height,
             aspect: self.aspect,
         };
-        change.edit_selected_faces("projecting a picture", FACES, |mesh, faces| {
+        change.edit_selected_faces("projecting texture coordinates", FACES, |mesh, faces| {
             mesh.project_uvs(faces, self.uv_set as usize, &projection)
         })?;
         Ok(Outcome::silent())
@@ -78,7 +78,7 @@ impl Action for ProjectUvsOnBox {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let (center, height, aspect) = (DVec3::from(self.center), self.height, self.aspect);
         let projection = BoxProjection { center, height, aspect };
-        change.edit_selected_faces("projecting a picture", FACES, |mesh, faces| {
+        change.edit_selected_faces("projecting texture coordinates", FACES, |mesh, faces| {
             mesh.project_uvs_on_box(faces, self.uv_set as usize, &projection)
         })?;
         Ok(Outcome::silent())

@@ -145,7 +145,7 @@ impl Change<'_> {
             [] => Err(EditError::NotEditing(command)),
             [id] if self.selection().of(id).is_none() => Err(EditError::NotEditing(command)),
             [id] => Ok(id),
-            _ => Err(EditError::NothingSelected { command, needed: "one object whose elements are meant" }),
+            _ => Err(EditError::NothingSelected { command, needed: "the object with the elements" }),
         }
     }
 

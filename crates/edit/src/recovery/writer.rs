@@ -107,8 +107,7 @@ impl Writing {
     }
 
     fn give_up(&self, why: &str) {
-        let message =
-            format!("{}: recovery is off ({why}); save to keep what you do from now on", self.path.display());
+        let message = format!("{}: recovery is off ({why}); save to keep your work", self.path.display());
         self.status.lock().unwrap_or_else(PoisonError::into_inner).error = Some(message);
     }
 }

@@ -85,7 +85,7 @@ fn remove_on_failure(storage: &mut dyn Storage, new: &Path, step: io::Result<()>
 
 fn give_name(storage: &mut dyn Storage, new: &Path, path: &Path) -> Result<(), SaveError> {
     storage.rename(new, path).map_err(failed(path, "replacing the old file"))?;
-    storage.sync_folder(folder_of(path)).map_err(failed(path, "making the new name durable"))
+    storage.sync_folder(folder_of(path)).map_err(failed(path, "syncing the folder"))
 }
 
 fn keep_backup(storage: &mut dyn Storage, target: &Path) -> io::Result<()> {

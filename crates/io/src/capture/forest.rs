@@ -14,7 +14,7 @@ pub(super) fn read(from: &mut Reader<'_>, scene: &mut Scene) -> Result<(), Damag
         let hanging = Vec::<NodeId>::read(from)?;
         for child in &hanging {
             if scene.node(*child).is_none() || !std::mem::replace(&mut is_root[child.index()], false) {
-                return Err(Damage::malformed("a node hangs on two nodes, or is none"));
+                return Err(Damage::malformed("a node has two parents, or does not exist"));
             }
         }
         children[id.index()] = hanging;
@@ -22,7 +22,7 @@ pub(super) fn read(from: &mut Reader<'_>, scene: &mut Scene) -> Result<(), Damag
     let roots = nodes.iter().copied().filter(|id| is_root[id.index()]);
     let order = downwards(roots.collect(), &children, from.limits.depth)?;
     if order.len() < nodes.len() {
-        return Err(Damage::malformed("nodes hang on each other in a ring"));
+        return Err(Damage::malformed("nodes form a cycle"));
     }
     // From below: the scene looks for cycles above the new parent, which has no parent yet.
     for parent in order.into_iter().rev() {
@@ -39,7 +39,7 @@ fn downwards(roots: Vec<NodeId>, children: &[Vec<NodeId>], limit: usize) -> Resu
     while !level.is_empty() {
         depth += 1;
         if depth > limit {
-            return Err(Damage::Limit(format!("nodes hang more than {limit} deep")));
+            return Err(Damage::Limit(format!("nodes are nested more than {limit} deep")));
         }
         let next = level.iter().flat_map(|id| children[id.index()].iter().copied()).collect();
         order.append(&mut level);

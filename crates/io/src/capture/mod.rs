@@ -184,7 +184,7 @@ fn sealed(version: u32, program: &str, parts: &[u8]) -> Vec<u8> {
 fn opened<'a>(name: &Path, bytes: &'a [u8]) -> Result<(String, &'a [u8]), LoadError> {
     let no_capture = || {
         let remedy = "name a file that --capture wrote";
-        LoadError::new(LoadErrorKind::Unsupported, name, "it is no capture", remedy)
+        LoadError::new(LoadErrorKind::Unsupported, name, "it is not a capture", remedy)
     };
     let rest = bytes.strip_prefix(&MAGIC).ok_or_else(no_capture)?;
     let (version, rest) = rest.split_first_chunk().ok_or_else(no_capture)?;

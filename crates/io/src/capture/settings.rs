@@ -135,7 +135,7 @@ impl Stored for Camera {
     fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
         let (position, orientation): (DVec3, DQuat) = (Stored::read(from)?, Stored::read(from)?);
         if !position.is_finite() || !orientation.is_normalized() {
-            return Err(Damage::malformed("the camera is nowhere, or turned by no rotation"));
+            return Err(Damage::malformed("the camera has no valid position or rotation"));
         }
         Ok(Self { position, orientation, projection: Stored::read(from)? })
     }

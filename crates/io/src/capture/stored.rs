@@ -145,7 +145,7 @@ impl Stored for bool {
         match u8::read(from)? {
             0 => Ok(false),
             1 => Ok(true),
-            other => Err(Damage::malformed(format!("{other} is neither yes nor no"))),
+            other => Err(Damage::malformed(format!("{other} is not a boolean"))),
         }
     }
 }
@@ -191,6 +191,6 @@ impl Stored for String {
 
     fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
         let length = from.count(1)?;
-        Self::from_utf8(from.run(length)?).map_err(|_| Damage::malformed("a name is no text"))
+        Self::from_utf8(from.run(length)?).map_err(|_| Damage::malformed("a name is not text"))
     }
 }

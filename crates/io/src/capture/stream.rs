@@ -62,7 +62,7 @@ impl<'a> Reader<'a> {
             Damage::Limit(format!("{count} items of {each} bytes are more than the {allowed} bytes allowed"))
         })?;
         self.left -= wanted;
-        usize::try_from(count).map_err(|_| Damage::malformed("a list is longer than memory"))
+        usize::try_from(count).map_err(|_| Damage::malformed("a list is too large for memory"))
     }
 
     /// This many bytes in a row, already counted. Memory is allocated as they arrive.

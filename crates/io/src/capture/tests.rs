@@ -80,7 +80,7 @@ fn what_is_no_whole_capture_is_told_from_a_damaged_one() {
         let message = message(&file[..length]);
         // Magic, version, and the program's version with its length.
         let expected =
-            if length < 8 + 4 + 1 + 5 { "it is no capture" } else { "not those that were written" };
+            if length < 8 + 4 + 1 + 5 { "it is not a capture" } else { "not those that were written" };
         assert!(message.contains(expected), "{length} bytes: {message}");
     }
     for at in 18..file.len() {
@@ -107,7 +107,7 @@ fn parts_that_contradict_each_other_are_named() {
     assert!(message(&other.to_bytes()).contains("another size"), "a picture that is too long");
     other = capture();
     other.camera.position.x = f64::NAN;
-    assert!(message(&other.to_bytes()).contains("nowhere"), "a camera that is nowhere");
+    assert!(message(&other.to_bytes()).contains("no valid position"), "a camera that is nowhere");
 }
 
 /// A megabyte of zeros is a kilobyte of file.

@@ -44,10 +44,13 @@ pub(super) fn add(gathered: &mut Gathered<'_>, holds: &Holds) {
     add(!holds.objects && gathered.objects.len() > 1, "which faces belong to which object: all become one");
     add(
         any(|object| object.node.parent().is_some()),
-        "the tree of nodes: objects are written in their places",
+        "the node tree: objects are written with their transforms applied",
     );
     add(!scene.animations.is_empty(), "animations");
-    add(any(|object| object.mesh.attributes().skin.is_some()), "skins: meshes are written as they rest");
+    add(
+        any(|object| object.mesh.attributes().skin.is_some()),
+        "skins: meshes are written in their rest pose",
+    );
     add(any(|object| !object.mesh.attributes().morph_targets.is_empty()), "morph targets");
     add(!holds.normals && any(|object| object.mesh.attributes().corner_normals.is_some()), "normals");
     add(!holds.uvs && any(|object| !object.mesh.attributes().uv_sets.is_empty()), "texture coordinates");

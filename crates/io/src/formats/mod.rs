@@ -183,7 +183,7 @@ pub(crate) fn detect_format(path: &Path, bytes: &[u8]) -> Result<Format, String>
         return Err(format!(".{extension} files are not supported yet"));
     }
     let found = ROWS.iter().find(|row| (row.sniff)(bytes)).map(|row| row.reader.format);
-    found.ok_or_else(|| "it is of no known model format".to_owned())
+    found.ok_or_else(|| "its format is not recognized".to_owned())
 }
 
 /// For messages: `.obj, .glb, …`.

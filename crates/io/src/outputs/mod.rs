@@ -49,7 +49,7 @@ pub enum Output {
 
 /// A word that names no output.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{0:?} is no output; there are {names}", names = Output::names())]
+#[error("{0:?} is not an output; write one of {names}", names = Output::names())]
 pub struct UnknownOutput(pub String);
 
 impl Output {

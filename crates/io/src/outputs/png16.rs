@@ -62,7 +62,7 @@ impl Numbers {
             }
             _ => Err(WriteError::Unfit {
                 output: output.name(),
-                what: "it has no place in 16 bits".to_owned(),
+                what: "it does not fit into 16 bits".to_owned(),
             }),
         }
     }

@@ -198,7 +198,7 @@ fn what_does_not_fit_sixteen_bits_is_refused() {
 fn what_the_frame_does_not_hold_is_named() {
     let bare = Frame { width: 1, height: 1, color: vec![0; 4], ..Frame::default() };
     let error = encode_npy(Vec::new(), &bare, Output::Depth).expect_err("not asked for");
-    assert_eq!(error.to_string(), "the frame holds no depth; ask for it in RenderSettings::outputs", "named");
+    assert_eq!(error.to_string(), "the frame has no depth; request it in RenderSettings::outputs", "named");
     let empty = Frame { width: 1, height: 1, ..Frame::default() };
     assert!(matches!(encode_exr(Vec::new(), &empty), Err(WriteError::Absent { .. })), "nothing at all");
     let torn = Frame { depth: Some(vec![1.0; 3]), ..bare };

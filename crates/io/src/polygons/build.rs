@@ -96,7 +96,7 @@ fn push_vertices(
     import.warnings.push_counted(
         count,
         Place::Item("vertex", first),
-        "a vertex has a place that is not finite and is left out",
+        "a vertex has a position that is not finite and is left out",
         "export the model again",
     );
     local

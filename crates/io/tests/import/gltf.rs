@@ -254,7 +254,7 @@ fn indices_are_checked() {
         let accessor = doc.accessor(component, "SCALAR", 3, &bytes);
         doc.primitive()["indices"] = json!(accessor);
         assert!(
-            doc.refused().contains("leads nowhere; the primitive has 4 vertices"),
+            doc.refused().contains("does not exist; the primitive has 4 vertices"),
             "component {component}"
         );
     }

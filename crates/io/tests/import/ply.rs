@@ -140,7 +140,7 @@ fn a_file_without_faces_is_points() {
     let text = SQUARE.split("element face").next().expect("a header").to_owned()
         + "end_header\n0 0 0\n1 0 0\n1 1 0\nnan 1 0\n";
     let loaded = loaded("cloud.ply", text.as_bytes());
-    warns_once(&loaded, "vertex 3: a vertex has a place that is not finite");
+    warns_once(&loaded, "vertex 3: a vertex has a position that is not finite");
     assert_eq!(meshes(&loaded)[0].loose_points(), [0, 1, 2], "those that have a place");
 }
 
@@ -180,11 +180,11 @@ fn messages_name_the_place() {
         (SQUARE.replace("vertex 4", "vertex 4000000000"), "the limit"),
         (SQUARE.replace("vertex 4", "vertex 9"), "the header claims 9 vertices, and the file ends after"),
         (SQUARE.replace("float y", "float q"), "no properties x, y and z"),
-        (SQUARE.replace("float y", "half y"), "a.ply, line 7: \"half\" is no type"),
+        (SQUARE.replace("float y", "half y"), "a.ply, line 7: \"half\" is not a PLY number type"),
         (SQUARE.replace("format ascii", "format utf8"), "a.ply, line 2: the format \"utf8\""),
         (SQUARE.replace("end_header", "end"), "the header has no end_header"),
         ("ply\nformat ascii 1.0\nend_header\n".to_owned(), "nothing to draw"),
-        ("plyx".to_owned(), "is no PLY file"),
+        ("plyx".to_owned(), "not a PLY file"),
     ];
     for (text, words) in cases {
         let message = refused("a.ply", text.as_bytes());

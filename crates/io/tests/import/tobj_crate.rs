@@ -68,7 +68,7 @@ fn tobj_names_no_line() {
     assert_eq!(error.to_string(), "face vertex index out of bounds", "theirs");
     let ours = refused("a.obj", text.as_bytes());
     assert!(
-        ours.starts_with("a.obj, line 5: face index \"9\" leads nowhere; the file has 4 vertices"),
+        ours.starts_with("a.obj, line 5: face index \"9\" does not exist; the file has 4 vertices"),
         "{ours}"
     );
 }
@@ -120,7 +120,7 @@ fn tobj_takes_wrong_coordinate_indices_for_none() {
     assert!(refused("a.obj", text("0").as_bytes()).starts_with("a.obj, line 7: "), "ours");
     warns_once(
         &ours(text("-3").as_bytes()),
-        "a.obj, line 7: a texture coordinate or normal index leads nowhere",
+        "a.obj, line 7: a texture coordinate or normal index does not exist",
     );
 }
 
@@ -134,7 +134,7 @@ fn tobj_overflows_on_an_index_far_before_the_first() {
     } else {
         assert_eq!(read.ok(), Some(Some(LoadError::FaceTexCoordOutOfBounds)), "theirs");
     }
-    warns_once(&ours(text.as_bytes()), "a.obj, line 6: a texture coordinate or normal index leads nowhere");
+    warns_once(&ours(text.as_bytes()), "a.obj, line 6: a texture coordinate or normal index does not exist");
 }
 
 #[test]

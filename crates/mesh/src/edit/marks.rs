@@ -51,7 +51,7 @@ pub struct EdgeMark {
 #[non_exhaustive]
 pub enum MarksError {
     /// There is not one first position for each vertex.
-    #[error("there are {found} first positions for {expected} vertices")]
+    #[error("there are {found} original positions for {expected} vertices")]
     FirstPositions {
         /// How many vertices the mesh has.
         expected: usize,

@@ -37,7 +37,7 @@ pub enum Refusal {
         reason: &'static str,
     },
     /// A parameter is out of its range, or not finite.
-    #[error("{parameter} is {value}, but has to be {range}")]
+    #[error("{parameter} is {value}, but must be {range}")]
     OutOfRange {
         /// Which.
         parameter: &'static str,

@@ -45,7 +45,7 @@ fn one(material: &Material, place: &str, findings: &mut Vec<Finding>) {
         let what = "its colour is black, and its texture is multiplied by that";
         found(Severity::Error, "black", what, "set its colour to white");
     } else if !color.truncate().is_finite() || !color.w.is_finite() {
-        found(Severity::Error, "not-a-number", "its colour is no number", "set its colour anew");
+        found(Severity::Error, "not-a-number", "its colour is not a number", "set its colour again");
     }
 }
 
@@ -63,9 +63,9 @@ fn all_metal(scene: &Scene, seen: &BTreeSet<MaterialId>, findings: &mut Vec<Find
             severity: Severity::Warning,
             fault: "metal-without-environment",
             place: "scene".to_owned(),
-            what: "everything is polished metal, which is black in programs without surroundings to mirror"
+            what: "everything is polished metal, which is black in programs without an environment to mirror"
                 .to_owned(),
-            remedy: "show it with a picture of surroundings (--hdri-file), or set metallic to 0",
+            remedy: "show it with an environment image (--hdri-file), or set metallic to 0",
         });
     }
 }

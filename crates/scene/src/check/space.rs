@@ -49,7 +49,7 @@ fn not_finite(scene: &Scene, findings: &mut Vec<Finding>) {
                 severity: Severity::Error,
                 fault: "not-a-number",
                 place: place("mesh", &asset.name, id.index()),
-                what: format!("the coordinates of {} are no finite numbers", counted(broken, "vertex")),
+                what: format!("the coordinates of {} are not finite numbers", counted(broken, "vertex")),
                 remedy: "their faces are not drawn: repair the file where it was made",
             });
         }
@@ -61,8 +61,8 @@ fn not_finite(scene: &Scene, findings: &mut Vec<Finding>) {
                 severity: Severity::Error,
                 fault: "not-a-number",
                 place: place("node", &node.name, id.index()),
-                what: "its placement is no finite number".to_owned(),
-                remedy: "what hangs on it is not drawn: repair the file where it was made",
+                what: "its transform is not finite".to_owned(),
+                remedy: "its children are not drawn: repair the file where it was made",
             });
         }
     }
@@ -82,7 +82,7 @@ fn flattened(scene: &Scene, findings: &mut Vec<Finding>) {
                 severity: Severity::Error,
                 fault: "flattened",
                 place: place("node", &node.name, id.index()),
-                what: format!("it is scaled to 0 along {flat} axes, so nothing of it is seen"),
+                what: format!("it is scaled to 0 along {flat} axes, so it is invisible"),
                 remedy: "give it a scale other than 0, or hide it",
             });
         }

@@ -174,7 +174,7 @@ fn winding(surface: &Surface, place: &str, findings: &mut Vec<Finding>) {
     }
     if surface.crowded > 0 {
         let what = format!("three faces or more share {}", counted(surface.crowded, "edge"));
-        let remedy = "it is no surface there: remove faces inside it, if it is to be printed or cut";
+        let remedy = "it is not a surface there: remove faces inside it before printing or cutting it";
         found(Severity::Warning, "non-manifold", what, remedy);
     }
 }
@@ -209,12 +209,15 @@ fn normals(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {
         findings.push(Finding { severity: Severity::Error, fault, place: place.to_owned(), what, remedy });
     };
     if useless * 2 > normals.len() {
-        let what = format!("zero or no numbers: {} of {}", counted(useless, "normal"), normals.len());
-        found("broken-normals", what, "export it without normals, or calculate them anew");
+        let what = format!("zero or not a number: {} of {}", counted(useless, "normal"), normals.len());
+        found("broken-normals", what, "export it without normals, or recalculate them");
     }
     if against * 2 > normals.len() {
-        let what =
-            format!("turned to the back of their faces: {} of {}", counted(against, "normal"), normals.len());
+        let what = format!(
+            "pointing to the back of their faces: {} of {}",
+            counted(against, "normal"),
+            normals.len()
+        );
         found("inverted-normals", what, "it is lit from the wrong side: flip the normals or the faces");
     }
 }

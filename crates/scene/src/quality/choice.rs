@@ -58,14 +58,16 @@ impl fmt::Display for Foreseen {
 impl fmt::Display for Choice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (time, limit) = (milliseconds(self.chosen.time), milliseconds(self.limit));
-        write!(f, "{}: about {time:.1} ms of {limit:.1} ms", self.chosen.quality)?;
-        write_error(f, self.chosen.error)?;
-        if !self.fits {
-            f.write_str("; that is too long, but nothing is quicker")?;
+        if self.fits {
+            write!(f, "{}: about {time:.1} ms of {limit:.1} ms", self.chosen.quality)?;
+        } else {
+            write!(f, "the fastest setting takes about {time:.1} ms, more than {limit:.1} ms: ")?;
+            write!(f, "{}", self.chosen.quality)?;
         }
+        write_error(f, self.chosen.error)?;
         match &self.given_up {
-            Some(better) => write!(f, "; gives up {better}")?,
-            None => f.write_str("; gives up nothing")?,
+            Some(better) => write!(f, "; gave up {better}")?,
+            None => f.write_str("; gave up nothing")?,
         }
         if self.chosen.error.is_some() {
             write!(f, "; errors are RMSE in linear light against {}", self.reference)?;

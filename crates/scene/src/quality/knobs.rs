@@ -100,9 +100,9 @@ impl fmt::Display for Quality {
             (axis, samples) => write!(f, "{axis}×{axis} samples of {samples}")?,
         }
         f.write_str(match self.shading {
-            ShadingModel::Flat => ", light once for each triangle",
-            ShadingModel::Gouraud => ", light at the vertices",
-            ShadingModel::Phong => ", light at each pixel",
+            ShadingModel::Flat => ", lighting per triangle",
+            ShadingModel::Gouraud => ", lighting per vertex",
+            ShadingModel::Phong => ", lighting per pixel",
         })?;
         match self.shadows {
             Shadows::Off => {}
@@ -170,9 +170,9 @@ mod tests {
     #[test]
     fn it_can_be_read() {
         let mut quality = Preset::Draft.quality().within(&RenderSettings::new(1, 1));
-        assert_eq!(quality.to_string(), "1 sample, light at each pixel", "one");
+        assert_eq!(quality.to_string(), "1 sample, lighting per pixel", "one");
         (quality.samples, quality.shading, quality.occlusion_rays) = (4, ShadingModel::Flat, 1);
-        assert_eq!(quality.to_string(), "4 samples, light once for each triangle, 1 occlusion ray", "four");
+        assert_eq!(quality.to_string(), "4 samples, lighting per triangle, 1 occlusion ray", "four");
         (quality.samples_per_axis, quality.shadows) = (2, Shadows::Maps { resolution: 512 });
         assert!(quality.to_string().starts_with("2×2 samples of 4,"), "{quality}");
         assert!(quality.to_string().contains("shadow maps of 512 texels"), "{quality}");

@@ -57,7 +57,7 @@ fn what_never_fits_is_drawn_as_quickly_as_possible() {
     let mut budget = TimeBudget::new(LIMIT);
     let (choice, _) = (0..10).map(|_| pretend(&mut budget, 100.0)).last().expect("some");
     assert_eq!(choice.chosen.quality.covered_samples(), 1, "{choice}");
-    assert!(!choice.fits && choice.to_string().contains("nothing is quicker"), "{choice}");
+    assert!(!choice.fits && choice.to_string().contains("the fastest setting takes"), "{choice}");
 }
 
 #[test]
@@ -83,9 +83,9 @@ fn a_choice_says_what_it_gives_up() {
     };
     assert_eq!(
         choice.to_string(),
-        "2×2 samples, light at each pixel: about 8.0 ms of 16.0 ms, error about 0.0034; gives up 4×4 samples, \
-         light at each pixel (about 32.0 ms, error about 0.0012); errors are RMSE in linear light \
-         against 4×4 samples of 16, light at each pixel",
+        "2×2 samples, lighting per pixel: about 8.0 ms of 16.0 ms, error about 0.0034; gave up 4×4 samples, \
+         lighting per pixel (about 32.0 ms, error about 0.0012); errors are RMSE in linear light \
+         against 4×4 samples of 16, lighting per pixel",
         "in one line"
     );
 }

@@ -49,7 +49,7 @@ pub enum RenderError {
     #[error(transparent)]
     Simd(#[from] SimdLevelError),
     /// [`Renderer::render_cancellable`] was cancelled.
-    #[error("the picture was cancelled before it was done")]
+    #[error("the frame was cancelled")]
     Cancelled,
 }
 

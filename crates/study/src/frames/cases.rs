@@ -1,6 +1,8 @@
 //! The scenes, and a flight past each.
 
+use trigon_io::LoadOptions;
 use trigon_math::{DQuat, DVec3, Vec3};
+use trigon_mesh::Mesh;
 use trigon_mesh::primitives::{self, TorusKnot};
 use trigon_scene::camera::Camera;
 use trigon_scene::{
@@ -16,11 +18,18 @@ pub enum Case {
     Shadows,
     /// 36 balls of 5,120 triangles: most are smaller than a pixel.
     Dense,
+    /// The teapot of Martin Newell, 1975, with shadows.
+    Teapot,
+    /// A chair that was modelled with trigon's editor (`docs/models/chair.json`), with shadows.
+    Chair,
+    /// A mug that was modelled likewise, with shadows.
+    Mug,
 }
 
 impl Case {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Showcase, Self::Shadows, Self::Dense];
+    pub const ALL: [Self; 6] =
+        [Self::Showcase, Self::Shadows, Self::Dense, Self::Teapot, Self::Chair, Self::Mug];
 
     /// The name in tables and plots.
     pub fn name(self) -> &'static str {
@@ -28,7 +37,15 @@ impl Case {
             Self::Showcase => "the built-in scene",
             Self::Shadows => "knots and their shadows",
             Self::Dense => "184,320 triangles",
+            Self::Teapot => "a teapot",
+            Self::Chair => "a chair",
+            Self::Mug => "a mug",
         }
+    }
+
+    /// Whether it has shadows.
+    pub fn has_shadows(self) -> bool {
+        !matches!(self, Self::Showcase | Self::Dense)
     }
 
     /// What is drawn.
@@ -37,26 +54,56 @@ impl Case {
             Self::Showcase => showcase(),
             Self::Shadows => knots(),
             Self::Dense => balls(),
+            Self::Teapot => standing(&primitives::teapot(12), Vec3::new(0.75, 0.72, 0.68)),
+            Self::Chair => standing(&read(include_str!("../../models/chair.obj")), Vec3::new(0.5, 0.3, 0.16)),
+            Self::Mug => standing(&read(include_str!("../../models/mug.obj")), Vec3::new(0.25, 0.45, 0.65)),
         }
     }
 
     /// A picture of it, at no particular quality.
     pub fn settings(self, [width, height]: [u32; 2]) -> RenderSettings {
         let mut settings = RenderSettings::new(width, height);
-        if self == Self::Shadows {
+        if self.has_shadows() {
             settings.effects.shadows = Shadows::Maps { resolution: 1024 };
         }
         settings
     }
 
-    /// Where a flight is in a part of it, from 0 to 1: a fifth of a circle about the
-    /// scene, and a quarter of the way nearer.
+    /// Where a flight is in a part of it, from 0 to 1: three eighths of a circle about the scene, rising, a third nearer in
+    /// the middle than at either end. No constant of the models of costs and errors was chosen by a flight like this.
     pub fn camera(self, scene: &Scene, aspect: f64, part: f64) -> Camera {
         let start = scene.cameras().first().map_or_else(|| scene.overview(aspect), |(_, camera)| *camera);
-        let turn = DQuat::from_axis_angle(DVec3::Y, std::f64::consts::TAU / 5.0 * part);
-        let position = turn * start.position * (1.0 - 0.25 * part);
+        let turn = DQuat::from_axis_angle(DVec3::Y, -std::f64::consts::TAU * 0.375 * part)
+            * DQuat::from_axis_angle(start.orientation * DVec3::X, -0.3 * part);
+        let nearer = 1.0 - 4.0 / 3.0 * part * (1.0 - part);
+        let position = turn * start.position * nearer;
         Camera { position, orientation: (turn * start.orientation).normalize(), ..start }
     }
+}
+
+/// A model on a chequered floor four times as wide, in the sun; one unit high.
+fn standing(mesh: &Mesh, color: Vec3) -> Scene {
+    let bounds = mesh.bounds();
+    let scale = 1.0 / (bounds.max.y - bounds.min.y);
+    let foot = DVec3::Y * bounds.min.y;
+    let mut scene = Scene::new();
+    let pattern = scene.add_texture("pattern", chequered());
+    scene.add_object("floor", primitives::plane(4.0, 4.0), Material::from_texture(pattern));
+    let (mesh, material) =
+        (scene.add_mesh("model", mesh.clone()), scene.add_material(Material::from_color(color)));
+    let place =
+        Transform::from_scale_rotation_translation(DVec3::splat(scale), DQuat::IDENTITY, -foot * scale);
+    scene.add(Node::from_mesh(mesh, material).with_transform(place));
+    add_sun(&mut scene);
+    scene
+}
+
+/// The mesh of a file of this crate.
+fn read(text: &str) -> Mesh {
+    let loaded = trigon_io::load_from_slice("model.obj", text.as_bytes(), &LoadOptions::default());
+    let scene = loaded.expect("the model is part of this crate").scene;
+    let mut meshes = scene.meshes().iter().map(|(_, asset)| asset.mesh().clone());
+    meshes.next().expect("it has a mesh")
 }
 
 /// Nine knots in rows on a floor with a fine pattern, in the sun.
@@ -73,11 +120,16 @@ fn knots() -> Scene {
         let material = scene.add_material(Material::from_color(color));
         scene.add(Node::from_mesh(mesh, material).at(DVec3::new(2.2 * column, 0.8, 2.2 * row)));
     }
+    add_sun(&mut scene);
+    scene
+}
+
+/// The sun, and some light from everywhere.
+fn add_sun(scene: &mut Scene) {
     let down = DQuat::from_axis_angle(DVec3::Y, 0.6) * DQuat::from_axis_angle(DVec3::X, -0.9);
     let sun = Transform::from_scale_rotation_translation(DVec3::ONE, down, DVec3::ZERO);
     scene.add(Node::from_light(Light::directional(0.8)).with_transform(sun));
     scene.add(Node::from_light(Light::ambient(0.25)));
-    scene
 }
 
 /// Fields of 16 texels.

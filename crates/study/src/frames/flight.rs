@@ -11,14 +11,16 @@ use trigon_scene::{Frame, RenderError, Renderer};
 pub struct Step {
     /// What was chosen and foreseen before it was drawn.
     pub choice: Choice,
-    /// What all of it took: choosing, drawing, learning from it, looking again.
+    /// What choosing, drawing and learning from it took, which is what had been foreseen.
+    pub drawing: Duration,
+    /// What all of it took, looking again at a part of the picture as well.
     pub time: Duration,
-    /// How far it is from the reference, where that was measured.
-    pub error: Option<f64>,
+    /// How far it is from the reference.
+    pub error: f64,
 }
 
-/// Draws the frames of a case's flight, each within a time; measures the errors of some of
-/// them, spread evenly, while the clock's time is not counted.
+/// Draws the frames of a case's flight, each within a time, and measures their errors, while the clock's time is not
+/// counted.
 ///
 /// # Errors
 /// A size that cannot be drawn.
@@ -26,7 +28,7 @@ pub fn fly(
     case: Case,
     size: [u32; 2],
     limit: Duration,
-    [frames, measured]: [usize; 2],
+    frames: usize,
     clock: &mut dyn FnMut() -> Duration,
 ) -> Result<Vec<Step>, RenderError> {
     let (scene, settings) = (case.scene(), case.settings(size));
@@ -39,41 +41,43 @@ pub fn fly(
     for frame in 0..frames {
         let (camera, start) = (camera(frame), clock());
         let choice = budget.render_into(&mut renderer, (&scene, &camera), clock, &mut picture)?;
-        let spare = limit.saturating_sub(clock().saturating_sub(start));
+        let drawing = clock().saturating_sub(start);
+        let spare = limit.saturating_sub(drawing);
         budget.look_again(&mut renderer, (&scene, &camera), spare, clock)?;
         let time = clock().saturating_sub(start);
-        // As often as `measured * frame / frames` comes to a whole number.
-        let is_measured = measured * frame % frames.max(1) < measured;
-        let error = if is_measured { Some(rmse(&picture, &best.render(&scene, &camera)?)) } else { None };
-        steps.push(Step { choice, time, error });
+        let error = rmse(&picture, &best.render(&scene, &camera)?);
+        steps.push(Step { choice, drawing, time, error });
     }
     Ok(steps)
 }
 
-/// How a flight went.
+/// How a flight went: shares of all its frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kept {
-    /// The part of the frames that took no longer than they should.
+    /// Took no longer than they should.
     pub in_time: f64,
-    /// Frames whose error was measured.
-    pub measured: usize,
-    /// Of those, the ones whose error had been foreseen within a fifth.
-    pub foreseen: usize,
-    /// Of those, the greatest miss, as a part of the error.
+    /// Took as long to draw as had been foreseen, within a fifth.
+    pub times: f64,
+    /// Had the error that had been foreseen, within a fifth. A frame whose error was not foreseen is none of these.
+    pub errors: f64,
+    /// The greatest miss of an error that was foreseen, as a part of the error.
     pub worst: f64,
 }
 
 impl Kept {
     /// Of the frames of a flight.
     pub fn of(steps: &[Step]) -> Self {
-        let in_time = steps.iter().filter(|step| step.time <= step.choice.limit).count();
-        let miss = |step: &Step| Some(miss(step.choice.chosen.error?, step.error?));
-        let misses: Vec<f64> = steps.iter().filter_map(miss).collect();
+        const NEAR: f64 = 0.2;
+        let error = |step: &Step| Some(miss(step.choice.chosen.error?, step.error));
+        let time = |step: &Step| miss(step.choice.chosen.time.as_secs_f64(), step.drawing.as_secs_f64());
+        let share = |counts: &dyn Fn(&Step) -> bool| {
+            steps.iter().filter(|step| counts(step)).count() as f64 / steps.len().max(1) as f64
+        };
         Self {
-            in_time: in_time as f64 / steps.len().max(1) as f64,
-            measured: misses.len(),
-            foreseen: misses.iter().filter(|&&miss| miss <= 0.2).count(),
-            worst: misses.iter().copied().fold(0.0, f64::max),
+            in_time: share(&|step| step.time <= step.choice.limit),
+            times: share(&|step| time(step) <= NEAR),
+            errors: share(&|step| error(step).is_some_and(|miss| miss <= NEAR)),
+            worst: steps.iter().filter_map(error).fold(0.0, f64::max),
         }
     }
 }

@@ -1,5 +1,5 @@
-//! What does a whole picture's accuracy cost? Scenes of three kinds at all qualities that
-//! a time budget chooses from, against the reference; and such a budget on a flight.
+//! What does a whole picture's accuracy cost? Six scenes at all combinations of samples and shading, against a
+//! [`Truth`]; and a time budget on flights past them.
 
 mod cases;
 mod certified;
@@ -14,17 +14,45 @@ pub use certified::{Certified, Prover};
 pub use flight::{Kept, Step, fly};
 pub use truth::Truth;
 
-use trigon_scene::quality::{Preset, Quality, candidates};
-use trigon_scene::{Frame, RenderError, Renderer, Scene, ShadingModel, SimdLevel};
+use trigon_scene::quality::{Preset, Quality};
+use trigon_scene::{Frame, RenderError, Renderer, Scene, ShadingModel, Shadows, SimdLevel};
 
-/// What is compared: the budget's candidates, and the draft with light at fewer places.
+/// What is compared in every case: all numbers of samples with light once for each triangle, at the vertices and in each
+/// pixel. The presets are among them.
 pub fn variants() -> Vec<Quality> {
-    let draft = Preset::Draft.quality();
-    let coarse = [ShadingModel::Flat, ShadingModel::Gouraud].map(|shading| Quality { shading, ..draft });
-    coarse.into_iter().chain(candidates()).collect()
+    let models = [ShadingModel::Flat, ShadingModel::Gouraud, ShadingModel::Phong];
+    let shaded = |shading| sampled().into_iter().map(move |quality| Quality { shading, ..quality });
+    models.into_iter().flat_map(shaded).collect()
 }
 
-/// The name of a variant in tables and plots: its samples, and the preset if it is one.
+/// What is compared as well where there are shadows: those that [`variants`] find by maps by rays, and the other way round.
+pub fn other_shadows() -> Vec<Quality> {
+    let by_maps = Preset::Draft.quality().shadows;
+    let other = |quality: Quality| {
+        let shadows = if quality.shadows == Shadows::Rays { by_maps } else { Shadows::Rays };
+        Quality { shadows, ..quality }
+    };
+    sampled().into_iter().map(other).collect()
+}
+
+/// All numbers of samples, with what the presets choose beside them.
+fn sampled() -> Vec<Quality> {
+    let of_axis = |axis: u32| {
+        let samples = [1, 2, 4, 8, 16].into_iter();
+        samples.map(move |samples| {
+            let like = match (axis, samples) {
+                (1, _) => Preset::Draft,
+                (2, _) => Preset::Standard,
+                (4, 16) => Preset::Reference,
+                _ => Preset::High,
+            };
+            Quality { samples_per_axis: axis, samples, ..like.quality() }
+        })
+    };
+    (1..=4).flat_map(of_axis).collect()
+}
+
+/// The name of a variant in tables and plots: its samples, what is unusual about it, and the preset if it is one.
 pub fn name(quality: Quality) -> String {
     let Quality { samples_per_axis: axis, samples, .. } = quality;
     let places = match quality.shading {
@@ -32,9 +60,14 @@ pub fn name(quality: Quality) -> String {
         ShadingModel::Gouraud => ", Gouraud",
         ShadingModel::Phong => "",
     };
+    let shadows = match quality.shadows {
+        Shadows::Rays if axis < 3 => ", shadow rays",
+        Shadows::Maps { .. } if axis > 2 => ", shadow maps",
+        _ => "",
+    };
     let preset = Preset::ALL.into_iter().find(|preset| preset.quality() == quality);
     let preset = preset.map_or_else(String::new, |preset| format!(" ({preset})"));
-    format!("{axis}×{axis}×{samples}{places}{preset}")
+    format!("{axis}×{axis}×{samples}{places}{shadows}{preset}")
 }
 
 /// A case at a quality, drawn as often as asked for.

@@ -20,11 +20,53 @@ fn each_preset_is_nearer_than_the_one_before() {
 }
 
 #[test]
+fn sixty_qualities_and_more_are_compared() {
+    let (all, others) = (variants(), other_shadows());
+    assert_eq!(
+        (all.len(), others.len()),
+        (60, 20),
+        "4 grids, 5 numbers of samples, 3 shadings; and other shadows"
+    );
+    let mut names: Vec<String> = all.iter().chain(&others).map(|&quality| name(quality)).collect();
+    assert_eq!(names.iter().filter(|name| name.ends_with(')')).count(), 4, "the presets: {names:?}");
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), 80, "each has a name of its own");
+}
+
+/// No quality that does less of everything is nearer to the truth. Times are not asked: `published` holds the presets to
+/// those that were measured.
+#[test]
+fn nothing_that_does_less_is_better_than_a_preset() {
+    /// On so small pictures chance decides about so much.
+    const CHANCE: f64 = 0.85;
+    for case in Case::ALL {
+        let qualities = variants();
+        let errors = errors(case, SIZE, &qualities).unwrap();
+        let of = |preset: Preset| {
+            let place = qualities.iter().position(|quality| *quality == preset.quality());
+            errors[place.expect("presets are among them")]
+        };
+        for preset in Preset::ALL {
+            let less =
+                qualities.iter().zip(&errors).filter(|(quality, _)| preset.quality().is_finer_than(quality));
+            for (quality, error) in less {
+                let own = of(preset);
+                assert!(
+                    *error >= CHANCE * own,
+                    "{}: {error} with {quality}, {own} with {preset}",
+                    case.name()
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn light_once_for_each_triangle_is_worse_than_at_its_corners() {
-    let qualities = &variants()[..3];
-    let names: Vec<String> = qualities.iter().map(|&quality| name(quality)).collect();
-    assert_eq!(names, ["1×1×1, flat", "1×1×1, Gouraud", "1×1×1 (draft)"], "in this order");
-    let errors = errors(Case::Showcase, SIZE, &qualities[..2]).unwrap();
+    let draft = Preset::Draft.quality();
+    let qualities = [ShadingModel::Flat, ShadingModel::Gouraud].map(|shading| Quality { shading, ..draft });
+    let errors = errors(Case::Showcase, SIZE, &qualities).unwrap();
     assert!(errors[0] > errors[1], "flat, Gouraud: {errors:?}");
 }
 
@@ -36,13 +78,29 @@ fn flights_are_measured() {
         now += Duration::from_millis(100);
         now
     };
-    let steps = fly(Case::Showcase, [30, 18], Duration::from_millis(16), [6, 3], &mut clock).unwrap();
-    let measured: Vec<bool> = steps.iter().map(|step| step.error.is_some()).collect();
-    assert_eq!(measured, [true, false, true, false, true, false], "three of six");
+    let steps = fly(Case::Showcase, [30, 18], Duration::from_millis(16), 6, &mut clock).unwrap();
+    assert_eq!(steps.len(), 6, "every frame");
     assert!(steps.iter().all(|step| step.choice.chosen.quality.covered_samples() == 1), "the quickest");
+    assert!(steps.iter().all(|step| step.drawing < step.time && step.error > 0.0), "{steps:?}");
     let kept = Kept::of(&steps);
-    assert_eq!((kept.in_time, kept.measured), (0.0, 3), "on a clock like that no frame is in time");
-    assert!(kept.foreseen <= 3 && kept.worst < 1.0, "{kept:?}");
+    assert_eq!(kept.in_time, 0.0, "on a clock like that no frame is in time");
+    assert!(kept.worst > 0.0, "nothing is foreseen exactly: {kept:?}");
+    let foreseen = |step: &Step| {
+        let choice = step.choice.chosen;
+        Step { drawing: choice.time, error: choice.error.unwrap(), ..*step }
+    };
+    let kept = Kept::of(&steps.iter().map(foreseen).collect::<Vec<_>>());
+    assert_eq!((kept.times, kept.errors, kept.worst), (1.0, 1.0, 0.0), "unless it comes as foreseen");
+}
+
+#[test]
+fn models_stand_on_their_floor() {
+    for case in [Case::Teapot, Case::Chair, Case::Mug] {
+        let bounds = case.scene().bounds();
+        // Vertices are f32.
+        let is_near = |place: f64, right: f64| (place - right).abs() < 1e-6;
+        assert!(is_near(bounds.min.y, 0.0) && is_near(bounds.max.y, 1.0), "{}: {bounds:?}", case.name());
+    }
 }
 
 #[test]

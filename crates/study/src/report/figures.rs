@@ -11,6 +11,8 @@ pub(super) struct Row {
     pub(super) variant: String,
     pub(super) conditions: Conditions,
     pub(super) values: Vec<Value>,
+    /// Whether tables and plots show it; the file has it in any case.
+    pub(super) is_listed: bool,
 }
 
 /// All that two rows may differ in. Only rows that differ in exactly one of these are compared.
@@ -74,7 +76,7 @@ impl Row {
             resolution: [0; 2],
             warmth: Warmth::Warm,
         };
-        Self { case, variant, conditions, values: Vec::new() }
+        Self { case, variant, conditions, values: Vec::new(), is_listed: true }
     }
 
     /// Of a picture of so many pixels.

@@ -26,7 +26,7 @@ pub(super) fn report(effort: Effort, answers: &[Answer]) -> String {
     );
     text.push_str("## In short\n\n");
     text.push_str(RULES);
-    for Answer { chapter, sentences } in answers {
+    for Answer { chapter, sentences } in answers.iter().filter(|answer| !answer.sentences.is_empty()) {
         let _ = writeln!(text, "- [{}](#{})", chapter.title, anchor(chapter.title));
         for sentence in sentences {
             let _ = writeln!(text, "  - {sentence}");
@@ -52,7 +52,7 @@ fn processor() -> String {
     format!("{model} ({threads} threads)")
 }
 
-fn write_chapter(Answer { chapter, sentences }: &Answer, text: &mut String) {
+pub(super) fn write_chapter(Answer { chapter, sentences }: &Answer, text: &mut String) {
     let _ = write!(text, "\n## {}\n\n{}\n\n", chapter.title, chapter.text);
     for sentence in sentences.iter().chain(&chapter.findings) {
         let _ = writeln!(text, "- {sentence}");
@@ -64,7 +64,7 @@ fn write_chapter(Answer { chapter, sentences }: &Answer, text: &mut String) {
         }
     }
     for case in cases {
-        let rows: Vec<&Row> = chapter.rows.iter().filter(|row| row.case == case).collect();
+        let rows: Vec<&Row> = chapter.rows.iter().filter(|row| row.case == case && row.is_listed).collect();
         write_table(case, &rows, text);
     }
     for plot in &chapter.plots {
@@ -76,7 +76,7 @@ fn write_chapter(Answer { chapter, sentences }: &Answer, text: &mut String) {
 }
 
 /// A table of one case: a line for each variant, a column for each quantity.
-fn write_table(case: &str, rows: &[&Row], text: &mut String) {
+pub(super) fn write_table(case: &str, rows: &[&Row], text: &mut String) {
     let mut quantities: Vec<&str> = Vec::new();
     for value in rows.iter().flat_map(|row| &row.values) {
         if !quantities.contains(&value.quantity) {

@@ -31,7 +31,7 @@ enum Kind {
 impl Plot {
     /// What each variant of a case costs, to the right, and how wrong it is, upwards.
     pub(super) fn trade(name: &'static str, rows: &[Row], case: &str, [time, error]: [&str; 2]) -> Self {
-        let of_case = rows.iter().filter(|row| row.case == case);
+        let of_case = rows.iter().filter(|row| row.case == case && row.is_listed);
         let point = |row: &Row| Some((row.variant.clone(), [row.value(time)?, row.value(error)?]));
         Self {
             name,

@@ -61,9 +61,51 @@ fn everything_that_the_report_names_is_written() {
 #[test]
 fn quick_chapters_answer() {
     const SLOW: [&str; 4] = ["fill", "visibility", "threads", "frames"];
-    for question in CHAPTERS.iter().filter(|question| !SLOW.contains(&question.name)) {
+    let has_headlines = |question: &&Question| !(question.headlines)().is_empty();
+    for question in CHAPTERS.iter().filter(has_headlines).filter(|question| !SLOW.contains(&question.name)) {
         let answer = Answer::measure(question, Effort::Once);
         assert!(!answer.sentences.is_empty(), "{} has a headline", question.name);
+    }
+}
+
+/// Replaces what lies between two marks in a file of the repository if `TRIGON_UPDATE_RIVALS=1`, and otherwise expects it
+/// to be there.
+fn hold(file: &str, marks: [&str; 2], expected: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file);
+    let text = fs::read_to_string(&path).unwrap();
+    let (before, rest) = text.split_once(marks[0]).unwrap_or_else(|| panic!("{file} has no {:?}", marks[0]));
+    let (shown, after) = rest.split_once(marks[1]).unwrap_or((rest, ""));
+    if std::env::var_os("TRIGON_UPDATE_RIVALS").is_some() {
+        let end = if after.is_empty() { "" } else { marks[1] };
+        fs::write(&path, [before, marks[0], expected, end, after].concat()).unwrap();
+    } else {
+        assert_eq!(shown, expected, "TRIGON_UPDATE_RIVALS=1 writes it into {file}");
+    }
+}
+
+/// The README and the published report show what the published files say of other renderers.
+#[test]
+fn the_readme_and_the_report_show_the_published_rivals() {
+    hold(
+        "README.md",
+        ["<!-- rivals -->\n", "<!-- end of rivals -->"],
+        &format!("{}\n", chapters::rivals::summary()),
+    );
+    let question = CHAPTERS.iter().find(|question| question.name == "rivals").unwrap();
+    let chapter = question.measure;
+    let answer = Answer { chapter: chapter(Effort::Quick), sentences: Vec::new() };
+    let mut text = String::new();
+    markdown::write_chapter(&answer, &mut text);
+    let title = format!("\n## {}\n", answer.chapter.title);
+    let (_, text) = text.split_once(&title).unwrap();
+    hold("docs/accuracy.md", [&title, "\n## "], text);
+    let images = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/images");
+    for plot in &answer.chapter.plots {
+        let path = images.join(plot.file(answer.chapter.name));
+        if std::env::var_os("TRIGON_UPDATE_RIVALS").is_some() {
+            plot.write(&path).unwrap();
+        }
+        assert!(path.exists(), "{} is shown", path.display());
     }
 }
 
@@ -156,6 +198,30 @@ mod published {
             }
         }
         assert_eq!(sentences.next(), None, "nothing else is told");
+    }
+
+    /// Over all scenes no quality is both faster and more accurate than a preset, by more than what is measurable.
+    #[test]
+    fn presets_lie_on_the_front() {
+        const CASE: &str = "all scenes, geometric means";
+        let records = records();
+        let points: Vec<(&str, [f64; 2])> = records
+            .iter()
+            .filter(|([question, case, _], _)| question == "frames" && case == CASE)
+            .map(|([.., variant], record)| {
+                (
+                    variant.as_str(),
+                    ["ms per frame", "RMSE in linear light"].map(|quantity| record.values[quantity]),
+                )
+            })
+            .collect();
+        let presets: Vec<_> = points.iter().filter(|(variant, _)| variant.ends_with(')')).collect();
+        assert_eq!(presets.len(), 4, "all presets were measured");
+        for (preset, own) in presets {
+            let beats = |other: &[f64; 2]| (0..2).all(|axis| other[axis] < 0.85 * own[axis]);
+            let better: Vec<_> = points.iter().filter(|(_, other)| beats(other)).collect();
+            assert!(better.is_empty(), "{preset} takes and misses {own:?}, but there is {better:?}");
+        }
     }
 
     /// Whether what is said of two numbers is so.

@@ -26,9 +26,8 @@ impl<'a> Canvas<'a> {
         scene: &Scene,
         pixels: &'a mut [[u8; 4]],
     ) -> Result<Self, TargetError> {
-        let target =
-            Target::new(scene.size.x, scene.size.y, &[])?.with_unorm8(pixels)?.with_samples(scene.samples)?;
-        Ok(Self { rasterizer, target })
+        let target = Target::new(scene.size.x, scene.size.y, &[])?.with_unorm8(pixels)?;
+        Self { rasterizer, target }.sampled(scene)
     }
 
     /// The same in memory of its own; see [`pixels`](Self::pixels).
@@ -36,9 +35,14 @@ impl<'a> Canvas<'a> {
     /// # Errors
     /// [`TargetError`] when there cannot be one.
     pub fn with_own_pixels(rasterizer: Rasterizer, scene: &Scene) -> Result<Canvas<'static>, TargetError> {
+        let target = Target::new(scene.size.x, scene.size.y, &[Output::Unorm8])?;
+        Canvas { rasterizer, target }.sampled(scene)
+    }
+
+    fn sampled(self, scene: &Scene) -> Result<Self, TargetError> {
         let target =
-            Target::new(scene.size.x, scene.size.y, &[Output::Unorm8])?.with_samples(scene.samples)?;
-        Ok(Canvas { rasterizer, target })
+            self.target.with_samples_per_axis(scene.samples_per_axis)?.with_samples(scene.samples)?;
+        Ok(Self { target, ..self })
     }
 
     /// The picture as it was drawn last.

@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use trigon_math::glam::dcamera::rh::{proj::directx, view};
 use trigon_math::{DVec3, Mat4, UVec2, Vec3};
 use trigon_raster::{Culling, Texture};
+use trigon_scene::quality::Quality;
 
 /// How surfaces get their colours.
 #[derive(Clone, Debug)]
@@ -29,7 +30,9 @@ pub struct Scene {
     pub shading: Shading,
     /// Which sides are dropped.
     pub culling: Culling,
-    /// Samples per pixel.
+    /// Shaded places along each side of a pixel.
+    pub samples_per_axis: u32,
+    /// Samples of coverage and depth in each of them.
     pub samples: u32,
     /// Width and height of the picture in pixels.
     pub size: UVec2,
@@ -48,12 +51,20 @@ impl Scene {
         self.size.x as usize * self.size.y as usize
     }
 
+    /// With as many samples as a quality has.
+    #[must_use]
+    pub fn at_quality(self, quality: Quality) -> Self {
+        let Quality { samples_per_axis, samples, .. } = quality;
+        Self { samples_per_axis, samples, ..self }
+    }
+
     /// Triangles in flat colours, in clip space already.
     pub(super) fn flat(mesh: Mesh) -> Self {
         Self {
             mesh,
             shading: Shading::Flat,
             culling: Culling::None,
+            samples_per_axis: 1,
             samples: 1,
             size: UVec2::new(1920, 1080),
             to_clip_space: Mat4::IDENTITY,

@@ -142,7 +142,7 @@ impl fmt::Display for Chord {
 /// A text is no chord.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{0:?} is no key; write Ctrl, Alt, Shift and one key with + between them, as Ctrl+Shift+Z, F3, Tab, Numpad1"
+    "{0:?} is not a key; write Ctrl, Alt, Shift and one key with + between them, as Ctrl+Shift+Z, F3, Tab, Numpad1"
 )]
 pub struct ChordError(String);
 

@@ -19,7 +19,7 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &Stage) {
     area.anchor(Align2::CENTER_BOTTOM, vec2(0.0, -GAP)).constrain_to(free).show(context, |ui| {
         Frame::new().fill(BACKDROP).inner_margin(6).corner_radius(4).show(ui, |ui| match difference {
             None => {
-                ui.label(RichText::new("drawing the reference to compare with").color(INK));
+                ui.label(RichText::new("drawing the reference for comparison").color(INK));
             }
             Some(difference) => {
                 ui.label(RichText::new(figures(&difference)).color(INK));

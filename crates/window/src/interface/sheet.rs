@@ -24,7 +24,7 @@ pub(super) fn show(context: &Context, stage: &mut Stage) -> Option<Binding> {
             let wanted = stage.command_search.to_lowercase();
             let rows: Vec<&SheetRow> = rows.iter().filter(|row| row.contains(&wanted)).collect();
             if rows.is_empty() {
-                ui.label("no key and no command of that name");
+                ui.label("no key or command has this name");
             }
             Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).striped(true).show(ui, |ui| {
                 for row in rows {

@@ -32,7 +32,7 @@ pub(super) fn bindings() -> Vec<Binding> {
     all.extend(objects());
     all.extend([
         bind('h', "cheat_sheet", Action::ToggleCheatSheet, "this list"),
-        bind(Key::Escape, "dismiss", Action::Dismiss, "hide this list, select nothing"),
+        bind(Key::Escape, "dismiss", Action::Dismiss, "hide this list, deselect"),
         bind(Chord::new(Modifiers::CTRL, Key::Character('q')), "quit", Action::Quit, "quit"),
     ]);
     all
@@ -57,8 +57,8 @@ fn views() -> Vec<Binding> {
     all.extend([
         bind('9', "view.isometric", Action::View(AxisView::Isometric), "isometric view"),
         bind('5', "orthographic", Action::ToggleOrthographic, "perspective / orthographic"),
-        bind('2', "elevation.down", Action::Elevate(-FRAC_PI_2), "turn by 90 degrees down, up"),
-        bind('8', "elevation.up", Action::Elevate(FRAC_PI_2), "turn by 90 degrees down, up"),
+        bind('2', "elevation.down", Action::Elevate(-FRAC_PI_2), "rotate by 90 degrees down, up"),
+        bind('8', "elevation.up", Action::Elevate(FRAC_PI_2), "rotate by 90 degrees down, up"),
         bind('4', "roll.clockwise", Action::Roll(-FRAC_PI_2), "roll by 90 degrees"),
         bind('6', "roll.counter_clockwise", Action::Roll(FRAC_PI_2), "roll by 90 degrees"),
         bind(Key::Enter, "reset_view", Action::ResetView, "reset the view"),
@@ -76,7 +76,7 @@ fn display() -> [Binding; 8] {
         bind('z', "frame_time", Action::ToggleFrameTime, "frame time"),
         bind(ctrl('='), "text.larger", Action::ScaleText(TEXT_STEP), "larger, smaller text"),
         bind(ctrl('-'), "text.smaller", Action::ScaleText(1.0 / TEXT_STEP), "larger, smaller text"),
-        bind(Key::Function(6), "interface", Action::EnterInterface, "into the interface (Escape: out of it)"),
+        bind(Key::Function(6), "interface", Action::EnterInterface, "focus the interface (Escape: leave it)"),
         bind('k', "orbit_style", Action::ToggleOrbitStyle, "turntable / trackball"),
     ]
 }
@@ -128,11 +128,11 @@ fn objects() -> Vec<Binding> {
     for (key, x, y) in ARROWS {
         // To the right is about the upward axis, up is backwards about the right one.
         let motion = ObjectMotion::Turn(DVec3::new(-y, x, 0.0) * TURN);
-        object(shifted, key, "object.turn", "turn the selected object", motion);
+        object(shifted, key, "object.turn", "rotate the selected object", motion);
     }
     for (key, z) in [(Key::PageUp, 1.0), (Key::PageDown, -1.0)] {
         let motion = ObjectMotion::Turn(DVec3::Z * z * TURN);
-        object(shifted, key, "object.turn", "turn the selected object", motion);
+        object(shifted, key, "object.turn", "rotate the selected object", motion);
     }
     all
 }
@@ -168,7 +168,7 @@ pub(super) fn clicks() -> Vec<ClickBinding> {
             PointerButton::Middle,
             Modifiers::SHIFT,
             ClickAction::LookAtFromAsNear,
-            "look at this point, from as near",
+            "look at this point, keeping the distance",
         ),
     ]
 }

@@ -79,7 +79,7 @@ pub(crate) fn development(
     section(ui, "Last frame", |ui| report::frame(ui, view));
     section(ui, "Accuracy", |ui| report::accuracy(ui, view, requests));
     let hover = "Draws the view once more, with all buffers and counts. The window waits for it.";
-    if ui.add(egui::Button::new("Inspect the picture").wrap()).on_hover_text(hover).clicked() {
+    if ui.add(egui::Button::new("Inspect the image").wrap()).on_hover_text(hover).clicked() {
         inspect(view, state);
     }
     if let Some(failure) = &state.failure {

@@ -33,7 +33,7 @@ pub(super) fn lines(scene: &Scene, frame: &Frame, [x, y]: [u32; 2]) -> Vec<Strin
     let vectors = [
         ("Position", &frame.positions),
         ("Normal", &frame.normals),
-        ("Shares of the corners", &frame.barycentrics),
+        ("Barycentrics", &frame.barycentrics),
         ("Albedo", &frame.albedo),
     ];
     for (name, list) in vectors {

@@ -56,20 +56,20 @@ pub(super) fn accuracy(ui: &mut Ui, view: &DrawnView<'_>, requests: &mut Vec<Req
 /// What went through the stages. Each pixel has so many samples that are shaded.
 pub(super) fn stages(ui: &mut Ui, stats: &Stats, frame: &Frame, shades: u64) {
     let rows = [
-        ("Vertices", stats.vertices, "Vertices that were transformed"),
-        ("Primitives", stats.primitives, "Triangles, segments and points that were recorded"),
-        ("Outside", stats.outside, "Primitives outside of the view"),
-        ("Culled", stats.culled, "Triangles without area or sample, or that face away"),
-        ("Clipped", stats.clipped, "Primitives that were cut by a plane"),
-        ("Set up", stats.set_up, "Triangles that were drawn"),
-        ("Tiles", stats.tiles, "Tiles with anything in them"),
-        ("In tiles", stats.binned, "Triangles in tiles, each counted in each of its tiles"),
-        ("Tiles hidden", stats.tiles_rejected, "Triangles that a tile hid as a whole"),
-        ("Tiles filled", stats.tiles_filled, "Tiles that one triangle filled"),
-        ("Blocks full", stats.blocks_accepted, "Blocks of 8 × 8 pixels that a triangle covers"),
+        ("Vertices", stats.vertices, "Transformed vertices"),
+        ("Primitives", stats.primitives, "Triangles, segments and points submitted"),
+        ("Outside", stats.outside, "Primitives outside the view"),
+        ("Culled", stats.culled, "Triangles without area or sample, or facing away"),
+        ("Clipped", stats.clipped, "Clipped primitives"),
+        ("Set up", stats.set_up, "Triangles drawn"),
+        ("Tiles", stats.tiles, "Tiles with triangles"),
+        ("In tiles", stats.binned, "Triangles in tiles, counted once per tile"),
+        ("Tiles hidden", stats.tiles_rejected, "Triangles rejected by a whole tile"),
+        ("Tiles filled", stats.tiles_filled, "Tiles filled by one triangle"),
+        ("Blocks full", stats.blocks_accepted, "Blocks of 8 × 8 pixels fully covered by a triangle"),
         ("Blocks hidden", stats.blocks_rejected, "Blocks that a triangle misses, or that hide it"),
-        ("Shaded", stats.pixels_shaded, "Fragments that were shaded"),
-        ("Masked", stats.samples_masked, "Fragments whose mask was asked"),
+        ("Shaded", stats.pixels_shaded, "Shaded fragments"),
+        ("Masked", stats.samples_masked, "Fragments with a mask test"),
     ];
     Grid::new("stages").num_columns(2).spacing([10.0, 2.0]).show(ui, |ui| {
         for (name, count, hover) in rows {

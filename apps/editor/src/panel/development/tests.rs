@@ -39,7 +39,7 @@ fn case(width: f32) -> Case<DevelopmentState> {
 fn a_picture_is_inspected_when_it_is_asked_for() {
     let mut case = case(260.0);
     assert!(case.harness.query_by_label("Buffer image").is_none(), "not asked for yet");
-    case.click("Inspect the picture");
+    case.click("Inspect the image");
     let inspected = case.harness.state().state.inspected.as_ref().expect("it was drawn");
     assert!(inspected.stats.tiles > 0 && inspected.plan.is_some(), "with figures and effects");
     case.choose("Buffer", "Objects");
@@ -69,7 +69,7 @@ fn buffers_show_what_they_hold() {
 #[test]
 fn a_narrow_panel_clips_no_label() {
     let mut case = case(160.0);
-    case.click("Inspect the picture");
+    case.click("Inspect the image");
     case.click("Buffer image");
     case.assert_nothing_is_clipped();
     case.picture("development_narrow");

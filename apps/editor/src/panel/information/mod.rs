@@ -132,7 +132,7 @@ fn meters(value: f64) -> String {
 }
 
 fn show_measures(ui: &mut Ui, document: &Document, measures: &mut Option<(u64, Vec<Finding>)>) {
-    let hover = "Lengths, angles, areas and volumes of what is selected, and what may be wrong with it";
+    let hover = "Lengths, angles, areas and volumes of the selection, and possible faults";
     if ui.add(egui::Button::new("Measure selection").wrap()).on_hover_text(hover).clicked() {
         *measures = Some((document.revision(), measured(document)));
     }

@@ -69,7 +69,7 @@ fn parents(ui: &mut Ui, document: &Document, id: NodeId, requests: &mut Vec<Requ
     let selected = &document.selection().objects;
     let others: Vec<NodeId> = selected.iter().copied().filter(|&other| other != id).collect();
     ui.separator();
-    let button = trigon_window::egui::Button::new("Hang the other selected here");
+    let button = trigon_window::egui::Button::new("Parent the other selected here");
     if ui.add_enabled(!others.is_empty(), button).clicked() {
         requests.push(drop::hang(others, Some(id)));
     }

@@ -77,7 +77,7 @@ pub(crate) fn outliner(
     drop::below_all(ui, below, document, requests);
     keys(ui, shown.inner_rect, document, state, requests);
     if state.rows.is_empty() {
-        let text = if state.search.is_empty() { "The scene is empty." } else { "No object has such a name." };
+        let text = if state.search.is_empty() { "The scene is empty." } else { "No object has this name." };
         ui.add(egui::Label::new(text).wrap());
     }
 }

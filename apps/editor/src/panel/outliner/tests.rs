@@ -124,7 +124,7 @@ fn rows_are_hung_on_one_another_and_reordered_by_the_menu() {
     case.document().undo().expect("deleted");
     case.document().undo().expect("selected");
     case.run();
-    menu(&mut case, "Lamp", "Hang the other selected here");
+    menu(&mut case, "Lamp", "Parent the other selected here");
     let parent =
         |case: &mut Case<OutlinerState>, id| case.document().nodes().node(id).expect("there").parent();
     assert_eq!(parent(&mut case, chair), Some(lamp), "the other one hangs there");

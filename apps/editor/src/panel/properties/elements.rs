@@ -47,8 +47,8 @@ pub(super) fn elements(
             crease(ui, document, values, requests);
         }
     }
-    let hover = "Takes the selected vertices back to where they were when they were made or loaded";
-    if ui.add(egui::Button::new("Reset to first positions").wrap()).on_hover_text(hover).clicked() {
+    let hover = "Moves the selected vertices back to where they were created or loaded";
+    if ui.add(egui::Button::new("Reset to original positions").wrap()).on_hover_text(hover).clicked() {
         requests.push(Request::Run(ResetVertices {}.into()));
     }
 }

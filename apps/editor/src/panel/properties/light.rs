@@ -22,11 +22,11 @@ pub(super) fn light(
 ) {
     let unchanged = SetLight { object: Some(ObjectName::of(id)), ..SetLight::default() };
     let Some(mut shape) = shape_of(light.kind) else {
-        ui.add(egui::Label::new("Ambient light, the same from everywhere").wrap());
+        ui.add(egui::Label::new("Ambient light, the same from all directions").wrap());
         return;
     };
     let kinds = [
-        (LightShape::Point, "Point", "Shines from a point to all sides."),
+        (LightShape::Point, "Point", "Shines from a point in all directions."),
         (LightShape::Directional, "Directional", "Shines from far away, like the sun."),
         (LightShape::Spot, "Spot", "Shines in a cone."),
     ];
@@ -63,7 +63,7 @@ fn intensity(
     unchanged: &SetLight,
     requests: &mut Vec<Request>,
 ) {
-    let hover = "1 shows a white surface as white, of points and spots from one metre away.";
+    let hover = "1 shows a white surface as white; for points and spots, from one metre away.";
     let mut strength = f64::from(light.intensity);
     let form = positive(f64::INFINITY, Unit::None);
     let response = row(ui, "Intensity", hover, |ui, width| number(ui, width, &mut strength, &form, ""));
@@ -76,7 +76,7 @@ fn intensity(
 /// How far it shines, if there is a limit.
 fn range(ui: &mut Ui, document: &Document, light: Light, unchanged: &SetLight, requests: &mut Vec<Request>) {
     let mut is_limited = light.range.is_finite();
-    let hover = "Whether it shines no farther than its range.";
+    let hover = "Whether the light ends at its range.";
     if hovered(check_box(ui, &mut is_limited, "Limited range"), hover).changed() {
         let range = Some(if is_limited { USUAL_RANGE } else { 0.0 });
         requests.push(Request::Run(SetLight { range, ..unchanged.clone() }.into()));
@@ -86,7 +86,7 @@ fn range(ui: &mut Ui, document: &Document, light: Light, unchanged: &SetLight, r
     }
     let mut value = f64::from(light.range);
     let form = positive(f64::INFINITY, Unit::Metres);
-    let hover = "Beyond it, it does not shine.";
+    let hover = "The light does not shine beyond this distance.";
     let response = row(ui, "Range", hover, |ui, width| number(ui, width, &mut value, &form, ""));
     if response.changed() {
         let command = SetLight { range: Some(value as f32), ..unchanged.clone() };
@@ -104,8 +104,8 @@ fn cone(
 ) {
     let form = positive(90.0, Unit::Degrees);
     let shown = [
-        ("Inner angle", "From the axis to where the light begins to fade."),
-        ("Outer angle", "From the axis to where there is no light."),
+        ("Inner angle", "The angle from the axis at which the light begins to fade."),
+        ("Outer angle", "The angle from the axis beyond which there is no light."),
     ];
     for (index, (label, hover)) in shown.into_iter().enumerate() {
         let mut degrees = f64::from(angles[index]).to_degrees();

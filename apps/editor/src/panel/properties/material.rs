@@ -24,7 +24,7 @@ pub(super) fn material(
     let object = Some(ObjectName::of(id));
     *slot = (*slot).min(node.materials.len().saturating_sub(1));
     slots(ui, document, (id, node), slot, requests);
-    if ui.button("Add material").on_hover_text("A new material in a slot of its own").clicked() {
+    if ui.button("Add material").on_hover_text("Adds a slot with a new material").clicked() {
         requests.push(Request::Run(AddMaterial { object, ..AddMaterial::default() }.into()));
     }
     let materials = &document.nodes().materials;
@@ -72,7 +72,7 @@ fn name(materials: &Arena<Material>, id: MaterialId) -> String {
 /// thousands.
 fn choose_material(ui: &mut Ui, materials: &Arena<Material>, current: MaterialId) -> Option<MaterialId> {
     let mut chosen = None;
-    row(ui, "Material", "Which material the slot shows.", |ui, width| {
+    row(ui, "Material", "The material in this slot.", |ui, width| {
         let list = egui::ComboBox::from_id_salt("material").width(width).truncate();
         let shown = list.selected_text(name(materials, current)).show_ui(ui, |ui| {
             for (id, _) in materials.iter() {
@@ -108,7 +108,7 @@ impl Fields<'_> {
             self.share(ui, "Roughness", "0 is a mirror, 1 is matt.", (model.roughness, &given), requests);
         }
         let mut emissive = self.material.emissive.to_array();
-        if let Some(response) = color(ui, "Emission", "Light that it sends out.", &mut emissive) {
+        if let Some(response) = color(ui, "Emission", "The colour of emitted light.", &mut emissive) {
             let command = SetMaterial { emissive: Some(emissive), ..self.unchanged() };
             submit(ui, self.document, &response, command.into(), requests);
         }
@@ -136,9 +136,9 @@ impl Fields<'_> {
             (SurfaceShading::MetallicRoughness, "Physical", "Metallic-roughness, as in glTF."),
             (SurfaceShading::BlinnPhong, "Blinn-Phong", "Diffuse with a highlight."),
             (SurfaceShading::Lambert, "Lambert", "Diffuse."),
-            (SurfaceShading::Unlit, "Unlit", "Its base colour, whatever the light."),
+            (SurfaceShading::Unlit, "Unlit", "The base colour, independent of light."),
         ];
-        if choice(ui, "Surface", "How it answers to light.", &mut chosen, &choices).changed() {
+        if choice(ui, "Surface", "How the surface reflects light.", &mut chosen, &choices).changed() {
             let command = SetMaterial { shading: Some(chosen), ..self.unchanged() };
             requests.push(Request::Run(command.into()));
         }
@@ -147,13 +147,13 @@ impl Fields<'_> {
     fn base_color(&self, ui: &mut Ui, requests: &mut Vec<Request>) {
         let [red, green, blue, alpha] = self.material.base_color.to_array();
         let mut chosen = [red, green, blue];
-        if let Some(response) = color(ui, "Base colour", "Multiplies its picture.", &mut chosen) {
+        if let Some(response) = color(ui, "Base colour", "Multiplies its texture.", &mut chosen) {
             let [red, green, blue] = chosen;
             let command = SetMaterial { base_color: Some([red, green, blue, alpha]), ..self.unchanged() };
             submit(ui, self.document, &response, command.into(), requests);
         }
         let given = |alpha| SetMaterial { base_color: Some([red, green, blue, alpha]), ..self.unchanged() };
-        self.share(ui, "Alpha", "How opaque it is, where alpha counts.", (alpha, &given), requests);
+        self.share(ui, "Alpha", "Opacity, unless alpha is ignored.", (alpha, &given), requests);
     }
 
     /// A number from 0 to 1.
@@ -180,7 +180,7 @@ impl Fields<'_> {
             AlphaMode::Blend => SurfaceAlpha::Blend,
         };
         let choices = [
-            (SurfaceAlpha::Opaque, "Opaque", "Alpha does not count."),
+            (SurfaceAlpha::Opaque, "Opaque", "Alpha is ignored."),
             (SurfaceAlpha::Mask, "Mask", "Holes where alpha is below the cutoff."),
             (SurfaceAlpha::Blend, "Blend", "What lies behind shows through."),
         ];

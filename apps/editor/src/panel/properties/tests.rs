@@ -132,7 +132,7 @@ fn selected_vertices_are_moved_by_their_median() {
     assert_eq!(offset.map(f64::abs)[1..], [0.0, 0.0], "along x only");
     let field = case.harness.get_by_role_and_label(egui::Role::SpinButton, "Vertex X");
     assert_eq!(field.value().as_deref(), Some("X 3 m"), "there it is");
-    case.click("Reset to first positions");
+    case.click("Reset to original positions");
     let field = case.harness.get_by_role_and_label(egui::Role::SpinButton, "Vertex X");
     assert_ne!(field.value().as_deref(), Some("X 3 m"), "where it was made");
     case.command(json!({ "op": "set_element_kind", "kind": "edge" }));

@@ -43,13 +43,13 @@ pub(super) fn transform(
     let unchanged =
         SetTransform { object: Some(ObjectName::of(id)), space: state.space, ..SetTransform::default() };
     let mut values = location.to_array();
-    let hover = "Where the origin of the object is.";
+    let hover = "Position of the object's origin.";
     if let Some((_, response)) = vector(ui, "Location", hover, &mut values, &plain(Unit::Metres)) {
         let command = SetTransform { location: Some(values), ..unchanged.clone() };
         submit(ui, document, &response, command.into(), requests);
     }
     let forms = [
-        (RotationForm::Euler, "XYZ Euler", "Turns about x, then y, then z."),
+        (RotationForm::Euler, "XYZ Euler", "Rotations about x, then y, then z."),
         (RotationForm::Quaternion, "Quaternion", "Imaginary part x, y, z and real part w."),
     ];
     choice(ui, "Rotation as", "How the rotation is shown.", &mut state.shown, &forms);
@@ -58,7 +58,7 @@ pub(super) fn transform(
         submit(ui, document, &response, command.into(), requests);
     }
     let mut values = scale.to_array();
-    let hover = "The size along its own axes; negative ones mirror.";
+    let hover = "Scale along its own axes; negative values mirror.";
     if let Some((_, response)) = vector(ui, "Scale", hover, &mut values, &plain(Unit::None)) {
         let command = SetTransform { scale: Some(values), ..unchanged };
         submit(ui, document, &response, command.into(), requests);
@@ -70,7 +70,7 @@ fn choose_space(ui: &mut Ui, state: &mut TransformState) {
         (TransformSpace::Local, "Local", "Relative to the parent."),
         (TransformSpace::World, "World", "Relative to the world."),
     ];
-    choice(ui, "Space", "In which space the values are told.", &mut state.space, &spaces);
+    choice(ui, "Space", "The space of the values.", &mut state.space, &spaces);
 }
 
 fn show_rotation(
@@ -87,7 +87,7 @@ fn show_rotation(
             {
                 state.typed = angles;
             }
-            let hover = "Turns about the axes x, then y, then z.";
+            let hover = "Rotations about the axes x, then y, then z.";
             let (_, response) = vector(ui, "Rotation", hover, &mut state.typed, &plain(Unit::Degrees))?;
             Some((Rotation::Euler { angles: state.typed }, response))
         }

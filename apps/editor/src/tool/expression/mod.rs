@@ -176,7 +176,7 @@ impl<'t> Parser<'t> {
         let known: Vec<&str> = self.quantity.units().iter().map(|(unit, _)| *unit).collect();
         match known.is_empty() {
             true => self.fail(format!("a factor has no unit `{name}`")),
-            false => self.fail(format!("`{name}` is no unit; there are {}", known.join(", "))),
+            false => self.fail(format!("`{name}` is not a unit; write one of {}", known.join(", "))),
         }
     }
 

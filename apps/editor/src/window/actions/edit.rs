@@ -4,20 +4,20 @@ use super::{Action, Does::*, Needs, actions};
 use crate::request::{Orientation, Pivot, SnapTarget, ToolKind, UiRequest};
 
 actions! {
-    "Edit" "edit.undo" "Undo" "Ctrl+Z" SomethingDone Undo => "Takes back the last action.";
-    "Edit" "edit.redo" "Redo" "Ctrl+Shift+Z Ctrl+Y" SomethingUndone Redo => "Does again what was taken back.";
+    "Edit" "edit.undo" "Undo" "Ctrl+Z" SomethingDone Undo => "Undoes the last action.";
+    "Edit" "edit.redo" "Redo" "Ctrl+Shift+Z Ctrl+Y" SomethingUndone Redo => "Redoes the last undone action.";
     "Edit" "edit.repeat" "Repeat Last" "Shift+R" SomethingToRepeat RepeatLast => "Runs the last command again.";
-    "Edit" "edit.adjust" "Adjust Last Operation" "F9" SomethingDone Ui(UiRequest::AdjustPanel) => "Shows the values of the last command, to be changed.";
+    "Edit" "edit.adjust" "Adjust Last Operation" "F9" SomethingDone Ui(UiRequest::AdjustPanel) => "Shows the values of the last command for adjusting.";
     "Edit" "edit.mode" "Edit Mode" "Tab" Nothing Ui(UiRequest::ToggleEditMode) => "Edits the elements of the selected objects, or whole objects again.";
-    "Edit" "edit.rename" "Rename…" "F2" Objects Ui(UiRequest::Rename) => "Gives the active object another name.";
+    "Edit" "edit.rename" "Rename…" "F2" Objects Ui(UiRequest::Rename) => "Renames the active object.";
 
-    "Edit/Transform" "tool.move" "Move" "G" Selected Tool(ToolKind::Move) => "Moves what is selected; X, Y, Z lock an axis.";
-    "Edit/Transform" "tool.rotate" "Rotate" "R" Selected Tool(ToolKind::Rotate) => "Turns what is selected.";
-    "Edit/Transform" "tool.scale" "Scale" "S" Selected Tool(ToolKind::Scale) => "Scales what is selected.";
-    "Edit/Transform" "tool.shear" "Shear" "Ctrl+Shift+Alt+S" Elements Tool(ToolKind::Shear) => "Shears what is selected.";
-    "Edit/Transform" "tool.to_sphere" "To Sphere" "Shift+Alt+S" Elements Tool(ToolKind::ToSphere) => "Moves what is selected towards a sphere.";
-    "Edit/Transform" "tool.shrink_fatten" "Shrink/Fatten" "Alt+S" Elements Tool(ToolKind::ShrinkFatten) => "Moves what is selected along its normals.";
-    "Edit/Transform" "tool.push_pull" "Push/Pull" "" Elements Tool(ToolKind::PushPull) => "Moves what is selected to or from its middle.";
+    "Edit/Transform" "tool.move" "Move" "G" Selected Tool(ToolKind::Move) => "Moves the selection; X, Y, Z lock an axis.";
+    "Edit/Transform" "tool.rotate" "Rotate" "R" Selected Tool(ToolKind::Rotate) => "Rotates the selection.";
+    "Edit/Transform" "tool.scale" "Scale" "S" Selected Tool(ToolKind::Scale) => "Scales the selection.";
+    "Edit/Transform" "tool.shear" "Shear" "Ctrl+Shift+Alt+S" Elements Tool(ToolKind::Shear) => "Shears the selection.";
+    "Edit/Transform" "tool.to_sphere" "To Sphere" "Shift+Alt+S" Elements Tool(ToolKind::ToSphere) => "Moves the selection towards a sphere.";
+    "Edit/Transform" "tool.shrink_fatten" "Shrink/Fatten" "Alt+S" Elements Tool(ToolKind::ShrinkFatten) => "Moves the selection along its normals.";
+    "Edit/Transform" "tool.push_pull" "Push/Pull" "" Elements Tool(ToolKind::PushPull) => "Moves the selection towards or away from its centre.";
 
     "Edit/Subdivision Surface" "subdivision.0" "Off" "Ctrl+0" Meshes Run(r#"{"op":"set_subdivision","levels":0}"#) => "Shows meshes as they are.";
     "Edit/Subdivision Surface" "subdivision.1" "1 Level" "Ctrl+1" Meshes Run(r#"{"op":"set_subdivision","levels":1}"#) => "Shows meshes as smooth surfaces of 1 level, with their cage over them.";
@@ -45,27 +45,27 @@ actions! {
     "Edit/Apply" "apply.rotation_and_scale" "Rotation & Scale" "" Objects Run(r#"{"op":"apply_transform","rotation":true,"scale":true}"#) => "Takes turn and size of objects back; nothing is seen to move.";
     "Edit/Apply" "apply.all" "All Transforms" "" Objects Run(r#"{"op":"apply_transform","location":true,"rotation":true,"scale":true}"#) => "Takes the whole placement of objects back; nothing is seen to move.";
     "Edit" "edit.hide" "Hide Objects" "H" Objects Run(r#"{"op":"show_objects","visible":false}"#) => "Hides the selected objects.";
-    "Edit" "edit.hide_others" "Hide Other Objects" "Shift+H" Objects Run(r#"{"op":"hide_others"}"#) => "Hides all objects but the selected ones.";
+    "Edit" "edit.hide_others" "Hide Other Objects" "Shift+H" Objects Run(r#"{"op":"hide_others"}"#) => "Hides all objects except the selected ones.";
     "Edit" "edit.reveal" "Show Hidden Objects" "Alt+H" ObjectMode Run(r#"{"op":"reveal_objects"}"#) => "Shows all hidden objects, and selects them.";
-    "Edit" "edit.delete" "Delete Objects" "X Delete" Objects Run(r#"{"op":"delete_objects"}"#) => "Deletes the selected objects and what hangs on them.";
+    "Edit" "edit.delete" "Delete Objects" "X Delete" Objects Run(r#"{"op":"delete_objects"}"#) => "Deletes the selected objects and their descendants.";
 
-    "Edit/Snap To" "snap.toggle" "Snapping" "Shift+Tab" Nothing Ui(UiRequest::Snapping) => "Whether moves snap; Ctrl turns it round while moving.";
-    "Edit/Snap To" "snap.increment" "Increment" "" Nothing Ui(UiRequest::Snap(SnapTarget::Increment)) => "Moves go in steps.";
-    "Edit/Snap To" "snap.grid" "Grid" "" Nothing Ui(UiRequest::Snap(SnapTarget::Grid)) => "Moves end on the grid.";
-    "Edit/Snap To" "snap.vertex" "Vertex" "" Nothing Ui(UiRequest::Snap(SnapTarget::Vertex)) => "Moves end on a vertex.";
-    "Edit/Snap To" "snap.edge" "Edge" "" Nothing Ui(UiRequest::Snap(SnapTarget::Edge)) => "Moves end on an edge.";
-    "Edit/Snap To" "snap.face" "Face" "" Nothing Ui(UiRequest::Snap(SnapTarget::Face)) => "Moves end on a face.";
-    "Edit" "edit.proportional" "Proportional Editing" "O" Nothing Ui(UiRequest::Proportional) => "Whether moves take what is near along.";
-    "Edit/Pivot" "pivot.menu" "Pivot Menu" "." Nothing Ui(UiRequest::Popup("Edit/Pivot")) => "Chooses about what turning and scaling work.";
-    "Edit/Pivot" "pivot.bounds" "Bounding Box Center" "" Nothing Ui(UiRequest::Pivot(Pivot::Bounds)) => "Turns and scales about the middle of the bounding box.";
-    "Edit/Pivot" "pivot.origin" "Origin" "" Nothing Ui(UiRequest::Pivot(Pivot::Origin)) => "Turns and scales about the origin of the active object.";
-    "Edit/Pivot" "pivot.cursor" "3D Cursor" "" Nothing Ui(UiRequest::Pivot(Pivot::Cursor)) => "Turns and scales about the 3D cursor.";
-    "Edit/Pivot" "pivot.individual" "Individual Origins" "" Nothing Ui(UiRequest::Pivot(Pivot::Individual)) => "Turns and scales each by itself.";
-    "Edit/Pivot" "pivot.median" "Median Point" "" Nothing Ui(UiRequest::Pivot(Pivot::Median)) => "Turns and scales about the mean of what is selected.";
-    "Edit/Pivot" "pivot.active" "Active Element" "" Nothing Ui(UiRequest::Pivot(Pivot::Active)) => "Turns and scales about what was selected last.";
-    "Edit/Orientation" "orientation.menu" "Orientation Menu" "," Nothing Ui(UiRequest::Popup("Edit/Orientation")) => "Chooses along which axes tools work.";
+    "Edit/Snap To" "snap.toggle" "Snapping" "Shift+Tab" Nothing Ui(UiRequest::Snapping) => "Toggles snapping; Ctrl inverts it while moving.";
+    "Edit/Snap To" "snap.increment" "Increment" "" Nothing Ui(UiRequest::Snap(SnapTarget::Increment)) => "Snaps to increments.";
+    "Edit/Snap To" "snap.grid" "Grid" "" Nothing Ui(UiRequest::Snap(SnapTarget::Grid)) => "Snaps to the grid.";
+    "Edit/Snap To" "snap.vertex" "Vertex" "" Nothing Ui(UiRequest::Snap(SnapTarget::Vertex)) => "Snaps to vertices.";
+    "Edit/Snap To" "snap.edge" "Edge" "" Nothing Ui(UiRequest::Snap(SnapTarget::Edge)) => "Snaps to edges.";
+    "Edit/Snap To" "snap.face" "Face" "" Nothing Ui(UiRequest::Snap(SnapTarget::Face)) => "Snaps to faces.";
+    "Edit" "edit.proportional" "Proportional Editing" "O" Nothing Ui(UiRequest::Proportional) => "Toggles moving nearby elements along.";
+    "Edit/Pivot" "pivot.menu" "Pivot Menu" "." Nothing Ui(UiRequest::Popup("Edit/Pivot")) => "Chooses the pivot for rotating and scaling.";
+    "Edit/Pivot" "pivot.bounds" "Bounding Box Center" "" Nothing Ui(UiRequest::Pivot(Pivot::Bounds)) => "Rotates and scales about the centre of the bounding box.";
+    "Edit/Pivot" "pivot.origin" "Origin" "" Nothing Ui(UiRequest::Pivot(Pivot::Origin)) => "Rotates and scales about the origin of the active object.";
+    "Edit/Pivot" "pivot.cursor" "3D Cursor" "" Nothing Ui(UiRequest::Pivot(Pivot::Cursor)) => "Rotates and scales about the 3D cursor.";
+    "Edit/Pivot" "pivot.individual" "Individual Origins" "" Nothing Ui(UiRequest::Pivot(Pivot::Individual)) => "Rotates and scales each individually.";
+    "Edit/Pivot" "pivot.median" "Median Point" "" Nothing Ui(UiRequest::Pivot(Pivot::Median)) => "Rotates and scales about the mean of the selection.";
+    "Edit/Pivot" "pivot.active" "Active Element" "" Nothing Ui(UiRequest::Pivot(Pivot::Active)) => "Rotates and scales about the last selected element.";
+    "Edit/Orientation" "orientation.menu" "Orientation Menu" "," Nothing Ui(UiRequest::Popup("Edit/Orientation")) => "Chooses the axes of tools.";
     "Edit/Orientation" "orientation.global" "Global" "" Nothing Ui(UiRequest::Orientation(Orientation::Global)) => "Axes of the world.";
     "Edit/Orientation" "orientation.local" "Local" "" Nothing Ui(UiRequest::Orientation(Orientation::Local)) => "Axes of the active object.";
-    "Edit/Orientation" "orientation.normal" "Normal" "" Nothing Ui(UiRequest::Orientation(Orientation::Normal)) => "Axes of what is selected, Z along its normal.";
-    "Edit/Orientation" "orientation.view" "View" "" Nothing Ui(UiRequest::Orientation(Orientation::View)) => "Axes of the picture.";
+    "Edit/Orientation" "orientation.normal" "Normal" "" Nothing Ui(UiRequest::Orientation(Orientation::Normal)) => "Axes of the selection, Z along its normal.";
+    "Edit/Orientation" "orientation.view" "View" "" Nothing Ui(UiRequest::Orientation(Orientation::View)) => "Axes of the view.";
 }

@@ -266,7 +266,7 @@ impl Needs {
             Self::Meshes => "needs an object with a mesh: click one first",
             Self::Objects | Self::Selected => "needs an object: click one first",
             Self::SomethingDone => "there is nothing to undo",
-            Self::SomethingUndone => "there is nothing to do again",
+            Self::SomethingUndone => "there is nothing to redo",
             Self::SomethingToRepeat => "there is nothing to repeat yet",
             Self::Nothing | Self::ObjectMode | Self::EditMode => "",
         }

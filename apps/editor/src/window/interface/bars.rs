@@ -60,7 +60,7 @@ fn view(ui: &mut Ui, editor: &Editor, stage: &Stage, requests: &mut Vec<Request>
         requests.push(Request::View(ViewRequest::ToggleXRay));
     }
     let four_views = ui.selectable_label(stage.four_views.is_some(), "Four Views");
-    if four_views.on_hover_text("Top, front and right side beside the view").clicked() {
+    if four_views.on_hover_text("Four views: top, front, right and the current one").clicked() {
         requests.push(Request::View(ViewRequest::ToggleFourViews));
     }
 }

@@ -45,7 +45,7 @@ pub(super) fn saving(context: &Context, editor: &mut Editor) {
         return;
     }
     let modal = Modal::new(Id::unique("saving")).show(context, |ui| {
-        ui.label("It is closed as soon as it is saved");
+        ui.label("Closing when it is saved");
         ui.button("Keep It Open").clicked()
     });
     if modal.inner {
@@ -58,19 +58,19 @@ fn content(ui: &mut Ui, question: &Question) -> Option<Answer> {
     match question {
         Question::Unsaved(_) => {
             ui.heading("Save changes?");
-            ui.label("The document has changes that are not saved.");
+            ui.label("The document has unsaved changes.");
             buttons(ui, &[("Save", Answer::Yes), ("Discard", Answer::No), ("Cancel", Answer::Cancel)])
         }
         Question::Losses { path, losses, .. } => {
-            ui.heading("Something would be lost");
-            ui.label(format!("{} would not hold:", path.display()));
+            ui.heading("Some data would be lost");
+            ui.label(format!("{} cannot hold:", path.display()));
             /// More would not fit the window.
             const MOST: usize = 12;
             losses.iter().take(MOST).for_each(|loss| drop(ui.label(format!("• {loss}"))));
             if losses.len() > MOST {
                 ui.label(format!("and {} more", losses.len() - MOST));
             }
-            buttons(ui, &[("Save All the Same", Answer::Yes), ("Cancel", Answer::Cancel)])
+            buttons(ui, &[("Save Anyway", Answer::Yes), ("Cancel", Answer::Cancel)])
         }
         Question::Recover(left) => {
             ui.heading("Recover a document?");

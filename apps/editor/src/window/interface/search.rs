@@ -26,7 +26,7 @@ pub(super) fn show(context: &Context, editor: &mut Editor, stage: &mut Stage) {
         }
         typed.request_focus();
         if found.is_empty() {
-            ui.label("no command of that name");
+            ui.label("no command has this name");
         }
         ScrollArea::vertical().max_height(320.0).auto_shrink([false, true]).show(ui, |ui| {
             for (index, action) in found.into_iter().enumerate() {

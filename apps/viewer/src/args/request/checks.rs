@@ -1,4 +1,4 @@
-//! What does not go together on a command line.
+//! Checks for conflicts on the command line.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use crate::args::beside::Beside;
 use crate::args::output::Destination;
 use crate::args::raw::RawArgs;
 
-/// Standard input can be read once, and a window loads its files again.
+/// Standard input can be read only once, and a window reloads its files.
 pub(super) fn check_stdin(mode: &Mode, files: &[PathBuf]) -> Result<(), String> {
     match files.iter().filter(|file| file.as_os_str() == STDIN).count() {
         0 => Ok(()),
@@ -17,8 +17,8 @@ pub(super) fn check_stdin(mode: &Mode, files: &[PathBuf]) -> Result<(), String> 
     }
 }
 
-/// Several pictures need several names. F3D draws the first model and only
-/// warns about the rest, which scripts do not notice.
+/// Several images need several names. F3D draws the first model and only warns about the rest,
+/// which scripts do not notice.
 pub(super) fn check_output(mode: &Mode, files: usize) -> Result<(), String> {
     let Mode::Picture { output, capture } = mode else { return Ok(()) };
     if files < 2 {
@@ -26,28 +26,28 @@ pub(super) fn check_output(mode: &Mode, files: usize) -> Result<(), String> {
     }
     if capture.is_some() {
         return Err(format!(
-            "{files} files make {files} pictures, but --capture takes one; name one file, or draw them in one scene with --multi-file-mode=all"
+            "{files} files give {files} images, but --capture stores one; name one file, or draw them in one scene with --multi-file-mode=all"
         ));
     }
     let Some(output) = output else { return Ok(()) };
     match output {
         Destination::File(template) if template.tells_models_apart() => Ok(()),
         Destination::File(_) => Err(format!(
-            "{files} files make {files} pictures, but --output has one name; write {{model}} or {{n}} in it (--output '{{model}}.png'), or draw them in one scene with --multi-file-mode=all"
+            "{files} files give {files} images, but --output names one; write {{model}} or {{n}} in it (--output '{{model}}.png'), or draw them in one scene with --multi-file-mode=all"
         )),
         Destination::Stdout => Err(format!(
-            "{files} files make {files} pictures, but standard output takes one; draw them in one scene with --multi-file-mode=all, or write files with --output '{{model}}.png'"
+            "{files} files give {files} images, but standard output takes one; draw them in one scene with --multi-file-mode=all, or write files with --output '{{model}}.png'"
         )),
     }
 }
 
-/// Outputs need a place: files beside the picture, or channels in it.
+/// Outputs need a destination: files next to the image, or channels in it.
 pub(super) fn check_outputs(mode: &Mode, outputs: &[Beside]) -> Result<(), String> {
     if outputs.is_empty() {
         return Ok(());
     }
     let Mode::Picture { output, .. } = mode else {
-        return Err("--outputs goes with a picture, and none is drawn; leave out --outputs, or the flag that asks for something else".to_owned());
+        return Err("--outputs needs an image, and none is drawn; leave out --outputs, or the flag that replaces the image".to_owned());
     };
     match output {
         Some(Destination::Stdout) => Err(
@@ -65,7 +65,7 @@ pub(super) fn check_outputs(mode: &Mode, outputs: &[Beside]) -> Result<(), Strin
     }
 }
 
-/// Frames need as many names, or a file that holds them all.
+/// Frames need as many names, or one file that holds them all.
 pub(super) fn check_frames(raw: &RawArgs, mode: &Mode) -> Result<(), String> {
     let Mode::Picture { output, capture } = mode else { return Ok(()) };
     let (moves, many) = match output {
@@ -75,7 +75,7 @@ pub(super) fn check_frames(raw: &RawArgs, mode: &Mode) -> Result<(), String> {
     let frames = moves || many;
     if frames && (capture.is_some() || raw.reference.is_some() || !raw.outputs.is_empty()) {
         return Err(
-            "--output with many frames goes without --capture, --reference and --outputs; name one picture"
+            "--output with several frames does not work with --capture, --reference and --outputs; name one image"
                 .to_owned(),
         );
     }

@@ -132,7 +132,7 @@ fn refuse_long_work(way: Visibility, faces: usize, [width, height]: [usize; 2]) 
         return Ok(());
     }
     Err(format!(
-        "{faces} triangles would take it minutes in a picture of {width}×{height}, {most} are the most; choose another algorithm or a smaller model"
+        "{faces} triangles would take minutes at {width}×{height}; the limit is {most}; choose another algorithm or a smaller model"
     ))
 }
 

@@ -94,7 +94,7 @@ fn placed(mesh: &Mesh, transform: &DAffine3, projector: &Projector) -> Result<Ve
         place.filter(|(place, depth)| place.abs().max_element() < FARTHEST && *depth <= 1.0)
     };
     let places: Option<Vec<Place>> = mesh.positions().iter().map(place).collect();
-    places.ok_or_else(|| "parts of the model lie behind the eye or far outside of the picture, and this algorithm does not clip; move the camera back".to_owned())
+    places.ok_or_else(|| "parts of the model lie behind the eye or far outside the image, and this algorithm does not clip; move the camera back".to_owned())
 }
 
 /// Divides a mesh into the parts that hang together, vertices at the same place being

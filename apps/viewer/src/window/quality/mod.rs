@@ -168,7 +168,7 @@ fn at_rest(ui: &mut egui::Ui, stage: &mut Stage) {
 
 fn budget(ui: &mut egui::Ui, stage: &mut Stage) {
     ui.horizontal(|ui| {
-        let label = ui.label("while it moves, a picture may take");
+        let label = ui.label("while moving, time per image");
         let mut ms = stage.frame_budget.as_secs_f64() * 1e3;
         let value = egui::DragValue::new(&mut ms).range(BUDGETS).suffix(" ms").max_decimals(0);
         if ui.add(value).labelled_by(label.id).changed() {
@@ -206,7 +206,7 @@ mod tests {
         pass(&context, &mut panel, &mut stage);
         let text = pass(&context, &mut panel, &mut stage);
         let names = Setting::ALL.map(Setting::name).into_iter().chain(Preset::ALL.map(Preset::name));
-        for name in names.chain(["3×3 shaded samples", "as the material says", "may take\n33\n ms"]) {
+        for name in names.chain(["9", "from the material", "per image\n33\n ms"]) {
             assert!(text.contains(name), "{name} is not in\n{text}");
         }
         panel.toggle_difference(&mut stage);

@@ -33,9 +33,9 @@ impl Setting {
     /// What the panel calls it.
     pub(super) fn name(self) -> &'static str {
         match self {
-            Self::Supersampling => "supersampling",
-            Self::Multisampling => "multisampling",
-            Self::Shading => "light is found",
+            Self::Supersampling => "samples per pixel",
+            Self::Multisampling => "extra edge samples",
+            Self::Shading => "lighting",
             Self::Reflection => "reflection",
             Self::Shadows => "shadows",
             Self::Occlusion => "ambient occlusion",
@@ -54,20 +54,20 @@ impl Setting {
         let named = |name: &str, change: &dyn Fn(&mut RenderSettings)| with(name.to_owned(), change);
         match self {
             Self::Supersampling => (1..=4)
-                .map(|n| with(format!("{n}×{n} shaded samples"), &|settings| settings.samples_per_axis = n))
+                .map(|n| with((n * n).to_string(), &|settings| settings.samples_per_axis = n))
                 .collect(),
-            Self::Multisampling => [1, 2, 4, 8, 16]
-                .map(|n| with(format!("{n} in each for outlines"), &|settings| settings.samples = n))
-                .into(),
+            Self::Multisampling => {
+                [1, 2, 4, 8, 16].map(|n| with(extra_samples(n), &|settings| settings.samples = n)).into()
+            }
             Self::Shading => [
-                ("once for each triangle (flat)", ShadingModel::Flat),
-                ("at the vertices (Gouraud)", ShadingModel::Gouraud),
-                ("at each pixel (Phong)", ShadingModel::Phong),
+                ("per triangle (flat)", ShadingModel::Flat),
+                ("per vertex (Gouraud)", ShadingModel::Gouraud),
+                ("per pixel (Phong)", ShadingModel::Phong),
             ]
             .map(|(name, shading)| named(name, &|settings| settings.shading = shading))
             .into(),
             Self::Reflection => [
-                ("as the material says", Reflection::Material),
+                ("from the material", Reflection::Material),
                 ("diffuse (Lambert)", Reflection::Lambert),
                 ("highlights (Blinn-Phong)", Reflection::BlinnPhong),
                 ("metallic-roughness (GGX)", Reflection::MetallicRoughness),
@@ -93,13 +93,17 @@ impl Setting {
     }
 }
 
+fn extra_samples(samples: u32) -> String {
+    if samples == 1 { "none".to_owned() } else { samples.to_string() }
+}
+
 fn rays_name(rays: u32) -> String {
-    if rays == 0 { "none".to_owned() } else { format!("{rays} rays a sample") }
+    if rays == 0 { "none".to_owned() } else { format!("{rays} rays per sample") }
 }
 
 fn bounces_name(bounces: u32) -> String {
     match bounces {
-        0 => "not followed".to_owned(),
+        0 => "not traced".to_owned(),
         1 => "one bounce".to_owned(),
         bounces => format!("{bounces} bounces"),
     }

@@ -34,7 +34,7 @@ pub(crate) fn open_glb<'a>(
         ));
     }
     if &bytes[..4] != b"glTF" {
-        return Err(error(0, "this is no GLB: the magic number is wrong".to_owned()));
+        return Err(error(0, "this is not a GLB: the magic number is wrong".to_owned()));
     }
     let version = word(bytes, 4);
     if version != 2 {

@@ -46,15 +46,12 @@ pub(crate) fn find_hierarchy(
     }
     let depths = find_depths(root, &parents);
     if let Some(node) = depths.iter().position(Option::is_none) {
-        return Err(error(node, "it hangs on itself: the nodes form a loop (cycle)".to_owned()));
+        return Err(error(node, "it is its own ancestor: the nodes form a cycle".to_owned()));
     }
     if let Some(node) = depths.iter().position(|&depth| depth > Some(limits.depth)) {
         return Err(error(
             node,
-            format!(
-                "nodes hang on each other more than {} deep; the limit is there to bound work",
-                limits.depth
-            ),
+            format!("nodes are nested more than {} deep, which is the limit", limits.depth),
         ));
     }
     let scene = chosen_scene(path, root, options.scene.as_ref())?;

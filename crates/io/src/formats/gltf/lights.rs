@@ -77,7 +77,7 @@ fn cone(light: &JsonLight, place: impl Fn() -> Place, warnings: &mut Warnings) -
     if 0.0 <= inner && inner < outer && outer <= WIDEST {
         return (inner, outer);
     }
-    let what = format!("its cone from {inner} to {outer} is not within 0 and π/2 and is mended");
+    let what = format!("its cone from {inner} to {outer} is not within 0 and π/2 and is corrected");
     warnings.push(place(), what, "export the model again");
     let within = |angle: f32, most: f32| if angle.is_finite() { angle.clamp(0.0, most) } else { 0.0 };
     let outer = within(outer, WIDEST);

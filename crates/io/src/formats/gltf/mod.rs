@@ -171,13 +171,13 @@ fn native_mesh(
 ) -> Result<Option<BuiltMesh>, Unplaced> {
     let read = match extras {
         Extras::Absent => return Ok(None),
-        Extras::Broken => Err("what describes its polygons cannot be understood".to_owned()),
+        Extras::Broken => Err("the description of its polygons is invalid".to_owned()),
         Extras::Present(header) => native::read_native_mesh(accessors, index, header)?,
     };
     let native = match read {
         Ok(native) => native,
         Err(why) => {
-            let what = format!("{why}; they are read without polygons, marks and first positions");
+            let what = format!("{why}; they are read without polygons, marks and original positions");
             warnings.push(
                 Place::Item("mesh", index),
                 what,

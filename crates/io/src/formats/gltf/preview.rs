@@ -196,7 +196,7 @@ impl<'de> Visitor<'de> for Search<'_> {
 
     fn visit_u64<E: Error>(self, number: u64) -> Result<(), E> {
         if self.inside == Inside::Indices && number > u64::from(u32::MAX) {
-            return Err(E::custom(format_args!("{number} is no index: it needs more than 32 bits")));
+            return Err(E::custom(format_args!("{number} is not a valid index: it needs more than 32 bits")));
         }
         Ok(())
     }
@@ -252,7 +252,7 @@ mod tests {
                 |number: &str| serde_json::from_str::<Preview>(&object.replace('N', number)).map(|_| ());
             assert!(read("4294967295").is_ok(), "{object}: that fits");
             let error = read("4294967296").expect_err(object);
-            assert!(error.to_string().starts_with("4294967296 is no index"), "{object}: {error}");
+            assert!(error.to_string().starts_with("4294967296 is not a valid index"), "{object}: {error}");
         }
         for other in [r#"{"nodes": [{"translation": [N, 0, 0]}]}"#, r#"{"nodes": [{"extras": {"mesh": N}}]}"#]
         {

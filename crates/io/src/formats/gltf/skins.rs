@@ -44,7 +44,7 @@ fn read_bind_matrices(
         if matrix.is_finite() { DAffine3::from_mat4(matrix) } else { DAffine3::IDENTITY }
     };
     let matrices = read.iter().take(skin.joints.len()).map(&mut convert).collect();
-    let what = "a bind matrix is not finite, or its last row is not 0 0 0 1; it is mended";
+    let what = "a bind matrix is not finite, or its last row is not 0 0 0 1; it is corrected";
     warnings.push_counted(broken, place(), what, "export the model again");
     Ok(matrices)
 }

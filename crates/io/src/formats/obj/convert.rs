@@ -85,7 +85,7 @@ fn alpha_from(file: &Path, from: &Fields, warnings: &mut Warnings) -> f32 {
             warnings.push_about(
                 file,
                 Place::Line(line),
-                "Tr 1 would be invisible and is taken as opaque",
+                "Tr 1 would be invisible and is read as opaque",
                 "write d instead of Tr",
             );
             1.0

@@ -170,7 +170,7 @@ fn leads_nowhere(text: &[u8], total: Counts) -> String {
     let word = first_word(text);
     let position = word.split(|&byte| byte == b'/').next().unwrap_or(word);
     let has = counted(total.positions, "vertex");
-    format!("face index {} leads nowhere; the file has {has}", quote(position))
+    format!("face index {} does not exist; the file has {has}", quote(position))
 }
 
 #[cold]

@@ -201,7 +201,7 @@ mod tests {
     fn transparency_has_two_spellings() {
         let alpha = |text: &str| parse(&format!("newmtl a\n{text}\n")).0[0].material.base_color.w;
         assert_eq!(alpha("Tr 0.25"), 0.75, "Tr");
-        assert_eq!(alpha("Tr 1"), 1.0, "taken as opaque");
+        assert_eq!(alpha("Tr 1"), 1.0, "read as opaque");
         assert_eq!(alpha("d 0.5\nTr 0.9"), 0.5, "d wins");
         assert_eq!(alpha("d -halo 0.5"), 0.5, "options are skipped");
         assert_eq!(alpha("d nan"), 1.0, "not finite");

@@ -34,7 +34,7 @@ type Field<T> = fn(&mut Fields) -> &mut Option<Stated<T>>;
 /// No number is outside.
 const ANY: RangeInclusive<f32> = f32::MIN..=f32::MAX;
 
-pub(super) const MEND: &str = "mend the line, or export the material again";
+pub(super) const MEND: &str = "fix the line, or export the material again";
 
 impl<'a> Reader<'a> {
     pub(super) fn new(file: &'a Path, warnings: &'a mut Warnings) -> Self {
@@ -162,7 +162,7 @@ impl<'a> Reader<'a> {
             }
             _ if word.is_empty() => self.warn(line, "illum has no number, and is ignored", MEND),
             _ => {
-                let what = format!("illum {word} is no illumination model (0 to {LAST}), and is ignored");
+                let what = format!("illum {word} is not an illumination model (0 to {LAST}), and is ignored");
                 self.warn(line, &what, MEND);
             }
         }

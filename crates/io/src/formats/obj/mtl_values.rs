@@ -38,7 +38,7 @@ fn finite_numbers(rest: &[u8]) -> Result<Vec<f32>, String> {
     let number = |word: &[u8]| {
         let text = decode_name(word);
         let value = text.parse().ok().filter(|value: &f32| value.is_finite());
-        value.ok_or_else(|| format!("has \"{text}\", which is no finite number"))
+        value.ok_or_else(|| format!("has \"{text}\", which is not a finite number"))
     };
     words(rest).map(number).collect()
 }

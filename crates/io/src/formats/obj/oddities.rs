@@ -60,7 +60,7 @@ const WORDS: [(&str, &str); KINDS] = [
         "a line or a point has texture coordinates, which are ignored: it shows no texture",
         "give it a material of one colour",
     ),
-    ("a texture coordinate or normal index leads nowhere and is ignored", "export the model again"),
+    ("a texture coordinate or normal index does not exist and is ignored", "export the model again"),
     (
         "a face has texture coordinates at some corners only, and 0 is taken at the others",
         "write v/vt at all corners of a face or at none",

@@ -246,7 +246,7 @@ impl Reader {
     /// Reads the corners of an element.
     fn read_corners(&mut self, line: u64, rest: &[u8]) -> Result<Corners, Fault> {
         let found = read_corners(rest, self.seen, self.total, &mut self.corners)
-            .map_err(|what| Fault::new(what, "export the model again, or mend the line"))?;
+            .map_err(|what| Fault::new(what, "export the model again, or fix the line"))?;
         for _ in 0..found.dropped {
             self.note(Oddity::IndexDropped, line);
         }

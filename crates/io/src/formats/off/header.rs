@@ -5,7 +5,7 @@ use crate::import::Import;
 use crate::rows::{Rows, quoted, words};
 
 /// What helps against most faults.
-pub(super) const REMEDY: &str = "mend the line, or export the model again";
+pub(super) const REMEDY: &str = "fix the line, or export the model again";
 
 #[derive(Debug, Default)]
 pub(super) struct Header {

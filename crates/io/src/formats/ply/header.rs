@@ -97,7 +97,10 @@ pub(super) fn read_header(import: &mut Import<'_>, bytes: &[u8]) -> Result<Heade
     let malformed = |line: u64, what: String| LoadError::malformed(path, what, REMEDY).at(Place::Line(line));
     let mut lines = Lines::new(bytes);
     if lines.next() != Some(b"ply") {
-        return Err(malformed(1, "it does not begin with a line \"ply\", and so is no PLY file".to_owned()));
+        return Err(malformed(
+            1,
+            "it does not begin with a line \"ply\", so it is not a PLY file".to_owned(),
+        ));
     }
     let mut draft = Draft::default();
     loop {
@@ -155,7 +158,7 @@ fn encoding(name: &[u8]) -> Result<Encoding, String> {
         b"binary_little_endian" => Ok(Encoding::Binary(ByteOrder::Little)),
         b"binary_big_endian" => Ok(Encoding::Binary(ByteOrder::Big)),
         _ => Err(format!(
-            "the format {} is none of ascii, binary_little_endian and binary_big_endian",
+            "the format {} is unknown; it must be ascii, binary_little_endian or binary_big_endian",
             quoted(name)
         )),
     }
@@ -166,14 +169,14 @@ fn element<'a>(mut words: impl Iterator<Item = &'a [u8]>) -> Result<Element, Str
     let word = words.next().unwrap_or_default();
     let count = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
     let count =
-        count.ok_or_else(|| format!("the element \"{name}\" has {}, which is no count", quoted(word)))?;
+        count.ok_or_else(|| format!("the element \"{name}\" has {}, which is not a count", quoted(word)))?;
     Ok(Element { name, count, properties: Vec::new() })
 }
 
 fn property<'a>(mut words: impl Iterator<Item = &'a [u8]>) -> Result<Property, String> {
     let mut word = || words.next().unwrap_or_default();
     let scalar = |name: &[u8]| {
-        Scalar::from_name(name).ok_or_else(|| format!("{} is no type of number of PLY", quoted(name)))
+        Scalar::from_name(name).ok_or_else(|| format!("{} is not a PLY number type", quoted(name)))
     };
     let first = word();
     let kind = if first == b"list" {

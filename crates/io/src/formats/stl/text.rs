@@ -53,7 +53,7 @@ impl Reader {
         match keyword.as_slice() {
             b"vertex" => {
                 let corner = place(rest).map_err(|what| {
-                    LoadError::malformed(import.path, what, "mend the line, or export the model again")
+                    LoadError::malformed(import.path, what, "fix the line, or export the model again")
                         .at(Place::Line(number))
                 })?;
                 self.corners.push(corner);

@@ -117,7 +117,7 @@ fn edited_document(mesh: Mesh) -> NativeDocument {
 fn assert_same_edits(first: &EditMesh, second: &EditMesh) {
     let ((mesh, map), (again, map_again)) = (first.to_mesh(), second.to_mesh());
     assert!(unnamed(again) == unnamed(mesh), "the same mesh, to the bit");
-    assert_eq!(second.marks(&map_again), first.marks(&map), "marks and first positions");
+    assert_eq!(second.marks(&map_again), first.marks(&map), "marks and original positions");
     second.check_structure().expect("it keeps every rule");
 }
 
@@ -337,7 +337,7 @@ fn if_another_program_moved_a_vertex_the_triangles_win() {
     assert_eq!(
         warned[0].to_string(),
         "a.glb, mesh 0: another program changed its triangles; they are read without polygons, marks and \
-         first positions; open the file that trigon saved if you need these"
+         original positions; open the file that trigon saved if you need these"
     );
     assert!(second.edited.is_empty(), "what is edited is gone");
     let (_, mesh) = only_mesh(&second.scene);

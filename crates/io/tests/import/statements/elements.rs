@@ -77,11 +77,11 @@ fn faces() -> Vec<Row> {
 }
 
 fn indices() -> Vec<Row> {
-    const ZERO: &str = "a.obj, line 8: face corner \"0\" has index 0, and indices count from 1; export the model again, or mend the line";
-    const FAR: &str = "a.obj, line 8: face index \"9\" leads nowhere; the file has 4 vertices; export the model again, or mend the line";
-    const BEHIND: &str = "a.obj, line 8: face index \"-5\" leads nowhere; the file has 4 vertices; export the model again, or mend the line";
-    const WRAPPED: &str = "a.obj, line 8: face index \"4294967297\" leads nowhere; the file has 4 vertices; export the model again, or mend the line";
-    const DROPPED: &str = "a.obj, line 8: a texture coordinate or normal index leads nowhere and is ignored; export the model again";
+    const ZERO: &str = "a.obj, line 8: face corner \"0\" has index 0, and indices count from 1; export the model again, or fix the line";
+    const FAR: &str = "a.obj, line 8: face index \"9\" does not exist; the file has 4 vertices; export the model again, or fix the line";
+    const BEHIND: &str = "a.obj, line 8: face index \"-5\" does not exist; the file has 4 vertices; export the model again, or fix the line";
+    const WRAPPED: &str = "a.obj, line 8: face index \"4294967297\" does not exist; the file has 4 vertices; export the model again, or fix the line";
+    const DROPPED: &str = "a.obj, line 8: a texture coordinate or normal index does not exist and is ignored; export the model again";
     vec![
         read(
             "f -1 …",
@@ -102,17 +102,17 @@ fn indices() -> Vec<Row> {
         refused(
             "f with a word",
             Lines("f 1 2 x"),
-            "a.obj, line 8: face corner \"x\" is not an index; export the model again, or mend the line",
+            "a.obj, line 8: face corner \"x\" is not an index; export the model again, or fix the line",
         ),
         refused(
             "f with four indices at a corner",
             Lines("f 1/1/1/1 2 3"),
-            "a.obj, line 8: face corner \"1/1/1/1\" has more than three indices; export the model again, or mend the line",
+            "a.obj, line 8: face corner \"1/1/1/1\" has more than three indices; export the model again, or fix the line",
         ),
         refused(
             "f with texture coordinate 0",
             Lines("f 1/0 2/1 3/1"),
-            "a.obj, line 8: face corner \"1/0\" has index 0, and indices count from 1; export the model again, or mend the line",
+            "a.obj, line 8: face corner \"1/0\" has index 0, and indices count from 1; export the model again, or fix the line",
         ),
         read(
             "f with a texture coordinate or normal out of range",

@@ -91,11 +91,11 @@ fn values() -> Vec<Row> {
 fn malformed() -> Vec<Row> {
     vec![
         drawn("-s with a word", "map_Kd -s x 2 2 color.png", "the texture, not repeated")
-            .says("m.mtl, line 2: the options -s x 2 2 of texture \"color.png\" are malformed and not followed; mend the line, or export the material again"),
+            .says("m.mtl, line 2: the options -s x 2 2 of texture \"color.png\" are malformed and not followed; fix the line, or export the material again"),
         drawn("-o that is not finite", "map_Kd -o nan 0 0 color.png", "the texture, not moved")
-            .says("m.mtl, line 2: the options -o nan 0 0 of texture \"color.png\" are malformed and not followed; mend the line, or export the material again"),
+            .says("m.mtl, line 2: the options -o nan 0 0 of texture \"color.png\" are malformed and not followed; fix the line, or export the material again"),
         drawn("-clamp yes", "map_Kd -clamp yes color.png", "the texture is repeated")
-            .says("m.mtl, line 2: the options -clamp yes of texture \"color.png\" are malformed and not followed; mend the line, or export the material again"),
+            .says("m.mtl, line 2: the options -clamp yes of texture \"color.png\" are malformed and not followed; fix the line, or export the material again"),
         left("an unknown option", Lines("map_Kd -foo 1 color.png"), "it is taken as the name's beginning")
             .says("m.mtl, line 2: texture \"-foo 1 color.png\" is not drawn: there is no such file; put the file there, or export the model again with it"),
         left("an option in upper case", Lines("map_Kd -S 2 2 2 color.png"), "it is taken as the name's beginning")

@@ -179,15 +179,15 @@ fn files() -> Vec<Row> {
         left("map_Kd of a missing file", Lines("map_Kd gone.png"), "the colour alone is drawn")
             .says("m.mtl, line 2: texture \"gone.png\" is not drawn: there is no such file; put the file there, or export the model again with it"),
         read("map_Kd of a file that is no picture", Lines("map_Kd a.obj"), "a checkerboard that nobody overlooks", has_base_color)
-            .says("m.mtl, line 2: picture \"a.obj\" is shown as a checkerboard: its first bytes are those of no known picture format; save it as PNG, JPEG or WebP"),
+            .says("m.mtl, line 2: picture \"a.obj\" is shown as a checkerboard: its first bytes match no known image format; save it as PNG, JPEG or WebP"),
         left("map_Ks of a file that is no picture", File("newmtl m\nKs 1 1 1\n> map_Ks a.obj"), "the number alone is drawn")
-            .says("m.mtl, line 3: picture \"a.obj\" is left out: its first bytes are those of no known picture format; save it as PNG, JPEG or WebP"),
+            .says("m.mtl, line 3: picture \"a.obj\" is left out: its first bytes match no known image format; save it as PNG, JPEG or WebP"),
         read("map_Kd file of another case, or by another folder", Lines("map_Kd C:\\art\\COLOR.png"), "the file beside the model", has_base_color)
             .says("m.mtl, line 2: texture \"C:\\art\\COLOR.png\" was not found; \"color.png\" is used instead; correct the name there"),
         left("map_Kd without a file", Lines("map_Kd"), "it names nothing")
-            .says("m.mtl, line 2: map_Kd names no file, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: map_Kd names no file, and is ignored; fix the line, or export the material again"),
         left("map_Kd with options and no file", Lines("map_Kd -s 2 2 2"), "it names nothing")
-            .says("m.mtl, line 2: map_Kd names no file, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: map_Kd names no file, and is ignored; fix the line, or export the material again"),
         left("map_Kd file # comment", Lines("map_Kd color.png # wood"), "names may have spaces and #")
             .says("m.mtl, line 2: texture \"color.png # wood\" is not drawn: there is no such file; put the file there, or export the model again with it"),
     ]

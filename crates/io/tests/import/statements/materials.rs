@@ -46,7 +46,7 @@ fn names() -> Vec<Row> {
     vec![
         read("newmtl name", File("> newmtl m\nKd 1 0 0"), "a material; names may have spaces", is_red),
         left("newmtl without a name", File("newmtl m\nKd 1 0 0\n> newmtl\n> Kd 0 0 1"), "nothing can refer to it")
-            .says("m.mtl, line 3: a material has no name and is left out; mend the line, or export the material again"),
+            .says("m.mtl, line 3: a material has no name and is left out; fix the line, or export the material again"),
         read(
             "newmtl of a name that was there",
             File("newmtl m\nKd 0 0 1\n> newmtl m\n> Kd 1 0 0"),
@@ -101,25 +101,25 @@ fn colors() -> Vec<Row> {
 
 fn malformed_colors() -> Vec<Row> {
     const MEND: &str =
-        "m.mtl, line 2: Kd has no number, and is ignored; mend the line, or export the material again";
+        "m.mtl, line 2: Kd has no number, and is ignored; fix the line, or export the material again";
     vec![
         left("Kd spectral file.rfl factor", Lines("Kd spectral wood.rfl 1"), "trigon draws in three colours")
-            .says("m.mtl, line 2: Kd names a spectral curve, which is not read, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: Kd names a spectral curve, which is not read, and is ignored; fix the line, or export the material again"),
         left("Ks spectral file.rfl factor", Lines("Ks spectral wood.rfl"), "trigon draws in three colours")
-            .says("m.mtl, line 2: Ks names a spectral curve, which is not read, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: Ks names a spectral curve, which is not read, and is ignored; fix the line, or export the material again"),
         left("Kd xyz x y z", Lines("Kd xyz 0.5 0.5 0.5"), "the format does not say which white it means")
-            .says("m.mtl, line 2: Kd is in CIE XYZ, which is not read, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: Kd is in CIE XYZ, which is not read, and is ignored; fix the line, or export the material again"),
         left("Tf xyz x y z", Lines("Tf xyz 0.5"), "the format does not say which white it means")
-            .says("m.mtl, line 2: Tf is in CIE XYZ, which is not read, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: Tf is in CIE XYZ, which is not read, and is ignored; fix the line, or export the material again"),
         left("Kd without numbers", Lines("Kd"), "it says nothing").says(MEND),
         left("Kd with 2 numbers", Lines("Kd 1 0"), "a channel is missing")
-            .says("m.mtl, line 2: Kd has 2 numbers and needs 1 or 3, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: Kd has 2 numbers and needs 1 or 3, and is ignored; fix the line, or export the material again"),
         left("Kd with a word", Lines("Kd 0.5 x 0"), "a channel is missing")
-            .says("m.mtl, line 2: Kd has \"x\", which is no finite number, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: Kd has \"x\", which is not a finite number, and is ignored; fix the line, or export the material again"),
         left("Kd that is not finite", Lines("Kd nan 0 0"), "a channel is missing")
-            .says("m.mtl, line 2: Kd has \"nan\", which is no finite number, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: Kd has \"nan\", which is not a finite number, and is ignored; fix the line, or export the material again"),
         read("Kd with more than 3 numbers", Lines("Kd 1 0 0 0.5"), "the first 3", is_red)
-            .says("m.mtl, line 2: Kd has more than 3 numbers, and the first 3 count; mend the line, or export the material again"),
+            .says("m.mtl, line 2: Kd has more than 3 numbers, and the first 3 count; fix the line, or export the material again"),
         read("Kd outside of 0 to 1", Lines("Kd 255 0 -1"), "a number within that range", is_red)
             .says("m.mtl, line 2: Kd is outside of 0 to 1 and is clamped; write a number within that range"),
         read("Ke above 1", Lines("Ke 5 0 0"), "1", |loaded| material(loaded).emissive == Vec3::X)
@@ -138,11 +138,11 @@ fn highlights() -> Vec<Row> {
         })
         .says("m.mtl, line 3: Ns is outside of 0 to 1000 and is clamped; write a number within that range"),
         left("Ns without a number", File("newmtl m\nKs 1 1 1\n> Ns"), "it says nothing")
-            .says("m.mtl, line 3: Ns has no number, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 3: Ns has no number, and is ignored; fix the line, or export the material again"),
         read("Ns with more than 1 number", File("newmtl m\nKs 1 1 1\n> Ns 50 60"), "the first", |loaded| {
             shading(loaded) == Shading::blinn_phong(Vec3::ONE, 50.0)
         })
-        .says("m.mtl, line 3: Ns has more than 1 number, and the first counts; mend the line, or export the material again"),
+        .says("m.mtl, line 3: Ns has more than 1 number, and the first counts; fix the line, or export the material again"),
         left("sharpness value", Lines("sharpness 60"), "it blurs reflection maps, each of which has a warning"),
         read("Ni index", Lines("Ni 1.3"), "the index of refraction; a highlight by Ks does not use it", |loaded| {
             material(loaded).ior == 1.3
@@ -183,13 +183,13 @@ fn illumination_models() -> Vec<Row> {
         left("illum 10", Lines("illum 10"), "no surface shows shadows alone")
             .says("m.mtl, line 2: illum 10 asks for a surface that shows nothing but shadows, and it is drawn whole; remove the surface, or write another illum"),
         left("illum above 10", Lines("illum 42"), "there is no such model")
-            .says("m.mtl, line 2: illum 42 is no illumination model (0 to 10), and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: illum 42 is not an illumination model (0 to 10), and is ignored; fix the line, or export the material again"),
         read("illum with more than 1 number", File("newmtl m\nKs 1 1 1\n> illum 1 2"), "the first", |loaded| {
             shading(loaded) == Shading::Lambert
         })
-        .says("m.mtl, line 3: illum has more than 1 number, and the first counts; mend the line, or export the material again"),
+        .says("m.mtl, line 3: illum has more than 1 number, and the first counts; fix the line, or export the material again"),
         left("illum without a number", Lines("illum"), "it says nothing")
-            .says("m.mtl, line 2: illum has no number, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: illum has no number, and is ignored; fix the line, or export the material again"),
     ]
 }
 
@@ -208,16 +208,16 @@ fn opacity() -> Vec<Row> {
         })
         .says("m.mtl, line 2: d is outside of 0 to 1 and is clamped; write a number within that range"),
         left("d that is not finite", Lines("d nan"), "it says nothing")
-            .says("m.mtl, line 2: d has \"nan\", which is no finite number, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: d has \"nan\", which is not a finite number, and is ignored; fix the line, or export the material again"),
         read("d -halo factor", Lines("d -halo 0.5"), "opacity, the same all over", half)
             .says("m.mtl, line 2: d -halo is drawn as d: the same all over; remove -halo if that will do"),
         read("Tr factor", Lines("Tr 0.5"), "1 − Tr is the opacity", half),
         left("Tr 1", Lines("Tr 1"), "some exporters write it for opaque")
-            .says("m.mtl, line 2: Tr 1 would be invisible and is taken as opaque; write d instead of Tr"),
+            .says("m.mtl, line 2: Tr 1 would be invisible and is read as opaque; write d instead of Tr"),
         left("Tr below 0", Lines("Tr -1"), "0 is opaque")
             .says("m.mtl, line 2: Tr is below 0 and is clamped; write a number within that range"),
         left("Tr without a number", Lines("Tr x"), "it says nothing")
-            .says("m.mtl, line 2: Tr has \"x\", which is no finite number, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: Tr has \"x\", which is not a finite number, and is ignored; fix the line, or export the material again"),
         left("Tr beside the d that it means", File("newmtl m\nd 0.7\n> Tr 0.3"), "both say the same"),
         left("Tr beside another d", File("newmtl m\nd 0.5\n> Tr 0.9"), "d is the format's own")
             .says("m.mtl, line 3: d and Tr contradict each other (Tr is 1 − d), and d counts; remove Tr"),
@@ -235,7 +235,7 @@ fn physically_based() -> Vec<Row> {
         read("Pr outside of 0 to 1", Lines("Pr 3"), "a number within that range", |loaded| model(loaded).roughness == 1.0)
             .says("m.mtl, line 2: Pr is outside of 0 to 1 and is clamped; write a number within that range"),
         left("Pr without a number", Lines("Pr x"), "it says nothing")
-            .says("m.mtl, line 2: Pr has \"x\", which is no finite number, and is ignored; mend the line, or export the material again"),
+            .says("m.mtl, line 2: Pr has \"x\", which is not a finite number, and is ignored; fix the line, or export the material again"),
         left("Ks beside Pr or Pm", File("newmtl m\nPr 0.5\n> Ks 1 0 0"), "roughness and metal set the highlight")
             .says("m.mtl, line 3: Ks is not drawn beside Pr or Pm, which set the highlight; write Pm 1 for a metal, whose highlights are coloured"),
         left("Ns beside Pr or map_Pr", File("newmtl m\nPr 0.5\n> Ns 50"), "the roughness says how sharp the highlight is"),

@@ -88,7 +88,7 @@ fn materials() -> Vec<Row> {
             "a.obj, line 8: material library \"../gone.mtl\" is not read (it leads out of the model's folder), the default material is used; put the file beside the model and name it by its relative path",
         ),
         left("mtllib without a name", Lines("mtllib"), "it names nothing").says(
-            "a.obj, line 8: material library \"\" is not read (it is no valid file name), the default material is used; put the file beside the model and name it by its relative path",
+            "a.obj, line 8: material library \"\" is not read (it is not a valid file name), the default material is used; put the file beside the model and name it by its relative path",
         ),
         read(
             "mtllib after usemtl",

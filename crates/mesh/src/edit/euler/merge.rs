@@ -68,7 +68,7 @@ impl EditMesh {
         let gone: Vec<u32> = pairs.iter().map(|(from, _)| from.0).collect();
         let numbering = Numbering::new(&gone, self.vertex_capacity());
         if pairs.iter().any(|(_, into)| numbering.get(into.0).is_some()) {
-            return refused("what takes a place has to stay itself");
+            return refused("the vertex that others are merged into cannot be merged itself");
         }
         Ok(Targets { pairs, numbering })
     }

@@ -36,7 +36,7 @@ impl EditMesh {
         self.check_room()?;
         if !(0.0..=1.0).contains(&t) {
             return Err(Refusal::OutOfRange {
-                parameter: "the place on the edge",
+                parameter: "the position on the edge",
                 value: t,
                 range: "0 to 1",
             });
@@ -91,7 +91,7 @@ impl EditMesh {
         self.check_room()?;
         let refused = |reason| Err(Refusal::NotPossible { operation: "splitting a face", reason });
         if self.corner_face(from) != self.corner_face(to) {
-            return refused("both corners have to be of the same face");
+            return refused("both corners must belong to the same face");
         }
         if from == to || self.next_corner(from) == to || self.next_corner(to) == from {
             return refused("there is an edge between these corners already");

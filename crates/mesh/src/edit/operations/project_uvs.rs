@@ -84,7 +84,7 @@ impl EditMesh {
         let &PlanarProjection { center, normal, up, height, aspect } = projection;
         let right = unit_or_zero(unit_or_zero(up).cross(unit_or_zero(normal)));
         if right == DVec3::ZERO {
-            let reason = "the normal and up of the picture are on one line, or have no direction";
+            let reason = "normal and up are parallel, or one of them is zero";
             return Err(Refusal::NotPossible { operation: "projecting texture coordinates", reason });
         }
         let size = check_picture(center, height, aspect)?;
@@ -169,8 +169,8 @@ fn check_picture(center: DVec3, height: f64, aspect: f64) -> Result<DVec2, Refus
         }
         Err(Refusal::OutOfRange { parameter, value, range: "above 0 and finite" })
     };
-    positive("the height of the picture", height)?;
-    positive("the aspect of the picture", aspect)?;
+    positive("the height of the image", height)?;
+    positive("the aspect of the image", aspect)?;
     if let Some(value) = center.to_array().into_iter().find(|value| !value.is_finite()) {
         return Err(Refusal::OutOfRange { parameter: "the centre", value, range: "a finite number" });
     }

@@ -46,7 +46,7 @@ pub struct Environment {
 pub enum EnvironmentError {
     /// A side is 0 (or too long for a map), or there are not `width * height` pixels.
     #[error(
-        "{given} pixels are no picture of {width}x{height}: each side must be at least 1, and that of a map at most {MOST}"
+        "{given} pixels do not make an image of {width}x{height}: each side must be at least 1, and that of a map at most {MOST}"
     )]
     Size {
         /// Pixels from left to right.

@@ -98,11 +98,11 @@ impl fmt::Display for Decision {
 impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Asked => f.write_str("the settings ask for it"),
+            Self::Asked => f.write_str("the settings request it"),
             Self::Background => f.write_str("it is the background"),
-            Self::Lights(1) => f.write_str("one light shines on what is in view"),
-            Self::Lights(count) => write!(f, "{count} lights shine on what is in view"),
-            Self::Studio => f.write_str("what is in view is lit, and the scene has no such light of its own"),
+            Self::Lights(1) => f.write_str("one light shines on visible objects"),
+            Self::Lights(count) => write!(f, "{count} lights shine on visible objects"),
+            Self::Studio => f.write_str("the scene defines none, and lit surfaces are visible"),
             Self::Objects(Named { count: 1, first }) => write!(f, "`{first}` has it"),
             Self::Objects(Named { count, first }) => write!(f, "{count} objects have it, such as `{first}`"),
             Self::Metals(Named { count: 1, first }) => {
@@ -119,7 +119,7 @@ impl fmt::Display for Cause {
                 let (lights, objects) = (plural(*lamps), plural(*casters));
                 write!(
                     f,
-                    "the settings ask for it, with {lamps} light{lights} and {casters} object{objects} in the way"
+                    "the settings request it, and {lamps} light{lights} and {casters} shadow caster{objects} are present"
                 )
             }
         }
@@ -129,24 +129,24 @@ impl fmt::Display for Cause {
 impl fmt::Display for Absence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotAsked => f.write_str("the settings ask for none"),
+            Self::NotAsked => f.write_str("the settings do not request it"),
             Self::Nowhere => f.write_str("nothing in the scene has it"),
             Self::OutOfView(Named { count: 1, first }) => {
-                write!(f, "the only object that has it, `{first}`, is outside of the view")
+                write!(f, "the only object that has it, `{first}`, is outside the view")
             }
             Self::OutOfView(Named { count, first }) => {
-                write!(f, "the {count} objects that have it, such as `{first}`, are outside of the view")
+                write!(f, "the {count} objects that have it, such as `{first}`, are outside the view")
             }
-            Self::NothingLit => f.write_str("nothing in view is lit"),
-            Self::NoLamp => f.write_str("no light casts any"),
-            Self::NoAmbientLight => f.write_str("there is no light from everywhere"),
-            Self::NoCaster => f.write_str("nothing is in the way of light"),
-            Self::NoMetal => f.write_str("no metal is in view"),
+            Self::NothingLit => f.write_str("no visible surface is lit"),
+            Self::NoLamp => f.write_str("no light casts shadows"),
+            Self::NoAmbientLight => f.write_str("there is no ambient light"),
+            Self::NoCaster => f.write_str("no object casts shadows"),
+            Self::NoMetal => f.write_str("no metal is visible"),
             Self::OwnAmbientLight => f.write_str("the scene has ambient light of its own"),
             Self::Environment => f.write_str("the environment takes its place"),
-            Self::ShadingModel => f.write_str("the shading model leaves it out"),
+            Self::ShadingModel => f.write_str("the shading model does not include it"),
             Self::NoFaces => f.write_str("no faces are drawn"),
-            Self::NoColor => f.write_str("no colours are asked for"),
+            Self::NoColor => f.write_str("colour is not an output"),
             Self::Display => f.write_str("the display mode leaves it out"),
         }
     }

@@ -23,7 +23,7 @@ impl Survey {
         for (id, node) in stage.scene.nodes().iter() {
             let Some(shape) = stage.shapes.get(id.index()) else { continue };
             let seen = stage.may_show(shape);
-            let name = if node.name.is_empty() { "a nameless one" } else { &node.name };
+            let name = if node.name.is_empty() { "an unnamed object" } else { &node.name };
             let default = Material::default();
             let materials = shape.geometry.runs.iter().map(|run| {
                 let id = node.materials.get(run.slot as usize);

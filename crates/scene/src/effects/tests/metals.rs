@@ -149,7 +149,7 @@ fn the_plan_says_why_metals_mirror_the_sky_or_not() {
     };
     let studio = in_the_studio(MetalReflection::Sky);
     let mut scene = ball(matt(Vec3::ONE));
-    assert_eq!(said(&scene, &studio), "off, because no metal is in view", "a matt ball");
+    assert_eq!(said(&scene, &studio), "off, because no metal is visible", "a matt ball");
     scene.add_object("coin", primitives::uv_sphere(1.0, 8, 4), metal(0.5));
     assert_eq!(said(&scene, &studio), "on, because `coin` is metal, and the scene has no environment", "one");
     let other = scene.add_object("other", primitives::uv_sphere(1.0, 8, 4), metal(1.0));
@@ -158,16 +158,16 @@ fn the_plan_says_why_metals_mirror_the_sky_or_not() {
     scene.node_mut(other).expect("just added").transform = Transform::from_translation(DVec3::X * 50.0);
     assert!(said(&scene, &studio).contains("`coin` is metal"), "one of them in view");
     let ambient = in_the_studio(MetalReflection::Ambient);
-    assert_eq!(said(&scene, &ambient), "off, because the settings ask for none", "as asked");
+    assert_eq!(said(&scene, &ambient), "off, because the settings do not request it", "as asked");
     let as_matt = RenderSettings { reflection: crate::Reflection::Lambert, ..studio.clone() };
-    assert_eq!(said(&scene, &as_matt), "off, because no metal is in view", "drawn as no metal");
+    assert_eq!(said(&scene, &as_matt), "off, because no metal is visible", "drawn as no metal");
     let mut surrounded = studio.clone();
     surrounded.effects.environment = Some(Arc::new(Environment::uniform(Vec3::ONE)));
     assert_eq!(said(&scene, &surrounded), "off, because the environment takes its place", "an environment");
     scene.add(Node::from_light(Light::directional(1.0)));
     assert!(said(&scene, &studio).starts_with("on"), "lamps say nothing of what is around");
     let alone = RenderSettings { lighting: Lighting::Scene, ..studio.clone() };
-    assert_eq!(said(&scene, &alone), "off, because there is no light from everywhere", "nothing is added");
+    assert_eq!(said(&scene, &alone), "off, because there is no ambient light", "nothing is added");
     scene.add(Node::from_light(Light::ambient(0.3)));
     assert_eq!(said(&scene, &studio), "off, because the scene has ambient light of its own", "it says so");
     assert!(

@@ -144,6 +144,6 @@ fn what_is_out_of_view_is_named() {
     scene.node_mut(pane).expect("just added").transform = Transform::from_translation(DVec3::X * 50.0);
     let plan = EffectPlan::new(&scene, &from_front(), &settings(EffectSettings::default()));
     let said = plan.decision(Effect::Transparency).to_string();
-    assert_eq!(said, "off, because the only object that has it, `pane`, is outside of the view", "named");
+    assert_eq!(said, "off, because the only object that has it, `pane`, is outside the view", "named");
     assert_eq!(plan.to_string().lines().count(), Effect::ALL.len(), "a line for each");
 }

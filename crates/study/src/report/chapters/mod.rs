@@ -8,6 +8,7 @@ mod fill;
 mod frames;
 mod interpolation;
 mod line;
+pub(super) mod rivals;
 mod same_bytes;
 mod shading;
 mod shadow;
@@ -23,7 +24,7 @@ use super::{Chapter, Effort, Picture, Plot, Question, grey, heat, tint, tinted};
 use crate::measure::{Spread, interleaved};
 
 /// The chapters in their order.
-pub(super) const CHAPTERS: [Question; 16] = [
+pub(super) const CHAPTERS: [Question; 17] = [
     Question { name: "fill", measure: fill::measure, headlines: fill::headlines },
     Question { name: "visibility", measure: visibility::measure, headlines: visibility::headlines },
     Question { name: "line", measure: line::measure, headlines: line::headlines },
@@ -40,6 +41,7 @@ pub(super) const CHAPTERS: [Question; 16] = [
     Question { name: "storage", measure: storage::measure, headlines: storage::headlines },
     Question { name: "threads", measure: threads::measure, headlines: threads::headlines },
     Question { name: "frames", measure: frames::measure, headlines: frames::headlines },
+    Question { name: "rivals", measure: rivals::measure, headlines: rivals::headlines },
 ];
 
 /// The nanoseconds that each variant takes, in turn.

@@ -84,7 +84,7 @@ pub(super) fn read_skin(from: &mut Optional<'_, '_, '_>) -> Result<Option<PartSk
         from.warnings.push_counted(
             mended,
             from.place.clone(),
-            "a vertex has skin weights that are negative, not finite or not 1 in all; they are mended",
+            "a vertex has skin weights that are negative, not finite or not 1 in all; they are corrected",
             "normalise the weights and export again",
         );
     }

@@ -84,7 +84,7 @@ impl Optional<'_, '_, '_> {
                 Some(_) => "TEXCOORD_0 is used",
                 None => "the texture shows one colour",
             };
-            let what = format!("a texture of it wants TEXCOORD_{set}, which is missing; {instead}");
+            let what = format!("one of its textures needs TEXCOORD_{set}, which is missing; {instead}");
             self.warnings.push(self.place.clone(), what, "export the model with that UV map");
             if (set as usize) < sets.len() {
                 sets[set as usize] = sets[0].clone();

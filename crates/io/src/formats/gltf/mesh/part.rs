@@ -120,7 +120,7 @@ fn read_elements(
     accessors.spend(vertices.max(corner_count(mode, indices.len())), place)?;
     if let Some(beyond) = indices.iter().find(|&&vertex| vertex as usize >= vertices) {
         let has = counted(vertices, "vertex");
-        let what = format!("index {beyond} leads nowhere; the primitive has {has}");
+        let what = format!("index {beyond} does not exist; the primitive has {has}");
         return Err(malformed(place.clone(), what));
     }
     let elements = elements(mode, &indices);

@@ -107,7 +107,7 @@ impl NativeDocument {
                 Ok((mesh, _)) => drop(edited.insert(id, mesh)),
                 Err(error) => {
                     let place = Place::Named(format!("mesh \"{}\"", asset.name));
-                    let what = format!("marks and first positions are left out: {error}");
+                    let what = format!("marks and original positions are left out: {error}");
                     about.push(place, what, "open an older copy of the file if you need them");
                 }
             }

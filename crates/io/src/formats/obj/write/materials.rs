@@ -141,7 +141,7 @@ fn unheld(material: &Material) -> Vec<&'static str> {
         (material.emissive.max_element() > 1.0, "its emission beyond white"),
         (!material.double_sided, "that its back faces are not drawn"),
         (any(|binding| binding.uv_set != 0), "textures on other sets of coordinates"),
-        (any(is_turned), "turns of its textures"),
+        (any(is_turned), "rotations of its textures"),
         (any(is_mixed), "mirrored textures, and other ways for u and v"),
         (
             material.alpha_mode == AlphaMode::Blend && material.base_color.w == 1.0,

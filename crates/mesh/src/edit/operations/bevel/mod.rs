@@ -103,7 +103,7 @@ impl BevelLeftOut {
         } else if self.borders > 0 {
             "the edges have one face; an edge between two faces is needed"
         } else {
-            "no faces are there"
+            "there are no faces"
         }
     }
 }

@@ -75,7 +75,7 @@ impl EditMesh {
     fn find_path(&self, from: VertexId, to: VertexId) -> Result<Vec<Stop>, Refusal> {
         let refused = |reason| Err(Refusal::NotPossible { operation: CONNECTING, reason });
         let Some(plane) = self.path_plane(from, to) else {
-            return refused("no plane is given by both places and the normals there");
+            return refused("the two positions and their normals define no plane");
         };
         let (mut stops, mut here, mut came_through) = (Vec::new(), Stop::Vertex(from), None);
         // The path only goes forwards, so it ends; the bound is for places that are not finite.

@@ -170,7 +170,7 @@ impl Merging {
         vertices.sort_unstable();
         vertices.dedup();
         if vertices.len() < 3 {
-            return refused("the united face would have fewer than three vertices");
+            return refused("the merged face would have fewer than three vertices");
         }
         Ok(Part { faces, outline })
     }

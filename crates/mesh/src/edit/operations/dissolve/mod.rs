@@ -46,7 +46,7 @@ impl EditMesh {
         self.whole(|mesh| {
             let faces = mesh.merge_across(&edges, OnRefusal::Refuse)?;
             if faces.is_empty() {
-                let reason = "no two of the faces are joined by an edge and wind alike";
+                let reason = "no two of the faces share an edge and have the same winding";
                 return Err(Refusal::NotPossible { operation: "dissolving faces", reason });
             }
             Ok(Dissolved { faces, removed_vertices: vertices - mesh.vertex_count() })
@@ -63,7 +63,7 @@ impl EditMesh {
         require(edges, "dissolving edges", "at least one edge")?;
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
         if edges.iter().any(|&edge| self.merging_pair(edge).is_none()) {
-            let reason = "an edge is not between exactly two faces that wind alike";
+            let reason = "an edge is not between exactly two faces with the same winding";
             return Err(Refusal::NotPossible { operation: "dissolving edges", reason });
         }
         let mut ends: Vec<VertexId> = edges.iter().flat_map(|&edge| self.edge_vertices(edge)).collect();
@@ -119,7 +119,7 @@ impl EditMesh {
             return self.join_edges(vertex).map(drop);
         }
         if self.vertex_faces(vertex).next().is_some() {
-            let reason = "the faces at a vertex cannot be united to one";
+            let reason = "the faces at a vertex cannot be merged into one";
             return Err(Refusal::NotPossible { operation: "dissolving vertices", reason });
         }
         self.remove_vertex(vertex)

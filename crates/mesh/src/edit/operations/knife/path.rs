@@ -28,7 +28,7 @@ impl EditMesh {
                 if (0.0..=1.0).contains(&t) {
                     return Ok(());
                 }
-                let (parameter, range) = ("the place on the edge", "0 to 1");
+                let (parameter, range) = ("the position on the edge", "0 to 1");
                 Err(Refusal::OutOfRange { parameter, value: t, range })
             }
         }

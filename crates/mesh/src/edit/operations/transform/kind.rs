@@ -120,7 +120,7 @@ impl Transform {
                 Prepared::Linear { center: DVec3::ZERO, change: DMat3::ZERO, offset }
             }
             Self::Rotate { center, axis, angle, orientation } => {
-                let axis = direction_of(axis, "rotating", "the axis has no direction")?;
+                let axis = direction_of(axis, "rotating", "the axis is zero or not finite")?;
                 let orientation = match orientation == DMat3::IDENTITY {
                     true => None,
                     false => Some([orientation, inverse(orientation, "rotating")?]),
@@ -133,8 +133,9 @@ impl Transform {
                 Prepared::Linear { center, change, offset: DVec3::ZERO }
             }
             Self::Shear { center, normal, direction, factor } => {
-                let normal = direction_of(normal, "shearing", "the plane's normal has no direction")?;
-                let direction = direction_of(direction, "shearing", "there is no direction to shear in")?;
+                let normal = direction_of(normal, "shearing", "the plane's normal is zero or not finite")?;
+                let direction =
+                    direction_of(direction, "shearing", "the shear direction is zero or not finite")?;
                 let along = direction * factor;
                 let change = DMat3::from_cols(along * normal.x, along * normal.y, along * normal.z);
                 Prepared::Linear { center, change, offset: DVec3::ZERO }
@@ -266,6 +267,6 @@ fn scaling(factors: DVec3, orientation: DMat3) -> Result<DMat3, Refusal> {
 }
 
 fn inverse(orientation: DMat3, operation: &'static str) -> Result<DMat3, Refusal> {
-    let reason = "the axes of the orientation are not independent";
+    let reason = "the axes of the orientation are not linearly independent";
     orientation.try_inverse().ok_or(Refusal::NotPossible { operation, reason })
 }

@@ -92,7 +92,7 @@ fn what_makes_no_sense_is_refused() {
     let center = DVec3::ZERO;
     let message =
         refused(Transform::Rotate { center, axis: DVec3::ZERO, angle: 1.0, orientation: DMat3::IDENTITY });
-    assert_eq!(message, "rotating is not possible here: the axis has no direction");
+    assert_eq!(message, "rotating is not possible here: the axis is zero or not finite");
     refused(Transform::Translate { offset: DVec3::NAN });
     let orientation = DMat3::from_cols(DVec3::X, DVec3::X, DVec3::Z);
     refused(Transform::Scale { center, factors: DVec3::splat(2.0), orientation });

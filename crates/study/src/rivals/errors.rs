@@ -1,0 +1,108 @@
+//! How far a picture is from the exact one, by causes.
+
+use super::{Exact, Pixel};
+use crate::workloads::Scene;
+use trigon_math::DVec3;
+
+/// What is wrong with a picture. Differences of colours are of 255.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// The root of the mean square against the mean light of each pixel that shows any surface.
+    pub picture: f64,
+    /// What can be said of pictures with one sample a pixel, at its centre.
+    pub centres: Option<Centres>,
+}
+
+/// Errors at the centres of pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Centres {
+    /// Of a thousand pixels where surfaces meet: those that show another surface than the right one.
+    pub wrong_at_outlines: f64,
+    /// Of a million other pixels: those that show a hole; in flat colours also those that show another surface, which cannot
+    /// be light there.
+    pub wrong_within: f64,
+    /// The root of the mean square within surfaces, without those.
+    pub within: f64,
+    /// The greatest difference there.
+    pub worst_within: f64,
+}
+
+impl Errors {
+    /// Of a picture of the same size. `is_flat` tells that each surface has one colour.
+    pub fn new(exact: &Exact, picture: &[[u8; 4]], is_centred: bool, is_flat: bool) -> Self {
+        let touched = exact.pixels.iter().zip(picture).filter(|(pixel, _)| pixel.is_touched);
+        let squares: Vec<f64> =
+            touched.map(|(pixel, found)| (pixel.mean * 255.0 - color(*found)).length_squared()).collect();
+        Self {
+            picture: root_mean(&squares),
+            centres: is_centred.then(|| Centres::new(exact, picture, is_flat)),
+        }
+    }
+}
+
+impl Centres {
+    fn new(exact: &Exact, picture: &[[u8; 4]], is_flat: bool) -> Self {
+        let [mut outlines, mut wrong, mut inside, mut holes] = [0_u32; 4];
+        let (mut squares, mut worst) = (Vec::new(), 0.0_f64);
+        for (index, pixel) in exact.pixels.iter().enumerate() {
+            let found = color(picture[index]);
+            let others: Vec<&Pixel> =
+                exact.neighbours(index).filter(|other| is_other(pixel, other)).collect();
+            if !others.is_empty() {
+                outlines += 1;
+                wrong += u32::from(shows_another(found, pixel, &others));
+            } else if pixel.surface > 0 {
+                let difference = (pixel.color * 255.0 - found).abs();
+                inside += 1;
+                let differs = is_flat && difference.max_element() > 0.5;
+                if picture[index] == Scene::BACKGROUND || differs {
+                    holes += 1;
+                } else {
+                    squares.push(difference.length_squared());
+                    worst = worst.max(difference.max_element());
+                }
+            }
+        }
+        Self {
+            wrong_at_outlines: 1e3 * f64::from(wrong) / f64::from(outlines.max(1)),
+            wrong_within: 1e6 * f64::from(holes) / f64::from(inside.max(1)),
+            within: root_mean(&squares),
+            worst_within: worst,
+        }
+    }
+}
+
+impl Exact {
+    /// The pixels around one, up to eight.
+    fn neighbours(&self, index: usize) -> impl Iterator<Item = &Pixel> {
+        let [x, y] = [index % self.width, index / self.width];
+        let rows = y.saturating_sub(1)..(y + 2).min(self.pixels.len() / self.width);
+        let columns = x.saturating_sub(1)..(x + 2).min(self.width);
+        rows.flat_map(move |row| columns.clone().map(move |column| &self.pixels[row * self.width + column]))
+    }
+}
+
+/// Whether two pixels beside each other show different surfaces. One is another where it hides itself, too: no slope of the
+/// workloads' surfaces, seen from where they are, takes a fiftieth of the distance in a pixel.
+fn is_other(one: &Pixel, other: &Pixel) -> bool {
+    const STEP: f64 = 0.02;
+    one.surface != other.surface
+        || (one.nearness - other.nearness).abs() > STEP * one.nearness.max(other.nearness)
+}
+
+/// Whether a colour is nearer to that of a neighbour on another surface than to the right one, and more than a rounding from
+/// the latter.
+fn shows_another(found: DVec3, pixel: &Pixel, others: &[&Pixel]) -> bool {
+    const ROUNDING: f64 = 2.0;
+    let from = |other: &Pixel| (other.color * 255.0 - found).length();
+    from(pixel) > ROUNDING && others.iter().any(|other| from(other) < from(pixel))
+}
+
+fn color([r, g, b, _]: [u8; 4]) -> DVec3 {
+    DVec3::new(f64::from(r), f64::from(g), f64::from(b))
+}
+
+/// Of sums of squares over three channels.
+fn root_mean(squares: &[f64]) -> f64 {
+    (squares.iter().sum::<f64>() / (3 * squares.len()).max(1) as f64).sqrt()
+}

@@ -1,0 +1,68 @@
+#!/bin/bash
+# Other renderers' pictures of the workloads, and their times beside trigon's.
+#
+# usage: tests/peers/rivals.sh PEERS pictures FOLDER   draw W2 to W6 with every peer, as RENDERER-WORKLOAD.png
+#        tests/peers/rivals.sh PEERS times [ROUNDS]    time everything in turn, and print crates/study/rivals/times.csv
+#
+# PEERS is the folder of the programs that draw the workloads with OpenGL, Vulkan, euc and retrofire, where ./setup.sh has been
+# run once. To publish: pictures, then `cargo run --release -p trigon-study --example rivals -- FOLDER > crates/study/rivals/errors.csv`,
+# then on a machine that does nothing else times > crates/study/rivals/times.csv, then trigon-viewer study.
+set -e
+[ $# -ge 2 ] || { sed -n '2,9s/^# \?//p' "$0"; exit 2; }
+cd "$(dirname "$0")/../.."
+peers=$(cd "$1" && pwd)
+. "$peers/env.sh"
+workloads="W2 W3 W4 W5 W6"
+
+# The peers with their settings of threads for one and for two cores.
+one_core="llvmpipe-debian:1 llvmpipe-new:1 lavapipe-new:1 swiftshader:1 euc:1 retrofire:1"
+two_cores="llvmpipe-debian:2+1 llvmpipe-new:2+1 lavapipe-new:2+1 swiftshader:2"
+
+pictures() {
+    mkdir -p "$1"
+    export PEERS_PNG=$(cd "$1" && pwd) PEERS_REPS=1
+    for each in $one_core; do one "${each%%:*}" "${each#*:}" $workloads >&2; done
+}
+
+# trigon's lines have the same form as the peers': renderer,workload,threads,work,ms,ms,...
+own() {
+    local program=target/release/examples/workloads pin=""
+    [ "$1" = 1 ] && pin="taskset -c 0"
+    for preset in draft standard high reference; do
+        $pin $program --threads "$1" --repetitions "$PEERS_REPS" --preset $preset --samples "$PEERS_SAMPLES" W2 W3 W4 W5 >&2
+    done
+    $pin $program --threads "$1" --repetitions "$PEERS_REPS" --samples "$PEERS_SAMPLES" W6 >&2
+}
+
+# Each frame warms up within its process; rounds take turns, so that a slow minute of the machine falls on all.
+times() {
+    cargo build --release -p trigon-study --example workloads
+    export PEERS_SAMPLES=$(mktemp) PEERS_REPS=5
+    for _ in $(seq "$1"); do
+        for each in $one_core $two_cores; do (one "${each%%:*}" "${each#*:}" $workloads) >&2; done
+        own 1
+        own 2
+    done
+    echo "# $(grep -m1 'model name' /proc/cpuinfo | sed 's/.*: //'), $1 rounds of 5 frames"
+    echo "renderer,workload,threads,low,median,high"
+    python3 - "$PEERS_SAMPLES" <<'PYTHON'
+import sys
+
+pooled = {}
+for line in open(sys.argv[1]):
+    renderer, workload, threads, _, *times = line.strip().split(",")
+    threads = 2 if threads in ("2", "2+1") else 1
+    pooled.setdefault((renderer, workload, threads), []).extend(map(float, times))
+for (renderer, workload, threads), times in sorted(pooled.items()):
+    times.sort()
+    low, median, high = (times[(len(times) - 1) * quarter // 4] for quarter in (1, 2, 3))
+    print(f"{renderer},{workload},{threads},{low:.4f},{median:.4f},{high:.4f}")
+PYTHON
+    rm "$PEERS_SAMPLES"
+}
+
+case $2 in
+    pictures) pictures "${3:-target/rivals}";;
+    times) times "${3:-5}";;
+    *) echo "there is no $2" >&2; exit 2;;
+esac
