@@ -53,7 +53,7 @@ impl FilePatch {
     }
 
     /// Why it does not apply to the file below a folder; `None` if it does. Each hunk has to find its lines
-    /// behind those of the hunk before, in one place only.
+    /// behind those of the hunk before.
     #[must_use]
     pub fn fault(&self, root: &Path) -> Option<String> {
         let path = root.join(&self.path);
@@ -65,17 +65,9 @@ impl FilePatch {
         let mut after = 0;
         for (number, hunk) in (1..).zip(&self.expected) {
             let is_here = |&at: &usize| lines[at..at + hunk.len()].iter().zip(hunk).all(|(a, b)| a == b);
-            let mut places = (after..(lines.len() + 1).saturating_sub(hunk.len())).filter(is_here);
-            match (places.next(), places.next()) {
-                (Some(at), None) => after = at + hunk.len(),
-                (Some(_), Some(_)) => {
-                    return Some(format!(
-                        "{}: the lines of hunk {number} stand in several places",
-                        self.path
-                    ));
-                }
-                (None, _) => return Some(format!("{}: hunk {number} does not apply", self.path)),
-            }
+            let place = (after..(lines.len() + 1).saturating_sub(hunk.len())).find(is_here);
+            let Some(at) = place else { return Some(format!("{}: hunk {number} does not apply", self.path)) };
+            after = at + hunk.len();
         }
         None
     }
@@ -86,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_patch_applies_where_its_lines_stand_once() {
+    fn a_patch_applies_where_its_lines_stand() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
         let patch = |line: &str| {
             let text = format!(
