@@ -7,7 +7,7 @@ use trigon_mesh::edit::Marks;
 use trigon_scene::{MeshId, Scene};
 
 use crate::folder::Folder;
-use crate::gltf::SourceDraft;
+use crate::formats::gltf::SourceDraft;
 use crate::options::LoadOptions;
 use crate::warning::Warnings;
 

@@ -11,11 +11,11 @@ use trigon_scene::{MeshId, Scene};
 use crate::error::{LoadError, LoadErrorKind};
 use crate::folder::Folder;
 use crate::format::Format;
-use crate::gltf::{GltfSource, SourceDraft};
+use crate::formats::gltf::{GltfSource, SourceDraft};
+use crate::formats::{detect_format, supported};
 use crate::import::Import;
 use crate::options::{LoadOptions, Stage};
 use crate::refusal::Refusal;
-use crate::registry::{detect_format, supported};
 use crate::warning::{Warning, Warnings};
 
 /// A loaded model.

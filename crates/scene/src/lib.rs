@@ -33,6 +33,7 @@ mod arena;
 mod background;
 mod check;
 mod display;
+mod effect;
 mod effects;
 mod elements;
 mod frame;
@@ -57,9 +58,10 @@ pub use arena::{Arena, Id};
 pub use background::Background;
 pub use check::{Finding, Severity};
 pub use display::Display;
+pub use effect::Effect;
 pub use effects::{
-    Absence, AmbientOcclusion, Cause, Decision, Effect, EffectCounts, EffectPlan, EffectSettings,
-    Environment, EnvironmentError, Fog, MetalReflection, Named, Outline, Shadows, Sky, ToneMapping,
+    Absence, AmbientOcclusion, Cause, Decision, EffectCounts, EffectPlan, EffectSettings, Environment,
+    EnvironmentError, Fog, MetalReflection, Named, Outline, Shadows, Sky, ToneMapping,
 };
 pub use elements::ElementSet;
 /// Of [`ElementSet`].
@@ -68,7 +70,8 @@ pub use frame::{Frame, Hit};
 pub use light::{Light, LightKind};
 pub use marks::{Mark, Marks, VertexPoints};
 pub use material::{
-    AlphaMode, Material, MaterialId, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding,
+    AlphaMode, ExtensionParameter, Material, MaterialId, MaterialTexture, MetallicRoughness, NormalMap,
+    Occlusion, ParameterField, Shading, TextureBinding,
 };
 pub use node::{Node, NodeId};
 pub use pick::{Nearest, Pick, Picker, Reach, Region, Snap, SnapElement};

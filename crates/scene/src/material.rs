@@ -1,14 +1,25 @@
 //! Materials: the colour of a surface and how it reflects light.
+//!
+//! A texture is listed once, as a row of [`MaterialTexture`], and a parameter that glTF keeps in an
+//! extension once, as a row of [`Material::EXTENSION_PARAMETERS`]. Planner, renderer, importers,
+//! exporters, captures and checks walk these lists.
 
+mod extension_parameter;
 mod shading;
 mod texture_binding;
+mod texture_row;
 
 use trigon_math::{Vec3, Vec4};
+use trigon_raster::TextureFormat;
 
+pub use extension_parameter::{ExtensionParameter, ParameterField};
 pub use shading::{MetallicRoughness, Shading};
 pub use texture_binding::{NormalMap, Occlusion, TextureBinding};
+pub(crate) use texture_row::DrawnIf;
+use texture_row::{TextureRow, texture_rows};
 
 use crate::arena::Id;
+use crate::effect::Effect;
 use crate::texture_asset::TextureId;
 
 /// Identifies a material.
@@ -112,21 +123,162 @@ impl Material {
         Self { shading, ..self }
     }
 
-    /// Replaces every texture by the one that `exchange` returns; `None` removes it.
-    pub(crate) fn exchange_textures(&mut self, exchange: impl Fn(TextureId) -> Option<TextureId>) {
-        let exchanged = |binding: TextureBinding| {
-            exchange(binding.texture).map(|texture| TextureBinding { texture, ..binding })
-        };
-        let mut optional =
-            vec![&mut self.base_color_texture, &mut self.emissive_texture, &mut self.transmission_texture];
-        optional.extend(self.shading.textures_mut());
-        for binding in optional {
-            *binding = binding.and_then(exchanged);
-        }
-        self.normal_map = self
-            .normal_map
-            .and_then(|map| exchanged(map.binding).map(|binding| NormalMap { binding, ..map }));
-        self.occlusion =
-            self.occlusion.and_then(|map| exchanged(map.binding).map(|binding| Occlusion { binding, ..map }));
+    /// The texture in one of its places.
+    #[must_use]
+    pub fn texture(&self, place: MaterialTexture) -> Option<TextureBinding> {
+        (place.row().get)(self)
     }
+
+    /// Sets or removes the texture in one of its places. A place that the shading model does not have
+    /// is left as it is.
+    pub fn set_texture(&mut self, place: MaterialTexture, binding: Option<TextureBinding>) {
+        (place.row().set)(self, binding);
+    }
+
+    /// All its textures.
+    pub fn textures(&self) -> impl Iterator<Item = (MaterialTexture, TextureBinding)> {
+        MaterialTexture::ALL.into_iter().filter_map(|place| Some((place, self.texture(place)?)))
+    }
+
+    /// Replaces every texture by the one that `replace` returns for it, and removes those for which it
+    /// returns none.
+    pub(crate) fn replace_textures(&mut self, replace: impl Fn(TextureId) -> Option<TextureId>) {
+        for place in MaterialTexture::ALL {
+            if let Some(binding) = self.texture(place) {
+                let replaced = replace(binding.texture);
+                self.set_texture(place, replaced.map(|texture| TextureBinding { texture, ..binding }));
+            }
+        }
+    }
+
+    /// All parameters that glTF keeps in extensions and that are plain numbers, colours and textures,
+    /// those of one extension next to each other.
+    pub const EXTENSION_PARAMETERS: &[ExtensionParameter] = &[
+        ExtensionParameter::share("KHR_materials_specular", "specularFactor", |material| {
+            material.shading.metallic_roughness_mut().map(|model| &mut model.specular)
+        }),
+        ExtensionParameter::color("KHR_materials_specular", "specularColorFactor", |material| {
+            material.shading.metallic_roughness_mut().map(|model| &mut model.specular_color)
+        }),
+        ExtensionParameter::texture("KHR_materials_specular", "specularTexture", MaterialTexture::Specular),
+        ExtensionParameter::texture(
+            "KHR_materials_specular",
+            "specularColorTexture",
+            MaterialTexture::SpecularColor,
+        ),
+        ExtensionParameter::share("KHR_materials_transmission", "transmissionFactor", |material| {
+            Some(&mut material.transmission)
+        }),
+        ExtensionParameter::texture(
+            "KHR_materials_transmission",
+            "transmissionTexture",
+            MaterialTexture::Transmission,
+        ),
+    ];
+}
+
+texture_rows! {
+    /// RGBA multiplies [`Material::base_color`].
+    BaseColor => TextureRow {
+        format: TextureFormat::Srgb,
+        effect: Effect::Textures,
+        drawn_if: DrawnIf::Always,
+        matters: |_| true,
+        get: |material| material.base_color_texture,
+        set: |material, binding| material.base_color_texture = binding,
+    },
+    /// RGB multiplies the highlight of [`Shading::BlinnPhong`].
+    Highlight => TextureRow {
+        format: TextureFormat::Srgb,
+        effect: Effect::Textures,
+        drawn_if: DrawnIf::LightInPixels,
+        matters: |material| material.shading.has_highlight(),
+        get: |material| material.shading.highlight_texture(),
+        set: |material, binding| {
+            if let Some(texture) = material.shading.highlight_texture_mut() {
+                *texture = binding;
+            }
+        },
+    },
+    /// Green multiplies [`MetallicRoughness::roughness`], blue [`MetallicRoughness::metallic`].
+    MetallicRoughness => TextureRow {
+        format: TextureFormat::Linear,
+        effect: Effect::Textures,
+        drawn_if: DrawnIf::LightInPixels,
+        matters: |_| true,
+        get: |material| material.shading.metallic_roughness().and_then(|model| model.texture),
+        set: |material, binding| {
+            if let Some(model) = material.shading.metallic_roughness_mut() {
+                model.texture = binding;
+            }
+        },
+    },
+    /// Alpha multiplies [`MetallicRoughness::specular`].
+    Specular => TextureRow {
+        format: TextureFormat::Linear,
+        effect: Effect::Textures,
+        drawn_if: DrawnIf::LightInPixels,
+        matters: |_| true,
+        get: |material| material.shading.metallic_roughness().and_then(|model| model.specular_texture),
+        set: |material, binding| {
+            if let Some(model) = material.shading.metallic_roughness_mut() {
+                model.specular_texture = binding;
+            }
+        },
+    },
+    /// RGB multiplies [`MetallicRoughness::specular_color`].
+    SpecularColor => TextureRow {
+        format: TextureFormat::Srgb,
+        effect: Effect::Textures,
+        drawn_if: DrawnIf::LightInPixels,
+        matters: |_| true,
+        get: |material| material.shading.metallic_roughness().and_then(|model| model.specular_color_texture),
+        set: |material, binding| {
+            if let Some(model) = material.shading.metallic_roughness_mut() {
+                model.specular_color_texture = binding;
+            }
+        },
+    },
+    /// The directions of [`Material::normal_map`].
+    Normal => TextureRow {
+        format: TextureFormat::Linear,
+        effect: Effect::NormalMaps,
+        drawn_if: DrawnIf::TangentsInPixels,
+        matters: |_| true,
+        get: |material| material.normal_map.map(|map| map.binding),
+        set: |material, binding| {
+            let scale = material.normal_map.map_or(1.0, |map| map.scale);
+            material.normal_map = binding.map(|binding| NormalMap { binding, scale });
+        },
+    },
+    /// The share of ambient light that arrives: [`Material::occlusion`].
+    Occlusion => TextureRow {
+        format: TextureFormat::Linear,
+        effect: Effect::OcclusionMaps,
+        drawn_if: DrawnIf::LightInPixels,
+        matters: |_| true,
+        get: |material| material.occlusion.map(|map| map.binding),
+        set: |material, binding| {
+            let strength = material.occlusion.map_or(1.0, |map| map.strength);
+            material.occlusion = binding.map(|binding| Occlusion { binding, strength });
+        },
+    },
+    /// Red multiplies [`Material::transmission`].
+    Transmission => TextureRow {
+        format: TextureFormat::Linear,
+        effect: Effect::Refraction,
+        drawn_if: DrawnIf::Refracting,
+        matters: |_| true,
+        get: |material| material.transmission_texture,
+        set: |material, binding| material.transmission_texture = binding,
+    },
+    /// RGB multiplies [`Material::emissive`].
+    Emissive => TextureRow {
+        format: TextureFormat::Srgb,
+        effect: Effect::Emission,
+        drawn_if: DrawnIf::Always,
+        matters: |material| material.emissive != Vec3::ZERO,
+        get: |material| material.emissive_texture,
+        set: |material, binding| material.emissive_texture = binding,
+    },
 }

@@ -4,7 +4,7 @@ use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
 use crate::handler::{Animation, Closures, Handler, Tick};
-use crate::shell::{Ring, Shell};
+use crate::shell::{Shell, UserEvent};
 use crate::{Interaction, Stage, WindowError};
 
 /// What to do with a recording.
@@ -105,7 +105,7 @@ impl<'a> Application<'a> {
     }
 }
 
-fn event_loop() -> Result<EventLoop<Ring>, WindowError> {
+fn event_loop() -> Result<EventLoop<UserEvent>, WindowError> {
     let mut builder = EventLoop::with_user_event();
     allow_any_thread(&mut builder);
     builder.build().map_err(|error| match error {
@@ -116,7 +116,7 @@ fn event_loop() -> Result<EventLoop<Ring>, WindowError> {
 
 /// On systems other than macOS a window may belong to any thread; winit would panic without this.
 #[cfg(target_os = "linux")]
-fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<Ring>) {
+fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<UserEvent>) {
     use winit::platform::{wayland, x11};
     wayland::EventLoopBuilderExtWayland::with_any_thread(builder, true);
     x11::EventLoopBuilderExtX11::with_any_thread(builder, true);
@@ -124,9 +124,9 @@ fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<Ring>) {
 
 /// On systems other than macOS a window may belong to any thread; winit would panic without this.
 #[cfg(target_os = "windows")]
-fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<Ring>) {
+fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<UserEvent>) {
     winit::platform::windows::EventLoopBuilderExtWindows::with_any_thread(builder, true);
 }
 
 #[cfg(not(any(target_os = "linux", target_os = "windows")))]
-fn allow_any_thread(_: &mut winit::event_loop::EventLoopBuilder<Ring>) {}
+fn allow_any_thread(_: &mut winit::event_loop::EventLoopBuilder<UserEvent>) {}

@@ -24,7 +24,7 @@ use crate::{Handler, Stage, WindowError};
 
 /// User events: they wake the loop from other threads.
 #[derive(Clone, Debug)]
-pub(crate) enum Ring {
+pub(crate) enum UserEvent {
     /// [`crate::Waker::wake`].
     Application,
     /// An image is finished.
@@ -56,7 +56,7 @@ struct Open {
 pub(crate) struct Shell<'a> {
     session: Session<'a>,
     #[cfg(feature = "accesskit")]
-    proxy: EventLoopProxy<Ring>,
+    proxy: EventLoopProxy<UserEvent>,
     open: Option<Open>,
     started: Instant,
     error: Option<WindowError>,
@@ -65,19 +65,19 @@ pub(crate) struct Shell<'a> {
 }
 
 impl<'a> Shell<'a> {
-    pub(crate) fn new(stage: Stage, handler: &'a mut dyn Handler, proxy: &EventLoopProxy<Ring>) -> Self {
+    pub(crate) fn new(stage: Stage, handler: &'a mut dyn Handler, proxy: &EventLoopProxy<UserEvent>) -> Self {
         // Sending fails if the window is closed: then there is nobody to wake.
-        let ring = |ring: Ring| {
+        let ring = |ring: UserEvent| {
             let proxy = proxy.clone();
             move || {
                 let _ = proxy.send_event(ring.clone());
             }
         };
-        stage.waker().connect(ring(Ring::Application));
+        stage.waker().connect(ring(UserEvent::Application));
         let started = Instant::now();
-        let worker = Worker::of_threads(ring(Ring::Picture), move || started.elapsed());
+        let worker = Worker::of_threads(ring(UserEvent::Picture), move || started.elapsed());
         let mut session = Session::new(stage, handler, worker);
-        session.interface().connect(ring(Ring::Interface));
+        session.interface().connect(ring(UserEvent::Interface));
         Self {
             session,
             #[cfg(feature = "accesskit")]
@@ -237,7 +237,7 @@ impl<'a> Shell<'a> {
     }
 }
 
-impl ApplicationHandler<Ring> for Shell<'_> {
+impl ApplicationHandler<UserEvent> for Shell<'_> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.open.is_none() {
             let result = self.open(event_loop);
@@ -249,14 +249,14 @@ impl ApplicationHandler<Ring> for Shell<'_> {
         self.open = None;
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, ring: Ring) {
+    fn user_event(&mut self, _: &ActiveEventLoop, ring: UserEvent) {
         let now = self.now();
         match ring {
-            Ring::Application => self.session.woken(now),
-            Ring::Picture => self.session.collect(now),
-            Ring::Interface => self.session.interface_asked(now),
+            UserEvent::Application => self.session.woken(now),
+            UserEvent::Picture => self.session.collect(now),
+            UserEvent::Interface => self.session.interface_asked(now),
             #[cfg(feature = "accesskit")]
-            Ring::Accessibility(event) => self.accessibility(event),
+            UserEvent::Accessibility(event) => self.accessibility(event),
         }
     }
 

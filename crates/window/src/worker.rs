@@ -100,11 +100,11 @@ type Numbered = (u64, Job, Cancel);
 
 /// A thread or the caller that does jobs, and the revision that its replica of the scene equals.
 struct Holder {
-    hands: Hands,
+    hands: RenderThread,
     held: Option<Revision>,
 }
 
-enum Hands {
+enum RenderThread {
     /// A thread, and its finished jobs.
     Thread { jobs: Sender<Numbered>, finished: Receiver<(u64, Finished)> },
     /// The calling thread. It takes no time as far as others can tell, so what is drawn, and in
@@ -125,7 +125,7 @@ struct Drawing {
 impl Worker {
     /// A worker that draws on the calling thread, at once.
     pub(crate) fn of_caller() -> Self {
-        Self::new(Hands::of_caller(), None)
+        Self::new(RenderThread::of_caller(), None)
     }
 
     /// A worker with its own threads, which call `ring` whenever a job is finished. `clock`
@@ -146,13 +146,13 @@ impl Worker {
     where
         R: FnMut(Job, &Cancel) -> Finished + Send + 'static,
     {
-        match Hands::of_thread(runs(), ring.clone()) {
-            Some(first) => Self::new(first, Hands::of_thread(runs(), ring)),
+        match RenderThread::of_thread(runs(), ring.clone()) {
+            Some(first) => Self::new(first, RenderThread::of_thread(runs(), ring)),
             None => Self::of_caller(),
         }
     }
 
-    fn new(first: Hands, second: Option<Hands>) -> Self {
+    fn new(first: RenderThread, second: Option<RenderThread>) -> Self {
         let (first, second) = (Holder::new(first), second.map(Holder::new));
         Self { first, second, under_way: None, abandoned: None, begun: 0 }
     }
@@ -239,12 +239,12 @@ impl Purpose {
 }
 
 impl Holder {
-    fn new(hands: Hands) -> Self {
+    fn new(hands: RenderThread) -> Self {
         Self { hands, held: None }
     }
 }
 
-impl Hands {
+impl RenderThread {
     fn of_caller() -> Self {
         Self::Caller { drawing: Box::new(Drawing::new(|| Duration::ZERO)), finished: None }
     }

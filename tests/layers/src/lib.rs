@@ -1,4 +1,5 @@
-//! Which files of a crate need which, and the circles among them.
+//! Checks of the source code: which files of a crate need which, and the circles among them; signatures;
+//! and whether the patches of `docs/extending` still apply.
 //!
 //! A file needs another if it names one of its items: in a path, or by importing it. Re-exports are followed
 //! to the file that defines the item, and count for nothing themselves. Tests are left out.
@@ -6,9 +7,11 @@
 mod circles;
 mod collect;
 mod module;
+mod patch;
 mod resolve;
 mod signatures;
 
 pub use circles::{Circle, circles};
 pub use module::Crate;
+pub use patch::{FilePatch, Patch};
 pub use signatures::long_signatures;

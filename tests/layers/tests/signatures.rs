@@ -5,7 +5,7 @@ use trigon_layers::long_signatures;
 
 /// How many functions of a crate may still have such signatures. A number is never raised, and lowered with
 /// each function that is changed.
-const MOST: [(&str, usize); 1] = [("scene", 12)];
+const MOST: [(&str, usize); 1] = [("scene", 10)];
 
 #[test]
 fn parameters_are_few_and_named() {

@@ -8,21 +8,43 @@ use trigon_scene::{
 use super::stored::{Stored, choice, record};
 use super::stream::{Damage, Reader, Writer};
 
-record!(Material {
-    name,
-    base_color,
-    base_color_texture,
-    shading,
-    emissive,
-    emissive_texture,
-    normal_map,
-    occlusion,
-    alpha_mode,
-    double_sided,
-    transmission,
-    transmission_texture,
-    ior,
-});
+/// Later parameters follow at the end of the capture: see [`super::parameters`].
+impl Stored for Material {
+    fn write(&self, to: &mut Writer<'_>) {
+        self.name.write(to);
+        self.base_color.write(to);
+        self.base_color_texture.write(to);
+        self.shading.write(to);
+        self.emissive.write(to);
+        self.emissive_texture.write(to);
+        self.normal_map.write(to);
+        self.occlusion.write(to);
+        self.alpha_mode.write(to);
+        self.double_sided.write(to);
+        self.transmission.write(to);
+        self.transmission_texture.write(to);
+        self.ior.write(to);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+        Ok(Self {
+            name: Stored::read(from)?,
+            base_color: Stored::read(from)?,
+            base_color_texture: Stored::read(from)?,
+            shading: Stored::read(from)?,
+            emissive: Stored::read(from)?,
+            emissive_texture: Stored::read(from)?,
+            normal_map: Stored::read(from)?,
+            occlusion: Stored::read(from)?,
+            alpha_mode: Stored::read(from)?,
+            double_sided: Stored::read(from)?,
+            transmission: Stored::read(from)?,
+            transmission_texture: Stored::read(from)?,
+            ior: Stored::read(from)?,
+            ..Self::default()
+        })
+    }
+}
 choice!(AlphaMode { 0 => Opaque, 1 => Mask { cutoff }, 2 => Blend });
 choice!(Shading {
     0 => Unlit,

@@ -13,7 +13,7 @@
 //! | 4 | the version of the format, [`VERSION`] |
 //! | 1 + n | the version of the program that wrote it: its length, and text |
 //! | 8 | the hash of what follows (FNV-1a, 64 bits) |
-//! | rest | scene, settings, camera and the picture's bytes, compressed by zlib |
+//! | rest | scene, settings, camera, the picture's bytes and further parameters of materials, compressed by zlib |
 //!
 //! Within the last part values follow each other without tags; the lists of fields in this folder
 //! are its order. Any change of them is a new version.
@@ -25,6 +25,7 @@ mod looks;
 mod marks;
 mod mesh;
 mod mismatch;
+mod parameters;
 mod scene;
 mod settings;
 mod stored;
@@ -117,6 +118,7 @@ impl Capture {
         self.settings.write(&mut to);
         self.camera.write(&mut to);
         self.color.write(&mut to);
+        parameters::write(&self.scene, &mut to);
         sealed(VERSION, &self.program, &to.bytes)
     }
 
@@ -153,12 +155,13 @@ impl Capture {
     }
 
     fn read_parts(program: String, mut from: Reader<'_>) -> Result<Self, Damage> {
-        let (scene, settings) = (Scene::read(&mut from)?, RenderSettings::read(&mut from)?);
+        let (mut scene, settings) = (Scene::read(&mut from)?, RenderSettings::read(&mut from)?);
         let (camera, color) = (Camera::read(&mut from)?, Vec::<u8>::read(&mut from)?);
         let pixels = u64::from(settings.width) * u64::from(settings.height);
         if pixels.checked_mul(4) != Some(color.len() as u64) {
             return Err(Damage::malformed("the picture has another size than the settings"));
         }
+        parameters::read(&mut scene, &mut from)?;
         from.finish()?;
         Ok(Self { scene, camera, settings, color, program })
     }

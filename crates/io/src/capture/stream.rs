@@ -1,6 +1,6 @@
 //! The byte stream of a capture: numbers are little-endian, floats their bits.
 
-use std::io::{BufReader, Read};
+use std::io::{BufRead, BufReader, Read};
 
 use flate2::read::ZlibDecoder;
 use trigon_scene::Scene;
@@ -73,6 +73,11 @@ impl<'a> Reader<'a> {
             Ok(read) if read == length => Ok(bytes),
             _ => Err(Damage::malformed("it ends too early")),
         }
+    }
+
+    /// Whether nothing follows.
+    pub(super) fn is_at_end(&mut self) -> bool {
+        self.stream.fill_buf().is_ok_and(<[u8]>::is_empty)
     }
 
     /// Whether everything has been read, including the checksum.

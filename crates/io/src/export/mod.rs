@@ -15,7 +15,7 @@ mod vertex_table;
 use trigon_scene::Scene;
 
 use crate::format::Format;
-use crate::registry::{Writing, endings};
+use crate::formats::{Writing, endings};
 use crate::write::WriteError;
 
 pub use files::{Export, ExportedFile};

@@ -7,9 +7,9 @@ use trigon_mesh::{Attributes, Deltas, Mesh, MeshBuilder, MorphTarget, SkinWeight
 use trigon_scene::{
     AlphaMode, AmbientOcclusion, Animation, Background, Channel, Curve, EffectSettings, Environment, Filter,
     Fog, Interpolation, Light, Lighting, Material, MetalReflection, MetallicRoughness, MipFilter, Node,
-    NormalMap, Occlusion, Outline, Property, Reflection, RenderSettings, Sampler, Scene, Shading,
-    ShadingModel, Shadows, Skin, Sky, Style, Texture, TextureBinding, TextureFormat, ToneMapping, Transform,
-    Wrap, render, showcase,
+    NormalMap, Occlusion, Outline, ParameterField, Property, Reflection, RenderSettings, Sampler, Scene,
+    Shading, ShadingModel, Shadows, Skin, Sky, Style, Texture, TextureBinding, TextureFormat, ToneMapping,
+    Transform, Wrap, render, showcase,
 };
 
 fn settings() -> RenderSettings {
@@ -193,7 +193,7 @@ fn every_part_of_a_material() {
         (Shading::Lambert, AlphaMode::Opaque),
         (Shading::Unlit, AlphaMode::Blend),
     ] {
-        let material = Material {
+        let mut material = Material {
             name: "all".to_owned(),
             base_color: Vec4::new(0.9, 0.8, 0.7, 0.6),
             base_color_texture: colors,
@@ -204,10 +204,23 @@ fn every_part_of_a_material() {
             occlusion: Some(Occlusion { binding: data, strength: 0.5 }),
             alpha_mode,
             double_sided: false,
-            transmission: 0.5,
-            transmission_texture: Some(data),
             ior: 1.3,
+            ..Material::default()
         };
+        for row in Material::EXTENSION_PARAMETERS {
+            match row.field {
+                ParameterField::Share(field) => {
+                    field(&mut material).into_iter().for_each(|share| *share = 0.5)
+                }
+                ParameterField::Color(field) => {
+                    field(&mut material).into_iter().for_each(|color| *color = Vec3::new(1.0, 0.5, 0.2));
+                }
+                ParameterField::Texture(place) => {
+                    let is_color = place.format() == TextureFormat::Srgb;
+                    material.set_texture(place, if is_color { colors } else { Some(data) });
+                }
+            }
+        }
         let mut scene = scene.clone();
         scene.add_object("cube", dressed_cube(), material);
         scene.add(Node::from_light(Light::spot(3.0).with_range(9.0)).at(DVec3::Z * 2.0));

@@ -3,8 +3,11 @@
 
 use serde_json::{Value, json};
 use trigon_camera::{Camera, Projection};
-use trigon_math::{DVec3, color};
-use trigon_scene::{Background, Frame, Lighting, RenderSettings, Scene, render};
+use trigon_math::{DVec3, Vec3, color};
+use trigon_scene::{
+    Background, Frame, Lighting, Material, MetallicRoughness, ParameterField, RenderSettings, Scene, Shading,
+    Texture, TextureBinding, TextureFormat, render,
+};
 
 use crate::gltf::{Doc, push};
 use crate::texture::textured_square;
@@ -405,5 +408,46 @@ fn translucent_squares_are_laid_over_each_other() {
             assert_shows(&frame, [4, 4], channel, premultiplied / alpha, "straight again");
         }
         assert_eq!(f64::from(frame.pixel(4, 4)[3]), (alpha * 255.0).round(), "alpha");
+    }
+}
+
+/// Sets each parameter of an extension to a value that is not its default.
+fn set_all_parameters(material: &mut Material, colors: TextureBinding, data: TextureBinding) {
+    for row in Material::EXTENSION_PARAMETERS {
+        match row.field {
+            ParameterField::Share(field) => *field(material).expect("the model has it") = 0.25,
+            ParameterField::Color(field) => *field(material).expect("it has") = Vec3::new(0.5, 0.25, 0.75),
+            ParameterField::Texture(place) => {
+                let is_color = place.format() == TextureFormat::Srgb;
+                material.set_texture(place, Some(if is_color { colors } else { data }));
+            }
+        }
+    }
+}
+
+#[test]
+fn parameters_of_extensions_are_written_and_read() {
+    let mut scene = Scene::new();
+    let texture = |format| Texture::new(1, 1, vec![[9, 8, 7, 6]], format).expect("one texel");
+    let [colors, data] = [TextureFormat::Srgb, TextureFormat::Linear]
+        .map(|format| TextureBinding::new(scene.add_texture("texel", texture(format))));
+    let shading = Shading::MetallicRoughness(MetallicRoughness::default());
+    let mut material = Material::default().with_shading(shading);
+    set_all_parameters(&mut material, colors, data);
+    scene.add_object("cube", trigon_mesh::primitives::cube(1.0), material.clone());
+    let glb = trigon_io::encode_glb(&scene, &trigon_io::ExportOptions::default()).expect("it can be written");
+    let options = trigon_io::LoadOptions::default();
+    let read = trigon_io::load_from_slice("cube.glb", &glb, &options).expect("it can be read").scene;
+    let mut read = read.materials.iter().next().map(|(_, read)| read.clone()).expect("one material");
+    for row in Material::EXTENSION_PARAMETERS {
+        match row.field {
+            ParameterField::Share(field) => {
+                assert_eq!(field(&mut read), field(&mut material), "{}", row.name);
+            }
+            ParameterField::Color(field) => {
+                assert_eq!(field(&mut read), field(&mut material), "{}", row.name);
+            }
+            ParameterField::Texture(place) => assert!(read.texture(place).is_some(), "{}", row.name),
+        }
     }
 }

@@ -32,7 +32,7 @@ use wide::{Leaf, Node};
 /// let down = Ray { origin: Vec3::new(0.0, 2.0, 0.0), direction: Vec3::NEG_Y };
 /// let hit = bvh.nearest(&down, 0.0..f32::INFINITY).expect("the floor is below");
 /// assert_eq!((hit.triangle, hit.distance), (0, 2.0));
-/// assert!(!bvh.meets_any(&down, 0.0..1.5), "it is too far away");
+/// assert!(!bvh.occluded(&down, 0.0..1.5), "it is too far away");
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Bvh {

@@ -114,7 +114,7 @@ proptest! {
             let ray = Ray { origin, direction };
             let expected = by_brute_force(&triangles, &ray);
             prop_assert_eq!(bvh.nearest(&ray, 0.0..f32::INFINITY), expected, "{:?}", ray);
-            prop_assert_eq!(bvh.meets_any(&ray, 0.0..f32::INFINITY), expected.is_some(), "{:?}", ray);
+            prop_assert_eq!(bvh.occluded(&ray, 0.0..f32::INFINITY), expected.is_some(), "{:?}", ray);
         }
     }
 
@@ -124,7 +124,7 @@ proptest! {
         for ray in scene.rays.iter().filter(|ray| ray.direction != Vec3::ZERO) {
             let expected = by_brute_force(&scene.triangles, ray);
             prop_assert_eq!(bvh.nearest(ray, 0.0..f32::INFINITY), expected, "{:?}", ray);
-            prop_assert_eq!(bvh.meets_any(ray, 0.0..f32::INFINITY), expected.is_some(), "{:?}", ray);
+            prop_assert_eq!(bvh.occluded(ray, 0.0..f32::INFINITY), expected.is_some(), "{:?}", ray);
         }
     }
 
@@ -176,7 +176,7 @@ fn nothing_is_met_where_there_is_nothing() {
     let nowhere = Ray { direction: Vec3::ZERO, ..ray };
     let triangle = [[Vec3::new(1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, -1.0), Vec3::new(1.0, 0.0, 1.0)]];
     assert_eq!(Bvh::new(&triangle).nearest(&nowhere, 0.0..1.0), None, "a ray without direction");
-    assert!(Bvh::new(&triangle).meets_any(&ray, 0.0..2.0), "and one with");
+    assert!(Bvh::new(&triangle).occluded(&ray, 0.0..2.0), "and one with");
 }
 
 #[test]

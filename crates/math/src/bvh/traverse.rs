@@ -45,7 +45,7 @@ impl Bvh {
     }
 
     /// Whether the ray hits anything within a range of distances, excluding its end.
-    pub fn meets_any(&self, ray: &Ray, range: Range<f32>) -> bool {
+    pub fn occluded(&self, ray: &Ray, range: Range<f32>) -> bool {
         let mut found = false;
         let mut end = range.end;
         self.visit(ray, range.start, &mut end, |hit, end| {

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::{Finding, Severity, place};
-use crate::material::{AlphaMode, Material, MaterialId, Shading, TextureBinding};
+use crate::material::{AlphaMode, Material, MaterialId, Shading};
 use crate::scene::Scene;
 
 /// Darker than this is black in an 8-bit image.
@@ -98,8 +98,8 @@ fn meshes(scene: &Scene, findings: &mut Vec<Finding>) {
         let attributes = asset.mesh().attributes();
         let place = place("mesh", &asset.name, id.index());
         let materials = node.materials.iter().filter_map(|&id| scene.materials.get(id));
-        let mut textures = materials.flat_map(bindings);
-        if textures.any(|binding| binding.uv_set >= attributes.uv_sets.len()) {
+        let mut textures = materials.flat_map(Material::textures);
+        if textures.any(|(_, binding)| binding.uv_set >= attributes.uv_sets.len()) {
             findings.push(Finding {
                 severity: Severity::Error,
                 fault: "no-texture-coordinates",
@@ -119,15 +119,4 @@ fn meshes(scene: &Scene, findings: &mut Vec<Finding>) {
             });
         }
     }
-}
-
-/// All textures of a material.
-fn bindings(material: &Material) -> Vec<TextureBinding> {
-    let mut bindings = vec![material.base_color_texture, material.emissive_texture];
-    bindings.push(material.normal_map.map(|map| map.binding));
-    bindings.push(material.occlusion.map(|map| map.binding));
-    if let Shading::MetallicRoughness(surface) = &material.shading {
-        bindings.push(surface.texture);
-    }
-    bindings.into_iter().flatten().collect()
 }

@@ -32,14 +32,42 @@ impl Shading {
         Self::BlinnPhong { specular, shininess, specular_texture: None }
     }
 
-    /// Its textures, in the order of its fields.
-    pub(super) fn textures_mut(&mut self) -> Vec<&mut Option<TextureBinding>> {
+    /// The model between metal and dielectric, if it is that.
+    #[must_use]
+    pub fn metallic_roughness(&self) -> Option<&MetallicRoughness> {
         match self {
-            Self::Unlit | Self::Lambert => Vec::new(),
-            Self::BlinnPhong { specular_texture, .. } => vec![specular_texture],
-            Self::MetallicRoughness(model) => {
-                vec![&mut model.texture, &mut model.specular_texture, &mut model.specular_color_texture]
-            }
+            Self::MetallicRoughness(model) => Some(model),
+            Self::Unlit | Self::Lambert | Self::BlinnPhong { .. } => None,
+        }
+    }
+
+    /// The model between metal and dielectric, if it is that.
+    #[must_use]
+    pub fn metallic_roughness_mut(&mut self) -> Option<&mut MetallicRoughness> {
+        match self {
+            Self::MetallicRoughness(model) => Some(model),
+            Self::Unlit | Self::Lambert | Self::BlinnPhong { .. } => None,
+        }
+    }
+
+    /// Whether it has a highlight of Blinn's.
+    pub(super) fn has_highlight(&self) -> bool {
+        matches!(self, Self::BlinnPhong { specular, .. } if *specular != Vec3::ZERO)
+    }
+
+    /// The texture of Blinn's highlight.
+    pub(super) fn highlight_texture(&self) -> Option<TextureBinding> {
+        match self {
+            Self::BlinnPhong { specular_texture, .. } => *specular_texture,
+            Self::Unlit | Self::Lambert | Self::MetallicRoughness(_) => None,
+        }
+    }
+
+    /// The texture of Blinn's highlight.
+    pub(super) fn highlight_texture_mut(&mut self) -> Option<&mut Option<TextureBinding>> {
+        match self {
+            Self::BlinnPhong { specular_texture, .. } => Some(specular_texture),
+            Self::Unlit | Self::Lambert | Self::MetallicRoughness(_) => None,
         }
     }
 }

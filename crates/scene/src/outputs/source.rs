@@ -15,7 +15,7 @@ use crate::settings::{Outputs, Style};
 /// An object that may be visible.
 pub(super) struct Source<'s> {
     geometry: &'s Geometry,
-    looks: Vec<Look<'s>>,
+    looks: Vec<OutputMaterial<'s>>,
     to_camera: DAffine3,
     normal_to_world: Mat3,
     tangent_to_world: Mat3,
@@ -25,7 +25,7 @@ pub(super) struct Source<'s> {
 }
 
 /// The material of a run of triangles.
-struct Look<'s> {
+struct OutputMaterial<'s> {
     /// With tangents, if there is a normal map.
     geometry: &'s Geometry,
     material: u32,
@@ -45,7 +45,7 @@ struct Map<'s> {
 #[derive(Clone, Copy)]
 pub(super) struct Triangle<'s> {
     source: &'s Source<'s>,
-    look: &'s Look<'s>,
+    look: &'s OutputMaterial<'s>,
     pub(super) facet: Facet,
     index: usize,
     /// Whether its front is visible.
@@ -69,8 +69,10 @@ impl<'s> Source<'s> {
             let id = node.materials.get(run.slot as usize).copied();
             let known = id.and_then(|id| Some((id.index() as u32, scene.materials.get(id)?)));
             match known {
-                Some((index, material)) => Look::new(scene, index, material, (geometry, mesh), needs),
-                None => Look::new(scene, u32::MAX, &Material::default(), (geometry, mesh), needs),
+                Some((index, material)) => {
+                    OutputMaterial::new(scene, index, material, (geometry, mesh), needs)
+                }
+                None => OutputMaterial::new(scene, u32::MAX, &Material::default(), (geometry, mesh), needs),
             }
         });
         Self {
@@ -102,7 +104,7 @@ impl<'s> Source<'s> {
     }
 }
 
-impl<'s> Look<'s> {
+impl<'s> OutputMaterial<'s> {
     fn new(
         scene: &'s Scene,
         index: u32,

@@ -21,8 +21,27 @@ pub struct Nearest {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Best {
     target: DVec2,
-    /// Pixels, squared; the element's depth, its node's index, and its own.
-    found: Option<(f64, f64, u32, u32)>,
+    found: Option<Candidate>,
+}
+
+/// An element that may be the nearest one.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    /// From the target, in pixels squared.
+    distance_squared: f64,
+    depth: f64,
+    /// The index of its node.
+    object: u32,
+    /// Its own index.
+    element: u32,
+}
+
+impl Candidate {
+    fn order(&self, other: &Self) -> Ordering {
+        let order = self.distance_squared.total_cmp(&other.distance_squared);
+        let order = order.then(self.depth.total_cmp(&other.depth));
+        order.then((self.object, self.element).cmp(&(other.object, other.element)))
+    }
 }
 
 impl Best {
@@ -33,7 +52,8 @@ impl Best {
     /// A point of an element. Of equally near ones that which is nearer to the camera
     /// stays, and of those the first of the first node, whatever the order.
     pub(super) fn offer(&mut self, at: DVec2, depth: f64, object: u32, element: u32) {
-        self.improve((at.distance_squared(self.target), depth, object, element));
+        let distance_squared = at.distance_squared(self.target);
+        self.improve(Candidate { distance_squared, depth, object, element });
     }
 
     /// The better of two.
@@ -44,18 +64,14 @@ impl Best {
         self
     }
 
-    fn improve(&mut self, new: (f64, f64, u32, u32)) {
-        let is_better = |old: (f64, f64, u32, u32)| {
-            let order = new.0.total_cmp(&old.0).then(old.1.total_cmp(&new.1));
-            order.then((new.2, new.3).cmp(&(old.2, old.3))) == Ordering::Less
-        };
-        if self.found.is_none_or(is_better) {
+    fn improve(&mut self, new: Candidate) {
+        if self.found.is_none_or(|old| new.order(&old) == Ordering::Less) {
             self.found = Some(new);
         }
     }
 
     /// The index of the node, and that of the element.
     pub(super) fn element(&self) -> Option<(u32, u32)> {
-        self.found.map(|(_, _, object, element)| (object, element))
+        self.found.map(|found| (found.object, found.element))
     }
 }

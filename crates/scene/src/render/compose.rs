@@ -16,10 +16,11 @@ use super::placement::Rays;
 use super::placement::{Eye, Placement};
 use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles};
 use super::shapes::{Shape, Shapes};
-use super::surface::{Dressed, Occasion, Surface};
+use super::surface::{BoundMaterial, MaterialContext, Surface};
 use super::wire::{HiddenLine, Wire, WireMarks};
 use crate::display::Display;
-use crate::effects::{Counts, Effect, Scenery};
+use crate::effect::Effect;
+use crate::effects::{Counts, LightingEnvironment};
 use crate::marks;
 use crate::material::{AlphaMode, Material, Shading};
 use crate::node::Node;
@@ -40,7 +41,7 @@ pub(super) struct Composer<'s> {
     scene: &'s Scene,
     settings: &'s RenderSettings,
     shapes: &'s Shapes,
-    scenery: &'s Scenery,
+    lighting: &'s LightingEnvironment,
     eye: &'s Eye,
     backdrop: &'s Backdrop,
     rays: Rays,
@@ -51,7 +52,7 @@ pub(super) struct Composer<'s> {
 }
 
 /// The lighting environment.
-type Around<'s> = (&'s Shapes, &'s Scenery, &'s Eye, &'s Backdrop);
+type Around<'s> = (&'s Shapes, &'s LightingEnvironment, &'s Eye, &'s Backdrop);
 
 /// The purpose of a pass.
 #[derive(Clone, Copy, PartialEq)]
@@ -79,7 +80,7 @@ impl<'s> Composer<'s> {
         scene: &'s Scene,
         camera: &Camera,
         settings: &'s RenderSettings,
-        (shapes, scenery, eye, backdrop): Around<'s>,
+        (shapes, lighting, eye, backdrop): Around<'s>,
     ) -> Self {
         let rays = if camera.projection.is_orthographic() { Rays::Parallel } else { Rays::Meeting };
         let default_material = Material::default();
@@ -87,7 +88,7 @@ impl<'s> Composer<'s> {
             scene,
             settings,
             shapes,
-            scenery,
+            lighting,
             eye,
             backdrop,
             rays,
@@ -213,10 +214,10 @@ impl<'s> Composer<'s> {
         self.settings.display.replaced(material).map_or(Cow::Borrowed(material), Cow::Owned)
     }
 
-    fn occasion(&self) -> Occasion<'_> {
+    fn context(&self) -> MaterialContext<'_> {
         let RenderSettings { shading, reflection, display, .. } = *self.settings;
-        let Self { scene, scenery, rays, to_world, .. } = *self;
-        Occasion { scene, scenery, rays, shading, reflection, display, to_world }
+        let Self { scene, lighting, rays, to_world, .. } = *self;
+        MaterialContext { scene, lighting, rays, shading, reflection, display, to_world }
     }
 
     /// The triangles of one slot with their material.
@@ -229,15 +230,15 @@ impl<'s> Composer<'s> {
             Some(map) => object.geometry.with_tangents(object.asset.mesh(), map.binding.uv_set),
             None => object.geometry,
         };
-        let dressed = Dressed::new(material, &geometry.columns, &self.occasion());
+        let bound = BoundMaterial::new(material, &geometry.columns, &self.context());
         let draw = Run { slot: run.slot, triangles: run.triangles.clone() };
         let shows_edges = self.shows_edges();
         let masked = matches!(material.alpha_mode, AlphaMode::Mask { .. });
-        dressed.count(self.scenery, masked, counts);
-        if dressed.is_flat() && !shows_edges && !masked {
-            self.dressed::<true>(object, geometry, &draw, (material, dressed))
+        bound.count(self.lighting, masked, counts);
+        if bound.is_flat() && !shows_edges && !masked {
+            self.bound::<true>(object, geometry, &draw, (material, bound))
         } else {
-            self.dressed::<false>(object, geometry, &draw, (material, dressed))
+            self.bound::<false>(object, geometry, &draw, (material, bound))
         }
     }
 
@@ -263,23 +264,23 @@ impl<'s> Composer<'s> {
             bare.alpha_mode = AlphaMode::Mask { cutoff: f32::MIN_POSITIVE };
         }
         let geometry = object.geometry;
-        let occasion = Occasion { display: Display::Shaded, ..self.occasion() };
-        let mut dressed = Dressed::new(&bare, &geometry.columns, &occasion);
+        let context = MaterialContext { display: Display::Shaded, ..self.context() };
+        let mut bound = BoundMaterial::new(&bare, &geometry.columns, &context);
         let draw = Run { slot: run.slot, triangles: run.triangles.clone() };
         Some(if bare.alpha_mode == AlphaMode::Opaque {
-            dressed.strip();
-            self.dressed::<true>(object, geometry, &draw, (&bare, dressed))
+            bound.strip();
+            self.bound::<true>(object, geometry, &draw, (&bare, bound))
         } else {
-            self.dressed::<false>(object, geometry, &draw, (&bare, dressed))
+            self.bound::<false>(object, geometry, &draw, (&bare, bound))
         })
     }
 
-    fn dressed<'c, const FLAT: bool>(
+    fn bound<'c, const FLAT: bool>(
         &'c self,
         object: &Object<'s>,
         geometry: &'s Geometry,
         run: &Run,
-        (material, dressed): (&Material, Dressed<'c>),
+        (material, bound): (&Material, BoundMaterial<'c>),
     ) -> Box<dyn Record + 'c>
     where
         's: 'c,
@@ -287,7 +288,7 @@ impl<'s> Composer<'s> {
         let shows_edges = self.shows_edges();
         let triangles = &geometry.triangles[run.triangles.clone()];
         let mesh = (&geometry.columns, triangles);
-        let pipeline = Surface::<FLAT>::new(mesh, object.place, dressed, &self.occasion());
+        let pipeline = Surface::<FLAT>::new(mesh, object.place, bound, &self.context());
         let flags = shows_edges.then(|| &self.edge_flags(object)[run.triangles.clone()]);
         Box::new(Triangles {
             pipeline,

@@ -17,7 +17,8 @@ use super::placement::DepthToDistance;
 use super::record::Record;
 use super::stage::Stage;
 use crate::display::Display;
-use crate::effects::{Counts, Effect, EffectCounts, EffectPlan, Scenery};
+use crate::effect::Effect;
+use crate::effects::{Counts, EffectCounts, EffectPlan, LightingEnvironment};
 use crate::frame::Frame;
 use crate::outputs::{self, Needed};
 use crate::scene::Scene;
@@ -48,10 +49,11 @@ impl Engine {
         rasterizer.set_cancel(None);
         let stage = Stage::new(scene, camera, settings);
         let plan = EffectPlan::of_stage(&stage);
-        let scenery = self.kept.scenery(&stage, &plan, &mut rasterizer)?;
-        let explained = record(&stage, (camera, &scenery, settings), &mut Counts::default(), |pass, _, _| {
-            rasterizer.explain_pixel(pass, &target, x, y)
-        });
+        let lighting = self.kept.lighting(&stage, &plan, &mut rasterizer)?;
+        let explained =
+            record(&stage, (camera, &lighting, settings), &mut Counts::default(), |pass, _, _| {
+                rasterizer.explain_pixel(pass, &target, x, y)
+            });
         // The next picture does not follow from what the rasterizer holds now.
         self.last = LastPicture::default();
         self.rasterizer = Some(rasterizer);
@@ -131,36 +133,38 @@ impl Engine {
         (plan, frame, apart): (&EffectPlan, &mut Frame, bool),
         (rasterizer, counts): (&mut Rasterizer, &mut Counts),
     ) -> Result<bool, RenderError> {
-        let scenery = self.kept.scenery(stage, plan, rasterizer)?;
+        let lighting = self.kept.lighting(stage, plan, rasterizer)?;
         let settings = stage.settings;
         if settings.share_through_faces().is_some() {
             let wires = RenderSettings { style: Style::Wireframe, ..settings.clone() };
             let target = blank(settings)?;
-            self.stats += record(stage, (camera, &scenery, &wires), &mut Counts::default(), |pass, _, _| {
-                self.kept.draw_beneath(pass, settings, target, rasterizer)
-            })?;
+            self.stats +=
+                record(stage, (camera, &lighting, &wires), &mut Counts::default(), |pass, _, _| {
+                    self.kept.draw_beneath(pass, settings, target, rasterizer)
+                })?;
         }
         let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
         // Depth that has a pass of its own is not to be written twice.
         let depth = if apart { frame.depth.take() } else { None };
         let target = blank(settings)?;
-        let (stats, is_kept) = record(stage, (camera, &scenery, settings), counts, |pass, draws, counts| {
-            let step = if apart { Step::Apart } else { self.last.step((stage, camera, plan), draws) };
-            let is_kept = !matches!(step, Step::Apart);
-            let stats = if is_kept {
-                let target = (target, &mut *frame);
-                self.last.draw(pass, (settings, camera), target, (rasterizer, &step))
-            } else {
-                let target = (target, &mut *frame, needed);
-                self.kept.draw(pass, (settings, plan), target, (rasterizer, counts))
-            };
-            stats.map(|stats| (stats, is_kept))
-        })?;
+        let (stats, is_kept) =
+            record(stage, (camera, &lighting, settings), counts, |pass, draws, counts| {
+                let step = if apart { Step::Apart } else { self.last.step((stage, camera, plan), draws) };
+                let is_kept = !matches!(step, Step::Apart);
+                let stats = if is_kept {
+                    let target = (target, &mut *frame);
+                    self.last.draw(pass, (settings, camera), target, (rasterizer, &step))
+                } else {
+                    let target = (target, &mut *frame, needed);
+                    self.kept.draw(pass, (settings, plan), target, (rasterizer, counts))
+                };
+                stats.map(|stats| (stats, is_kept))
+            })?;
         self.stats += stats;
         if apart {
             frame.depth = depth;
         }
-        self.kept.count(&scenery, plan, counts);
+        self.kept.count(&lighting, plan, counts);
         Ok(is_kept)
     }
 
@@ -172,7 +176,7 @@ impl Engine {
         frame: &mut Frame,
         rasterizer: &mut Rasterizer,
     ) -> Result<(), RenderError> {
-        let (dark, settings) = (Scenery::default(), stage.settings);
+        let (dark, settings) = (LightingEnvironment::default(), stage.settings);
         let composer = Composer::of_shapes(
             stage.scene,
             camera,
@@ -221,11 +225,11 @@ impl Engine {
 /// Records the colours of a stage as these settings have them, and does something with that.
 fn record<T>(
     stage: &Stage<'_>,
-    (camera, scenery, settings): (&Camera, &Scenery, &RenderSettings),
+    (camera, lighting, settings): (&Camera, &LightingEnvironment, &RenderSettings),
     counts: &mut Counts,
     draw: impl FnOnce(&Pass<'_>, &[Box<dyn Record + '_>], &mut Counts) -> T,
 ) -> T {
-    let around = (&stage.shapes, scenery, &stage.eye, &stage.backdrop);
+    let around = (&stage.shapes, lighting, &stage.eye, &stage.backdrop);
     let composer = Composer::new(stage.scene, camera, settings, around);
     let draws = composer.draws(counts);
     let behind = |pixel| stage.backdrop.at(pixel);

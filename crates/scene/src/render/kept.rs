@@ -4,8 +4,9 @@ use trigon_math::Vec4;
 use trigon_raster::{Pass, Rasterizer, Stats, Target, TargetError};
 
 use super::stage::Stage;
+use crate::effect::Effect;
 use crate::effects::{
-    AmbientRays, Casters, Counts, Effect, EffectPlan, LampPose, Mist, RayCache, Scenery, ShadowCache,
+    AmbientRays, Casters, Counts, EffectPlan, LampPose, LightingEnvironment, Mist, RayCache, ShadowCache,
     Shadows, draw_outline, lay_on_background, map_picture,
 };
 use crate::frame::{Frame, resize};
@@ -27,15 +28,15 @@ pub(super) struct Kept {
 
 impl Kept {
     /// The lighting environment, as far as the plan requires it.
-    pub(super) fn scenery(
+    pub(super) fn lighting(
         &mut self,
         stage: &Stage<'_>,
         plan: &EffectPlan,
         rasterizer: &mut Rasterizer,
-    ) -> Result<Scenery, TargetError> {
+    ) -> Result<LightingEnvironment, TargetError> {
         let effects = &stage.settings.effects;
         let on = |effect| plan.is_on(effect);
-        let mut scenery = Scenery {
+        let mut lighting = LightingEnvironment {
             lights: stage.lights.clone(),
             surroundings: stage.surroundings().filter(|_| on(Effect::Environment)),
             metal_sky: on(Effect::MetalSky).then(|| stage.metal_sky()),
@@ -45,26 +46,26 @@ impl Kept {
                 .ambient_occlusion
                 .filter(|_| on(Effect::AmbientOcclusion))
                 .map(AmbientRays::new),
-            ..Scenery::default()
+            ..LightingEnvironment::default()
         };
         let sight = on(Effect::Reflection) || on(Effect::Refraction);
-        scenery.bounces = if sight { effects.bounces } else { 0 };
-        let rays = sight || scenery.shadow_rays || scenery.ambient_rays.is_some();
+        lighting.bounces = if sight { effects.bounces } else { 0 };
+        let rays = sight || lighting.shadow_rays || lighting.ambient_rays.is_some();
         if !rays && !on(Effect::ShadowMaps) {
-            return Ok(scenery);
+            return Ok(lighting);
         }
         let casters = Casters::gather(stage.scene, &stage.shapes);
         if let (true, Shadows::Maps { resolution }) = (on(Effect::ShadowMaps), effects.shadows) {
             let poses: Vec<LampPose> = stage.lights.lamps.iter().map(|lamp| stage.pose(lamp)).collect();
             let (seen, to_world) = ((stage.scene, &casters), &stage.camera_to_world);
             let resolution = resolution.clamp(16, 8192);
-            scenery.shadow_maps = Some(self.shadows.maps(&poses, seen, resolution, to_world, rasterizer)?);
+            lighting.shadow_maps = Some(self.shadows.maps(&poses, seen, resolution, to_world, rasterizer)?);
         }
         if rays {
-            scenery.rays =
+            lighting.rays =
                 Some(self.rays.scene(&casters, sight.then_some(stage.scene), &stage.camera_to_world));
         }
-        Ok(scenery)
+        Ok(lighting)
     }
 
     /// The frame was cancelled: what was drawn for it may be incomplete.
@@ -74,19 +75,19 @@ impl Kept {
         }
     }
 
-    /// Adds what the scenery took.
-    pub(super) fn count(&self, scenery: &Scenery, plan: &EffectPlan, counts: &mut Counts) {
-        if let Some(maps) = &scenery.shadow_maps {
+    /// Adds what the lighting took.
+    pub(super) fn count(&self, lighting: &LightingEnvironment, plan: &EffectPlan, counts: &mut Counts) {
+        if let Some(maps) = &lighting.shadow_maps {
             counts.of(Effect::ShadowMaps).bytes = maps.byte_count() as u64;
             counts.of(Effect::ShadowMaps).passes = self.shadows.drawn() as u64;
         }
-        if let Some(surroundings) = &scenery.surroundings {
+        if let Some(surroundings) = &lighting.surroundings {
             counts.of(Effect::Environment).bytes = surroundings.environment.byte_count() as u64;
         }
-        if let Some(sky) = &scenery.metal_sky {
+        if let Some(sky) = &lighting.metal_sky {
             counts.of(Effect::MetalSky).bytes = sky.byte_count() as u64;
         }
-        if let Some(rays) = &scenery.rays {
+        if let Some(rays) = &lighting.rays {
             let [to_lamps, around, sight] = rays.cast();
             // Mirrors and glass share their rays.
             for (effect, cast) in [

@@ -29,7 +29,7 @@ impl Scene {
         let textures = NewIds::new(&other.textures, |asset| self.textures.insert(asset.clone()));
         let materials = NewIds::new(&other.materials, |material| {
             let mut material = material.clone();
-            material.exchange_textures(|texture| textures.get(texture));
+            material.replace_textures(|texture| textures.get(texture));
             self.materials.insert(material)
         });
         let skins = NewIds::new(&other.skins, |skin| self.skins.insert(skin.clone()));

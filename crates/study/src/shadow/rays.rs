@@ -26,6 +26,6 @@ impl ShadowRays {
     /// 0 or 1.
     pub fn light(&self, point: [f64; 2]) -> f64 {
         let ray = Ray { origin: on_floor(point).as_vec3(), direction: LIGHT.as_vec3() };
-        if self.tree.meets_any(&ray, 0.0..f32::INFINITY) { 0.0 } else { 1.0 }
+        if self.tree.occluded(&ray, 0.0..f32::INFINITY) { 0.0 } else { 1.0 }
     }
 }

@@ -3,10 +3,10 @@
 
 use egui_winit::accesskit_winit::{Event, WindowEvent};
 
-use super::{Ring, Shell};
+use super::{Shell, UserEvent};
 use crate::input::InputEvent;
 
-impl From<Event> for Ring {
+impl From<Event> for UserEvent {
     fn from(event: Event) -> Self {
         Self::Accessibility(event.window_event)
     }

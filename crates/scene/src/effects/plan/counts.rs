@@ -1,6 +1,6 @@
 //! The cost of an effect, in counts. For an effect that is off, all are zero.
 
-use super::Effect;
+use crate::effect::Effect;
 
 /// The cost of an effect in a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -3,9 +3,9 @@
 use trigon_math::Vec3;
 
 use super::super::{MetalReflection, Shadows, ToneMapping};
-use super::Effect;
 use crate::background::Background;
-use crate::material::{Material, Shading};
+use crate::effect::Effect;
+use crate::material::{Material, MaterialTexture};
 use crate::scene::Scene;
 use crate::settings::{Reflection, RenderSettings, Style};
 
@@ -54,17 +54,9 @@ fn each_material(scene: &mut Scene, change: impl Fn(&mut Material)) {
 
 /// Removes all textures except normal and occlusion maps, which are separate effects.
 fn strip_textures(material: &mut Material) {
-    (material.base_color_texture, material.emissive_texture) = (None, None);
-    material.transmission_texture = None;
-    strip_shading(&mut material.shading);
-}
-
-fn strip_shading(shading: &mut Shading) {
-    match shading {
-        Shading::Unlit | Shading::Lambert => {}
-        Shading::BlinnPhong { specular_texture, .. } => *specular_texture = None,
-        Shading::MetallicRoughness(model) => {
-            (model.texture, model.specular_texture, model.specular_color_texture) = (None, None, None);
+    for place in MaterialTexture::ALL {
+        if !matches!(place.row().effect, Effect::NormalMaps | Effect::OcclusionMaps) {
+            material.set_texture(place, None);
         }
     }
 }

@@ -2,14 +2,12 @@
 //! renderer does what the plan says.
 
 mod counts;
-mod effect;
 mod left_out;
 mod reason;
 mod survey;
 
 pub(crate) use counts::Counts;
 pub use counts::EffectCounts;
-pub use effect::Effect;
 pub use reason::{Absence, Cause, Decision, Named};
 
 use std::fmt;
@@ -20,6 +18,7 @@ use trigon_math::Vec3;
 use super::{MetalReflection, Mist, Shadows};
 use crate::background::Background;
 use crate::display::Display;
+use crate::effect::Effect;
 use crate::render::Stage;
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, ShadingModel, Style};

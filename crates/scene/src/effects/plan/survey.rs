@@ -1,6 +1,7 @@
 //! What a scene contains, and what of it the camera can see.
 
-use super::{Effect, Named};
+use super::Named;
+use crate::effect::Effect;
 use crate::effects::Optics;
 use crate::material::{AlphaMode, Material, Shading};
 use crate::render::{Shape, Stage};
@@ -56,7 +57,7 @@ fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) ->
             let shading = stage.settings.reflection.of(material);
             !matches!(shading, Shading::Unlit | Shading::Lambert)
         }
-        Effect::Textures => has_texture(material),
+        Effect::Textures => material.textures().next().is_some(),
         Effect::NormalMaps => lit && material.normal_map.is_some(),
         Effect::OcclusionMaps => lit && material.occlusion.is_some(),
         Effect::Emission => material.emissive != trigon_math::Vec3::ZERO,
@@ -96,19 +97,4 @@ fn is_traced(material: &Material, through: bool) -> bool {
         Some(Optics::Mirror) => !through,
         Some(Optics::Glass { .. }) => through,
     }
-}
-
-fn has_texture(material: &Material) -> bool {
-    let shading = match &material.shading {
-        Shading::Unlit | Shading::Lambert => false,
-        Shading::BlinnPhong { specular_texture, .. } => specular_texture.is_some(),
-        Shading::MetallicRoughness(model) => {
-            model.texture.is_some()
-                || model.specular_texture.is_some()
-                || model.specular_color_texture.is_some()
-        }
-    };
-    let colors = material.base_color_texture.is_some() || material.emissive_texture.is_some();
-    let plain = colors || material.transmission_texture.is_some();
-    shading || plain || material.normal_map.is_some() || material.occlusion.is_some()
 }

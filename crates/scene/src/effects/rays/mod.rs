@@ -2,18 +2,18 @@
 //! the whole triangle stops them.
 
 mod cache;
-mod met;
 mod occlusion;
 mod sight;
+mod surface_hit;
 
 pub(crate) use cache::RayCache;
-pub(crate) use met::Optics;
 pub(crate) use occlusion::AmbientRays;
+pub(crate) use surface_hit::Optics;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use met::{Met, MetSurfaces};
+use surface_hit::{CasterSurfaces, SurfaceHit};
 use trigon_math::{Bvh, DAffine3, DMat4, DVec3, Mat4, Ray, Vec3};
 use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
 
@@ -30,7 +30,7 @@ pub(crate) struct RayTriangles {
     /// The largest coordinate.
     reach: f32,
     /// Their appearance, if sight rays may end on them.
-    surfaces: Option<MetSurfaces>,
+    surfaces: Option<CasterSurfaces>,
 }
 
 impl RayTriangles {
@@ -56,12 +56,12 @@ impl RayTriangles {
             }
         }
         let reach = (casters.bounds.size() * 0.5).max_element() as f32;
-        let surfaces = looks_of.map(|scene| MetSurfaces::new(scene, casters));
+        let surfaces = looks_of.map(|scene| CasterSurfaces::new(scene, casters));
         Self { bvh: Bvh::new(&triangles), middle, reach, surfaces }
     }
 
     pub(crate) fn byte_count(&self) -> usize {
-        self.bvh.byte_count() + self.surfaces.as_ref().map_or(0, MetSurfaces::byte_count)
+        self.bvh.byte_count() + self.surfaces.as_ref().map_or(0, CasterSurfaces::byte_count)
     }
 }
 
@@ -86,7 +86,7 @@ impl RayScene {
     }
 
     /// The first hit of a ray, if appearances are known.
-    fn met(&self, ray: &Ray) -> Option<Met> {
+    fn met(&self, ray: &Ray) -> Option<SurfaceHit> {
         let hit = self.triangles.bvh.nearest(ray, 0.0..f32::INFINITY)?;
         Some(self.triangles.surfaces.as_ref()?.at(&hit, ray.at(hit.distance)))
     }
@@ -126,7 +126,7 @@ impl RayScene {
             }
             cast += 1;
             let ray = Ray { origin: origins[lane], direction };
-            if self.triangles.bvh.meets_any(&ray, 0.0..reach[lane]) { 0.0 } else { 1.0 }
+            if self.triangles.bvh.occluded(&ray, 0.0..reach[lane]) { 0.0 } else { 1.0 }
         });
         self.cast[0].fetch_add(cast, Ordering::Relaxed);
         F32::simd_from(simd, lit)

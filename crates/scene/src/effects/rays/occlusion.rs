@@ -84,7 +84,7 @@ impl AmbientRays {
         let [right, up] = [tangent * turn.x + bitangent * turn.y, bitangent * turn.x - tangent * turn.y];
         let leaves = |direction: &&Vec3| {
             let direction = right * direction.x + up * direction.y + normal * direction.z;
-            !scene.triangles.bvh.meets_any(&Ray { origin, direction }, 0.0..self.distance)
+            !scene.triangles.bvh.occluded(&Ray { origin, direction }, 0.0..self.distance)
         };
         self.directions.iter().filter(leaves).count() as f32 / self.directions.len() as f32
     }

@@ -10,11 +10,11 @@ use std::sync::atomic::Ordering;
 use trigon_math::{Ray, Vec3};
 use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
 
-use super::met::{Met, Optics};
+use super::surface_hit::{Optics, SurfaceHit};
 use super::{RayScene, rows};
-use crate::effects::Scenery;
+use crate::effects::LightingEnvironment;
 use crate::render::lanes::{V3, moved, normalized, sum, turned};
-use crate::render::lighting::{Answer, LitPoints};
+use crate::render::lighting::{Brdf, LitPoints};
 
 /// The maximum number of bounces of a ray.
 const MOST: u32 = 16;
@@ -31,7 +31,7 @@ struct Walk {
     mirrored: [bool; LANES],
 }
 
-impl Scenery {
+impl LightingEnvironment {
     /// What is visible from eight points on surfaces of a kind in some directions; both in camera
     /// space.
     pub(crate) fn seen<S: Simd>(
@@ -73,7 +73,7 @@ impl Scenery {
         &self,
         simd: S,
         rays: &RayScene,
-        met: &[Option<Met>; LANES],
+        met: &[Option<SurfaceHit>; LANES],
         walk: &Walk,
     ) -> [Vec3; LANES] {
         if met.iter().all(|met| met.is_none_or(|met| met.optics == Some(Optics::Mirror))) {
@@ -82,13 +82,13 @@ impl Scenery {
         simd.vectorize(
             #[inline(always)]
             || {
-                let lanes = |of: &dyn Fn(&Met, Vec3) -> Vec3| -> V3<S> {
+                let lanes = |of: &dyn Fn(&SurfaceHit, Vec3) -> Vec3| -> V3<S> {
                     let values: [Vec3; LANES] = lanes_of(|lane| {
                         met[lane].as_ref().map_or(Vec3::ZERO, |met| of(met, walk.directions[lane]))
                     });
                     [0, 1, 2].map(|axis| F32::simd_from(simd, values.map(|value| value[axis])))
                 };
-                let seen_side = |met: &Met, along: Vec3| {
+                let seen_side = |met: &SurfaceHit, along: Vec3| {
                     if met.normal.dot(along) > 0.0 { -met.normal } else { met.normal }
                 };
                 let turn = rays.turn().transpose();
@@ -99,7 +99,7 @@ impl Scenery {
                     facing: normal,
                     view: turned(&turn, lanes(&|_, along| -along)),
                 };
-                let reflected = self.reflected(simd, &points, &Answer::Lambert);
+                let reflected = self.reflected(simd, &points, &Brdf::Lambert);
                 let [r, g, b] = rows(sum(reflected.diffuse, self.around(simd, normal)));
                 lanes_of(|lane| Vec3::new(r[lane], g[lane], b[lane]))
             },
@@ -125,14 +125,20 @@ impl Walk {
     }
 
     /// A ray that hits nothing more.
-    fn end(&mut self, lane: usize, scenery: &Scenery) {
+    fn end(&mut self, lane: usize, lighting: &LightingEnvironment) {
         if std::mem::take(&mut self.alive[lane]) {
-            self.light[lane] += self.weights[lane] * scenery.far(self.directions[lane], self.mirrored[lane]);
+            self.light[lane] += self.weights[lane] * lighting.far(self.directions[lane], self.mirrored[lane]);
         }
     }
 
     /// A ray that hit a surface, on which white matt surfaces show `lit`.
-    fn go_on(&mut self, lane: usize, (scenery, rays): (&Scenery, &RayScene), met: &Met, lit: Vec3) {
+    fn go_on(
+        &mut self,
+        lane: usize,
+        (lighting, rays): (&LightingEnvironment, &RayScene),
+        met: &SurfaceHit,
+        lit: Vec3,
+    ) {
         self.light[lane] += self.weights[lane] * met.emissive;
         let along = self.directions[lane];
         match met.optics {
@@ -157,10 +163,10 @@ impl Walk {
                 let Some(through) = refracted(along, normal, ratio) else {
                     return self.turn(lane, rays, (met.position, normal), mirrored(along, normal));
                 };
-                let head_on = (ior - 1.0) / (ior + 1.0);
+                let root = (ior - 1.0) / (ior + 1.0);
                 let cosine = if enters { -normal.dot(along) } else { -normal.dot(through) };
-                let away = fresnel(cosine, head_on * head_on);
-                self.light[lane] += self.weights[lane] * scenery.far(mirrored(along, normal), false) * away;
+                let away = fresnel(cosine, root * root);
+                self.light[lane] += self.weights[lane] * lighting.far(mirrored(along, normal), false) * away;
                 let tint = if enters { met.color } else { Vec3::ONE };
                 self.weights[lane] *= tint * (1.0 - away);
                 self.turn(lane, rays, (met.position, -normal), through);
@@ -176,9 +182,9 @@ impl Walk {
 }
 
 /// Schlick's approximation of Fresnel's law.
-fn fresnel(cosine: f32, head_on: f32) -> f32 {
+fn fresnel(cosine: f32, f0: f32) -> f32 {
     let away = 1.0 - cosine.clamp(0.0, 1.0);
-    head_on + (1.0 - head_on) * away * away * away * away * away
+    f0 + (1.0 - f0) * away * away * away * away * away
 }
 
 /// A reflected unit vector.

@@ -6,12 +6,12 @@ use trigon_raster::{Culling, Draw, Pass, Rasterizer, Target, TargetError};
 use super::ShadowMap;
 use super::fit::View;
 use crate::display::Display;
-use crate::effects::Scenery;
+use crate::effects::LightingEnvironment;
 use crate::effects::casters::{Caster, Casters};
 use crate::material::{AlphaMode, Material, Shading};
 use crate::render::placement::Eye;
 use crate::render::placement::Rays;
-use crate::render::surface::{Dressed, Occasion, Surface};
+use crate::render::surface::{BoundMaterial, MaterialContext, Surface};
 use crate::scene::Scene;
 use crate::settings::{Reflection, ShadingModel};
 
@@ -29,7 +29,7 @@ pub(super) fn draw(
     (scene, casters): (&Scene, &Casters),
     rasterizer: &mut Rasterizer,
 ) -> Result<ShadowMap, TargetError> {
-    let dark = Scenery::default();
+    let dark = LightingEnvironment::default();
     let eye = Eye::new(&view.camera, view.aspect);
     let mut shapes = Vec::new();
     for caster in &casters.list {
@@ -61,7 +61,7 @@ pub(super) fn draw(
 
 fn shape<'a>(
     scene: &'a Scene,
-    dark: &'a Scenery,
+    dark: &'a LightingEnvironment,
     eye: &Eye,
     caster: &'a Caster,
     material: &Material,
@@ -69,9 +69,9 @@ fn shape<'a>(
     let masked = matches!(material.alpha_mode, AlphaMode::Mask { .. });
     let material = Material { shading: Shading::Unlit, ..material.clone() };
     let columns = &caster.geometry.columns;
-    let occasion = Occasion {
+    let context = MaterialContext {
         scene,
-        scenery: dark,
+        lighting: dark,
         rays: Rays::Parallel,
         shading: ShadingModel::Flat,
         reflection: Reflection::Material,
@@ -83,12 +83,12 @@ fn shape<'a>(
         Shape::Masked(Surface::new(
             (columns, &[]),
             place,
-            Dressed::new(&material, columns, &occasion),
-            &occasion,
+            BoundMaterial::new(&material, columns, &context),
+            &context,
         ))
     } else {
-        let mut dressed = Dressed::new(&material, columns, &occasion);
-        dressed.strip();
-        Shape::Whole(Surface::new((columns, &[]), place, dressed, &occasion))
+        let mut bound = BoundMaterial::new(&material, columns, &context);
+        bound.strip();
+        Shape::Whole(Surface::new((columns, &[]), place, bound, &context))
     }
 }

@@ -1,6 +1,7 @@
 //! Metals in a scene that says nothing of what is around them.
 
 use super::*;
+use crate::effect::Effect;
 use crate::render::lighting::{Lamp, Lights, Source};
 use crate::{Outputs, SimdLevel};
 

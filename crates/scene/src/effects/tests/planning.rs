@@ -1,5 +1,6 @@
 //! Plans, and what is off.
 
+use crate::effect::Effect;
 use trigon_mesh::{Deltas, MorphTarget};
 
 use super::*;

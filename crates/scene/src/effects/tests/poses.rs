@@ -1,5 +1,6 @@
 //! Morphed meshes are drawn, and throw their shadows, where their pose puts them.
 
+use crate::effect::Effect;
 use trigon_mesh::{Deltas, MorphTarget};
 
 use super::*;

@@ -1,6 +1,7 @@
 //! Shadows lie where geometry puts them, and nowhere else.
 
 use super::*;
+use crate::effect::Effect;
 
 /// A floor, and a square of one metre one metre above it.
 fn square_over_floor(lamp: Node) -> Scene {

@@ -16,7 +16,7 @@ use crate::render::lanes::{V3, fifth_power, mix, positive, saturated};
 #[derive(Clone, Copy)]
 pub(crate) struct Microfacets<S: Simd> {
     /// Reflected head-on, linear RGB.
-    pub(crate) head_on: V3<S>,
+    pub(crate) f0: V3<S>,
     /// Reflected at grazing angles.
     pub(crate) grazing: F32<S>,
     /// Perceptual roughness, 0…1.
@@ -35,7 +35,7 @@ impl<S: Simd> Microfacets<S> {
     #[inline(always)]
     pub(crate) fn fresnel(&self, cosine: F32<S>) -> V3<S> {
         let grazing = fifth_power(1.0 - saturated(cosine));
-        let [r, g, b] = self.head_on;
+        let [r, g, b] = self.f0;
         [mix(r, self.grazing, grazing), mix(g, self.grazing, grazing), mix(b, self.grazing, grazing)]
     }
 
@@ -67,11 +67,11 @@ impl<S: Simd> Microfacets<S> {
         let [scale, offset] = reflectance(n_dot_v.token(), self.roughness, n_dot_v);
         let all = scale + offset;
         let lost = 1.0 - all;
-        let mut answer = Surrounded { single: self.head_on, repeated: self.head_on, diffuse: self.head_on };
+        let mut answer = Surrounded { single: self.f0, repeated: self.f0, diffuse: self.f0 };
         for channel in 0..3 {
-            let head_on = self.head_on[channel];
-            let single = head_on * scale + self.grazing * offset;
-            let average = head_on + (self.grazing - head_on) * (1.0 / 21.0);
+            let f0 = self.f0[channel];
+            let single = f0 * scale + self.grazing * offset;
+            let average = f0 + (self.grazing - f0) * (1.0 / 21.0);
             let repeated = single * average * lost / (1.0 - average * lost);
             answer.single[channel] = single;
             answer.repeated[channel] = repeated;
@@ -98,11 +98,11 @@ mod tests {
     use fearless_simd::Fallback;
     use trigon_math::{Vec3, elementary};
 
-    fn surface(roughness: f32, head_on: f32) -> Microfacets<Fallback> {
+    fn surface(roughness: f32, f0: f32) -> Microfacets<Fallback> {
         let simd = Fallback::new();
         let splat = |value| F32::splat(simd, value);
         Microfacets {
-            head_on: [splat(head_on); 3],
+            f0: [splat(f0); 3],
             grazing: splat(1.0),
             roughness: splat(roughness),
             metallic: splat(0.0),
@@ -201,15 +201,12 @@ mod tests {
     #[test]
     fn white_surfaces_vanish_in_a_white_room() {
         let simd = Fallback::new();
-        for (roughness, head_on) in [(0.0, 1.0), (0.5, 1.0), (1.0, 1.0), (0.2, 0.04), (0.9, 0.04)] {
+        for (roughness, f0) in [(0.0, 1.0), (0.5, 1.0), (1.0, 1.0), (0.2, 0.04), (0.9, 0.04)] {
             for n_dot_v in [0.05, 0.5, 1.0] {
-                let answer = surface(roughness, head_on).surrounded(F32::splat(simd, n_dot_v));
+                let answer = surface(roughness, f0).surrounded(F32::splat(simd, n_dot_v));
                 let total = (answer.single[0] + answer.repeated[0] + answer.diffuse[0])[0];
-                assert!((total - 1.0).abs() < 0.01, "{roughness} {head_on} {n_dot_v}: {total} of 1");
-                assert!(
-                    answer.diffuse[0][0] < 0.01 || head_on < 1.0,
-                    "a metal leaves nothing for diffuse light"
-                );
+                assert!((total - 1.0).abs() < 0.01, "{roughness} {f0} {n_dot_v}: {total} of 1");
+                assert!(answer.diffuse[0][0] < 0.01 || f0 < 1.0, "a metal leaves nothing for diffuse light");
             }
         }
     }

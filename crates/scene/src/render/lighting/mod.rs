@@ -9,7 +9,7 @@ mod sum;
 
 pub(crate) use brdf::Microfacets;
 pub(crate) use lamp::{Arriving, Lamp, Source};
-pub(crate) use points::{Answer, LitPoints, Reflected};
+pub(crate) use points::{Brdf, LitPoints, Reflected};
 
 use trigon_math::{DAffine3, Vec3};
 
@@ -100,7 +100,7 @@ impl Lights {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::Scenery;
+    use crate::effects::LightingEnvironment;
     use crate::light::Light;
     use crate::render::lanes::{V3, splat};
     use fearless_simd::Fallback;
@@ -112,8 +112,8 @@ mod tests {
         let at = |vector| -> V3<Fallback> { splat(simd, vector) };
         let [position, normal] = [at(Vec3::NEG_Z * 2.0), at(Vec3::Z)];
         let points = LitPoints { position, normal, facing: normal, view: normal };
-        let scenery = Scenery { lights: lights.clone(), ..Scenery::default() };
-        let reflected = scenery.reflected(simd, &points, &Answer::Lambert);
+        let lighting = LightingEnvironment { lights: lights.clone(), ..LightingEnvironment::default() };
+        let reflected = lighting.reflected(simd, &points, &Brdf::Lambert);
         Vec3::from(reflected.diffuse.map(|channel| channel[0]))
     }
 

@@ -19,7 +19,7 @@ pub(crate) struct LitPoints<S: Simd> {
 
 /// How a surface answers to light at eight points.
 #[derive(Clone, Copy)]
-pub(crate) enum Answer<S: Simd> {
+pub(crate) enum Brdf<S: Simd> {
     /// Base colour × N·L.
     Lambert,
     /// See [`Shading::BlinnPhong`](crate::Shading::BlinnPhong).

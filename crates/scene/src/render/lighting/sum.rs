@@ -1,59 +1,75 @@
 //! The sum over lamps: what reaches the eye from eight points of a surface.
 
-use trigon_math::Vec3;
 use trigon_raster::simd::{Each, F32, Simd, prelude::*};
 
 use super::lamp::BRIGHTEST;
-use super::points::{Answer, LitPoints, Reflected};
-use crate::effects::Scenery;
+use super::points::{Brdf, LitPoints, Reflected};
+use crate::effects::LightingEnvironment;
 use crate::render::lanes::{V3, dot, lesser_of, normalized, positive, pow, scaled, sum, tinted};
 
-impl Scenery {
+impl LightingEnvironment {
     /// The light of all lamps that a surface sends to the eye.
     #[inline(always)]
-    pub(crate) fn reflected<S: Simd>(
+    pub(crate) fn reflected<S: Simd>(&self, simd: S, points: &LitPoints<S>, brdf: &Brdf<S>) -> Reflected<S> {
+        let mut reflected = Reflected::none(simd);
+        self.each_lamp(
+            simd,
+            points,
+            #[inline(always)]
+            |light| brdf.add(&mut reflected, points, &light),
+        );
+        reflected
+    }
+
+    /// Calls a function with the light of each lamp that reaches any of the points.
+    #[inline(always)]
+    pub(crate) fn each_lamp<S: Simd>(
         &self,
         simd: S,
         points: &LitPoints<S>,
-        answer: &Answer<S>,
-    ) -> Reflected<S> {
-        let mut reflected = Reflected::none(simd);
+        mut shine: impl FnMut(IncidentLight<S>),
+    ) {
         for (number, lamp) in self.lights.lamps.iter().enumerate() {
             let arriving = lamp.arriving(simd, points.position);
-            let cosine = positive(dot(points.normal, arriving.towards));
-            let mut share = arriving.share * cosine;
+            let n_dot_l = positive(dot(points.normal, arriving.towards));
+            let mut share = arriving.share * n_dot_l;
             if !share.simd_gt(0.0).any_true() {
                 continue;
             }
             if let Some(visible) = self.share(simd, (number, lamp), points, &arriving) {
                 share *= visible;
             }
-            answer.add(&mut reflected, points, (lamp.radiance, share), (arriving.towards, cosine));
+            let radiance = tinted(share, lamp.radiance).each(
+                #[inline(always)]
+                |channel| lesser_of(channel, BRIGHTEST),
+            );
+            shine(IncidentLight { radiance, towards: arriving.towards, n_dot_l });
         }
-        reflected
     }
 }
 
-impl<S: Simd> Answer<S> {
-    /// Adds a lamp's light: its radiance, and the share that arrives times N·L.
+/// The light of a lamp where it meets a surface.
+#[derive(Clone, Copy)]
+pub(crate) struct IncidentLight<S: Simd> {
+    /// What arrives, times N·L.
+    pub(crate) radiance: V3<S>,
+    /// Unit vectors to the lamp.
+    pub(crate) towards: V3<S>,
+    /// At least 0.
+    pub(crate) n_dot_l: F32<S>,
+}
+
+impl<S: Simd> Brdf<S> {
+    /// Adds what the surface reflects of a lamp's light.
     #[inline(always)]
-    fn add(
-        &self,
-        reflected: &mut Reflected<S>,
-        points: &LitPoints<S>,
-        (radiance, share): (Vec3, F32<S>),
-        (towards, n_dot_l): (V3<S>, F32<S>),
-    ) {
-        let light = tinted(share, radiance).each(
-            #[inline(always)]
-            |channel| lesser_of(channel, BRIGHTEST),
-        );
+    fn add(&self, reflected: &mut Reflected<S>, points: &LitPoints<S>, light: &IncidentLight<S>) {
+        let IncidentLight { radiance: light, towards, n_dot_l } = *light;
         match self {
             Self::Lambert => reflected.diffuse = sum(reflected.diffuse, light),
             Self::BlinnPhong { specular, shininess } => {
                 let half = normalized(sum(towards, points.view));
                 let highlight = pow(positive(dot(points.normal, half)), *shininess);
-                let one = [F32::splat(share.token(), 1.0); 3];
+                let one = [F32::splat(n_dot_l.token(), 1.0); 3];
                 reflected.add(light, one, scaled(*specular, highlight));
             }
             Self::Microfacets(facets) => {

@@ -11,7 +11,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
     /// One colour for each triangle.
     #[inline(always)]
     pub(super) fn facet_color<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
-        let base = splat(simd, self.look.base_color.truncate());
+        let base = splat(simd, self.params.material.base_color.truncate());
         let lit = match self.illumination {
             Illumination::OnFacets => self.lit_facets(simd, fragments, base),
             Illumination::None
@@ -19,11 +19,11 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             | Illumination::InPixels
             | Illumination::Value(_) => base,
         };
-        let [r, g, b] = sum(lit, splat(simd, self.look.emissive));
-        match self.look.coverage {
+        let [r, g, b] = sum(lit, splat(simd, self.params.material.emissive));
+        match self.params.coverage {
             Coverage::Opaque => [r, g, b, F32::splat(simd, 1.0)],
             Coverage::Translucent => {
-                let alpha = F32::splat(simd, self.look.base_color.w.clamp(0.0, 1.0));
+                let alpha = F32::splat(simd, self.params.material.base_color.w.clamp(0.0, 1.0));
                 [r * alpha, g * alpha, b * alpha, alpha]
             }
         }

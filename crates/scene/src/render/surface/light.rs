@@ -3,9 +3,11 @@
 use trigon_raster::simd::{F32, Simd, inlined, prelude::*};
 use trigon_raster::{FragmentLanes, VertexLanes};
 
+use super::traced::TracedSurface;
 use super::{LightSlots, Surface, Values, load, shown};
+use crate::material::MaterialTexture;
 use crate::render::lanes::{V3, dot, mixed, negated, normalized, product, scaled, splat, sum, turned};
-use crate::render::lighting::{Answer, LitPoints, Reflected};
+use crate::render::lighting::{Brdf, LitPoints, Reflected};
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
     /// Light at eight vertices. Textures but that of the base colour are left out.
@@ -54,9 +56,9 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         simd.vectorize(
             #[inline(always)]
             || {
-                let base = splat(simd, self.look.base_color.truncate());
-                let (answer, share) = self.look.answer(simd, base, None::<&FragmentLanes<'_, S>>);
-                let reflected = self.reflected(simd, points, &answer, (None, None));
+                let base = splat(simd, self.params.material.base_color.truncate());
+                let (brdf, share) = self.params.brdf(simd, base, None::<&FragmentLanes<'_, S>>);
+                let reflected = self.reflected(simd, points, &brdf, (None, None));
                 Reflected { diffuse: scaled(reflected.diffuse, share), ..reflected }
             },
         )
@@ -96,7 +98,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             #[inline(always)]
             || {
                 let points = self.points(simd, fragments);
-                let open = match (&self.scenery.ambient_rays, &self.scenery.rays) {
+                let open = match (&self.lighting.ambient_rays, &self.lighting.rays) {
                     (Some(ambient), Some(scene)) => {
                         let (place, active) = (fragments.position(), fragments.active());
                         Some(ambient.open(simd, scene, &points, place, active))
@@ -117,20 +119,23 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         (points, mut open): (&LitPoints<S>, Option<F32<S>>),
         (albedo, active): (V3<S>, u64),
     ) -> V3<S> {
-        let (answer, share) = self.look.answer(simd, albedo, Some(values));
-        if let Some((map, strength)) = &self.look.occlusion_map {
+        let (brdf, share) = self.params.brdf(simd, albedo, Some(values));
+        let strength = self.params.material.occlusion.map_or(0.0, |map| map.strength);
+        if let Some(map) = self.params.maps.get(MaterialTexture::Occlusion) {
             let red = map.look_up_apart(simd, values)[0];
-            let mapped = (red - 1.0) * *strength + 1.0;
+            let mapped = (red - 1.0) * strength + 1.0;
             open = Some(open.map_or(mapped, |open| open * mapped));
         }
-        match (&self.look.optics, &answer) {
-            (Some(optics), Answer::Microfacets(facets)) => {
-                let passing =
-                    self.look.transmission_map.as_ref().map(|map| map.look_up_apart(simd, values)[0]);
-                self.traced(simd, points, (facets, optics, open), (albedo, share, passing), active)
+        match (&self.params.optics, &brdf) {
+            (Some(optics), Brdf::Microfacets(facets)) => {
+                let map = self.params.maps.get(MaterialTexture::Transmission);
+                let transmission = map.map(|map| map.look_up_apart(simd, values)[0]);
+                let surface =
+                    TracedSurface { facets, optics, open, albedo, diffuse_share: share, transmission };
+                self.traced(simd, points, &surface, active)
             }
-            (None, _) | (Some(_), Answer::Lambert | Answer::BlinnPhong { .. }) => {
-                shown(&self.reflected(simd, points, &answer, (open, None)), scaled(albedo, share))
+            (None, _) | (Some(_), Brdf::Lambert | Brdf::BlinnPhong { .. }) => {
+                shown(&self.reflected(simd, points, &brdf, (open, None)), scaled(albedo, share))
             }
         }
     }
@@ -142,25 +147,25 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         &self,
         simd: S,
         points: &LitPoints<S>,
-        answer: &Answer<S>,
+        brdf: &Brdf<S>,
         (open, traced): (Option<F32<S>>, Option<V3<S>>),
     ) -> Reflected<S> {
-        let mut reflected = self.scenery.reflected(simd, points, answer);
-        if !self.scenery.has_ambient() && traced.is_none() {
+        let mut reflected = self.lighting.reflected(simd, points, brdf);
+        if !self.lighting.has_ambient() && traced.is_none() {
             return reflected;
         }
         let open = open.unwrap_or(F32::splat(simd, 1.0));
-        let around = scaled(self.scenery.around(simd, points.normal), open);
-        match answer {
-            Answer::Microfacets(facets) => {
+        let around = scaled(self.lighting.around(simd, points.normal), open);
+        match brdf {
+            Brdf::Microfacets(facets) => {
                 let shares = facets.surrounded(dot(points.normal, points.view).abs());
                 reflected.diffuse = sum(reflected.diffuse, product(around, shares.diffuse));
                 let mut mirrored = match traced {
                     Some(traced) => traced,
-                    None => scaled(self.scenery.mirrored(simd, points, facets.roughness), open),
+                    None => scaled(self.lighting.mirrored(simd, points, facets.roughness), open),
                 };
                 let mut repeated = around;
-                if let Some(sky) = self.scenery.sky_on_metal(simd, points, facets) {
+                if let Some(sky) = self.lighting.sky_on_metal(simd, points, facets) {
                     repeated = mixed(repeated, scaled(sky.around, open), facets.metallic);
                     if traced.is_none() {
                         mirrored = mixed(mirrored, scaled(sky.mirrored, open), facets.metallic);
@@ -169,7 +174,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                 let specular = sum(product(mirrored, shares.single), product(repeated, shares.repeated));
                 reflected.specular = sum(reflected.specular, specular);
             }
-            Answer::Lambert | Answer::BlinnPhong { .. } => {
+            Brdf::Lambert | Brdf::BlinnPhong { .. } => {
                 reflected.diffuse = sum(reflected.diffuse, around);
             }
         }

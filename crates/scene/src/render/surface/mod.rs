@@ -5,12 +5,12 @@
 //! interpolated. A second form of it, `FLAT`, is asked once for each visible
 //! triangle: for faces of one colour.
 
-mod dress;
+mod bound_material;
 mod facet;
 mod illumination;
 mod layout;
 mod light;
-mod look;
+mod material_params;
 mod points;
 mod reflection;
 mod tally;
@@ -18,10 +18,10 @@ mod traced;
 mod value;
 mod values;
 
-pub(crate) use dress::{Dressed, Occasion};
+pub(crate) use bound_material::{BoundMaterial, MaterialContext};
 pub(crate) use illumination::Illumination;
 pub(crate) use layout::{Layout, LightSlots};
-pub(crate) use look::{Coverage, Look, Map, MicrofacetModel, Model};
+pub(crate) use material_params::{Coverage, Map, Maps, MaterialParams, MicrofacetModel, Model};
 pub(crate) use values::{Values, three};
 
 use trigon_math::{Mat3, Vec3};
@@ -32,7 +32,8 @@ use super::columns::Columns;
 use super::lanes::{V3, normalized, saturated, splat, sum, turned};
 use super::lighting::Reflected;
 use super::placement::{Placement, Rays};
-use crate::effects::Scenery;
+use crate::effects::LightingEnvironment;
+use crate::material::MaterialTexture;
 
 /// Faces of one mesh in one material.
 pub(crate) struct Surface<'a, const FLAT: bool> {
@@ -41,11 +42,11 @@ pub(crate) struct Surface<'a, const FLAT: bool> {
     pub(crate) triangles: &'a [[u32; 3]],
     pub(crate) place: Placement,
     pub(crate) layout: Layout,
-    pub(crate) look: Look<'a>,
+    pub(crate) params: MaterialParams<'a>,
     pub(crate) illumination: Illumination,
     /// Whether rays of view meet in the camera, or run parallel.
     pub(crate) rays: Rays,
-    pub(crate) scenery: &'a Scenery,
+    pub(crate) lighting: &'a LightingEnvironment,
     /// From camera space.
     pub(crate) to_world: Mat3,
 }
@@ -82,8 +83,8 @@ impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
 
     #[inline(always)]
     fn masks<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> Mask<S> {
-        let alpha = self.look.albedo(simd, self.layout.color, fragments)[3];
-        alpha.simd_ge(F32::splat(simd, self.look.cutoff))
+        let alpha = self.params.albedo(simd, self.layout.color, fragments)[3];
+        alpha.simd_ge(F32::splat(simd, self.params.cutoff))
     }
 }
 
@@ -92,12 +93,12 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
     pub(crate) fn new(
         (columns, triangles): (&'a Columns, &'a [[u32; 3]]),
         place: Placement,
-        dressed: Dressed<'a>,
-        occasion: &Occasion<'a>,
+        bound: BoundMaterial<'a>,
+        context: &MaterialContext<'a>,
     ) -> Self {
-        let Dressed { look, layout, illumination } = dressed;
-        let Occasion { rays, scenery, to_world, .. } = *occasion;
-        Self { columns, triangles, place, layout, look, illumination, rays, scenery, to_world }
+        let BoundMaterial { params, layout, illumination } = bound;
+        let MaterialContext { rays, lighting, to_world, .. } = *context;
+        Self { columns, triangles, place, layout, params, illumination, rays, lighting, to_world }
     }
 
     #[inline(always)]
@@ -132,7 +133,7 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
     /// The colour of eight pixels.
     #[inline(always)]
     fn color<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
-        let [r, g, b, alpha] = self.look.albedo(simd, self.layout.color, fragments);
+        let [r, g, b, alpha] = self.params.albedo(simd, self.layout.color, fragments);
         let shaded = match self.illumination {
             Illumination::None => [r, g, b],
             Illumination::AtVertices => self.interpolated(fragments, [r, g, b]),
@@ -144,7 +145,7 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
             }
         };
         let mut shaded = self.with_emission(simd, fragments, shaded);
-        if let (Some(mist), Some(at)) = (&self.scenery.mist, self.layout.position) {
+        if let (Some(mist), Some(at)) = (&self.lighting.mist, self.layout.position) {
             shaded = mist.over(simd, three(fragments, at), shaded);
         }
         self.finished(simd, shaded, alpha)
@@ -152,8 +153,8 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
 
     #[inline(always)]
     fn with_emission<S: Simd>(&self, simd: S, values: &impl Values<S>, shaded: V3<S>) -> V3<S> {
-        let emissive = self.look.emissive;
-        match &self.look.emissive_map {
+        let emissive = self.params.material.emissive;
+        match self.params.maps.get(MaterialTexture::Emissive) {
             Some(map) => {
                 let [r, g, b, _] = map.look_up_apart(simd, values);
                 sum(shaded, [r * emissive.x, g * emissive.y, b * emissive.z])
@@ -166,7 +167,7 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
     /// With its alpha, premultiplied.
     #[inline(always)]
     fn finished<S: Simd>(&self, simd: S, [r, g, b]: V3<S>, alpha: F32<S>) -> [F32<S>; 4] {
-        match self.look.coverage {
+        match self.params.coverage {
             Coverage::Opaque => [r, g, b, F32::splat(simd, 1.0)],
             Coverage::Translucent => {
                 let alpha = saturated(alpha);

@@ -5,6 +5,7 @@ use trigon_raster::FragmentLanes;
 use trigon_raster::simd::{F32, Mask, Simd, prelude::*};
 
 use super::{Map, Surface, three};
+use crate::material::MaterialTexture;
 use crate::render::lanes::{V3, cross, negated, normalized, scaled, select, splat, sum};
 use crate::render::lighting::LitPoints;
 use crate::render::placement::{Rays, Side};
@@ -25,8 +26,12 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             |at| three(fragments, at),
         );
         let facing = normalized(normal);
-        let normal = match (&self.look.normal_map, self.layout.tangent) {
-            (Some((map, scale)), Some(at)) => bent(simd, fragments, (map, *scale), (normal, at)),
+        let normal = match (self.params.maps.get(MaterialTexture::Normal), self.layout.tangent) {
+            (Some(map), Some(at)) => {
+                let scale = self.params.material.normal_map.map_or(1.0, |map| map.scale);
+                let basis = NormalBasis { normal, tangent_at: at };
+                apply_normal_map(simd, fragments, basis, map, scale)
+            }
             _ => facing,
         };
         let front = self.shows_front(fragments);
@@ -57,14 +62,23 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
     }
 }
 
+/// The interpolated normal, and where the tangent is among the varyings.
+#[derive(Clone, Copy)]
+struct NormalBasis<S: Simd> {
+    normal: V3<S>,
+    tangent_at: usize,
+}
+
 /// Normals bent by a map, in the frame of tangent, bitangent and normal: as
 /// MikkTSpace has it, none of them is made a unit vector first.
-fn bent<S: Simd>(
+fn apply_normal_map<S: Simd>(
     simd: S,
     fragments: &FragmentLanes<'_, S>,
-    (map, scale): (&Map<'_>, f32),
-    (normal, at): (V3<S>, usize),
+    basis: NormalBasis<S>,
+    map: &Map<'_>,
+    scale: f32,
 ) -> V3<S> {
+    let NormalBasis { normal, tangent_at: at } = basis;
     simd.vectorize(
         #[inline(always)]
         || {

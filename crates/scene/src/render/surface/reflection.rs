@@ -4,7 +4,7 @@ use crate::material::{Material, MetallicRoughness, Shading};
 use crate::settings::Reflection;
 
 /// What a dielectric reflects head-on: ((n − 1) / (n + 1))².
-pub(super) fn head_on(ior: f32) -> f32 {
+pub(super) fn f0(ior: f32) -> f32 {
     let root = (ior - 1.0) / (ior + 1.0);
     root * root
 }
@@ -34,7 +34,7 @@ fn blinn_phong(material: &Material) -> Shading {
             let square = model.roughness * model.roughness * model.roughness * model.roughness;
             let exponent = 2.0 / square - 2.0;
             let shininess = if exponent < SHARPEST { exponent } else { SHARPEST };
-            let dielectric = head_on(material.ior) * model.specular_color * model.specular;
+            let dielectric = f0(material.ior) * model.specular_color * model.specular;
             let reflected = dielectric.lerp(material.base_color.truncate(), model.metallic);
             // As bright as one that sends out as much light as it reflects.
             Shading::blinn_phong(reflected * ((shininess + 8.0) / 8.0), shininess)

@@ -5,7 +5,21 @@ use trigon_raster::simd::{F32, Simd, prelude::*};
 use super::{Surface, shown};
 use crate::effects::Optics;
 use crate::render::lanes::{V3, difference, dot, negated, product, scaled, sum};
-use crate::render::lighting::{Answer, LitPoints, Microfacets};
+use crate::render::lighting::{Brdf, LitPoints, Microfacets};
+
+/// What rays of sight go on from, at eight points.
+#[derive(Clone, Copy)]
+pub(super) struct TracedSurface<'a, S: Simd> {
+    pub(super) facets: &'a Microfacets<S>,
+    pub(super) optics: &'a Optics,
+    /// The share of ambient light that arrives.
+    pub(super) open: Option<F32<S>>,
+    pub(super) albedo: V3<S>,
+    /// The share of the albedo that is diffuse.
+    pub(super) diffuse_share: F32<S>,
+    /// What the texture leaves of the transmission.
+    pub(super) transmission: Option<F32<S>>,
+}
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
     /// What mirrors and glass show. Of what the surface does not reflect its diffuse
@@ -14,34 +28,34 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         &self,
         simd: S,
         points: &LitPoints<S>,
-        (facets, optics, open): (&Microfacets<S>, &Optics, Option<F32<S>>),
-        (albedo, share, passing): (V3<S>, F32<S>, Option<F32<S>>),
+        surface: &TracedSurface<'_, S>,
         active: u64,
     ) -> V3<S> {
+        let TracedSurface { facets, optics, open, albedo, diffuse_share, transmission } = *surface;
         simd.vectorize(
             #[inline(always)]
             || {
                 let LitPoints { normal, view, facing, .. } = *points;
                 let cosine = dot(normal, view);
                 let back = difference(scaled(normal, cosine * 2.0), view);
-                let mirrored = self.scenery.seen(simd, points, optics, back, active);
-                let answer = Answer::Microfacets(*facets);
-                let reflected = self.reflected(simd, points, &answer, (open, Some(mirrored)));
-                let Optics::Glass { transmission, ior } = *optics else {
-                    return shown(&reflected, scaled(albedo, share));
+                let mirrored = self.lighting.seen(simd, points, optics, back, active);
+                let brdf = Brdf::Microfacets(*facets);
+                let reflected = self.reflected(simd, points, &brdf, (open, Some(mirrored)));
+                let Optics::Glass { transmission: factor, ior } = *optics else {
+                    return shown(&reflected, scaled(albedo, diffuse_share));
                 };
-                let transmission = passing.map_or(F32::splat(simd, transmission), |part| part * transmission);
-                let matt = shown(&reflected, scaled(albedo, share * (1.0 - transmission)));
+                let transmission = transmission.map_or(F32::splat(simd, factor), |part| part * factor);
+                let matt = shown(&reflected, scaled(albedo, diffuse_share * (1.0 - transmission)));
                 // Snell's law, into what is denser: no light is reflected as a whole.
                 let ratio = 1.0 / ior;
                 let bent = (1.0 - (1.0 - cosine * cosine) * (ratio * ratio)).sqrt();
                 let into =
                     difference(scaled(normal, cosine * ratio - bent), scaled(view, F32::splat(simd, ratio)));
                 let inside = LitPoints { facing: negated(facing), ..*points };
-                let through = self.scenery.seen(simd, &inside, optics, into, active);
+                let through = self.lighting.seen(simd, &inside, optics, into, active);
                 let [r, g, b] = facets.fresnel(cosine);
                 let left = [1.0 - r, 1.0 - g, 1.0 - b];
-                let passed = product(product(through, left), scaled(albedo, share * transmission));
+                let passed = product(product(through, left), scaled(albedo, diffuse_share * transmission));
                 sum(matt, passed)
             },
         )

@@ -5,6 +5,7 @@ use trigon_raster::simd::{F32, Simd, prelude::*};
 
 use super::{Model, Surface};
 use crate::display::Display;
+use crate::material::MaterialTexture;
 use crate::render::lanes::{V3, pow, saturated, turned};
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
@@ -56,9 +57,9 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
     #[inline(always)]
     fn metallic_and_roughness<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 2] {
         let [zero, one] = [0.0, 1.0].map(|value| F32::splat(simd, value));
-        let Model::Microfacets(model) = &self.look.model else { return [zero, one] };
+        let Model::Microfacets(model) = &self.params.model else { return [zero, one] };
         let [metallic, roughness] = [model.metallic, model.roughness].map(|value| F32::splat(simd, value));
-        match &model.map {
+        match self.params.maps.get(MaterialTexture::MetallicRoughness) {
             Some(map) => {
                 let [_, green, blue, _] = map.look_up_apart(simd, fragments);
                 [metallic * blue, roughness * green]
@@ -70,8 +71,9 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
     /// The share of ambient light that arrives.
     #[inline(always)]
     fn open<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> F32<S> {
-        match &self.look.occlusion_map {
-            Some((map, strength)) => (map.look_up_apart(simd, fragments)[0] - 1.0) * *strength + 1.0,
+        let strength = self.params.material.occlusion.map_or(0.0, |map| map.strength);
+        match self.params.maps.get(MaterialTexture::Occlusion) {
+            Some(map) => (map.look_up_apart(simd, fragments)[0] - 1.0) * strength + 1.0,
             None => F32::splat(simd, 1.0),
         }
     }

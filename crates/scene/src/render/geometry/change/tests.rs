@@ -147,7 +147,7 @@ impl Dress {
     }
 }
 
-fn dressed() -> impl Strategy<Value = Mesh> {
+fn bound() -> impl Strategy<Value = Mesh> {
     (prop_oneof![soup(), surface()], dress()).prop_map(|(mut mesh, dress)| {
         let (corners, faces) = (0..mesh.corner_count(), 0..mesh.face_count());
         // Zero normals are none.
@@ -244,7 +244,7 @@ proptest! {
 
     #[test]
     fn geometry_that_followed_holds_what_new_geometry_does(
-        mesh in dressed(),
+        mesh in bound(),
         steps in prop::collection::vec((edits(), any::<bool>()), 1..8),
     ) {
         let mut scene = scene_of(mesh);
@@ -263,7 +263,7 @@ proptest! {
 
     #[test]
     fn pictures_after_changes_are_those_of_the_changed_mesh(
-        mesh in dressed(),
+        mesh in bound(),
         steps in prop::collection::vec(edits(), 1..4),
         style in prop::sample::select(vec![Style::Surface, Style::SurfaceWithEdges, Style::HiddenLine]),
     ) {

@@ -1,0 +1,204 @@
+//! Images of the document, for the textures that materials use.
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
+
+use gltf::json::Root;
+use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
+use serde_json::Value;
+use trigon_raster::{Filter, MipFilter, Sampler, TextureFormat, Wrap};
+use trigon_scene::TextureId;
+
+use super::accessor::valid;
+use super::buffers::{Buffers, Unread, read_reference};
+use super::references::source_of;
+use super::slots::{SlotTexture, purpose_of};
+use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::folder::{Folder, Lookup};
+use crate::import::Import;
+use crate::layers::Role;
+use crate::texture_request::{PictureBytes, Purpose, Request};
+use crate::textures::add_textures;
+
+/// The textures that images of the document became: one for colours, one for
+/// data, as they are used.
+pub(crate) struct Images {
+    ids: BTreeMap<(usize, bool), TextureId>,
+}
+
+/// An image, and whether its bytes are data.
+fn key(image: usize, format: TextureFormat) -> (usize, bool) {
+    (image, format == TextureFormat::Linear)
+}
+
+impl Images {
+    /// Reads the images behind some textures, and decodes each once for
+    /// colours and once for data, where it is used so.
+    pub(crate) fn read(
+        import: &mut Import<'_>,
+        root: &Root,
+        buffers: &mut Buffers<'_>,
+        textures: &[SlotTexture],
+    ) -> Result<Self, LoadError> {
+        let wanted = wanted_images(import, root, textures);
+        let (mut requests, mut indices) = (Vec::new(), BTreeMap::new());
+        // Many images may be one picture: it is read, decoded and kept once.
+        let mut known = HashMap::new();
+        for ((image, is_data), purpose) in wanted {
+            let from = &root.images[image];
+            let source = (&from.uri, from.buffer_view.map(|view| view.value()), is_data);
+            let index = *known.entry(source).or_insert_with(|| {
+                let bytes = read_image(import, root, buffers, image)?;
+                let (name, place) = (image_name(root, image), Place::Item("image", image));
+                let layers = vec![(Role::Whole, bytes)];
+                requests.push(Request { name, file: import.path.to_owned(), place, layers, purpose });
+                Some(requests.len() - 1)
+            });
+            indices.extend(index.map(|index| ((image, is_data), index)));
+        }
+        let ids = add_textures(import, &requests)?;
+        if let Some(source) = &mut import.source {
+            source.note_images(&requests, &ids, indices.iter().map(|(&(image, _), &index)| (image, index)));
+        }
+        let ids = indices.into_iter().filter_map(|(key, index)| Some((key, ids[index]?))).collect();
+        Ok(Self { ids })
+    }
+
+    /// The texture of the scene for a texture of the document.
+    pub(crate) fn get(&self, root: &Root, texture: usize, format: TextureFormat) -> Option<TextureId> {
+        self.ids.get(&key(image_of(root, texture)?, format)).copied()
+    }
+}
+
+/// Which images are needed, and what for: a colour of a surface before others.
+fn wanted_images(
+    import: &mut Import<'_>,
+    root: &Root,
+    textures: &[SlotTexture],
+) -> BTreeMap<(usize, bool), Purpose> {
+    let mut wanted = BTreeMap::new();
+    for from in textures {
+        let Some(image) = image_of(root, from.texture) else {
+            let place = Place::Item("texture", from.texture);
+            import.warnings.push(place, "it has no image and is not drawn", "export the model again");
+            continue;
+        };
+        let purpose = purpose_of(from.place);
+        let known = wanted.entry(key(image, purpose.format())).or_insert(purpose);
+        if purpose == Purpose::BaseColor {
+            *known = purpose;
+        }
+    }
+    wanted
+}
+
+/// The image that a texture shows: the plain one, else one in a format that an
+/// extension adds. The picture itself then says what it is.
+pub(crate) fn image_of(root: &Root, texture: usize) -> Option<usize> {
+    let texture = &root.textures[texture];
+    if let Some(source) = source_of(texture) {
+        return Some(source);
+    }
+    let others = &texture.extensions.as_ref()?.others;
+    let sources = others.values().filter_map(|extension| extension.get("source").and_then(Value::as_u64));
+    let mut images = sources.filter_map(|source| usize::try_from(source).ok());
+    images.find(|&image| image < root.images.len())
+}
+
+fn image_name(root: &Root, image: usize) -> String {
+    let from = &root.images[image];
+    let file = from.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
+    file.or(from.name.as_deref()).map_or_else(|| format!("image {image}"), str::to_owned)
+}
+
+fn read_image(
+    import: &mut Import<'_>,
+    root: &Root,
+    buffers: &mut Buffers<'_>,
+    image: usize,
+) -> Option<PictureBytes> {
+    let place = Place::Item("image", image);
+    match fetch_image(root, buffers, &mut import.folder, image) {
+        Ok((bytes, respelled)) => {
+            if let Some(path) = respelled {
+                let what = format!(
+                    "\"{}\" was not found; \"{}\" is used instead",
+                    image_name(root, image),
+                    Path::new(&path).display()
+                );
+                import.warnings.push(place, what, "correct the name in the model");
+            }
+            Some(bytes)
+        }
+        Err(Unread { what, remedy, .. }) => {
+            let said = (format!("the picture is not drawn: {what}"), remedy);
+            let tried = import.folder.tried(Path::new(""), &image_name(root, image));
+            import.warnings.push_unusable(import.path, place, said, tried);
+            None
+        }
+    }
+}
+
+/// The bytes of an image; the second value tells of another spelling that was used for a file.
+pub(crate) fn fetch_image(
+    root: &Root,
+    buffers: &mut Buffers<'_>,
+    folder: &mut Folder,
+    image: usize,
+) -> Result<(PictureBytes, Option<String>), Unread> {
+    let from = &root.images[image];
+    match (&from.uri, from.buffer_view) {
+        (Some(uri), _) => {
+            let (bytes, respelled) = read_reference(uri, folder, Lookup::Forgiving)?;
+            Ok((PictureBytes::Own(bytes), respelled))
+        }
+        (None, Some(view)) => {
+            let (buffer, range) = buffers.view(root, view.value(), folder).map_err(|unplaced| unplaced.1)?;
+            Ok((PictureBytes::Shared(buffer, range), None))
+        }
+        (None, None) => {
+            let what = "it has neither a URI nor a bufferView".to_owned();
+            Err(Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" })
+        }
+    }
+}
+
+/// How a texture is sampled; the specification's defaults where it says nothing.
+pub(crate) fn convert_sampler(root: &Root, texture: usize) -> Sampler {
+    let Some(index) = root.textures[texture].sampler else { return Sampler::default() };
+    let from = &root.samplers[index.value()];
+    let (minification, mip) = from
+        .min_filter
+        .as_ref()
+        .and_then(valid)
+        .map_or_else(|| (Filter::Linear, MipFilter::Linear), minification);
+    Sampler {
+        wrap_u: valid(&from.wrap_s).map_or(Wrap::Repeat, wrap),
+        wrap_v: valid(&from.wrap_t).map_or(Wrap::Repeat, wrap),
+        magnification: match from.mag_filter.as_ref().and_then(valid) {
+            Some(MagFilter::Nearest) => Filter::Nearest,
+            _ => Filter::Linear,
+        },
+        minification,
+        mip,
+    }
+}
+
+fn wrap(mode: WrappingMode) -> Wrap {
+    match mode {
+        WrappingMode::ClampToEdge => Wrap::ClampToEdge,
+        WrappingMode::MirroredRepeat => Wrap::MirroredRepeat,
+        WrappingMode::Repeat => Wrap::Repeat,
+    }
+}
+
+fn minification(filter: MinFilter) -> (Filter, MipFilter) {
+    match filter {
+        MinFilter::Nearest => (Filter::Nearest, MipFilter::None),
+        MinFilter::Linear => (Filter::Linear, MipFilter::None),
+        MinFilter::NearestMipmapNearest => (Filter::Nearest, MipFilter::Nearest),
+        MinFilter::LinearMipmapNearest => (Filter::Linear, MipFilter::Nearest),
+        MinFilter::NearestMipmapLinear => (Filter::Nearest, MipFilter::Linear),
+        MinFilter::LinearMipmapLinear => (Filter::Linear, MipFilter::Linear),
+    }
+}

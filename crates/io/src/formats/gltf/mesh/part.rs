@@ -1,0 +1,137 @@
+//! One primitive of a mesh, decoded.
+
+use gltf::json::mesh::{Mode, Primitive, Semantic};
+use trigon_math::Vec3;
+
+use super::built::Needs;
+use super::movement::{PartSkin, PartTarget, read_skin, read_targets};
+use super::optional::{Optional, find};
+use super::soundness;
+use crate::error::{LoadErrorKind, Place};
+use crate::formats::gltf::accessor::{Accessors, valid};
+use crate::formats::gltf::buffers::{Unplaced, Unread};
+use crate::formats::gltf::formats;
+use crate::formats::gltf::primitive::{Elements, corner_count, elements};
+use crate::warning::{Warnings, counted};
+
+/// A primitive, decoded.
+pub(super) struct Part {
+    pub(super) positions: Vec<Vec3>,
+    pub(super) normals: Option<Vec<[f32; 3]>>,
+    /// Only if a normal map needs them.
+    pub(super) tangents: Option<Vec<[f32; 4]>>,
+    pub(super) uv_sets: Vec<Vec<[f32; 2]>>,
+    pub(super) colors: Option<Vec<[f32; 4]>>,
+    pub(super) skin: Option<PartSkin>,
+    pub(super) targets: Vec<PartTarget>,
+    pub(super) elements: Elements,
+    pub(super) material: Option<usize>,
+    pub(super) needs: Needs,
+    /// Strips repeat vertices on purpose, to jump.
+    pub(super) is_strip: bool,
+}
+
+pub(super) fn read_primitive(
+    accessors: &mut Accessors<'_, '_>,
+    primitive: &Primitive,
+    place: Place,
+    needs: &dyn Fn(Option<usize>) -> Needs,
+    warnings: &mut Warnings,
+) -> Result<Option<Part>, Unplaced> {
+    let Some(position_index) = find(primitive, Semantic::Positions) else {
+        warnings.push(place, "it has no POSITION and is not drawn", "export the model again");
+        return Ok(None);
+    };
+    let Some(mode) = valid(&primitive.mode) else {
+        warnings.push(place, "its mode is unknown and it is not drawn", "export the model again");
+        return Ok(None);
+    };
+    check_bounds(accessors, position_index)?;
+    if let Some(what) = formats::POSITION.fault(accessors.root, position_index) {
+        warnings.push(place.clone(), what, "export the model again");
+    }
+    let positions = accessors.vectors::<3>(position_index, formats::POSITION.types)?;
+    let elements = read_elements(accessors, primitive, mode, positions.len(), &place, warnings)?;
+    let material = primitive.material.map(|material| material.value());
+    let needs = needs(material);
+    let mut optional = Optional { accessors, primitive, vertices: positions.len(), place: &place, warnings };
+    let normals = optional.read::<3>(Semantic::Normals, &formats::NORMAL)?;
+    let tangents = match (&normals, needs.tangents_of) {
+        // Without normals the file's tangents must be ignored.
+        (Some(_), Some(_)) => optional.read::<4>(Semantic::Tangents, &formats::TANGENT)?,
+        _ => None,
+    };
+    let colors = optional.read::<4>(Semantic::Colors(0), &formats::COLOR)?;
+    let uv_sets = optional.uv_sets(&needs.uv_sets)?;
+    let skin = read_skin(&mut optional)?;
+    let targets = read_targets(&mut optional, tangents.is_some())?;
+    soundness::warn_of_normals(&mut optional, normals.as_deref());
+    soundness::warn_of_tangents(&mut optional, tangents.as_deref());
+    soundness::warn_of_colors(&mut optional, colors.as_deref());
+    soundness::warn_of_uv_sets(&mut optional, &uv_sets);
+    soundness::warn_of_targets(&mut optional, &targets);
+    Ok(Some(Part {
+        positions: positions.into_iter().map(Vec3::from).collect(),
+        normals,
+        tangents,
+        uv_sets,
+        colors,
+        skin,
+        targets,
+        elements,
+        material,
+        needs,
+        is_strip: matches!(mode, Mode::TriangleStrip),
+    }))
+}
+
+/// The bounds of POSITION may be missing, but must have three numbers.
+fn check_bounds(accessors: &Accessors<'_, '_>, index: usize) -> Result<(), Unplaced> {
+    let accessor = &accessors.root.accessors[index];
+    for (name, bound) in [("min", &accessor.min), ("max", &accessor.max)] {
+        let Some(bound) = bound else { continue };
+        let numbers = bound.as_array().map_or(0, Vec::len);
+        if numbers != 3 {
+            let what = format!("POSITION {name} has {numbers} numbers and should have 3");
+            return Err(malformed(Place::Item("accessor", index), what));
+        }
+    }
+    Ok(())
+}
+
+fn malformed(place: Place, what: String) -> Unplaced {
+    let remedy = "export the model again";
+    Unplaced(place, Unread { kind: LoadErrorKind::Malformed, what, remedy })
+}
+
+/// The triangles, edges and points, all of whose indices exist.
+fn read_elements(
+    accessors: &mut Accessors<'_, '_>,
+    primitive: &Primitive,
+    mode: Mode,
+    vertices: usize,
+    place: &Place,
+    warnings: &mut Warnings,
+) -> Result<Elements, Unplaced> {
+    let indices = match primitive.indices {
+        Some(indices) => accessors.indices(indices.value())?,
+        None => (0..vertices as u32).collect(),
+    };
+    accessors.spend(vertices.max(corner_count(mode, indices.len())), place)?;
+    if let Some(beyond) = indices.iter().find(|&&vertex| vertex as usize >= vertices) {
+        let has = counted(vertices, "vertex");
+        let what = format!("index {beyond} does not exist; the primitive has {has}");
+        return Err(malformed(place.clone(), what));
+    }
+    let elements = elements(mode, &indices);
+    if elements.left_over > 0 {
+        let count = counted(elements.left_over, "index");
+        let what = format!("{count} at the end left over, too few for a whole element");
+        warnings.push(place.clone(), what, "export the model again");
+    } else if elements.is_empty() {
+        let count = counted(indices.len(), "index");
+        let what = format!("{count} are too few for its mode; it is not drawn");
+        warnings.push(place.clone(), what, "export the model again");
+    }
+    Ok(elements)
+}

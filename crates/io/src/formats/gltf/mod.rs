@@ -1,0 +1,242 @@
+//! glTF 2.0 and GLB.
+//!
+//! `container` (the GLB) → `preview`, `document` (JSON) → `extensions`, `references`,
+//! `hierarchy` (all checks), `contradictions` → `mesh` with `accessor`, `buffers` and `meshopt` →
+//! `materials` with `slots` and `images` → `nodes` with `instances` → `skins`
+//! and `animations`; `source` keeps the file itself for those who ask. Nothing is followed that was not checked, and nothing is
+//! recursive.
+
+mod accessor;
+mod animations;
+mod attribute_names;
+mod buffers;
+mod cameras;
+mod compressed;
+mod container;
+mod contradictions;
+mod document;
+mod extensions;
+mod formats;
+mod hash;
+mod hierarchy;
+mod images;
+mod instances;
+mod keep;
+mod lights;
+mod material_extensions;
+mod materials;
+mod mesh;
+mod meshopt;
+mod native;
+mod nodes;
+mod preview;
+mod primitive;
+mod ranges;
+mod reader;
+mod references;
+mod skins;
+mod slots;
+mod source;
+mod triangle_hash;
+mod write;
+
+use std::collections::BTreeSet;
+
+use trigon_mesh::Mesh;
+
+use accessor::{Accessors, Doubts};
+use buffers::{Buffers, Unplaced};
+use document::Document;
+use hierarchy::Hierarchy;
+use mesh::{BuiltMesh, Needs};
+use native::Extras;
+use reader::Reader;
+
+pub use source::GltfSource;
+pub(crate) use source::SourceDraft;
+pub(crate) use write::mime_type;
+pub use write::{NativeDocument, NativeFile, encode_glb, write_glb};
+
+use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::import::Import;
+use crate::options::Stage;
+use crate::warning::Warnings;
+
+/// Reads a binary glTF into the scene.
+pub(crate) fn import_glb(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), LoadError> {
+    let container = container::open_glb(import.path, bytes, &mut import.warnings)?;
+    import_parts(import, container.json, container.binary)
+}
+
+/// Reads a glTF that is plain JSON into the scene.
+pub(crate) fn import_gltf(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), LoadError> {
+    import_parts(import, bytes, None)
+}
+
+fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<&[u8]>) -> Result<(), LoadError> {
+    let document = document::parse_document(import.path, json)?;
+    let root = &document.root;
+    extensions::check_extensions(import.path, root, &document.extensions, &mut import.warnings)?;
+    references::check_references(import.path, root)?;
+    let hierarchy = hierarchy::find_hierarchy(import.path, root, import.options)?;
+    import.warnings.push_counted(
+        document.unbounded,
+        Place::Whole,
+        "a number is too large for 32 bits of floating point and is taken as 0",
+        "export the model again",
+    );
+    contradictions::warn_of_contradictions(&document, &hierarchy, &mut import.warnings);
+    import.scene_names = hierarchy::scene_names(root);
+    let mut buffers = Buffers::new(root, binary);
+    let mut spent = 0;
+    let mut meshes = build_meshes(import, &document, &hierarchy, &mut buffers, &mut spent)?;
+    let used: BTreeSet<Option<usize>> =
+        meshes.iter().flatten().flat_map(|mesh| mesh.materials.iter().copied()).collect();
+    let used: Vec<Option<usize>> = used.into_iter().collect();
+    let materials = materials::add_materials(import, &document, &mut buffers, &used)?;
+    let primitives = keep::take_primitives(import, &mut meshes);
+    let placed = nodes::add_nodes(import, &document, &hierarchy, meshes, &materials);
+    keep::keep_placed(import, &placed, primitives, &materials);
+    keep::keep_scene(import, hierarchy.scene);
+    let mut reader = Reader { root, buffers, spent };
+    nodes::add_instances(import, &mut reader, &placed)?;
+    skins::add_skins(import, &mut reader, &placed)?;
+    animations::add_animations(import, &mut reader, &placed)?;
+    keep::keep_file(import, json, &placed, &mut reader.buffers);
+    Ok(())
+}
+
+/// The meshes that the nodes use, by their index in the document.
+fn build_meshes(
+    import: &mut Import<'_>,
+    document: &Document,
+    hierarchy: &Hierarchy,
+    buffers: &mut Buffers<'_>,
+    spent: &mut usize,
+) -> Result<Vec<Option<BuiltMesh>>, LoadError> {
+    let root = &document.root;
+    let mut meshes: Vec<Option<BuiltMesh>> = root.meshes.iter().map(|_| None).collect();
+    let used: BTreeSet<usize> =
+        hierarchy.order.iter().filter_map(|&node| Some(root.nodes[node].mesh?.value())).collect();
+    let limits = &import.options.limits;
+    let mut drawable = false;
+    for (done, &index) in used.iter().enumerate() {
+        import.options.report(import.path, Stage::Geometry, done as f32 / used.len() as f32)?;
+        let most = limits.vertices.max(limits.corners);
+        let mut accessors = Accessors {
+            root,
+            buffers,
+            folder: &mut import.folder,
+            most,
+            most_corners: limits.corners,
+            spent,
+            doubts: Doubts::default(),
+        };
+        let needs = |material| Needs::of(&materials::slot_textures_of(root, material));
+        let names = document.target_names.get(index).map_or(&[][..], Vec::as_slice);
+        let extras = document.native_meshes.get(index).unwrap_or(&Extras::Absent);
+        let native = native_mesh(&mut accessors, index, extras, names, &mut import.warnings)
+            .map_err(|unplaced| unplaced.into_error(import.path))?;
+        let built = match native {
+            Some(built) => built,
+            None => mesh::build_mesh(&mut accessors, index, names, &needs, &mut import.warnings)
+                .map_err(|unplaced| unplaced.into_error(import.path))?,
+        };
+        accessors.doubts.tell(&mut import.warnings);
+        let mesh = &built.mesh;
+        if mesh.vertex_count() > limits.vertices {
+            let what = format!("it has more than {} vertices", limits.vertices);
+            return Err(LoadError::limit(import.path, what).at(Place::Item("mesh", index)));
+        }
+        drawable |= mesh.face_count() + mesh.loose_edges().len() + mesh.loose_points().len() > 0;
+        meshes[index] = Some(built);
+    }
+    // What is opened to be edited may hold lights alone, or nothing yet.
+    let may_be_empty = import.options.keep_source && root.meshes.is_empty();
+    if !drawable && !may_be_empty {
+        return Err(nothing(import, root, used.len()));
+    }
+    check_placed(import, root, hierarchy, &meshes)?;
+    Ok(meshes)
+}
+
+/// A mesh of a native file as it was modelled; none of others, and none, with a warning, if
+/// its triangles are to be used instead.
+fn native_mesh(
+    accessors: &mut Accessors<'_, '_>,
+    index: usize,
+    extras: &Extras<native::Header>,
+    target_names: &[String],
+    warnings: &mut Warnings,
+) -> Result<Option<BuiltMesh>, Unplaced> {
+    let read = match extras {
+        Extras::Absent => return Ok(None),
+        Extras::Broken => Err("the description of its polygons is invalid".to_owned()),
+        Extras::Present(header) => native::read_native_mesh(accessors, index, header)?,
+    };
+    let native = match read {
+        Ok(native) => native,
+        Err(why) => {
+            let what = format!("{why}; they are read without polygons, marks and original positions");
+            warnings.push(
+                Place::Item("mesh", index),
+                what,
+                "open the file that trigon saved if you need these",
+            );
+            return Ok(None);
+        }
+    };
+    let native::NativeMesh { mut mesh, materials, marks } = native;
+    let mut attributes = mesh.attributes().clone();
+    for (target, name) in attributes.morph_targets.iter_mut().zip(target_names) {
+        target.name.clone_from(name);
+    }
+    if !attributes.morph_targets.is_empty() {
+        mesh.set_attributes(attributes).expect("only names are others");
+    }
+    Ok(Some(BuiltMesh { mesh, materials, primitives: Vec::new(), marks }))
+}
+
+/// Holds what the nodes place to the limit: many copies of one mesh take no
+/// memory here, but the picture needs every one.
+fn check_placed(
+    import: &Import<'_>,
+    root: &gltf::json::Root,
+    hierarchy: &Hierarchy,
+    meshes: &[Option<BuiltMesh>],
+) -> Result<(), LoadError> {
+    let corners =
+        |mesh: &Mesh| mesh.corner_count() + 2 * mesh.loose_edges().len() + mesh.loose_points().len();
+    let each: Vec<usize> =
+        meshes.iter().map(|built| built.as_ref().map_or(0, |built| corners(&built.mesh))).collect();
+    let (mut placed, mut copies, limit) = (0_usize, 0_usize, import.options.limits.corners);
+    for &node in &hierarchy.order {
+        let times = instances::instance_count(root, node);
+        copies = copies.saturating_add(times - 1);
+        let corners = root.nodes[node].mesh.map_or(0, |mesh| each[mesh.value()]);
+        placed = placed.saturating_add(corners.saturating_mul(times));
+        if placed > limit {
+            let what = format!("with it, the nodes place more than {limit} corners");
+            return Err(LoadError::limit(import.path, what).at(Place::Item("node", node)));
+        }
+    }
+    let nodes = hierarchy.order.len().saturating_add(copies);
+    if nodes > import.options.limits.nodes {
+        let what =
+            format!("with its instances it has {nodes} nodes; the limit is {}", import.options.limits.nodes);
+        return Err(LoadError::limit(import.path, what));
+    }
+    Ok(())
+}
+
+/// Why there is nothing to draw: the first warning is usually the reason.
+fn nothing(import: &Import<'_>, root: &gltf::json::Root, used: usize) -> LoadError {
+    let reason = match (root.meshes.len(), used, import.warnings.first()) {
+        (0, ..) => "the file has no meshes".to_owned(),
+        (count, 0, _) => format!("no node of its scene places one of its {count} meshes"),
+        (.., Some(warning)) => format!("its meshes are empty{}: {}", warning.place, warning.what),
+        (.., None) => "its meshes are empty".to_owned(),
+    };
+    let what = format!("there is nothing to draw: {reason}");
+    LoadError::new(LoadErrorKind::Empty, import.path, what, "export the model with visible meshes")
+}

@@ -1,0 +1,298 @@
+//! Meshes: unchanged ones stay as in the file, others are rewritten.
+//!
+//! The materials of a scene belong to nodes, those of a glTF to meshes: a mesh that nodes draw with
+//! different materials is written once for each combination, with shared accessors.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use serde_json::value::RawValue;
+use trigon_mesh::edit::{EditMesh, Marks, Refusal};
+use trigon_mesh::{Mesh, RenderMesh};
+use trigon_scene::{MeshAsset, MeshId};
+
+use super::draft::Draft;
+use super::geometry::{Part, write_geometry};
+use super::kept_file::KeptFile;
+use super::raw::{RawObject, raw};
+use crate::error::Place;
+use crate::formats::gltf::native::{self, Header, columns_of_mesh};
+use crate::formats::gltf::triangle_hash::TriangleHash;
+use crate::loss::Loss;
+
+/// A mesh in its current state.
+pub(super) struct Shape<'a> {
+    pub(super) mesh: Cow<'a, Mesh>,
+    /// If it is being edited.
+    pub(super) marks: Option<Marks>,
+}
+
+impl<'a> Shape<'a> {
+    pub(super) fn new(asset: &'a MeshAsset, edited: Option<&EditMesh>) -> Self {
+        let Some(edited) = edited else { return Self { mesh: Cow::Borrowed(asset.mesh()), marks: None } };
+        let (mut mesh, map) = edited.to_mesh();
+        let marks = edited.marks(&map);
+        name_targets(&mut mesh, asset);
+        Self { mesh: Cow::Owned(mesh), marks: Some(marks) }
+    }
+
+    /// Whether it equals the file's mesh as it was read.
+    pub(super) fn is_unchanged(&self, id: MeshId, kept: &KeptFile, edited: Option<&EditMesh>) -> bool {
+        let Some(asset) = kept.scene.meshes().get(id) else { return false };
+        let Some(edited) = edited else {
+            return std::ptr::eq(&*self.mesh, asset.mesh()) || *self.mesh == *asset.mesh();
+        };
+        // Most changes are found here, and the rest takes as long as saving everything.
+        let (was, now) = (asset.mesh(), &self.mesh);
+        if was.positions() != now.positions() || was.corner_vertices() != now.corner_vertices() {
+            return false;
+        }
+        let none = Marks::default();
+        let marks = kept.marks.get(&id).unwrap_or(&none);
+        EditMesh::from_mesh_and_marks(was, marks).is_ok_and(|(first, _)| first == *edited)
+    }
+}
+
+/// What other programs see of a mesh that is being edited: its subdivision surface, if it is shown as one.
+///
+/// # Errors
+/// The surface is too large.
+pub(super) fn exported(asset: &MeshAsset, edited: &EditMesh) -> Result<Mesh, Refusal> {
+    let mut mesh = edited.to_subdivided_mesh(edited.subdivision())?;
+    name_targets(&mut mesh, asset);
+    Ok(mesh)
+}
+
+/// Gives morph targets the names that they have in the scene.
+fn name_targets(mesh: &mut Mesh, asset: &MeshAsset) {
+    let names = &asset.mesh().attributes().morph_targets;
+    if !names.is_empty() {
+        let mut attributes = mesh.attributes().clone();
+        for (target, named) in attributes.morph_targets.iter_mut().zip(names) {
+            target.name.clone_from(&named.name);
+        }
+        mesh.set_attributes(attributes).expect("only names are others");
+    }
+}
+
+#[derive(Serialize)]
+struct Primitive<'p> {
+    attributes: &'p BTreeMap<String, usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    indices: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    material: Option<usize>,
+    #[serde(skip_serializing_if = "is_triangles")]
+    mode: u32,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    targets: &'p [BTreeMap<&'static str, usize>],
+}
+
+fn is_triangles(mode: &u32) -> bool {
+    *mode == 4
+}
+
+/// A mesh whose accessors are written.
+pub(super) struct Written {
+    /// The part that does not depend on materials.
+    object: RawObject,
+    form: Form,
+    header: Option<Header>,
+}
+
+enum Form {
+    /// Written anew.
+    Parts(Vec<Part>),
+    /// As the file has them, with the slot of each.
+    Kept(Vec<(Box<RawValue>, Option<u32>)>),
+}
+
+impl Written {
+    /// A mesh that is unchanged except for its materials.
+    pub(super) fn kept(object: RawObject) -> Self {
+        let primitives = object.list("primitives");
+        let header = native_header(&object);
+        let slots = match &header {
+            Some(header) => header.slots.iter().map(|&slot| Some(slot)).collect(),
+            None => slots_of(&primitives),
+        };
+        let slots = slots.into_iter().chain(std::iter::repeat(None));
+        Self { object, form: Form::Kept(primitives.into_iter().zip(slots).collect()), header }
+    }
+
+    /// Writes the accessors of a mesh; `None` if there is nothing that a file could hold.
+    pub(super) fn new(
+        draft: &mut Draft<'_>,
+        object: RawObject,
+        shape: &Shape<'_>,
+        is_native: bool,
+    ) -> Option<Self> {
+        let render = || RenderMesh::from_mesh(&shape.mesh);
+        let columns = || is_native.then(|| columns_of_mesh(&shape.mesh, shape.marks.as_ref()));
+        let (render, columns) = rayon::join(render, columns);
+        let parts = write_geometry(draft, &shape.mesh, &render);
+        if parts.is_empty() {
+            return None;
+        }
+        let header = columns.map(|(writer, mut header)| {
+            for (name, bytes) in writer.columns {
+                header.columns.insert(name, draft.view(Cow::Owned(bytes), None));
+            }
+            header.slots = parts.iter().map(|part| part.slot).collect();
+            header.triangles = hash_parts(draft, &parts);
+            header
+        });
+        let mut object = object;
+        write_extras(&mut object, &shape.mesh);
+        Some(Self { object, form: Form::Parts(parts), header })
+    }
+
+    /// The slots that its primitives use have these materials in the file.
+    pub(super) fn has_materials(&self, materials: &[Option<usize>]) -> bool {
+        let Form::Kept(primitives) = &self.form else { return false };
+        if self.header.as_ref().is_some_and(|header| header.materials != materials) {
+            return false;
+        }
+        primitives.iter().all(|(primitive, slot)| {
+            let Some(slot) = slot else { return true };
+            let material = RawObject::parse(primitive.get()).index("material");
+            materials.get(*slot as usize).copied().flatten() == material
+        })
+    }
+
+    /// The mesh in some materials.
+    pub(super) fn in_materials(&self, materials: &[Option<usize>]) -> RawObject {
+        let material = |slot: u32| materials.get(slot as usize).copied().flatten();
+        let primitives: Vec<Box<RawValue>> = match &self.form {
+            Form::Parts(parts) => {
+                parts.iter().map(|part| raw(&primitive(part, material(part.slot)))).collect()
+            }
+            Form::Kept(kept) => kept
+                .iter()
+                .map(|(text, slot)| {
+                    let mut primitive = RawObject::parse(text.get());
+                    if let Some(slot) = slot {
+                        primitive.set_or_remove("material", material(*slot).as_ref());
+                    }
+                    raw(&primitive)
+                })
+                .collect(),
+        };
+        let mut object = self.object.clone();
+        object.set("primitives", &primitives);
+        let mut extras = object.object("extras");
+        match &self.header {
+            Some(header) => {
+                let header = Header { materials: materials.to_vec(), ..header.clone() };
+                extras.set(native::MEMBER, &header);
+                object.set("extras", &extras);
+            }
+            None if extras.get(native::MEMBER).is_some() => {
+                extras.remove(native::MEMBER);
+                object.set_object("extras", &extras);
+            }
+            None => {}
+        }
+        object
+    }
+}
+
+fn primitive(part: &Part, material: Option<usize>) -> Primitive<'_> {
+    let Part { mode, attributes, indices, targets, .. } = part;
+    Primitive { attributes, indices: *indices, material, mode: *mode, targets }
+}
+
+fn hash_parts(draft: &Draft<'_>, parts: &[Part]) -> String {
+    let mut hash = TriangleHash::default();
+    for part in parts {
+        hash.primitive(part.mode);
+        for (name, accessor) in &part.attributes {
+            hash.accessor(name, draft.hashes[accessor]);
+        }
+        if let Some(indices) = part.indices {
+            hash.accessor("indices", draft.hashes[&indices]);
+        }
+        for (name, accessor) in part.targets.iter().flatten() {
+            hash.accessor(name, draft.hashes[accessor]);
+        }
+    }
+    hash.finish()
+}
+
+/// The native file's header of a mesh.
+fn native_header(mesh: &RawObject) -> Option<Header> {
+    serde_json::from_str(mesh.object("extras").get(native::MEMBER)?).ok()
+}
+
+/// The last kind of primitive: triangle fans.
+const LAST_MODE: usize = 6;
+
+/// The slots of primitives as assigned by the reader: a new one for each material, `None` for
+/// primitives that are not read.
+fn slots_of(primitives: &[Box<RawValue>]) -> Vec<Option<u32>> {
+    let mut known: BTreeMap<Option<usize>, u32> = BTreeMap::new();
+    let mut slot = |text: &RawValue| {
+        let primitive = RawObject::parse(text.get());
+        primitive.object("attributes").get("POSITION")?;
+        if primitive.index("mode").is_some_and(|mode| mode > LAST_MODE) {
+            return None;
+        }
+        let next = known.len() as u32;
+        Some(*known.entry(primitive.index("material")).or_insert(next))
+    };
+    primitives.iter().map(|text| slot(text)).collect()
+}
+
+/// The names of morph targets, if the file has others.
+fn write_extras(object: &mut RawObject, mesh: &Mesh) {
+    let names: Vec<&str> =
+        mesh.attributes().morph_targets.iter().map(|target| target.name.as_str()).collect();
+    let mut extras = object.object("extras");
+    if names.iter().any(|name| !name.is_empty()) {
+        extras.set("targetNames", &names);
+    } else {
+        extras.remove("targetNames");
+    }
+    object.set_object("extras", &extras);
+}
+
+/// What is lost when a mesh of a file is rewritten.
+pub(super) fn losses(object: &RawObject, index: usize, mesh: &Mesh) -> Vec<Loss> {
+    let mut losses = Vec::new();
+    for (number, text) in object.list("primitives").iter().enumerate() {
+        let primitive = RawObject::parse(text.get());
+        let place = || Place::Named(format!("mesh {index}, primitive {number}"));
+        for name in primitive.object("attributes").names().filter(|name| !is_held(name, mesh)) {
+            losses.push(Loss { place: place(), what: format!("its attribute {name}") });
+        }
+        for name in primitive.object("extensions").names() {
+            losses.push(Loss { place: place(), what: format!("its extension {name}") });
+        }
+        if primitive.get("extras").is_some() {
+            losses.push(Loss { place: place(), what: "its extras".to_owned() });
+        }
+    }
+    losses
+}
+
+/// Whether a mesh of a scene has an attribute of a file.
+fn is_held(name: &str, mesh: &Mesh) -> bool {
+    let attributes = mesh.attributes();
+    let Some((kind, number)) = name.rsplit_once('_') else {
+        return match name {
+            "POSITION" | "NORMAL" => true,
+            "TANGENT" => attributes.corner_tangents.is_some(),
+            _ => false,
+        };
+    };
+    let below = |count: usize| number.parse::<usize>().is_ok_and(|number| number < count);
+    match kind {
+        "TEXCOORD" => below(attributes.uv_sets.len()),
+        "COLOR" => below(usize::from(attributes.corner_colors.is_some())),
+        "JOINTS" | "WEIGHTS" => {
+            below(attributes.skin.as_ref().map_or(0, |skin| skin.per_vertex().div_ceil(4)))
+        }
+        _ => false,
+    }
+}

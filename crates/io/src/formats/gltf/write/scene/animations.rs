@@ -1,0 +1,84 @@
+//! Animations: what is in the file stays there, and the rest is written.
+
+use std::collections::BTreeSet;
+
+use serde_json::value::RawValue;
+use trigon_scene::Animation;
+
+use super::SceneWriter;
+use crate::error::Place;
+use crate::formats::gltf::write::movement::write_animation;
+use crate::formats::gltf::write::raw::RawObject;
+use crate::loss::Loss;
+
+impl SceneWriter<'_> {
+    /// Animations that are in the file stay; others are written, and those that were removed go.
+    pub(super) fn write_animations(&mut self) {
+        let was: &[Animation] = self.kept.map_or(&[], |kept| &kept.scene.animations);
+        let now = &self.scene.animations;
+        if self.kept.is_some() && was == now {
+            return;
+        }
+        let kept = self.kept;
+        let origin = |place: usize| kept.and_then(|kept| kept.source.animation(place));
+        let same_place = places_of(was, now);
+        let taken: BTreeSet<usize> = same_place.iter().flatten().copied().collect();
+        let removed: BTreeSet<usize> =
+            (0..was.len()).filter(|place| !taken.contains(place)).filter_map(origin).collect();
+        for (animation, place) in now.iter().zip(&same_place) {
+            if place.is_some_and(|place| was[place] == *animation && origin(place).is_some()) {
+                continue;
+            }
+            let indices = &self.indices;
+            let Some(written) = write_animation(&mut self.draft, animation, |id| indices.get(&id).copied())
+            else {
+                continue;
+            };
+            match place.and_then(origin) {
+                Some(index) => self.change_animation(index, &written),
+                None => drop(self.draft.push("animations", &written)),
+            }
+        }
+        if !removed.is_empty() {
+            let mut index = 0;
+            self.draft.list_mut("animations").retain(|_| {
+                index += 1;
+                !removed.contains(&(index - 1))
+            });
+        }
+    }
+
+    fn change_animation(&mut self, index: usize, written: &RawObject) {
+        let mut object = self.draft.object("animations", index);
+        let channels = object.list("channels");
+        let foreign = channels
+            .iter()
+            .filter(|channel| RawObject::parse(channel.get()).object("target").get("node").is_none());
+        if foreign.count() > 0 {
+            let what = "its channels that move something other than nodes".to_owned();
+            self.losses.push(Loss { place: Place::Item("animation", index), what });
+        }
+        for name in ["name", "channels", "samplers"] {
+            let text = written.get(name).map(|text| RawValue::from_string(text.to_owned()));
+            let text = text.and_then(Result::ok);
+            object.set_or_remove(name, text.as_ref());
+        }
+        self.draft.update("animations", index, &object);
+    }
+}
+
+/// Where each animation was: the place of an equal one, else its own place if no other was there.
+/// No two were at one place.
+fn places_of(was: &[Animation], now: &[Animation]) -> Vec<Option<usize>> {
+    let mut places: Vec<Option<usize>> =
+        (0..now.len()).map(|place| (was.get(place) == Some(&now[place])).then_some(place)).collect();
+    let mut taken: BTreeSet<usize> = places.iter().flatten().copied().collect();
+    for (place, found) in places.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
+        *found = (0..was.len()).find(|other| !taken.contains(other) && was[*other] == now[place]);
+        taken.extend(*found);
+    }
+    for (place, found) in places.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
+        *found = Some(place).filter(|place| *place < was.len() && !taken.contains(place));
+    }
+    places
+}

@@ -1,0 +1,100 @@
+//! The lighting environment of all surfaces in a frame: its lights, shadow casters, ambient light,
+//! and fog.
+
+use trigon_math::Vec3;
+use trigon_raster::simd::{F32, Simd, prelude::*};
+
+use super::environment::Surroundings;
+use super::fog::Mist;
+use super::metal_sky::{MetalSky, SkyOnMetal};
+use super::rays::{AmbientRays, RayScene};
+use super::shadow::ShadowMaps;
+use crate::render::lanes::{V3, dot, splat};
+use crate::render::lighting::{Arriving, Lamp, Lights, LitPoints, Microfacets};
+
+/// The lighting environment of all surfaces in a frame.
+#[derive(Debug, Default)]
+pub(crate) struct LightingEnvironment {
+    pub(crate) lights: Lights,
+    pub(crate) shadow_maps: Option<ShadowMaps>,
+    /// All casters, for rays.
+    pub(crate) rays: Option<RayScene>,
+    /// Whether rays test the visibility of lamps.
+    pub(crate) shadow_rays: bool,
+    pub(crate) ambient_rays: Option<AmbientRays>,
+    /// The maximum number of reflections and refractions of sight rays; 0 for none.
+    pub(crate) bounces: u32,
+    pub(crate) surroundings: Option<Surroundings>,
+    /// What metals mirror instead of ambient light.
+    pub(crate) metal_sky: Option<MetalSky>,
+    pub(crate) mist: Option<Mist>,
+}
+
+impl LightingEnvironment {
+    /// Whether light depends on a surface's position, and not only on its orientation.
+    pub(crate) fn needs_position(&self) -> bool {
+        let shadows = self.shadow_maps.is_some() || self.shadow_rays;
+        shadows || self.bounces > 0 || self.ambient_rays.is_some() || self.lights.need_position()
+    }
+
+    /// Whether reflected light depends on the view direction even without highlights.
+    pub(crate) fn are_grey(&self) -> bool {
+        self.lights.are_grey() && self.surroundings.is_none()
+    }
+
+    /// The unshadowed fraction of a lamp's light; `None` if all of it arrives.
+    #[inline(always)]
+    pub(crate) fn share<S: Simd>(
+        &self,
+        simd: S,
+        (number, lamp): (usize, &Lamp),
+        points: &LitPoints<S>,
+        arriving: &Arriving<S>,
+    ) -> Option<F32<S>> {
+        if let Some(maps) = &self.shadow_maps {
+            return maps.share(simd, number, points, arriving.towards);
+        }
+        let rays = self.rays.as_ref().filter(|_| self.shadow_rays)?;
+        Some(rays.lit(simd, lamp, points, arriving))
+    }
+
+    /// What white matt surfaces show in ambient light.
+    #[inline(always)]
+    pub(crate) fn around<S: Simd>(&self, simd: S, normal: V3<S>) -> V3<S> {
+        match &self.surroundings {
+            Some(surroundings) => surroundings.matt(simd, normal),
+            None => splat(simd, self.lights.ambient),
+        }
+    }
+
+    /// What surfaces mirror of ambient light.
+    #[inline(always)]
+    pub(crate) fn mirrored<S: Simd>(&self, simd: S, points: &LitPoints<S>, roughness: F32<S>) -> V3<S> {
+        match &self.surroundings {
+            Some(surroundings) => {
+                let twice = dot(points.normal, points.view) * 2.0;
+                let [n, v] = [points.normal, points.view];
+                let direction = [n[0] * twice - v[0], n[1] * twice - v[1], n[2] * twice - v[2]];
+                surroundings.mirrored(simd, direction, roughness)
+            }
+            None => splat(simd, self.lights.ambient),
+        }
+    }
+
+    /// The built-in sky's light on metals, if they mirror it and any point is metallic.
+    #[inline(always)]
+    pub(crate) fn sky_on_metal<S: Simd>(
+        &self,
+        simd: S,
+        points: &LitPoints<S>,
+        facets: &Microfacets<S>,
+    ) -> Option<SkyOnMetal<S>> {
+        let sky = self.metal_sky.as_ref().filter(|_| facets.metallic.simd_gt(0.0).any_true())?;
+        Some(sky.light(simd, points, facets.roughness))
+    }
+
+    /// Whether there is any ambient light.
+    pub(crate) fn has_ambient(&self) -> bool {
+        self.surroundings.is_some() || self.lights.ambient != Vec3::ZERO
+    }
+}

@@ -1,0 +1,62 @@
+//! What is known of each place of a material that can have a texture.
+
+use trigon_raster::TextureFormat;
+
+use super::{Material, TextureBinding};
+use crate::effect::Effect;
+
+/// All that planner, renderer, importers and exporters know of a texture's place.
+pub(crate) struct TextureRow {
+    /// Whether the picture holds colours or data.
+    pub(crate) format: TextureFormat,
+    /// The effect that its look-ups are counted for.
+    pub(crate) effect: Effect,
+    pub(crate) drawn_if: DrawnIf,
+    /// Whether the material's factors leave anything of it to be seen.
+    pub(crate) matters: fn(&Material) -> bool,
+    pub(crate) get: fn(&Material) -> Option<TextureBinding>,
+    pub(crate) set: fn(&mut Material, Option<TextureBinding>),
+}
+
+/// What a draw must have so that a texture can be seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum DrawnIf {
+    /// Nothing more than coordinates.
+    Always,
+    /// Light that is found at each pixel.
+    LightInPixels,
+    /// The same, and tangents.
+    TangentsInPixels,
+    /// Rays that go on through the surface.
+    Refracting,
+}
+
+/// Lists the places of textures: the variant and its row.
+macro_rules! texture_rows {
+    ($($(#[$doc:meta])* $place:ident => $row:expr),+ $(,)?) => {
+        /// A place of a material that can have a texture.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum MaterialTexture {
+            $($(#[$doc])* $place),+
+        }
+
+        impl MaterialTexture {
+            /// All of them.
+            pub const ALL: [Self; [$(stringify!($place)),+].len()] = [$(Self::$place),+];
+
+            /// Whether its pictures hold colours or data.
+            #[must_use]
+            pub fn format(self) -> TextureFormat {
+                self.row().format
+            }
+
+            pub(crate) fn row(self) -> &'static TextureRow {
+                match self {
+                    $(Self::$place => const { &$row }),+
+                }
+            }
+        }
+    };
+}
+pub(super) use texture_rows;
