@@ -6,6 +6,7 @@ use trigon_math::{DVec2, DVec3};
 use super::nearest::Nearest;
 use super::object::Object;
 use super::picker::{Picker, Reach};
+use super::region::center;
 use crate::node::NodeId;
 
 /// A point of the scene that a pointer snapped to.
@@ -26,7 +27,7 @@ pub enum SnapElement {
     Vertex(u32),
     /// The point of the edge that is seen nearest to the pointer.
     Edge(u32),
-    /// The point of the face under the pointer.
+    /// The point of the face in the middle of the pixel under the pointer.
     Face(u32),
 }
 
@@ -49,7 +50,8 @@ impl Picker<'_> {
         let hit = self.frame.hit(self.scene.nodes(), x, y)?;
         let at = y as usize * self.frame.width as usize + x as usize;
         let distance = *self.frame.depth.as_ref()?.get(at)?;
-        let point = self.projector.at_distance(point, distance.into())?;
+        // The depth is that of the pixel's centre.
+        let point = self.projector.at_distance(center(x, y), distance.into())?;
         Some(Snap { node: hit.node, element: SnapElement::Face(hit.face? as u32), point })
     }
 }
@@ -110,7 +112,8 @@ mod tests {
         let face = near(DVec3::new(0.1, 0.0, 1.0), DVec2::ZERO);
         assert!(matches!(face.element, SnapElement::Face(_)), "{face:?}");
         // The depth is f32.
-        assert!(face.point.distance(DVec3::new(0.1, 0.0, 1.0)) < 1e-4, "{face:?}");
+        assert!((face.point.z - 1.0).abs() < 1e-5, "on the face: {face:?}");
+        assert!(face.point.distance(DVec3::new(0.1, 0.0, 1.0)) < 0.05, "within a pixel: {face:?}");
         assert_eq!(picker.snap(DVec2::new(1.0, 1.0), 8.0), None, "the background");
         assert_eq!(picker.snap(DVec2::new(-5.0, 1e9), 8.0), None, "outside");
     }
