@@ -208,7 +208,7 @@ mod tests {
     fn a_time_beyond_the_end_is_said() {
         let mut scene = scene();
         let said = moment(&[Jump::Time(7.0)]).apply(&mut scene).expect("fine");
-        assert!(said.expect("odd").contains("the end is at 2.5 s"), "where it ends");
+        assert!(said.expect("odd").contains("the pose of the end, at 2.5 s"), "where it ends");
         assert_eq!(moment(&[]).apply(&mut scene).expect("fine"), None, "nothing to say");
     }
 }

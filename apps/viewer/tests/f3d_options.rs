@@ -311,7 +311,7 @@ const COMMANDS: &[Row] = &[
     ("set: an escape at the end", BOX, r"set scene.up.direction +Z\", Exit(2, "backslash")),
     ("a comment", BOX, "# A comment", Keeps),
     ("toggle", BOX, "toggle render.show_edges", Shows("--edges")),
-    ("toggle ui.scalar_bar", BOX, "toggle ui.scalar_bar", Exit(2, "no option")),
+    ("toggle ui.scalar_bar", BOX, "toggle ui.scalar_bar", Exit(2, "not an option")),
     ("toggle ui.filename", BOX, "toggle ui.filename", Shows("--filename")),
     ("toggle render.grid.enable", BOX, "toggle render.grid.enable", Shows("--grid")),
     ("toggle scene.camera.orthographic", BOX, "toggle scene.camera.orthographic", Shows("--camera-orthographic")),

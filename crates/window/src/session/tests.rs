@@ -280,7 +280,8 @@ fn an_animation_runs_at_its_pace_and_ends() {
     let times = run(&mut session, ms(0));
     session.woken(ms(5000));
     let again = run(&mut session, ms(5000));
-    assert!(times.len() >= 2 && again.len() >= 3, "{times:?}, {again:?}");
+    // A frame in which no pixel differs is not presented.
+    assert!(times.len() >= 2 && again.len() >= 2, "{times:?}, {again:?}");
     let frames = handler.told.iter().filter(|told| told.starts_with("frame")).count();
     assert_eq!(frames, 4 + 3, "as many as it asked for: {:?}", handler.told);
     assert!(!handler.told.contains(&"frame 5000".into()), "a pause is no long frame: {:?}", handler.told);

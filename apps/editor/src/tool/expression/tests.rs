@@ -39,7 +39,7 @@ fn units_are_those_of_the_quantity() {
     assert_eq!(evaluate("45deg * 2", Quantity::Angle), Ok(90.0), "degrees are the default");
     let no_angle = error("3 rad", Quantity::Length);
     assert!(
-        no_angle.starts_with("`rad` is no unit; there are m, cm") && no_angle.ends_with('3'),
+        no_angle.starts_with("`rad` is not a unit; write one of m, cm") && no_angle.ends_with('3'),
         "{no_angle}"
     );
     assert_eq!(error("3 m", Quantity::Factor), "a factor has no unit `m` at character 3");

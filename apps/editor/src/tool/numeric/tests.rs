@@ -59,7 +59,7 @@ fn expressions_take_every_key_until_they_end() {
     let mut entry = entered("=2*(1+1)x");
     assert_eq!(
         entry.status(),
-        "[2*(1+1)x], –, –: `x` is no unit; there are m, cm, mm, km, um, in, ft at character 8"
+        "[2*(1+1)x], –, –: `x` is not a unit; write one of m, cm, mm, km, um, in, ft at character 8"
     );
     typing(&mut entry, "<");
     assert_eq!(entry.values().expect("four")[0], Some(4.0), "Backspace takes back a character");

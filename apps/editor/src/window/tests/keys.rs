@@ -1,6 +1,6 @@
 //! What keys and menus do to the document and the view, one chord after the other.
 
-use trigon_edit::scene::{NodeId, Style};
+use trigon_edit::scene::{Display, NodeId, Style};
 use trigon_window::Chord;
 use trigon_window::scene::Lighting;
 use trigon_window::scene::math::DVec3;
@@ -338,12 +338,13 @@ fn display_modes_change_style_lights_and_surfaces() {
     worked.chords("Alt+Z");
     let own = worked.stage.scene.materials.len();
     worked.choose("display.matcap");
-    assert_eq!(worked.stage.scene.materials.len(), own + 1, "clay for all");
+    assert_eq!(worked.stage.settings.display, Display::Matcap, "clay for all");
     for key in ["G", "X", "1", "Enter"] {
         worked.chords(key);
     }
-    assert_eq!(worked.stage.scene.materials.len(), own + 1, "also after something was done");
+    assert_eq!(worked.stage.settings.display, Display::Matcap, "also after something was done");
     worked.choose("display.rendered");
+    assert_eq!(worked.stage.settings.display, Display::Shaded, "no clay");
     assert_eq!(style(&worked).1, Lighting::Automatic, "the scene's own lights");
     assert_eq!(worked.stage.scene.materials.len(), own, "and materials");
     assert_eq!(worked.editor.view.display, DisplayMode::Rendered);

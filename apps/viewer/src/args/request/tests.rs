@@ -90,7 +90,7 @@ fn a_camera_that_looks_nowhere_is_refused() {
         "explained"
     );
     assert!(refusal("--camera-position nan,0,0").contains("three numbers"), "explained");
-    assert!(refusal("--camera-direction 0,0,0").contains("no direction"), "explained");
+    assert!(refusal("--camera-direction 0,0,0").contains("all zeros"), "explained");
     assert!(refusal("--camera-view-angle 180").contains("179"), "explained");
     assert!(refusal("--camera-index 0 --view=top").contains("cannot be used with"), "explained");
 }

@@ -72,7 +72,7 @@ fn pixels_are_explained_where_the_pointer_is_and_where_it_clicks() {
 fn effects_are_listed_with_reasons() {
     with_window("", SMALL, |window| {
         shift(window, 'p');
-        assert!(says(window, "fog: because the settings ask for none"), "what is off");
+        assert!(says(window, "fog: because the settings do not request it"), "what is off");
         assert!(says(window, "On") && says(window, "Off"), "under two titles");
     });
 }
