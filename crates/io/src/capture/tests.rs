@@ -133,7 +133,7 @@ fn nodes_in_a_ring_are_refused() {
     let list = |child: u32| [&1_u64.to_le_bytes()[..], &child.to_le_bytes()].concat();
     let chain = [list(1), list(2), 0_u64.to_le_bytes().to_vec()].concat();
     let at = whole.windows(chain.len()).position(|window| window == chain).expect("they are there");
-    for (last, word) in [(0, "cycle"), (1, "two nodes"), (9, "no item 9")] {
+    for (last, word) in [(0, "cycle"), (1, "two parents"), (9, "no item 9")] {
         let mut whole = whole.clone();
         whole.splice(at + 24..at + 32, list(last));
         assert!(message(&sealed(VERSION, "0", &whole)).contains(word), "{last}");

@@ -47,11 +47,12 @@ fn is_lower(corner: Corner) -> bool {
     matches!(corner, Corner::BottomLeft | Corner::BottomRight)
 }
 
-/// The most of the width that a corner takes beside others. They leave a gap between them.
+/// The most of the width that a corner takes beside others. They leave a gap between them: the one in the
+/// middle of the top takes half of its share from either side.
 fn share(corner: Corner) -> f32 {
     match corner {
-        Corner::TopLeft => 0.46,
-        Corner::Top | Corner::TopRight => 0.25,
+        Corner::TopLeft | Corner::TopRight => 0.36,
+        Corner::Top => 0.25,
         Corner::BottomLeft => 0.66,
         Corner::BottomRight => 0.32,
     }
