@@ -53,7 +53,7 @@ pub(crate) enum Task {
 /// The result of a job.
 pub(crate) enum Product {
     Picture(Arc<Frame>),
-    Comparison(Compared),
+    Comparison(Box<Compared>),
 }
 
 /// Why a job has no product.
@@ -327,9 +327,9 @@ impl Drawing {
                     })
                 })
             }
-            Task::Compare([found, right]) => {
-                compare(&found, &right, cancel).map(Product::Comparison).ok_or(Unfinished::Cancelled)
-            }
+            Task::Compare([found, right]) => compare(&found, &right, cancel)
+                .map(|compared| Product::Comparison(Box::new(compared)))
+                .ok_or(Unfinished::Cancelled),
             Task::Forget => {
                 self.scene = Scene::new();
                 Err(Unfinished::Cancelled)

@@ -210,7 +210,7 @@ fn every_part_of_a_material() {
         for row in Material::EXTENSION_PARAMETERS {
             match row.field {
                 ParameterField::Share(field) => {
-                    field(&mut material).into_iter().for_each(|share| *share = 0.5)
+                    field(&mut material).into_iter().for_each(|share| *share = 0.5);
                 }
                 ParameterField::Color(field) => {
                     field(&mut material).into_iter().for_each(|color| *color = Vec3::new(1.0, 0.5, 0.2));

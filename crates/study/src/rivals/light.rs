@@ -1,6 +1,6 @@
 //! The workloads' light and colours, from their definition.
 
-use trigon_math::DVec3;
+use trigon_math::{DVec3, elementary};
 
 /// Red, green and blue of lit surfaces.
 const BASE: DVec3 = DVec3::new(0.85, 0.65, 0.40);
@@ -19,7 +19,7 @@ pub(super) fn lit(light: f64) -> DVec3 {
 pub(super) fn blinn_phong(position: DVec3, normal: DVec3, eye: DVec3) -> DVec3 {
     let normal = normal.normalize();
     let half = (to_light() + (eye - position).normalize()).normalize();
-    lit(lambert(normal)) + DVec3::splat(0.4 * normal.dot(half).max(0.0).powi(32))
+    lit(lambert(normal)) + DVec3::splat(0.4 * elementary::pow(normal.dot(half).max(0.0), 32.0))
 }
 
 fn to_light() -> DVec3 {

@@ -1,6 +1,6 @@
 //! The workloads' texture and how it is read, from their definition.
 
-use trigon_math::DVec3;
+use trigon_math::{DVec3, elementary};
 
 const SIDE: usize = 1024;
 
@@ -28,7 +28,7 @@ impl Texture {
 
     /// At a place, where a pixel is so many texels long: the mean of four texels on each of the two levels next to that.
     pub(super) fn trilinear(&self, place: [f64; 2], texels: f64) -> DVec3 {
-        let level = texels.log2().clamp(0.0, (self.0.len() - 1) as f64);
+        let level = elementary::log2(texels).clamp(0.0, (self.0.len() - 1) as f64);
         let (finer, part) = (level.floor(), level.fract());
         let coarser = (finer as usize + 1).min(self.0.len() - 1);
         self.bilinear(place, finer as usize).lerp(self.bilinear(place, coarser), part)

@@ -40,14 +40,14 @@ fn swatches(ui: &mut egui::Ui) {
     }
 }
 
-/// "difference from the reference: RMSE 0.0123, worst 0.510 (120 levels), in 3.1 % of the pixels"
+/// "difference from the reference:", and below it "RMSE 0.0123, worst 0.510 (120 levels), in 3.1 % of the pixels"
 fn figures(difference: &Difference) -> String {
     let Difference { rmse, worst, worst_levels, share } = *difference;
     if share == 0.0 {
         return "no difference from the reference".to_owned();
     }
     format!(
-        "difference from the reference: RMSE {rmse:.4}, worst {worst:.3} ({worst_levels} levels), in {:.1} % of the pixels",
+        "difference from the reference:\nRMSE {rmse:.4}, worst {worst:.3} ({worst_levels} levels), in {:.1} % of the pixels",
         share * 100.0
     )
 }

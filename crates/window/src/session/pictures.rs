@@ -44,7 +44,7 @@ impl Session<'_> {
             }
             Ok(Product::Comparison(compared)) => {
                 self.pacing.finished(took);
-                self.gallery.compared(compared);
+                self.gallery.compared(*compared);
             }
             Err(Unfinished::Cancelled) => self.pacing.cancelled(),
             Err(Unfinished::Impossible(reason)) => {

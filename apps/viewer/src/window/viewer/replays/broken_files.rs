@@ -100,7 +100,7 @@ fn a_window_that_has_shown_nothing_yet_says_how_to_fill_it() {
 fn a_half_written_file_that_is_watched_is_a_message_until_it_is_whole() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = written(folder.path(), "model.gltf", GLTF);
-    let mut viewer = viewer("--watch --animation-progress=none", &[file.clone()]);
+    let mut viewer = viewer("--watch --animation-progress=none", std::slice::from_ref(&file));
     let mut window = open(&mut viewer, SMALL);
     for _ in 0..2 {
         fs::write(&file, &GLTF[..GLTF.len() / 2]).expect("written");
@@ -123,7 +123,7 @@ fn a_file_that_is_deleted_while_it_is_open_stays_on_the_screen() {
     let folder = tempfile::tempdir().expect("a folder");
     for flags in ["", "--watch"] {
         let file = written(folder.path(), "model.obj", OBJ);
-        let mut viewer = viewer(flags, &[file.clone()]);
+        let mut viewer = viewer(flags, std::slice::from_ref(&file));
         let mut window = open(&mut viewer, SMALL);
         fs::remove_file(&file).expect("it was there");
         if flags.is_empty() {

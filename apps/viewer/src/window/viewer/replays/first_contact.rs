@@ -21,7 +21,7 @@ fn files_over_the_window_show_where_they_go() {
     let (_folder, mut viewer) = simple();
     let mut window = open(&mut viewer, SIZE);
     let before = window.pixels();
-    window.hover(&[file.clone()]);
+    window.hover(std::slice::from_ref(&file));
     assert!(window.pixels() != before, "a frame");
     window.drop_files(&[file]);
     loaded(&mut window);
