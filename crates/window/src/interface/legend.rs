@@ -3,11 +3,14 @@
 use egui::{Align2, Area, Color32, Context, Frame, Id, Order, RichText, vec2};
 
 use super::corners::{BACKDROP, GAP, INK};
-use crate::refinement::{CLASSES, Comparison, Difference};
+use crate::refinement::{CLASSES, Class, Comparison, Difference};
 use crate::stage::Stage;
 
 /// In points.
 const SWATCH: egui::Vec2 = vec2(14.0, 14.0);
+
+/// In a view narrower than this many points the swatches take two rows.
+const ONE_ROW: f32 = 640.0;
 
 /// Shows it under the map, centred in the area that no panel covers.
 pub(super) fn show(context: &Context, free: egui::Rect, stage: &Stage) {
@@ -16,7 +19,8 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &Stage) {
     }
     let difference = stage.quality_report().and_then(|report| report.difference);
     let area = Area::new(Id::unique("legend")).order(Order::Background).interactable(false).fade_in(false);
-    area.anchor(Align2::CENTER_BOTTOM, vec2(0.0, -GAP)).constrain_to(free).show(context, |ui| {
+    let area = area.anchor(Align2::CENTER_BOTTOM, vec2(0.0, -GAP)).constrain_to(free);
+    let shown = area.show(context, |ui| {
         ui.set_max_width((free.width() - 4.0 * GAP).max(1.0));
         Frame::new().fill(BACKDROP).inner_margin(6).corner_radius(4).show(ui, |ui| match difference {
             None => {
@@ -24,15 +28,22 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &Stage) {
             }
             Some(difference) => {
                 ui.label(RichText::new(figures(&difference)).color(INK));
-                ui.horizontal_wrapped(swatches);
+                ui.label(RichText::new("levels of 255:").color(INK));
+                let count = if free.width() < ONE_ROW { CLASSES.len().div_ceil(2) } else { CLASSES.len() };
+                for classes in CLASSES.chunks(count) {
+                    ui.horizontal(|ui| swatches(ui, classes));
+                }
             }
         });
     });
+    // It is placed by the size of the pass before: where it grew since, another pass places it.
+    if !free.expand(1.0).contains_rect(shown.response.rect) {
+        context.request_discard("the legend has grown");
+    }
 }
 
-fn swatches(ui: &mut egui::Ui) {
-    ui.label(RichText::new("levels of 255:").color(INK));
-    for class in &CLASSES {
+fn swatches(ui: &mut egui::Ui, classes: &[Class]) {
+    for class in classes {
         let (place, _) = ui.allocate_exact_size(SWATCH, egui::Sense::hover());
         let [r, g, b] = class.color;
         ui.painter().rect_filled(place, 2, Color32::from_rgb(r, g, b));

@@ -11,7 +11,7 @@ use std::time::Duration;
 pub use difference::Difference;
 pub(crate) use difference::{Compared, compare, over_black};
 pub(crate) use gallery::{Gallery, Wanted};
-pub(crate) use heat::CLASSES;
+pub(crate) use heat::{CLASSES, Class};
 pub(crate) use ladder::{ladder, wanted};
 
 /// How far an image is refined at rest.
