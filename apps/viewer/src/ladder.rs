@@ -2,8 +2,10 @@
 
 use std::str::FromStr;
 
+#[cfg(any(test, feature = "window"))]
+use trigon_scene::RenderSettings;
 use trigon_scene::quality::{Preset, Quality, UnknownPreset};
-use trigon_scene::{RenderSettings, ShadingModel, Shadows};
+use trigon_scene::{ShadingModel, Shadows};
 
 /// A step of the ladder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +49,7 @@ impl Step {
     }
 
     /// Whether settings are those of this step.
+    #[cfg(any(test, feature = "window"))]
     pub(crate) fn is_current(self, settings: &RenderSettings) -> bool {
         Quality::of(settings) == self.quality().within(settings)
     }

@@ -99,6 +99,7 @@ impl Scenery {
     }
 
     /// Adds the grid of a model to a scene; returns its node.
+    #[cfg(feature = "window")]
     pub(crate) fn add_grid(&self, scene: &mut Scene, model: &Scene) -> NodeId {
         self.grid.add_to(scene, &Bounds3::from_points(model.visible_points()))
     }

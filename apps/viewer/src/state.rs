@@ -3,7 +3,9 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use serde_json::{Map, Value, json};
+use serde_json::Value;
+#[cfg(feature = "window")]
+use serde_json::{Map, json};
 
 /// The format that is written, and the only one that is read.
 const FORMAT: &str = "trigon state 1";

@@ -101,6 +101,7 @@ impl CommandLine {
     ///
     /// # Errors
     /// When the words make no sense.
+    #[cfg(feature = "window")]
     pub(crate) fn flags_but(
         &self,
         decided: &[&str],
