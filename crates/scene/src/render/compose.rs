@@ -16,6 +16,7 @@ use super::placement::Rays;
 use super::placement::{Eye, Placement};
 use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles};
 use super::shapes::{Shape, Shapes};
+use super::stage::Stage;
 use super::surface::{BoundMaterial, MaterialContext, Surface};
 use super::wire::{HiddenLine, Wire, WireMarks};
 use crate::display::Display;
@@ -51,9 +52,6 @@ pub(super) struct Composer<'s> {
     purpose: Purpose,
 }
 
-/// The lighting environment.
-type Around<'s> = (&'s Shapes, &'s LightingEnvironment, &'s Eye, &'s Backdrop);
-
 /// The purpose of a pass.
 #[derive(Clone, Copy, PartialEq)]
 enum Purpose {
@@ -76,21 +74,22 @@ struct Object<'s> {
 }
 
 impl<'s> Composer<'s> {
+    /// For a pass of colours of a stage, with settings that may differ from the stage's in style.
     pub(super) fn new(
-        scene: &'s Scene,
+        stage: &'s Stage<'_>,
         camera: &Camera,
         settings: &'s RenderSettings,
-        (shapes, lighting, eye, backdrop): Around<'s>,
+        lighting: &'s LightingEnvironment,
     ) -> Self {
         let rays = if camera.projection.is_orthographic() { Rays::Parallel } else { Rays::Meeting };
         let default_material = Material::default();
         Self {
-            scene,
+            scene: stage.scene,
             settings,
-            shapes,
+            shapes: &stage.shapes,
             lighting,
-            eye,
-            backdrop,
+            eye: &stage.eye,
+            backdrop: &stage.backdrop,
             rays,
             to_world: Mat3::from_quat(camera.orientation.as_quat()),
             default_material,
@@ -99,13 +98,8 @@ impl<'s> Composer<'s> {
     }
 
     /// For a pass of which only depth and ids are kept. The lighting environment must be empty.
-    pub(super) fn of_shapes(
-        scene: &'s Scene,
-        camera: &Camera,
-        settings: &'s RenderSettings,
-        around: Around<'s>,
-    ) -> Self {
-        Self { purpose: Purpose::Shapes, ..Self::new(scene, camera, settings, around) }
+    pub(super) fn of_shapes(stage: &'s Stage<'_>, camera: &Camera, dark: &'s LightingEnvironment) -> Self {
+        Self { purpose: Purpose::Shapes, ..Self::new(stage, camera, stage.settings, dark) }
     }
 
     /// All draws of the frame.

@@ -11,7 +11,7 @@ use super::RenderError;
 use super::backdrop::Backdrop;
 use super::compose::Composer;
 use super::depth_image::paint_depth;
-use super::kept::Kept;
+use super::kept::{Destination, Kept};
 use super::last_picture::{LastPicture, Step};
 use super::placement::DepthToDistance;
 use super::record::Record;
@@ -41,7 +41,9 @@ impl Engine {
     /// Explains a pixel of the picture that [`draw`](Self::draw) would make; `None` outside of it.
     pub(super) fn explain(
         &mut self,
-        (scene, camera, settings): (&Scene, &Camera, &RenderSettings),
+        scene: &Scene,
+        camera: &Camera,
+        settings: &RenderSettings,
         [x, y]: [u32; 2],
     ) -> Result<Option<PixelExplanation>, RenderError> {
         let target = blank(settings)?;
@@ -50,10 +52,9 @@ impl Engine {
         let stage = Stage::new(scene, camera, settings);
         let plan = EffectPlan::of_stage(&stage);
         let lighting = self.kept.lighting(&stage, &plan, &mut rasterizer)?;
-        let explained =
-            record(&stage, (camera, &lighting, settings), &mut Counts::default(), |pass, _, _| {
-                rasterizer.explain_pixel(pass, &target, x, y)
-            });
+        let explained = record(&stage, camera, &lighting, settings, &mut Counts::default(), |pass, _, _| {
+            rasterizer.explain_pixel(pass, &target, x, y)
+        });
         // The next picture does not follow from what the rasterizer holds now.
         self.last = LastPicture::default();
         self.rasterizer = Some(rasterizer);
@@ -63,12 +64,14 @@ impl Engine {
     /// Draws into an existing frame; after an error its contents are unspecified.
     pub(super) fn draw(
         &mut self,
-        (scene, camera, settings): (&Scene, &Camera, &RenderSettings),
+        scene: &Scene,
+        camera: &Camera,
+        settings: &RenderSettings,
         cancel: Option<&Cancel>,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
         if settings.display == Display::Depth && settings.outputs.color {
-            return self.draw_depth((scene, camera, settings), cancel, frame);
+            return self.draw_depth(scene, camera, settings, cancel, frame);
         }
         // Checks the size before memory is allocated for it.
         let sample = blank(settings)?.visibility_sample();
@@ -78,12 +81,11 @@ impl Engine {
         let stage = Stage::new(scene, camera, settings);
         let plan = EffectPlan::of_stage(&stage);
         let mut counts = Counts::default();
-        let apart = settings.outputs.need_own_pass(plan.is_on(Effect::Transparency));
+        let apart = sees_apart(settings, &plan);
         self.stats = Stats::default();
         let mut is_kept = false;
         if settings.outputs.of_light() {
-            let drawn =
-                self.draw_colors(&stage, camera, (&plan, frame, apart), (&mut rasterizer, &mut counts));
+            let drawn = self.draw_colors(&stage, camera, (&plan, frame), (&mut rasterizer, &mut counts));
             // It may have been cancelled, too: its shadow maps may be incomplete.
             is_kept = drawn.inspect_err(|_| self.kept.forget_unfinished())?;
         }
@@ -112,13 +114,15 @@ impl Engine {
     /// Draws depths as colours.
     fn draw_depth(
         &mut self,
-        (scene, camera, settings): (&Scene, &Camera, &RenderSettings),
+        scene: &Scene,
+        camera: &Camera,
+        settings: &RenderSettings,
         cancel: Option<&Cancel>,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
         let mut uncolored = settings.clone();
         (uncolored.outputs.color, uncolored.outputs.depth) = (false, true);
-        self.draw((scene, camera, &uncolored), cancel, frame)?;
+        self.draw(scene, camera, &uncolored, cancel, frame)?;
         paint_depth(frame);
         frame.depth.take_if(|_| !settings.outputs.depth);
         Ok(())
@@ -130,7 +134,7 @@ impl Engine {
         &mut self,
         stage: &Stage<'_>,
         camera: &Camera,
-        (plan, frame, apart): (&EffectPlan, &mut Frame, bool),
+        (plan, frame): (&EffectPlan, &mut Frame),
         (rasterizer, counts): (&mut Rasterizer, &mut Counts),
     ) -> Result<bool, RenderError> {
         let lighting = self.kept.lighting(stage, plan, rasterizer)?;
@@ -138,28 +142,27 @@ impl Engine {
         if settings.share_through_faces().is_some() {
             let wires = RenderSettings { style: Style::Wireframe, ..settings.clone() };
             let target = blank(settings)?;
-            self.stats +=
-                record(stage, (camera, &lighting, &wires), &mut Counts::default(), |pass, _, _| {
-                    self.kept.draw_beneath(pass, settings, target, rasterizer)
-                })?;
+            self.stats += record(stage, camera, &lighting, &wires, &mut Counts::default(), |pass, _, _| {
+                self.kept.draw_beneath(pass, settings, target, rasterizer)
+            })?;
         }
+        let apart = sees_apart(settings, plan);
         let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
         // Depth that has a pass of its own is not to be written twice.
         let depth = if apart { frame.depth.take() } else { None };
         let target = blank(settings)?;
-        let (stats, is_kept) =
-            record(stage, (camera, &lighting, settings), counts, |pass, draws, counts| {
-                let step = if apart { Step::Apart } else { self.last.step((stage, camera, plan), draws) };
-                let is_kept = !matches!(step, Step::Apart);
-                let stats = if is_kept {
-                    let target = (target, &mut *frame);
-                    self.last.draw(pass, (settings, camera), target, (rasterizer, &step))
-                } else {
-                    let target = (target, &mut *frame, needed);
-                    self.kept.draw(pass, (settings, plan), target, (rasterizer, counts))
-                };
-                stats.map(|stats| (stats, is_kept))
-            })?;
+        let (stats, is_kept) = record(stage, camera, &lighting, settings, counts, |pass, draws, counts| {
+            let step = if apart { Step::Apart } else { self.last.step(stage, camera, plan, draws) };
+            let is_kept = !matches!(step, Step::Apart);
+            let stats = if is_kept {
+                let target = (target, &mut *frame);
+                self.last.draw(pass, (settings, camera), target, (rasterizer, &step))
+            } else {
+                let into = Destination { target, frame, needed };
+                self.kept.draw(pass, (settings, plan), into, (rasterizer, counts))
+            };
+            stats.map(|stats| (stats, is_kept))
+        })?;
         self.stats += stats;
         if apart {
             frame.depth = depth;
@@ -177,18 +180,13 @@ impl Engine {
         rasterizer: &mut Rasterizer,
     ) -> Result<(), RenderError> {
         let (dark, settings) = (LightingEnvironment::default(), stage.settings);
-        let composer = Composer::of_shapes(
-            stage.scene,
-            camera,
-            settings,
-            (&stage.shapes, &dark, &stage.eye, &stage.backdrop),
-        );
+        let composer = Composer::of_shapes(stage, camera, &dark);
         // Effects do not matter for it.
         let draws = composer.draws(&mut Counts::default());
         let mut pass = Pass::new();
         draws.iter().for_each(|draw| draw.record(&mut pass));
-        let target = (blank(settings)?, frame, Needed::of(&settings.outputs));
-        self.stats += self.kept.draw_seen(&pass, settings, target, rasterizer)?;
+        let into = Destination { target: blank(settings)?, frame, needed: Needed::of(&settings.outputs) };
+        self.stats += self.kept.draw_seen(&pass, settings, into, rasterizer)?;
         Ok(())
     }
 
@@ -225,12 +223,13 @@ impl Engine {
 /// Records the colours of a stage as these settings have them, and does something with that.
 fn record<T>(
     stage: &Stage<'_>,
-    (camera, lighting, settings): (&Camera, &LightingEnvironment, &RenderSettings),
+    camera: &Camera,
+    lighting: &LightingEnvironment,
+    settings: &RenderSettings,
     counts: &mut Counts,
     draw: impl FnOnce(&Pass<'_>, &[Box<dyn Record + '_>], &mut Counts) -> T,
 ) -> T {
-    let around = (&stage.shapes, lighting, &stage.eye, &stage.backdrop);
-    let composer = Composer::new(stage.scene, camera, settings, around);
+    let composer = Composer::new(stage, camera, settings, lighting);
     let draws = composer.draws(counts);
     let behind = |pixel| stage.backdrop.at(pixel);
     let behind_row = |y| stage.backdrop.at(UVec2::new(0, y));
@@ -248,6 +247,11 @@ fn record<T>(
     }
     draws.iter().for_each(|draw| draw.record(&mut pass));
     draw(&pass, &draws, counts)
+}
+
+/// Whether depth and ids have a pass of their own, beside that of colours.
+fn sees_apart(settings: &RenderSettings, plan: &EffectPlan) -> bool {
+    settings.outputs.need_own_pass(plan.is_on(Effect::Transparency))
 }
 
 /// A target of the right size and samples that stores nothing.

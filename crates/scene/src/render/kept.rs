@@ -26,6 +26,15 @@ pub(super) struct Kept {
     pub(super) seen: Seen,
 }
 
+/// Where a pass is drawn.
+pub(super) struct Destination<'a> {
+    /// Of the right size and samples; stores nothing yet.
+    pub(super) target: Target<'a>,
+    pub(super) frame: &'a mut Frame,
+    /// What is needed of depth and ids.
+    pub(super) needed: Needed,
+}
+
 impl Kept {
     /// The lighting environment, as far as the plan requires it.
     pub(super) fn lighting(
@@ -110,7 +119,7 @@ impl Kept {
         &mut self,
         pass: &Pass<'_>,
         (settings, plan): (&RenderSettings, &EffectPlan),
-        (blank, frame, needed): (Target<'_>, &mut Frame, Needed),
+        Destination { target, frame, needed }: Destination<'_>,
         (rasterizer, counts): (&mut Rasterizer, &mut Counts),
     ) -> Result<Stats, TargetError> {
         let Frame { color, radiance, depth, .. } = frame;
@@ -120,8 +129,8 @@ impl Kept {
         self.seen.make_room(pixels, needed).ok_or(full)?;
         // The lists are borrowed for as long as the target lives.
         let mut seen = std::mem::take(&mut self.seen);
-        let target = seen.with(blank, depth.as_mut())?;
-        let pictures = (colors, radiance.as_mut());
+        let target = seen.with(target, depth.as_mut())?;
+        let pictures = Pictures { colors, radiance: radiance.as_mut() };
         let is_mapped = plan.is_on(Effect::ToneMapping);
         if is_mapped {
             counts.of(Effect::ToneMapping).passes = 1;
@@ -146,13 +155,13 @@ impl Kept {
         &mut self,
         pass: &Pass<'_>,
         settings: &RenderSettings,
-        (blank, frame, needed): (Target<'_>, &mut Frame, Needed),
+        Destination { target, frame, needed }: Destination<'_>,
         rasterizer: &mut Rasterizer,
     ) -> Result<Stats, TargetError> {
         let RenderSettings { width, height, .. } = *settings;
         let pixels = width as usize * height as usize;
         self.seen.make_room(pixels, needed).ok_or(TargetError::Memory { width, height })?;
-        Ok(rasterizer.draw(pass, &mut self.seen.with(blank, frame.depth.as_mut())?))
+        Ok(rasterizer.draw(pass, &mut self.seen.with(target, frame.depth.as_mut())?))
     }
 
     /// Draws what shows through the faces of the next picture.
@@ -174,7 +183,7 @@ impl Kept {
         &mut self,
         pass: &Pass<'_>,
         settings: &RenderSettings,
-        (target, (colors, radiance)): (Target<'_>, Pictures<'_>),
+        (target, Pictures { colors, radiance }): (Target<'_>, Pictures<'_>),
         rasterizer: &mut Rasterizer,
     ) -> Result<Stats, TargetError> {
         let RenderSettings { width, height, .. } = *settings;
@@ -195,14 +204,18 @@ impl Kept {
     }
 }
 
-/// The pictures of a pass of colours, as far as they are asked for: bytes, or none, and
-/// light.
-type Pictures<'a> = (&'a mut [[u8; 4]], Option<&'a mut Vec<Vec4>>);
+/// The images that a pass of colours leaves, as far as they are requested.
+struct Pictures<'a> {
+    /// Bytes, or none.
+    colors: &'a mut [[u8; 4]],
+    /// Linear light.
+    radiance: Option<&'a mut Vec<Vec4>>,
+}
 
 /// Draws what is not changed afterwards.
 fn draw_directly(
     pass: &Pass<'_>,
-    (mut target, (colors, radiance)): (Target<'_>, Pictures<'_>),
+    (mut target, Pictures { colors, radiance }): (Target<'_>, Pictures<'_>),
     rasterizer: &mut Rasterizer,
 ) -> Result<Stats, TargetError> {
     if let Some(radiance) = radiance {

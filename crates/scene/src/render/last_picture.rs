@@ -102,7 +102,9 @@ impl LastPicture {
     /// How the frame of a stage follows from the last one, which it replaces.
     pub(super) fn step(
         &mut self,
-        (stage, camera, plan): (&Stage<'_>, &Camera, &EffectPlan),
+        stage: &Stage<'_>,
+        camera: &Camera,
+        plan: &EffectPlan,
         draws: &[Box<dyn Record + '_>],
     ) -> Step {
         let outputs = &stage.settings.outputs;
@@ -121,10 +123,10 @@ impl LastPicture {
         let is_whole = std::mem::take(&mut self.is_whole);
         let unlike = if is_marked { Step::Whole } else { Step::Apart };
         let Some(origin) = &mut self.origin else {
-            self.origin = Some(Box::new(Origin::new((stage, camera, plan), &sources)));
+            self.origin = Some(Box::new(Origin::new(stage, camera, plan, &sources)));
             return unlike;
         };
-        let is_same = origin.update((stage, camera, plan));
+        let is_same = origin.update(stage, camera, plan);
         let changes = origin.replace_draws(&sources);
         match changes {
             _ if !is_same => unlike,
@@ -232,7 +234,7 @@ impl<T> Clone for Same<T> {
 }
 
 impl Origin {
-    fn new((stage, camera, plan): (&Stage<'_>, &Camera, &EffectPlan), sources: &[Source<'_>]) -> Self {
+    fn new(stage: &Stage<'_>, camera: &Camera, plan: &EffectPlan, sources: &[Source<'_>]) -> Self {
         let scene = stage.scene;
         Self {
             settings: without_environment_and_marks(stage.settings),
@@ -248,7 +250,7 @@ impl Origin {
     }
 
     /// Becomes that of another picture, but for its draws; whether it stays the same.
-    fn update(&mut self, (stage, camera, plan): (&Stage<'_>, &Camera, &EffectPlan)) -> bool {
+    fn update(&mut self, stage: &Stage<'_>, camera: &Camera, plan: &EffectPlan) -> bool {
         // Each of them is brought up to date.
         let are_same = [
             keep(&mut self.settings, &without_environment_and_marks(stage.settings)),

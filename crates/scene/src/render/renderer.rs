@@ -89,7 +89,7 @@ impl Renderer {
         camera: &Camera,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        self.engine.draw((scene, camera, &self.settings), None, frame)
+        self.engine.draw(scene, camera, &self.settings, None, frame)
     }
 
     /// As [`render_into`](Self::render_into), but returns soon after `cancel` is cancelled: when the
@@ -105,7 +105,7 @@ impl Renderer {
         cancel: &Cancel,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        self.engine.draw((scene, camera, &self.settings), Some(cancel), frame)
+        self.engine.draw(scene, camera, &self.settings, Some(cancel), frame)
     }
 
     /// Draws what each of these cameras sees, one after the other, and passes every frame with its
@@ -158,7 +158,7 @@ impl Renderer {
         x: u32,
         y: u32,
     ) -> Result<Option<PixelExplanation>, RenderError> {
-        self.engine.explain((scene, camera, &self.settings), [x, y])
+        self.engine.explain(scene, camera, &self.settings, [x, y])
     }
 
     /// From now on [`Stats::times`] holds what each stage took. That itself takes a little time.
