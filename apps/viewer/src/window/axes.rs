@@ -1,7 +1,7 @@
 //! The directions of the axes in a corner of the window: the same arrows as in pictures.
 
 use trigon_math::{DQuat, Vec3};
-use trigon_window::{Stage, egui};
+use trigon_window::{Comparison, Stage, egui};
 
 use crate::axes;
 
@@ -31,8 +31,13 @@ impl AxesOverlay {
         let Some((_, texture)) = &self.drawn else { return };
         let size = egui::Vec2::splat(side as f32) / ui.ctx().pixels_per_point();
         let area = egui::Area::new(egui::Id::unique("axes")).order(egui::Order::Background);
-        let area = area.anchor(egui::Align2::RIGHT_BOTTOM, [-8.0, -BELOW]).interactable(false);
-        let area = area.constrain_to(ui.available_rect_before_wrap()).fade_in(false);
+        let free = ui.available_rect_before_wrap();
+        let legend = ui.ctx().memory(|memory| memory.area_rect(egui::Id::unique("legend")));
+        // In a narrow view the legend of the heat map takes the whole width.
+        let legend = legend.filter(|_| stage.comparison == Comparison::Shown);
+        let below = legend.map_or(BELOW, |legend| free.max.y - legend.min.y + 8.0);
+        let area = area.anchor(egui::Align2::RIGHT_BOTTOM, [-8.0, -below]).interactable(false);
+        let area = area.constrain_to(free).fade_in(false);
         area.show(ui.ctx(), |ui| ui.image((texture.id(), size)));
     }
 }

@@ -20,6 +20,7 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &Stage) {
     let difference = stage.quality_report().and_then(|report| report.difference);
     let area = Area::new(Id::unique("legend")).order(Order::Background).interactable(false).fade_in(false);
     let area = area.anchor(Align2::CENTER_BOTTOM, vec2(0.0, -GAP)).constrain_to(free);
+    let before = context.memory(|memory| memory.area_rect(Id::unique("legend")));
     let shown = area.show(context, |ui| {
         ui.set_max_width((free.width() - 4.0 * GAP).max(1.0));
         Frame::new().fill(BACKDROP).inner_margin(6).corner_radius(4).show(ui, |ui| match difference {
@@ -36,9 +37,9 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &Stage) {
             }
         });
     });
-    // It is placed by the size of the pass before: where it grew since, another pass places it.
-    if !free.expand(1.0).contains_rect(shown.response.rect) {
-        context.request_discard("the legend has grown");
+    // It is placed by its size in the pass before, and others make room for it.
+    if before != Some(shown.response.rect) {
+        context.request_discard("the legend has another place");
     }
 }
 

@@ -1,0 +1,166 @@
+//! Which files are shown: loading them, what comes of it, and watching them.
+
+use std::path::PathBuf;
+
+use trigon_camera::{Orbit, OrbitStyle};
+use trigon_io::Warning;
+use trigon_window::Stage;
+
+use super::{Pending, Shown, View, Viewer};
+use crate::args::InteractionStyle;
+use crate::failure::Failure;
+use crate::folders;
+use crate::model::Model;
+use crate::source::Source;
+use crate::window::background::{Loading, Outcome};
+use crate::window::playback::Playback;
+use crate::window::watch::Watch;
+
+impl Viewer {
+    /// Starts to load the current source; what is on the screen stays until then.
+    pub(super) fn load(&mut self, stage: &mut Stage, view: View) {
+        let source = self.sources[self.current].clone();
+        let loading = Loading::start(source, self.request.clone(), stage.waker());
+        self.asks_to_load_again = false;
+        self.pending = Some(Pending { loading, view });
+    }
+
+    /// Loads the current source again, or asks first if that would put back what was moved.
+    pub(super) fn load_again(&mut self, stage: &mut Stage) {
+        match stage.moved_objects() {
+            0 => self.load(stage, View::Keep),
+            _ => self.asks_to_load_again = true,
+        }
+    }
+
+    /// Goes to another source, around the ends.
+    pub(super) fn step(&mut self, stage: &mut Stage, by: isize, view: View) {
+        if self.sources.len() < 2 {
+            stage.overlay.notify("there is no other file; drop some onto the window");
+            return;
+        }
+        let next = (self.current as isize + by).rem_euclid(self.sources.len() as isize);
+        self.current = next as usize;
+        self.load(stage, view);
+    }
+
+    pub(super) fn loaded(&mut self, stage: &mut Stage, outcome: Outcome, view: View) {
+        let shown = outcome.and_then(|(model, warnings)| {
+            self.tell_warnings(stage, &warnings);
+            self.show(stage, model, view)
+        });
+        if let Err(failure) = shown {
+            self.tell_unshown(&failure);
+        }
+    }
+
+    pub(super) fn show(&mut self, stage: &mut Stage, model: Model, view: View) -> Result<(), Failure> {
+        if view == View::Fit || self.shown.is_none() {
+            stage.orbit = self.home(stage, &model)?;
+            stage.set_home(stage.orbit);
+        }
+        stage.set_title(model.source.window_title());
+        stage.selection = None;
+        self.side.forget();
+        self.measuring.forget();
+        let mut scene = model.scene;
+        self.playback = Playback::new(&scene, &self.request);
+        if self.playback.as_ref().is_some_and(Playback::is_playing) {
+            stage.animate();
+        }
+        if let Some(odd) = &model.odd {
+            self.notify(stage, odd.clone());
+        }
+        self.failure = None;
+        let scenery = self.request.scenery.add_to(&mut scene);
+        stage.scene = scene.into();
+        stage.forget_moves();
+        stage.beside.clone_from(&scenery);
+        self.follow(stage, &model.files);
+        if let Some(file) = model.source.first_file() {
+            self.recent.add(file);
+        }
+        self.shown = Some(Shown { source: model.source, index: self.current, summary: None, scenery });
+        if self.sources.len() > 1 && !self.show_name {
+            stage.overlay.notify(self.name());
+        }
+        Ok(())
+    }
+
+    /// Watches the files that were read, if files are to be watched.
+    pub(super) fn follow(&mut self, stage: &mut Stage, files: &[PathBuf]) {
+        if self.watch.is_none() && self.request.window.watch == Some(true) {
+            let waker = stage.waker();
+            match Watch::new(move || waker.wake()) {
+                Ok(watch) => self.watch = Some(watch),
+                Err(error) => {
+                    self.tell_failure(stage, &Failure::work(format!("files cannot be watched: {error}")));
+                }
+            }
+        }
+        if let Some(Err(error)) = self.watch.as_mut().map(|watch| watch.follow(files)) {
+            self.tell_failure(stage, &Failure::work(format!("not all files can be watched: {error}")));
+        }
+    }
+
+    /// Shows files after the current one, and the first of them at once.
+    pub(super) fn add(&mut self, stage: &mut Stage, files: Vec<PathBuf>) {
+        if files.is_empty() {
+            return;
+        }
+        let files = match folders::expanded(&files, false) {
+            Ok(files) => files,
+            Err(reason) => return self.tell_unshown(&Failure::work(reason)),
+        };
+        let place = self.current + 1;
+        if let Some(shown) = self.shown.as_mut().filter(|shown| shown.index >= place) {
+            shown.index += files.len();
+        }
+        self.sources.splice(place..place, files.into_iter().map(|file| Source::Files(vec![file])));
+        self.current = place;
+        self.load(stage, View::Fit);
+    }
+
+    /// Nobody waits for what is being loaded any more.
+    pub(super) fn cancel_loading(&mut self, stage: &mut Stage) {
+        if self.pending.take().is_some() {
+            stage.overlay.notify("loading was cancelled");
+        }
+    }
+
+    /// The view that the command line asks for.
+    pub(super) fn home(&self, stage: &Stage, model: &Model) -> Result<Orbit, Failure> {
+        let shot = model.shot(&self.request.framing, stage.viewport().aspect())?;
+        let mut orbit = Orbit::from_camera(&shot.camera, shot.distance, self.request.framing.up);
+        if self.request.window.interaction_style == Some(InteractionStyle::Trackball) {
+            orbit.set_style(OrbitStyle::Trackball);
+        }
+        Ok(orbit)
+    }
+
+    pub(super) fn tell_warnings(&self, stage: &mut Stage, warnings: &[Warning]) {
+        /// More would cover the model; the terminal has them all.
+        const MOST: usize = 2;
+        for warning in warnings {
+            self.reporter.warning(warning);
+        }
+        for warning in warnings.iter().take(MOST) {
+            stage.overlay.notify(format!("warning: {warning}"));
+        }
+        if warnings.len() > MOST {
+            stage.overlay.notify(format!("and {} more warnings, on the terminal", warnings.len() - MOST));
+        }
+    }
+
+    pub(super) fn tell_failure(&self, stage: &mut Stage, failure: &Failure) {
+        self.reporter.error(failure);
+        stage.overlay.notify(format!("error: {failure}"));
+    }
+
+    /// A file could not be shown: that stays on the screen until another one is, or it is
+    /// closed.
+    pub(super) fn tell_unshown(&mut self, failure: &Failure) {
+        self.reporter.error(failure);
+        self.failure = Some(failure.to_string());
+    }
+}
