@@ -49,6 +49,7 @@ mod texture_slot;
 mod transform;
 mod uvs;
 mod visibility;
+mod whole_meshes;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -2,13 +2,12 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trigon_mesh::edit::EditMesh;
 use trigon_scene::MeshId;
 
+use super::whole_meshes::{remake, whole_meshes};
 use super::{Action, Outcome};
 use crate::document::{Change, shown_levels};
 use crate::error::EditError;
-use crate::selection::ElementKind;
 
 /// Shows meshes as their Catmull-Clark surfaces, while their own elements, the cage, go on to be edited: the meshes that
 /// are edited, or those of the selected objects. Edges with a crease stay sharp. The file of the document keeps
@@ -25,7 +24,7 @@ impl Action for SetSubdivision {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let mut faces = 0;
         let mut fewer = None;
-        for id in meshes(change)? {
+        for id in whole_meshes(change, "a subdivision surface")? {
             change.edit(id, |mesh| {
                 mesh.set_subdivision(self.levels)?;
                 let levels = shown_levels(mesh);
@@ -59,37 +58,14 @@ pub struct ApplySubdivision {}
 
 impl Action for ApplySubdivision {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let all = meshes(change)?;
+        let all = whole_meshes(change, "a subdivision surface")?;
         let has_surface = |id: &MeshId| change.state().mesh(*id).is_some_and(|mesh| mesh.subdivision() > 0);
         let some: Vec<MeshId> = all.iter().copied().filter(has_surface).collect();
         let mut faces = 0;
         // With none, the first one says why.
         for id in if some.is_empty() { all } else { some } {
-            faces += change.edit(id, |mesh: &mut EditMesh| {
-                mesh.apply_subdivision()?;
-                Ok(mesh.face_count())
-            })?;
-            let kind = change.selection().kind();
-            let selection = change.selection_mut().of_mut(id);
-            if let Some(selection) = selection.filter(|_| kind != ElementKind::Vertex) {
-                // All edges and faces are new ones, whatever their numbers.
-                selection.clear();
-            }
+            faces += remake(change, id, |mesh| Ok(mesh.apply_subdivision().map(drop)?))?;
         }
         Ok(Outcome::counted("made", faces, ["face", "faces"]))
     }
-}
-
-/// The meshes that are edited, or those of the selected objects.
-fn meshes(change: &Change<'_>) -> Result<Vec<MeshId>, EditError> {
-    let ids: Vec<MeshId> = if change.selection().is_editing() {
-        change.selection().meshes().map(|(id, _)| id).collect()
-    } else {
-        change.meshes_of(change.selection().objects.iter().copied())
-    };
-    if ids.is_empty() {
-        let needed = "at least one object with a mesh";
-        return Err(EditError::NothingSelected { command: "a subdivision surface", needed });
-    }
-    Ok(ids)
 }

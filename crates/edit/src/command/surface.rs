@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_mesh::edit::QuadLimits;
 
+use super::whole_meshes::{remake, whole_meshes};
 use super::{Action, Outcome};
 use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
@@ -28,27 +29,9 @@ impl Default for CatmullClark {
 
 impl Action for CatmullClark {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let ids = if change.selection().is_editing() {
-            change.selection().meshes().map(|(id, _)| id).collect()
-        } else {
-            change.meshes_of(change.selection().objects.iter().copied())
-        };
-        if ids.is_empty() {
-            let needed = "at least one object with a mesh";
-            return Err(EditError::NothingSelected { command: "subdividing", needed });
-        }
         let mut faces = 0;
-        for id in ids {
-            faces += change.edit(id, |mesh| {
-                mesh.catmull_clark(self.levels)?;
-                Ok(mesh.face_count())
-            })?;
-            let kind = change.selection().kind();
-            let selection = change.selection_mut().of_mut(id);
-            if let Some(selection) = selection.filter(|_| kind != ElementKind::Vertex) {
-                // All edges and faces are new, whatever their numbers.
-                selection.clear();
-            }
+        for id in whole_meshes(change, "subdividing")? {
+            faces += remake(change, id, |mesh| Ok(mesh.catmull_clark(self.levels).map(drop)?))?;
         }
         Ok(Outcome::counted("made", faces, ["face", "faces"]))
     }

@@ -41,26 +41,18 @@ pub(crate) fn slot_textures(material: &Material) -> Vec<SlotTexture> {
         own.into_iter().filter_map(|(place, info)| Some(from_info(place, info?))).collect();
     let extended = material.extensions.as_ref().map(material_extensions::textures).unwrap_or_default();
     list.extend(extended.iter().map(|(place, info)| from_info(*place, info)));
-    if let Some(normal) = &material.normal_texture {
-        let others = normal.extensions.as_ref().map(|extensions| &extensions.others);
-        let transform = others.and_then(loose_transform);
-        list.push(in_place(
-            MaterialTexture::Normal,
-            normal.index.value(),
-            normal.tex_coord,
-            transform.as_ref(),
-        ));
+    // Types of their own, in which gltf::json does not know the extension.
+    macro_rules! loose {
+        ($place:expr, $info:expr) => {
+            if let Some(info) = $info {
+                let others = info.extensions.as_ref().map(|extensions| &extensions.others);
+                let transform = others.and_then(loose_transform);
+                list.push(in_place($place, info.index.value(), info.tex_coord, transform.as_ref()));
+            }
+        };
     }
-    if let Some(occlusion) = &material.occlusion_texture {
-        let others = occlusion.extensions.as_ref().map(|extensions| &extensions.others);
-        let transform = others.and_then(loose_transform);
-        list.push(in_place(
-            MaterialTexture::Occlusion,
-            occlusion.index.value(),
-            occlusion.tex_coord,
-            transform.as_ref(),
-        ));
-    }
+    loose!(MaterialTexture::Normal, &material.normal_texture);
+    loose!(MaterialTexture::Occlusion, &material.occlusion_texture);
     list
 }
 
