@@ -1,111 +1,74 @@
-//! The viewer's own keys: those of F3D for files.
+//! The viewer's own keys, which are F3D's where F3D has the command: a row for each.
 
 use std::str::FromStr;
 
-use super::overlay_commands::OverlayCommand;
-use trigon_window::{Action, Binding, Chord, Key, Keymap, MenuEntry, Modifiers};
+use trigon_window::{Action, Binding, Key, Keymap, MenuEntry};
 
-/// What the viewer's own keys do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Command {
-    PreviousFile,
-    NextFile,
-    PreviousFileSameView,
-    NextFileSameView,
-    Reload,
-    Open,
-    PlayOrPause,
-    PlayBackward,
-    CycleAnimation,
-    CancelLoading,
-    ResetView,
-    ToggleName,
-    ToggleMetadata,
-    ToggleDifference,
-    ToggleQuality,
-    Brighter,
-    Darker,
-    UpY,
-    UpZ,
-    Screenshot,
-    ScreenshotWithoutBackground,
-}
-
-impl Command {
-    const ALL: [Self; 21] = [
-        Self::PreviousFile,
-        Self::NextFile,
-        Self::PreviousFileSameView,
-        Self::NextFileSameView,
-        Self::Reload,
-        Self::Open,
-        Self::PlayOrPause,
-        Self::PlayBackward,
-        Self::CycleAnimation,
-        Self::CancelLoading,
-        Self::ResetView,
-        Self::ToggleName,
-        Self::ToggleMetadata,
-        Self::ToggleDifference,
-        Self::ToggleQuality,
-        Self::Brighter,
-        Self::Darker,
-        Self::UpY,
-        Self::UpZ,
-        Self::Screenshot,
-        Self::ScreenshotWithoutBackground,
-    ];
-
-    /// Its name in the keymap, its key, and what the cheat sheet says under which heading.
-    fn binding(self) -> Binding {
-        let ctrl = |key| Chord::new(Modifiers::CTRL, key);
-        let shift = |key| Chord::new(Modifiers::SHIFT, Key::Character(key));
-        let alt = |key| Chord::new(Modifiers::ALT, Key::Character(key));
-        let backward = Chord::new(Modifiers::CTRL | Modifiers::SHIFT, Key::Space);
-        let files = "previous, next file";
-        let same_view = "the same, keeping the view";
-        match self {
-            Self::PreviousFile => row("Files", "file.previous", Key::Left, files),
-            Self::NextFile => row("Files", "file.next", Key::Right, files),
-            Self::PreviousFileSameView => row("Files", "file.previous.same_view", ctrl(Key::Left), same_view),
-            Self::NextFileSameView => row("Files", "file.next.same_view", ctrl(Key::Right), same_view),
-            Self::Reload => row("Files", "file.reload", Key::Up, "load the file again"),
-            Self::Open => row("Files", "file.open", ctrl(Key::Character('o')), "open files"),
-            Self::CancelLoading => row("Files", "file.cancel", ctrl(Key::Character('.')), "cancel loading"),
-            Self::Screenshot => row("Files", "screenshot", Key::Function(12), "save a screenshot"),
-            Self::ScreenshotWithoutBackground => row(
-                "Files",
-                "screenshot.no_background",
-                ctrl(Key::Function(12)),
-                "the same without background",
-            ),
-            Self::PlayOrPause => row("Animation", "animation.play", Key::Space, "play, pause animations"),
-            Self::PlayBackward => {
-                row("Animation", "animation.play.backward", backward, "play them backwards")
-            }
-            Self::CycleAnimation => row("Animation", "animation.next", 'w', "next animation, all, none"),
-            Self::ResetView => row("View", "reset_view", Key::Enter, "reset the view"),
-            Self::UpY => row("View", "up.y", alt('y'), "+Y up, +Z up"),
-            Self::UpZ => row("View", "up.z", alt('z'), "+Y up, +Z up"),
-            Self::ToggleName => row("Display", "file.name", 'n', "name of the file"),
-            Self::ToggleMetadata => row("Display", "metadata", 'm', "counts and sizes"),
-            Self::ToggleDifference => {
-                row("Display", "quality.difference", 'd', "difference from the reference")
-            }
-            Self::ToggleQuality => row("Display", "quality", shift('d'), "accuracy and what it costs"),
-            Self::Brighter => row("Display", "light.brighter", 'l', "brighter, darker light"),
-            Self::Darker => row("Display", "light.darker", shift('l'), "brighter, darker light"),
+/// One row for each: its variant, the heading under which the list of keys has it, its name in the keymap, its
+/// key, and what the list says.
+macro_rules! commands {
+    ($($variant:ident: $section:literal, $name:literal, $chord:literal, $description:literal;)*) => {
+        /// What the viewer's own keys do.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum Command {
+            $($variant,)*
         }
-    }
+
+        impl Command {
+            const ALL: &[Self] = &[$(Self::$variant,)*];
+
+            fn binding(self) -> Binding {
+                match self {
+                    $(Self::$variant => row($section, $name, $chord, $description),)*
+                }
+            }
+        }
+    };
 }
 
-fn row(
-    section: &'static str,
-    name: &'static str,
-    chord: impl Into<Chord>,
-    description: &'static str,
-) -> Binding {
-    let (chord, action) = (chord.into(), Action::Command);
+commands! {
+    PreviousFile: "Files", "file.previous", "Left", "previous, next file";
+    NextFile: "Files", "file.next", "Right", "previous, next file";
+    PreviousFileSameView: "Files", "file.previous.same_view", "Ctrl+Left", "the same, keeping the view";
+    NextFileSameView: "Files", "file.next.same_view", "Ctrl+Right", "the same, keeping the view";
+    Reload: "Files", "file.reload", "Up", "load the file again";
+    Open: "Files", "file.open", "Ctrl+O", "open files";
+    PlayOrPause: "Animation", "animation.play", "Space", "play, pause animations";
+    PlayBackward: "Animation", "animation.play.backward", "Ctrl+Shift+Space", "play them backwards";
+    CycleAnimation: "Animation", "animation.next", "W", "next animation, all, none";
+    CancelLoading: "Files", "file.cancel", "Ctrl+.", "cancel loading";
+    ResetView: "View", "reset_view", "Enter", "reset the view";
+    ToggleName: "Display", "file.name", "N", "name of the file";
+    ToggleMetadata: "Display", "metadata", "M", "counts and sizes";
+    ToggleDifference: "Display", "quality.difference", "D", "difference from the reference";
+    ToggleQuality: "Display", "quality", "Shift+D", "accuracy and what it costs";
+    Brighter: "Display", "light.brighter", "L", "brighter, darker light";
+    Darker: "Display", "light.darker", "Shift+L", "brighter, darker light";
+    UpY: "View", "up.y", "Alt+Y", "+Y up, +Z up";
+    UpZ: "View", "up.z", "Alt+Z", "+Y up, +Z up";
+    Screenshot: "Files", "screenshot", "F12", "save a screenshot";
+    ScreenshotWithoutBackground: "Files", "screenshot.no_background", "Ctrl+F12", "the same without background";
+    Tree: "Inspect", "scene.tree", "Shift+H", "scene tree: hide, show, select, look at";
+    Pixel: "Inspect", "pixel.explain", "I", "explain the pixel at the pointer; a click, another";
+    Effects: "Inspect", "effects.plan", "Shift+P", "effects, and why they are on or off";
+    StageTimes: "Inspect", "frame_time.stages", "Shift+Z", "frame time of each stage";
+    Axes: "Inspect", "axis", "X", "directions of the axes";
+    Grid: "Inspect", "grid", "G", "grid below the model";
+    Displays: "Inspect", "display", "V", "what faces show: materials, values of them, depth";
+    NextDisplay: "Inspect", "display.next", "C", "the next, the one before";
+    PreviousDisplay: "Inspect", "display.previous", "Shift+C", "the next, the one before";
+    Matcap: "Inspect", "display.matcap", "Shift+M", "one clay for all (matcap)";
+    Depth: "Inspect", "display.depth", "Ctrl+D", "depth in grey";
+    Measure: "Inspect", "measure", "R", "measure: clicks snap to vertices, edges and faces";
+    Copy: "Inspect", "command.copy", "Ctrl+C", "copy the command line that draws this picture";
+    SaveState: "Inspect", "state.save", "Ctrl+S", "save, load files, camera and settings";
+    LoadState: "Inspect", "state.load", "Ctrl+L", "save, load files, camera and settings";
+    Blink: "Inspect", "compare.blink", "B", "with --compare: one model, the other";
+    Heat: "Inspect", "compare.heat", "Shift+B", "with --compare: where they differ, side by side";
+}
+
+fn row(section: &'static str, name: &'static str, chord: &str, description: &'static str) -> Binding {
+    let (chord, action) = (chord.parse().expect("a chord of the table"), Action::Command);
     Binding { name: name.into(), chord, action, description: description.into(), section: section.into() }
 }
 
@@ -143,7 +106,7 @@ impl FromStr for Command {
     type Err = ();
 
     fn from_str(name: &str) -> Result<Self, ()> {
-        Self::ALL.into_iter().find(|command| command.binding().name == name).ok_or(())
+        Self::ALL.iter().copied().find(|command| command.binding().name == name).ok_or(())
     }
 }
 
@@ -152,12 +115,8 @@ impl FromStr for Command {
 pub(super) fn keymap() -> Keymap {
     let mut keymap = Keymap::default();
     keymap.unbind(Key::Down);
-    for command in Command::ALL {
+    for &command in Command::ALL {
         keymap.add(command.binding());
-    }
-    for command in OverlayCommand::ALL {
-        let (name, chord, description) = command.binding();
-        keymap.add(row("Inspect", name, chord, description));
     }
     keymap.set_menu(MENU);
     keymap
@@ -170,7 +129,7 @@ mod tests {
     #[test]
     fn every_command_is_found_by_its_key_and_its_name() {
         let keymap = keymap();
-        for command in Command::ALL {
+        for &command in Command::ALL {
             let binding = command.binding();
             assert_eq!(binding.name.parse(), Ok(command), "{}", binding.name);
             assert_eq!(keymap.find(binding.chord), Some(&binding), "{}", binding.chord);
@@ -205,7 +164,7 @@ mod tests {
 
     #[test]
     fn orbiting_by_keys_is_still_possible() {
-        let chord = Chord::new(Modifiers::SHIFT, Key::Left);
+        let chord = "Shift+Left".parse().expect("a chord");
         assert!(keymap().find(chord).is_some(), "Shift and an arrow orbit");
     }
 }

@@ -10,7 +10,6 @@ mod hint;
 mod measuring;
 mod notices;
 mod open;
-mod overlay_commands;
 mod path_text;
 mod playback;
 mod quality;

@@ -2,6 +2,7 @@
 
 mod files;
 mod overlays;
+mod run;
 mod state;
 
 use std::path::PathBuf;
@@ -16,13 +17,11 @@ use super::axes::AxesOverlay;
 use super::background::Loading;
 #[cfg(feature = "study")]
 use super::classic::Classics;
-use super::commands::Command;
 use super::comparing::Comparing;
 use super::hint::Hint;
 use super::measuring::Measuring;
 use super::notices::{Answer, Notices};
 use super::open::{OpenWindow, SystemDialog};
-use super::overlay_commands::OverlayCommand;
 use super::playback::Playback;
 use super::quality::QualityPanel;
 use super::recent::Recent;
@@ -270,43 +269,6 @@ impl Viewer {
         request.overlay.tree = false;
         picture::finished(frame, &shown.model(stage), &stage.camera(), &request)
     }
-
-    fn run(&mut self, stage: &mut Stage, command: Command) {
-        /// Eight presses of a key double the light.
-        const BRIGHTER: f32 = 1.090_507_7;
-        match command {
-            Command::PreviousFile => self.step(stage, -1, View::Fit),
-            Command::NextFile => self.step(stage, 1, View::Fit),
-            Command::PreviousFileSameView => self.step(stage, -1, View::Keep),
-            Command::NextFileSameView => self.step(stage, 1, View::Keep),
-            Command::Reload => self.load_again(stage),
-            Command::Open => {
-                stage.cheat_sheet = Visibility::Hidden;
-                self.open.toggle();
-            }
-            Command::PlayOrPause => self.play(stage, |playback, stage| {
-                playback.toggle(stage);
-                None
-            }),
-            Command::PlayBackward => self.play(stage, |playback, stage| {
-                playback.toggle_backward(stage);
-                None
-            }),
-            Command::CycleAnimation => self.play(stage, |playback, stage| Some(playback.cycle(stage))),
-            Command::CancelLoading => self.cancel_loading(stage),
-            Command::ResetView => self.reset_view(stage),
-            Command::ToggleName => self.show_name = !self.show_name,
-            Command::ToggleMetadata => self.show_metadata = !self.show_metadata,
-            Command::ToggleDifference => self.quality.toggle_difference(stage),
-            Command::ToggleQuality => self.quality.toggle(stage),
-            Command::Brighter => Self::brighten(stage, BRIGHTER),
-            Command::Darker => Self::brighten(stage, 1.0 / BRIGHTER),
-            Command::UpY => self.set_up(stage, DVec3::Y, "+Y"),
-            Command::UpZ => self.set_up(stage, DVec3::Z, "+Z"),
-            Command::Screenshot => Self::take_screenshot(stage, stage.settings.background),
-            Command::ScreenshotWithoutBackground => Self::take_screenshot(stage, Background::Transparent),
-        }
-    }
 }
 
 impl Handler for Viewer {
@@ -344,9 +306,6 @@ impl Handler for Viewer {
     }
 
     fn command(&mut self, stage: &mut Stage, name: &str) {
-        if let Ok(command) = name.parse::<OverlayCommand>() {
-            self.run_overlay(stage, command);
-        }
         if let Ok(command) = name.parse() {
             self.run(stage, command);
             self.write_overlay(stage);
@@ -431,6 +390,7 @@ mod tests {
     use super::*;
     use crate::args::RawArgs;
     use crate::report::Level;
+    use crate::window::commands::Command;
 
     fn viewer(flags: &str) -> Viewer {
         let words = ["trigon-viewer"].into_iter().chain(flags.split_whitespace());
