@@ -37,7 +37,9 @@ pub fn popup_menu<T>(
             menu_style(ui.style_mut());
             ui.set_max_width(WIDTH);
             let height = context.content_rect().height() - 24.0;
-            ScrollArea::vertical().max_height(height).show(ui, |ui| {
+            // Not limited to the room below the pointer: the menu moves up instead.
+            let scroll = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+            scroll.show(ui, |ui| {
                 ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| chosen = entries(ui));
             });
         });
