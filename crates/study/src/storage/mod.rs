@@ -7,6 +7,7 @@ mod corner_table;
 mod face_list;
 mod groups;
 mod own;
+mod reads;
 mod vertex_list;
 mod winged_edge;
 
@@ -46,42 +47,67 @@ impl Triangles {
     }
 }
 
-/// What was found, and how many indices were read on the way.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Found<T> {
-    /// The answer.
-    pub answer: T,
-    /// Indices of vertices, edges, faces and corners that were read.
-    pub reads: u64,
-}
-
 /// A representation of a closed triangle mesh.
 pub trait Storage {
     /// What the lists hold in memory.
     fn bytes(&self) -> usize;
 
+    /// How many indices of vertices, edges, faces and corners were read so far: counted where they are read, in a
+    /// representation that was made for counting, and 0 in the others.
+    fn reads(&self) -> u64;
+
     /// The edge nearest to a point of a face: the one that a click means. Its smaller
     /// vertex is first.
-    fn nearest_edge(&self, face: u32, point: Vec3) -> Found<[u32; 2]>;
+    fn nearest_edge(&self, face: u32, point: Vec3) -> [u32; 2];
 
     /// The triangles about a vertex, whose planes change with it: vertices in ascending
     /// order, triangles likewise.
-    fn triangles_around(&self, vertex: u32) -> Found<Vec<[u32; 3]>>;
+    fn triangles_around(&self, vertex: u32) -> Vec<[u32; 3]>;
 
     /// The vertices that share an edge with a vertex, in ascending order.
-    fn neighbours(&self, vertex: u32) -> Found<Vec<u32>>;
+    fn neighbours(&self, vertex: u32) -> Vec<u32>;
 }
 
 /// Makes a representation.
 pub type Maker = fn(&Triangles) -> Box<dyn Storage>;
 
-/// The name of each representation in tables, with how it is made.
-pub const REPRESENTATIONS: [(&str, Maker); 5] = [
-    ("vertex lists", |triangles| Box::new(VertexList::new(triangles))),
-    ("face lists", |triangles| Box::new(FaceList::new(triangles))),
-    ("winged edges", |triangles| Box::new(WingedEdge::new(triangles))),
-    ("corner table", |triangles| Box::new(CornerTable::new(triangles))),
-    ("faces with edges (D, trigon)", |triangles| Box::new(Own::new(triangles))),
+/// A representation with its name in tables.
+pub struct Representation {
+    /// Its name.
+    pub name: &'static str,
+    /// Makes one that counts nothing, to be timed.
+    pub plain: Maker,
+    /// Makes one that counts what it reads.
+    pub counted: Maker,
+}
+
+/// All representations.
+pub const REPRESENTATIONS: [Representation; 5] = [
+    Representation {
+        name: "vertex lists",
+        plain: |triangles| Box::new(VertexList::<false>::new(triangles)),
+        counted: |triangles| Box::new(VertexList::<true>::new(triangles)),
+    },
+    Representation {
+        name: "face lists",
+        plain: |triangles| Box::new(FaceList::<false>::new(triangles)),
+        counted: |triangles| Box::new(FaceList::<true>::new(triangles)),
+    },
+    Representation {
+        name: "winged edges",
+        plain: |triangles| Box::new(WingedEdge::<false>::new(triangles)),
+        counted: |triangles| Box::new(WingedEdge::<true>::new(triangles)),
+    },
+    Representation {
+        name: "corner table",
+        plain: |triangles| Box::new(CornerTable::<false>::new(triangles)),
+        counted: |triangles| Box::new(CornerTable::<true>::new(triangles)),
+    },
+    Representation {
+        name: "faces with edges (D, trigon)",
+        plain: |triangles| Box::new(Own::<false>::new(triangles)),
+        counted: |triangles| Box::new(Own::<true>::new(triangles)),
+    },
 ];
 
 /// The smaller vertex first.
