@@ -2,7 +2,8 @@
 //! [`Mesh`] does: faces know their vertices and edges, edges their vertices, and nothing
 //! leads from a vertex to its faces. Such questions read the whole list of corners.
 
-use super::{Found, Storage, Triangles, in_order, mesh_of, nearest};
+use super::answer::{Found, Storage, in_order, nearest};
+use super::triangles::{Triangles, mesh_of};
 use trigon_math::Vec3;
 use trigon_mesh::Mesh;
 

@@ -1,6 +1,8 @@
 //! All representations give the same answers, at the prices that the report tells.
 
+use super::answer::edge;
 use super::*;
+use trigon_math::Vec3;
 
 fn all(triangles: &Triangles) -> Vec<Box<dyn Storage>> {
     REPRESENTATIONS.iter().map(|(_, make)| make(triangles)).collect()
