@@ -1,13 +1,17 @@
 //! Models that scripts make: a chair, and a mug that holds what its drawing says.
 
 use std::f64::consts::PI;
+use std::fs;
+use std::path::Path;
 
 use trigon_edit::mesh::Mesh;
 use trigon_edit::mesh::math::elementary;
 use trigon_edit::{Document, Script};
 
+/// The mesh that a script of `docs/models` makes.
 fn modelled(script: &str) -> Mesh {
-    let script = Script::from_json(script).expect("a script");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/models").join(script);
+    let script = Script::from_json(&fs::read_to_string(path).expect("a file")).expect("a script");
     let mut document = Document::default();
     script.run(&mut document, |_| {}).expect("every command is possible");
     let (_, asset) = document.scene().meshes().iter().next().expect("it makes one object");
@@ -16,7 +20,7 @@ fn modelled(script: &str) -> Mesh {
 
 #[test]
 fn the_mug_is_closed_has_a_handle_and_the_volume_of_its_drawing() {
-    let mug = modelled(include_str!("../../../docs/models/mug.json"));
+    let mug = modelled("mug.json");
     assert!(mug.is_closed(), "it holds water");
     // 2 − 2·genus: one handle.
     assert_eq!(mug.euler_characteristic(), 0, "one handle");
@@ -34,7 +38,7 @@ fn the_mug_is_closed_has_a_handle_and_the_volume_of_its_drawing() {
 
 #[test]
 fn the_chair_is_closed_and_stands_on_four_legs() {
-    let chair = modelled(include_str!("../../../docs/models/chair.json"));
+    let chair = modelled("chair.json");
     assert!(chair.is_closed(), "a solid");
     assert_eq!(chair.euler_characteristic(), 0, "a back with one opening");
     assert!(chair.volume() > 0.0, "its outside is outside");

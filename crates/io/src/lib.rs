@@ -87,11 +87,7 @@ pub use sequence::{Sequence, write_apng, write_gif};
 pub use warning::Warning;
 pub use write::{WriteError, write_atomically};
 
-/// Runs the examples of the READMEs as tests: this crate's and the project's.
+/// Runs the README's example as a test.
 #[cfg(doctest)]
-mod readmes {
-    #[doc = include_str!("../README.md")]
-    struct Own;
-    #[doc = include_str!("../../../README.md")]
-    struct Project;
-}
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -119,6 +119,7 @@ mod tile;
 mod ulps;
 mod varyings;
 mod vertex;
+mod view;
 mod viewport;
 
 pub use cancel::Cancel;

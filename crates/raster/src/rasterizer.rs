@@ -1,8 +1,9 @@
 //! The rasterizer: draws passes, and keeps threads and memory between them.
 
-use crate::frame::{Arena, DrawChange, FrameOptions, FrameView, Redraw, draw, prepare, redraw};
+use crate::frame::{Arena, DrawChange, FrameOptions, Redraw, draw, prepare, redraw};
 use crate::pool::Workers;
 use crate::simd::{SimdLevel, SimdLevelError, Token};
+use crate::view::FrameView;
 use crate::{Cancel, ExecuteSettings, Pass, Stats, Target};
 
 /// Draws passes, and keeps its threads and memory from frame to frame.

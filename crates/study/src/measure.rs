@@ -47,6 +47,16 @@ pub fn interleaved(rounds: usize, candidates: &mut [Box<dyn FnMut() + '_>]) -> V
     times.into_iter().map(Spread::of).collect()
 }
 
+/// The nanoseconds that each variant takes, in turn.
+pub(crate) fn nanoseconds<'a, V: Copy>(
+    rounds: usize,
+    variants: &[V],
+    mut run: impl FnMut(V) -> Box<dyn FnMut() + 'a>,
+) -> Vec<Spread> {
+    let mut candidates: Vec<Box<dyn FnMut() + 'a>> = variants.iter().map(|&variant| run(variant)).collect();
+    interleaved(rounds, &mut candidates)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

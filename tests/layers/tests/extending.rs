@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use trigon_layers::Patch;
 
 /// Each patch, and how many files it may touch.
-const PATCHES: [(&str, usize); 3] =
-    [("sheen.patch", 4), ("file-format.patch", 3), ("edit-operation.patch", 3)];
+const PATCHES: [(&str, usize); 4] =
+    [("sheen.patch", 4), ("file-format.patch", 3), ("viewer-key.patch", 2), ("edit-operation.patch", 3)];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")

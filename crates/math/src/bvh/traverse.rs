@@ -121,11 +121,14 @@ struct Slabs {
 
 impl Slabs {
     fn new(ray: &Ray, sheared: &ShearedRay, outside: f32) -> Self {
-        let inverse = sheared.straightened(ray.direction).recip();
-        // Where the ray runs straight its coordinate is exact, and in a box or not.
-        let slack =
-            Vec3::select(sheared.straightened(ray.direction).cmpeq(Vec3::ZERO), Vec3::ZERO, inverse.abs());
+        let direction = sheared.straightened(ray.direction);
+        let (inverse, is_straight) = (direction.recip(), direction.cmpeq(Vec3::ZERO));
+        // Where the ray runs straight its coordinate is exact, and in a box or not. A direction without a finite
+        // inverse decides nothing: NaN passes the test.
+        let has_inverse = inverse.is_finite_mask();
+        let slack = Vec3::select(has_inverse, inverse.abs(), Vec3::ZERO);
         let outside = outside + slack.element_sum() * UNDERFLOW + f32::MIN_POSITIVE;
+        let inverse = Vec3::select(has_inverse | is_straight, inverse, Vec3::NAN);
         let inverse = inverse.to_array();
         Self {
             origin: ray.origin.to_array(),

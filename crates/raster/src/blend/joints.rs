@@ -2,11 +2,11 @@
 //! paints a sample, so that a polyline draws each joint once.
 
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
 use crate::geometry::Shape;
 use crate::pass::Recorded;
 use crate::setup::SetupTriangle;
 use crate::tile::TileView;
+use crate::view::FrameView;
 use std::ops::Range;
 
 /// An end of a segment: its draw, its vertex, the segment, and one of its

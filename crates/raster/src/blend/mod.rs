@@ -27,11 +27,11 @@ mod samples;
 
 pub(crate) use joints::leaves;
 
-use crate::frame::FrameView;
 use crate::resolve::saturated;
 use crate::shade::{JobList, Shading, shade_jobs};
 use crate::simd::LANES;
 use crate::tile::{Blocks, TileArea, TileState, TileView};
+use crate::view::FrameView;
 use gather::Beside;
 use joints::Joints;
 use list::Fragments;

@@ -1,11 +1,11 @@
 //! Between the colours of pixels and those of samples: where something
 //! translucent is laid over, every sample needs one of its own.
 
-use crate::frame::FrameView;
 use crate::resolve::mean;
 use crate::shade::{BEHIND, Shading};
 use crate::simd::LANES;
 use crate::tile::{NOBODY, TileArea, VisibilityBuffer};
+use crate::view::FrameView;
 use trigon_math::Vec4;
 
 /// Gives every sample the colour of what it sees.

@@ -1,7 +1,7 @@
 //! Which contenders each tile has to look at.
 
 use super::contender::{Contenders, extent};
-use crate::frame::FrameView;
+use crate::view::FrameView;
 
 /// Numbers of contenders, sorted by tile.
 pub(super) struct Bins {

@@ -2,8 +2,8 @@
 
 use super::codes::Codes;
 use super::tile::TileCertainty;
-use crate::frame::FrameView;
 use crate::tile::TileArea;
+use crate::view::FrameView;
 use trigon_math::Vec4;
 
 /// What is proven of a pixel.

@@ -5,11 +5,11 @@ use super::contender::{Contender, Contenders, Corner};
 use super::outline::{area_slack, doubled_area};
 use super::tolerance::Tolerance;
 use crate::clip;
-use crate::frame::{DrawPlan, FrameView};
 use crate::geometry::Shape;
 use crate::line::half_size;
 use crate::ulps;
 use crate::vertex::{DrawVertices, ScreenVertex, nearer};
+use crate::view::{DrawPlan, FrameView};
 use crate::{BlendMode, Culling, Outline, PointShape};
 use trigon_math::{ClipVolume, Fixed, FixedPoint, clip_segment};
 

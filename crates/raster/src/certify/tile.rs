@@ -3,8 +3,8 @@
 
 use super::outline::{Cover, Outline};
 use crate::BlendMode;
-use crate::frame::FrameView;
 use crate::tile::{BEHIND_ALL, TileArea};
+use crate::view::FrameView;
 
 /// Which pixels of a tile are doubtful, and which show anything at all.
 pub(super) struct TileCertainty {

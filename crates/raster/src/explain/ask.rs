@@ -1,10 +1,10 @@
 //! Asks a triangle's pipeline about one pixel.
 
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
 use crate::ink::OuterInk;
 use crate::shade::{Job, JobList, ShadePoint, Shading, mask_jobs, shade_jobs_with};
 use crate::tile::TileArea;
+use crate::view::FrameView;
 use trigon_math::Vec4;
 
 /// A pixel in its tile.

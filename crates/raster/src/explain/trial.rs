@@ -5,13 +5,14 @@ use super::{EdgeExplanation, FragmentExplanation, PrimitiveKind, SampleExplanati
 use crate::BlendMode;
 use crate::bin::TriangleRef;
 use crate::blend::leaves;
-use crate::frame::{FrameView, outer_ink};
+use crate::frame::outer_ink;
 use crate::ink::OuterInk;
 use crate::line::{Form, Stroke};
 use crate::resolve::saturated;
 use crate::setup::{Corners, Kind, SetupTriangle};
 use crate::tile::{BEHIND_ALL, Edge, TileTriangle};
 use crate::ulps;
+use crate::view::FrameView;
 use std::cmp::Ordering;
 use trigon_math::Vec4;
 

@@ -7,12 +7,12 @@
 //! that it lists, or listed, has a vertex with other values, nor has one of its face.
 
 use super::layout::Layout;
-use super::{Plan, RequestedOutputs};
 use crate::bin::{Chunk, Grid};
 use crate::geometry::Shape;
 use crate::paint2d::Rect;
 use crate::pass::{Pass, Recorded};
 use crate::vertex::UsedVertices;
+use crate::view::{Plan, RequestedOutputs};
 use crate::{BlendMode, Stats};
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -1,6 +1,5 @@
 //! What is settled about a frame before any vertex is run.
 
-use super::RequestedOutputs;
 use super::options::FrameOptions;
 use crate::Target;
 use crate::bin::Grid;
@@ -9,6 +8,7 @@ use crate::ink::Ink;
 use crate::pass::Pass;
 use crate::shade::Encoding;
 use crate::tile::MAX_SIDE;
+use crate::view::RequestedOutputs;
 use crate::viewport::Viewport;
 
 /// How a target is cut into tiles, and what is wanted of it.

@@ -5,11 +5,12 @@ use super::layout::Layout;
 use super::set_up::SetUp;
 use super::stages::{Arena, finish, prepare};
 use super::touched::Found;
-use super::{DrawChange, FrameOptions, FrameView, Redraw};
+use super::{DrawChange, FrameOptions, Redraw};
 use crate::bin::EarlierEntries;
 use crate::clock::Clock;
 use crate::ink::Ink;
 use crate::pass::Pass;
+use crate::view::FrameView;
 use crate::{StageTimes, Target};
 use std::sync::{Mutex, PoisonError};
 

@@ -1,7 +1,6 @@
 //! The stage that sets primitives up and bins them: chunk by chunk.
 
 use super::options::FrameOptions;
-use super::{DrawPlan, Plan};
 use crate::Culling;
 use crate::bin::{Chunk, EarlierEntries, Grid};
 use crate::clip;
@@ -12,6 +11,7 @@ use crate::point::PointStyle;
 use crate::setup::Setup;
 use crate::simd::{LANES, Simd, Token, at_level};
 use crate::vertex::{DrawVertices, ScreenVertex};
+use crate::view::{DrawPlan, Plan};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 

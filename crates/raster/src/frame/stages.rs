@@ -1,19 +1,20 @@
 //! The stages of a frame: plan, vertices, set-up with binning, tiles. All workers
 //! share each stage.
 
+use super::FrameOptions;
 use super::change::Signature;
 use super::layout::Layout;
 use super::options::VERTICES;
 use super::set_up::SetUp;
 use super::tiles::{Scratch, draw_tile};
 use super::touched::Touched;
-use super::{FrameOptions, FrameView, Plan};
 use crate::bin::Chunk;
 use crate::clock::Clock;
 use crate::pass::{Pass, Recorded};
 use crate::resolve::{BackgroundRow, Strip};
 use crate::target::Bands;
 use crate::vertex::ScreenVertex;
+use crate::view::{FrameView, Plan};
 use crate::viewport::Viewport;
 use crate::{StageTimes, Stats, Target};
 use std::sync::atomic::{AtomicU32, Ordering};

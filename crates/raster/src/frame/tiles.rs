@@ -1,6 +1,5 @@
 //! A tile in one visit: visibility, shading, blending, resolve.
 
-use super::FrameView;
 use crate::Stats;
 use crate::blend::{Layers, blend_translucent};
 use crate::clock::Clock;
@@ -9,6 +8,7 @@ use crate::resolve::{Strip, TileColors, resolve, store_visibility};
 use crate::shade::{Shading, list_visible, shade_tile};
 use crate::target::Bands;
 use crate::tile::{Surfaces, TileState, cover_overlay, resolve_visibility};
+use crate::view::FrameView;
 
 /// What a worker keeps from tile to tile and from frame to frame, so that nothing allocates
 /// once it is warm: a part for each stage.

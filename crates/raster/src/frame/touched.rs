@@ -1,7 +1,6 @@
 //! The vertices of a pass that have other values than in the last frame: they are run again,
 //! and the triangles are found that look different by them.
 
-use super::Plan;
 use super::change::DrawChange;
 use super::options::{FrameOptions, VERTICES};
 use crate::bin::Chunk;
@@ -10,6 +9,7 @@ use crate::ink::parts;
 use crate::pass::Recorded;
 use crate::simd::Token;
 use crate::vertex::{ScreenVertex, Slots};
+use crate::view::Plan;
 use crate::viewport::Viewport;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};

@@ -3,11 +3,11 @@
 
 use super::line_width::EdgePoint;
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
 use crate::geometry::Geometry;
 use crate::setup::{Corners, SetupTriangle};
 use crate::tile::{DepthPlane, Edge};
 use crate::vertex::{DrawVertices, ScreenVertex};
+use crate::view::FrameView;
 
 /// An edge of a face between two vertices.
 #[derive(Clone, Copy, Default)]

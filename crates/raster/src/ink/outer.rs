@@ -20,9 +20,9 @@ use super::visible_faces::{LARGE, VisibleFaces};
 use super::visible_rows::{VisibleRows, beside_large, in_front};
 use super::{Ink, Overlap};
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
 use crate::simd::{LANES, Simd, at_level};
 use crate::tile::{MAX_SIDE, NOBODY, PIXELS, TileArea, VisibilityBuffer};
+use crate::view::FrameView;
 use std::ops::Range;
 
 /// Triangles that are kept ready: neighbouring pixels ask for the same ones.

@@ -1,13 +1,13 @@
 //! The background, where nothing is drawn.
 
 use super::background_row::finite;
-use crate::frame::FrameView;
 use crate::ink::OuterInk;
 use crate::pass::Background;
 use crate::shade::{EmptyGroup, Encoding, Shading};
 use crate::simd::LANES;
 use crate::target::{Band, Bands};
 use crate::tile::TileArea;
+use crate::view::FrameView;
 use std::ops::Range;
 use trigon_math::{UVec2, Vec4};
 

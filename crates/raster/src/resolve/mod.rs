@@ -11,11 +11,11 @@ pub(crate) use background_row::BackgroundRow;
 pub(crate) use mean::{mean, saturated};
 pub(crate) use strip::Strip;
 
-use crate::frame::FrameView;
 use crate::shade::{Encoding, Shading};
 use crate::simd::at_level;
 use crate::target::{Band, Bands};
 use crate::tile::{NOBODY, TileArea, TileState};
+use crate::view::FrameView;
 use background::fill_background;
 use trigon_math::Vec4;
 

@@ -2,10 +2,10 @@
 //! processor writes long rows of memory faster than short ones, because it prefetches.
 
 use super::fill_background;
-use crate::frame::FrameView;
 use crate::simd::{Each, LANES};
 use crate::target::Bands;
 use crate::tile::{PIXELS, TileArea};
+use crate::view::FrameView;
 use std::mem::swap;
 
 /// Neighbours of one row of tiles, from left to right, that wait to be written.

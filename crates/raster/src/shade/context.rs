@@ -2,13 +2,13 @@
 
 use crate::BlendMode;
 use crate::bin::TriangleRef;
-use crate::frame::DrawView;
 use crate::geometry::{Geometry, Shape};
 use crate::ink::{Ink, Marks, Overlap};
 use crate::samples::SamplePattern;
 use crate::simd::{I32, Mask, Simd, U32, prelude::*};
 use crate::tile::TileArea;
 use crate::vertex::Slots;
+use crate::view::DrawView;
 use std::ops::Range;
 
 /// What shading needs of one draw in one tile.

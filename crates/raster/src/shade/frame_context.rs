@@ -3,8 +3,8 @@
 use super::ShadeContext;
 use super::context::DrawVaryings;
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
 use crate::tile::TileArea;
+use crate::view::FrameView;
 
 impl<'f> FrameView<'f> {
     /// The context for shading one of the frame's draws in a tile, without edges of other faces.

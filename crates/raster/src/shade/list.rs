@@ -3,9 +3,9 @@
 use super::task::Task;
 use super::{Job, ShadeContext, ShadeOutput, ShadePoint, Shading};
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
 use crate::ink::Overlap;
 use crate::tile::TileArea;
+use crate::view::FrameView;
 
 /// So many triangles at most are ready at a time, to bound memory.
 const READY: usize = 1024;

@@ -7,9 +7,9 @@ use super::task::Task;
 use super::visible::{divide, list};
 use super::{Encoding, ShadeContext, ShadeOutput, ShadePoint};
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
 use crate::simd::{LANES, at_level};
 use crate::tile::{TileArea, VisibilityBuffer};
+use crate::view::FrameView;
 
 /// Shades all pixels of a tile: to bytes if an encoding is given, else in linear
 /// light. What covers a part of its pixel is left in linear light in any case. Tells how

@@ -5,9 +5,9 @@ use super::fragments::FragmentList;
 use super::shading::{EmptyGroup, Run, Shading};
 use super::task::Group;
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
 use crate::simd::{LANES, Mask, Simd, U32, prelude::*};
 use crate::tile::{NOBODY, VisibilityBuffer};
+use crate::view::FrameView;
 
 /// Groups with fewer pixels than this that see anything share vectors with others.
 const FULL: u32 = 4;

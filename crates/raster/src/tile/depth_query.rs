@@ -6,8 +6,8 @@ use super::blocks::Blocks;
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::{Ties, TileArea, TileTriangle};
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
+use crate::view::FrameView;
 
 /// A tile whose opaque triangles are settled.
 #[derive(Clone, Copy)]

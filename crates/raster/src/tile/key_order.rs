@@ -2,7 +2,7 @@
 
 use super::buffer::{NOBODY, VisibilityBuffer};
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
+use crate::view::FrameView;
 
 /// A triangle of a tile: its object, its face, its number among the tile's.
 ///

@@ -6,9 +6,9 @@ use super::buffer::NOBODY;
 use super::depth_query::{Candidate, TileView};
 use super::single::single;
 use super::{TileArea, TileState};
-use crate::frame::FrameView;
 use crate::shade::{Job, JobList, ShadePoint, Shading, mask_jobs};
 use crate::simd::{LANES, Simd, at_level, prelude::*};
+use crate::view::FrameView;
 use crate::{BlendMode, Stats};
 use std::ops::Range;
 

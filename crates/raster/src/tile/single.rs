@@ -2,8 +2,8 @@
 
 use super::{TileArea, TileTriangle};
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
 use crate::setup::SetupTriangle;
+use crate::view::FrameView;
 
 /// One triangle of the tile.
 pub(crate) fn single(frame: &FrameView<'_>, area: &TileArea, place: TriangleRef) -> Option<TileTriangle> {

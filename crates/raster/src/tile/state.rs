@@ -8,7 +8,7 @@ use super::masked::Questions;
 use super::surfaces::Surfaces;
 use super::ties::Ties;
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
+use crate::view::FrameView;
 
 /// The triangles of a tile, and what is seen of them.
 pub(crate) struct TileState {

@@ -2,7 +2,7 @@
 
 use crate::BlendMode;
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
+use crate::view::FrameView;
 use std::ops::Range;
 
 /// The tile's triangles by kind of surface: ranges of its places.

@@ -8,7 +8,7 @@
 
 use super::key_order::KeyOrder;
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
+use crate::view::FrameView;
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use std::sync::{Mutex, OnceLock};

@@ -13,10 +13,10 @@ use super::tiny::PreparedTriangle;
 use super::{Counts, NOBODY, Surfaces, TileArea, TileState, VisibilityBuffer, masked};
 use crate::Stats;
 use crate::bin::TriangleRef;
-use crate::frame::FrameView;
 use crate::shade::Shading;
 use crate::simd::{Each, LANES, Simd, at_level, lanes_of};
 use crate::vertex::ScreenVertex;
+use crate::view::FrameView;
 use std::cell::Cell;
 
 /// Finds the nearest opaque or masked triangle at every sample.

@@ -14,6 +14,7 @@ mod float;
 mod lanes;
 mod scanlines;
 mod strips;
+mod triangle;
 
 #[cfg(test)]
 mod tests;
@@ -22,11 +23,8 @@ pub use canvas::{Canvas, Painted};
 pub use cases::{Case, tiles};
 pub use errors::{FillErrors, owners};
 pub(crate) use scanlines::interpolate;
-
-use trigon_math::Vec2;
-
-/// A triangle in pixels from the top left, y down, in either winding.
-pub type Triangle = [Vec2; 3];
+pub use triangle::Triangle;
+pub(crate) use triangle::range;
 
 /// A way to fill triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -114,11 +112,4 @@ impl Fill {
             Self::Engine => engine::fill(triangles, canvas),
         }
     }
-}
-
-/// The smallest and the largest of three.
-pub(crate) fn range<T: PartialOrd + Copy>([a, b, c]: [T; 3]) -> [T; 2] {
-    let least = |a, b| if b < a { b } else { a };
-    let most = |a, b| if b > a { b } else { a };
-    [least(least(a, b), c), most(most(a, b), c)]
 }

@@ -1,6 +1,7 @@
 //! What the report claims of filling, and that each algorithm is what it says.
 
 use super::*;
+use trigon_math::Vec2;
 
 const SIDE: usize = 256;
 const SIZE: [usize; 2] = [SIDE; 2];

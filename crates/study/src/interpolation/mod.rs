@@ -10,12 +10,9 @@ mod wall;
 #[cfg(test)]
 mod tests;
 
-pub use wall::Wall;
+pub use wall::{Texel, Wall};
 
 use crate::field::Field;
-
-/// Texture coordinates in texels.
-pub type Texel = [f32; 2];
 
 /// A way to interpolate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,10 +1,12 @@
 //! A wall of two triangles that leads away, seen in perspective.
 
-use super::Texel;
 use crate::field::Field;
 use crate::fill::fixed::Edges;
 use crate::oracle::{coverage, perspective};
 use std::ops::Range;
+
+/// Texture coordinates in texels.
+pub type Texel = [f32; 2];
 
 /// The texel in each pixel; none where the wall is not.
 pub(super) type Picture = Field<Option<Texel>>;

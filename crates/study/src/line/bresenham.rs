@@ -1,7 +1,7 @@
 //! J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Systems
 //! Journal 4(1), 1965, for all eight directions: whole numbers only, and nothing adds up.
 
-use super::{Segment, paint};
+use super::segment::{Segment, paint};
 use crate::field::Field;
 
 pub(super) fn draw([from, to]: Segment, coverage: &mut Field<f32>) {

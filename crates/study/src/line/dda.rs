@@ -1,7 +1,7 @@
 //! The incremental form (source row B1, its last one): the slope is added in each step
 //! along the longer side, so that there are no gaps; its rounding adds up.
 
-use super::{Segment, paint};
+use super::segment::{Segment, paint};
 use crate::field::Field;
 use crate::fill::interpolate;
 

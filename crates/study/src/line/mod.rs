@@ -9,6 +9,7 @@ mod engine;
 mod errors;
 mod naive;
 mod outline;
+mod segment;
 mod wu;
 
 #[cfg(test)]
@@ -16,11 +17,9 @@ mod tests;
 
 pub use errors::LineErrors;
 pub use outline::{Outline, OutlineErrors};
+pub use segment::Segment;
 
 use crate::field::Field;
-
-/// A segment between the centres of two pixels.
-pub type Segment = [[i32; 2]; 2];
 
 /// A way to draw lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -95,14 +94,6 @@ impl Line {
             Self::EngineSmooth => Some(trigon_raster::Outline::AntiAliased),
             _ => None,
         }
-    }
-}
-
-/// Adds ink to a pixel, if it is in the picture.
-#[inline]
-fn paint(coverage: &mut Field<f32>, pixel: [i32; 2], share: f32) {
-    if let Some(sum) = coverage.get_mut(pixel) {
-        *sum += share;
     }
 }
 

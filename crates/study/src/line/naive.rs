@@ -1,7 +1,7 @@
 //! The equation y = a x + b for each column (source row B1, its first form): steep lines
 //! have gaps, and upright ones are not drawn.
 
-use super::{Segment, paint};
+use super::segment::{Segment, paint};
 use crate::field::Field;
 
 pub(super) fn draw([from, to]: Segment, coverage: &mut Field<f32>) {

@@ -1,7 +1,7 @@
 //! X. Wu, "An efficient antialiasing technique", SIGGRAPH 1991: the two pixels above and
 //! below the line share one pixel's ink by their distances.
 
-use super::{Segment, paint};
+use super::segment::{Segment, paint};
 use crate::field::Field;
 
 pub(super) fn draw([from, to]: Segment, coverage: &mut Field<f32>) {

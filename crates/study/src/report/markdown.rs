@@ -1,7 +1,7 @@
 //! The report as text, and its numbers as a list.
 
+use super::chapter::{Answer, Effort};
 use super::figures::{Conditions, Row, Value, Warmth, number};
-use super::{Answer, Effort};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 

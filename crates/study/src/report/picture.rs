@@ -44,3 +44,24 @@ impl Picture {
         })
     }
 }
+
+/// Grey values, 0 to 1 of linear light, as bytes.
+pub(super) fn grey(light: f64) -> [u8; 3] {
+    [trigon_math::color::linear_to_srgb8(light as f32); 3]
+}
+
+/// How wrong something is, from black over red and yellow to white, 1 and above.
+pub(super) fn heat(error: f64) -> [u8; 3] {
+    [0.0, 1.0, 2.0].map(|start| ((error * 3.0 - start).clamp(0.0, 1.0) * 255.0) as u8)
+}
+
+/// A colour for a number, to tell neighbours apart.
+pub(super) fn tint(number: u32) -> [u8; 3] {
+    let bits = u64::from(number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    [16, 32, 48].map(|shift| 64 + (bits >> shift & 0x7f) as u8)
+}
+
+/// The faces of a picture in colours; nothing is dark.
+pub(super) fn tinted(faces: &Field<u32>) -> Field<[u8; 3]> {
+    faces.map(|&face| if face == u32::MAX { [24; 3] } else { tint(face) })
+}

@@ -2,8 +2,9 @@
 //! simple: Edgebreaker on a corner table", 2001): the vertex of each corner, and the corner
 //! opposite to it in the triangle across; all else follows from the numbers.
 
+use super::Triangles;
+use super::answer::{Storage, byte_count, in_order, nearest};
 use super::reads::List;
-use super::{Storage, Triangles, byte_count, in_order, nearest};
 use std::collections::BTreeMap;
 use trigon_math::Vec3;
 

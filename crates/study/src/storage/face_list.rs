@@ -1,9 +1,10 @@
 //! Face lists: faces know their vertices, and each vertex its neighbours and the faces
 //! around it.
 
+use super::Triangles;
+use super::answer::{Storage, byte_count, in_order, nearest};
 use super::groups::Groups;
 use super::reads::List;
-use super::{Storage, Triangles, byte_count, in_order, nearest};
 use trigon_math::Vec3;
 
 /// Faces and vertices that know each other.

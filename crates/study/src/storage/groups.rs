@@ -1,6 +1,6 @@
 //! Lists of different lengths in one piece of memory.
 
-use super::byte_count;
+use super::answer::byte_count;
 use super::reads::Reads;
 
 /// For each key its values, in the order in which they were given.

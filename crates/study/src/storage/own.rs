@@ -2,8 +2,9 @@
 //! [`Mesh`] does: faces know their vertices and edges, edges their vertices, and nothing
 //! leads from a vertex to its faces. Such questions read the whole list of corners.
 
+use super::answer::{Storage, in_order, nearest};
 use super::reads::Reads;
-use super::{Storage, Triangles, in_order, mesh_of, nearest};
+use super::triangles::{Triangles, mesh_of};
 use trigon_math::Vec3;
 use trigon_mesh::Mesh;
 

@@ -1,5 +1,6 @@
 //! Lists that count the indices read from them.
 
+use super::answer::byte_count;
 use std::cell::Cell;
 
 /// Counts where `COUNTED` is set. Elsewhere it does nothing, so that what is timed is the bare list.
@@ -39,7 +40,7 @@ impl<T, const COUNTED: bool> List<T, COUNTED> {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        super::byte_count(&self.elements)
+        byte_count(&self.elements)
     }
 
     pub(super) fn reads(&self) -> u64 {

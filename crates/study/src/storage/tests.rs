@@ -2,6 +2,7 @@
 
 use super::*;
 use std::collections::BTreeSet;
+use trigon_math::Vec3;
 
 /// Each representation by its name, made by one of its makers.
 fn all(triangles: &Triangles, maker: fn(&Representation) -> Maker) -> Vec<(&'static str, Box<dyn Storage>)> {

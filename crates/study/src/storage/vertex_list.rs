@@ -1,8 +1,9 @@
 //! Vertex lists: each vertex knows those that it is joined to. There are neither faces nor
 //! edges: they have to be found among the neighbours.
 
+use super::Triangles;
+use super::answer::{Storage, byte_count, in_order, nearest};
 use super::groups::Groups;
-use super::{Storage, Triangles, byte_count, in_order, nearest};
 use trigon_math::Vec3;
 
 /// Vertices that know their neighbours.

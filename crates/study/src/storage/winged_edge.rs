@@ -2,9 +2,10 @@
 //! STAN-CS-320, 1972) as source D has them: vertices and faces know the edges around them,
 //! and an edge knows its two vertices, its two faces and four edges next to it.
 
+use super::Triangles;
+use super::answer::{Storage, byte_count, in_order, nearest};
 use super::groups::Groups;
 use super::reads::List;
-use super::{Storage, Triangles, byte_count, in_order, nearest};
 use std::collections::BTreeMap;
 use trigon_math::Vec3;
 
@@ -33,7 +34,7 @@ impl<const COUNTED: bool> WingedEdge<COUNTED> {
         for &[a, b, c] in triangles {
             for [from, to] in [[a, b], [b, c], [c, a]] {
                 let next = numbers.len() as u32;
-                numbers.entry(super::edge(from, to)).or_insert(next);
+                numbers.entry(super::answer::edge(from, to)).or_insert(next);
             }
         }
         let unknown = Wings { vertices: [0; 2], faces: [0; 2], wings: [0; 4] };
@@ -41,10 +42,10 @@ impl<const COUNTED: bool> WingedEdge<COUNTED> {
         let mut face_edges = Vec::with_capacity(triangles.len());
         for (face, &[a, b, c]) in (0..).zip(triangles) {
             let sides = [[a, b], [b, c], [c, a]];
-            let around = sides.map(|[from, to]| numbers[&super::edge(from, to)]);
+            let around = sides.map(|[from, to]| numbers[&super::answer::edge(from, to)]);
             for (i, [from, to]) in sides.into_iter().enumerate() {
                 let wings = &mut edges[around[i] as usize];
-                wings.vertices = super::edge(from, to);
+                wings.vertices = super::answer::edge(from, to);
                 let side = usize::from(from > to);
                 wings.faces[side] = face;
                 [wings.wings[2 * side], wings.wings[2 * side + 1]] =

@@ -6,6 +6,7 @@
 //! nearest one.
 
 mod cases;
+mod drawing;
 mod engine;
 mod errors;
 mod painter;
@@ -20,6 +21,7 @@ mod z_buffer;
 mod tests;
 
 pub use cases::{Case, balls, sheets};
+pub use drawing::Drawing;
 pub use errors::OrderErrors;
 pub use roberts::{Line, Lines};
 pub use scene::{Body, Corner, NotConvex, Pose, Scene};
@@ -27,7 +29,6 @@ pub use scene::{Body, Corner, NotConvex, Pose, Scene};
 pub(crate) use engine::clip_corners;
 pub(crate) use surface::Surface;
 
-use crate::field::Field;
 use painter::Painter;
 use rays::{AllFaces, Tree};
 use std::hint::black_box;
@@ -50,27 +51,6 @@ pub enum Visibility {
     TreeRays,
     /// The renderer.
     Engine,
-}
-
-/// What a picture shows, and what it took to find out.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Drawing {
-    /// The number of the face in each pixel, `u32::MAX` for none.
-    pub faces: Field<u32>,
-    /// The algorithm's own unit of work; see [`Visibility::test`]. 0 where it is not
-    /// counted.
-    pub tests: u64,
-}
-
-impl Drawing {
-    fn empty(size: [usize; 2]) -> Self {
-        Self { faces: Field::new(size, u32::MAX), tests: 0 }
-    }
-
-    fn clear(&mut self) {
-        self.faces.clear(u32::MAX);
-        self.tests = 0;
-    }
 }
 
 impl Visibility {

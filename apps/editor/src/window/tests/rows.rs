@@ -4,12 +4,20 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use trigon_window::Chord;
 
 use crate::window::actions;
 
-const TABLE: &str = include_str!("../../../../../docs/editor.md");
+/// The text of `docs/editor.md`.
+fn guide() -> &'static str {
+    static GUIDE: LazyLock<String> = LazyLock::new(|| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/editor.md");
+        fs::read_to_string(path).expect("the guide")
+    });
+    &GUIDE
+}
 
 /// One row: what is expected, its keys with the names of their actions, and its tests.
 struct Row {
@@ -19,7 +27,7 @@ struct Row {
 }
 
 fn rows() -> impl Iterator<Item = Row> {
-    let table = TABLE.split("## Row by row").nth(1).expect("there is a section of this name");
+    let table = guide().split("## Row by row").nth(1).expect("there is a section of this name");
     table.lines().filter_map(|line| {
         let cells: Vec<_> = line.strip_prefix("| ")?.strip_suffix(" |")?.split(" | ").collect();
         let &[_, what, keys, tests] = &cells[..] else { return None };

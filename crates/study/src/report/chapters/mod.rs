@@ -18,10 +18,12 @@ mod threads;
 mod transparency;
 mod visibility;
 
+use super::chapter::{Chapter, Effort, Question};
 use super::figures::{Row, number, value};
 use super::headline::Headline;
-use super::{Chapter, Effort, Picture, Plot, Question, grey, heat, tint, tinted};
-use crate::measure::{Spread, interleaved};
+use super::picture::{Picture, grey, heat, tint, tinted};
+use super::plot::Plot;
+use crate::measure::{Spread, interleaved, nanoseconds};
 
 /// The chapters in their order.
 pub(super) const CHAPTERS: [Question; 17] = [
@@ -43,13 +45,3 @@ pub(super) const CHAPTERS: [Question; 17] = [
     Question { name: "frames", measure: frames::measure, headlines: frames::headlines },
     Question { name: "rivals", measure: rivals::measure, headlines: rivals::headlines },
 ];
-
-/// The nanoseconds that each variant takes, in turn.
-fn nanoseconds<'a, V: Copy>(
-    rounds: usize,
-    variants: &[V],
-    mut run: impl FnMut(V) -> Box<dyn FnMut() + 'a>,
-) -> Vec<Spread> {
-    let mut candidates: Vec<Box<dyn FnMut() + 'a>> = variants.iter().map(|&variant| run(variant)).collect();
-    interleaved(rounds, &mut candidates)
-}

@@ -1,6 +1,6 @@
 //! A convex body as a matrix of planes.
 
-use super::NotConvex;
+use super::{NotConvex, Scene};
 use crate::visibility::scene::{Body, Corner};
 
 /// A plane in whole numbers, with the body on its positive side.
@@ -96,4 +96,9 @@ impl ConvexBody {
         }
         true
     }
+}
+
+/// The bodies of a scene as matrices of planes.
+pub(super) fn convex_bodies(scene: &Scene) -> Result<Vec<ConvexBody>, NotConvex> {
+    scene.bodies().iter().enumerate().map(|(number, body)| ConvexBody::new(number, body)).collect()
 }

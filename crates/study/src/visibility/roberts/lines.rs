@@ -5,8 +5,8 @@
 //! cut a convex polygon out of it, and the edge is hidden between that polygon's least
 //! and greatest t.
 
-use super::body::ConvexBody;
-use super::{NotConvex, Scene, convex_bodies};
+use super::body::{ConvexBody, convex_bodies};
+use super::{NotConvex, Scene};
 use crate::visibility::scene::{Body, DEEPEST};
 use std::collections::BTreeMap;
 

@@ -15,12 +15,7 @@ pub use lines::{Line, Lines};
 
 use super::scene::STEPS;
 use super::{Drawing, NotConvex, Scene, Surface};
-use body::ConvexBody;
-
-/// The bodies of a scene as matrices of planes.
-fn convex_bodies(scene: &Scene) -> Result<Vec<ConvexBody>, NotConvex> {
-    scene.bodies().iter().enumerate().map(|(number, body)| ConvexBody::new(number, body)).collect()
-}
+use body::convex_bodies;
 
 /// The faces that are seen: the points of faces that no other body hides.
 pub(super) fn draw(scene: &Scene) -> Result<Drawing, NotConvex> {

@@ -1,6 +1,8 @@
 //! The guided tour of `docs/editor.md`: what it describes is played here, and its pictures are made here:
 //! `TRIGON_UPDATE_GOLDENS=1 cargo test -p trigon-editor --lib the_tour`, then for each `convert x.png -colors 96 PNG8:x.png`.
 
+use std::fs;
+
 use super::*;
 
 /// A chair, as the tour makes it.
@@ -41,9 +43,14 @@ const TOUR: &str = "
     mesh Cube 56 108 54
 ";
 
-/// Where the pictures are.
+/// The folder of the guide.
+fn docs() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
+}
+
+/// Where the guide's images are.
 fn pictures() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/images/editor")
+    docs().join("images/editor")
 }
 
 #[test]
@@ -53,7 +60,7 @@ fn the_tour_of_the_guide_is_a_session_with_pictures() {
         user.pictures = std::env::var_os("TRIGON_UPDATE_GOLDENS").map(|_| pictures());
         user.play(TOUR);
     });
-    let guide = include_str!("../../../../../../docs/editor.md");
+    let guide = fs::read_to_string(docs().join("editor.md")).expect("the guide");
     let names = TOUR.lines().filter_map(|line| line.trim().strip_prefix("picture "));
     for name in names {
         assert!(guide.contains(&format!("(images/editor/{name}.png)")), "the guide shows {name}");

@@ -93,7 +93,7 @@ impl<'f> FrameView<'f> {
     }
 
     /// The pixels of the target that a tile draws.
-    pub(super) fn drawn_rect(&self, tile: u32) -> Rect {
+    pub(crate) fn drawn_rect(&self, tile: u32) -> Rect {
         let area = self.area(tile);
         let (first, drawn) = (area.own_origin(), self.drawn_part(&area));
         let end = |axis: usize, at: usize| first[axis] / self.supersampling as i32 + at as i32;

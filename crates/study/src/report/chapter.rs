@@ -1,0 +1,75 @@
+//! A question, and what a chapter of the report says about it.
+
+use super::figures::Row;
+use super::headline::Headline;
+use super::picture::Picture;
+use super::plot::Plot;
+
+/// How long measuring may take.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Effort {
+    /// Less than a minute: fewer runs, smaller pictures.
+    Quick,
+    /// Some minutes.
+    #[default]
+    Full,
+    /// Everything once, to see that it works.
+    #[cfg(test)]
+    Once,
+}
+
+impl Effort {
+    /// One of two numbers.
+    pub(super) fn pick<T>(self, quick: T, full: T) -> T {
+        if self == Self::Full { full } else { quick }
+    }
+
+    /// How often everything is timed.
+    pub(super) fn rounds(self) -> usize {
+        match self {
+            Self::Quick => 5,
+            Self::Full => 15,
+            #[cfg(test)]
+            Self::Once => 1,
+        }
+    }
+}
+
+/// A question that a chapter answers.
+#[derive(Clone, Copy)]
+pub(super) struct Question {
+    /// In file names.
+    pub(super) name: &'static str,
+    pub(super) measure: fn(Effort) -> Chapter,
+    /// What stands under "In short" of it.
+    pub(super) headlines: fn() -> Vec<Headline>,
+}
+
+/// One question, and what was found.
+pub(super) struct Chapter {
+    /// In file names.
+    pub(super) name: &'static str,
+    pub(super) title: &'static str,
+    /// What is compared, and in which units.
+    pub(super) text: &'static str,
+    pub(super) rows: Vec<Row>,
+    pub(super) plots: Vec<Plot>,
+    pub(super) pictures: Vec<Picture>,
+    /// What else a reader should know, with figures that are not divided by each other.
+    pub(super) findings: Vec<String>,
+}
+
+/// A chapter with its headlines in words.
+pub(super) struct Answer {
+    pub(super) chapter: Chapter,
+    pub(super) sentences: Vec<String>,
+}
+
+impl Answer {
+    pub(super) fn measure(question: &Question, effort: Effort) -> Self {
+        let chapter = (question.measure)(effort);
+        let sentences =
+            (question.headlines)().iter().map(|headline| headline.sentence(&chapter.rows)).collect();
+        Self { chapter, sentences }
+    }
+}
