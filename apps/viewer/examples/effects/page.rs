@@ -47,10 +47,20 @@ pub(crate) const OTHERS: &str = "
 ## Over a pipeline written by hand
 
 The bench `overhead` draws a knot of 70,000 triangles at 1920×1080 through the scene renderer, and through a pipeline that is
-written for this one picture. What the scene's pipeline does more: its parts are data, so each part that is absent costs a branch
-for eight pixels; and at the vertices it finds the light of any number of lamps in the world's space, where the pipeline by hand
-has one lamp on the camera's axis and reads a single number. To count the instructions of a warm frame (the difference of two
-counts):
+written for this one picture. Instructions of one warm frame, in millions (callgrind, AVX2, one thread):
+
+| picture | by hand | by the scene renderer | more |
+|---|--:|--:|--:|
+| one colour, unlit | 60.3 | 60.6 | 0.5 % |
+| a texture, and light at the vertices | 149.2 | 169.0 | 13.3 % |
+
+Of the 19.8 million that the textured picture takes more, 7.6 are because its sampler is data: a pipeline by hand that knows its
+sampler only at run time takes 156.8. About 2.7 do not depend on the number of pixels, which frames of half the width and height
+show (57.8 and 64.8): at the vertices, the scene sums the light of any number of lamps, and the pipeline by hand reads a single
+number. The rest is spent for each group of eight pixels, on branches for parts that are absent and on varyings whose places are
+known only at run time. Compiling the pipeline a second time for the default sampler would save the first of these three.
+
+To count the instructions of a frame (the difference of two counts, divided by ten):
 
     cargo bench -p trigon-scene --bench overhead -- scene textured 50
     program=$(ls -t target/release/deps/overhead-* | grep -v '\\.d$' | head -n 1)
