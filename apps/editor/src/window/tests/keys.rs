@@ -71,7 +71,11 @@ fn what_is_typed_before_a_field_has_the_focus_runs_nothing() {
         worked.chords("A");
         worked.chords(opens);
         for typed in ['x', 'a', 'g'] {
-            assert_eq!(worked.key(WindowKey::Character(typed), Modifiers::NONE), Taken::No, "{opens}, {typed}");
+            assert_eq!(
+                worked.key(WindowKey::Character(typed), Modifiers::NONE),
+                Taken::No,
+                "{opens}, {typed}"
+            );
         }
         assert_eq!(worked.objects(), 2, "nothing was deleted");
         assert!(worked.editor.tool.is_none(), "nothing moves");
