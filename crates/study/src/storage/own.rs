@@ -14,6 +14,7 @@ pub struct Own {
 
 impl Own {
     /// Of a closed mesh, its edges found.
+    #[must_use]
     pub fn new(triangles: &Triangles) -> Self {
         let mesh = mesh_of(triangles);
         mesh.edges();

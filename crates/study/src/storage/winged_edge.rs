@@ -28,6 +28,7 @@ pub struct WingedEdge {
 
 impl WingedEdge {
     /// Of a closed mesh.
+    #[must_use]
     pub fn new(Triangles { positions, triangles }: &Triangles) -> Self {
         let mut numbers = BTreeMap::new();
         for &[a, b, c] in triangles {
