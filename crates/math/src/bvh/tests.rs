@@ -55,6 +55,39 @@ fn far_scene() -> impl Strategy<Value = FarScene> {
     })
 }
 
+/// Any finite number, from the denormal ones to the largest.
+fn any_finite() -> impl Strategy<Value = f32> {
+    any::<u32>().prop_map(f32::from_bits).prop_filter("finite", |number| number.is_finite())
+}
+
+/// Numbers of one magnitude, some of any magnitude, zeros.
+fn vector_of(magnitude: f32) -> impl Strategy<Value = Vec3> {
+    let near = || vector().prop_map(move |v| v * magnitude);
+    let any = [any_finite(), any_finite(), any_finite()].prop_map(Vec3::from_array);
+    let axis = (near(), any_finite(), 0_usize..3).prop_map(|(mut v, number, axis)| {
+        v[axis] = number;
+        v
+    });
+    prop_oneof![6 => near(), 1 => any, 2 => axis]
+}
+
+/// Triangles and rays of all numbers that there are.
+fn wild_scene() -> impl Strategy<Value = FarScene> {
+    let magnitude = (1_u32..254).prop_map(|exponent| f32::from_bits(exponent << 23));
+    magnitude.prop_flat_map(|magnitude| {
+        let vector = move || vector_of(magnitude);
+        let triangles = prop::collection::vec([vector(), vector(), vector()], 1..40);
+        let ray = (vector(), vector(), vector_of(1.0), any::<bool>());
+        (triangles, prop::collection::vec(ray, 20)).prop_map(|(triangles, rays)| {
+            let ray = |(origin, to, unit, is_aimed): (Vec3, Vec3, Vec3, bool)| Ray {
+                origin,
+                direction: if is_aimed { to - origin } else { unit },
+            };
+            FarScene { triangles, rays: rays.into_iter().map(ray).collect() }
+        })
+    })
+}
+
 /// Corners are rounded to f32 when the ray's origin is subtracted, by 2^-24 of their distance from it, and by as
 /// much twice when they are sheared. A triangle of a thousandth of that size, seen at more than a thousandth of a
 /// right angle, moves by less than this share of itself.
@@ -124,6 +157,22 @@ proptest! {
         for ray in scene.rays.iter().filter(|ray| ray.direction != Vec3::ZERO) {
             let expected = by_brute_force(&scene.triangles, ray);
             prop_assert_eq!(bvh.nearest(ray, 0.0..f32::INFINITY), expected, "{:?}", ray);
+            prop_assert_eq!(bvh.occluded(ray, 0.0..f32::INFINITY), expected.is_some(), "{:?}", ray);
+        }
+    }
+
+    #[test]
+    fn a_tree_answers_as_a_look_at_every_triangle_for_all_numbers(scene in wild_scene()) {
+        let bvh = Bvh::new(&scene.triangles);
+        let usable: Vec<[Vec3; 3]> = scene.triangles.iter().map(|corners| {
+            if corners.iter().all(|corner| corner.is_finite()) { *corners } else { [Vec3::NAN; 3] }
+        }).collect();
+        for ray in &scene.rays {
+            let is_ray = ray.direction.is_finite() && ray.direction != Vec3::ZERO && ray.origin.is_finite();
+            let expected = if is_ray { by_brute_force(&usable, ray) } else { None };
+            let found = bvh.nearest(ray, 0.0..f32::INFINITY);
+            let of = |hit: Option<RayHit>| hit.map(|hit| (hit.triangle, hit.distance));
+            prop_assert_eq!(of(found), of(expected), "{:?}", ray);
             prop_assert_eq!(bvh.occluded(ray, 0.0..f32::INFINITY), expected.is_some(), "{:?}", ray);
         }
     }

@@ -24,6 +24,10 @@ const WIDENED: f32 = 1.0 + 8.0 * f32::EPSILON;
 /// Twice that is allowed for distances.
 const OUTSIDE: f32 = 16.0 * f32::EPSILON;
 
+/// How far outside its box a triangle may be hit on an axis because numbers underflow, as a distance on that axis: a
+/// product and its sum are off by half of the smallest number each. Four times that.
+const UNDERFLOW: f32 = f32::from_bits(4);
+
 impl Bvh {
     /// The first hit of the ray within a range of distances; of equally near triangles the one with
     /// the smallest number.
@@ -73,7 +77,7 @@ impl Bvh {
             return;
         }
         let sheared = ShearedRay::new(ray);
-        let slabs = Slabs::new(ray, self.leaving(&sheared) * OUTSIDE);
+        let slabs = Slabs::new(ray, &sheared, self.leaving(&sheared) * OUTSIDE);
         let mut waiting = Waiting::new((start, Child::node(self.nodes.len() - 1)));
         while let Some((near, child)) = waiting.pop() {
             // A hit found meanwhile may be nearer.
@@ -118,8 +122,16 @@ struct Slabs {
 }
 
 impl Slabs {
-    fn new(ray: &Ray, outside: f32) -> Self {
-        let inverse = ray.direction.recip().to_array();
+    fn new(ray: &Ray, sheared: &ShearedRay, outside: f32) -> Self {
+        let direction = sheared.straightened(ray.direction);
+        let (inverse, is_straight) = (direction.recip(), direction.cmpeq(Vec3::ZERO));
+        // Where the ray runs straight its coordinate is exact, and in a box or not. A direction without a finite
+        // inverse decides nothing: NaN passes the test.
+        let has_inverse = inverse.is_finite_mask();
+        let slack = Vec3::select(has_inverse, inverse.abs(), Vec3::ZERO);
+        let outside = outside + slack.element_sum() * UNDERFLOW + f32::MIN_POSITIVE;
+        let inverse = Vec3::select(has_inverse | is_straight, inverse, Vec3::NAN);
+        let inverse = inverse.to_array();
         Self {
             origin: ray.origin.to_array(),
             inverse,

@@ -36,13 +36,26 @@ impl ShearedRay {
             (x, y) = (y, x);
         }
         let fastest = ray.direction[z];
-        let shear = [ray.direction[x] / fastest, ray.direction[y] / fastest, 1.0 / fastest];
+        // A shear that is not a normal number has no precision: the ray runs straight on that axis.
+        let shear = [x, y].map(|axis| ray.direction[axis] / fastest);
+        let [across, down] = shear.map(|shear| if shear.is_normal() { shear } else { 0.0 });
+        let shear = [across, down, 1.0 / fastest];
         Self { origin: ray.origin, axes: [x, y, z], shear }
     }
 
     /// The axis along which the ray runs fastest.
     pub(super) fn axis(&self) -> usize {
         self.axes[2]
+    }
+
+    /// The direction of a ray with zeros on the axes on which it is taken to run straight.
+    pub(super) fn straightened(&self, mut direction: Vec3) -> Vec3 {
+        for (shear, axis) in self.shear.into_iter().zip(self.axes).take(2) {
+            if shear == 0.0 {
+                direction[axis] = 0.0;
+            }
+        }
+        direction
     }
 
     /// The distance along the ray to a coordinate on that axis.

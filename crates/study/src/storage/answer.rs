@@ -2,30 +2,25 @@
 
 use trigon_math::Vec3;
 
-/// What was found, and how many indices were read on the way.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Found<T> {
-    /// The answer.
-    pub answer: T,
-    /// Indices of vertices, edges, faces and corners that were read.
-    pub reads: u64,
-}
-
 /// A representation of a closed triangle mesh.
 pub trait Storage {
     /// What the lists hold in memory.
     fn bytes(&self) -> usize;
 
+    /// How many indices of vertices, edges, faces and corners were read so far: counted where they are read, in a
+    /// representation that was made for counting, and 0 in the others.
+    fn reads(&self) -> u64;
+
     /// The edge nearest to a point of a face: the one that a click means. Its smaller
     /// vertex is first.
-    fn nearest_edge(&self, face: u32, point: Vec3) -> Found<[u32; 2]>;
+    fn nearest_edge(&self, face: u32, point: Vec3) -> [u32; 2];
 
     /// The triangles about a vertex, whose planes change with it: vertices in ascending
     /// order, triangles likewise.
-    fn triangles_around(&self, vertex: u32) -> Found<Vec<[u32; 3]>>;
+    fn triangles_around(&self, vertex: u32) -> Vec<[u32; 3]>;
 
     /// The vertices that share an edge with a vertex, in ascending order.
-    fn neighbours(&self, vertex: u32) -> Found<Vec<u32>>;
+    fn neighbours(&self, vertex: u32) -> Vec<u32>;
 }
 
 /// The smaller vertex first.

@@ -3,17 +3,18 @@
 //! opposite to it in the triangle across; all else follows from the numbers.
 
 use super::Triangles;
-use super::answer::{Found, Storage, byte_count, in_order, nearest};
+use super::answer::{Storage, byte_count, in_order, nearest};
+use super::reads::List;
 use std::collections::BTreeMap;
 use trigon_math::Vec3;
 
 /// Two numbers for each corner, and one corner for each vertex.
-pub struct CornerTable {
+pub struct CornerTable<const COUNTED: bool> {
     positions: Vec<Vec3>,
-    vertices: Vec<u32>,
-    opposites: Vec<u32>,
+    vertices: List<u32, COUNTED>,
+    opposites: List<u32, COUNTED>,
     /// A corner of each vertex.
-    corners: Vec<u32>,
+    corners: List<u32, COUNTED>,
 }
 
 /// The corner after this one in its triangle.
@@ -21,7 +22,7 @@ fn next(corner: u32) -> u32 {
     corner - corner % 3 + (corner + 1) % 3
 }
 
-impl CornerTable {
+impl<const COUNTED: bool> CornerTable<COUNTED> {
     /// Of a closed mesh.
     #[must_use]
     pub fn new(Triangles { positions, triangles }: &Triangles) -> Self {
@@ -36,47 +37,54 @@ impl CornerTable {
         let opposites = all.clone().map(opposite).collect();
         let mut corners = vec![0; positions.len()];
         all.for_each(|corner| corners[vertices[corner as usize] as usize] = corner);
-        Self { positions: positions.clone(), vertices, opposites, corners }
+        Self {
+            positions: positions.clone(),
+            vertices: List::new(vertices),
+            opposites: List::new(opposites),
+            corners: List::new(corners),
+        }
     }
 
     fn vertex(&self, corner: u32) -> u32 {
-        self.vertices[corner as usize]
+        self.vertices.at(corner)
     }
 
     /// The corners of a vertex, in turn.
     fn corners_around(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
-        let first = self.corners[vertex as usize];
+        let first = self.corners.at(vertex);
         // Across the side before the corner, the vertex's corner follows the opposite.
-        let turn = |corner: u32| next(self.opposites[next(corner) as usize]);
+        let turn = |corner: u32| next(self.opposites.at(next(corner)));
         std::iter::successors(Some(first), move |&corner| {
             Some(turn(corner)).filter(|&corner| corner != first)
         })
     }
 }
 
-impl Storage for CornerTable {
+impl<const COUNTED: bool> Storage for CornerTable<COUNTED> {
     fn bytes(&self) -> usize {
-        let corners = byte_count(&self.vertices) + byte_count(&self.opposites);
-        byte_count(&self.positions) + corners + byte_count(&self.corners)
+        let corners = self.vertices.bytes() + self.opposites.bytes();
+        byte_count(&self.positions) + corners + self.corners.bytes()
     }
 
-    fn nearest_edge(&self, face: u32, point: Vec3) -> Found<[u32; 2]> {
+    fn reads(&self) -> u64 {
+        self.vertices.reads() + self.opposites.reads() + self.corners.reads()
+    }
+
+    fn nearest_edge(&self, face: u32, point: Vec3) -> [u32; 2] {
         let [a, b, c] = [0, 1, 2].map(|i| self.vertex(3 * face + i));
-        Found { answer: nearest([[a, b], [b, c], [c, a]], &self.positions, point), reads: 3 }
+        nearest([[a, b], [b, c], [c, a]], &self.positions, point)
     }
 
-    fn triangles_around(&self, vertex: u32) -> Found<Vec<[u32; 3]>> {
+    fn triangles_around(&self, vertex: u32) -> Vec<[u32; 3]> {
         let triangle =
             |corner: u32| [corner, next(corner), next(next(corner))].map(|corner| self.vertex(corner));
-        let triangles: Vec<[u32; 3]> = self.corners_around(vertex).map(triangle).collect();
-        let reads = 1 + 4 * triangles.len() as u64;
-        Found { answer: in_order(triangles), reads }
+        in_order(self.corners_around(vertex).map(triangle).collect())
     }
 
-    fn neighbours(&self, vertex: u32) -> Found<Vec<u32>> {
+    fn neighbours(&self, vertex: u32) -> Vec<u32> {
         let mut answer: Vec<u32> =
             self.corners_around(vertex).map(|corner| self.vertex(next(corner))).collect();
         answer.sort_unstable();
-        Found { reads: 1 + 2 * answer.len() as u64, answer }
+        answer
     }
 }

@@ -1,14 +1,16 @@
 //! Lists of different lengths in one piece of memory.
 
 use super::answer::byte_count;
+use super::reads::Reads;
 
 /// For each key its values, in the order in which they were given.
-pub(super) struct Groups {
+pub(super) struct Groups<const COUNTED: bool> {
     starts: Vec<u32>,
     values: Vec<u32>,
+    reads: Reads<COUNTED>,
 }
 
-impl Groups {
+impl<const COUNTED: bool> Groups<COUNTED> {
     /// Of pairs of a key below `count` and a value.
     pub(super) fn new(count: usize, pairs: impl Iterator<Item = [u32; 2]> + Clone) -> Self {
         let mut starts = vec![0; count + 1];
@@ -24,12 +26,18 @@ impl Groups {
             values[next[key as usize] as usize] = value;
             next[key as usize] += 1;
         }
-        Self { starts, values }
+        Self { starts, values, reads: Reads::default() }
     }
 
-    pub(super) fn of(&self, key: u32) -> &[u32] {
+    /// The values of a key. Each counts as read when the iterator reaches it; where they begin and end does not count.
+    #[inline]
+    pub(super) fn of(&self, key: u32) -> impl Iterator<Item = u32> + Clone + '_ {
         let [from, to] = [0, 1].map(|i| self.starts[key as usize + i] as usize);
-        &self.values[from..to]
+        self.values[from..to].iter().map(|&value| self.reads.note(value))
+    }
+
+    pub(super) fn reads(&self) -> u64 {
+        self.reads.count()
     }
 
     pub(super) fn bytes(&self) -> usize {

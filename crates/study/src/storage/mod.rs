@@ -8,6 +8,7 @@ mod corner_table;
 mod face_list;
 mod groups;
 mod own;
+mod reads;
 mod triangles;
 mod vertex_list;
 mod winged_edge;
@@ -15,7 +16,7 @@ mod winged_edge;
 #[cfg(test)]
 mod tests;
 
-pub use answer::{Found, Storage};
+pub use answer::Storage;
 pub use corner_table::CornerTable;
 pub use face_list::FaceList;
 pub use own::Own;
@@ -26,11 +27,41 @@ pub use winged_edge::WingedEdge;
 /// Makes a representation.
 pub type Maker = fn(&Triangles) -> Box<dyn Storage>;
 
-/// The name of each representation in tables, with how it is made.
-pub const REPRESENTATIONS: [(&str, Maker); 5] = [
-    ("vertex lists", |triangles| Box::new(VertexList::new(triangles))),
-    ("face lists", |triangles| Box::new(FaceList::new(triangles))),
-    ("winged edges", |triangles| Box::new(WingedEdge::new(triangles))),
-    ("corner table", |triangles| Box::new(CornerTable::new(triangles))),
-    ("faces with edges (D, trigon)", |triangles| Box::new(Own::new(triangles))),
+/// A representation with its name in tables.
+pub struct Representation {
+    /// Its name.
+    pub name: &'static str,
+    /// Makes one that counts nothing, to be timed.
+    pub plain: Maker,
+    /// Makes one that counts what it reads.
+    pub counted: Maker,
+}
+
+/// All representations.
+pub const REPRESENTATIONS: [Representation; 5] = [
+    Representation {
+        name: "vertex lists",
+        plain: |triangles| Box::new(VertexList::<false>::new(triangles)),
+        counted: |triangles| Box::new(VertexList::<true>::new(triangles)),
+    },
+    Representation {
+        name: "face lists",
+        plain: |triangles| Box::new(FaceList::<false>::new(triangles)),
+        counted: |triangles| Box::new(FaceList::<true>::new(triangles)),
+    },
+    Representation {
+        name: "winged edges",
+        plain: |triangles| Box::new(WingedEdge::<false>::new(triangles)),
+        counted: |triangles| Box::new(WingedEdge::<true>::new(triangles)),
+    },
+    Representation {
+        name: "corner table",
+        plain: |triangles| Box::new(CornerTable::<false>::new(triangles)),
+        counted: |triangles| Box::new(CornerTable::<true>::new(triangles)),
+    },
+    Representation {
+        name: "faces with edges (D, trigon)",
+        plain: |triangles| Box::new(Own::<false>::new(triangles)),
+        counted: |triangles| Box::new(Own::<true>::new(triangles)),
+    },
 ];

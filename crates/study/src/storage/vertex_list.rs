@@ -2,17 +2,17 @@
 //! edges: they have to be found among the neighbours.
 
 use super::Triangles;
-use super::answer::{Found, Storage, byte_count, in_order, nearest};
+use super::answer::{Storage, byte_count, in_order, nearest};
 use super::groups::Groups;
 use trigon_math::Vec3;
 
 /// Vertices that know their neighbours.
-pub struct VertexList {
+pub struct VertexList<const COUNTED: bool> {
     positions: Vec<Vec3>,
-    neighbours: Groups,
+    neighbours: Groups<COUNTED>,
 }
 
-impl VertexList {
+impl<const COUNTED: bool> VertexList<COUNTED> {
     /// Of a closed mesh, where each side of a triangle is that of another, reversed.
     #[must_use]
     pub fn new(Triangles { positions, triangles }: &Triangles) -> Self {
@@ -21,36 +21,37 @@ impl VertexList {
     }
 }
 
-impl Storage for VertexList {
+impl<const COUNTED: bool> Storage for VertexList<COUNTED> {
     fn bytes(&self) -> usize {
         byte_count(&self.positions) + self.neighbours.bytes()
     }
 
+    fn reads(&self) -> u64 {
+        self.neighbours.reads()
+    }
+
     /// Without faces, among all edges.
-    fn nearest_edge(&self, _: u32, point: Vec3) -> Found<[u32; 2]> {
+    fn nearest_edge(&self, _: u32, point: Vec3) -> [u32; 2] {
         let vertices = 0..self.positions.len() as u32;
-        let edges = vertices.flat_map(|a| self.neighbours.of(a).iter().map(move |&b| [a, b]));
-        let reads = edges.clone().count() as u64;
-        Found { answer: nearest(edges, &self.positions, point), reads }
+        let edges = vertices.flat_map(|a| self.neighbours.of(a).map(move |b| [a, b]));
+        nearest(edges, &self.positions, point)
     }
 
     /// Neighbours that are neighbours of each other.
-    fn triangles_around(&self, vertex: u32) -> Found<Vec<[u32; 3]>> {
+    fn triangles_around(&self, vertex: u32) -> Vec<[u32; 3]> {
         let around = self.neighbours.of(vertex);
-        let mut reads = around.len() as u64;
         let mut triangles = Vec::new();
-        for &one in around {
-            let others = self.neighbours.of(one);
-            reads += others.len() as u64;
-            let shared = others.iter().filter(|other| **other > one && around.contains(other));
-            triangles.extend(shared.map(|&other| [vertex, one, other]));
+        for one in around.clone() {
+            let later = self.neighbours.of(one).filter(|&other| other > one);
+            let shared = later.filter(|&other| around.clone().any(|third| third == other));
+            triangles.extend(shared.map(|other| [vertex, one, other]));
         }
-        Found { answer: in_order(triangles), reads }
+        in_order(triangles)
     }
 
-    fn neighbours(&self, vertex: u32) -> Found<Vec<u32>> {
-        let mut answer = self.neighbours.of(vertex).to_vec();
+    fn neighbours(&self, vertex: u32) -> Vec<u32> {
+        let mut answer: Vec<u32> = self.neighbours.of(vertex).collect();
         answer.sort_unstable();
-        Found { reads: answer.len() as u64, answer }
+        answer
     }
 }

@@ -3,8 +3,9 @@
 //! and an edge knows its two vertices, its two faces and four edges next to it.
 
 use super::Triangles;
-use super::answer::{Found, Storage, byte_count, in_order, nearest};
+use super::answer::{Storage, byte_count, in_order, nearest};
 use super::groups::Groups;
+use super::reads::List;
 use std::collections::BTreeMap;
 use trigon_math::Vec3;
 
@@ -19,14 +20,14 @@ struct Wings {
 }
 
 /// Vertices, edges and faces that know each other.
-pub struct WingedEdge {
+pub struct WingedEdge<const COUNTED: bool> {
     positions: Vec<Vec3>,
-    edges: Vec<Wings>,
-    face_edges: Vec<[u32; 3]>,
-    vertex_edges: Groups,
+    edges: List<Wings, COUNTED>,
+    face_edges: List<[u32; 3], COUNTED>,
+    vertex_edges: Groups<COUNTED>,
 }
 
-impl WingedEdge {
+impl<const COUNTED: bool> WingedEdge<COUNTED> {
     /// Of a closed mesh.
     #[must_use]
     pub fn new(Triangles { positions, triangles }: &Triangles) -> Self {
@@ -55,47 +56,51 @@ impl WingedEdge {
         }
         let ends = (0..).zip(&edges).flat_map(|(edge, wings)| wings.vertices.map(|vertex| [vertex, edge]));
         let vertex_edges = Groups::new(positions.len(), ends);
+        let (edges, face_edges) = (List::new(edges), List::new(face_edges));
         Self { positions: positions.clone(), edges, face_edges, vertex_edges }
     }
 
     fn vertices(&self, edge: u32) -> [u32; 2] {
-        self.edges[edge as usize].vertices
+        self.edges.read(edge, |wings| wings.vertices)
     }
 }
 
-impl Storage for WingedEdge {
+impl<const COUNTED: bool> Storage for WingedEdge<COUNTED> {
     fn bytes(&self) -> usize {
-        let lists = byte_count(&self.edges) + byte_count(&self.face_edges);
+        let lists = self.edges.bytes() + self.face_edges.bytes();
         byte_count(&self.positions) + lists + self.vertex_edges.bytes()
     }
 
-    fn nearest_edge(&self, face: u32, point: Vec3) -> Found<[u32; 2]> {
-        let edges = self.face_edges[face as usize].map(|edge| self.vertices(edge));
-        Found { answer: nearest(edges, &self.positions, point), reads: 3 + 6 }
+    fn reads(&self) -> u64 {
+        self.edges.reads() + self.face_edges.reads() + self.vertex_edges.reads()
+    }
+
+    fn nearest_edge(&self, face: u32, point: Vec3) -> [u32; 2] {
+        let edges = self.face_edges.read(face, |edges| *edges).map(|edge| self.vertices(edge));
+        nearest(edges, &self.positions, point)
     }
 
     /// Each edge of the vertex leads to the face on one side of it, and a wing to that
     /// face's third vertex.
-    fn triangles_around(&self, vertex: u32) -> Found<Vec<[u32; 3]>> {
-        let around = self.vertex_edges.of(vertex);
-        let triangle = |&edge: &u32| {
-            let Wings { vertices: [a, b], wings, .. } = self.edges[edge as usize];
+    fn triangles_around(&self, vertex: u32) -> Vec<[u32; 3]> {
+        let triangle = |edge: u32| {
+            let [a, b] = self.vertices(edge);
             // The face that runs along the edge away from the vertex.
-            let wing = if a == vertex { wings[1] } else { wings[3] };
+            let side = if a == vertex { 1 } else { 3 };
+            let [wing] = self.edges.read(edge, |edge| [edge.wings[side]]);
             let [c, d] = self.vertices(wing);
             [a, b, if c == a || c == b { d } else { c }]
         };
-        Found { answer: in_order(around.iter().map(triangle).collect()), reads: 6 * around.len() as u64 }
+        in_order(self.vertex_edges.of(vertex).map(triangle).collect())
     }
 
-    fn neighbours(&self, vertex: u32) -> Found<Vec<u32>> {
-        let around = self.vertex_edges.of(vertex);
-        let other = |&edge: &u32| {
+    fn neighbours(&self, vertex: u32) -> Vec<u32> {
+        let other = |edge: u32| {
             let [a, b] = self.vertices(edge);
             if a == vertex { b } else { a }
         };
-        let mut answer: Vec<u32> = around.iter().map(other).collect();
+        let mut answer: Vec<u32> = self.vertex_edges.of(vertex).map(other).collect();
         answer.sort_unstable();
-        Found { answer, reads: 3 * around.len() as u64 }
+        answer
     }
 }

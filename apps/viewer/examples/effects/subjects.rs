@@ -1,146 +1,34 @@
-//! Writes `docs/effects.md`: what each effect adds to a picture, why it was on, and
-//! what it costs, on three scenes.
-//!
-//! `cargo run --release -p trigon-viewer --no-default-features --example effects -- docs`
+//! The scenes, and the settings by which each effect is on.
 
-use std::error::Error;
-use std::fmt::Write;
-use std::fs;
 use std::num::NonZeroUsize;
-use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
 
 use trigon_camera::Camera;
-use trigon_io::{Pixels, write_png};
 use trigon_math::glam::Affine2;
-use trigon_math::{DVec3, Vec2, Vec3, Vec4};
+use trigon_math::{DQuat, DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::primitives::{self, TorusKnot};
+use trigon_mesh::{Attributes, Deltas, Mesh, MorphTarget};
 use trigon_scene::{
-    AmbientOcclusion, Background, Effect, EffectPlan, Environment, Fog, Frame, Light, Lighting, Material,
-    MetallicRoughness, Node, NodeId, NormalMap, Outline, RenderSettings, Renderer, Scene, Shading, Shadows,
-    Sky, Style, Texture, TextureBinding, TextureFormat, ToneMapping, Transform, render, showcase,
+    AlphaMode, AmbientOcclusion, Background, Effect, Environment, Fog, Light, Lighting, Material,
+    MetallicRoughness, Node, NodeId, NormalMap, Occlusion, Outline, RenderSettings, Scene, Shading, Shadows,
+    Sky, Style, Texture, TextureBinding, TextureFormat, ToneMapping, Transform, showcase,
 };
 
-/// Pictures of which the quickest counts.
-const REPETITIONS: usize = 7;
-
 /// A scene and how it is looked at.
-struct Subject {
-    name: &'static str,
-    scene: Scene,
-    camera: Camera,
+pub(crate) struct Subject {
+    pub(crate) scene: Scene,
+    pub(crate) camera: Camera,
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let folder = std::env::args().nth(1).ok_or("name the folder to write to, such as docs")?;
-    let folder = Path::new(&folder);
-    fs::create_dir_all(folder.join("effects"))?;
-    let mut page = INTRODUCTION.to_owned();
-    for subject in [exhibition(), materials(), knot()] {
-        write!(page, "\n## {}\n\n{HEAD}", subject.name)?;
-        for (effect, settings) in shown(&subject) {
-            let plan = EffectPlan::new(&subject.scene, &subject.camera, &settings);
-            let without = effect.left_out(&subject.scene, &settings).filter(|_| plan.is_on(effect));
-            if let Some(without) = without {
-                page.push_str(&row(
-                    &subject,
-                    (effect, &plan),
-                    [&without.0, &subject.scene],
-                    [&without.1, &settings],
-                    folder,
-                )?);
-            }
-        }
-    }
-    fs::write(folder.join("effects.md"), page)?;
-    Ok(())
-}
+/// Makes a subject.
+pub(crate) type Maker = fn() -> Subject;
 
-const INTRODUCTION: &str = "# Effects
+/// The names of all subjects, and what makes each.
+pub(crate) const SUBJECTS: [(&str, Maker); 4] =
+    [("Exhibition", exhibition), ("Materials", materials), ("Knot", knot), ("Figures", figures)];
 
-Every effect is off until a scene and its settings call for it, and then takes
-nothing: no attribute, texture, pass, ray or byte (test `off_means_zero`). Here
-each effect is taken away from a picture that has it. Times are those of a picture of
-480×300 pixels without anti-aliasing on one thread, the shortest of seven in turns;
-percentages are of the picture without the effect.
-
-This page is written by
-
-    cargo run --release -p trigon-viewer --no-default-features --example effects -- docs
-
-and `trigon-viewer FILE --explain=time` does the same for any model.
-
-## How shadow maps are kept off their own surface
-
-A map holds depths at the middles of its texels, and a point on the same plane lies
-up to √2 texels aside. So points are moved along the normal of the surface, by √2 ·
-sin θ texels, θ being the angle between normal and light, which is just what a plane
-needs, and by a quarter of a texel for curvature and rounding. Nothing is added to
-depths. A shadow begins at most 1.7 texels from what casts it. Rays need none of
-this.
-
-## What metals mirror
-
-With lamps alone metals are black beside their highlights. Where a scene has neither an
-environment nor ambient light of its own, and is not drawn by its own lights only
-(`Lighting::Scene`), they mirror the built-in sky, +Y of the world up. It is mixed with
-the ambient light that was added by how metallic a point is: dielectrics keep every byte,
-and vectors of eight pixels without metal look nothing up. `--metal-reflection=ambient`
-leaves it out. A default material of glTF is a metal, too.
-
-Three balls of metal, of roughness 0, 0.35 and 0.7 on 43 % of 480×300 pixels, take 13 %
-more instructions by it, and 15 million once, for the table of the sky, which is a quarter
-of such a picture (callgrind, AVX2, one thread). Without metal in view there is neither.
-";
-
-const HEAD: &str =
-    "| effect | without | with | why | ms without | ms with | cost |\n|---|---|---|---|---|---|---|\n";
-
-fn row(
-    subject: &Subject,
-    (effect, plan): (Effect, &EffectPlan),
-    scenes: [&Scene; 2],
-    settings: [&RenderSettings; 2],
-    folder: &Path,
-) -> Result<String, Box<dyn Error>> {
-    let slug = |way: &str| format!("{}-{effect}-{way}.png", subject.name).to_lowercase().replace(' ', "-");
-    let [off, on] = [slug("without"), slug("with")];
-    let shots = [(scenes[0], settings[0], &off), (scenes[1], settings[1], &on)];
-    for (scene, settings, name) in shots {
-        let smooth = RenderSettings { samples_per_axis: 3, width: 240, height: 150, ..settings.clone() };
-        let frame = render(scene, &subject.camera, &smooth)?;
-        let pixels = Pixels::Rgba8(&frame.color);
-        write_png(folder.join("effects").join(name), frame.width, frame.height, pixels)?;
-    }
-    let [less, more] = milliseconds(shots.map(|(scene, settings, _)| (scene, settings)), &subject.camera)?;
-    let percent = (more / less - 1.0) * 100.0;
-    let why = plan.decision(effect);
-    Ok(format!(
-        "| {effect} | ![](effects/{off}) | ![](effects/{on}) | {why} | {less:.2} | {more:.2} | {percent:+.0} % |\n"
-    ))
-}
-
-/// The shortest times of two pictures, drawn in turns, so that whatever else the
-/// machine does meets both.
-fn milliseconds(shots: [(&Scene, &RenderSettings); 2], camera: &Camera) -> Result<[f64; 2], Box<dyn Error>> {
-    let mut kept = shots.map(|(_, settings)| (Renderer::new(settings.clone()), Frame::default()));
-    let mut shortest = [f64::INFINITY; 2];
-    for repetition in 0..=REPETITIONS {
-        for (((renderer, frame), (scene, _)), shortest) in kept.iter_mut().zip(shots).zip(&mut shortest) {
-            let start = Instant::now();
-            renderer.render_into(scene, camera, frame)?;
-            let time = start.elapsed().as_secs_f64() * 1e3;
-            if repetition > 0 && time < *shortest {
-                *shortest = time;
-            }
-        }
-    }
-    Ok(shortest)
-}
-
-/// Every effect that can be left out by itself, with settings that may have it.
-fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
+/// Every effect with settings that may have it.
+pub(crate) fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
     let plain = RenderSettings {
         samples_per_axis: 1,
         threads: NonZeroUsize::new(1),
@@ -161,11 +49,20 @@ fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
         .skip(1)
         .take(1)
         .collect();
-    vec![
-        asked(Effect::Highlights, &|_| {}),
-        asked(Effect::Textures, &|_| {}),
-        asked(Effect::NormalMaps, &|_| {}),
-        asked(Effect::Emission, &|_| {}),
+    let of_scene = [
+        Effect::Lamps,
+        Effect::AmbientLight,
+        Effect::Highlights,
+        Effect::Textures,
+        Effect::NormalMaps,
+        Effect::OcclusionMaps,
+        Effect::Emission,
+        Effect::VertexColors,
+        Effect::Masks,
+        Effect::Transparency,
+        Effect::Poses,
+    ];
+    let of_settings = vec![
         asked(Effect::Environment, &|settings| {
             settings.effects.environment = Some(Arc::clone(&sky));
             settings.background = Background::Environment;
@@ -191,14 +88,15 @@ fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
             settings.effects.outline = Some(outline);
         }),
         asked(Effect::Edges, &|settings| settings.style = Style::SurfaceWithEdges),
-    ]
+    ];
+    of_scene.map(|effect| (effect, plain.clone())).into_iter().chain(of_settings).collect()
 }
 
 /// The built-in scene.
 fn exhibition() -> Subject {
     let scene = showcase();
     let camera = scene.cameras()[0].1;
-    Subject { name: "Exhibition", scene, camera }
+    Subject { scene, camera }
 }
 
 /// Balls of several materials on a checked floor.
@@ -235,7 +133,7 @@ fn materials() -> Subject {
     }
     light(&mut scene);
     let camera = Camera::look_at(DVec3::new(0.3, 2.6, 8.2), DVec3::new(0.0, 0.4, 0.0), DVec3::Y);
-    Subject { name: "Materials", scene, camera }
+    Subject { scene, camera }
 }
 
 /// A textured torus knot with a normal map.
@@ -256,7 +154,83 @@ fn knot() -> Subject {
     }
     light(&mut scene);
     let camera = Camera::look_at(DVec3::new(1.0, 2.6, 6.0), DVec3::new(0.0, 1.0, 0.0), DVec3::Y);
-    Subject { name: "Knot", scene, camera }
+    Subject { scene, camera }
+}
+
+/// What a scene has by itself and the others lack: a ball with vertex colours, a fence with holes, a pane, a ball with an
+/// occlusion map, and a ball halfway towards another shape.
+fn figures() -> Subject {
+    let mut scene = Scene::new();
+    scene.add_object("floor", primitives::plane(7.0, 7.0), Material::from_color(Vec3::splat(0.6)));
+    let colors = scene.add_texture("holes", texture(TextureFormat::Srgb, holes));
+    let shade = scene.add_texture("shade", texture(TextureFormat::Linear, bumps));
+    let ball = || primitives::uv_sphere(0.6, 96, 48);
+    let holes = Some(TextureBinding::new(colors));
+    let fence = Material {
+        base_color: Vec4::ONE,
+        base_color_texture: holes,
+        double_sided: true,
+        ..Material::default()
+    };
+    let occlusion = Some(Occlusion { binding: TextureBinding::new(shade), strength: 1.0 });
+    let objects = [
+        ("painted", painted(ball()), Material { base_color: Vec4::ONE, ..Material::default() }),
+        (
+            "fence",
+            primitives::plane(1.2, 1.2),
+            Material { alpha_mode: AlphaMode::Mask { cutoff: 0.5 }, ..fence },
+        ),
+        (
+            "pane",
+            primitives::plane(1.2, 1.2),
+            Material {
+                base_color: Vec4::new(0.2, 0.5, 0.7, 0.4),
+                alpha_mode: AlphaMode::Blend,
+                double_sided: true,
+                ..Material::default()
+            },
+        ),
+        ("dented", ball(), Material { occlusion, ..Material::from_color(Vec3::new(0.7, 0.6, 0.5)) }),
+        ("posed", posed(ball()), Material::from_color(Vec3::new(0.3, 0.6, 0.4))),
+    ];
+    for (i, (name, mesh, material)) in (-2_i8..).zip(objects) {
+        let is_flat = matches!(name, "fence" | "pane");
+        let object = scene.add_object(name, mesh, material);
+        if let Some(node) = scene.node_mut(object) {
+            let tilt = if is_flat { DQuat::from_rotation_x(1.2) } else { DQuat::IDENTITY };
+            let place = DVec3::new(f64::from(i) * 1.35, 0.65, 0.0);
+            node.transform = Transform::from_scale_rotation_translation(DVec3::ONE, tilt, place);
+            node.morph_weights = if name == "posed" { vec![0.5] } else { Vec::new() };
+        }
+    }
+    light(&mut scene);
+    let camera = Camera::look_at(DVec3::new(0.3, 2.2, 7.6), DVec3::new(0.0, 0.5, 0.0), DVec3::Y);
+    Subject { scene, camera }
+}
+
+/// With a colour at each corner, by its direction.
+fn painted(mut mesh: Mesh) -> Mesh {
+    let color = |vertex: &u32| (mesh.positions()[*vertex as usize].normalize() * 0.5 + 0.5).extend(1.0);
+    let corner_colors = Some(mesh.corner_vertices().iter().map(color).collect());
+    let attributes = Attributes { corner_colors, ..mesh.attributes().clone() };
+    mesh.set_attributes(attributes).expect("one colour for each corner");
+    mesh
+}
+
+/// With a shape to move towards: upwards by what it is wide there.
+fn posed(mut mesh: Mesh) -> Mesh {
+    let rise = |place: &Vec3| Vec3::Y * (place.x * place.x + place.z * place.z);
+    let positions = Deltas::from_dense(mesh.positions().iter().map(rise));
+    let target = MorphTarget { positions, ..MorphTarget::default() };
+    let attributes = Attributes { morph_targets: vec![target], ..mesh.attributes().clone() };
+    mesh.set_attributes(attributes).expect("one for each vertex");
+    mesh
+}
+
+/// Bars with holes between them.
+fn holes(x: u32, y: u32) -> [u8; 4] {
+    let is_bar = x % 64 < 24 || y % 64 < 24;
+    [150, 110, 70, if is_bar { 255 } else { 0 }]
 }
 
 fn light(scene: &mut Scene) {

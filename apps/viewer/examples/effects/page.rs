@@ -1,0 +1,131 @@
+//! The page's text.
+
+use trigon_scene::Effect;
+
+/// What stands above the tables.
+pub(crate) const INTRODUCTION: &str = "# Effects
+
+Every effect is off until a scene and its settings call for it. An effect that is off costs nothing: no attribute, texture,
+pass, ray or byte (test `off_means_zero`). The tables below take each effect away from a picture that has it, so that you see
+what it adds and what it costs. Every effect that a plan can list has at least one row.
+
+Pictures are timed at 480×300 pixels without anti-aliasing, on one thread, with everything warm. All pictures of a scene are
+drawn in turn, 15 times over, so that a slow moment of the machine affects all of them alike. Two effects that leave the same
+picture behind share its time. A time is the median, with the quartiles in parentheses. A cost is the median of the 15 ratios; where
+their quartiles lie on both sides of 1, or the median is within 2 % of it, there is no measurable difference. Instructions, where
+the table has them, are those of one warm frame (callgrind, AVX2) and hardly vary.
+
+This page is written by
+
+    cargo run --release -p trigon-viewer --no-default-features --example effects -- docs --instructions
+
+and `trigon-viewer FILE --explain=time` measures any model in the same way.
+
+## How shadow maps keep off their own surface
+
+A shadow map holds the depth at the centre of each texel. A point on the same plane can lie up to √2 texels away from that
+centre, and would shadow itself. So points are moved along the surface normal before they are looked up: by √2 · sin θ texels,
+where θ is the angle between normal and light, which is exactly what a plane needs, and by another quarter of a texel for
+curvature and rounding. No bias is added to depths. A shadow therefore begins at most 1.7 texels away from what casts it.
+Shadow rays need none of this.
+
+## What metals reflect
+
+Lit by lamps alone, a metal is black outside its highlights. Metals therefore reflect the built-in sky (with the world's +Y up)
+if the scene has no environment and no ambient light of its own, unless it is drawn with nothing but its own lights
+(`Lighting::Scene`). The sky replaces the ambient light in proportion to how metallic a point is. Dielectrics keep every byte,
+and vectors of eight pixels without any metal look nothing up. `--metal-reflection=ambient` turns it off. Note that glTF's default
+material is a metal.
+
+Three metal balls of roughness 0, 0.35 and 0.7, on 43 % of 480×300 pixels, need 13 % more instructions with it, and 15 million
+once for the table of the sky, which is a quarter of such a picture (callgrind, AVX2, one thread). Without a metal in view there
+is neither.
+";
+
+/// What stands below them.
+pub(crate) const OTHERS: &str = "
+## Over a pipeline written by hand
+
+The bench `overhead` draws a knot of 70,000 triangles at 1920×1080 through the scene renderer, and through a pipeline that is
+written for this one picture. Instructions of one warm frame, in millions (callgrind, AVX2, one thread):
+
+| picture | by hand | by the scene renderer | more |
+|---|--:|--:|--:|
+| one colour, unlit | 60.3 | 60.6 | 0.5 % |
+| a texture, and light at the vertices | 149.2 | 169.0 | 13.3 % |
+
+Of the 19.8 million that the textured picture takes more, 7.6 are because its sampler is data: a pipeline by hand that knows its
+sampler only at run time takes 156.8. About 2.7 do not depend on the number of pixels, which frames of half the width and height
+show (57.8 and 64.8): at the vertices, the scene sums the light of any number of lamps, and the pipeline by hand reads a single
+number. The rest is spent for each group of eight pixels, on branches for parts that are absent and on varyings whose places are
+known only at run time. Compiling the pipeline a second time for the default sampler would save the first of these three.
+
+To count the instructions of a frame (the difference of two counts, divided by ten):
+
+    cargo bench -p trigon-scene --bench overhead -- scene textured 50
+    program=$(ls -t target/release/deps/overhead-* | grep -v '\\.d$' | head -n 1)
+    for frames in 1 11; do valgrind --tool=callgrind \"$program\" hand textured $frames; done
+
+## Beside another renderer
+
+The same meshes, lamps and cameras, drawn by Mitsuba 3.9.1: a physically based renderer whose surfaces, lamps and shadows share
+no code with trigon's. It takes 1,024 samples per pixel with a box filter, trigon 16. Differences are in linear light, relative to the mean light of
+the picture: over all pixels that show a surface, and over those whose neighbours show the same one. `docs/testing.md` has the
+command.
+
+| picture | RMSE | within surfaces | greatest within | why they differ |
+|---|--:|--:|--:|---|
+| Lambert's law, a ball in the sun | 0.14 % | 0.009 % | 0.35 % | f32; at outlines 16 samples against 1,024. The greatest difference is where light grazes the ball: Mitsuba also tests on which side of the triangle itself the sun is |
+| GGX, a white metal of roughness 0.4 | 0.14 % | 0.12 % | 2.3 % | Mitsuba treats masking and shadowing of microfacets as independent; glTF, and so trigon, correlates them by height. It shows at grazing light |
+| GGX on a black dielectric of roughness 0.5 | 3.7 % | 3.8 % | 23 % | Fresnel's equations against Schlick's approximation, which glTF prescribes; and masking, as above |
+| a normal map on a floor in the sun | 0.47 % | 0.45 % | 34 % | Mitsuba's error: at the brightest places it is 0.5 % below the value that follows from the definition (filtered bytes, normalized, times the light; six pixels computed separately in f64), and trigon is within 0.002 % of it. Six of Mitsuba's pixels at the far edge differ from their neighbours; without them the greatest difference is 0.67 % |
+| a point light above a floor | 0.028 % | 0.001 % | 0.016 % | f32 |
+| a spot light with a rim of an eighth of a degree | 2.2 % | 2.2 % | 70 % | the rim, with 16 samples per pixel |
+| a spot light that fades from 17° to 34° | 60 % | 61 % | 414 % | Mitsuba fades linearly in the angle, KHR_lights_punctual with the square of a cosine. Inside the fading zone's inner cone they differ by 0.002 % at most; outside its outer cone both are dark |
+| a shadow of a knot, by rays | 0.51 % | 0.50 % | 15 % | the shadow's edge, with 16 samples per pixel |
+| the same by maps of 2,048 texels | 1.1 % | 1.1 % | 42 % | the shadow's edge: filtered texels |
+";
+
+/// What an effect costs.
+pub(crate) struct Cost {
+    /// The quarters of the milliseconds without it.
+    pub(crate) without: [f64; 3],
+    /// The quarters of those with it.
+    pub(crate) with: [f64; 3],
+    /// The quarters of the ratios of both in the same round.
+    pub(crate) ratio: [f64; 3],
+    /// The ratio of the instructions, if they were counted.
+    pub(crate) instructions: Option<f64>,
+}
+
+/// The head of a table.
+pub(crate) fn head(is_counted: bool) -> String {
+    let [name, line] = if is_counted { [" instructions |", "--:|"] } else { ["", ""] };
+    format!(
+        "| effect | without | with | why | ms without | ms with | cost |{name}\n|---|---|---|---|--:|--:|--:|{line}\n"
+    )
+}
+
+/// A line of a table.
+pub(crate) fn row(effect: Effect, [off, on]: &[String; 2], reason: &str, cost: &Cost) -> String {
+    let milliseconds = |[low, median, high]: [f64; 3]| format!("{median:.2} ({low:.2}–{high:.2})");
+    let [less, more] = [cost.without, cost.with].map(milliseconds);
+    let counted = cost.instructions.map_or_else(String::new, |ratio| format!(" {} |", percent(ratio)));
+    let said = said(cost.ratio);
+    format!(
+        "| {effect} | ![](effects/{off}) | ![](effects/{on}) | {reason} | {less} | {more} | {said} |{counted}\n"
+    )
+}
+
+/// The cost in words.
+fn said([low, median, high]: [f64; 3]) -> String {
+    const NOISE: f64 = 0.02;
+    let is_noise = (low <= 1.0 && high >= 1.0) || (median - 1.0).abs() <= NOISE;
+    if is_noise { "no measurable difference".to_owned() } else { percent(median) }
+}
+
+/// By how much something grew. A change that rounds to nothing has no sign.
+fn percent(ratio: f64) -> String {
+    let percent = ((ratio - 1.0) * 100.0).round();
+    if percent == 0.0 { "0 %".to_owned() } else { format!("{percent:+.0} %") }
+}
