@@ -147,7 +147,16 @@ pub(crate) enum UiRequest {
     Help,
     AdjustPanel,
     ToggleEditMode,
-    Select(ElementKind),
+    /// Selects elements of a kind, or adds the kind to those that are selected, or removes it.
+    Select {
+        kind: ElementKind,
+        extend: bool,
+    },
+    /// Opens the mesh on the pointer's side of the selection.
+    Rip {
+        /// Whether faces fill the gap.
+        fill: bool,
+    },
     ToolBar,
     SideBar,
     EmulateMouse,
@@ -174,6 +183,13 @@ pub(crate) enum UiRequest {
 impl UiRequest {
     /// Whether it leaves the document and its picture as they are.
     pub(crate) fn is_about_window(self) -> bool {
-        !matches!(self, Self::ToggleEditMode | Self::Select(_) | Self::LinkedAtPointer | Self::Parent { .. })
+        !matches!(
+            self,
+            Self::ToggleEditMode
+                | Self::Select { .. }
+                | Self::Rip { .. }
+                | Self::LinkedAtPointer
+                | Self::Parent { .. }
+        )
     }
 }

@@ -24,8 +24,9 @@ pub use history::{Entry, History};
 pub use recovery::{Event, RecoveryLog, RecoveryStatus, RecoveryWriter, UnreadableRecovery};
 pub use script::{Script, ScriptProgress};
 pub use selection::{
-    ElementKind, Elements, MeshSelection, Selection, Similarity, border_edges, edge_loop, edge_ring,
-    face_loop, faces_of_material, faces_towards, non_manifold_edges, sharp_edges, shortest_path, similar,
+    ElementKind, ElementKinds, Elements, MeshSelection, Selection, Similarity, border_edges, edge_loop,
+    edge_ring, face_loop, faces_of_material, faces_towards, non_manifold_edges, sharp_edges, shortest_path,
+    similar,
 };
 pub use storage::{Disk, SaveError, Storage, backup_path, save};
 

@@ -181,6 +181,20 @@ fn operations() -> Vec<Operation> {
             Some("edge", 3),
             |r, _| json!({ "width": 0.05, "segments": (1 + r.below(3)), "vertices": (r.below(4) == 0) }),
         ),
+        operation("bevel", Some("edge", 6), |r, _| {
+            let types = ["offset", "width", "depth", "percent", "absolute"];
+            let (outer, inner) = (["sharp", "patch", "arc"][r.below(3)], ["sharp", "arc"][r.below(2)]);
+            json!({
+                "width": 0.03, "width_type": types[r.below(5)], "segments": (1 + r.below(3)),
+                "outer_miter": outer, "inner_miter": inner, "mark_sharp": (r.below(2) == 0),
+                "mark_seams": (r.below(2) == 0), "harden_normals": (r.below(2) == 0)
+            })
+        }),
+        operation(
+            "rip",
+            Some("edge", 2),
+            |r, _| json!({ "direction": (r.vector()), "fill": (r.below(2) == 0) }),
+        ),
         operation("duplicate", Some("face", 3), |r, _| json!({ "offset": (r.vector()) })),
         operation("split_off", Some("face", 2), |_, _| json!({})),
         operation("dissolve", Some("edge", 1), |_, _| json!({})),

@@ -1,8 +1,8 @@
 //! Ctrl+B: bevels the selected edges or vertices. The width grows with the distance of the pointer from their
-//! centre; the wheel changes the number of segments.
+//! centre; the wheel changes the number of segments, and keys change everything else.
 
 use trigon_edit::mesh::math::{DVec2, DVec3};
-use trigon_edit::{Bevel, Document};
+use trigon_edit::{Bevel, BevelWidth, Document, InnerMiter, OuterMiter};
 use trigon_window::{Hands, Input};
 
 use super::expression::Quantity;
@@ -37,6 +37,8 @@ pub(crate) struct BevelTool {
 /// Pixels for one segment more, and for all profiles from 0 to 1.
 const SEGMENT: f64 = 20.0;
 const PROFILES: f64 = 400.0;
+/// Percent for one pixel.
+const PERCENT: f64 = 0.25;
 /// The most that the kernel makes.
 const MOST_SEGMENTS: f64 = 100.0;
 
@@ -73,7 +75,7 @@ impl BevelTool {
         let typed = self.modal.numeric.value_or(0.0).map_err(|error| error.to_string())?;
         match self.adjusting {
             Adjusting::Width => {
-                let dragged = self.before.width + away * view.metres_per_pixel(self.middle);
+                let dragged = self.before.width + away * self.width_per_pixel(view);
                 self.command.width = typed.unwrap_or(dragged.max(0.0));
             }
             Adjusting::Segments => {
@@ -88,12 +90,34 @@ impl BevelTool {
         Ok(())
     }
 
+    fn width_per_pixel(&self, view: &ToolView) -> f64 {
+        if self.command.width_type == BevelWidth::Percent {
+            return PERCENT / view.scale;
+        }
+        view.metres_per_pixel(self.middle)
+    }
+
+    /// Lets the width measure something else: the whole way of the pointer counts anew.
+    fn next_width_type(&mut self) {
+        self.command.width_type = match self.command.width_type {
+            BevelWidth::Offset => BevelWidth::Width,
+            BevelWidth::Width => BevelWidth::Depth,
+            BevelWidth::Depth => BevelWidth::Percent,
+            BevelWidth::Percent => BevelWidth::Absolute,
+            BevelWidth::Absolute => BevelWidth::Offset,
+        };
+        self.adjust(Adjusting::Width);
+        self.from = self.modal.pointer.start();
+        self.before.width = 0.0;
+    }
+
     fn set_segments(&mut self, segments: f64) {
         self.command.segments = segments.round().clamp(1.0, MOST_SEGMENTS) as u32;
     }
 
     fn adjust(&mut self, adjusting: Adjusting) {
-        let quantity = if adjusting == Adjusting::Width { Quantity::Length } else { Quantity::Factor };
+        let is_length = adjusting == Adjusting::Width && self.command.width_type != BevelWidth::Percent;
+        let quantity = if is_length { Quantity::Length } else { Quantity::Factor };
         self.modal.numeric = NumericEntry::new(quantity, 1);
         self.adjusting = adjusting;
         self.from = self.modal.pointer.place();
@@ -101,12 +125,30 @@ impl BevelTool {
     }
 
     fn key(&mut self, key: char, document: &mut Document, view: &ToolView) -> ToolState {
+        let command = &mut self.command;
         match key {
             'a' => self.adjust(Adjusting::Width),
             's' => self.adjust(Adjusting::Segments),
             'p' => self.adjust(Adjusting::Profile),
-            'c' => self.command.clamp_overlap = !self.command.clamp_overlap,
-            'v' => self.command.vertices = !self.command.vertices,
+            'm' => self.next_width_type(),
+            'c' => command.clamp_overlap ^= true,
+            'v' => command.vertices ^= true,
+            'h' => command.harden_normals ^= true,
+            'k' => command.mark_sharp ^= true,
+            'u' => command.mark_seams ^= true,
+            'o' => {
+                command.outer_miter = match command.outer_miter {
+                    OuterMiter::Sharp => OuterMiter::Patch,
+                    OuterMiter::Patch => OuterMiter::Arc,
+                    OuterMiter::Arc => OuterMiter::Sharp,
+                }
+            }
+            'i' => {
+                command.inner_miter = match command.inner_miter {
+                    InnerMiter::Sharp => InnerMiter::Arc,
+                    InnerMiter::Arc => InnerMiter::Sharp,
+                }
+            }
             _ => return ToolState::Running,
         }
         self.update(document, view)
@@ -130,18 +172,35 @@ impl Tool for BevelTool {
     }
 
     fn status(&self) -> String {
-        let Bevel { width, segments, profile, clamp_overlap, vertices } = &self.command;
-        let typed = self.modal.typed();
+        let command = &self.command;
+        let (width, unit) =
+            (command.width, if command.width_type == BevelWidth::Percent { "%" } else { "m" });
+        let switches = [
+            ("C: clamp", command.clamp_overlap),
+            ("V: vertices", command.vertices),
+            ("H: harden", command.harden_normals),
+            ("K: sharp", command.mark_sharp),
+            ("U: seam", command.mark_seams),
+        ];
+        let switches = switches.map(|(name, is_on)| format!("{name} ({})", on(is_on))).join(", ");
         self.modal.status(format!(
-            "Bevel A: width {width:.4} m, S or wheel: segments {segments}, P: profile {profile:.3} {} \
-             C: clamp overlap ({}), V: vertices ({})",
-            typed,
-            on(*clamp_overlap),
-            on(*vertices),
+            "Bevel A: {width:.4} {unit} {}, M: {}, S/wheel: segments {}, P: profile {:.3}, {switches}, \
+             O: outer ({}), I: inner ({})",
+            self.modal.typed(),
+            name(command.width_type),
+            command.segments,
+            command.profile,
+            name(command.outer_miter),
+            name(command.inner_miter),
         ))
     }
 
     fn pointer_jumped(&mut self, to: DVec2) {
         self.modal.pointer.jumped(to);
     }
+}
+
+/// The name of a choice, as the status line shows it.
+fn name(choice: impl std::fmt::Debug) -> String {
+    format!("{choice:?}").to_lowercase()
 }

@@ -4,8 +4,7 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
 use trigon_edit::{
-    Command, Disk, Document, EditError, EditObjects, ElementKind, LeaveEditMode, Outcome, SetElementKind,
-    Storage,
+    Command, Disk, Document, EditError, EditObjects, LeaveEditMode, Outcome, SetElementKind, Storage,
 };
 use trigon_window::Stage;
 use trigon_window::egui::Rect;
@@ -237,7 +236,8 @@ impl Editor {
             UiRequest::Help => self.layout.help = !self.layout.help,
             UiRequest::AdjustPanel => self.layout.adjust = !self.layout.adjust,
             UiRequest::ToggleEditMode => self.toggle_edit_mode(),
-            UiRequest::Select(kind) => self.select_kind(kind),
+            UiRequest::Select { kind, extend } => self.run(SetElementKind { kind, extend }.into()),
+            UiRequest::Rip { fill } => self.rip(stage, fill),
             UiRequest::ToolBar => self.layout.tool_bar = !self.layout.tool_bar,
             UiRequest::SideBar => self.layout.side_bar = !self.layout.side_bar,
             UiRequest::EmulateMouse => {
@@ -266,10 +266,6 @@ impl Editor {
         } else {
             self.run(EditObjects::default().into());
         }
-    }
-
-    fn select_kind(&mut self, kind: ElementKind) {
-        self.run(SetElementKind { kind }.into());
     }
 
     /// Does what an action of the table does, or says why it cannot.

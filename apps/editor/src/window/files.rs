@@ -205,6 +205,9 @@ impl Editor {
         }
         let waker = stage.waker();
         self.file.begins_save();
+        if let Some(error) = self.recovery.as_mut().and_then(|it| it.save_begins(&mut self.document)) {
+            self.message = Message::Refusal(error);
+        }
         self.saving =
             Some(Saving::start(order, self.document.snapshot(), (self.storage)(), move || waker.wake()));
     }
@@ -217,6 +220,9 @@ impl Editor {
             Saved::Written => {
                 self.message = Message::Info(format!("Saved {}", path.display()));
                 self.recent.add(&path);
+                if let Some(recovery) = &mut self.recovery {
+                    recovery.saved(&path);
+                }
                 next
             }
             Saved::WouldLose(losses) => {

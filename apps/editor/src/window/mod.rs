@@ -27,6 +27,7 @@ mod placing;
 mod pointing;
 mod recent;
 mod recovery;
+mod rip;
 mod running;
 mod saving;
 mod settings;

@@ -1,10 +1,11 @@
 //! Recovery files: written in the background while somebody edits, and found after a crash.
 //!
 //! Each open document has a recovery file and a lock file that this process holds. If that lock is free, the
-//! process that held it ended without closing its document.
+//! process that held it ended without closing its document. The lock file names the document's file, and says how
+//! many events that file holds already.
 
 use std::fs::{self, File};
-use std::io::{Read, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use trigon_edit::{Disk, Document, Event, RecoveryLog, RecoveryWriter};
@@ -15,8 +16,11 @@ use trigon_io::LoadOptions;
 pub(crate) struct Recovery {
     writer: Option<RecoveryWriter>,
     lock: PathBuf,
-    /// Held for as long as the document is open.
-    _held: File,
+    /// The lock file, held for as long as the document is open.
+    held: File,
+    /// How many events were written down, and how many of them when the running save began.
+    events: usize,
+    in_save: usize,
     /// Whether somebody was told that nothing is written any more.
     has_told: bool,
 }
@@ -28,7 +32,7 @@ pub(crate) struct Left {
     lock: PathBuf,
     /// The file that the document had, if it had one.
     pub(crate) document: Option<PathBuf>,
-    /// How many actions can be recovered.
+    /// How many actions can be recovered that its file does not hold.
     pub(crate) actions: usize,
     _held: File,
 }
@@ -57,21 +61,37 @@ impl Recovery {
         fs::create_dir_all(folder).ok()?;
         let (name, mut held) = free_name(folder)?;
         let lock = folder.join(format!("{name}.lock"));
-        // Through the handle that holds the lock: elsewhere than on Unix no other one may.
-        held.write_all(path.and_then(Path::to_str).unwrap_or_default().as_bytes()).ok()?;
+        write_lock(&mut held, 0, path).ok()?;
+        let events = log.events.len();
         let file = folder.join(format!("{name}.recovery"));
         let writer = RecoveryWriter::start(Box::new(Disk), &file, log.base);
         log.events.into_iter().for_each(|event| writer.add(event));
-        Some(Self { writer: Some(writer), lock, _held: held, has_told: false })
+        Some(Self { writer: Some(writer), lock, held, events, in_save: 0, has_told: false })
     }
 
     /// Writes down what was done since the last call. Returns what a user has to know, once.
     pub(crate) fn follow(&mut self, document: &mut Document) -> Option<String> {
         let writer = self.writer.as_ref()?;
-        document.take_events().into_iter().for_each(|event| writer.add(event));
+        for event in document.take_events() {
+            writer.add(event);
+            self.events += 1;
+        }
         let error = writer.status().error.filter(|_| !self.has_told)?;
         self.has_told = true;
         Some(error)
+    }
+
+    /// A save begins: it holds what was done so far.
+    pub(crate) fn save_begins(&mut self, document: &mut Document) -> Option<String> {
+        let error = self.follow(document);
+        self.in_save = self.events;
+        error
+    }
+
+    /// The document was saved to a file: only what came after is missing there.
+    pub(crate) fn saved(&mut self, path: &Path) {
+        // If that fails, more is offered after a crash than is needed, which loses nothing.
+        drop(write_lock(&mut self.held, self.in_save, Some(path)));
     }
 
     /// The document is closed: nothing of it is to be recovered.
@@ -81,6 +101,23 @@ impl Recovery {
         }
         drop(fs::remove_file(&self.lock));
     }
+}
+
+/// Writes how many events a document's file holds, and its path. Through the handle that holds the lock: elsewhere
+/// than on Unix no other one may.
+fn write_lock(held: &mut File, saved: usize, path: Option<&Path>) -> std::io::Result<()> {
+    let path = path.and_then(Path::to_str).unwrap_or_default();
+    held.set_len(0)?;
+    held.seek(SeekFrom::Start(0))?;
+    held.write_all(format!("{saved}\n{path}").as_bytes())
+}
+
+/// What [`write_lock`] wrote.
+fn read_lock(held: &mut File) -> std::io::Result<(usize, Option<PathBuf>)> {
+    let mut text = String::new();
+    held.read_to_string(&mut text)?;
+    let (saved, path) = text.split_once('\n').unwrap_or_default();
+    Ok((saved.parse().unwrap_or(0), Some(path).filter(|path| !path.is_empty()).map(PathBuf::from)))
 }
 
 /// A name that no document has, with its lock.
@@ -111,10 +148,8 @@ impl Left {
         held.try_lock().ok()?;
         let events = RecoveryLog::read(&fs::read(&file).ok()?).map(|log| log.events).unwrap_or_default();
         let changes = |event: &&Event| !matches!(event, Event::Run(command) if command.is_selection());
-        let actions = events.iter().filter(changes).count();
-        let mut name = String::new();
-        held.read_to_string(&mut name).ok()?;
-        let document = Some(name).filter(|name| !name.is_empty()).map(PathBuf::from);
+        let (saved, document) = read_lock(&mut held).ok()?;
+        let actions = events.iter().skip(saved).filter(changes).count();
         let left = Self { file, lock, document, actions, _held: held };
         if actions == 0 {
             left.discard();
@@ -185,6 +220,34 @@ mod tests {
             document.nodes().nodes().iter().map(|(_, node)| node.name.clone()).collect()
         };
         assert_eq!(names(&third), names(&again), "the light, and no cube");
+    }
+
+    /// Once a new document was saved after a crash, it was offered as one without a file, with all changes.
+    #[test]
+    fn what_a_file_holds_is_not_offered_again() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder.path();
+        let add = || command(r#"{"op":"add_object","object":{"shape":"cube","edge":2.0}}"#);
+        let mut document = Document::default();
+        let crash = |document: &mut Document, later: usize| {
+            let mut recovery = Recovery::start(folder, document, None).expect("it can be written");
+            document.run(add()).expect("possible");
+            assert_eq!(recovery.save_begins(document), None, "nothing goes wrong");
+            for _ in 0..later {
+                document.run(add()).expect("possible");
+            }
+            recovery.saved(Path::new("/models/box.glb"));
+            assert_eq!(recovery.follow(document), None, "nothing goes wrong");
+        };
+        crash(&mut document, 0);
+        assert!(Left::find(folder).is_empty(), "all of it is in the file");
+        crash(&mut document, 2);
+        let left = Left::find(folder);
+        let [left] = &left[..] else { panic!("one document was open: {left:?}") };
+        assert_eq!(left.document.as_deref(), Some(Path::new("/models/box.glb")), "it has a file now");
+        assert_eq!(left.actions, 2, "those after the save");
+        let (mut again, _) = left.recover().expect("it was written whole");
+        assert_eq!(again.scene().nodes().len(), document.scene().nodes().len(), "and all are recovered");
     }
 
     #[test]

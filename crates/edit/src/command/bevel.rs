@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use trigon_mesh::edit;
 use trigon_mesh::edit::BevelSettings;
 
 use super::{Action, Outcome};
@@ -13,11 +14,13 @@ use crate::selection::Elements;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bevel {
-    /// The distance of the new edges from the old ones, in metres.
+    /// The distance of the new edges from the old ones, or what else the type of the width says.
     #[schemars(range(min = 0.0))]
     pub width: f64,
+    /// What the width measures.
+    pub width_type: BevelWidth,
     /// The number of faces side by side.
-    #[schemars(range(min = 1, max = 1000))]
+    #[schemars(range(min = 1, max = 100))]
     pub segments: u32,
     /// The shape of the cross-section: 0.5 is round.
     #[schemars(range(min = 0.0, max = 1.0))]
@@ -26,23 +29,111 @@ pub struct Bevel {
     pub clamp_overlap: bool,
     /// Whether vertices are beveled instead of edges.
     pub vertices: bool,
+    /// The shape of corners of more than 180 degrees between two new edges.
+    pub outer_miter: OuterMiter,
+    /// The shape of other corners between two new edges.
+    pub inner_miter: InnerMiter,
+    /// Whether the new edges beside the old faces are marked sharp.
+    pub mark_sharp: bool,
+    /// Whether the new edges beside the old faces are marked as seams.
+    pub mark_seams: bool,
+    /// Whether the old faces keep their shading, and the new ones are smooth.
+    pub harden_normals: bool,
+}
+
+/// What the width of a bevel measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BevelWidth {
+    /// The distance of the new edges from the old ones, in metres.
+    #[default]
+    Offset,
+    /// The distance of the new edges from each other, in metres.
+    Width,
+    /// How far the old edge lay above the new faces, in metres.
+    Depth,
+    /// How far new vertices move along the adjacent edges, in percent of their lengths.
+    Percent,
+    /// How far new vertices move along the adjacent edges, in metres.
+    Absolute,
+}
+
+/// The shape of corners of more than 180 degrees between two new edges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OuterMiter {
+    /// A point.
+    #[default]
+    Sharp,
+    /// A point and two more vertices beside it.
+    Patch,
+    /// A curve.
+    Arc,
+}
+
+/// The shape of corners of less than 180 degrees between two new edges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum InnerMiter {
+    /// A point.
+    #[default]
+    Sharp,
+    /// A curve.
+    Arc,
 }
 
 impl Default for Bevel {
     fn default() -> Self {
-        Self { width: 0.1, segments: 1, profile: 0.5, clamp_overlap: true, vertices: false }
+        Self {
+            width: 0.1,
+            width_type: BevelWidth::default(),
+            segments: 1,
+            profile: 0.5,
+            clamp_overlap: true,
+            vertices: false,
+            outer_miter: OuterMiter::default(),
+            inner_miter: InnerMiter::default(),
+            mark_sharp: false,
+            mark_seams: false,
+            harden_normals: false,
+        }
+    }
+}
+
+impl Bevel {
+    fn settings(&self) -> BevelSettings {
+        BevelSettings {
+            width: self.width,
+            width_type: match self.width_type {
+                BevelWidth::Offset => edit::BevelWidth::Offset,
+                BevelWidth::Width => edit::BevelWidth::Width,
+                BevelWidth::Depth => edit::BevelWidth::Depth,
+                BevelWidth::Percent => edit::BevelWidth::Percent,
+                BevelWidth::Absolute => edit::BevelWidth::Absolute,
+            },
+            segments: self.segments as usize,
+            profile: self.profile,
+            clamp_overlap: self.clamp_overlap,
+            outer_miter: match self.outer_miter {
+                OuterMiter::Sharp => edit::OuterMiter::Sharp,
+                OuterMiter::Patch => edit::OuterMiter::Patch,
+                OuterMiter::Arc => edit::OuterMiter::Arc,
+            },
+            inner_miter: match self.inner_miter {
+                InnerMiter::Sharp => edit::InnerMiter::Sharp,
+                InnerMiter::Arc => edit::InnerMiter::Arc,
+            },
+            mark_sharp: self.mark_sharp,
+            mark_seams: self.mark_seams,
+            harden_normals: self.harden_normals,
+        }
     }
 }
 
 impl Action for Bevel {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kind = change.selection().kind();
-        let settings = BevelSettings {
-            width: self.width,
-            segments: self.segments as usize,
-            profile: self.profile,
-            clamp_overlap: self.clamp_overlap,
-        };
+        let settings = self.settings();
         let mut left_out = 0;
         change.edit_selected("beveling", "at least one selected edge", |mesh, selection| {
             let made = if self.vertices {

@@ -56,7 +56,7 @@ use serde::{Deserialize, Serialize};
 
 pub(crate) use action::Action;
 pub use apply_transform::ApplyTransform;
-pub use bevel::Bevel;
+pub use bevel::{Bevel, BevelWidth, InnerMiter, OuterMiter};
 pub use camera::AddCamera;
 pub use clear_transform::ClearTransform;
 pub use cut::{LoopCut, SlideEdges, SlideVertices, Subdivide, edge_towards};
@@ -76,7 +76,7 @@ pub use mode::{EditObjects, LeaveEditMode, SetElementKind};
 pub use normals::{FlipNormals, RecalculateNormals};
 pub use objects::ObjectName;
 pub use outcome::Outcome;
-pub use parts::{Duplicate, Separate, SplitOff};
+pub use parts::{Duplicate, Rip, Separate, SplitOff};
 pub use place::{Rotate, Translate};
 pub use reference::{command_reference, command_schema};
 pub use repair::Repair;
@@ -154,7 +154,7 @@ commands! {
     EditObjects("Edit Mode", true),
     /// Returns to object mode.
     LeaveEditMode("Object Mode", true),
-    /// Sets whether vertices, edges or faces are selected.
+    /// Sets which of vertices, edges and faces are selected.
     SetElementKind("Select Mode", true),
     /// Replaces or changes the selection by name or number.
     Select("Select", true),
@@ -222,6 +222,8 @@ commands! {
     Duplicate("Duplicate", false),
     /// Splits off the selected faces.
     SplitOff("Split", false),
+    /// Opens meshes along the selected edges or at selected vertices.
+    Rip("Rip", false),
     /// Makes the selected faces a separate object.
     Separate("Separate", false),
     /// Joins several objects into one.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Action, ObjectName, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
-use crate::selection::ElementKind;
+use crate::selection::{ElementKind, ElementKinds};
 
 /// Enters edit mode, in which vertices, edges and faces of the objects' meshes can be selected.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -53,18 +53,24 @@ impl Action for LeaveEditMode {
     }
 }
 
-/// Sets whether vertices, edges or faces are selected. The current selection is converted.
+/// Sets which of vertices, edges and faces are selected. The current selection is converted. With several
+/// kinds, elements are numbered and selected as those of the first of them, and the others by their parts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SetElementKind {
     /// Which kind.
     pub kind: ElementKind,
+    /// Whether it is added to the kinds that are selected already, or removed from them if it is one of
+    /// several.
+    #[serde(default)]
+    pub extend: bool,
 }
 
 impl Action for SetElementKind {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let (selection, meshes) = change.selection_and_meshes();
-        selection.set_kind(self.kind, meshes);
+        let one = ElementKinds::one(self.kind);
+        selection.set_kinds(if self.extend { selection.kinds().toggled(self.kind) } else { one }, meshes);
         Ok(Outcome::silent())
     }
 }

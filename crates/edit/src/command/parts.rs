@@ -1,14 +1,15 @@
-//! Copying and separating parts of meshes: duplicate, split off, separate.
+//! Copying and separating parts of meshes: duplicate, split off, rip, separate.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trigon_mesh::edit::Transform;
-use trigon_mesh::math::DVec3;
+use trigon_mesh::edit::{Refusal, Transform};
+use trigon_mesh::math::{DAffine3, DVec3};
 
+use super::space::TransformSpace;
 use super::{Action, Outcome};
 use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
-use crate::selection::Elements;
+use crate::selection::{ElementKind, Elements};
 
 const FACES: &str = "at least one selected face";
 
@@ -50,6 +51,49 @@ impl Action for SplitOff {
             Ok(AfterEdit::Select(Elements::Faces(faces)))
         })?;
         Ok(Outcome::silent())
+    }
+}
+
+/// Opens meshes along the selected edges, or at selected vertices without such edges, and selects the side that
+/// comes loose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Rip {
+    /// The direction in which the side that comes loose lies; its length does not matter.
+    pub direction: [f64; 3],
+    /// The space of the direction.
+    pub space: TransformSpace,
+    /// Whether faces fill the gap.
+    pub fill: bool,
+}
+
+impl Default for Rip {
+    fn default() -> Self {
+        Self { direction: [1.0, 0.0, 0.0], space: TransformSpace::default(), fill: false }
+    }
+}
+
+impl Action for Rip {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let (command, kind) = ("ripping", change.selection().kind());
+        if kind == ElementKind::Face {
+            let reason = "it works on edges and vertices; switch to one of these";
+            return Err(Refusal::NotPossible { operation: command, reason }.into());
+        }
+        let into_meshes = self.space.into_meshes(command, change)?;
+        let mut faces = 0;
+        change.edit_selected_meshes(command, "a selected edge or vertex", |id, mesh, selection| {
+            let into_mesh = into_meshes.get(&id).copied().unwrap_or(DAffine3::IDENTITY);
+            let direction = (into_mesh.matrix3 * DVec3::from(self.direction)).normalize_or_zero();
+            let vertices = match kind {
+                ElementKind::Vertex => selection.vertices(mesh, kind),
+                ElementKind::Edge | ElementKind::Face => Vec::new(),
+            };
+            let ripped = mesh.rip(&selection.edges(mesh, kind), &vertices, direction, self.fill)?;
+            faces += ripped.faces.len();
+            Ok(AfterEdit::Select(Elements::Vertices(ripped.vertices)))
+        })?;
+        if self.fill { Ok(Outcome::counted("made", faces, ["face", "faces"])) } else { Ok(Outcome::silent()) }
     }
 }
 

@@ -122,7 +122,9 @@ mod tests {
         let mut document = Document::new(scene);
         let edit = json!({ "op": "edit_objects", "objects": ["one", "two"] });
         document.run(serde_json::from_value(edit).expect("a command")).expect("both have meshes");
-        document.run(SetElementKind { kind: ElementKind::Face }.into()).expect("always possible");
+        document
+            .run(SetElementKind { kind: ElementKind::Face, extend: false }.into())
+            .expect("always possible");
         document
     }
 

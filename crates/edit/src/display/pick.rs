@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use fixedbitset::FixedBitSet;
-use trigon_mesh::edit::{EdgeId, EditMesh};
+use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
 use trigon_mesh::math::DVec2;
 use trigon_scene::{ElementSet, MeshId, NodeId, Picker, Reach, Region};
 
@@ -15,7 +15,7 @@ use super::element::{Numbering, Target, distance, exists, is_selectable};
 use crate::command::{Command, ElementsOf, ObjectName, Select, SelectAction, SelectElements, SelectNone};
 use crate::document::Document;
 use crate::selection::{
-    ElementKind, Elements, MeshSelection, edge_loop, edge_ring, face_loop, shortest_path,
+    ElementKind, ElementKinds, Elements, MeshSelection, edge_loop, edge_ring, face_loop, shortest_path,
 };
 
 /// The largest distance from the pointer at which an element is picked, in logical pixels, as in
@@ -52,27 +52,76 @@ impl<'p> Picks<'p> {
     /// A click: selects the nearest element within a radius in pixels, or the nearest object. On
     /// empty space it clears the selection; [`SelectAction::Add`], `Remove` and `Toggle` do nothing
     /// there.
+    ///
+    /// If several kinds of elements are selected, a vertex comes first within half the radius, then an edge,
+    /// then the nearest face; without a face, the nearest of both within the radius. An element of another kind
+    /// than the first is selected by its parts, and counts as selected if all of these are.
     #[must_use]
     pub fn click(&self, point: DVec2, radius: f64, action: SelectAction) -> Option<Command> {
         if !self.document.selection().is_editing() {
             return self.objects_of(self.object(point, radius), action);
         }
-        let kind = self.document.selection().kind();
-        match self.nearest(kind, point, radius) {
-            Some(target) => Some(target.select(vec![target.element], action)),
+        match self.nearest_of_kinds(point, radius) {
+            Some((kind, target)) => self.select_by_parts(kind, &target, action),
             None => nothing(action),
         }
     }
 
-    /// All elements of the selected kind in a region, or all objects.
+    /// The nearest element of those kinds that are selected.
+    fn nearest_of_kinds(&self, point: DVec2, radius: f64) -> Option<(ElementKind, Target)> {
+        let kinds = self.document.selection().kinds();
+        let nearest = |kind: ElementKind, radius: f64| Some((kind, self.nearest(kind, point, radius)?));
+        let (lines, faces): (Vec<_>, Vec<_>) = kinds.iter().partition(|&kind| kind != ElementKind::Face);
+        let near = if kinds == ElementKinds::one(kinds.first()) { radius } else { 0.5 * radius };
+        let first = lines.iter().find_map(|&kind| nearest(kind, near));
+        let face = || faces.iter().find_map(|&kind| nearest(kind, radius));
+        first.or_else(face).or_else(|| lines.iter().find_map(|&kind| nearest(kind, radius)))
+    }
+
+    /// Selects an element by its parts of the first kind.
+    fn select_by_parts(&self, kind: ElementKind, target: &Target, action: SelectAction) -> Option<Command> {
+        let first = self.document.selection().kind();
+        if kind == first {
+            return Some(target.select(vec![target.element], action));
+        }
+        let parts = self.parts(kind, target.mesh, [target.element])?;
+        let selected = self.document.selection().of(target.mesh)?;
+        let action = match action {
+            SelectAction::Toggle if parts.indices().all(|part| selected.contains(part)) => {
+                SelectAction::Remove
+            }
+            SelectAction::Toggle => SelectAction::Add,
+            action => action,
+        };
+        Some(target.select(parts.indices().collect(), action))
+    }
+
+    /// Elements of a kind as elements of the first kind that is selected.
+    fn parts(
+        &self,
+        kind: ElementKind,
+        id: MeshId,
+        elements: impl IntoIterator<Item = u32>,
+    ) -> Option<MeshSelection> {
+        let elements = elements.into_iter();
+        let elements = match kind {
+            ElementKind::Vertex => Elements::Vertices(elements.map(VertexId::new).collect()),
+            ElementKind::Edge => Elements::Edges(elements.map(EdgeId::new).collect()),
+            ElementKind::Face => Elements::Faces(elements.map(FaceId::new).collect()),
+        };
+        let mut parts = MeshSelection::default();
+        parts.select(self.document.mesh(id)?, self.document.selection().kind(), &elements);
+        Some(parts)
+    }
+
+    /// All elements of the selected kinds in a region, or all objects.
     #[must_use]
     pub fn region(&self, region: &Region, action: SelectAction) -> Option<Command> {
         if !self.document.selection().is_editing() {
             return self.objects_of(self.picker.nodes(region, self.reach), action);
         }
-        let kind = self.document.selection().kind();
         let parts: Vec<ElementsOf> = self
-            .edited(kind, &self.elements(kind, region))
+            .in_region(region)
             .into_values()
             .map(|(node, bits)| ElementsOf::new(ObjectName::of(node), bits.ones().map(|bit| bit as u32)))
             .collect();
@@ -173,6 +222,21 @@ impl<'p> Picks<'p> {
             ElementKind::Edge => self.picker.edges(region, self.reach),
             ElementKind::Face => self.picker.faces(region, self.reach),
         }
+    }
+
+    /// The selectable elements in a region of all kinds that are selected, as elements of the first of them.
+    fn in_region(&self, region: &Region) -> BTreeMap<MeshId, (NodeId, FixedBitSet)> {
+        let selection = self.document.selection();
+        let first = selection.kind();
+        let mut all = self.edited(first, &self.elements(first, region));
+        for kind in selection.kinds().iter().filter(|&kind| kind != first) {
+            for (id, (node, bits)) in self.edited(kind, &self.elements(kind, region)) {
+                let Some(parts) = self.parts(kind, id, bits.ones().map(|bit| bit as u32)) else { continue };
+                let all = all.entry(id).or_insert_with(|| (node, FixedBitSet::new()));
+                all.1.union_with(parts.bits());
+            }
+        }
+        all
     }
 
     /// The selectable ones, by their numbers in the edited meshes, with the first object that shows

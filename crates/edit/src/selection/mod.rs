@@ -2,6 +2,7 @@
 
 mod convert;
 mod grow;
+mod kinds;
 mod loops;
 mod path;
 mod properties;
@@ -16,6 +17,7 @@ use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
 use trigon_mesh::math::DVec3;
 use trigon_scene::{MeshId, NodeId};
 
+pub use kinds::ElementKinds;
 pub use loops::{edge_loop, edge_ring, face_loop};
 pub use path::shortest_path;
 pub use properties::{
@@ -42,7 +44,7 @@ pub struct Selection {
     pub objects: BTreeSet<NodeId>,
     /// The object selected last: the one that others are joined to, and whose values are shown.
     pub active: Option<NodeId>,
-    kind: ElementKind,
+    kinds: ElementKinds,
     elements: BTreeMap<MeshId, MeshSelection>,
 }
 
@@ -57,10 +59,17 @@ pub struct MeshSelection {
 }
 
 impl Selection {
-    /// The kind of element that is selected.
+    /// The kind of element that is selected; of several the first one. The others consist of elements of this
+    /// kind, and are selected if all of these are.
     #[must_use]
     pub fn kind(&self) -> ElementKind {
-        self.kind
+        self.kinds.first()
+    }
+
+    /// The kinds of elements that clicks and regions select.
+    #[must_use]
+    pub fn kinds(&self) -> ElementKinds {
+        self.kinds
     }
 
     /// The meshes whose elements can be selected: the edited ones.
@@ -88,7 +97,7 @@ impl Selection {
     /// Deselects elements of a mesh that no longer exist or are hidden. Their numbers may later be reused for
     /// elements that nobody selected.
     pub(crate) fn keep_selectable(&mut self, id: MeshId, mesh: &EditMesh) {
-        let kind = self.kind;
+        let kind = self.kind();
         if let Some(selection) = self.elements.get_mut(&id) {
             selection.retain(|index| kind.is_selectable(mesh, index));
         }
@@ -104,13 +113,13 @@ impl Selection {
         self.elements.clear();
     }
 
-    /// Converts the selection to another kind of element.
-    pub(crate) fn set_kind(&mut self, kind: ElementKind, meshes: &BTreeMap<MeshId, EditMesh>) {
-        let old = self.kind;
-        self.kind = kind;
-        for (id, selection) in &mut self.elements {
+    /// Sets the kinds of elements, and converts the selection if the first of them is another one.
+    pub(crate) fn set_kinds(&mut self, kinds: ElementKinds, meshes: &BTreeMap<MeshId, EditMesh>) {
+        let (old, new) = (self.kind(), kinds.first());
+        self.kinds = kinds;
+        for (id, selection) in self.elements.iter_mut().filter(|_| old != new) {
             if let Some(mesh) = meshes.get(id) {
-                selection.convert(mesh, old, kind);
+                selection.convert(mesh, old, new);
             }
         }
     }

@@ -61,6 +61,25 @@ impl EditMesh {
         normals
     }
 
+    /// The normals of all corners at some vertices: given ones, the means of fans of smooth faces between
+    /// sharp edges, and of other faces their own.
+    pub(super) fn fan_normals_at(&self, vertices: &[VertexId]) -> Vec<(CornerId, Vec3)> {
+        let mut fans = Fans::new(self);
+        let mut normals = Vec::new();
+        for &vertex in vertices {
+            let mut of_fans = SmallVec::<[(CornerId, Vec3); 8]>::new();
+            fans.add(vertex, |corner, normal| of_fans.push((corner, normal)));
+            normals.extend(self.vertex_corners(vertex).map(|corner| {
+                // Fans are told in ascending order of corners.
+                let of_fan = of_fans.binary_search_by_key(&corner, |&(corner, _)| corner);
+                let of_fan = of_fan.ok().map(|place| of_fans[place].1);
+                let own = || self.face_normal(self.corner_face(corner)).as_vec3();
+                (corner, self.custom_normal(corner).or(of_fan).unwrap_or_else(own))
+            }));
+        }
+        normals
+    }
+
     /// Whether an edge is sharp between two smooth faces.
     fn splits_fans(&self, edge: EdgeId) -> bool {
         self.is_sharp(edge) && self.edge_faces(edge).filter(|&face| self.is_smooth(face)).nth(1).is_some()

@@ -1,7 +1,7 @@
 //! Tools that make geometry, and those that follow it.
 
 use trigon_edit::mesh::edit::FaceId;
-use trigon_edit::mesh::math::DVec3;
+use trigon_edit::mesh::math::{DVec3, Vec3};
 use trigon_window::{Input, PointerButton};
 
 use super::super::{
@@ -116,12 +116,63 @@ fn inset_and_bevel_have_blenders_keys() {
     assert_eq!(session.mesh().1.face_count(), 9, "three segments");
     session.keys(&mut tool, "s5");
     assert_eq!(session.mesh().1.face_count(), 11, "five");
-    for (key, says) in [("p.25", "profile 0.250"), ("c", "C: clamp overlap (on)"), ("v", "V: vertices (on)")]
-    {
+    let keys = [
+        ("p.25", "profile 0.250"),
+        ("c", "C: clamp (on)"),
+        ("h", "H: harden (on)"),
+        ("k", "K: sharp (on)"),
+        ("u", "U: seam (on)"),
+        ("o", "O: outer (patch)"),
+        ("o", "O: outer (arc)"),
+        ("i", "I: inner (arc)"),
+        ("v", "V: vertices (on)"),
+    ];
+    for (key, says) in keys {
         session.keys(&mut tool, key);
         assert!(tool.status().contains(says), "{key}: {}", tool.status());
     }
     assert_eq!(session.keys(&mut tool, "!"), ToolState::Confirmed);
+}
+
+#[test]
+fn m_changes_what_the_width_of_a_bevel_measures() {
+    // The distance between both rims of an edge of a cube of 2 m.
+    let root = 2.0f64.sqrt();
+    let widths = [
+        ("", "offset", ".5", 0.5 * root),
+        ("m", "width", ".5", 0.5),
+        ("mm", "depth", ".25", 0.5),
+        ("mmm", "percent", "25", 0.5 * root),
+        ("mmmm", "absolute", ".5", 0.5 * root),
+        ("mmmmm", "offset", ".5", 0.5 * root),
+    ];
+    for (keys, says, typed, apart) in widths {
+        let mut session = Session::editing("cube", "edge", &[0]);
+        let before = session.positions();
+        let mut tool =
+            BevelTool::start(false, &mut session.document, session.hands, &session.view).expect("an edge");
+        session.keys(&mut tool, keys);
+        assert!(tool.status().contains(&format!("M: {says}")), "{}", tool.status());
+        session.keys(&mut tool, typed);
+        let new: Vec<Vec3> =
+            session.positions().into_iter().filter(|place| !before.contains(place)).collect();
+        let far = |other: &Vec3| f64::from(new[0].distance(*other));
+        let nearest = new[1..].iter().map(far).fold(f64::INFINITY, f64::min);
+        assert!((nearest - apart).abs() < 1e-6, "{says}: {nearest}");
+        session.keys(&mut tool, "?");
+        assert_eq!(session.positions(), before, "cancelled");
+    }
+}
+
+#[test]
+fn marks_of_a_bevel_are_on_both_rims() {
+    let mut session = Session::editing("cube", "edge", &[0]);
+    let mut tool =
+        BevelTool::start(false, &mut session.document, session.hands, &session.view).expect("an edge");
+    session.keys(&mut tool, ".5ku!");
+    let (_, mesh) = session.mesh();
+    let marked = mesh.edges().filter(|&edge| mesh.is_sharp(edge) && mesh.is_seam(edge)).count();
+    assert_eq!(marked, 2, "K and U");
 }
 
 #[test]

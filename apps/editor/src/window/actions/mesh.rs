@@ -15,6 +15,8 @@ actions! {
     "Mesh" "mesh.catmull_clark" "Catmull-Clark" "" EditMode Run(r#"{"op":"catmull_clark"}"#) => "Subdivides meshes into smooth surfaces.";
     "Mesh" "mesh.duplicate" "Duplicate" "Shift+D" Elements Run(r#"{"op":"duplicate"}"#) => "Duplicates the selection, and moves the copy.";
     "Mesh" "mesh.split" "Split" "Y Alt+M" Elements Run(r#"{"op":"split_off"}"#) => "Splits the selected faces off.";
+    "Mesh" "mesh.rip" "Rip" "V" Elements Ui(UiRequest::Rip { fill: false }) => "Opens the mesh along edges or at vertices, and moves the pointer's side.";
+    "Mesh" "mesh.rip_fill" "Rip Fill" "Alt+V" Elements Ui(UiRequest::Rip { fill: true }) => "Rips, and fills the gap with faces.";
     "Mesh" "mesh.separate" "Separate" "P" Elements Run(r#"{"op":"separate"}"#) => "Makes the selected faces a separate object.";
     "Mesh" "mesh.fill" "Make Face / Fill" "F Alt+F" Elements Run(r#"{"op":"fill"}"#) => "Fills loops with faces.";
     "Mesh" "mesh.grid_fill" "Grid Fill" "" Elements Run(r#"{"op":"grid_fill"}"#) => "Fills a closed loop of edges with a grid of quads.";

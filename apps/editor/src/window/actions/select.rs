@@ -9,9 +9,12 @@ actions! {
     "Select" "select.all" "All" "A" Nothing Run(r#"{"op":"select_all"}"#) => "Selects everything that is not hidden.";
     "Select" "select.none" "None" "Alt+A" Nothing Run(r#"{"op":"select_none"}"#) => "Selects nothing.";
     "Select" "select.invert" "Invert" "Ctrl+I" Nothing Run(r#"{"op":"select_inverse"}"#) => "Inverts the selection.";
-    "Select" "select.vertices" "Vertices" "1" EditMode Ui(UiRequest::Select(ElementKind::Vertex)) => "Switches to selecting vertices.";
-    "Select" "select.edges" "Edges" "2" EditMode Ui(UiRequest::Select(ElementKind::Edge)) => "Switches to selecting edges.";
-    "Select" "select.faces" "Faces" "3" EditMode Ui(UiRequest::Select(ElementKind::Face)) => "Switches to selecting faces.";
+    "Select" "select.vertices" "Vertices" "1" EditMode Ui(UiRequest::Select { kind: ElementKind::Vertex, extend: false }) => "Switches to selecting vertices.";
+    "Select" "select.edges" "Edges" "2" EditMode Ui(UiRequest::Select { kind: ElementKind::Edge, extend: false }) => "Switches to selecting edges.";
+    "Select" "select.faces" "Faces" "3" EditMode Ui(UiRequest::Select { kind: ElementKind::Face, extend: false }) => "Switches to selecting faces.";
+    "Select" "select.also_vertices" "Also Vertices" "Shift+1" EditMode Ui(UiRequest::Select { kind: ElementKind::Vertex, extend: true }) => "Adds vertices to the kinds of elements that are selected, or removes them.";
+    "Select" "select.also_edges" "Also Edges" "Shift+2" EditMode Ui(UiRequest::Select { kind: ElementKind::Edge, extend: true }) => "Adds edges to the kinds of elements that are selected, or removes them.";
+    "Select" "select.also_faces" "Also Faces" "Shift+3" EditMode Ui(UiRequest::Select { kind: ElementKind::Face, extend: true }) => "Adds faces to the kinds of elements that are selected, or removes them.";
     "Select" "select.box" "Box Select" "B" Nothing Tool(ToolKind::SelectBox) => "Selects within a box.";
     "Select" "select.circle" "Circle Select" "C" Nothing Tool(ToolKind::SelectCircle) => "Selects with a brush; the wheel makes it larger.";
     "Select" "select.lasso" "Lasso Select" "" Nothing Tool(ToolKind::SelectLasso) => "Selects within a freehand line.";

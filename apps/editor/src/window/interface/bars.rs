@@ -36,8 +36,10 @@ fn mode(ui: &mut Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.separator();
     let kinds = [("Vertex", ElementKind::Vertex), ("Edge", ElementKind::Edge), ("Face", ElementKind::Face)];
     for (name, kind) in kinds {
-        if ui.selectable_label(selection.kind() == kind, name).clicked() {
-            requests.push(Request::Ui(UiRequest::Select(kind)));
+        let shown = ui.selectable_label(selection.kinds().contains(kind), name);
+        if shown.on_hover_text("Shift adds or removes this kind of element").clicked() {
+            let extend = ui.input(|input| input.modifiers.shift);
+            requests.push(Request::Ui(UiRequest::Select { kind, extend }));
         }
     }
 }

@@ -44,12 +44,32 @@ fn counts(document: &Document) -> String {
         let all = document.nodes().nodes().len();
         return format!("{} of {all} objects selected", selection.objects.len());
     }
-    let selected: usize = selection.meshes().map(|(_, elements)| elements.len()).sum();
-    let meshes = selection.meshes().filter_map(|(id, _)| document.mesh(id));
-    let (all, kind) = match selection.kind() {
-        ElementKind::Vertex => (meshes.map(|mesh| mesh.vertex_count()).sum::<usize>(), "vertices"),
-        ElementKind::Edge => (meshes.map(|mesh| mesh.edge_count()).sum(), "edges"),
-        ElementKind::Face => (meshes.map(|mesh| mesh.face_count()).sum(), "faces"),
+    let counts = selection.kinds().iter().map(|kind| count(document, kind));
+    format!("{} selected", counts.collect::<Vec<_>>().join(", "))
+}
+
+/// How many elements of a kind are selected, and how many there are.
+fn count(document: &Document, kind: ElementKind) -> String {
+    let selection = document.selection();
+    let (own, mut selected, mut all) = (selection.kind(), 0, 0);
+    for (id, elements) in selection.meshes() {
+        let Some(mesh) = document.mesh(id) else { continue };
+        selected += match kind {
+            _ if kind == own => elements.len(),
+            ElementKind::Vertex => elements.vertices(mesh, own).len(),
+            ElementKind::Edge => elements.edges(mesh, own).len(),
+            ElementKind::Face => elements.faces(mesh, own).len(),
+        };
+        all += match kind {
+            ElementKind::Vertex => mesh.vertex_count(),
+            ElementKind::Edge => mesh.edge_count(),
+            ElementKind::Face => mesh.face_count(),
+        };
+    }
+    let name = match kind {
+        ElementKind::Vertex => "vertices",
+        ElementKind::Edge => "edges",
+        ElementKind::Face => "faces",
     };
-    format!("{selected} of {all} {kind} selected")
+    format!("{selected} of {all} {name}")
 }

@@ -21,6 +21,7 @@ fn guide() -> &'static str {
 
 /// One row: what is expected, its keys with the names of their actions, and its tests.
 struct Row {
+    tier: &'static str,
     what: &'static str,
     keys: &'static str,
     tests: &'static str,
@@ -30,8 +31,8 @@ fn rows() -> impl Iterator<Item = Row> {
     let table = guide().split("## Row by row").nth(1).expect("there is a section of this name");
     table.lines().filter_map(|line| {
         let cells: Vec<_> = line.strip_prefix("| ")?.strip_suffix(" |")?.split(" | ").collect();
-        let &[_, what, keys, tests] = &cells[..] else { return None };
-        (what != "what").then_some(Row { what, keys, tests })
+        let &[tier, what, keys, tests] = &cells[..] else { return None };
+        (what != "what").then_some(Row { tier, what, keys, tests })
     })
 }
 
@@ -82,6 +83,16 @@ fn each_key_of_the_table_is_bound_to_its_action() {
         assert!(chords.is_empty(), "{what}: no action follows {chords:?}");
     }
     assert!(count > 80, "the table names actions: {count}");
+}
+
+#[test]
+fn the_rows_of_each_tier_are_counted_as_the_text_says() {
+    for tier in ["must", "expected", "loved", "keys"] {
+        let of_tier: Vec<Row> = rows().filter(|row| row.tier == tier).collect();
+        let done = of_tier.iter().filter(|row| !row.tests.starts_with("missing: ")).count();
+        let text = format!("*{tier}* {done} of {}", of_tier.len());
+        assert!(guide().contains(&text), "docs/editor.md does not say: {text}");
+    }
 }
 
 #[test]

@@ -150,7 +150,7 @@ const KINDS: [ElementKind; 3] = [ElementKind::Vertex, ElementKind::Edge, Element
 const REACHES: [Reach; 2] = [Reach::Visible, Reach::Through];
 
 fn set_kind(view: &mut View, kind: ElementKind) {
-    view.document.run(crate::SetElementKind { kind }.into()).expect("always possible");
+    view.document.run(crate::SetElementKind { kind, extend: false }.into()).expect("always possible");
 }
 
 #[test]
@@ -188,6 +188,38 @@ fn regions_select_what_the_picker_finds_in_every_mode() {
                     };
                     assert_eq!(view.selected(), expected, "{kind:?} {reach:?} {region:?} {action:?}");
                 }
+            }
+        }
+    }
+    assert!(compared > 1000, "{compared} elements were compared");
+}
+
+/// With several kinds, a region selects what it selects of each, as elements of the first kind.
+#[test]
+fn regions_select_every_kind_that_is_enabled() {
+    let mut compared = 0;
+    for document in documents() {
+        let mut view = View::new(document);
+        for kinds in [[0, 1, 2].as_slice(), &[0, 2], &[0, 1], &[1, 2]] {
+            for (reach, region) in
+                REACHES.iter().flat_map(|&reach| regions().into_iter().map(move |r| (reach, r)))
+            {
+                let first = KINDS[kinds[0]];
+                let mut expected = BTreeSet::new();
+                for &kind in kinds {
+                    // One kind alone, as another test compares it, then converted.
+                    set_kind(&mut view, KINDS[kind]);
+                    view.select(reach, |picks| picks.region(&region, SelectAction::Replace));
+                    set_kind(&mut view, first);
+                    expected.extend(view.selected());
+                }
+                for &kind in &kinds[1..] {
+                    let kind = KINDS[kind];
+                    view.document.run(crate::SetElementKind { kind, extend: true }.into()).expect("possible");
+                }
+                view.select(reach, |picks| picks.region(&region, SelectAction::Replace));
+                compared += expected.len();
+                assert_eq!(view.selected(), expected, "{kinds:?} {reach:?} {region:?}");
             }
         }
     }

@@ -2,6 +2,7 @@
 //! text with one action in each line, as `script` describes; what it asserts is what its user would see.
 
 mod chair;
+mod elements;
 mod habits;
 mod light;
 mod mug;

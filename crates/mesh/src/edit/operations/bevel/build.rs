@@ -6,18 +6,21 @@ use super::super::super::blends::CornerBlends;
 use super::super::super::edit_mesh::EditMesh;
 use super::super::super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 use super::super::super::records::SEAM;
+use super::finish::Finish;
 use super::laid::End;
 use super::shape::{Blueprint, NewCorner};
 
 impl EditMesh {
-    /// Carries out a plan; the new faces and vertices.
+    /// Carries out a plan, and what comes after it; the new faces and vertices.
     pub(super) fn build_bevel(
         &mut self,
         mut plan: Blueprint,
         edges: &[EdgeId],
+        finish: &Finish,
     ) -> (Vec<FaceId>, Vec<VertexId>) {
         let vertices = self.add_bevel_points(&plan);
-        self.move_beveled_edges(&plan, edges, &vertices);
+        let rims = self.move_beveled_edges(&plan, edges, &vertices);
+        let mut made = Vec::with_capacity(plan.corners.len());
         for moved in &plan.laid.moves {
             self.corners.write(moved.corner.0).vertex = vertices[moved.node as usize].0;
             plan.blends.assign(moved.sum, moved.corner);
@@ -25,12 +28,15 @@ impl EditMesh {
         let mut start = 0;
         for insertion in &plan.insertions {
             let new = &plan.corners[start..insertion.end];
-            self.insert_bevel_corners(new, insertion.of, &vertices, &mut plan.blends);
+            made.extend(self.insert_bevel_corners(new, insertion.of, &vertices, &mut plan.blends));
             start = insertion.end;
         }
         let faces = self.add_bevel_faces(&mut plan, start, &vertices);
+        made.extend(faces.iter().flat_map(|&face| self.face_corners(face)));
         self.mark_bevel_seams(&plan, edges, &vertices);
+        self.mark_bevel_rims(finish, &rims);
         self.blend_corners(&plan.blends);
+        self.harden_bevel_normals(finish, &plan, &faces, &made);
         for round in &plan.laid.rounds {
             // Wires and faces of other fans may still be there.
             let vertex = round.fan.vertex;
@@ -82,11 +88,17 @@ impl EditMesh {
     }
 
     /// Lets the edges round each vertex end at the new ones, and makes each beveled edge the rim on its
-    /// left, beside a new one on its right.
-    fn move_beveled_edges(&mut self, plan: &Blueprint, edges: &[EdgeId], vertices: &[VertexId]) {
+    /// left, beside a new one on its right. Returns all rims.
+    fn move_beveled_edges(
+        &mut self,
+        plan: &Blueprint,
+        edges: &[EdgeId],
+        vertices: &[VertexId],
+    ) -> Vec<EdgeId> {
+        let mut rims = Vec::with_capacity(2 * edges.len());
         for round in &plan.laid.rounds {
             for stop in &plan.laid.stops[round.stops[0]..round.stops[1]] {
-                if stop.beveled == NONE {
+                if stop.beveled == NONE && stop.edge.0 != NONE {
                     self.move_beveled_end(stop.edge, round.fan.vertex, vertices[stop.left as usize]);
                 }
             }
@@ -96,6 +108,7 @@ impl EditMesh {
             self.move_beveled_end(edge, start.vertex, vertices[start.left as usize]);
             self.move_beveled_end(edge, end.vertex, vertices[end.right as usize]);
             let right = self.join(vertices[start.right as usize], vertices[end.left as usize]);
+            rims.extend([edge, right]);
             if right != edge {
                 self.unlink_at_edge(end.left_corner.0);
                 self.link_at_edge(end.left_corner.0, right.0);
@@ -103,6 +116,7 @@ impl EditMesh {
                 self.edges.write(right.0).flags &= !SEAM;
             }
         }
+        rims
     }
 
     /// Lets an edge end at another vertex.
@@ -113,14 +127,15 @@ impl EditMesh {
         self.link_at_vertex(edge.0, end);
     }
 
-    /// Puts new corners before an old one in its face.
+    /// Puts new corners before an old one in its face, and returns them.
     fn insert_bevel_corners(
         &mut self,
         new: &[NewCorner],
         before: CornerId,
         vertices: &[VertexId],
         blends: &mut CornerBlends,
-    ) {
+    ) -> SmallVec<[CornerId; 8]> {
+        let mut made = SmallVec::new();
         let face = self.corners[before.0].face;
         for (i, corner) in new.iter().enumerate() {
             let vertex = vertices[corner.point as usize];
@@ -134,8 +149,10 @@ impl EditMesh {
             self.link_in_face(id, before.0);
             self.link_at_edge(id, edge.0);
             blends.assign(corner.sum, CornerId(id));
+            made.push(CornerId(id));
         }
         self.faces.write(face).size += new.len() as u32;
+        made
     }
 
     /// Moves seams from beveled edges to where their two sides meet now.

@@ -34,11 +34,14 @@ pub(super) struct Arc {
     /// Where the tangents at its ends meet: on the old edge. For a width of 1.
     pub(super) control: DVec3,
     pub(super) control_sum: u32,
+    /// The corner of the face in which the curve lies; `NONE` where it crosses a bevel.
+    pub(super) home: CornerId,
 }
 
-/// Where an edge leaves a fan.
+/// Where an edge leaves a fan, or a miter's curve lies beside it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stop {
+    /// `NONE` for the curve of a miter.
     pub(super) edge: EdgeId,
     /// The number of a beveled edge, or `NONE`.
     pub(super) beveled: u32,

@@ -1,10 +1,11 @@
 //! Bevels: edges and vertices are replaced with flat or round faces.
 //!
 //! In four steps. `chosen` finds what can be beveled, and the `fans` of faces around its vertices; `nodes`
-//! (with `sectors`, `places` and `frames`) finds the positions of the new rims, which move in proportion to
-//! the width, so that overlaps are found before any width is fixed; `shape` lays out all new vertices, faces
+//! (with `sectors`, `miters`, `places`, `rims` and `frames`) finds the positions of the new rims, which move in
+//! proportion to the width, so that overlaps are found before any width is fixed; `shape` lays out all new vertices, faces
 //! and values (`profile` is the cross-section, `patch` the grid where three or more bevels meet); `build`
-//! changes the mesh. Until then nothing is written, and an error costs nothing.
+//! changes the mesh. Until then nothing is written, and an error costs nothing. `finish` marks the rims and
+//! hardens normals if that is requested.
 //!
 //! Arrangement and names follow Blender's bevel (Howard Trickey); the positions within patches
 //! are our own.
@@ -12,13 +13,19 @@
 mod build;
 mod chosen;
 mod fans;
+mod finish;
 mod frames;
 mod laid;
+mod miters;
 mod nodes;
 mod patch;
 mod places;
 mod profile;
+mod rims;
 mod sectors;
+mod settings;
+#[cfg(test)]
+mod settings_tests;
 mod shape;
 #[cfg(test)]
 mod tests;
@@ -30,32 +37,10 @@ use super::delete::require;
 use laid::Laid;
 use nodes::Nodes;
 use profile::Profile;
+use rims::Rims;
+pub use settings::{BevelSettings, BevelWidth, InnerMiter, OuterMiter};
 
 const OPERATION: &str = "a bevel";
-const MOST_SEGMENTS: usize = 100;
-
-/// Settings of [`EditMesh::bevel_edges`] and [`EditMesh::bevel_vertices`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BevelSettings {
-    /// In metres, at least 0. For edges the distance of each new rim from the old edge, in the
-    /// face's plane; for vertices the distance of each new vertex from the old one, along its edge.
-    pub width: f64,
-    /// The number of faces across a bevel: 1 to 100.
-    pub segments: usize,
-    /// The cross-section, 0 to 1. With `r = -2 ln 2 / ln profile` it is the superellipse `x^r + y^r
-    /// = 1` between the two rims at (1, 0) and (0, 1), whose tangents meet at the old edge at (1,
-    /// 1); so its middle lies at `√profile`. 0.5 is round, 0.25 flat, less is concave, 1 keeps the
-    /// edge. 0 counts as 0.000001. Points are evenly spaced along it.
-    pub profile: f64,
-    /// Whether the width is reduced where new vertices would pass each other along an edge.
-    pub clamp_overlap: bool,
-}
-
-impl Default for BevelSettings {
-    fn default() -> Self {
-        Self { width: 0.1, segments: 1, profile: 0.5, clamp_overlap: true }
-    }
-}
 
 /// The result of a bevel.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,7 +50,7 @@ pub struct Beveled {
     pub faces: Vec<FaceId>,
     /// The new vertices.
     pub vertices: Vec<VertexId>,
-    /// The width used, in metres: less than requested if overlaps were avoided.
+    /// The width used, in the unit of the settings: less than requested if overlaps were avoided.
     pub width: f64,
     /// Given elements that were not beveled.
     pub left_out: BevelLeftOut,
@@ -114,7 +99,7 @@ impl BevelLeftOut {
 impl EditMesh {
     /// Replaces edges with faces: flat ones, or round ones with several segments.
     ///
-    /// Each face next to an edge retreats by the width. Where one beveled edge ends, its rims end on the
+    /// Each face next to an edge retreats by the width, or as [`BevelWidth`] says. Where one beveled edge ends, its rims end on the
     /// adjacent edges; if there are more, each gets a vertex and a polygon fills the middle. Where two meet,
     /// their bevels meet in one curve. Where three or more meet, a polygon fills the middle, or with several
     /// segments a grid, as on a cube with all edges beveled: part of a sphere. (Also a polygon if the faces
@@ -156,7 +141,8 @@ impl EditMesh {
         if chosen.is_empty() {
             return Err(Refusal::NotPossible { operation: OPERATION, reason: left_out.reason() });
         }
-        let mut nodes = Nodes::new(self, marks, fans.fans.len(), chosen.len());
+        let rims = Rims::of_edges(self, &chosen, settings);
+        let mut nodes = Nodes::new(self, marks, fans.fans.len(), rims);
         for &fan in &fans.fans {
             nodes.add_edge_fan(fan, &fans.corners[fan.start..fan.end]);
         }
@@ -186,7 +172,8 @@ impl EditMesh {
             return Err(Refusal::NotPossible { operation: OPERATION, reason: left_out.reason() });
         }
         // The zeros cost nothing until they are touched.
-        let mut nodes = Nodes::new(self, vec![0; self.edge_capacity()], fans.fans.len(), 0);
+        let rims = Rims::of_edges(self, &[], settings);
+        let mut nodes = Nodes::new(self, vec![0; self.edge_capacity()], fans.fans.len(), rims);
         for &fan in &fans.fans {
             nodes.add_vertex_fan(fan, &fans.corners[fan.start..fan.end]);
         }
@@ -204,24 +191,9 @@ impl EditMesh {
         let width = if limit < settings.width { limit } else { settings.width };
         let profile = Profile::new(settings.segments, settings.profile);
         shape::check_size(self, &laid, settings.segments)?;
+        let finish = self.plan_bevel_finish(&laid, edges, settings);
         let plan = shape::Plan::draw(self, laid, &profile, width);
-        let (faces, vertices) = self.build_bevel(plan, edges);
+        let (faces, vertices) = self.build_bevel(plan, edges, &finish);
         Ok(Beveled { faces, vertices, width, left_out })
-    }
-}
-
-impl BevelSettings {
-    fn check(&self) -> Result<(), Refusal> {
-        let refused = |parameter, value, range| Err(Refusal::OutOfRange { parameter, value, range });
-        if !(self.width >= 0.0 && self.width.is_finite()) {
-            return refused("the width of a bevel", self.width, "at least 0");
-        }
-        if !(1..=MOST_SEGMENTS).contains(&self.segments) {
-            return refused("the number of segments", self.segments as f64, "1 to 100");
-        }
-        if !(0.0..=1.0).contains(&self.profile) {
-            return refused("the profile of a bevel", self.profile, "0 to 1");
-        }
-        Ok(())
     }
 }

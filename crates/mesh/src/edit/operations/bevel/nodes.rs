@@ -9,11 +9,13 @@ use super::super::super::ids::{CornerId, EdgeId, NONE, VertexId};
 use super::fans::Fan;
 use super::frames::Frames;
 use super::laid::{Arc, End, Insertion, Laid, Move, Node, Part, Round, Stop};
+use super::rims::Rims;
 
 /// All nodes, as they are collected fan by fan.
 pub(super) struct Nodes<'m> {
     pub(super) mesh: &'m EditMesh,
     pub(super) frames: Frames,
+    pub(super) rims: Rims,
     parts: Vec<Part>,
     sums: Vec<u32>,
     pub(super) nodes: Vec<Node>,
@@ -41,18 +43,24 @@ pub(super) struct Layout {
     pub(super) corners: SmallVec<[CornerId; 8]>,
     /// The edges along which they leave, and that by which the last is entered.
     pub(super) stops: SmallVec<[Stop; 8]>,
-    /// For each corner the sum that it gets.
+    /// For each corner the sum that it gets on the edge along which it is left, and on that by which it is
+    /// entered: they differ at a miter.
     pub(super) sums: SmallVec<[u32; 8]>,
+    pub(super) entered_sums: SmallVec<[u32; 8]>,
+    /// The curves of miters, and after which stop each comes, in ascending order.
+    pub(super) miters: SmallVec<[(usize, Stop); 4]>,
 }
 
 impl<'m> Nodes<'m> {
-    /// For so many fans and beveled edges.
-    pub(super) fn new(mesh: &'m EditMesh, marks: Vec<u32>, fans: usize, beveled: usize) -> Self {
+    /// For so many fans.
+    pub(super) fn new(mesh: &'m EditMesh, marks: Vec<u32>, fans: usize, rims: Rims) -> Self {
         /// Most vertices have four edges; more takes more memory.
         const USUAL: usize = 4;
+        let beveled = rims.count();
         Self {
             mesh,
             frames: Frames::default(),
+            rims,
             parts: Vec::with_capacity(4 * USUAL * fans),
             sums: Vec::with_capacity(2 * USUAL * fans),
             nodes: Vec::with_capacity(USUAL * fans),
@@ -126,7 +134,7 @@ impl<'m> Nodes<'m> {
         for pair in beveled.windows(2) {
             if count == 1 {
                 self.fill_end(&round, &mut layout, pair[0], pair[1]);
-            } else {
+            } else if pair[1] - pair[0] > 1 || !self.fill_with_miter(&round, &mut layout, pair[0]) {
                 self.fill_between(&mut layout, pair[0], pair[1]);
             }
         }
@@ -138,7 +146,7 @@ impl<'m> Nodes<'m> {
             self.fill_end(&round, &mut layout, beveled[beveled.len() - 1], last);
         }
         self.add_arcs(&round, &mut layout, count);
-        self.end_round(round, &layout.stops);
+        self.end_round(round, &layout);
     }
 
     /// Adds a fan at a vertex that is beveled itself.
@@ -149,12 +157,16 @@ impl<'m> Nodes<'m> {
             layout.stops.pop();
         }
         let count = layout.stops.len();
+        let axis = self.axis(&layout, count);
+        let mut distances = SmallVec::<[f64; 8]>::new();
         for i in 0..count {
             let (corner, is_out) = layout.corner_at(i);
-            let node = self.node_on_edge(fan.vertex, corner, is_out, 1.0);
+            let distance = self.vertex_distance(&layout, i, axis);
+            let node = self.node_on_edge(fan.vertex, corner, is_out, distance);
             let stop = &mut layout.stops[i];
             (stop.left, stop.right) = (node, node);
-            self.limit(stop.edge, 1.0);
+            self.limit(stop.edge, distance);
+            distances.push(distance);
         }
         let stops = &mut layout.stops;
         for (i, &corner) in corners.iter().enumerate() {
@@ -166,15 +178,16 @@ impl<'m> Nodes<'m> {
             let is_shared = fan.is_closed && count == 2 && i == 1;
             if !is_shared {
                 let control_sum = self.sum(&[Part { corner, base: 1.0, slope: 0.0 }]);
-                self.arcs.push(Arc { first: here, last: next, control: DVec3::ZERO, control_sum });
+                let (control, home) = (DVec3::ZERO, CornerId(NONE));
+                self.arcs.push(Arc { first: here, last: next, control, control_sum, home });
             }
             let (arc, is_reversed) = (self.arcs.len() as u32 - 1, !is_shared);
             (stops[i].arc, stops[i].is_reversed) = (arc, !is_reversed);
-            let sum = self.sum_on_edge(corner, false, 1.0);
+            let sum = self.sum_on_edge(corner, false, distances[(i + 1) % count]);
             let (before, node, is_continuous) = (corner, next, round.is_continuous);
             self.insertions.push(Insertion { before, node, sum, arc, is_reversed, is_continuous });
         }
-        self.end_round(round, &layout.stops);
+        self.end_round(round, &layout);
     }
 
     fn begin_round(&self, fan: Fan, corners: &[CornerId], is_round: bool) -> Round {
@@ -188,15 +201,21 @@ impl<'m> Nodes<'m> {
         }
     }
 
-    fn end_round(&mut self, mut round: Round, stops: &[Stop]) {
-        self.stops.extend_from_slice(stops);
+    fn end_round(&mut self, mut round: Round, layout: &Layout) {
+        let mut miters = layout.miters.iter().peekable();
+        for (i, stop) in layout.stops.iter().enumerate() {
+            self.stops.push(*stop);
+            while let Some((_, miter)) = miters.next_if(|(after, _)| *after == i) {
+                self.stops.push(*miter);
+            }
+        }
         round.stops[1] = self.stops.len();
         round.nodes[1] = self.nodes.len();
         self.rounds.push(round);
     }
 
     /// The number of a beveled edge, or `NONE`.
-    fn number(&self, edge: EdgeId) -> u32 {
+    pub(super) fn number(&self, edge: EdgeId) -> u32 {
         match self.marks[edge.0 as usize] {
             0 | SLID.. => NONE,
             number => number - 1,
@@ -211,8 +230,9 @@ impl<'m> Nodes<'m> {
             Stop { edge, beveled, right: NONE, left: NONE, arc: NONE, is_reversed: false }
         };
         let stops = edges.map(stop).collect();
-        let sums = smallvec![NONE; corners.len()];
-        Layout { vertex, corners, stops, sums }
+        let sums: SmallVec<[u32; 8]> = smallvec![NONE; corners.len()];
+        let (entered_sums, miters) = (sums.clone(), SmallVec::new());
+        Layout { vertex, corners, stops, sums, entered_sums, miters }
     }
 
     /// Adds a sum; its number.
@@ -250,10 +270,15 @@ impl Layout {
             left_corner: self.corners[stop],
             right_corner: self.corners[before],
             left_sum: self.sums[stop],
-            right_sum: self.sums[before],
+            right_sum: self.entered_sums[before],
             control_sum,
             is_continuous,
         }
+    }
+
+    /// Sets the sum that a corner gets, which is the same on both of its edges.
+    pub(super) fn set_sum(&mut self, i: usize, sum: u32) {
+        (self.sums[i], self.entered_sums[i]) = (sum, sum);
     }
 
     /// A corner at an edge, and whether it leaves along it.

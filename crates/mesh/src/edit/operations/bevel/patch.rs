@@ -86,10 +86,8 @@ impl Plan<'_> {
 
     fn add_grid_face(&mut self, round: &Round, grid: &Grid, side: usize, points: &[u32]) {
         let home = grid.sides[side].home;
-        let corners: SmallVec<[NewCorner; 8]> = points
-            .iter()
-            .map(|&point| NewCorner { point, sum: self.value_in_middle(round, home, point) })
-            .collect();
+        let corners: SmallVec<[NewCorner; 8]> =
+            points.iter().map(|&point| self.corner_in_middle(round, home, point)).collect();
         let material = self.mesh.corner_face(home);
         self.add_face(corners, material);
     }
@@ -155,6 +153,6 @@ impl Plan<'_> {
             terms.push((self.out.laid.arcs[here.arc as usize].control_sum, control));
         }
         let sum = self.combine(terms);
-        self.add_point(position, sum)
+        self.add_point(position, sum, CornerId(NONE))
     }
 }

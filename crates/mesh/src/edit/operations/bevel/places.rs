@@ -9,7 +9,7 @@ use super::nodes::Nodes;
 
 /// The sine of an angle below which two edges count as one line. An edge beside a beveled one then
 /// leads almost along it, and would reach the distance of the rim far away or never.
-const STRAIGHT: f64 = 0.05;
+pub(super) const STRAIGHT: f64 = 0.05;
 
 impl Nodes<'_> {
     /// Adds a node on one of the two edges of a corner, at a distance times the width; its number.
@@ -28,7 +28,7 @@ impl Nodes<'_> {
     }
 
     /// The corner at the other end of one of the two edges of a corner.
-    fn far_corner(&self, corner: CornerId, is_out: bool) -> CornerId {
+    pub(super) fn far_corner(&self, corner: CornerId, is_out: bool) -> CornerId {
         if is_out { self.mesh.next_corner(corner) } else { self.mesh.previous_corner(corner) }
     }
 
@@ -41,34 +41,36 @@ impl Nodes<'_> {
         if length > 0.0 && length.is_finite() { (way / length, length) } else { (DVec3::ZERO, 0.0) }
     }
 
-    /// How far a rim has to be along one edge of a corner to have a distance of 1 from the other.
-    pub(super) fn rim_distance(&self, corner: CornerId) -> f64 {
-        let sine = self.way(corner, true).0.cross(self.way(corner, false).0).length();
-        if sine > STRAIGHT { 1.0 / sine } else { 1.0 }
-    }
-
     /// Where the rims of two beveled edges meet in the one face between them.
     pub(super) fn meeting(&mut self, corner: CornerId) -> (DVec3, SmallVec<[Part; 4]>) {
         let (out, out_length) = self.way(corner, true);
         let (into, into_length) = self.way(corner, false);
+        let rims = [self.rim(corner, true), self.rim(corner, false)];
         let cross = out.cross(into);
         let sine = cross.length();
         if sine > STRAIGHT {
-            // Both rims have distance 1; in a hollow corner they meet on the other side.
+            // At a reflex angle the rims meet on the other side.
             let is_hollow = self.frames.is_hollow(self.mesh, corner, cross);
             let scale = if is_hollow { -1.0 } else { 1.0 } / sine;
+            // Along each edge as far as the rim of the other one is from that.
+            let [along_out, along_into] = [rims[1] * scale, rims[0] * scale];
+            let slopes = [along_out / out_length, along_into / into_length];
             let parts = smallvec![
-                self.toward(corner, true, scale / out_length),
-                self.toward(corner, false, scale / into_length),
-                Part { corner, base: 1.0, slope: -scale / out_length - scale / into_length },
+                self.toward(corner, true, slopes[0]),
+                self.toward(corner, false, slopes[1]),
+                Part { corner, base: 1.0, slope: -slopes[0] - slopes[1] },
             ];
-            return ((out + into) * scale, parts);
+            return (out * along_out + into * along_into, parts);
         }
+        let rim = 0.5 * (rims[0] + rims[1]);
         if out.dot(into) < 0.0 {
             // One straight line: the rim runs beside it, in the plane of the face.
-            return self.frames.beside(self.mesh, corner, (out - into).normalize_or_zero());
+            let direction = (out - into).normalize_or_zero();
+            let (offset, mut parts) = self.frames.beside(self.mesh, corner, direction);
+            parts.iter_mut().for_each(|part| part.slope *= rim);
+            return (offset * rim, parts);
         }
-        (out, self.parts_on_edge(corner, true, 1.0))
+        (out * rim, self.parts_on_edge(corner, true, rim))
     }
 
     fn toward(&self, corner: CornerId, is_out: bool, slope: f64) -> Part {

@@ -4,7 +4,7 @@
 use smallvec::SmallVec;
 use trigon_math::DVec3;
 
-use super::super::super::ids::NONE;
+use super::super::super::ids::{CornerId, NONE};
 use super::laid::{Arc, End, Insertion, Move, Node, Round, Stop};
 use super::nodes::{Layout, Nodes};
 
@@ -39,8 +39,9 @@ impl Nodes<'_> {
             let (here, next) = (layout.stops[i], layout.stops[i + 1]);
             if here.beveled == NONE {
                 // The corner that leaves along an edge is its node's home.
-                layout.sums[i] = self.nodes[here.left as usize].sum;
-                self.moves.push(Move { corner, node: here.left, sum: layout.sums[i] });
+                let sum = self.nodes[here.left as usize].sum;
+                layout.set_sum(i, sum);
+                self.moves.push(Move { corner, node: here.left, sum });
             } else {
                 layout.stops[i].left = next.right;
             }
@@ -55,7 +56,7 @@ impl Nodes<'_> {
                 let (arc, is_reversed) = (NONE, true);
                 self.insertions.push(Insertion { before, node, sum, arc, is_reversed, is_continuous });
             } else {
-                layout.sums[i] = sum;
+                layout.set_sum(i, sum);
                 self.moves.push(Move { corner, node: next.left, sum });
             }
         }
@@ -67,12 +68,24 @@ impl Nodes<'_> {
         if is_beveled(i) {
             return 0.0;
         }
-        let after = (i > from && is_beveled(i - 1)).then(|| self.rim_distance(layout.corners[i - 1]));
-        let before = (i < to && is_beveled(i + 1)).then(|| self.rim_distance(layout.corners[i]));
+        let after = (i > from && is_beveled(i - 1)).then(|| self.rim_distance(layout.corners[i - 1], true));
+        let before = (i < to && is_beveled(i + 1)).then(|| self.rim_distance(layout.corners[i], false));
         match (after, before) {
             (Some(one), Some(other)) => 0.5 * (one + other),
             (Some(one), None) | (None, Some(one)) => one,
-            (None, None) => 1.0,
+            (None, None) => {
+                let (corner, is_out) = layout.corner_at(i);
+                self.free_distance(self.way(corner, is_out).1, self.rim_at_end(layout, from, to))
+            }
+        }
+    }
+
+    /// The distance of the rim of the beveled edge at one of two stops.
+    fn rim_at_end(&self, layout: &Layout, from: usize, to: usize) -> f64 {
+        if layout.stops[from].beveled == NONE {
+            self.rim(layout.corners[to - 1], false)
+        } else {
+            self.rim(layout.corners[from], true)
         }
     }
 
@@ -88,7 +101,7 @@ impl Nodes<'_> {
         }
         for i in from..to {
             let (corner, sum) = (layout.corners[i], sums[usize::from(i > from)]);
-            layout.sums[i] = sum;
+            layout.set_sum(i, sum);
             self.moves.push(Move { corner, node, sum });
         }
     }
@@ -105,14 +118,14 @@ impl Nodes<'_> {
             }
             2 => {
                 // On the one edge between them, at the mean of the distances that both ask for.
-                let distance = 0.5 * (self.rim_distance(first) + self.rim_distance(last));
+                let distance = 0.5 * (self.rim_distance(first, true) + self.rim_distance(last, false));
                 self.limit(layout.stops[from + 1].edge, distance);
                 let sums = [self.sum_on_edge(first, false, distance), self.sum_on_edge(last, true, distance)];
                 (self.way(last, true).0 * distance, sums)
             }
             _ => {
                 // In the middle of the places on the first and the last edge between them.
-                let (one, other) = (self.rim_distance(first), self.rim_distance(last));
+                let (one, other) = (self.rim_distance(first, true), self.rim_distance(last, false));
                 self.limit(layout.stops[from + 1].edge, one);
                 self.limit(layout.stops[to - 1].edge, other);
                 let mut parts = self.parts_on_edge(first, false, one);
@@ -129,8 +142,8 @@ impl Nodes<'_> {
     /// The curves across the beveled edges of a fan.
     pub(super) fn add_arcs(&mut self, round: &Round, layout: &mut Layout, count: usize) {
         // Where two beveled edges meet, their bevels meet in a plane through the vertex and share
-        // a curve.
-        let is_miter = count == 2 && round.fan.is_closed;
+        // a curve, unless a miter parts them.
+        let is_miter = count == 2 && round.fan.is_closed && layout.miters.is_empty();
         let mut is_second = false;
         for i in 0..layout.stops.len() {
             if layout.stops[i].beveled == NONE {
@@ -142,8 +155,8 @@ impl Nodes<'_> {
             let control = if is_miter { 0.0 } else { 0.5 * (along[0] + along[1]) };
             let control_sum = self.sum_on_edge(left, true, control);
             if !is_second {
-                let control = direction * control;
-                self.arcs.push(Arc { first: stop.left, last: stop.right, control, control_sum });
+                let (control, home) = (direction * control, CornerId(NONE));
+                self.arcs.push(Arc { first: stop.left, last: stop.right, control, control_sum, home });
             }
             // Round the vertex an edge's right comes first.
             (layout.stops[i].arc, layout.stops[i].is_reversed) = (self.arcs.len() as u32 - 1, !is_second);

@@ -20,6 +20,8 @@ pub(super) struct NewCorner {
     pub(super) point: u32,
     /// The number of the sum that it gets as its values.
     pub(super) sum: u32,
+    /// The old corner with the normal of the old face that it touches, or `NONE`.
+    pub(super) beside: CornerId,
 }
 
 /// Some new corners of a face.
@@ -38,6 +40,8 @@ pub(super) struct Blueprint {
     pub(super) positions: Vec<DVec3>,
     /// The sum that is each new vertex's value.
     pub(super) point_sums: Vec<u32>,
+    /// The old corner of the face in whose plane each new vertex lies, or `NONE`.
+    pub(super) point_homes: Vec<CornerId>,
     /// For each curve, its first point between its ends.
     inner: Vec<u32>,
     pub(super) segments: usize,
@@ -85,6 +89,7 @@ impl<'m> Plan<'m> {
             out: Blueprint {
                 positions: laid.nodes.iter().map(place).collect(),
                 point_sums: laid.nodes.iter().map(|node| node.sum).collect(),
+                point_homes: laid.nodes.iter().map(|node| node.home).collect(),
                 inner: Vec::with_capacity(laid.arcs.len()),
                 laid,
                 blends,
@@ -122,7 +127,7 @@ impl<'m> Plan<'m> {
             for step in 1..self.out.segments {
                 let [a, b, c] = self.weights[step];
                 let sum = self.combine([(sums[0], a), (sums[1], b), (arc.control_sum, c)]);
-                self.add_point(first * a + last * b + control * c, sum);
+                self.add_point(first * a + last * b + control * c, sum, arc.home);
             }
         }
     }
@@ -133,9 +138,10 @@ impl<'m> Plan<'m> {
         self.mesh.point(self.out.laid.nodes[arc.first as usize].vertex) + arc.control * width
     }
 
-    pub(super) fn add_point(&mut self, position: DVec3, sum: u32) -> u32 {
+    pub(super) fn add_point(&mut self, position: DVec3, sum: u32, home: CornerId) -> u32 {
         self.out.positions.push(position);
         self.out.point_sums.push(sum);
+        self.out.point_homes.push(home);
         self.out.positions.len() as u32 - 1
     }
 
@@ -156,16 +162,20 @@ impl<'m> Plan<'m> {
         self.out.blends.sum(self.mesh.parts_beside(corner, way))
     }
 
-    /// The value of a point in a new face at a vertex, next to an old corner there.
-    pub(super) fn value_in_middle(&mut self, round: &Round, home: CornerId, point: u32) -> u32 {
-        if round.is_continuous { self.out.point_sums[point as usize] } else { self.value_beside(home, point) }
+    /// A corner of a new face at a vertex, next to an old corner there.
+    pub(super) fn corner_in_middle(&mut self, round: &Round, home: CornerId, point: u32) -> NewCorner {
+        let is_continuous = round.is_continuous;
+        let sum =
+            if is_continuous { self.out.point_sums[point as usize] } else { self.value_beside(home, point) };
+        NewCorner { point, sum, beside: self.out.point_homes[point as usize] }
     }
 
     /// The corners that come before old ones where an old face has two nodes.
     fn add_insertions(&mut self) {
         for i in 0..self.out.laid.insertions.len() {
             let insertion = self.out.laid.insertions[i];
-            self.out.corners.push(NewCorner { point: insertion.node, sum: insertion.sum });
+            let beside = insertion.before;
+            self.out.corners.push(NewCorner { point: insertion.node, sum: insertion.sum, beside });
             if insertion.arc != NONE {
                 for step in 1..self.out.segments {
                     let point = self.out.curve_point(insertion.arc, insertion.is_reversed, step);
@@ -174,10 +184,14 @@ impl<'m> Plan<'m> {
                     } else {
                         self.value_beside(insertion.before, point)
                     };
-                    self.out.corners.push(NewCorner { point, sum });
+                    self.out.corners.push(NewCorner { point, sum, beside });
                 }
             }
-            self.out.insertions.push(Run { end: self.out.corners.len(), of: insertion.before });
+            // All corners before the same one are one run.
+            let next = self.out.laid.insertions.get(i + 1);
+            if next.is_none_or(|next| next.before != beside) {
+                self.out.insertions.push(Run { end: self.out.corners.len(), of: beside });
+            }
         }
     }
 
@@ -218,7 +232,12 @@ impl<'m> Plan<'m> {
             let [a, b, c] = self.weights[step];
             self.combine([(end.left_sum, a), (end.right_sum, b), (end.control_sum, c)])
         };
-        NewCorner { point, sum }
+        let beside = match (is_first, is_last) {
+            (true, _) => end.left_corner,
+            (_, true) => end.right_corner,
+            _ => CornerId(NONE),
+        };
+        NewCorner { point, sum, beside }
     }
 
     /// Adds a face, without corners at the same point as the one before.
@@ -281,10 +300,8 @@ impl<'m> Plan<'m> {
             }
         }
         let home = self.out.laid.nodes[round.nodes[0]].home;
-        let corners: SmallVec<[NewCorner; 16]> = points
-            .into_iter()
-            .map(|point| NewCorner { point, sum: self.value_in_middle(round, home, point) })
-            .collect();
+        let corners: SmallVec<[NewCorner; 16]> =
+            points.into_iter().map(|point| self.corner_in_middle(round, home, point)).collect();
         self.add_face(corners, self.mesh.corner_face(home));
     }
 }

@@ -11,7 +11,7 @@ use super::*;
 use crate::{Mesh, primitives};
 
 fn settings(width: f64, segments: usize, profile: f64) -> BevelSettings {
-    BevelSettings { width, segments, profile, clamp_overlap: true }
+    BevelSettings { width, segments, profile, ..BevelSettings::default() }
 }
 
 fn edit(mesh: Mesh) -> EditMesh {
@@ -418,6 +418,26 @@ fn closed_characteristic(mesh: &EditMesh) -> Option<isize> {
     is_closed.then_some(vertices - edges + faces)
 }
 
+/// Settings besides width, segments and profile.
+fn other_settings() -> impl Strategy<Value = BevelSettings> {
+    let width_type = prop::sample::select(vec![
+        BevelWidth::Offset,
+        BevelWidth::Width,
+        BevelWidth::Depth,
+        BevelWidth::Percent,
+        BevelWidth::Absolute,
+    ]);
+    let outer = prop::sample::select(vec![OuterMiter::Sharp, OuterMiter::Patch, OuterMiter::Arc]);
+    let inner = prop::sample::select(vec![InnerMiter::Sharp, InnerMiter::Arc]);
+    (width_type, outer, inner, any::<[bool; 4]>()).prop_map(
+        |(width_type, outer_miter, inner_miter, switches)| {
+            let [clamp_overlap, mark_sharp, mark_seams, harden_normals] = switches;
+            let marks = BevelSettings { mark_sharp, mark_seams, harden_normals, ..BevelSettings::default() };
+            BevelSettings { width_type, outer_miter, inner_miter, clamp_overlap, ..marks }
+        },
+    )
+}
+
 /// Numbers that choose elements.
 fn some() -> impl Strategy<Value = Vec<u32>> {
     prop_oneof![prop::collection::vec(any::<u32>(), 1..6), Just((0..200).collect())]
@@ -434,10 +454,11 @@ proptest! {
         width in 0.0f64..0.5,
         segments in 1usize..5,
         profile in prop_oneof![Just(0.5), Just(0.25), Just(1.0), 0.0f64..=1.0],
+        other in other_settings(),
     ) {
         let (mut mesh, _) = EditMesh::from_mesh(&start);
         let before = mesh.clone();
-        let settings = settings(width, segments, profile);
+        let settings = BevelSettings { width, segments, profile, ..other };
         let edges: Vec<EdgeId> =
             chosen.iter().map(|&edge| EdgeId(edge % mesh.edge_capacity().max(1) as u32)).collect();
         let vertices: Vec<VertexId> =
