@@ -1,7 +1,8 @@
 //! A painter that is simple instead of fast: coverage in exact integers, colour
 //! in f64, one pixel after the other.
 
-use trigon_raster::paint2d::{Filter, Image, Mesh, Rect, Vertex, Wrap};
+use trigon_raster::paint2d::{Image, Mesh, Rect, Vertex};
+use trigon_raster::{Filter, Wrap};
 
 /// Paints meshes pixel by pixel; each triangle is rounded to bytes, as the
 /// canvas of any painter is.
@@ -77,11 +78,11 @@ fn sample(image: &Image, uv: [f64; 2]) -> [f64; 4] {
 fn texel(image: &Image, place: [i64; 2]) -> [f64; 4] {
     let [width, height] = image.size().map(i64::from);
     let wrapped = |v: i64, size: i64| match image.wrap {
-        Wrap::Clamp => v.max(0).min(size - 1),
+        Wrap::ClampToEdge => v.max(0).min(size - 1),
         Wrap::Repeat => v.rem_euclid(size),
         // 0 1 2 2 1 0 0 1 …
-        Wrap::Mirror if v.div_euclid(size) % 2 == 0 => v.rem_euclid(size),
-        Wrap::Mirror => size - 1 - v.rem_euclid(size),
+        Wrap::MirroredRepeat if v.div_euclid(size) % 2 == 0 => v.rem_euclid(size),
+        Wrap::MirroredRepeat => size - 1 - v.rem_euclid(size),
     };
     let index = wrapped(place[1], height) * width + wrapped(place[0], width);
     image.texels()[index as usize].map(f64::from)

@@ -7,7 +7,8 @@ use super::shapes::{
 };
 use crate::effort::cases;
 use proptest::prelude::*;
-use trigon_raster::paint2d::{Canvas, Filter, Painter, Rect};
+use trigon_raster::Filter;
+use trigon_raster::paint2d::{Canvas, Painter, Rect};
 use trigon_raster::simd::SimdLevel;
 
 /// Quads with texels one to one from a whole pixel, as glyphs are: part of an

@@ -1,7 +1,8 @@
 //! What the tests paint, and on what.
 
 use proptest::prelude::*;
-use trigon_raster::paint2d::{Canvas, Image, Mesh, Painted, Painter, Rect, Vertex, Wrap};
+use trigon_raster::Wrap;
+use trigon_raster::paint2d::{Canvas, Image, Mesh, Painted, Painter, Rect, Vertex};
 
 /// Width and height of the pictures: no multiples of eight.
 pub(crate) const SIZE: [i32; 2] = [37, 29];
@@ -97,7 +98,7 @@ pub(crate) fn coordinate() -> impl Strategy<Value = f32> {
 
 /// Images of any shape up to nine texels a side, linearly filtered.
 pub(crate) fn image() -> impl Strategy<Value = Image> {
-    let wrap = prop_oneof![Just(Wrap::Clamp), Just(Wrap::Repeat), Just(Wrap::Mirror)];
+    let wrap = prop_oneof![Just(Wrap::ClampToEdge), Just(Wrap::Repeat), Just(Wrap::MirroredRepeat)];
     (1..10_u32, 1..10_u32, wrap).prop_flat_map(|(width, height, wrap)| {
         proptest::collection::vec(color(), (width * height) as usize).prop_map(move |texels| {
             let mut image = Image::new(width, height, texels).expect("the sides and the texels agree");

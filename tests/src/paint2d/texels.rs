@@ -1,7 +1,8 @@
 //! Which texel is seen where.
 
 use super::shapes::{EVERYWHERE, SIZE, Shape, painted_over};
-use trigon_raster::paint2d::{Filter, Image, Rect, Vertex, Wrap};
+use trigon_raster::paint2d::{Image, Rect, Vertex};
+use trigon_raster::{Filter, Wrap};
 
 const WIDTH: u32 = 5;
 const HEIGHT: u32 = 3;
@@ -32,16 +33,16 @@ fn wrapped(wrap: Wrap, size: i32) -> impl Fn(i32) -> i32 {
     let once: Vec<i32> = (0..size).collect();
     let mirrored: Vec<i32> = (0..size).chain((0..size).rev()).collect();
     move |index: i32| match wrap {
-        Wrap::Clamp => index.max(0).min(size - 1),
+        Wrap::ClampToEdge => index.max(0).min(size - 1),
         Wrap::Repeat => once[index.rem_euclid(size) as usize],
-        Wrap::Mirror => mirrored[index.rem_euclid(2 * size) as usize],
+        Wrap::MirroredRepeat => mirrored[index.rem_euclid(2 * size) as usize],
     }
 }
 
 #[test]
 fn the_centre_of_a_texel_has_its_colour_with_every_filter_and_wrap() {
     for filter in [Filter::Nearest, Filter::Linear] {
-        for wrap in [Wrap::Clamp, Wrap::Repeat, Wrap::Mirror] {
+        for wrap in [Wrap::ClampToEdge, Wrap::Repeat, Wrap::MirroredRepeat] {
             let image = image(filter, wrap);
             let [column, row] = [wrapped(wrap, WIDTH as i32), wrapped(wrap, HEIGHT as i32)];
             let pixels = covered(image.clone(), 1.0, [7.0, 11.0]);
@@ -69,7 +70,7 @@ fn nearest_makes_blocks_of_texels() {
 
 #[test]
 fn a_delta_replaces_a_rectangle_and_nothing_else() {
-    let mut image = image(Filter::Nearest, Wrap::Clamp);
+    let mut image = image(Filter::Nearest, Wrap::ClampToEdge);
     let before = image.texels().to_vec();
     let area = Rect::new([2, 1], [4, 3]);
     image.update(area, &[[1; 4], [2; 4], [3; 4], [4; 4]]).expect("it is inside");
@@ -87,7 +88,7 @@ fn a_delta_replaces_a_rectangle_and_nothing_else() {
 
 #[test]
 fn wrong_sizes_are_refused() {
-    let mut image = image(Filter::Nearest, Wrap::Clamp);
+    let mut image = image(Filter::Nearest, Wrap::ClampToEdge);
     let before = image.clone();
     for (area, texels) in [
         (Rect::new([4, 0], [6, 1]), 2),

@@ -1,28 +1,7 @@
 //! Images that triangles are painted with.
 
 use super::{Rect, SizeError};
-
-/// The colour between the middles of texels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Filter {
-    /// That of the texel that the place lies in.
-    Nearest,
-    /// Linear on both axes between the four nearest texels.
-    #[default]
-    Linear,
-}
-
-/// The colour beyond the image's edges.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Wrap {
-    /// That of the nearest texel of the edge.
-    #[default]
-    Clamp,
-    /// The image again.
-    Repeat,
-    /// The image again, each time mirrored.
-    Mirror,
-}
+use crate::texture::{Filter, Wrap};
 
 /// A picture in gamma space, premultiplied by alpha, which comes last; never
 /// empty.
@@ -44,7 +23,7 @@ impl Image {
     /// texels is not `width * height`.
     pub fn new(width: u32, height: u32, texels: Vec<[u8; 4]>) -> Result<Self, SizeError> {
         let size = SizeError::check(width, height, texels.len())?;
-        Ok(Self { size, texels, filter: Filter::default(), wrap: Wrap::default() })
+        Ok(Self { size, texels, filter: Filter::default(), wrap: Wrap::ClampToEdge })
     }
 
     /// Width and height in texels.
@@ -105,9 +84,9 @@ impl Wrap {
     #[inline(always)]
     fn index(self, index: i32, size: i32) -> i32 {
         match self {
-            Self::Clamp => index.clamp(0, size - 1),
+            Self::ClampToEdge => index.clamp(0, size - 1),
             Self::Repeat => index.rem_euclid(size),
-            Self::Mirror => {
+            Self::MirroredRepeat => {
                 let twice = index.rem_euclid(2 * size);
                 if twice < size { twice } else { 2 * size - 1 - twice }
             }

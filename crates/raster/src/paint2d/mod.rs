@@ -73,7 +73,7 @@ mod source;
 mod texel;
 
 pub use canvas::{Canvas, MAX_SIZE, SizeError};
-pub use image::{Filter, Image, Wrap};
+pub use image::Image;
 pub use mesh::{Mesh, Vertex};
 pub use painter::{Painted, Painter};
 pub use rect::Rect;

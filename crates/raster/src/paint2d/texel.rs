@@ -5,10 +5,11 @@
 //! to be the middle of a texel is, whichever way it was computed. A linearly
 //! filtered channel is off by less than 1/16 level for that.
 
+use super::Image;
 use super::blend::{Channels, unpack};
-use super::{Filter, Image};
 use crate::simd::prelude::*;
 use crate::simd::{F32, I32, LANES, U32};
+use crate::texture::Filter;
 use std::ops::Range;
 
 /// Bits behind the point of a place.

@@ -4,7 +4,8 @@ use std::collections::HashMap;
 
 use egui::epaint::{ImageData, ImageDelta};
 use egui::{TextureFilter, TextureId, TextureOptions, TextureWrapMode, TexturesDelta};
-use trigon_raster::paint2d::{self, Filter, Image, Rect, Wrap};
+use trigon_raster::paint2d::{self, Image, Rect};
+use trigon_raster::{Filter, Wrap};
 
 use super::ChannelOrder;
 
@@ -77,7 +78,7 @@ impl Textures {
 
 /// The coordinates that some texels affect. If the image is repeated, that is everywhere.
 fn uv_of(area: Rect, image: &Image) -> egui::Rect {
-    if image.wrap != Wrap::Clamp {
+    if image.wrap != Wrap::ClampToEdge {
         return egui::Rect::EVERYTHING;
     }
     let size = image.size();
@@ -99,8 +100,8 @@ fn filter(options: TextureOptions) -> Filter {
 
 fn wrap(options: TextureOptions) -> Wrap {
     match options.wrap_mode {
-        TextureWrapMode::ClampToEdge => Wrap::Clamp,
+        TextureWrapMode::ClampToEdge => Wrap::ClampToEdge,
         TextureWrapMode::Repeat => Wrap::Repeat,
-        TextureWrapMode::MirroredRepeat => Wrap::Mirror,
+        TextureWrapMode::MirroredRepeat => Wrap::MirroredRepeat,
     }
 }
