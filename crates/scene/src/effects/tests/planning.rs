@@ -179,6 +179,39 @@ fn what_is_off_is_not_done() {
     assert_eq!(missed, unnoted, "all others are done where they are on");
 }
 
+/// Nothing is prepared for light that no material takes.
+#[test]
+fn an_unlit_material_takes_no_effect_of_light() {
+    let of_light = [
+        Effect::Lamps,
+        Effect::AmbientLight,
+        Effect::Highlights,
+        Effect::NormalMaps,
+        Effect::OcclusionMaps,
+        Effect::Environment,
+        Effect::MetalSky,
+        Effect::ShadowMaps,
+        Effect::ShadowRays,
+        Effect::AmbientOcclusion,
+        Effect::Reflection,
+        Effect::Refraction,
+    ];
+    for made_for in of_light {
+        let [_, (mut scene, settings)] = with(made_for);
+        for (_, material) in scene.materials.iter_mut() {
+            material.shading = Shading::Unlit;
+        }
+        let mut renderer = Renderer::new(RenderSettings { threads: NonZeroUsize::new(1), ..settings });
+        done::take();
+        renderer.render(&scene, &from_front()).expect("drawn");
+        let plan = renderer.plan().expect("drawn");
+        for effect in of_light {
+            assert!(!plan.is_on(effect), "{effect}, in the scene of {made_for}: {}", plan.decision(effect));
+        }
+        assert_eq!(done::take(), [], "in the scene of {made_for}");
+    }
+}
+
 #[test]
 fn an_effect_that_is_left_out_is_off() {
     let mut count = 0;
