@@ -36,6 +36,7 @@ pub struct Script {
 
 /// The progress of a script.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ScriptProgress<'s> {
     /// The index of the next command, from 0.
     pub index: usize,

@@ -18,6 +18,7 @@ const C2: f64 = 58.5225;
 
 /// The difference between two images.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PictureDifference {
     /// 0 for equal images, up to 1 and in rare cases to 2; below 0.04 they look alike.
     pub error: f64,

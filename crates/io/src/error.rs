@@ -62,6 +62,7 @@ pub enum LoadErrorKind {
 /// wrong, and the remedy.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{}{place}: {what}; {remedy}", printable(&file.display().to_string()))]
+#[non_exhaustive]
 pub struct LoadError {
     /// The kind of failure.
     pub kind: LoadErrorKind,

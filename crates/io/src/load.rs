@@ -20,6 +20,7 @@ use crate::warning::{Warning, Warnings};
 
 /// A loaded model.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Loaded {
     /// The contents of the file.
     pub scene: Scene,

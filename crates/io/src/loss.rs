@@ -6,6 +6,7 @@ use crate::error::Place;
 
 /// Something in a file or a scene that would be lost by saving. Its `Display` is one line.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Loss {
     /// Its location in the loaded file, or in the scene.
     pub place: Place,

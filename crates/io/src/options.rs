@@ -22,6 +22,7 @@ pub enum Stage {
 
 /// The progress of a load.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Progress {
     /// The stage.
     pub stage: Stage,

@@ -11,6 +11,7 @@ use crate::error::{Place, printable};
 
 /// Something in a file that is missing, wrong or not supported. Its `Display` is one line.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Warning {
     /// The faulty file.
     pub file: PathBuf,

@@ -8,6 +8,7 @@ use thiserror::Error;
 
 /// Why an image, an output, a capture or a model was not written.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum WriteError {
     /// The sizes do not match, or are zero.
     #[error("a picture of {width}×{height} pixels does not fit {length} values; pass width × height pixels")]

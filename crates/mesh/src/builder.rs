@@ -40,11 +40,13 @@ impl Default for MeshBuilder {
 
 impl MeshBuilder {
     /// An empty builder.
+    #[must_use]
     pub fn new() -> Self {
         Self::with_capacity(0, 0, 0)
     }
 
     /// A builder with reserved memory for this many vertices, faces and corners.
+    #[must_use]
     pub fn with_capacity(vertices: usize, faces: usize, corners: usize) -> Self {
         let mut face_starts = Vec::with_capacity(faces + 1);
         face_starts.push(0);
@@ -58,16 +60,19 @@ impl MeshBuilder {
     }
 
     /// The number of vertices pushed so far.
+    #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.positions.len()
     }
 
     /// The number of accepted faces.
+    #[must_use]
     pub fn face_count(&self) -> usize {
         self.face_starts.len() - 1
     }
 
     /// The number of corners of the accepted faces: the required length of per-corner attributes.
+    #[must_use]
     pub fn corner_count(&self) -> usize {
         self.corner_vertices.len()
     }
@@ -138,6 +143,7 @@ impl MeshBuilder {
     }
 
     /// Builds the mesh, without attributes yet (see [`Mesh::set_attributes`]).
+    #[must_use]
     pub fn build(mut self) -> Mesh {
         let mut seen = vec![false; self.positions.len()];
         self.loose_points.retain(|&point| !std::mem::replace(&mut seen[point as usize], true));

@@ -7,6 +7,7 @@ use crate::normals::unit_or_zero;
 
 impl Mesh {
     /// A copy with a transform baked into its vertices, see [`Mesh::transform`].
+    #[must_use]
     pub fn transformed(&self, transform: &DAffine3) -> Mesh {
         let mut mesh = self.clone();
         mesh.transform(transform);

@@ -10,6 +10,7 @@ use std::time::Duration;
 /// The counts of triangles and samples do not depend on the number of threads;
 /// `binned` and `tiles` depend on the tile size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Stats {
     /// Triangles, segments and points recorded.
     pub primitives: u64,

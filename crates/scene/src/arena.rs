@@ -17,6 +17,7 @@ pub struct Id<T> {
 
 impl<T> Id<T> {
     /// The item's index in its arena, as id buffers hold it.
+    #[must_use]
     pub fn index(self) -> usize {
         self.index as usize
     }
@@ -103,6 +104,7 @@ impl<T> Arena<T> {
     }
 
     /// The item, or `None` if it was removed.
+    #[must_use]
     pub fn get(&self, id: Id<T>) -> Option<&T> {
         let slot = self.slots.get(id.index())?;
         slot.item.as_ref().filter(|_| slot.generation == id.generation)
@@ -116,6 +118,7 @@ impl<T> Arena<T> {
     }
 
     /// The id of the existing item at an index, as in an id buffer.
+    #[must_use]
     pub fn id_at(&self, index: usize) -> Option<Id<T>> {
         let slot = self.slots.get(index).filter(|slot| slot.item.is_some())?;
         Some(Id { index: u32::try_from(index).ok()?, generation: slot.generation, kind: PhantomData })
@@ -138,16 +141,19 @@ impl<T> Arena<T> {
     }
 
     /// The number of items.
+    #[must_use]
     pub fn len(&self) -> usize {
         self.slots.len() - self.free.len()
     }
 
     /// Whether there are no items.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// One more than the largest index in use: the length of a table by index.
+    #[must_use]
     pub fn index_bound(&self) -> usize {
         self.slots.len()
     }

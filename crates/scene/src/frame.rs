@@ -90,6 +90,7 @@ impl Frame {
     ///
     /// # Panics
     /// The pixel is outside the image, or the colour was not requested.
+    #[must_use]
     pub fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
         let at = 4 * self.index(x, y);
         [self.color[at], self.color[at + 1], self.color[at + 2], self.color[at + 3]]
@@ -97,6 +98,7 @@ impl Frame {
 
     /// What a pixel shows, in constant time: `None` for background, outside the image, and if ids
     /// were not requested.
+    #[must_use]
     pub fn hit(&self, nodes: &Arena<Node>, x: u32, y: u32) -> Option<Hit> {
         if x >= self.width || y >= self.height {
             return None;

@@ -46,32 +46,38 @@ pub struct Light {
 
 impl Light {
     /// White ambient light.
+    #[must_use]
     pub fn ambient(intensity: f32) -> Self {
         Self { kind: LightKind::Ambient, color: Vec3::ONE, intensity, range: f32::INFINITY }
     }
 
     /// White parallel light along the node's −Z axis.
+    #[must_use]
     pub fn directional(intensity: f32) -> Self {
         Self { kind: LightKind::Directional, ..Self::ambient(intensity) }
     }
 
     /// White light from the node's origin.
+    #[must_use]
     pub fn point(intensity: f32) -> Self {
         Self { kind: LightKind::Point, ..Self::ambient(intensity) }
     }
 
     /// White light in a cone around the node's −Z axis, brightest in its middle and fading to
     /// nothing at π/4 from the axis.
+    #[must_use]
     pub fn spot(intensity: f32) -> Self {
         Self { kind: LightKind::Spot { inner: 0.0, outer: FRAC_PI_4 }, ..Self::ambient(intensity) }
     }
 
     /// The same light in another colour (linear RGB).
+    #[must_use]
     pub fn with_color(self, color: Vec3) -> Self {
         Self { color, ..self }
     }
 
     /// The same light with another range in metres.
+    #[must_use]
     pub fn with_range(self, range: f32) -> Self {
         Self { range, ..self }
     }
@@ -79,6 +85,7 @@ impl Light {
     /// The fraction of a point or spot light that arrives at a distance, given squared, in square
     /// metres: `clamp(1 − (d / range)⁴, 0, 1) / d²`. 0 if that is not a number: at the light
     /// itself, and at infinity.
+    #[must_use]
     pub fn falloff(&self, distance_squared: f32) -> f32 {
         let inverse = 1.0 / distance_squared;
         if !(distance_squared > 0.0 && inverse.is_finite()) {
@@ -93,6 +100,7 @@ impl Light {
     /// `(scale, offset)` of a spot light's cone. At an angle θ from its axis the intensity is
     /// multiplied by `clamp(cos θ · scale + offset, 0, 1)²`. Lights of other kinds have (0, 1): the
     /// same everywhere.
+    #[must_use]
     pub fn cone(&self) -> (f32, f32) {
         // The specification's bound: below it, a cone has a hard edge.
         const NARROWEST: f32 = 0.001;

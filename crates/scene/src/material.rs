@@ -100,11 +100,13 @@ impl Default for Material {
 
 impl Material {
     /// The default plastic in a linear RGB colour.
+    #[must_use]
     pub fn from_color(color: Vec3) -> Self {
         Self { base_color: color.extend(1.0), ..Self::default() }
     }
 
     /// The default plastic with a texture on its first UV set.
+    #[must_use]
     pub fn from_texture(texture: TextureId) -> Self {
         Self {
             base_color: Vec4::ONE,
@@ -114,11 +116,13 @@ impl Material {
     }
 
     /// The same material under another name.
+    #[must_use]
     pub fn with_name(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
     }
 
     /// The same material with another shading.
+    #[must_use]
     pub fn with_shading(self, shading: Shading) -> Self {
         Self { shading, ..self }
     }

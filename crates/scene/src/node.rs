@@ -61,37 +61,44 @@ impl Default for Node {
 
 impl Node {
     /// A node that draws a mesh with one material.
+    #[must_use]
     pub fn from_mesh(mesh: MeshId, material: MaterialId) -> Self {
         Self { mesh: Some(mesh), materials: vec![material], ..Self::default() }
     }
 
     /// A node that holds a light at the origin; place it with [`Node::at`].
+    #[must_use]
     pub fn from_light(light: Light) -> Self {
         Self { light: Some(light), ..Self::default() }
     }
 
     /// The same node under another name.
+    #[must_use]
     pub fn with_name(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
     }
 
     /// The same node with another placement.
+    #[must_use]
     pub fn with_transform(self, transform: Transform) -> Self {
         Self { transform, ..self }
     }
 
     /// The same node with its origin at a point in its parent's space.
+    #[must_use]
     pub fn at(mut self, translation: DVec3) -> Self {
         self.transform.set_translation(translation);
         self
     }
 
     /// The parent of this node; change it with `Scene::set_parent`.
+    #[must_use]
     pub fn parent(&self) -> Option<NodeId> {
         self.parent
     }
 
     /// The children of this node.
+    #[must_use]
     pub fn children(&self) -> &[NodeId] {
         &self.children
     }

@@ -37,6 +37,7 @@ pub(crate) struct Place {
 
 /// A change that a scene cannot make.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum SceneError {
     /// The node was removed, or belongs to another scene.
     #[error("node {0:?} is not in this scene; it was removed, or belongs to another scene")]
@@ -80,6 +81,7 @@ pub struct Scene {
 
 impl Scene {
     /// An empty scene.
+    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
@@ -164,6 +166,7 @@ impl Scene {
     }
 
     /// All meshes.
+    #[must_use]
     pub fn meshes(&self) -> &Arena<MeshAsset> {
         &self.meshes
     }
@@ -200,11 +203,13 @@ impl Scene {
     }
 
     /// All nodes, in the order of their indices.
+    #[must_use]
     pub fn nodes(&self) -> &Arena<Node> {
         &self.nodes
     }
 
     /// A node, or `None` if it was removed.
+    #[must_use]
     pub fn node(&self, id: NodeId) -> Option<&Node> {
         self.nodes.get(id)
     }
@@ -262,6 +267,7 @@ impl Scene {
     }
 
     /// The map from a node's space to world space; the identity if the node was removed.
+    #[must_use]
     pub fn world_transform(&self, id: NodeId) -> DAffine3 {
         let local = |id| self.nodes.get(id).map_or(DAffine3::IDENTITY, |node| node.transform.to_affine());
         self.ancestors(id).fold(DAffine3::IDENTITY, |inner, id| local(id) * inner)
@@ -269,6 +275,7 @@ impl Scene {
 
     /// For each node by index: its map to world space, or `None` if it or an ancestor is hidden or
     /// removed. Visits each node once, whatever the depth.
+    #[must_use]
     pub fn visible_transforms(&self) -> Vec<Option<DAffine3>> {
         self.visible_places().into_iter().map(|place| Some(place?.world)).collect()
     }
@@ -291,6 +298,7 @@ impl Scene {
     }
 
     /// The smallest box around everything visible; empty if nothing is.
+    #[must_use]
     pub fn bounds(&self) -> Bounds3 {
         let around = |bounds: Bounds3, mesh: PlacedMesh<'_>| bounds.union(mesh.bounds());
         self.placed_meshes().fold(Bounds3::EMPTY, around)
@@ -298,6 +306,7 @@ impl Scene {
 
     /// The cameras in the scene, in the order of their nodes, for a viewer to choose from. A
     /// camera's scale is ignored.
+    #[must_use]
     pub fn cameras(&self) -> Vec<(NodeId, Camera)> {
         let holders = self.nodes.iter().filter_map(|(id, node)| Some((id, node.camera?)));
         holders.map(|(id, projection)| (id, camera_at(&self.world_transform(id), projection))).collect()

@@ -220,6 +220,7 @@ pub struct RenderSettings {
 
 impl RenderSettings {
     /// An image of a size with 3×3 samples per pixel, and defaults elsewhere.
+    #[must_use]
     pub fn new(width: u32, height: u32) -> Self {
         Self {
             width,
@@ -272,6 +273,7 @@ impl RenderSettings {
     }
 
     /// Width over height.
+    #[must_use]
     pub fn aspect(&self) -> f64 {
         f64::from(self.width.max(1)) / f64::from(self.height.max(1))
     }

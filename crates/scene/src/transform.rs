@@ -29,17 +29,20 @@ impl Transform {
         Self::Decomposed { translation: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: DVec3::ONE };
 
     /// A translation alone.
+    #[must_use]
     pub fn from_translation(translation: DVec3) -> Self {
         Self::Decomposed { translation, rotation: DQuat::IDENTITY, scale: DVec3::ONE }
     }
 
     /// Scale, then rotation, then translation. A rotation that is not finite
     /// or has no length counts as none.
+    #[must_use]
     pub fn from_scale_rotation_translation(scale: DVec3, rotation: DQuat, translation: DVec3) -> Self {
         Self::Decomposed { translation, rotation: unit(rotation), scale }
     }
 
     /// The map from the node's space into its parent's.
+    #[must_use]
     pub fn to_affine(&self) -> DAffine3 {
         match *self {
             Self::Decomposed { translation, rotation, scale } => {
@@ -61,6 +64,7 @@ impl Transform {
     }
 
     /// Position of the node's origin in its parent.
+    #[must_use]
     pub fn translation(&self) -> DVec3 {
         match self {
             Self::Decomposed { translation, .. } => *translation,

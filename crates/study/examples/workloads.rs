@@ -40,6 +40,9 @@ struct Arguments {
     /// How many frames to time
     #[arg(long, value_name = "N", default_value = "12")]
     repetitions: usize,
+    /// Draw exactly this many frames first, whatever they take: to count instructions, as the difference of two runs
+    #[arg(long, value_name = "N")]
+    warm_up: Option<usize>,
     /// Tell how long each stage of a frame takes, too
     #[arg(long)]
     stages: bool,
@@ -164,7 +167,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             let rasterizer = Rasterizer::new(arguments.settings(threads))?;
             let mut canvas = Canvas::new(rasterizer, &scene, &mut pixels)?;
             let mut stages = StageTimes::default();
-            let timings = Timings::of_frames(arguments.repetitions, || stages = canvas.draw(&scene).times);
+            let frame = || stages = canvas.draw(&scene).times;
+            let timings = match arguments.warm_up {
+                Some(warm_up) => Timings::of_frames_after(warm_up, arguments.repetitions, frame),
+                None => Timings::of_frames(arguments.repetitions, frame),
+            };
             let line = Line {
                 renderer: &renderer,
                 workload,

@@ -23,6 +23,7 @@ impl Default for Engine {
 
 impl Engine {
     /// With a number of threads.
+    #[must_use]
     pub fn with_threads(threads: NonZeroUsize) -> Self {
         let settings = ExecuteSettings { threads: Some(threads), ..Default::default() };
         Self { rasterizer: Rasterizer::new(settings).expect("no SIMD level was asked for") }

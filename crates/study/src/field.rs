@@ -30,11 +30,13 @@ impl<T> Field<T> {
     }
 
     /// Width and height in pixels.
+    #[must_use]
     pub fn size(&self) -> [usize; 2] {
         [self.width, self.values.len() / self.width]
     }
 
     /// All values, row by row.
+    #[must_use]
     pub fn values(&self) -> &[T] {
         &self.values
     }
@@ -45,6 +47,7 @@ impl<T> Field<T> {
     }
 
     /// The value at a place, if that is in the picture.
+    #[must_use]
     pub fn get(&self, place: [i32; 2]) -> Option<&T> {
         self.index(place).map(|index| &self.values[index])
     }

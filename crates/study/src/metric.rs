@@ -27,18 +27,21 @@ impl Difference {
     }
 
     /// The root of the mean square in linear light.
+    #[must_use]
     pub fn rmse(&self) -> f64 {
         (self.squares / self.count.max(1) as f64).sqrt()
     }
 
     /// The mean difference in lightness: ΔE of CIE 1976 for greys. Below about 1 hardly
     /// anybody sees it.
+    #[must_use]
     pub fn delta_e(&self) -> f64 {
         self.lightness / self.count.max(1) as f64
     }
 }
 
 /// CIE 1976 lightness L*, 0 to 100, of linear light (CIE 15:2004, section 8.2.1).
+#[must_use]
 pub fn lightness(light: f64) -> f64 {
     const LINEAR_UP_TO: f64 = 216.0 / 24389.0;
     if light <= LINEAR_UP_TO {

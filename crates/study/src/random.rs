@@ -9,6 +9,7 @@ pub struct Random {
 
 impl Random {
     /// A sequence of its own for each seed.
+    #[must_use]
     pub fn new(seed: u64) -> Self {
         Self { state: seed }
     }

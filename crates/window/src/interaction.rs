@@ -30,6 +30,7 @@ struct Step {
 /// A text is not a recording.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line} is not part of an interaction: {reason}; record it again with this version")]
+#[non_exhaustive]
 pub struct InteractionError {
     /// From 1.
     pub line: usize,

@@ -29,6 +29,7 @@ const DEFAULT_DIRECTION: DVec3 = DVec3::new(-1.0, -0.5, -1.0);
 
 /// The time of the last image, and of presenting it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct FrameReport {
     /// From the scene to colours, on the worker thread.
     pub render: Duration,

@@ -26,6 +26,7 @@ impl fmt::Display for Circle {
 }
 
 /// All circles of two files or more, the largest first.
+#[must_use]
 pub fn circles(of: &Crate) -> Vec<Circle> {
     let needs = needs(of);
     let mut graph = DiGraph::<(), ()>::new();

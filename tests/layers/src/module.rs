@@ -36,6 +36,7 @@ pub struct Crate {
 
 impl Crate {
     /// How many files were read.
+    #[must_use]
     pub fn file_count(&self) -> usize {
         self.files.len()
     }

@@ -83,6 +83,11 @@ impl FileWindow {
         (self.purpose, self.path, self.note) = (Some(purpose), suggestion, "");
     }
 
+    /// Whether it is shown.
+    pub(crate) fn is_open(&self) -> bool {
+        self.purpose.is_some()
+    }
+
     /// Hides itself; tells whether it was shown.
     pub(crate) fn close(&mut self) -> bool {
         self.purpose.take().is_some()

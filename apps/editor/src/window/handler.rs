@@ -131,6 +131,10 @@ impl Editor {
         if keys[0] == Some(Key::Escape) && self.dismiss() {
             return Taken::Yes;
         }
+        if self.is_typing() && !hands.modifiers.contains(Modifiers::CTRL) {
+            // The field may have no focus yet: what was typed meanwhile is text, and no action.
+            return Taken::No;
+        }
         let is_editing = self.document.selection().is_editing();
         let chords = keys.into_iter().flatten().map(|key| Chord::new(hands.modifiers, key));
         let found = chords.into_iter().find_map(|chord| self.keys.find(chord, is_editing));
@@ -140,6 +144,11 @@ impl Editor {
             tool.follow_at_once();
         }
         Taken::Yes
+    }
+
+    /// Whether a window is open whose field takes what is typed.
+    fn is_typing(&self) -> bool {
+        self.search.is_some() || self.dialog.is_open()
     }
 
     /// Closes what lies over the view; tells whether anything did.

@@ -2,6 +2,7 @@
 
 /// A report to the user.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Outcome {
     /// A line for the status bar, as "merged 12 vertices"; empty if the image shows everything.
     pub message: String,

@@ -12,6 +12,7 @@ use super::Storage;
 /// Why a file was not saved. The old one still exists.
 #[derive(Debug, Error)]
 #[error("{}: cannot be saved, {step} failed ({source}); the file is as it was before: check that its folder is writable and has room, or save under another name", path.display())]
+#[non_exhaustive]
 pub struct SaveError {
     /// The file.
     pub path: PathBuf,

@@ -6,6 +6,7 @@ use super::hash::fnv1a;
 
 /// The difference between an image and the captured one. Its `Display` is one line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Mismatch {
     /// The hash of the captured picture.
     pub captured_hash: u64,
@@ -17,6 +18,7 @@ pub struct Mismatch {
 
 /// The pixels that differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct PixelMismatch {
     /// How many.
     pub count: usize,

@@ -92,6 +92,7 @@ impl Capture {
     ///
     /// # Panics
     /// The frame does not have the size given by the settings, or has no colours.
+    #[must_use]
     pub fn new(scene: Scene, camera: Camera, settings: RenderSettings, frame: &Frame) -> Self {
         let asked = (settings.width, settings.height);
         assert_eq!((frame.width, frame.height), asked, "the frame was drawn by these settings");
@@ -102,16 +103,19 @@ impl Capture {
     }
 
     /// The hash of the captured image: FNV-1a, 64 bits, over its bytes.
+    #[must_use]
     pub fn picture_hash(&self) -> u64 {
         fnv1a(&self.color)
     }
 
     /// How an image differs from the captured one; `None` if every byte is the same.
+    #[must_use]
     pub fn mismatch(&self, drawn: &Frame) -> Option<Mismatch> {
         Mismatch::between((self.settings.width, &self.color), (drawn.width, &drawn.color))
     }
 
     /// The file.
+    #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut to = Writer { bytes: Vec::new(), scene: &self.scene };
         self.scene.write(&mut to);

@@ -7,6 +7,7 @@ use crate::write::{WriteError, write_atomically};
 
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ExportedFile {
     /// Its name, without a folder.
     pub name: String,
@@ -25,6 +26,7 @@ pub struct Export {
 
 impl Export {
     /// What the scene contains and the files do not.
+    #[must_use]
     pub fn what_would_be_lost(&self) -> &[Loss] {
         &self.losses
     }

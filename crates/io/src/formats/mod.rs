@@ -135,6 +135,7 @@ static ROWS: &[FormatRow] = &[
 ];
 
 /// Every model format that can be read.
+#[must_use]
 pub fn readers() -> impl ExactSizeIterator<Item = &'static Reader> {
     ROWS.iter().map(|row| &row.reader)
 }
@@ -151,6 +152,7 @@ pub fn writers() -> impl Iterator<Item = Writer> {
 
 impl Format {
     /// The format with a file extension, in any case.
+    #[must_use]
     pub fn from_extension(extension: &str) -> Option<Self> {
         let extension = extension.to_lowercase();
         readers().find(|reader| reader.extensions.contains(&extension.as_str())).map(|reader| reader.format)

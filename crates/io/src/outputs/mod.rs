@@ -71,6 +71,7 @@ impl Output {
     ];
 
     /// The name on command lines and in names of files, such as `object-ids`.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Color => "color",
@@ -110,6 +111,7 @@ impl Output {
     }
 
     /// Whether [`write_png16`] has a place for it.
+    #[must_use]
     pub fn fits_png16(self) -> bool {
         match self {
             Self::Depth | Self::ObjectIds | Self::FaceIds | Self::MaterialIds | Self::TriangleIds => true,

@@ -53,6 +53,7 @@ impl Extent {
 impl Bvh {
     /// A hierarchy over triangles, numbered in their order. No ray hits a triangle with a
     /// coordinate that is not finite.
+    #[must_use]
     pub fn new(triangles: &[[Vec3; 3]]) -> Self {
         let usable = |corners: &[Vec3; 3]| corners.iter().all(|corner| corner.is_finite());
         let numbered = (0_u32..).zip(triangles).filter(|(_, corners)| usable(corners));

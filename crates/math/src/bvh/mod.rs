@@ -45,16 +45,19 @@ pub struct Bvh {
 
 impl Bvh {
     /// The number of triangles.
+    #[must_use]
     pub fn len(&self) -> usize {
         self.len
     }
 
     /// Whether there are no triangles.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 
     /// Its memory in bytes.
+    #[must_use]
     pub fn byte_count(&self) -> usize {
         size_of_val(self.nodes.as_slice()) + size_of_val(self.leaves.as_slice())
     }

@@ -13,6 +13,7 @@ pub struct Ray {
 
 impl Ray {
     /// The point at a distance, in lengths of the direction.
+    #[must_use]
     pub fn at(&self, distance: f32) -> Vec3 {
         self.origin + self.direction * distance
     }
@@ -20,6 +21,7 @@ impl Ray {
 
 /// The hit of a ray on a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RayHit {
     /// From the origin, in lengths of the direction.
     pub distance: f32,

@@ -31,6 +31,7 @@ const UNDERFLOW: f32 = f32::from_bits(4);
 impl Bvh {
     /// The first hit of the ray within a range of distances; of equally near triangles the one with
     /// the smallest number.
+    #[must_use]
     pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<RayHit> {
         let mut nearest: Option<RayHit> = None;
         let mut end = range.end;
@@ -49,6 +50,7 @@ impl Bvh {
     }
 
     /// Whether the ray hits anything within a range of distances, excluding its end.
+    #[must_use]
     pub fn occluded(&self, ray: &Ray, range: Range<f32>) -> bool {
         let mut found = false;
         let mut end = range.end;

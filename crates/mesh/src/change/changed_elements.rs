@@ -28,6 +28,7 @@ impl ChangedElements {
     }
 
     /// Whether there are none.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.vertices.list.is_empty() && self.corners.list.is_empty()
     }
@@ -48,6 +49,7 @@ impl ChangedElements {
     }
 
     /// The vertices, increasing.
+    #[must_use]
     pub fn vertices(&self) -> Vec<u32> {
         self.vertices.sorted()
     }

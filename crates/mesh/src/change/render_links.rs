@@ -53,6 +53,7 @@ impl RenderLinks {
     }
 
     /// The render vertex of each corner of the mesh.
+    #[must_use]
     pub fn vertex_of_corner(&self) -> &[u32] {
         &self.vertex_of_corner
     }

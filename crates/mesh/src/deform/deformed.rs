@@ -20,6 +20,7 @@ pub struct Deformed {
 
 impl RenderMesh {
     /// Whether a pose can change it.
+    #[must_use]
     pub fn is_deformable(&self) -> bool {
         self.skin.is_some() || !self.morph_targets.is_empty()
     }

@@ -21,6 +21,7 @@ impl Deltas {
 
     /// From elements and what each gets; of several for one element the last.
     /// Vectors that are zero or not finite add nothing.
+    #[must_use]
     pub fn new(mut pairs: Vec<(u32, Vec3)>) -> Self {
         pairs.reverse();
         pairs.sort_by_key(|&(index, _)| index);
@@ -35,16 +36,19 @@ impl Deltas {
     }
 
     /// The elements that get something, and what; the elements increase.
+    #[must_use]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = (u32, Vec3)> + '_ {
         self.indices.iter().copied().zip(self.values.iter().copied())
     }
 
     /// How many elements get something.
+    #[must_use]
     pub fn len(&self) -> usize {
         self.indices.len()
     }
 
     /// Whether nothing is added anywhere.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.indices.is_empty()
     }

@@ -27,6 +27,7 @@ impl SkinWeights {
 
     /// The same from weights that [`Self::weights`] gave: they are kept to the last
     /// bit. None also when they are not within 0…1 with a sum of 1 for each vertex.
+    #[must_use]
     pub fn from_normalized(per_vertex: usize, joints: Vec<u16>, weights: Vec<f32>) -> Option<Self> {
         /// More than a sum of rounded weights can be off, for any number of joints in use.
         const ROUNDING: f64 = 1e-3;
@@ -41,21 +42,25 @@ impl SkinWeights {
     }
 
     /// How many joints each vertex names, those without weight included.
+    #[must_use]
     pub fn per_vertex(&self) -> usize {
         self.per_vertex
     }
 
     /// How many vertices there are.
+    #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.joints.len() / self.per_vertex
     }
 
     /// The joints of all vertices, [`Self::per_vertex`] each.
+    #[must_use]
     pub fn joints(&self) -> &[u16] {
         &self.joints
     }
 
     /// The weights of all vertices, [`Self::per_vertex`] each.
+    #[must_use]
     pub fn weights(&self) -> &[f32] {
         &self.weights
     }

@@ -71,6 +71,7 @@ impl Default for EditMesh {
 
 impl EditMesh {
     /// An empty mesh.
+    #[must_use]
     pub fn new() -> Self {
         Self {
             vertices: Column::new(Vec::new()),
@@ -88,61 +89,73 @@ impl EditMesh {
     }
 
     /// The number of vertices.
+    #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.slots.vertices.alive as usize
     }
 
     /// The number of edges, including loose ones.
+    #[must_use]
     pub fn edge_count(&self) -> usize {
         self.slots.edges.alive as usize
     }
 
     /// The number of corners of all faces.
+    #[must_use]
     pub fn corner_count(&self) -> usize {
         self.slots.corners.alive as usize
     }
 
     /// The number of faces.
+    #[must_use]
     pub fn face_count(&self) -> usize {
         self.slots.faces.alive as usize
     }
 
     /// An upper bound of vertex indices: the required length of a list by index.
+    #[must_use]
     pub fn vertex_capacity(&self) -> usize {
         self.vertices.len() as usize
     }
 
     /// An upper bound of edge indices.
+    #[must_use]
     pub fn edge_capacity(&self) -> usize {
         self.edges.len() as usize
     }
 
     /// An upper bound of corner indices.
+    #[must_use]
     pub fn corner_capacity(&self) -> usize {
         self.corners.len() as usize
     }
 
     /// An upper bound of face indices.
+    #[must_use]
     pub fn face_capacity(&self) -> usize {
         self.faces.len() as usize
     }
 
     /// Whether this vertex exists.
+    #[must_use]
     pub fn has_vertex(&self, vertex: VertexId) -> bool {
         self.vertices.values().get(vertex.0 as usize).is_some_and(|record| record.flags & ALIVE != 0)
     }
 
     /// Whether this edge exists.
+    #[must_use]
     pub fn has_edge(&self, edge: EdgeId) -> bool {
         self.edges.values().get(edge.0 as usize).is_some_and(|record| record.flags & ALIVE != 0)
     }
 
     /// Whether this corner exists.
+    #[must_use]
     pub fn has_corner(&self, corner: CornerId) -> bool {
         self.corners.values().get(corner.0 as usize).is_some_and(|record| record.face != NONE)
     }
 
     /// Whether this face exists.
+    #[must_use]
     pub fn has_face(&self, face: FaceId) -> bool {
         self.faces.values().get(face.0 as usize).is_some_and(|record| record.flags & ALIVE != 0)
     }
@@ -176,6 +189,7 @@ impl EditMesh {
     /// # Panics
     /// The index is out of range. All functions that take an id panic in this case, unless they say
     /// otherwise; for a free slot they return unspecified values.
+    #[must_use]
     pub fn position(&self, vertex: VertexId) -> Vec3 {
         self.positions[vertex.0]
     }
@@ -191,6 +205,7 @@ impl EditMesh {
     }
 
     /// The original position of a vertex, to which it can be reset.
+    #[must_use]
     pub fn first_position(&self, vertex: VertexId) -> Vec3 {
         self.first_positions[vertex.0]
     }

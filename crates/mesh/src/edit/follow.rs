@@ -43,21 +43,25 @@ impl ElementNumbers {
     }
 
     /// The number of a vertex in the displayed mesh; `None` if it is not displayed.
+    #[must_use]
     pub fn vertex(&self, vertex: VertexId) -> Option<u32> {
         number(&self.vertices, vertex.0)
     }
 
     /// The number of a face in the displayed mesh; `None` if it is not displayed.
+    #[must_use]
     pub fn face(&self, face: FaceId) -> Option<u32> {
         number(&self.faces, face.0)
     }
 
     /// The number of an edge in [`Mesh::edges`]; `None` if it is not displayed.
+    #[must_use]
     pub fn edge(&self, edge: EdgeId) -> Option<u32> {
         number(&self.edges, edge.0)
     }
 
     /// The edge with a number in [`Mesh::edges`].
+    #[must_use]
     pub fn edge_of_mesh(&self, number: u32) -> Option<EdgeId> {
         self.edges_of_mesh.get(number as usize).copied()
     }
@@ -91,6 +95,7 @@ pub struct ChangedValues {
 
 impl ChangedValues {
     /// Whether it is empty.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.vertices.is_empty() && self.corners.is_empty()
     }
@@ -115,6 +120,7 @@ fn sort<T: Ord>(ids: &mut Vec<T>) {
 impl Difference {
     /// Whether elements, or any of their marks (sharp, seam, crease, hidden, …) may differ between
     /// the two states.
+    #[must_use]
     pub fn changes_marks(&self) -> bool {
         self.vertices.is_some() || self.edges.is_some() || self.corners.is_some() || self.faces.is_some()
     }
@@ -165,6 +171,7 @@ impl EditMesh {
 
     /// The change that gives a displayed mesh, whose numbers are given, the changed values. Takes
     /// time proportional to these and their neighbours.
+    #[must_use]
     pub fn mesh_change(&self, changed: &ChangedValues, numbers: &ElementNumbers) -> MeshChange {
         let vertices = changed.vertices.iter();
         let position = |&vertex: &VertexId| Some((numbers.vertex(vertex)?, self.position(vertex)));

@@ -12,6 +12,7 @@ use crate::{Attributes, Deltas, Mesh, SkinWeights};
 
 /// What of a mesh has no place in one that is edited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct LeftOut {
     /// Corners at the same vertex as the next corner of their face.
     pub repeated_corners: usize,

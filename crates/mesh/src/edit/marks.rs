@@ -77,6 +77,7 @@ pub enum MarksError {
 
 impl EditMesh {
     /// The marks, by the indices of the mesh of [`EditMesh::to_mesh`], which gave `map`.
+    #[must_use]
     pub fn marks(&self, map: &ElementMap) -> Marks {
         let position = |&vertex: &VertexId| self.first_position(vertex);
         let is_moved = |vertex: &VertexId| position(vertex) != self.position(*vertex);

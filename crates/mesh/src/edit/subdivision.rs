@@ -12,6 +12,7 @@ impl EditMesh {
     pub const MOST_SUBDIVISION: u32 = 5;
 
     /// In how many Catmull-Clark levels the mesh is to be shown and exported; 0 as it is.
+    #[must_use]
     pub fn subdivision(&self) -> u32 {
         self.subdivision
     }
@@ -46,6 +47,7 @@ impl EditMesh {
     }
 
     /// How many faces the surface has after so many levels.
+    #[must_use]
     pub fn subdivided_face_count(&self, levels: u32) -> u64 {
         match levels {
             0 => self.face_count() as u64,

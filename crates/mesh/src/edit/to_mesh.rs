@@ -44,6 +44,7 @@ impl EditMesh {
     /// The mesh without free slots, elements in the order of their indices, and which
     /// element each was. First positions, creases, seams and what is hidden have no place in it;
     /// sharp edges between smooth faces show in the normals of the corners there.
+    #[must_use]
     pub fn to_mesh(&self) -> (Mesh, ElementMap) {
         self.mesh_of(ElementMap {
             vertices: self.vertices().collect(),
@@ -55,6 +56,7 @@ impl EditMesh {
 
     /// The same without what is hidden from the user. An edge all of whose faces are hidden
     /// is a loose one.
+    #[must_use]
     pub fn to_visible_mesh(&self) -> (Mesh, ElementMap) {
         let is_vertex_shown = |vertex: VertexId| !self.is_vertex_hidden(vertex);
         let is_face_shown =

@@ -182,6 +182,7 @@ impl Difference {
     }
 
     /// Whether both states are the same.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         // What only added elements takes no memory until it is undone.
         self.vertices.is_none()
@@ -195,11 +196,13 @@ impl Difference {
     }
 
     /// Whether the two states are shown in different numbers of Catmull-Clark levels.
+    #[must_use]
     pub fn changes_subdivision(&self) -> bool {
         self.subdivision.is_some()
     }
 
     /// The memory that it takes, in bytes.
+    #[must_use]
     pub fn bytes(&self) -> usize {
         fn of<T>(difference: &Option<ColumnDifference<T>>) -> usize {
             difference.as_ref().map_or(0, ColumnDifference::bytes)

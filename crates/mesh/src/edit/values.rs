@@ -15,6 +15,7 @@ fn set_flag(flags: &mut u32, flag: u32, is_set: bool) {
 
 impl EditMesh {
     /// Whether an edge stays sharp in smooth shading.
+    #[must_use]
     pub fn is_sharp(&self, edge: EdgeId) -> bool {
         self.edges[edge.0].flags & SHARP != 0
     }
@@ -25,6 +26,7 @@ impl EditMesh {
     }
 
     /// Whether texture coordinates are cut at an edge when they are laid out.
+    #[must_use]
     pub fn is_seam(&self, edge: EdgeId) -> bool {
         self.edges[edge.0].flags & SEAM != 0
     }
@@ -35,6 +37,7 @@ impl EditMesh {
     }
 
     /// How sharp an edge stays in Catmull-Clark subdivision: 0 (smooth) to 1 (sharp).
+    #[must_use]
     pub fn crease(&self, edge: EdgeId) -> f32 {
         self.edges[edge.0].crease
     }
@@ -45,6 +48,7 @@ impl EditMesh {
     }
 
     /// The material slot of a face.
+    #[must_use]
     pub fn material(&self, face: FaceId) -> u32 {
         self.faces[face.0].material
     }
@@ -55,6 +59,7 @@ impl EditMesh {
     }
 
     /// Whether a face is shaded smoothly where its corners have no normals of their own.
+    #[must_use]
     pub fn is_smooth(&self, face: FaceId) -> bool {
         self.faces[face.0].flags & SMOOTH != 0
     }
@@ -65,6 +70,7 @@ impl EditMesh {
     }
 
     /// Whether a vertex is hidden from the user.
+    #[must_use]
     pub fn is_vertex_hidden(&self, vertex: VertexId) -> bool {
         self.vertices[vertex.0].flags & HIDDEN != 0
     }
@@ -75,6 +81,7 @@ impl EditMesh {
     }
 
     /// Whether an edge is hidden from the user.
+    #[must_use]
     pub fn is_edge_hidden(&self, edge: EdgeId) -> bool {
         self.edges[edge.0].flags & HIDDEN != 0
     }
@@ -85,6 +92,7 @@ impl EditMesh {
     }
 
     /// Whether a face is hidden from the user.
+    #[must_use]
     pub fn is_face_hidden(&self, face: FaceId) -> bool {
         self.faces[face.0].flags & HIDDEN != 0
     }
@@ -95,11 +103,13 @@ impl EditMesh {
     }
 
     /// How many sets of texture coordinates there are.
+    #[must_use]
     pub fn uv_set_count(&self) -> usize {
         self.corner_layers.iter().filter(|layer| layer.kind == LayerKind::Uv).count()
     }
 
     /// The texture coordinates of a corner in one of the sets; `None` where there is no such set.
+    #[must_use]
     pub fn uv(&self, set: usize, corner: CornerId) -> Option<Vec2> {
         let mut sets = self.corner_layers.iter().filter(|layer| layer.kind == LayerKind::Uv);
         match &sets.nth(set)?.values {
@@ -118,6 +128,7 @@ impl EditMesh {
     }
 
     /// The colour of a corner: linear light, straight alpha; `None` where the mesh has no colours.
+    #[must_use]
     pub fn color(&self, corner: CornerId) -> Option<Vec4> {
         let layer = self.corner_layers.iter().find(|layer| layer.kind == LayerKind::Color)?;
         match &layer.values {
@@ -135,6 +146,7 @@ impl EditMesh {
     }
 
     /// The normal that was given for a corner; `None` where none was.
+    #[must_use]
     pub fn custom_normal(&self, corner: CornerId) -> Option<Vec3> {
         let layer = self.corner_layers.iter().find(|layer| layer.kind == LayerKind::Normal)?;
         match &layer.values {

@@ -71,6 +71,7 @@ impl EditMesh {
     /// # Panics
     /// May panic when the vertex is not one of its ends.
     #[inline]
+    #[must_use]
     pub fn other_vertex(&self, edge: EdgeId, vertex: VertexId) -> VertexId {
         VertexId(self.edges[edge.0].other(vertex.0))
     }
@@ -88,11 +89,13 @@ impl EditMesh {
     }
 
     /// Whether exactly one side of a face is at an edge.
+    #[must_use]
     pub fn is_boundary(&self, edge: EdgeId) -> bool {
         self.edge_corners(edge).take(2).count() == 1
     }
 
     /// The two corners of an edge that is where exactly two sides of faces meet.
+    #[must_use]
     pub fn edge_pair(&self, edge: EdgeId) -> Option<[CornerId; 2]> {
         let mut corners = self.edge_corners(edge);
         let pair = [corners.next()?, corners.next()?];
@@ -101,6 +104,7 @@ impl EditMesh {
 
     /// The edge that joins two vertices, in time proportional to the number of edges of that
     /// with fewer.
+    #[must_use]
     pub fn find_edge(&self, a: VertexId, b: VertexId) -> Option<EdgeId> {
         if a == b {
             return None;
@@ -120,6 +124,7 @@ impl EditMesh {
     }
 
     /// How many corners a face has, at least 3.
+    #[must_use]
     pub fn face_size(&self, face: FaceId) -> usize {
         self.faces[face.0].size as usize
     }
@@ -143,42 +148,49 @@ impl EditMesh {
     }
 
     /// The corner of a face at a vertex; the first of several.
+    #[must_use]
     pub fn face_corner_at(&self, face: FaceId, vertex: VertexId) -> Option<CornerId> {
         self.face_corners(face).find(|&corner| self.corner_vertex(corner) == vertex)
     }
 
     /// The vertex of a corner.
     #[inline]
+    #[must_use]
     pub fn corner_vertex(&self, corner: CornerId) -> VertexId {
         VertexId(self.corners[corner.0].vertex)
     }
 
     /// The edge from a corner's vertex to that of the next corner of its face.
     #[inline]
+    #[must_use]
     pub fn corner_edge(&self, corner: CornerId) -> EdgeId {
         EdgeId(self.corners[corner.0].edge)
     }
 
     /// The face of a corner.
     #[inline]
+    #[must_use]
     pub fn corner_face(&self, corner: CornerId) -> FaceId {
         FaceId(self.corners[corner.0].face)
     }
 
     /// The corner after a corner in its face.
     #[inline]
+    #[must_use]
     pub fn next_corner(&self, corner: CornerId) -> CornerId {
         CornerId(self.corners[corner.0].next)
     }
 
     /// The corner before a corner in its face.
     #[inline]
+    #[must_use]
     pub fn previous_corner(&self, corner: CornerId) -> CornerId {
         CornerId(self.corners[corner.0].previous)
     }
 
     /// The next corner that leaves along the same edge; the corner itself at a boundary.
     #[inline]
+    #[must_use]
     pub fn radial_next(&self, corner: CornerId) -> CornerId {
         CornerId(self.corners[corner.0].radial_next)
     }

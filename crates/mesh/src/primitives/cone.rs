@@ -12,6 +12,7 @@ use crate::Mesh;
 /// height above the origin, its base at half its height below. The side is
 /// shaded smoothly (at the tip, which has no normal, each triangle has the one
 /// of its middle), the base is a flat polygon with a sharp rim.
+#[must_use]
 pub fn cone(radius: f32, height: f32, segments: u32) -> Mesh {
     let segments = segments.clamp(3, MOST_PIECES);
     let radius = f64::from(length(radius));

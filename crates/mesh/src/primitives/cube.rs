@@ -12,6 +12,7 @@ const FACES: [[u32; 4]; 6] =
 
 /// A cube round the origin, its edges parallel to the axes and `edge` metres
 /// long. Each face shows the whole picture.
+#[must_use]
 pub fn cube(edge: f32) -> Mesh {
     let half = length(edge) / 2.0;
     let mut solid = Solid::with_capacity(8, 6, 24);

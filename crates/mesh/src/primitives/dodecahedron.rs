@@ -26,6 +26,7 @@ const FACES: [[u32; 5]; 12] = [
 
 /// A regular dodecahedron with edges of `edge` metres; its edges that cross an
 /// axis are parallel to another. Each face shows a pentagon of the picture.
+#[must_use]
 pub fn dodecahedron(edge: f32) -> Mesh {
     let half_cube = f64::from(length(edge)) * GOLDEN_RATIO / 2.0;
     let mut solid = Solid::with_capacity(20, 12, 60);

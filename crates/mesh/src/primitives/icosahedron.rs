@@ -35,6 +35,7 @@ pub(super) const FACES: [[u32; 3]; 20] = [
 
 /// A regular icosahedron with edges of `edge` metres; its edges that cross an
 /// axis are parallel to another. Each face shows a triangle of the picture.
+#[must_use]
 pub fn icosahedron(edge: f32) -> Mesh {
     let half = f64::from(length(edge)) / 2.0;
     let mut solid = Solid::with_capacity(12, 20, 60);

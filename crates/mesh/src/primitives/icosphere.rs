@@ -15,6 +15,7 @@ const MOST_SUBDIVISIONS: u32 = 7;
 /// `subdivisions` times (0 to 7), 20·4ⁿ triangles. The picture goes round it as
 /// on a world map; where a triangle crosses the map's border its texture
 /// coordinates run past 1, so let textures repeat.
+#[must_use]
 pub fn icosphere(radius: f32, subdivisions: u32) -> Mesh {
     let radius = f64::from(length(radius));
     let mut directions: Vec<DVec3> =

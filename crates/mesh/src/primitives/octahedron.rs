@@ -15,6 +15,7 @@ const FACES: [[u32; 3]; 8] =
 
 /// A regular octahedron with edges of `edge` metres and its corners on the
 /// axes. Each face shows a triangle of the picture.
+#[must_use]
 pub fn octahedron(edge: f32) -> Mesh {
     let radius = f64::from(length(edge)) * FRAC_1_SQRT_2;
     let mut solid = Solid::with_capacity(6, 8, 24);

@@ -9,6 +9,7 @@ use crate::Mesh;
 /// A pyramid over a square of `edge` metres, `height` metres high, its base at
 /// half its height below the origin. As wires it has its own 8 edges, as a
 /// surface 6 triangles.
+#[must_use]
 pub fn pyramid(edge: f32, height: f32) -> Mesh {
     let half = length(edge) / 2.0;
     let top = length(height) / 2.0;

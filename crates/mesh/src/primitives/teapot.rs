@@ -33,6 +33,7 @@ const MOST_SUBDIVISIONS: u32 = 64;
 /// the body, which has no hole there; the mouth of the spout ends inside it.
 /// (The real pot was a third higher: the numbers are those that were handed
 /// on.)
+#[must_use]
 pub fn teapot(subdivisions: u32) -> Mesh {
     let pieces = subdivisions.clamp(FEWEST_SUBDIVISIONS, MOST_SUBDIVISIONS);
     let faces = 32 * (pieces * pieces) as usize;

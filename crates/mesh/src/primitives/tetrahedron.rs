@@ -11,6 +11,7 @@ const FACES: [[u32; 3]; 4] = [[0, 2, 1], [3, 0, 1], [3, 1, 2], [3, 2, 0]];
 
 /// A regular tetrahedron with edges of `edge` metres, its lowest face level,
 /// its centre in the origin. Each face shows a triangle of the picture.
+#[must_use]
 pub fn tetrahedron(edge: f32) -> Mesh {
     let edge = f64::from(length(edge));
     let to_corner = edge * 6.0_f64.sqrt() / 4.0;

@@ -47,6 +47,7 @@ const MOST_TURNS: u32 = 32;
 /// A tube along a knot that winds on a level torus: `segments` by `sides`
 /// quads. The tube's sides are kept square to the torus, so they close
 /// without a twist.
+#[must_use]
 pub fn torus_knot(shape: &TorusKnot) -> Mesh {
     let curve = Curve::new(shape);
     let [segments, sides] = [shape.segments, shape.sides].map(|n| n.clamp(3, MOST_PIECES));

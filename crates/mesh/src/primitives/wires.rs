@@ -7,11 +7,13 @@ use super::solid::{MOST_PIECES, length};
 use crate::{Mesh, MeshBuilder};
 
 /// A line from one point to another.
+#[must_use]
 pub fn segment(from: Vec3, to: Vec3) -> Mesh {
     polyline(&[from, to])
 }
 
 /// Lines from each point to the next. A single point is kept as a point.
+#[must_use]
 pub fn polyline(points: &[Vec3]) -> Mesh {
     let mut builder = MeshBuilder::with_capacity(points.len(), 0, 0);
     let vertices: Vec<u32> = points.iter().map(|&point| builder.push_vertex(point)).collect();
@@ -25,6 +27,7 @@ pub fn polyline(points: &[Vec3]) -> Mesh {
 }
 
 /// A level circle of `segments` lines, 3 to 2048.
+#[must_use]
 pub fn ring(radius: f32, segments: u32) -> Mesh {
     let segments = segments.clamp(3, MOST_PIECES);
     let radius = f64::from(length(radius));

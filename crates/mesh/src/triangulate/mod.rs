@@ -50,6 +50,7 @@ use ears::EarCutter;
 /// let corners = outline.map(|(x, y)| Vec3::new(x, y, 0.0));
 /// assert_eq!(triangulate_polygon(&corners), [[0, 1, 2], [0, 2, 3]]);
 /// ```
+#[must_use]
 pub fn triangulate_polygon(positions: &[Vec3]) -> Vec<[u32; 3]> {
     let mut triangles = Vec::with_capacity(positions.len().saturating_sub(2));
     Triangulator::default().polygon(positions, &mut triangles);

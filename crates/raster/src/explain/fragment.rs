@@ -45,6 +45,7 @@ pub enum Verdict {
 
 /// The edge function of one edge at a sample, exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct EdgeExplanation {
     /// Twice the area of the triangle between the edge and the sample, in units
     /// of the grid squared (2^-16 square pixels): positive inside, negative
@@ -68,6 +69,7 @@ impl EdgeExplanation {
 
 /// A triangle at a sample.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FragmentExplanation {
     /// The number of the draw in the pass.
     pub draw: usize,

@@ -22,6 +22,7 @@ use trigon_math::Vec4;
 
 /// Why a pixel looks as it does.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PixelExplanation {
     /// Column and row in the target.
     pub pixel: [u32; 2],

@@ -5,6 +5,7 @@ use trigon_math::Vec4;
 
 /// What happened at one sample of a pixel.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SampleExplanation {
     /// The pixel of the finer grid that it belongs to; without supersampling the
     /// pixel itself.

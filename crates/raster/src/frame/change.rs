@@ -32,6 +32,7 @@ pub struct DrawChange<'a> {
 
 /// What [`Rasterizer::redraw`](crate::Rasterizer::redraw) has done.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Redraw {
     /// As of a whole frame up to the tiles; what happens in tiles counts in those that were
     /// drawn.

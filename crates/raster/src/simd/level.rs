@@ -26,6 +26,7 @@ pub enum SimdLevel {
 
 /// A level by its name failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum SimdLevelError {
     /// There is no level of that name.
     #[error("no such SIMD level: it is one of scalar, sse2, avx2, avx512 and neon")]

@@ -41,6 +41,7 @@ pub enum Output {
 
 /// Why a target cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum TargetError {
     /// Width or height is 0 or above [`MAX_TARGET_SIZE`].
     #[error("a target of {width}x{height} pixels: each side must be 1 to {MAX_TARGET_SIZE}")]

@@ -26,6 +26,7 @@ pub const MAX_TEXTURE_SIZE: u32 = 16384;
 
 /// Why a texture cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum TextureError {
     /// Width or height is 0 or above [`MAX_TEXTURE_SIZE`].
     #[error("a texture of {width}x{height} texels: each side must be 1 to {MAX_TEXTURE_SIZE}")]

@@ -40,6 +40,7 @@ pub struct Animation {
 impl Animation {
     /// Seconds from 0 to its last keyframe; 0 without keyframes. The caller decides whether it
     /// repeats: `time % duration`.
+    #[must_use]
     pub fn duration(&self) -> f64 {
         let ends = self.channels.iter().filter_map(|channel| channel.curve.times().last());
         ends.fold(0.0, |longest, &end| if f64::from(end) > longest { f64::from(end) } else { longest })

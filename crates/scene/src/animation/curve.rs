@@ -49,6 +49,7 @@ impl Curve {
     ///
     /// `None` if the lengths do not match, there is no keyframe, a time is not finite, or they do
     /// not increase. Values that are not finite become 0.
+    #[must_use]
     pub fn new(
         interpolation: Interpolation,
         width: usize,
@@ -69,27 +70,32 @@ impl Curve {
     }
 
     /// The number of components of a vector.
+    #[must_use]
     pub fn width(&self) -> usize {
         self.width
     }
 
     /// The interpolation between keyframes.
+    #[must_use]
     pub fn interpolation(&self) -> Interpolation {
         self.interpolation
     }
 
     /// The times of the keyframes in seconds, increasing.
+    #[must_use]
     pub fn times(&self) -> &[f32] {
         &self.times
     }
 
     /// The numbers of all keyframes, as [`Self::new`] takes them.
+    #[must_use]
     pub fn values(&self) -> &[f32] {
         &self.values
     }
 
     /// The vector at a time in seconds. Before the first keyframe, and for NaN, it is the first
     /// one's; after the last, the last one's.
+    #[must_use]
     pub fn at(&self, time: f64) -> Vec<f64> {
         let place = self.locate(time);
         (0..self.width).map(|channel| self.component(place, channel)).collect()

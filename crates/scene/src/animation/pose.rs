@@ -30,6 +30,7 @@ impl Scene {
     /// first keyframe of a channel and after its last, it stays at that keyframe. Properties that
     /// no channel animates (a node's scale if only its rotation is animated) keep the node's own
     /// values.
+    #[must_use]
     pub fn pose(&self, animation: &Animation, time: f64) -> Pose {
         let mut pose = Pose::default();
         for channel in &animation.channels {

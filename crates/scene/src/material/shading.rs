@@ -28,6 +28,7 @@ pub enum Shading {
 
 impl Shading {
     /// Blinn-Phong without a texture.
+    #[must_use]
     pub fn blinn_phong(specular: Vec3, shininess: f32) -> Self {
         Self::BlinnPhong { specular, shininess, specular_texture: None }
     }

@@ -21,6 +21,7 @@ pub struct TextureBinding {
 
 impl TextureBinding {
     /// The texture on the first UV set, repeated and filtered.
+    #[must_use]
     pub fn new(texture: TextureId) -> Self {
         Self { texture, uv_set: 0, transform: Affine2::IDENTITY, sampler: Sampler::default() }
     }

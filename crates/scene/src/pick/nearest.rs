@@ -8,6 +8,7 @@ use crate::node::NodeId;
 
 /// The elements nearest to a point of an image, each with its node.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Nearest {
     /// The vertex whose point is nearest.
     pub vertex: Option<(NodeId, u32)>,

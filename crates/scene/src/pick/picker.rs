@@ -106,6 +106,7 @@ pub struct Picker<'p> {
 
 /// What is under a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Pick {
     /// The node and its polygon.
     pub hit: Hit,
@@ -121,6 +122,7 @@ pub struct Pick {
 impl<'p> Picker<'p> {
     /// For a frame with ids, of the scene as it was drawn. Without ids no face is visible, and only
     /// opaque faces hide.
+    #[must_use]
     pub fn new(scene: &'p Scene, camera: &Camera, frame: &'p Frame) -> Self {
         let viewport = Viewport { width: frame.width, height: frame.height };
         Self {

@@ -11,6 +11,7 @@ use crate::node::NodeId;
 
 /// A point of the scene that a pointer snapped to.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Snap {
     /// The node that it belongs to.
     pub node: NodeId,

@@ -52,6 +52,7 @@ pub struct TimeBudget {
 
 impl TimeBudget {
     /// A budget of this time per frame. Nothing is known of the scene yet.
+    #[must_use]
     pub fn new(limit: Duration) -> Self {
         Self {
             limit,
@@ -79,6 +80,7 @@ impl TimeBudget {
     }
 
     /// The time per frame.
+    #[must_use]
     pub fn limit(&self) -> Duration {
         self.limit
     }

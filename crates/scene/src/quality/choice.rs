@@ -7,6 +7,7 @@ use super::Quality;
 
 /// A quality with the predicted time and error of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Foreseen {
     /// The quality.
     pub quality: Quality,

@@ -8,6 +8,7 @@ use crate::frame::Frame;
 /// The root mean square of the differences between two images, in linear light: red, green and blue
 /// from 0 to 1, premultiplied. 0 for images of different sizes or without colours, which cannot be
 /// compared.
+#[must_use]
 pub fn rmse(picture: &Frame, reference: &Frame) -> f64 {
     let pixels = picture.color.len() / 4;
     if pixels == 0 { 0.0 } else { (squares(picture, reference) / (3 * pixels) as f64).sqrt() }
@@ -115,6 +116,7 @@ impl ErrorModel {
 
     /// The predicted [`rmse`] of the next frame; `None` for a quality about which nothing was
     /// learnt.
+    #[must_use]
     pub fn predict(&self, quality: Quality) -> Option<f64> {
         let known = self.of(quality)?;
         if known.now.detail == 0.0 {

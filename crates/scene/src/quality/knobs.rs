@@ -22,6 +22,7 @@ pub struct Quality {
 
 impl Quality {
     /// The quality of these settings. What they do not request is off or 0.
+    #[must_use]
     pub fn of(settings: &RenderSettings) -> Self {
         let RenderSettings { samples_per_axis, samples, shading, effects, .. } = settings;
         Self {
@@ -59,6 +60,7 @@ impl Quality {
     }
 
     /// Whether nothing in it is coarser, and something is finer.
+    #[must_use]
     pub fn is_finer_than(&self, other: &Self) -> bool {
         let (own, others) = (self.fineness(), other.fineness());
         own != others && own.iter().zip(others).all(|(own, other)| *own >= other)
@@ -80,11 +82,13 @@ impl Quality {
     }
 
     /// Lighting evaluations per pixel.
+    #[must_use]
     pub fn shaded_samples(&self) -> u32 {
         self.samples_per_axis * self.samples_per_axis
     }
 
     /// Visibility samples per pixel.
+    #[must_use]
     pub fn covered_samples(&self) -> u32 {
         self.shaded_samples() * self.samples
     }

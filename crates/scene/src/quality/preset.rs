@@ -31,6 +31,7 @@ impl Preset {
     ///
     /// All of them compute lighting per pixel: per-vertex lighting is less accurate, and hardly
     /// faster.
+    #[must_use]
     pub const fn quality(self) -> Quality {
         let (samples_per_axis, samples, shadows, occlusion_rays) = match self {
             Self::Draft => (1, 1, Shadows::Maps { resolution: 2048 }, 8),
@@ -47,6 +48,7 @@ impl Preset {
     }
 
     /// The name in commands and interfaces.
+    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Draft => "draft",

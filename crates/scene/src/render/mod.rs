@@ -41,6 +41,7 @@ use crate::settings::RenderSettings;
 
 /// Why a frame cannot be drawn.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum RenderError {
     /// The size or the number of samples is out of range.
     #[error(transparent)]

@@ -48,16 +48,19 @@ pub struct Renderer {
 
 impl Renderer {
     /// A renderer with these settings that has not allocated memory yet.
+    #[must_use]
     pub fn new(settings: RenderSettings) -> Self {
         Self { settings, engine: Engine::default() }
     }
 
     /// A builder for a renderer from the settings that differ from the defaults.
+    #[must_use]
     pub fn builder() -> RendererBuilder {
         RendererBuilder::default()
     }
 
     /// The current settings.
+    #[must_use]
     pub fn settings(&self) -> &RenderSettings {
         &self.settings
     }
@@ -172,16 +175,19 @@ impl Renderer {
     }
 
     /// The plan of the last frame; `None` before the first.
+    #[must_use]
     pub fn plan(&self) -> Option<&EffectPlan> {
         self.engine.plan()
     }
 
     /// The cost of an effect in the last frame.
+    #[must_use]
     pub fn effect_counts(&self, effect: Effect) -> EffectCounts {
         self.engine.effect_counts(effect)
     }
 
     /// The cost of the last frame, in counts.
+    #[must_use]
     pub fn stats(&self) -> &Stats {
         self.engine.stats()
     }

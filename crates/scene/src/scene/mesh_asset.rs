@@ -49,6 +49,7 @@ impl MeshAsset {
     }
 
     /// The polygons.
+    #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
@@ -58,11 +59,13 @@ impl MeshAsset {
     ///
     /// [`Scene::replace_mesh`]: super::Scene::replace_mesh
     /// [`Scene::change_mesh`]: super::Scene::change_mesh
+    #[must_use]
     pub fn shared_mesh(&self) -> &Arc<Mesh> {
         &self.mesh
     }
 
     /// The smallest box around the vertices that faces, edges or points use.
+    #[must_use]
     pub fn bounds(&self) -> Bounds3 {
         *self.derived.bounds.get_or_init(|| match self.derived.geometry.get() {
             // The same vertices, where they are found faster.

@@ -18,6 +18,7 @@ impl Scene {
 
     /// All nodes with the number of nodes that each hangs on, directly and indirectly: each one before its
     /// children, siblings in their order.
+    #[must_use]
     pub fn tree(&self) -> Vec<(NodeId, usize)> {
         let mut waiting: Vec<(NodeId, usize)> = self.roots().map(|id| (id, 0)).collect();
         waiting.reverse();

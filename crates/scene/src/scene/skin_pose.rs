@@ -30,6 +30,7 @@ impl Scene {
     /// The deformed mesh is in the node's own space, so that large worlds stay
     /// precise and mirrored ones mirrored. A node that is flattened has no such
     /// space: then it is around the first joint.
+    #[must_use]
     pub fn skin_pose(&self, id: NodeId) -> Option<SkinPose> {
         let skin = self.skins.get(self.node(id)?.skin?)?;
         let mut worlds = Worlds { scene: self, known: HashMap::new() };

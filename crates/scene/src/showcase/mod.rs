@@ -29,6 +29,7 @@ use crate::transform::Transform;
 /// assert_eq!(frame.color.len(), 100 * 60 * 4);
 /// # Ok::<(), trigon_scene::RenderError>(())
 /// ```
+#[must_use]
 pub fn showcase() -> Scene {
     let mut scene = Scene::new();
     add_floor(&mut scene);

@@ -21,6 +21,7 @@ impl Scene {
     /// A perspective camera that sees everything visible from the upper right
     /// in front, with +Y up and a tenth of the picture left free. `aspect` is
     /// width over height.
+    #[must_use]
     pub fn overview(&self, aspect: f64) -> Camera {
         let points: Vec<DVec3> = self.visible_points().collect();
         Camera::default().fit_points(&points, OVERVIEW_DIRECTION, DVec3::Y, aspect, DEFAULT_MARGIN)

@@ -15,6 +15,7 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 /// Once around at one height: `count` viewpoints, counter-clockwise seen from above,
 /// beginning in front (+Z). `elevation` is the angle above the horizon in radians,
 /// −π/2 to π/2.
+#[must_use]
 pub fn turntable(count: usize, elevation: f64) -> impl ExactSizeIterator<Item = DVec3> {
     let (height, out) = elementary::sin_cos(elevation);
     (0..count).map(move |index| {
@@ -28,6 +29,7 @@ pub fn turntable(count: usize, elevation: f64) -> impl ExactSizeIterator<Item = 
 ///
 /// The lattice is that of Swinbank and Purser, "Fibonacci grids" (2006); the turn is
 /// Shoemake's, "Uniform random rotations" (Graphics Gems III, 1992).
+#[must_use]
 pub fn sphere(count: usize, seed: u64) -> impl ExactSizeIterator<Item = DVec3> {
     let turn = random_turn(&mut SplitMix64::new(seed));
     (0..count).map(move |index| {
@@ -39,6 +41,7 @@ pub fn sphere(count: usize, seed: u64) -> impl ExactSizeIterator<Item = DVec3> {
 /// `count` viewpoints spread evenly over the directions above the horizon, none on it:
 /// a Fibonacci lattice that `seed` turns about the vertical and shifts by a part of its
 /// own spacing.
+#[must_use]
 pub fn hemisphere(count: usize, seed: u64) -> impl ExactSizeIterator<Item = DVec3> {
     let mut random = SplitMix64::new(seed);
     let (azimuth, shift) = (TAU * random.next_unit(), random.next_unit());

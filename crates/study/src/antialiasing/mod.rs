@@ -39,6 +39,7 @@ impl AntiAliasing {
     ];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> String {
         match self {
             Self::Samples(1) => "1 sample".to_owned(),
@@ -49,6 +50,7 @@ impl AntiAliasing {
     }
 
     /// The share of each pixel that the star covers.
+    #[must_use]
     pub fn draw(self, star: &Star) -> Field<f64> {
         match self.samples() {
             Some([samples, axis]) => {
@@ -61,6 +63,7 @@ impl AntiAliasing {
     }
 
     /// What draws the star again and again, with all kept that can be kept.
+    #[must_use]
     pub fn repeated(self, star: &Star) -> Box<dyn FnMut() + '_> {
         match self.samples() {
             Some([samples, axis]) => {
@@ -81,6 +84,7 @@ impl AntiAliasing {
     }
 
     /// How far that is from the exact areas, in pixels that are partly covered.
+    #[must_use]
     pub fn error(self, star: &Star, exact: &Field<f64>) -> Difference {
         let drawn = self.draw(star);
         let partly = exact.pixels().filter(|(_, share)| (1e-9..1.0 - 1e-9).contains(*share));
@@ -89,6 +93,7 @@ impl AntiAliasing {
 }
 
 /// The exact area in each pixel, in `f64`.
+#[must_use]
 pub fn exact(star: &Star) -> Field<f64> {
     analytic::draw(star)
 }

@@ -12,6 +12,7 @@ pub struct Star {
 
 impl Star {
     /// 24 needles in a square picture.
+    #[must_use]
     pub fn new(side: usize) -> Self {
         const NEEDLES: usize = 24;
         // Off the middle of a pixel, so that no sample lies on an axis.

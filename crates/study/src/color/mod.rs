@@ -23,6 +23,7 @@ impl Mixing {
     pub const ALL: [Self; 3] = [Self::GammaBytes, Self::LinearBytes, Self::Linear];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::GammaBytes => "sRGB bytes",
@@ -32,6 +33,7 @@ impl Mixing {
     }
 
     /// The sRGB byte of half of one grey and half of another.
+    #[must_use]
     pub fn mix(self, one: u8, other: u8) -> u8 {
         match self {
             Self::GammaBytes => (u16::from(one) + u16::from(other)).div_ceil(2) as u8,
@@ -44,6 +46,7 @@ impl Mixing {
     }
 
     /// How far the mixtures of all pairs of bytes are from right.
+    #[must_use]
     pub fn error(self) -> Difference {
         let light = |byte: u8| f64::from(srgb8_to_linear(byte));
         let pairs = (0..=255).flat_map(|one| (0..=one).map(move |other| (one, other)));

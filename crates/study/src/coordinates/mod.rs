@@ -26,6 +26,7 @@ impl Coordinates {
     pub const ALL: [Self; 2] = [Self::World, Self::CameraRelative];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::World => "world space, f32",
@@ -48,6 +49,7 @@ impl Coordinates {
 
     /// What makes the matrix of the points' node and brings all points before the camera, again and
     /// again.
+    #[must_use]
     pub fn repeated(self, offset: f64) -> Box<dyn FnMut()> {
         let view = View::new(self, offset);
         let mut seen = vec![Vec3::ZERO; POINTS];

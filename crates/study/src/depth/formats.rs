@@ -23,6 +23,7 @@ impl DepthFormat {
     pub const ALL: [Self; 4] = [Self::Fixed16, Self::Fixed24, Self::Float, Self::FloatReversed];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Fixed16 => "16 bit",
@@ -33,16 +34,19 @@ impl DepthFormat {
     }
 
     /// How many bytes a depth takes in memory.
+    #[must_use]
     pub fn bytes(self) -> usize {
         if self == Self::Fixed16 { 2 } else { 4 }
     }
 
     /// What is stored for a distance in metres, as 32 bits that compare like it.
+    #[must_use]
     pub fn encode(self, distance: f32) -> u32 {
         self.store(if self == Self::FloatReversed { reversed(distance) } else { forward(distance) })
     }
 
     /// What is stored for a depth that was computed in `f32`.
+    #[must_use]
     pub fn store(self, depth: f32) -> u32 {
         match self {
             Self::Fixed16 => fixed(depth, 16),
@@ -63,6 +67,7 @@ impl DepthFormat {
     }
 
     /// Whether what is stored for one surface is before what is stored for another.
+    #[must_use]
     pub fn is_nearer(self, one: u32, other: u32) -> bool {
         if self == Self::FloatReversed { one > other } else { one < other }
     }

@@ -21,6 +21,7 @@ pub const FAR: f32 = 10_000.0;
 /// How many of a thousand pairs of surfaces come out in the wrong order or as equal:
 /// one lies at chance distances about `distance`, the other farther away by a share
 /// `separation` of it.
+#[must_use]
 pub fn misordered_per_mille(format: DepthFormat, distance: f64, separation: f64) -> f64 {
     const PAIRS: usize = 10_000;
     let mut random = Random::new(7);
@@ -35,6 +36,7 @@ pub fn misordered_per_mille(format: DepthFormat, distance: f64, separation: f64)
 
 /// The least separation, as a share of the distance and a power of the square root of
 /// ten, at which no pair of surfaces is confused; 1 if there is none below.
+#[must_use]
 pub fn resolved_separation(format: DepthFormat, distance: f64) -> f64 {
     let separations = (-16..=0).map(|power| elementary::pow(10.0, f64::from(power) / 2.0));
     let mut resolved = separations.filter(|&share| misordered_per_mille(format, distance, share) == 0.0);

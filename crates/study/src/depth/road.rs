@@ -14,11 +14,13 @@ pub struct Road {
 impl Road {
     /// Seen from 1.7 metres, with paint so many metres above it, in a picture of `width` pixels and
     /// half of that in height.
+    #[must_use]
     pub fn new(width: usize, paint: f64) -> Self {
         Self { size: [width, width / 2], heights: [1.7, 1.7 - paint] }
     }
 
     /// Width and height in pixels.
+    #[must_use]
     pub fn size(&self) -> [usize; 2] {
         self.size
     }
@@ -32,6 +34,7 @@ impl Road {
     }
 
     /// Whether each pixel shows the paint, which is nearer everywhere.
+    #[must_use]
     pub fn draw(&self, format: DepthFormat) -> Field<bool> {
         let mut buffers = Buffers::new(self);
         buffers.draw(self, format);
@@ -39,12 +42,14 @@ impl Road {
     }
 
     /// What draws the picture again and again.
+    #[must_use]
     pub fn repeated(&self, format: DepthFormat) -> Box<dyn FnMut() + '_> {
         let mut buffers = Buffers::new(self);
         Box::new(move || buffers.draw(self, format))
     }
 
     /// How many of a thousand pixels show the road where they should show the paint.
+    #[must_use]
     pub fn wrong_per_mille(&self, format: DepthFormat) -> f64 {
         let drawn = self.draw(format);
         let wrong = drawn.values().iter().filter(|is_paint| !**is_paint).count();

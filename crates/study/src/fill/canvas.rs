@@ -26,11 +26,13 @@ pub struct Canvas {
 
 impl Canvas {
     /// An empty picture.
+    #[must_use]
     pub fn new(size: [usize; 2]) -> Self {
         Self { pixels: Field::new(size, Painted::NEVER), brush: 0 }
     }
 
     /// What was painted.
+    #[must_use]
     pub fn pixels(&self) -> &Field<Painted> {
         &self.pixels
     }

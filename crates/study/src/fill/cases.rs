@@ -23,6 +23,7 @@ impl Case {
     pub const ALL: [Self; 3] = [Self::Tiles, Self::Lattice, Self::Fan];
 
     /// The name in tables.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Tiles => "tiles of 16 pixels",
@@ -32,6 +33,7 @@ impl Case {
     }
 
     /// The triangles on a square picture of `side` pixels, other ones for each seed.
+    #[must_use]
     pub fn triangles(self, side: usize, seed: u64) -> Vec<Triangle> {
         match self {
             Self::Tiles => tiles(side, 16.0, 1.0 / 16384.0, seed),
@@ -43,6 +45,7 @@ impl Case {
 
 /// A grid of squares over the picture and beyond, its corners moved about by up to a
 /// quarter of a square and put on multiples of `unit`.
+#[must_use]
 pub fn tiles(side: usize, square: f64, unit: f64, seed: u64) -> Vec<Triangle> {
     let mut random = Random::new(seed);
     let count = (side as f64 / square).ceil() as usize + 3;

@@ -21,6 +21,7 @@ pub struct FillErrors {
 
 impl FillErrors {
     /// Of a picture, where each pixel has the exact owner `owners` says.
+    #[must_use]
     pub fn of(canvas: &Canvas, owners: &Field<u32>) -> Self {
         let mut errors = Self { edge_pixels: edge_pixels(owners), ..Self::default() };
         for (place, &owner) in owners.pixels() {
@@ -33,6 +34,7 @@ impl FillErrors {
     }
 
     /// Wrong pixels for a thousand edge pixels.
+    #[must_use]
     pub fn wrong_per_mille(&self) -> f64 {
         1e3 * self.wrong as f64 / self.edge_pixels as f64
     }
@@ -49,6 +51,7 @@ impl AddAssign for FillErrors {
 
 /// The one triangle that covers each pixel's centre, exactly: of triangles that tile the
 /// picture.
+#[must_use]
 pub fn owners(triangles: &[Triangle], size: [usize; 2]) -> Field<u32> {
     // Corners are multiples of this; see `Case`.
     const UNIT: f32 = 1.0 / 16384.0;

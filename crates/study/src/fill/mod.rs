@@ -76,6 +76,7 @@ impl Fill {
     ];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Strips => "vertical strips",

@@ -32,6 +32,7 @@ impl Case {
         [Self::Showcase, Self::Shadows, Self::Dense, Self::Teapot, Self::Chair, Self::Mug];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Showcase => "the built-in scene",
@@ -44,11 +45,13 @@ impl Case {
     }
 
     /// Whether it has shadows.
+    #[must_use]
     pub fn has_shadows(self) -> bool {
         !matches!(self, Self::Showcase | Self::Dense)
     }
 
     /// What is drawn.
+    #[must_use]
     pub fn scene(self) -> Scene {
         match self {
             Self::Showcase => showcase(),
@@ -61,6 +64,7 @@ impl Case {
     }
 
     /// A picture of it, at no particular quality.
+    #[must_use]
     pub fn settings(self, [width, height]: [u32; 2]) -> RenderSettings {
         let mut settings = RenderSettings::new(width, height);
         if self.has_shadows() {
@@ -71,6 +75,7 @@ impl Case {
 
     /// Where a flight is in a part of it, from 0 to 1: three eighths of a circle about the scene, rising, a third nearer in
     /// the middle than at either end. No constant of the models of costs and errors was chosen by a flight like this.
+    #[must_use]
     pub fn camera(self, scene: &Scene, aspect: f64, part: f64) -> Camera {
         let start = scene.cameras().first().map_or_else(|| scene.overview(aspect), |(_, camera)| *camera);
         let turn = DQuat::from_axis_angle(DVec3::Y, -std::f64::consts::TAU * 0.375 * part)

@@ -36,6 +36,7 @@ impl Prover {
     }
 
     /// Width and height of the picture in pixels.
+    #[must_use]
     pub fn size(&self) -> [usize; 2] {
         self.scene.size.to_array().map(|side| side as usize)
     }

@@ -19,6 +19,7 @@ use trigon_scene::{Frame, RenderError, Renderer, Scene, ShadingModel, Shadows, S
 
 /// What is compared in every case: all numbers of samples with light once for each triangle, at the vertices and in each
 /// pixel. The presets are among them.
+#[must_use]
 pub fn variants() -> Vec<Quality> {
     let models = [ShadingModel::Flat, ShadingModel::Gouraud, ShadingModel::Phong];
     let shaded = |shading| sampled().into_iter().map(move |quality| Quality { shading, ..quality });
@@ -26,6 +27,7 @@ pub fn variants() -> Vec<Quality> {
 }
 
 /// What is compared as well where there are shadows: those that [`variants`] find by maps by rays, and the other way round.
+#[must_use]
 pub fn other_shadows() -> Vec<Quality> {
     let by_maps = Preset::Draft.quality().shadows;
     let other = |quality: Quality| {
@@ -80,6 +82,7 @@ pub struct Repeated {
 
 impl Repeated {
     /// Nothing is drawn yet.
+    #[must_use]
     pub fn new(case: Case, size: [u32; 2], quality: Quality) -> Self {
         let mut settings = case.settings(size);
         quality.apply(&mut settings);

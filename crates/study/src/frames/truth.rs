@@ -36,6 +36,7 @@ impl Truth {
 
     /// The root of the mean square of a picture's difference from it, in linear light, over red,
     /// green and blue.
+    #[must_use]
     pub fn error(&self, frame: &Frame) -> f64 {
         assert_eq!(
             self.size,

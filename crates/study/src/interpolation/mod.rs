@@ -32,6 +32,7 @@ impl Interpolation {
     pub const ALL: [Self; 4] = [Self::Affine, Self::Every16, Self::Perspective, Self::Engine];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Affine => "affine",
@@ -42,6 +43,7 @@ impl Interpolation {
     }
 
     /// The texel at the centre of each pixel of a wall; none beside it.
+    #[must_use]
     pub fn draw(self, wall: &Wall) -> Field<Option<Texel>> {
         if self == Self::Engine {
             let mut drawer = engine::Drawer::new(wall);
@@ -54,6 +56,7 @@ impl Interpolation {
     }
 
     /// What draws a wall again and again, with all kept that can be kept.
+    #[must_use]
     pub fn repeated(self, wall: &Wall) -> Box<dyn FnMut() + '_> {
         if self == Self::Engine {
             let mut drawer = engine::Drawer::new(wall);

@@ -122,6 +122,7 @@ impl Facet {
 impl Wall {
     /// From 1.5 to 6 metres away, 1.8 metres high, 256 texels to the metre, in a picture
     /// of `width` pixels and three quarters of that in height.
+    #[must_use]
     pub fn new(width: usize) -> Self {
         const TEXELS: f64 = 256.0;
         let scale = width as f64 / 2.0;

@@ -25,6 +25,7 @@ pub struct LineErrors {
 impl LineErrors {
     /// Of one segment, drawn in a picture that holds it. Its ends are left out of the
     /// comparison of areas: there is more than one way to end a line.
+    #[must_use]
     pub fn of(line: Line, segment: Segment, size: [usize; 2]) -> Self {
         let mut coverage = Field::new(size, 0.0);
         line.paint(&[segment], &mut coverage);
@@ -43,11 +44,13 @@ impl LineErrors {
     }
 
     /// The root of the mean square, as a share of a pixel's ink.
+    #[must_use]
     pub fn rmse(&self) -> f64 {
         (self.squares / self.pixels as f64).sqrt()
     }
 
     /// Strays and gaps for a thousand steps.
+    #[must_use]
     pub fn wrong_per_mille(&self) -> f64 {
         1e3 * (self.strays + self.gaps) as f64 / self.steps as f64
     }

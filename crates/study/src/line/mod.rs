@@ -44,6 +44,7 @@ impl Line {
         [Self::Naive, Self::Dda, Self::Bresenham, Self::Wu, Self::Engine, Self::EngineSmooth];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Naive => "naive",
@@ -67,6 +68,7 @@ impl Line {
     }
 
     /// What draws segments again and again, with all kept that can be kept.
+    #[must_use]
     pub fn repeated<'a>(self, segments: &'a [Segment], size: [usize; 2]) -> Box<dyn FnMut() + 'a> {
         if let Some(outline) = self.outline() {
             let mut drawer = engine::Drawer::new(segments, outline, size);
@@ -99,6 +101,7 @@ impl Line {
 
 /// Segments of `radius` pixels and the same back, from the middle of a square picture to
 /// all sides.
+#[must_use]
 pub fn star(side: usize, radius: i32) -> Vec<Segment> {
     let middle = side as i32 / 2;
     let ring = (-radius..radius).step_by(7);

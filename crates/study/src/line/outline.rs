@@ -29,6 +29,7 @@ pub struct OutlineErrors {
 
 impl OutlineErrors {
     /// Pixels beside the fill for a thousand of the outline.
+    #[must_use]
     pub fn per_mille(&self) -> f64 {
         1e3 * self.outside as f64 / self.outline as f64
     }
@@ -46,6 +47,7 @@ impl Outline {
     pub const ALL: [Self; 3] = [Self::Source, Self::EngineLines, Self::EngineFaces];
 
     /// The name in tables.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Source => "scanlines and DDA",
@@ -55,6 +57,7 @@ impl Outline {
     }
 
     /// Draws a triangle between the centres of pixels with its outline, and compares.
+    #[must_use]
     pub fn errors(self, corners: [[i32; 2]; 3], size: [usize; 2]) -> OutlineErrors {
         let (fill, outline) = self.draw(corners, size);
         let pixels = || outline.pixels().filter(|(_, is_outline)| **is_outline);
@@ -65,6 +68,7 @@ impl Outline {
     }
 
     /// The pixels of the fill and of the outline.
+    #[must_use]
     pub fn draw(self, corners: [[i32; 2]; 3], size: [usize; 2]) -> (Field<bool>, Field<bool>) {
         let triangle = corners.map(|[x, y]| Vec2::new(x as f32 + 0.5, y as f32 + 0.5));
         let sides = [0, 1, 2].map(|i| [corners[i], corners[(i + 1) % 3]]);

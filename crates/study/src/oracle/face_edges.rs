@@ -124,6 +124,7 @@ impl Face {
 
 /// What edges of a width in pixels cover of each pixel, row by row: 0 to 1. Faces are lists
 /// of vertices; those that are turned away are seen, too. Everything lies before the eye.
+#[must_use]
 pub fn coverage(view: &View, positions: &[DVec3], faces: &[Vec<u32>], width: f64) -> Vec<f64> {
     let project = |face: &Vec<u32>| {
         let corner = |&vertex: &u32| view.corner(positions[vertex as usize], vertex);

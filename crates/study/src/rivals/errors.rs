@@ -29,6 +29,7 @@ pub struct Centres {
 
 impl Errors {
     /// Of a picture of the same size. `is_flat` tells that each surface has one colour.
+    #[must_use]
     pub fn new(exact: &Exact, picture: &[[u8; 4]], is_centred: bool, is_flat: bool) -> Self {
         let touched = exact.pixels.iter().zip(picture).filter(|(pixel, _)| pixel.is_touched);
         let squares: Vec<f64> =

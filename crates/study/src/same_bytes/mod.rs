@@ -29,6 +29,7 @@ impl Rules {
     pub const ALL: [Self; 3] = [Self::SameBytes, Self::Fused, Self::FusedAndEstimated];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::SameBytes => "the same bytes everywhere",
@@ -38,6 +39,7 @@ impl Rules {
     }
 
     /// The light of each pixel, white being 1.
+    #[must_use]
     pub fn draw(self) -> Field<f32> {
         let mut light = Field::new([kernel::SIDE; 2], 0.0);
         self.draw_into(&mut light);
@@ -45,6 +47,7 @@ impl Rules {
     }
 
     /// What draws the picture again and again into the same memory.
+    #[must_use]
     pub fn repeated(self) -> Box<dyn FnMut()> {
         let mut light = Field::new([kernel::SIDE; 2], 0.0);
         Box::new(move || self.draw_into(std::hint::black_box(&mut light)))
@@ -62,12 +65,14 @@ impl Rules {
     }
 
     /// How far that is from the formula in `f64`.
+    #[must_use]
     pub fn error(self) -> Difference {
         let drawn = self.draw();
         Difference::of(drawn.pixels().map(|(place, &light)| [light.into(), kernel::exact(place)]))
     }
 
     /// How many of a thousand pixels have another byte than by the renderer's rules.
+    #[must_use]
     pub fn other_bytes_per_mille(self) -> f64 {
         let [here, ours] =
             [self, Self::SameBytes].map(|rules| rules.draw().map(|light| (light * 255.0 + 0.5) as u8));

@@ -40,6 +40,7 @@ impl Facet {
 impl Ball {
     /// An icosahedron, each triangle cut in four `subdivisions` times, in a square
     /// picture.
+    #[must_use]
     pub fn new(side: usize, subdivisions: u32) -> Self {
         let radius = side as f64 / 2.0;
         let mesh = primitives::icosphere(1.0, subdivisions);
@@ -62,6 +63,7 @@ impl Ball {
     }
 
     /// How many faces are turned to the eye.
+    #[must_use]
     pub fn face_count(&self) -> usize {
         self.faces.len()
     }

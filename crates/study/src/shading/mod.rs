@@ -31,6 +31,7 @@ impl Shading {
     pub const ALL: [Self; 3] = [Self::Flat, Self::Gouraud, Self::Phong];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Flat => "flat",
@@ -40,6 +41,7 @@ impl Shading {
     }
 
     /// The light in each pixel of a ball; none where it is not.
+    #[must_use]
     pub fn draw(self, ball: &Ball) -> Field<Option<f64>> {
         let mut picture = ball.picture();
         self.draw_into(ball, &mut picture);
@@ -47,6 +49,7 @@ impl Shading {
     }
 
     /// What draws a ball again and again into the same memory.
+    #[must_use]
     pub fn repeated(self, ball: &Ball) -> Box<dyn FnMut() + '_> {
         let mut picture = ball.picture();
         Box::new(move || {
@@ -65,6 +68,7 @@ impl Shading {
     }
 
     /// How far that is from a ball without triangles, where both are.
+    #[must_use]
     pub fn error(self, ball: &Ball) -> Difference {
         let drawn = self.draw(ball);
         let pairs =
@@ -76,6 +80,7 @@ impl Shading {
 /// What a surface sends to an eye on the z axis: Lambert's law with a highlight (J. F.
 /// Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977),
 /// for a unit normal.
+#[must_use]
 pub fn light_of(normal: DVec3) -> f64 {
     /// Towards the light, and half way from it to the eye; of length 1.
     const LIGHT: DVec3 = DVec3::new(2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0);
@@ -89,6 +94,7 @@ pub fn light_of(normal: DVec3) -> f64 {
 }
 
 /// How far the light of a picture is from that of the ball in a pixel; 0 beside it.
+#[must_use]
 pub fn error_at(ball: &Ball, drawn: &Field<Option<f64>>, place: [usize; 2]) -> f64 {
     drawn[place].zip(ball.normal(place)).map_or(0.0, |(light, normal)| (light - light_of(normal)).abs())
 }

@@ -21,6 +21,7 @@ pub struct Drawer {
 
 impl Drawer {
     /// A picture of `side` by `side` pixels that shows the floor and nothing else.
+    #[must_use]
     pub fn new(shadows: Shadows, side: usize) -> Self {
         let mut settings = RenderSettings::new(side as u32, side as u32);
         settings.samples_per_axis = 1;

@@ -21,6 +21,7 @@ const REACH: f64 = 1.05;
 impl ShadowMap {
     /// As a light sees the ball, with a square of texels round it: its triangles, drawn with a
     /// z-buffer.
+    #[must_use]
     pub fn new(side: usize) -> Self {
         let mut texels = Field::new([side; 2], f32::NEG_INFINITY);
         let across = across();
@@ -45,6 +46,7 @@ impl ShadowMap {
     }
 
     /// The share of light that a point of the floor gets.
+    #[must_use]
     pub fn light(&self, point: [f64; 2], filter: MapFilter) -> f64 {
         let point = on_floor(point);
         let side = self.texels.size()[0] as f64;

@@ -50,6 +50,7 @@ impl Shadow {
     ];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> String {
         match self {
             Self::Map(side, MapFilter::Nearest) => format!("map {side}"),
@@ -59,6 +60,7 @@ impl Shadow {
     }
 
     /// What says how much light a point of the floor gets, made ready.
+    #[must_use]
     pub fn ready(self) -> Box<dyn Fn([f64; 2]) -> f64> {
         match self {
             Self::Map(side, filter) => {
@@ -92,11 +94,13 @@ pub fn draw_into(picture: &mut Field<f64>, light: &dyn Fn([f64; 2]) -> f64) {
 
 /// The light as it is: 0 where a triangle of the ball is between a pixel's centre and the light,
 /// else 1.
+#[must_use]
 pub fn exact(side: usize) -> Field<f64> {
     stage::exact(side)
 }
 
 /// How far a picture is from right, in the pixels that lie within two of the shadow's edge.
+#[must_use]
 pub fn error(drawn: &Field<f64>, right: &Field<f64>) -> Difference {
     let is_near_edge = |[x, y]: [usize; 2]| {
         let around =

@@ -17,6 +17,7 @@ impl Default for ShadowRays {
 
 impl ShadowRays {
     /// Builds the tree.
+    #[must_use]
     pub fn new() -> Self {
         let triangles: Vec<[Vec3; 3]> =
             triangles().into_iter().map(|triangle| triangle.map(|corner| corner.as_vec3())).collect();
@@ -24,6 +25,7 @@ impl ShadowRays {
     }
 
     /// 0 or 1.
+    #[must_use]
     pub fn light(&self, point: [f64; 2]) -> f64 {
         let ray = Ray { origin: on_floor(point).as_vec3(), direction: LIGHT.as_vec3() };
         if self.tree.occluded(&ray, 0.0..f32::INFINITY) { 0.0 } else { 1.0 }

@@ -24,6 +24,7 @@ fn next(corner: u32) -> u32 {
 
 impl<const COUNTED: bool> CornerTable<COUNTED> {
     /// Of a closed mesh.
+    #[must_use]
     pub fn new(Triangles { positions, triangles }: &Triangles) -> Self {
         let vertices: Vec<u32> = triangles.as_flattened().to_vec();
         let side = |corner: u32| [next(corner), next(next(corner))].map(|corner| vertices[corner as usize]);

@@ -17,6 +17,7 @@ pub struct FaceList<const COUNTED: bool> {
 
 impl<const COUNTED: bool> FaceList<COUNTED> {
     /// Of a closed mesh.
+    #[must_use]
     pub fn new(Triangles { positions, triangles }: &Triangles) -> Self {
         let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
         let corners = (0..).zip(triangles).flat_map(|(face, triangle)| triangle.map(|vertex| [vertex, face]));

@@ -16,6 +16,7 @@ pub struct Own<const COUNTED: bool> {
 
 impl<const COUNTED: bool> Own<COUNTED> {
     /// Of a closed mesh, its edges found.
+    #[must_use]
     pub fn new(triangles: &Triangles) -> Self {
         let mesh = mesh_of(triangles);
         mesh.edges();

@@ -14,6 +14,7 @@ pub struct Triangles {
 
 impl Triangles {
     /// A ball of 20 · 4^`subdivisions` triangles.
+    #[must_use]
     pub fn ball(subdivisions: u32) -> Self {
         let mesh = primitives::icosphere(1.0, subdivisions);
         let triangle = |face: usize| {

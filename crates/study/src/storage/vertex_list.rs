@@ -14,6 +14,7 @@ pub struct VertexList<const COUNTED: bool> {
 
 impl<const COUNTED: bool> VertexList<COUNTED> {
     /// Of a closed mesh, where each side of a triangle is that of another, reversed.
+    #[must_use]
     pub fn new(Triangles { positions, triangles }: &Triangles) -> Self {
         let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
         Self { positions: positions.clone(), neighbours: Groups::new(positions.len(), sides) }

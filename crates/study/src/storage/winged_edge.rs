@@ -29,6 +29,7 @@ pub struct WingedEdge<const COUNTED: bool> {
 
 impl<const COUNTED: bool> WingedEdge<COUNTED> {
     /// Of a closed mesh.
+    #[must_use]
     pub fn new(Triangles { positions, triangles }: &Triangles) -> Self {
         let mut numbers = BTreeMap::new();
         for &[a, b, c] in triangles {

@@ -99,6 +99,7 @@ pub struct Drawer<'a> {
 
 impl<'a> Drawer<'a> {
     /// Nothing is drawn yet.
+    #[must_use]
     pub fn new(ground: &'a Ground) -> Self {
         let target = target(ground.size(), &[Output::Linear]);
         Self { ground, floor: Floor::new(ground), engine: Engine::default(), target }
@@ -118,6 +119,7 @@ impl<'a> Drawer<'a> {
     }
 
     /// The light of each pixel as it was drawn last.
+    #[must_use]
     pub fn light(&self) -> Field<f64> {
         field(self.ground.size(), self.target.linear()).map(|color| color.x.into())
     }

@@ -16,6 +16,7 @@ const TINTS: [u8; 2] = [230, 20];
 
 impl Ground {
     /// In a picture of `width` pixels, all of it below the horizon.
+    #[must_use]
     pub fn new(width: usize) -> Self {
         let texel = |x: u32, y: u32| {
             let tint = TINTS[((x / SQUARE + y / SQUARE) % 2) as usize];
@@ -27,6 +28,7 @@ impl Ground {
     }
 
     /// Width and height in pixels.
+    #[must_use]
     pub fn size(&self) -> [usize; 2] {
         [self.width, self.width / 2]
     }

@@ -39,6 +39,7 @@ impl TextureFilter {
     ];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> String {
         match self {
             Self::Nearest => "nearest".to_owned(),
@@ -59,6 +60,7 @@ impl TextureFilter {
     }
 
     /// The light of each pixel.
+    #[must_use]
     pub fn draw(self, ground: &Ground) -> Field<f64> {
         let mut drawer = Drawer::new(ground);
         drawer.draw(self);
@@ -66,6 +68,7 @@ impl TextureFilter {
     }
 
     /// How far that is from the mean of what each pixel sees.
+    #[must_use]
     pub fn error(self, ground: &Ground, right: &Field<f64>) -> Difference {
         let drawn = self.draw(ground);
         Difference::of(right.pixels().map(|(place, &light)| [drawn[place], light]))
@@ -73,6 +76,7 @@ impl TextureFilter {
 }
 
 /// The mean light of 16 by 16 points in each pixel, no filter at any.
+#[must_use]
 pub fn exact(ground: &Ground) -> Field<f64> {
     const POINTS: usize = 16;
     Field::from_fn(ground.size(), |[x, y]| {

@@ -17,6 +17,7 @@ pub struct Shared {
 
 impl Shared {
     /// Faces, with a number of threads; 0 counts as 1.
+    #[must_use]
     pub fn new(faces: &[[Corner; 3]], size: [usize; 2], threads: usize) -> Self {
         let position = |&[x, y, distance]: &Corner| {
             // The source's pixels have their centres at whole numbers.
@@ -34,6 +35,7 @@ impl Shared {
     }
 
     /// The number of the face in each pixel, `u32::MAX` for none.
+    #[must_use]
     pub fn faces(&self) -> Field<u32> {
         let size = [self.target.width(), self.target.height()].map(|side| side as usize);
         field(size, self.target.triangles())

@@ -23,6 +23,7 @@ pub const TIMES_OF_THE_SOURCE: [f64; 9] =
 pub type Corner = [f64; 3];
 
 /// The two faces of a square that fills most of a picture, a little tilted.
+#[must_use]
 pub fn square([width, height]: [usize; 2]) -> [[Corner; 3]; 2] {
     let corner = |x: f64, y: f64| [x * width as f64 + 0.25, y * height as f64 + 0.25, 2.0 + x + y];
     let [a, b, c, d] = [corner(0.05, 0.1), corner(0.9, 0.05), corner(0.95, 0.9), corner(0.1, 0.95)];
@@ -31,6 +32,7 @@ pub fn square([width, height]: [usize; 2]) -> [[Corner; 3]; 2] {
 
 /// Draws faces as the source does: new threads for each face, which share the rows of
 /// its bounding box. Returns the number of the face in each pixel, `u32::MAX` for none.
+#[must_use]
 pub fn draw_by_face(faces: &[[Corner; 3]], size: [usize; 2], threads: usize) -> Field<u32> {
     source::draw(faces, size, threads)
 }

@@ -38,6 +38,7 @@ impl Transparency {
     pub const ALL: [Self; 5] = [Self::Unsorted, Self::ByBody, Self::ByFace, Self::ByFragment, Self::Engine];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Unsorted => "unsorted",
@@ -49,6 +50,7 @@ impl Transparency {
     }
 
     /// The light of each pixel before black, every face letting half of it through.
+    #[must_use]
     pub fn draw(self, scene: &Scene) -> Field<f64> {
         let mut way = self.way(scene);
         way.draw(scene);
@@ -56,6 +58,7 @@ impl Transparency {
     }
 
     /// What draws a scene again and again, with all memory kept.
+    #[must_use]
     pub fn repeated(self, scene: &Scene) -> Box<dyn FnMut() + '_> {
         let mut way = self.way(scene);
         Box::new(move || way.draw(scene))
@@ -72,6 +75,7 @@ impl Transparency {
     }
 
     /// How far that is from [`exact`].
+    #[must_use]
     pub fn error(self, scene: &Scene, exact: &Field<f64>) -> Difference {
         let drawn = self.draw(scene);
         let pairs = exact.pixels().filter(|(_, light)| **light > 0.0);
@@ -89,6 +93,7 @@ trait Way {
 
 /// The light of each pixel with all faces in the order of their [`Nearness`], of equal ones the
 /// later first.
+#[must_use]
 pub fn exact(scene: &Scene) -> Field<f64> {
     let mut layers: Field<Vec<(Nearness, Reverse<u32>)>> = Field::new(scene.size(), Vec::new());
     for (number, face) in scene.faces() {

@@ -26,6 +26,7 @@ impl Case {
     pub const ALL: [Self; 5] = [Self::Balls, Self::Ring, Self::Crossing, Self::Torus, Self::Teapot];
 
     /// The name in tables.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Balls => "40 balls",
@@ -37,6 +38,7 @@ impl Case {
     }
 
     /// The bodies in a square picture of `side` pixels.
+    #[must_use]
     pub fn scene(self, side: usize) -> Scene {
         let size = side as f64;
         match self {
@@ -50,6 +52,7 @@ impl Case {
 }
 
 /// Balls of 80 faces at chance places, wholly in the picture.
+#[must_use]
 pub fn balls(side: usize, count: usize, radius: f64, seed: u64) -> Scene {
     let mut random = Random::new(seed);
     let mut place = || {
@@ -63,6 +66,7 @@ pub fn balls(side: usize, count: usize, radius: f64, seed: u64) -> Scene {
 /// Sixteen sheets over the whole picture, one behind the other; `tilt` pixels nearer and
 /// farther at their corners, each at others, so that tilted ones cross. What they cover is
 /// the same for any tilt.
+#[must_use]
 pub fn sheets(side: usize, tilt: i32) -> Scene {
     let side_px = side as i32;
     let sheet = |i: i32| {

@@ -16,6 +16,7 @@ pub struct OrderErrors {
 
 impl OrderErrors {
     /// Of a picture of a scene.
+    #[must_use]
     pub fn of(scene: &Scene, shown: &Field<u32>) -> Self {
         let nearest = nearest(scene);
         let mut errors = Self::default();
@@ -31,6 +32,7 @@ impl OrderErrors {
     }
 
     /// Misordered pixels for a thousand that show anything.
+    #[must_use]
     pub fn per_mille(&self) -> f64 {
         1e3 * self.misordered as f64 / self.seen as f64
     }

@@ -66,6 +66,7 @@ impl Visibility {
     ];
 
     /// The name in tables and plots.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Painter => "painter",
@@ -79,6 +80,7 @@ impl Visibility {
     }
 
     /// What is counted as a test; empty where nothing is.
+    #[must_use]
     pub fn test(self) -> &'static str {
         match self {
             Self::Painter => "comparisons of the sort",
@@ -108,6 +110,7 @@ impl Visibility {
 
     /// What draws a scene again and again, with memory, trees and what else is the same for any
     /// ray kept; a scene that is refused takes no time.
+    #[must_use]
     pub fn repeated(self, scene: &Scene) -> Box<dyn FnMut() + '_> {
         match self {
             Self::Painter => {
@@ -140,11 +143,13 @@ impl Visibility {
     }
 
     /// What draws a scene again and again with nothing kept.
+    #[must_use]
     pub fn repeated_anew(self, scene: &Scene) -> Box<dyn FnMut() + '_> {
         Box::new(move || drop(self.draw(scene)))
     }
 
     /// Whether [`repeated`](Self::repeated) keeps anything.
+    #[must_use]
     pub fn is_kept(self) -> bool {
         ![Self::Roberts, Self::Warnock].contains(&self)
     }

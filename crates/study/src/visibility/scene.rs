@@ -32,6 +32,7 @@ impl Body {
     }
 
     /// A tetrahedron.
+    #[must_use]
     pub fn tetrahedron(corners: [Corner; 4]) -> Self {
         let triangles = vec![[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]];
         Self { corners: corners.to_vec(), triangles }
@@ -52,6 +53,7 @@ pub struct Pose {
 
 impl Pose {
     /// Turned about the upright axis, then tilted towards the eye, in radians.
+    #[must_use]
     pub fn new(angle: f64, tilt: f64, scale: f64, middle: DVec3) -> Self {
         let ((s, c), (u, v)) = (elementary::sin_cos(angle), elementary::sin_cos(tilt));
         let about = DMat3::from_cols_array(&[c, 0.0, -s, 0.0, 1.0, 0.0, s, 0.0, c]);
@@ -84,6 +86,7 @@ pub struct Scene {
 
 impl Scene {
     /// A picture of bodies.
+    #[must_use]
     pub fn new(size: [usize; 2], bodies: Vec<Body>) -> Self {
         let of_body = |(number, body): (usize, &Body)| -> Vec<Face> {
             let face =
@@ -95,16 +98,19 @@ impl Scene {
     }
 
     /// Width and height in pixels.
+    #[must_use]
     pub fn size(&self) -> [usize; 2] {
         self.size
     }
 
     /// The bodies.
+    #[must_use]
     pub fn bodies(&self) -> &[Body] {
         &self.bodies
     }
 
     /// How many triangles all bodies have; they are numbered body by body.
+    #[must_use]
     pub fn face_count(&self) -> usize {
         self.faces.len()
     }

@@ -46,6 +46,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// The picture as it was drawn last.
+    #[must_use]
     pub fn pixels(&self) -> &[[u8; 4]] {
         self.target.unorm8().expect("every canvas has these pixels")
     }

@@ -35,6 +35,7 @@ pub struct Grid {
 
 impl Mesh {
     /// How many vertices there are.
+    #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.positions[0].len()
     }

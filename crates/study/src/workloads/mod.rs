@@ -64,6 +64,7 @@ impl Workload {
     ];
 
     /// The name in tables and file names.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Clear => "W0-clear",
@@ -78,6 +79,7 @@ impl Workload {
     }
 
     /// What is drawn.
+    #[must_use]
     pub fn scene(self) -> Scene {
         match self {
             Self::Clear => Scene::flat(geometry::off_screen()),
@@ -96,6 +98,7 @@ impl Workload {
 
     /// What one frame of `scene` does, in the unit of the workload's rate:
     /// pixels, all layers counted, or triangles, culled ones included.
+    #[must_use]
     pub fn work(self, scene: &Scene) -> f64 {
         let pixels = f64::from(scene.size.x) * f64::from(scene.size.y);
         match self {

@@ -47,6 +47,7 @@ impl Scene {
     pub const BACKGROUND: [u8; 4] = [26, 26, 38, 255];
 
     /// Width times height.
+    #[must_use]
     pub fn pixel_count(&self) -> usize {
         self.size.x as usize * self.size.y as usize
     }
@@ -73,6 +74,7 @@ impl Scene {
     }
 
     /// A torus with light at its vertices; [`Grid`] divides it.
+    #[must_use]
     pub fn torus(grid: Grid) -> Self {
         let scene =
             Self { shading: Shading::Gouraud, culling: Culling::Back, ..Self::flat(geometry::torus(grid)) };
@@ -80,6 +82,7 @@ impl Scene {
     }
 
     /// A torus knot of 70,000 triangles.
+    #[must_use]
     pub fn knot(shading: Shading) -> Self {
         let scene = Self { shading, culling: Culling::Back, ..Self::flat(geometry::knot()) };
         scene.seen_from(Vec3::new(0.3, 0.4, 4.6), [1.0, 20.0])

@@ -14,12 +14,15 @@ impl Timings {
     ///
     /// A frame of more than 1.5 s is warmed up twice and repeated five times at
     /// most. These are the rules by which the other renderers were timed.
-    pub fn of_frames<R>(repetitions: usize, mut frame: impl FnMut() -> R) -> Self {
-        Self::of_times(repetitions, || {
-            let start = Instant::now();
-            frame();
-            start.elapsed().as_secs_f64() * 1e3
-        })
+    pub fn of_frames<R>(repetitions: usize, frame: impl FnMut() -> R) -> Self {
+        Self::of_times(repetitions, timed(frame))
+    }
+
+    /// Times `frame` after exactly `warm_up` frames, so that two runs do the same work
+    /// whatever the clock says: for tools that count instructions.
+    pub fn of_frames_after<R>(warm_up: usize, repetitions: usize, mut frame: impl FnMut() -> R) -> Self {
+        (0..warm_up).for_each(|_| drop(frame()));
+        Self::repeated(repetitions, timed(frame))
     }
 
     /// The same where `time` draws a frame and tells how long it took.
@@ -33,30 +36,47 @@ impl Timings {
         } else {
             time();
         }
-        let mut milliseconds: Vec<f64> = (0..repetitions).map(|_| time()).collect();
+        Self::repeated(repetitions, time)
+    }
+
+    fn repeated(repetitions: usize, mut time: impl FnMut() -> f64) -> Self {
+        let mut milliseconds: Vec<f64> = (0..repetitions.max(1)).map(|_| time()).collect();
         milliseconds.sort_by(f64::total_cmp);
         Self { milliseconds }
     }
 
     /// All times, shortest first.
+    #[must_use]
     pub fn milliseconds(&self) -> &[f64] {
         &self.milliseconds
     }
 
     /// The shortest time.
+    #[must_use]
     pub fn min(&self) -> f64 {
         self.milliseconds[0]
     }
 
     /// The longest time.
+    #[must_use]
     pub fn max(&self) -> f64 {
         self.milliseconds[self.milliseconds.len() - 1]
     }
 
     /// The time in the middle, or the mean of the two there.
+    #[must_use]
     pub fn median(&self) -> f64 {
         let count = self.milliseconds.len();
         (self.milliseconds[(count - 1) / 2] + self.milliseconds[count / 2]) / 2.0
+    }
+}
+
+/// What draws a frame and returns how many milliseconds it took.
+fn timed<R>(mut frame: impl FnMut() -> R) -> impl FnMut() -> f64 {
+    move || {
+        let start = Instant::now();
+        frame();
+        start.elapsed().as_secs_f64() * 1e3
     }
 }
 
@@ -104,5 +124,12 @@ mod tests {
         let mut frames = 0;
         let timings = Timings::of_frames(1, || frames += 1);
         assert!(frames > timings.milliseconds().len(), "{frames} frames, the first not counted");
+    }
+
+    #[test]
+    fn a_fixed_warm_up_draws_as_many_frames_as_it_says() {
+        let mut frames = 0;
+        let timings = Timings::of_frames_after(1, 2, || frames += 1);
+        assert_eq!((timings.milliseconds().len(), frames), (2, 3));
     }
 }

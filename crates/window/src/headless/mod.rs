@@ -41,6 +41,7 @@ pub struct HeadlessWindow<'a> {
 
 /// A drawn frame: when it began and ended. The window's own time stands still meanwhile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct DrawnFrame {
     /// When all previous events had been handled.
     pub begun: Duration,
@@ -54,6 +55,7 @@ pub struct DrawnFrame {
 
 /// An element of the interface, as screen readers report it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Widget {
     /// Its name.
     pub label: String,

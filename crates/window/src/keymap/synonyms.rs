@@ -25,6 +25,7 @@ const SYNONYMS: [&[&str]; 20] = [
 ];
 
 /// Whether every word of a search, in lower case, or a synonym of it is in a text in lower case.
+#[must_use]
 pub fn matches_search(text: &str, search: &str) -> bool {
     search.split_whitespace().all(|word| text.contains(word) || by_synonym(text, word))
 }

@@ -63,6 +63,28 @@ impl Worked {
     }
 }
 
+/// On a busy machine the first letters of a search came before its field had the focus: X deleted what was selected.
+#[test]
+fn what_is_typed_before_a_field_has_the_focus_runs_nothing() {
+    for opens in ["F3", "Ctrl+Shift+S"] {
+        let mut worked = Worked::new();
+        worked.chords("A");
+        worked.chords(opens);
+        for typed in ['x', 'a', 'g'] {
+            assert_eq!(
+                worked.key(WindowKey::Character(typed), Modifiers::NONE),
+                Taken::No,
+                "{opens}, {typed}"
+            );
+        }
+        assert_eq!(worked.objects(), 2, "nothing was deleted");
+        assert!(worked.editor.tool.is_none(), "nothing moves");
+        assert_eq!(worked.key(WindowKey::Escape, Modifiers::NONE), Taken::Yes, "closes it");
+        worked.chords("X");
+        assert_eq!(worked.objects(), 0, "now it is a key again");
+    }
+}
+
 #[test]
 fn ctrl_and_a_digit_show_a_smooth_surface_below_its_cage() {
     let mut worked = Worked::new();

@@ -11,6 +11,7 @@ use super::super::ids::{FaceId, VertexId};
 
 /// A vertex at the place of another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct DoubledVertex {
     /// The one with the larger id.
     pub vertex: VertexId,
@@ -20,6 +21,7 @@ pub struct DoubledVertex {
 
 /// A face with the vertices of another, in any order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct DoubledFace {
     /// The one with the larger id.
     pub face: FaceId,
@@ -30,6 +32,7 @@ pub struct DoubledFace {
 impl EditMesh {
     /// The vertices that are no farther than `within` metres (from 0 on) from one with a smaller
     /// id that is no double itself. Places that are not finite are not compared.
+    #[must_use]
     pub fn doubled_vertices(&self, within: f64) -> Vec<DoubledVertex> {
         let mut kept = KeptPlaces::new(within, self.vertex_count());
         let mut doubles = Vec::new();
@@ -45,6 +48,7 @@ impl EditMesh {
     }
 
     /// The faces with the same vertices as one with a smaller id.
+    #[must_use]
     pub fn doubled_faces(&self) -> Vec<DoubledFace> {
         let mut firsts: HashMap<SmallVec<[u32; 4]>, FaceId> = HashMap::with_capacity(self.face_count());
         let mut doubles = Vec::new();

@@ -7,6 +7,7 @@ use super::super::ids::{CornerId, EdgeId, VertexId};
 
 /// Edges with one side of a face each, in the order in which they follow each other.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct BoundaryLoop {
     /// Each ends where the next begins.
     pub edges: Vec<EdgeId>,
@@ -17,12 +18,14 @@ pub struct BoundaryLoop {
 
 impl EditMesh {
     /// The edges with three or more sides of faces.
+    #[must_use]
     pub fn non_manifold_edges(&self) -> Vec<EdgeId> {
         self.edges().filter(|&edge| self.edge_corners(edge).nth(2).is_some()).collect()
     }
 
     /// The edges whose two faces run along them in the same direction, so that one of these shows its
     /// inside. [`Self::recalculate_normals`] repairs them, but for surfaces with one side.
+    #[must_use]
     pub fn inconsistent_edges(&self) -> Vec<EdgeId> {
         let is_inconsistent = |edge: &EdgeId| {
             let pair = self.edge_pair(*edge);
@@ -32,12 +35,14 @@ impl EditMesh {
     }
 
     /// The edges no longer than `most` metres.
+    #[must_use]
     pub fn zero_length_edges(&self, most: f64) -> Vec<EdgeId> {
         self.edges().filter(|&edge| self.edge_length(edge) <= most).collect()
     }
 
     /// The edges with exactly one side of a face, in chains: each is the rim of a hole or of an open
     /// surface. Where two rims touch in a vertex each follows its own faces.
+    #[must_use]
     pub fn boundary_loops(&self) -> Vec<BoundaryLoop> {
         let mut seen = FixedBitSet::with_capacity(self.edge_capacity());
         let mut loops = Vec::new();

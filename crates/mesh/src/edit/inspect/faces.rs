@@ -5,6 +5,7 @@ use super::super::ids::FaceId;
 
 /// A face with corners off its plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct NonPlanarFace {
     /// Which.
     pub face: FaceId,
@@ -15,6 +16,7 @@ pub struct NonPlanarFace {
 
 impl EditMesh {
     /// The faces no larger than `most` square metres, and those at places that are not finite.
+    #[must_use]
     pub fn zero_area_faces(&self, most: f64) -> Vec<FaceId> {
         let has_area = |face: &FaceId| {
             let area = self.face_area(*face);
@@ -25,6 +27,7 @@ impl EditMesh {
 
     /// The faces with a corner farther than `within` metres from their plane. A face without area has
     /// no plane, and is none of them.
+    #[must_use]
     pub fn non_planar_faces(&self, within: f64) -> Vec<NonPlanarFace> {
         let finding = |face| NonPlanarFace { face, distance: self.distance_from_plane(face) };
         self.faces().map(finding).filter(|finding| finding.distance > within).collect()

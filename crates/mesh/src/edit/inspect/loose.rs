@@ -8,6 +8,7 @@ use super::super::records::POINT;
 
 impl EditMesh {
     /// The vertices without an edge, but for those that are shown as points.
+    #[must_use]
     pub fn loose_vertices(&self) -> Vec<VertexId> {
         let is_point = |vertex: VertexId| self.vertices[vertex.0].flags & POINT != 0;
         let is_loose = |vertex: &VertexId| self.vertex_edges(*vertex).next().is_none() && !is_point(*vertex);
@@ -15,12 +16,14 @@ impl EditMesh {
     }
 
     /// The edges without a face.
+    #[must_use]
     pub fn loose_edges(&self) -> Vec<EdgeId> {
         self.edges().filter(|&edge| self.edge_corners(edge).next().is_none()).collect()
     }
 
     /// The faces of each part that is connected over vertices, in ascending order; the part
     /// with the smallest face first.
+    #[must_use]
     pub fn parts(&self) -> Vec<Vec<FaceId>> {
         let mut seen_faces = FixedBitSet::with_capacity(self.face_capacity());
         let mut seen_vertices = FixedBitSet::with_capacity(self.vertex_capacity());

@@ -53,6 +53,7 @@ impl Default for InspectionSettings {
 
 /// Everything that was found. Lists are in ascending order of ids unless they say otherwise.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Inspection {
     /// Edges with three or more sides of faces.
     pub non_manifold_edges: Vec<EdgeId>,
@@ -85,6 +86,7 @@ pub struct Inspection {
 
 impl EditMesh {
     /// Looks for everything that is usually in the way of printing or further work.
+    #[must_use]
     pub fn inspect(&self, settings: &InspectionSettings) -> Inspection {
         Inspection {
             non_manifold_edges: self.non_manifold_edges(),

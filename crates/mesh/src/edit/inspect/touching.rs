@@ -33,6 +33,7 @@ impl EditMesh {
     ///
     /// It is decided in f64: a gap of less than about 10⁻¹⁵ of the size of a face may be taken for
     /// none.
+    #[must_use]
     pub fn touching_faces(&self, most: usize) -> TouchingFaces {
         let tree = TriangleTree::new(self.triangles());
         let mut found: Vec<[FaceId; 2]> = Vec::new();

@@ -33,23 +33,27 @@ impl EditMesh {
     /// The area vector of a face: its direction is the face's normal, its length the area in
     /// square metres. Of a face that is not planar this is the mean over its surface, however
     /// that is cut.
+    #[must_use]
     pub fn face_area_vector(&self, face: FaceId) -> DVec3 {
         area_vector(self.face_vertices(face).map(|vertex| self.point(vertex)))
     }
 
     /// The unit normal of a face, out of the side from which it is counter-clockwise. Zero where
     /// it has no area or a position is not finite.
+    #[must_use]
     pub fn face_normal(&self, face: FaceId) -> DVec3 {
         unit_or_zero(self.face_area_vector(face))
     }
 
     /// The mean of a face's corners, in metres.
+    #[must_use]
     pub fn face_center(&self, face: FaceId) -> DVec3 {
         let sum: DVec3 = self.face_vertices(face).map(|vertex| self.point(vertex)).sum();
         sum / self.face_size(face) as f64
     }
 
     /// The angle of a face at one of its corners, 0 to π; 0 at an edge without length.
+    #[must_use]
     pub fn corner_angle(&self, corner: CornerId) -> f64 {
         let here = self.point(self.corner_vertex(corner));
         let back = self.point(self.corner_vertex(self.previous_corner(corner)));
@@ -60,6 +64,7 @@ impl EditMesh {
     /// The unit normal of a vertex: the mean of the normals of all its faces, weighted by their
     /// angles there, as [`Mesh::vertex_normals`](crate::Mesh::vertex_normals) has it. Zero where
     /// faces cancel each other or there are none.
+    #[must_use]
     pub fn vertex_normal(&self, vertex: VertexId) -> DVec3 {
         let weighted = |corner| self.face_normal(self.corner_face(corner)) * self.corner_angle(corner);
         unit_or_zero(self.vertex_corners(vertex).map(weighted).sum())

@@ -9,6 +9,7 @@ use crate::normals::angle;
 
 impl EditMesh {
     /// How long an edge is, in metres.
+    #[must_use]
     pub fn edge_length(&self, edge: EdgeId) -> f64 {
         let [a, b] = self.edge_vertices(edge).map(|vertex| self.point(vertex));
         a.distance(b)
@@ -17,6 +18,7 @@ impl EditMesh {
     /// By how much a surface folds at an edge: the angle between the normals of its two faces, 0
     /// (flat) to π (folded back), within 10⁻⁷ away from these. `None` unless exactly two faces with
     /// areas meet there that run in opposite directions.
+    #[must_use]
     pub fn edge_angle(&self, edge: EdgeId) -> Option<f64> {
         self.edge_normals(edge, &mut FaceNormals::default()).map(|[one, two]| angle(one, two))
     }
@@ -37,11 +39,13 @@ impl EditMesh {
     }
 
     /// The area of a face in square metres; of one that is not planar, that of its area vector.
+    #[must_use]
     pub fn face_area(&self, face: FaceId) -> f64 {
         self.face_area_vector(face).length()
     }
 
     /// The area of all faces in square metres.
+    #[must_use]
     pub fn surface_area(&self) -> f64 {
         self.faces().map(|face| self.face_area(face)).sum()
     }

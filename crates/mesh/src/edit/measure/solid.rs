@@ -12,12 +12,14 @@ impl EditMesh {
     }
 
     /// The box around all vertices.
+    #[must_use]
     pub fn bounds(&self) -> Bounds3 {
         self.bounds_of(self.vertices())
     }
 
     /// Whether the faces bound a volume without a gap: there are faces, and every edge that has
     /// any belongs to exactly two that run along it in opposite directions.
+    #[must_use]
     pub fn is_watertight(&self) -> bool {
         let is_tight = |edge| match self.edge_pair(edge) {
             Some([one, two]) => self.corner_vertex(one) != self.corner_vertex(two),
@@ -29,12 +31,14 @@ impl EditMesh {
     /// The volume inside the faces in cubic metres, by the divergence theorem over the fans of
     /// their triangles. Negative if the faces look inwards. Without meaning unless the mesh
     /// [is watertight](Self::is_watertight).
+    #[must_use]
     pub fn volume(&self) -> f64 {
         self.moments().0
     }
 
     /// The centre of mass of what is inside the faces, filled evenly. `None` unless the mesh is
     /// watertight and its volume is not zero.
+    #[must_use]
     pub fn center_of_mass(&self) -> Option<DVec3> {
         let (volume, moment) = self.moments();
         let center = self.origin() + moment / volume;

@@ -11,6 +11,7 @@ use super::tables::{IndexSet, IndexTable};
 
 /// Copies of elements, in the order of the originals' ids.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct CopiedElements {
     /// The new vertices.
     pub vertices: Vec<VertexId>,

@@ -12,6 +12,7 @@ use super::outlines::Chain;
 
 /// The new elements.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Filled {
     /// The new faces.
     pub faces: Vec<FaceId>,

@@ -11,6 +11,7 @@ use super::super::refusal::Refusal;
 
 /// Elements that were hidden or revealed: those whose state changed.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct VisibilityChange {
     /// In the order of discovery.
     pub vertices: Vec<VertexId>,

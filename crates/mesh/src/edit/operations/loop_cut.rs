@@ -35,6 +35,7 @@ impl Default for LoopCutSettings {
 
 /// The result of [`EditMesh::loop_cut`].
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct LoopCut {
     /// The edges across the faces, face by face along the ring: `cuts` edges per face.
     pub edges: Vec<EdgeId>,

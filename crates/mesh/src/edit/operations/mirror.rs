@@ -11,6 +11,7 @@ use super::transform::GivenNormals;
 
 /// A mirrored copy.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Mirrored {
     /// The new vertices.
     pub vertices: Vec<VertexId>,

@@ -13,6 +13,7 @@ const FLAT: f64 = 1e-6;
 
 /// The result of recalculating normals.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct RecalculatedNormals {
     /// The flipped faces, in the order of discovery.
     pub turned: Vec<FaceId>,

@@ -11,6 +11,7 @@ use super::mirror::{Mirrored, check_merge_distance};
 
 /// The result of symmetrizing.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Symmetrized {
     /// The new half, and the vertices of the middle.
     pub mirrored: Mirrored,

@@ -14,6 +14,7 @@ use crate::triangulate::Triangulator;
 
 /// The result of a triangulation.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Triangulated {
     /// The triangles, including those that were triangles before; for each face the one with its id
     /// comes first.

@@ -44,6 +44,7 @@ pub struct Environment {
 
 /// Why an image is not a valid environment.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum EnvironmentError {
     /// A side is 0 (or too long for a map), or there are not `width * height` pixels.
     #[error(
@@ -80,17 +81,20 @@ impl Environment {
     }
 
     /// From a sky.
+    #[must_use]
     pub fn from_sky(sky: &Sky) -> Self {
         let map = Octahedral::from_function(LEAST, |direction| sky.radiance(direction));
         Self { sky: Some(*sky), ..Self::from_sharp(map) }
     }
 
     /// The sky that it was made from, if any.
+    #[must_use]
     pub fn sky(&self) -> Option<&Sky> {
         self.sky.as_ref()
     }
 
     /// The same linear RGB from all directions.
+    #[must_use]
     pub fn uniform(radiance: Vec3) -> Self {
         Self::from_sharp(Octahedral::from_function(32, |_| radiance))
     }
@@ -111,6 +115,7 @@ impl Environment {
 
     /// The side and the texels (linear RGB) of the map that everything else is made
     /// from, see [`Self::from_texels`].
+    #[must_use]
     pub fn texels(&self) -> (usize, Vec<[f32; 3]>) {
         let sharp = &self.halved[0];
         (sharp.size(), sharp.iter().map(|(_, _, light)| light.to_array()).collect())
@@ -126,6 +131,7 @@ impl Environment {
 
     /// The light that a surface of a roughness from 0 to 1 mirrors from a direction in the world
     /// (of any length but 0).
+    #[must_use]
     pub fn radiance(&self, direction: Vec3, roughness: f32) -> Vec3 {
         let last = self.blurred.len();
         let place = if roughness > 0.0 { roughness * last as f32 } else { 0.0 };
@@ -157,6 +163,7 @@ impl Environment {
     }
 
     /// What a white matt surface shows whose normal is a unit vector.
+    #[must_use]
     pub fn irradiance(&self, normal: Vec3) -> Vec3 {
         self.matt.at(normal)
     }

@@ -29,6 +29,7 @@ impl Sky {
     /// The light from a unit vector of the world, +Y up. Above the horizon, it approaches the
     /// zenith colour with the third power of the elevation; below, the ground colour with the
     /// eighth: haze is thick, and the ground begins abruptly.
+    #[must_use]
     pub fn radiance(&self, direction: Vec3) -> Vec3 {
         let level = 1.0 - direction.y.abs();
         let level = if level > 0.0 { level } else { 0.0 };

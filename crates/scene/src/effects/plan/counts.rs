@@ -4,6 +4,7 @@ use crate::effect::Effect;
 
 /// The cost of an effect in a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct EffectCounts {
     /// Interpolated varyings per vertex, summed over draws.
     pub attributes: u64,

@@ -42,6 +42,7 @@ pub struct EffectPlan {
 
 impl EffectPlan {
     /// Examines the scene and what the camera can see of it.
+    #[must_use]
     pub fn new(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Self {
         Self::of_stage(&Stage::new(scene, camera, settings))
     }
@@ -52,11 +53,13 @@ impl EffectPlan {
     }
 
     /// Whether an effect is on, and why.
+    #[must_use]
     pub fn decision(&self, effect: Effect) -> &Decision {
         &self.decisions[effect as usize]
     }
 
     /// Whether an effect is on.
+    #[must_use]
     pub fn is_on(&self, effect: Effect) -> bool {
         matches!(self.decision(effect), Decision::On(_))
     }

@@ -76,6 +76,7 @@ impl SharedBytes {
 impl GltfSource {
     /// The JSON, byte by byte as in the file, without a leading byte order mark and without the
     /// zeros that some exporters append in a GLB.
+    #[must_use]
     pub fn json(&self) -> &str {
         self.text.whole()
     }
@@ -86,41 +87,48 @@ impl GltfSource {
     ///
     /// It reads through the object given by the first two steps, such as one node; for pointers
     /// that do not begin with a list of the format, through the whole file.
+    #[must_use]
     pub fn at(&self, pointer: &str) -> Option<&str> {
         self.text.at(pointer)
     }
 
     /// The bytes of a buffer of the file, at least as many as its `byteLength`; `None` if it does
     /// not exist, could not be read, or is an empty stand-in for a compressed one.
+    #[must_use]
     pub fn buffer(&self, buffer: usize) -> Option<&[u8]> {
         self.buffers.get(buffer)?.as_deref()
     }
 
     /// The encoded bytes (PNG, JPEG, KTX2 …) of an image of the file, whether in a buffer, a file
     /// or a `data:` URI; `None` if it does not exist or could not be read.
+    #[must_use]
     pub fn image(&self, image: usize) -> Option<&[u8]> {
         Some(self.images.get(image)?.as_ref()?.get())
     }
 
     /// The index in `nodes` of a node; `None` for the copies made by EXT_mesh_gpu_instancing, which
     /// are children of the file's node.
+    #[must_use]
     pub fn node(&self, id: NodeId) -> Option<usize> {
         self.origins.nodes.get(&id).copied()
     }
 
     /// The index in `meshes` of a mesh.
+    #[must_use]
     pub fn mesh(&self, id: MeshId) -> Option<usize> {
         Some(self.origins.meshes.get(&id)?.index)
     }
 
     /// The index, in the `primitives` of its mesh, of the primitive that a face came from. `face`
     /// counts the faces of the mesh as it was loaded.
+    #[must_use]
     pub fn primitive(&self, id: MeshId, face: usize) -> Option<usize> {
         self.origins.meshes.get(&id)?.primitive(face)
     }
 
     /// The index in `materials` of a material; `None` for the default one. Its textures are found
     /// through the material: `/materials/2/normalTexture/index`.
+    #[must_use]
     pub fn material(&self, id: MaterialId) -> Option<usize> {
         self.origins.materials.get(&id).copied()
     }
@@ -132,6 +140,7 @@ impl GltfSource {
     }
 
     /// The index in `skins` of a skin.
+    #[must_use]
     pub fn skin(&self, id: SkinId) -> Option<usize> {
         self.origins.skins.get(&id).copied()
     }
@@ -139,21 +148,25 @@ impl GltfSource {
     /// The index in `animations` of an animation of the scene, by its position in
     /// [`Scene::animations`](trigon_scene::Scene::animations), which leaves out those that move
     /// nothing in the scene.
+    #[must_use]
     pub fn animation(&self, animation: usize) -> Option<usize> {
         self.origins.animations.get(animation).copied()
     }
 
     /// The index in `scenes` of the loaded scene; `None` if the file has no scenes.
+    #[must_use]
     pub fn scene(&self) -> Option<usize> {
         self.origins.scene
     }
 
     /// The index in `cameras` of a node's camera.
+    #[must_use]
     pub fn camera(&self, id: NodeId) -> Option<usize> {
         self.origins.cameras.get(&id).copied()
     }
 
     /// The index in the `lights` of KHR_lights_punctual of a node's light.
+    #[must_use]
     pub fn light(&self, id: NodeId) -> Option<usize> {
         self.origins.lights.get(&id).copied()
     }

@@ -68,6 +68,7 @@ pub struct NativeDocument {
 
 impl NativeDocument {
     /// A document without a file.
+    #[must_use]
     pub fn new(scene: Scene) -> Self {
         Self { scene, edited: BTreeMap::new(), kept: None }
     }
@@ -171,11 +172,13 @@ pub struct NativeFile<'a> {
 
 impl NativeFile<'_> {
     /// What the loaded file or the scene contains, and this one does not.
+    #[must_use]
     pub fn what_would_be_lost(&self) -> &[Loss] {
         &self.losses
     }
 
     /// The bytes of the file.
+    #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         self.file.to_bytes()
     }

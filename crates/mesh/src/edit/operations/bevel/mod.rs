@@ -44,6 +44,7 @@ const OPERATION: &str = "a bevel";
 
 /// The result of a bevel.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Beveled {
     /// The new faces: those along the edges, edge by edge, then those at the vertices.
     pub faces: Vec<FaceId>,
@@ -57,6 +58,7 @@ pub struct Beveled {
 
 /// How many of the given elements were not beveled, and why.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct BevelLeftOut {
     /// Edges and vertices without faces.
     pub wires: usize,
@@ -73,6 +75,7 @@ pub struct BevelLeftOut {
 
 impl BevelLeftOut {
     /// The number of elements of all kinds.
+    #[must_use]
     pub fn count(&self) -> usize {
         let Self { wires, borders, non_manifold, opposite, unclear } = self;
         wires + borders + non_manifold + opposite + unclear

@@ -13,6 +13,7 @@ use super::numbering::{Numbering, sorted_once};
 
 /// What joins vertices.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Connected {
     /// The new edges, and existing ones of a path.
     pub edges: Vec<EdgeId>,

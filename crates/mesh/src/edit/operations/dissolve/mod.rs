@@ -17,6 +17,7 @@ pub use limited::LimitedDissolve;
 
 /// The result of dissolving.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Dissolved {
     /// The merged faces, in ascending order: each has the lowest id of its parts.
     pub faces: Vec<FaceId>,

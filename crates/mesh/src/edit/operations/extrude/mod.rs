@@ -33,6 +33,7 @@ pub enum ExtrudeOffset {
 
 /// The result of extruding faces. The extruded faces themselves keep their ids.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct ExtrudedFaces {
     /// The quads around the extruded faces.
     pub walls: Vec<FaceId>,

@@ -12,6 +12,7 @@ use super::check_finite;
 
 /// The result of extruding edges.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct ExtrudedEdges {
     /// The quads, one for each edge, in the order of their ids.
     pub walls: Vec<FaceId>,
@@ -23,6 +24,7 @@ pub struct ExtrudedEdges {
 
 /// The result of extruding vertices.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct ExtrudedVertices {
     /// From each given vertex to its new one.
     pub edges: Vec<EdgeId>,

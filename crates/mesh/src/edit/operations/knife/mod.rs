@@ -29,6 +29,7 @@ pub enum KnifePoint {
 
 /// What [`EditMesh::knife`] made.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct KnifeCut {
     /// The edges of the cut, in the order of the path; those that were there already, too.
     pub edges: Vec<EdgeId>,

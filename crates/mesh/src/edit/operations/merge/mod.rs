@@ -15,6 +15,7 @@ use near::NearPoints;
 
 /// The result of merging vertices.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct MergedVertices {
     /// The remaining vertices, ascending.
     pub vertices: Vec<VertexId>,

@@ -22,6 +22,7 @@ const MOST_CUTS: u32 = 1000;
 
 /// The result of a subdivision.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Subdivided {
     /// The new vertices: those on edges, by edge from its first end on, then those inside faces.
     pub vertices: Vec<VertexId>,

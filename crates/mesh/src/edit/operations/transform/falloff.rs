@@ -57,6 +57,7 @@ pub enum FalloffDistance {
 
 impl FalloffShape {
     /// The fraction of the movement, 1 to 0, at a distance given as a fraction of the radius.
+    #[must_use]
     pub fn weight(self, share: f64) -> f64 {
         // Also without a distance nothing moves.
         let x = if share < 1.0 { (1.0 - share).min(1.0) } else { 0.0 };

@@ -99,6 +99,7 @@ impl MoveSession {
     }
 
     /// The vertices that move, wholly or in part, in ascending order.
+    #[must_use]
     pub fn vertices(&self) -> &[VertexId] {
         &self.vertices
     }
@@ -107,6 +108,7 @@ impl MoveSession {
     ///
     /// # Panics
     /// When there is no such place.
+    #[must_use]
     pub fn weight(&self, place: usize) -> f64 {
         self.weights.of(place)
     }
