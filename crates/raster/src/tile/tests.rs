@@ -1,12 +1,14 @@
 //! What tiles show, against a search through all triangles at every sample.
+//!
+//! The search finds coverage, facing and samples by itself, in whole numbers. Its depths are those of [`DepthPlane`], because
+//! it has to find the same ties to the bit; the property `depth_plane` of the workspace's tests holds these to rational numbers.
 
 mod large;
 mod marks;
 mod quick;
 mod small;
 
-use super::{BEHIND_ALL, DepthPlane, Edge};
-use crate::samples::SamplePattern;
+use super::{BEHIND_ALL, DepthPlane};
 use crate::setup::SetupTriangle;
 use crate::simd::SimdLevel;
 use crate::vertex::ScreenVertex;
@@ -72,14 +74,58 @@ impl Pipeline for Heap {
 
 /// What the search asks of a triangle.
 struct Known {
-    /// Least and greatest coordinates, by axis.
-    extent: [[i32; 2]; 2],
-    edges: [Edge; 3],
+    points: [[i32; 2]; 3],
     depth: DepthPlane,
     /// Of two equally deep ones the smaller key is seen.
     key: (u32, u32, usize, usize),
     light: f32,
     is_layer: bool,
+}
+
+/// Twice the area; positive where the corners run clockwise as seen, y pointing down.
+fn doubled_area([a, b, c]: [[i32; 2]; 3]) -> i128 {
+    let [[ux, uy], [vx, vy]] = [b, c].map(|corner| [0, 1].map(|axis| i128::from(corner[axis] - a[axis])));
+    ux * vy - uy * vx
+}
+
+/// Whether a triangle holds a sample that is moved to the right by very little, and down by very little of that. So a sample
+/// on an edge belongs to the triangle to its right, and on a horizontal edge to the one below.
+fn covers(points: [[i32; 2]; 3], sample: [i32; 2]) -> bool {
+    let winding = doubled_area(points).signum();
+    (0..3).all(|corner| {
+        let [from, to] = [points[corner], points[(corner + 1) % 3]];
+        let [right, down] = [0, 1].map(|axis| winding * i128::from(to[axis] - from[axis]));
+        // What the sample, its way to the right and its way down add to the area on its side of the edge.
+        [winding * doubled_area([from, to, sample]), -down, right] > [0; 3]
+    })
+}
+
+/// The samples of a pixel in 1/256 of it, as Direct3D 11.3 lists them in sixteenths from its middle (section 19.2.4).
+fn sample_offsets(samples: u32) -> Vec<[i32; 2]> {
+    let sixteenths: &[[i32; 2]] = match samples {
+        2 => &[[4, 4], [-4, -4]],
+        4 => &[[-2, -6], [6, -2], [-6, 2], [2, 6]],
+        16 => &[
+            [1, 1],
+            [-1, -3],
+            [-3, 2],
+            [4, -1],
+            [-5, -2],
+            [2, 5],
+            [5, 3],
+            [3, -5],
+            [-2, 6],
+            [0, -7],
+            [-4, -6],
+            [-6, 4],
+            [-8, 0],
+            [7, -4],
+            [6, 7],
+            [-7, -8],
+        ],
+        _ => &[[0, 0]],
+    };
+    sixteenths.iter().map(|offset| offset.map(|step| 128 + 16 * step)).collect()
 }
 
 impl Known {
@@ -89,19 +135,19 @@ impl Known {
             let [x, y] = points[corner].map(Fixed::from_raw);
             ScreenVertex::new(FixedPoint::new(x, y), depths[corner], 1.0)
         });
-        let triangle = SetupTriangle::whole(vertices, 0);
+        let area = doubled_area(points);
         let light = heap.light + index as u32;
         let is_masked = matches!(heap.blend_mode, BlendMode::Masked | BlendMode::MaskedPerSample);
         let faces = match heap.culling {
             Culling::None => true,
-            Culling::Back => triangle.front_facing,
-            Culling::Front => !triangle.front_facing,
+            // Counter-clockwise as seen, where y points down.
+            Culling::Back => area < 0,
+            Culling::Front => area >= 0,
         };
-        let exists = faces && triangle.doubled_area() != 0 && !(is_masked && light.is_multiple_of(3));
+        let exists = faces && area != 0 && !(is_masked && light.is_multiple_of(3));
         exists.then(|| Self {
-            extent: [0, 1].map(|axis| triangle.extent(axis)),
-            edges: Edge::of(&triangle),
-            depth: DepthPlane::of(&triangle),
+            points,
+            depth: DepthPlane::of(&SetupTriangle::whole(vertices, 0)),
             key: (heap.object, heap.faces.get(index).map_or(index as u32, |&face| face), index, draw),
             light: light as f32,
             is_layer: heap.blend_mode == BlendMode::Translucent,
@@ -110,10 +156,7 @@ impl Known {
 
     /// The depth at a point, if it covers that.
     fn at(&self, point: [i32; 2]) -> Option<f32> {
-        let within = |axis: usize| (self.extent[axis][0]..=self.extent[axis][1]).contains(&point[axis]);
-        let covers =
-            within(0) && within(1) && self.edges.iter().all(|edge| edge.at(point) + edge.bias() >= 0);
-        covers.then(|| self.depth.at(point))
+        covers(self.points, point).then(|| self.depth.at(point))
     }
 
     fn is_before(&self, depth: f32, (other, there): (Option<&Self>, f32)) -> bool {
@@ -229,7 +272,7 @@ fn check(heaps: &[Heap], settings: ExecuteSettings, samples: u32) {
         (0..heap.triangles.len()).filter_map(|index| Known::new(heap, draw, index)).collect::<Vec<_>>()
     };
     let known: Vec<_> = heaps.iter().enumerate().flat_map(of_heap).collect();
-    let offsets = SamplePattern::of(samples).unwrap().offsets();
+    let offsets = sample_offsets(samples);
     let mut seen = 0;
     for (index, (shown, depth)) in linear.iter().zip(depth).enumerate() {
         let pixel = [index as i32 % SIZE[0], index as i32 / SIZE[0]];

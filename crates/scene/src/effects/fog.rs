@@ -1,5 +1,6 @@
 //! Fog, eight lanes at a time.
 
+use super::work::{Work, note};
 use trigon_math::Vec3;
 use trigon_raster::simd::{Simd, prelude::*};
 
@@ -24,6 +25,7 @@ impl Mist {
     /// Colours seen through the fog at positions in camera space.
     #[inline(always)]
     pub(crate) fn over<S: Simd>(&self, simd: S, position: V3<S>, color: V3<S>) -> V3<S> {
+        note(Work::Fog);
         let distance = dot(position, position).sqrt();
         let kept = exp2(distance * -self.halvings);
         let mist = splat(simd, self.color);

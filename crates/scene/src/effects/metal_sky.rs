@@ -9,6 +9,7 @@
 //! The sky is fixed to the world, as environments are, while the studio's lamps move with the
 //! camera.
 
+use super::work::{Work, note};
 use std::sync::LazyLock;
 
 use trigon_math::{Mat3, Vec3, elementary};
@@ -63,6 +64,7 @@ impl MetalSky {
 
     /// The light on points in camera space.
     pub(crate) fn light<S: Simd>(&self, simd: S, points: &LitPoints<S>, roughness: F32<S>) -> SkyOnMetal<S> {
+        note(Work::SkyLight);
         simd.vectorize(
             #[inline(always)]
             || {

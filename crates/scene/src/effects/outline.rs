@@ -1,5 +1,6 @@
 //! Outlines around nodes, drawn over the finished image from its node ids.
 
+use super::work::{Work, note};
 use trigon_math::color;
 
 use super::Outline;
@@ -10,6 +11,7 @@ const WIDEST: u32 = 16;
 /// Paints the line over sRGB bytes: on pixels that show none of the nodes and lie within its width
 /// of one that does, fading out over the last pixel. `objects` are the node ids.
 pub(crate) fn draw_outline(outline: &Outline, objects: &[u32], width: usize, pixels: &mut [[u8; 4]]) {
+    note(Work::Outline);
     let mut chosen: Vec<u32> = outline.nodes.iter().map(|node| node.index() as u32).collect();
     chosen.sort_unstable();
     let inside = |index: usize| chosen.binary_search(&objects[index]).is_ok();

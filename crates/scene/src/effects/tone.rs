@@ -4,6 +4,7 @@
 //! A background colour is chosen for the display: it lies unchanged behind the mapped image. An
 //! environment is light and already in the image.
 
+use super::work::{Work, note};
 use trigon_math::{Vec3, Vec4, color};
 use trigon_raster::Rasterizer;
 
@@ -18,6 +19,7 @@ pub(crate) fn map_picture(
     pixels: &mut [[u8; 4]],
     rasterizer: &Rasterizer,
 ) {
+    note(Work::ToneMapping);
     let RenderSettings { width, height, background, effects, .. } = settings;
     let (width, factor) = (*width as usize, effects.exposure_factor());
     let rows = pixels.chunks_mut(width).zip(linear.chunks(width)).enumerate();

@@ -8,6 +8,7 @@ mod change;
 mod edge_flags;
 mod side_edges;
 
+use crate::effects::{Work, note};
 use std::mem::take;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -145,6 +146,7 @@ impl Geometry {
     fn deformed(&self, weights: &[f32], palette: &[Affine3]) -> Option<Self> {
         let rest = self.rest.as_ref()?;
         let mut deformed = Deformed::default();
+        note(Work::Pose);
         rest.deform(weights, palette, &mut deformed);
         Some(self.with_columns(self.columns.deformed(&deformed)))
     }

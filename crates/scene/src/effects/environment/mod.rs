@@ -12,6 +12,7 @@ mod sky;
 
 pub use sky::Sky;
 
+use super::work::{Work, note};
 use std::sync::Arc;
 
 use harmonics::Harmonics;
@@ -146,6 +147,7 @@ impl Environment {
     /// The light from a direction in the world (of any length but 0), filtered to a pixel's width
     /// in radians, so that pixels do not miss what lies between them.
     pub(crate) fn seen(&self, direction: Vec3, width: f32) -> Vec3 {
+        note(Work::EnvironmentLight);
         if let Some(sky) = &self.sky {
             return sky.radiance(direction.normalize_or_zero());
         }
@@ -187,12 +189,14 @@ impl Surroundings {
     /// What white matt surfaces show, for unit normals in camera space.
     #[inline(always)]
     pub(crate) fn matt<S: Simd>(&self, simd: S, normal: V3<S>) -> V3<S> {
+        note(Work::EnvironmentLight);
         let [r, g, b] = self.environment.matt.at_lanes(simd, turned(&self.to_world, normal));
         [r * self.intensity, g * self.intensity, b * self.intensity]
     }
 
     /// What surfaces mirror, for directions in camera space.
     pub(crate) fn mirrored<S: Simd>(&self, simd: S, direction: V3<S>, roughness: F32<S>) -> V3<S> {
+        note(Work::EnvironmentLight);
         let [x, y, z] = turned(&self.to_world, direction).map(<[f32; LANES]>::from);
         let roughness: [f32; LANES] = roughness.into();
         let found = lanes_of(|lane| {

@@ -10,6 +10,7 @@ pub(crate) use cache::RayCache;
 pub(crate) use occlusion::AmbientRays;
 pub(crate) use surface_hit::Optics;
 
+use super::work::{Work, note};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -87,6 +88,7 @@ impl RayScene {
 
     /// The first hit of a ray, if appearances are known.
     fn met(&self, ray: &Ray) -> Option<SurfaceHit> {
+        note(Work::SightRay);
         let hit = self.triangles.bvh.nearest(ray, 0.0..f32::INFINITY)?;
         Some(self.triangles.surfaces.as_ref()?.at(&hit, ray.at(hit.distance)))
     }
@@ -125,6 +127,7 @@ impl RayScene {
                 return 0.0;
             }
             cast += 1;
+            note(Work::ShadowRay);
             let ray = Ray { origin: origins[lane], direction };
             if self.triangles.bvh.occluded(&ray, 0.0..reach[lane]) { 0.0 } else { 1.0 }
         });

@@ -5,6 +5,7 @@
 //! the cosine weights), rotated about the normal by one of 16 angles selected by the pixel's
 //! position in a square of four by four: neighbours differ, and the image is reproducible.
 
+use crate::effects::work::{Work, note};
 use std::sync::atomic::Ordering;
 
 use trigon_math::{Ray, Vec2, Vec3, elementary};
@@ -84,6 +85,7 @@ impl AmbientRays {
         let [right, up] = [tangent * turn.x + bitangent * turn.y, bitangent * turn.x - tangent * turn.y];
         let leaves = |direction: &&Vec3| {
             let direction = right * direction.x + up * direction.y + normal * direction.z;
+            note(Work::OcclusionRay);
             !scene.triangles.bvh.occluded(&Ray { origin, direction }, 0.0..self.distance)
         };
         self.directions.iter().filter(leaves).count() as f32 / self.directions.len() as f32

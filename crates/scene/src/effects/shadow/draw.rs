@@ -1,5 +1,6 @@
 //! Draws a shadow map: depth only.
 
+use crate::effects::work::{Work, note};
 use trigon_math::Mat3;
 use trigon_raster::{Culling, Draw, Pass, Rasterizer, Target, TargetError};
 
@@ -29,6 +30,7 @@ pub(super) fn draw(
     (scene, casters): (&Scene, &Casters),
     rasterizer: &mut Rasterizer,
 ) -> Result<ShadowMap, TargetError> {
+    note(Work::ShadowMap);
     let dark = LightingEnvironment::default();
     let eye = Eye::new(&view.camera, view.aspect);
     let mut shapes = Vec::new();

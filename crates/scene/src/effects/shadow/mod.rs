@@ -19,6 +19,7 @@ mod fit;
 
 pub(crate) use cache::ShadowCache;
 
+use super::work::{Work, note};
 use std::sync::Arc;
 
 use trigon_math::{DAffine3, DMat4, DVec3, DVec4, Mat4};
@@ -149,6 +150,7 @@ impl ShadowMaps {
         towards: V3<S>,
     ) -> Option<F32<S>> {
         let maps = self.lamps.get(lamp).filter(|maps| !maps.is_empty())?;
+        note(Work::ShadowLookUp);
         Some(simd.vectorize(
             #[inline(always)]
             || {

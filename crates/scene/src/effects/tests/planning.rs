@@ -1,6 +1,8 @@
 //! Plans, and what is off.
 
 use crate::effect::Effect;
+use crate::effects::work::{Work, done};
+use std::num::NonZeroUsize;
 use trigon_mesh::{Deltas, MorphTarget};
 
 use super::*;
@@ -119,6 +121,94 @@ fn off_means_zero() {
         assert!(matches!(decision, Decision::On(_)), "{made_for}: {decision}");
         let counts = renderer.effect_counts(made_for);
         assert_ne!(counts, EffectCounts::default(), "{made_for} is on and takes something");
+    }
+}
+
+/// For which effects each kind of work may be done.
+fn reasons(work: Work) -> &'static [Effect] {
+    match work {
+        Work::TextureLookUp => &[
+            Effect::Textures,
+            Effect::NormalMaps,
+            Effect::OcclusionMaps,
+            Effect::Emission,
+            Effect::Masks,
+            Effect::Highlights,
+        ],
+        Work::Tangents => &[Effect::NormalMaps],
+        Work::VertexColors => &[Effect::VertexColors],
+        Work::Pose => &[Effect::Poses],
+        Work::ShadowMap | Work::ShadowLookUp => &[Effect::ShadowMaps],
+        Work::ShadowRay => &[Effect::ShadowRays],
+        Work::OcclusionRay => &[Effect::AmbientOcclusion],
+        Work::SightRay => &[Effect::Reflection, Effect::Refraction],
+        Work::EnvironmentLight => &[Effect::Environment],
+        Work::SkyLight => &[Effect::MetalSky],
+        Work::Fog => &[Effect::Fog],
+        Work::ToneMapping => &[Effect::ToneMapping],
+        Work::Outline => &[Effect::Outline],
+    }
+}
+
+/// The same by what is done while a picture is drawn, whatever the plan and the counts say.
+#[test]
+fn what_is_off_is_not_done() {
+    let mut missed = Vec::new();
+    for made_for in Effect::ALL {
+        let [off, on] = with(made_for).map(|(scene, settings)| {
+            let mut renderer = Renderer::new(RenderSettings { threads: NonZeroUsize::new(1), ..settings });
+            done::take();
+            renderer.render(&scene, &from_front()).expect("drawn");
+            let plan = renderer.plan().expect("drawn").clone();
+            let done = done::take();
+            for &work in &done {
+                let is_due = reasons(work).iter().any(|effect| plan.is_on(*effect));
+                assert!(is_due, "{work:?} is done for no effect that is on ({made_for}): {plan}");
+            }
+            done
+        });
+        let has_work = |done: &[Work]| done.iter().any(|work| reasons(*work).contains(&made_for));
+        assert!(!has_work(&off), "{made_for} is off and done: {off:?}");
+        if !has_work(&on) {
+            missed.push(made_for);
+        }
+    }
+    // Light at vertices, what the rasterizer blends and the edges that it paints are noted nowhere.
+    let unnoted =
+        [Effect::Lamps, Effect::AmbientLight, Effect::Highlights, Effect::Transparency, Effect::Edges];
+    assert_eq!(missed, unnoted, "all others are done where they are on");
+}
+
+/// Nothing is prepared for light that no material takes.
+#[test]
+fn an_unlit_material_takes_no_effect_of_light() {
+    let of_light = [
+        Effect::Lamps,
+        Effect::AmbientLight,
+        Effect::Highlights,
+        Effect::NormalMaps,
+        Effect::OcclusionMaps,
+        Effect::Environment,
+        Effect::MetalSky,
+        Effect::ShadowMaps,
+        Effect::ShadowRays,
+        Effect::AmbientOcclusion,
+        Effect::Reflection,
+        Effect::Refraction,
+    ];
+    for made_for in of_light {
+        let [_, (mut scene, settings)] = with(made_for);
+        for (_, material) in scene.materials.iter_mut() {
+            material.shading = Shading::Unlit;
+        }
+        let mut renderer = Renderer::new(RenderSettings { threads: NonZeroUsize::new(1), ..settings });
+        done::take();
+        renderer.render(&scene, &from_front()).expect("drawn");
+        let plan = renderer.plan().expect("drawn");
+        for effect in of_light {
+            assert!(!plan.is_on(effect), "{effect}, in the scene of {made_for}: {}", plan.decision(effect));
+        }
+        assert_eq!(done::take(), [], "in the scene of {made_for}");
     }
 }
 

@@ -1,6 +1,7 @@
 //! A material made ready for its draw: factors, textures with the places of
 //! their coordinates, and what they make of a surface at eight points.
 
+use crate::effects::{Work, note};
 use trigon_math::{Vec3, Vec4};
 use trigon_raster::simd::{F32, Simd, prelude::*};
 use trigon_raster::{Sampler, Texture};
@@ -87,6 +88,7 @@ impl Map<'_> {
     /// RGBA at eight points.
     #[inline(always)]
     pub(crate) fn look_up<S: Simd>(&self, simd: S, values: &impl Values<S>) -> [F32<S>; 4] {
+        note(Work::TextureLookUp);
         let uv = [values.varying(self.at), values.varying(self.at + 1)];
         let [[ux, uy], [vx, vy]] = [values.gradient(self.at), values.gradient(self.at + 1)];
         self.texture.sample_lanes(simd, uv, [ux, vx], [uy, vy], &self.sampler)
@@ -126,6 +128,7 @@ impl MaterialParams<'_> {
             }
         };
         if let Some(at) = color {
+            note(Work::VertexColors);
             for (channel, albedo) in albedo.iter_mut().enumerate() {
                 *albedo *= values.varying(at + channel);
             }

@@ -24,6 +24,7 @@ pub(crate) use layout::{Layout, LightSlots};
 pub(crate) use material_params::{Coverage, Map, Maps, MaterialParams, MicrofacetModel, Model};
 pub(crate) use values::{Values, three};
 
+use crate::effects::{Work, note};
 use trigon_math::{Mat3, Vec3};
 use trigon_raster::simd::{F32, Mask, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
@@ -118,6 +119,7 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
             set(vertices, at, normalized(turned(&place.normal_to_camera, normal)));
         }
         if let (Some(at), Some([x, y, z, sign])) = (layout.tangent, &columns.tangents) {
+            note(Work::Tangents);
             let tangent = [x, y, z].map(|column| vertices.load(simd, column));
             set(vertices, at, normalized(turned(&place.tangent_to_camera(), tangent)));
             vertices.set(at + 3, vertices.load(simd, sign) * place.handedness());
