@@ -49,6 +49,7 @@ pub(crate) fn load(
     };
     let mut model = Model::new(scene, source.clone(), request)?;
     model.hide(&request.hidden)?;
+    model.place(&request.placed)?;
     (model.scene_names, model.files, model.odd) = (scene_names, read, odd);
     Ok((model, warnings))
 }

@@ -9,7 +9,7 @@ use trigon_math::{Bounds3, DVec3};
 use trigon_mesh::Mesh;
 use trigon_scene::{NodeId, Scene};
 
-use crate::args::Request;
+use crate::args::{PlacedNode, Request};
 use crate::failure::Failure;
 use crate::framing::{Eye, Framing, Shot};
 use crate::report::Reporter;
@@ -146,6 +146,23 @@ impl Model {
                     node.visible = false;
                 }
             }
+        }
+        Ok(())
+    }
+
+    /// Puts nodes where somebody has moved them.
+    pub(crate) fn place(&mut self, placed: &[PlacedNode]) -> Result<(), Failure> {
+        let tree = self.scene.tree();
+        for placed in placed {
+            let id = tree.get(placed.number).map(|(id, _)| *id);
+            let Some(node) = id.and_then(|id| self.scene.node_mut(id)) else {
+                return Err(Failure::work(format!(
+                    "--place-node={placed}: there is no node {}; --scene-hierarchy shows the {} that there are, numbered from 0",
+                    placed.number,
+                    tree.len()
+                )));
+            };
+            node.transform = placed.place;
         }
         Ok(())
     }

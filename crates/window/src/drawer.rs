@@ -26,6 +26,12 @@ pub trait Drawer: Send + Sync {
     fn draws_drafts(&self) -> bool {
         false
     }
+
+    /// Whether the window's scene is where the window's camera sees it. If not, nothing in the image can be
+    /// picked, and the selected object has no outline.
+    fn shows_scene(&self) -> bool {
+        true
+    }
 }
 
 /// The drawer that made an image. Kept alive, so that no other can be mistaken for it.

@@ -1,6 +1,6 @@
 //! How objects were moved by hand, to be undone and redone.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use trigon_scene::{NodeId, Scene, Transform};
 
@@ -28,10 +28,12 @@ pub(crate) struct Moves {
 }
 
 impl Moves {
-    /// How many objects are not where they were.
-    pub(crate) fn moved(&self) -> usize {
-        let nodes: BTreeSet<usize> = self.done.iter().map(|done| done.node.index()).collect();
-        nodes.len()
+    /// The objects that are not where they were.
+    pub(crate) fn moved(&self) -> Vec<NodeId> {
+        let nodes = self.done.iter().map(|done| done.node);
+        let nodes = nodes.chain(self.under_way.as_ref().map(|(node, _)| *node));
+        let distinct: BTreeMap<usize, NodeId> = nodes.map(|node| (node.index(), node)).collect();
+        distinct.into_values().collect()
     }
 
     /// The object is about to be moved; one that is being moved goes on.
@@ -113,17 +115,17 @@ mod tests {
         shift(&mut moves, &mut scene, one, 3);
         shift(&mut moves, &mut scene, other, 2);
         shift(&mut moves, &mut scene, one, 1);
-        assert_eq!(moves.moved(), 2, "two objects");
+        assert_eq!(moves.moved().len(), 2, "two objects");
         assert_eq!(moves.undo(&mut scene), Some(one), "the last move");
         assert_eq!((at(&scene, one), at(&scene, other)), (3.0, 2.0), "and no more of it");
         assert_eq!(moves.undo(&mut scene), Some(other), "then the one before");
-        assert_eq!(moves.moved(), 1, "which is where it was");
+        assert_eq!(moves.moved().len(), 1, "which is where it was");
         assert_eq!(moves.redo(&mut scene), Some(other), "there again");
         assert_eq!(at(&scene, other), 2.0, "all of it");
         shift(&mut moves, &mut scene, one, 1);
         assert_eq!(moves.redo(&mut scene), None, "another move took the place of what was undone");
         while moves.undo(&mut scene).is_some() {}
-        assert_eq!((at(&scene, one), at(&scene, other), moves.moved()), (0.0, 0.0, 0), "as it was");
+        assert_eq!((at(&scene, one), at(&scene, other), moves.moved().len()), (0.0, 0.0, 0), "as it was");
     }
 
     #[test]

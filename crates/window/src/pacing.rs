@@ -122,6 +122,13 @@ pub(crate) enum Progress {
     Picture { seconds: u64 },
 }
 
+impl Progress {
+    pub(crate) fn seconds(self) -> u64 {
+        let (Self::Drawing { seconds } | Self::Refining { seconds, .. } | Self::Picture { seconds }) = self;
+        seconds
+    }
+}
+
 impl Pacing {
     pub(crate) fn new() -> Self {
         Self {

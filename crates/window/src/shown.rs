@@ -85,7 +85,9 @@ impl Shown {
         let size = Viewport { width: self.frame.width, height: self.frame.height };
         let is_whole = size == window && self.views.is_one();
         let is_inside = at.cmpge(DVec2::ZERO).all() && at.cmplt(window.size()).all();
-        (is_whole && is_inside)
+        // An image without ids is not of the scene.
+        let shows_scene = self.frame.object_ids.is_some();
+        (is_whole && is_inside && shows_scene)
             .then(|| Picker::new(scene, &self.views.main, &self.frame).snap(at, radius))
             .flatten()
     }

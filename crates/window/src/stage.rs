@@ -132,6 +132,8 @@ pub struct Stage {
     report: FrameReport,
     quality_report: Option<QualityReport>,
     progress: Option<Progress>,
+    /// How much of the image in progress is drawn, in percent, if it takes long.
+    percent: Option<u8>,
     wishes: Wishes,
 }
 
@@ -189,6 +191,7 @@ impl Stage {
             report: FrameReport::default(),
             quality_report: None,
             progress: None,
+            percent: None,
             wishes: Wishes::default(),
         }
     }
@@ -324,6 +327,13 @@ impl Stage {
         self.shown.as_ref()?.snap(at, radius, self.viewport, &self.scene)
     }
 
+    /// Whether the image in the window shows the scene where the camera sees it; see
+    /// [`Drawer::shows_scene`](crate::Drawer::shows_scene).
+    #[must_use]
+    pub fn shows_scene(&self) -> bool {
+        self.drawer.as_ref().is_none_or(|drawer| drawer.shows_scene())
+    }
+
     /// The box around the selected object in the world.
     #[must_use]
     pub fn selection_bounds(&self) -> Option<Bounds3> {
@@ -338,9 +348,9 @@ impl Stage {
         self.menu = Some(Menu { asked: at, at: None });
     }
 
-    /// How many objects were moved by hand and not put back.
+    /// The objects that were moved by hand and not put back.
     #[must_use]
-    pub fn moved_objects(&self) -> usize {
+    pub fn moved_nodes(&self) -> Vec<NodeId> {
         self.moves.moved()
     }
 
@@ -428,8 +438,13 @@ impl Stage {
         self.progress
     }
 
-    pub(crate) fn set_progress(&mut self, progress: Option<Progress>) {
-        self.progress = progress;
+    /// How much of the image in progress is drawn, in percent; `None` if that takes no second.
+    pub(crate) fn percent(&self) -> Option<u8> {
+        self.percent
+    }
+
+    pub(crate) fn set_progress(&mut self, progress: Option<Progress>, percent: Option<u8>) {
+        (self.progress, self.percent) = (progress, percent);
     }
 
     /// How the window's images at rest are drawn, step by step.

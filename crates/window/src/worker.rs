@@ -162,6 +162,11 @@ impl Worker {
         self.under_way.is_some()
     }
 
+    /// How much of the image in progress is drawn, in percent; 0 if there is none, or only its geometry is prepared.
+    pub(crate) fn percent(&self) -> u8 {
+        self.under_way.as_ref().map_or(0, |job| (job.cancel.progress() * 100.0) as u8)
+    }
+
     /// The revision that the replica for this purpose equals, once all jobs begun so far are done.
     pub(crate) fn held(&mut self, purpose: Purpose) -> &mut Option<Revision> {
         &mut self.holder(purpose).held
@@ -315,8 +320,14 @@ impl Drawing {
                     let seen = (&*scene, camera);
                     match &drawer {
                         None => render(seen, settings, (renderer, cancel), memory.take()),
-                        Some(drawer) => draw_otherwise(&**drawer, seen, &settings, cancel)
-                            .and_then(|frame| with_ids(frame, seen, settings, (renderer, cancel))),
+                        Some(drawer) => {
+                            let frame = draw_otherwise(&**drawer, seen, &settings, cancel)?;
+                            if drawer.shows_scene() {
+                                with_ids(frame, seen, settings, (renderer, cancel))
+                            } else {
+                                Ok(Frame { depth: None, object_ids: None, face_ids: None, ..frame })
+                            }
+                        }
                     }
                 });
                 drawn.map(|frame| {

@@ -5,7 +5,7 @@ use trigon_scene::{
 };
 
 /// The flags that [`of_settings`] and a window's camera and overlays decide. All that is typed of them is replaced.
-pub(crate) const DECIDED: [&str; 46] = [
+pub(crate) const DECIDED: [&str; 47] = [
     "ambient-occlusion",
     "ambient-occlusion-distance",
     "ambient-occlusion-rays",
@@ -40,6 +40,7 @@ pub(crate) const DECIDED: [&str; 46] = [
     "metadata",
     "metal-reflection",
     "output",
+    "place-node",
     "point-size",
     "preset",
     "reflection",

@@ -20,6 +20,7 @@ use super::effects::EffectArgs;
 use super::gpu::GpuOnly;
 use super::material::MaterialArgs;
 use super::output::{Destination, Template};
+use super::place::PlacedNode;
 use super::quality::QualityArgs;
 use super::scenery::SceneryArgs;
 use super::values;
@@ -239,6 +240,11 @@ pub(crate) struct RawArgs {
     /// Hide these nodes: numbers in the order of --scene-hierarchy, from 0, or names
     #[arg(long, value_name = "NODE,...", value_delimiter = ',', help_heading = "Scenery")]
     pub(crate) hide_nodes: Vec<String>,
+
+    /// Where a node is instead of where its file has it, as the window copies it (Ctrl+C) and keeps it in state
+    /// files; once for each node
+    #[arg(long, value_name = "PLACE", help_heading = "Scenery")]
+    pub(crate) place_node: Vec<PlacedNode>,
 
     /// Show what the window kept in this file (Ctrl+S): its files, camera and settings; flags that are typed win
     #[arg(long, alias = "load-statefile", value_name = "FILE.json", help_heading = "Files")]

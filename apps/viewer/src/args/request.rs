@@ -21,6 +21,7 @@ use super::effects::Explanation;
 use super::line::CommandLine;
 use super::material::PointSprites;
 use super::output::{Destination, Template};
+use super::place::PlacedNode;
 use super::quality::{Insisted, Limit};
 use super::raw::{AntiAliasing, BackfaceType, DrawStyle, MultiFileMode, RawArgs, View};
 use super::scenery::SceneryArgs;
@@ -79,6 +80,8 @@ pub(crate) struct Request {
     pub(crate) state_file: Template,
     /// Nodes that are hidden, by number or name.
     pub(crate) hidden: Vec<String>,
+    /// Nodes that are not where their file has them.
+    pub(crate) placed: Vec<PlacedNode>,
     /// What all of this was read from.
     pub(crate) line: CommandLine,
     /// The camera.
@@ -258,6 +261,7 @@ impl Request {
             screenshot: raw.screenshot_filename.clone(),
             state_file: raw.statefile_filename.clone(),
             hidden: raw.hide_nodes.clone(),
+            placed: raw.place_node.clone(),
             settings: settings(&raw)?,
             outputs: raw.outputs.clone(),
             window: raw.window.clone(),

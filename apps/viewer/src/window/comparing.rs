@@ -153,4 +153,8 @@ impl Drawer for PairDrawer {
     fn draws_drafts(&self) -> bool {
         true
     }
+
+    fn shows_scene(&self) -> bool {
+        self.pair == Pair::First
+    }
 }

@@ -19,19 +19,23 @@ const COLOR: egui::Color32 = egui::Color32::from_rgb(255, 200, 60);
 #[derive(Default)]
 pub(super) struct Measuring {
     points: Option<Vec<Snap>>,
+    /// Where the pointer is, in physical pixels, if what a click would snap to there is not found yet. It is found
+    /// once for each pass of the interface, however often the pointer moves.
+    pointer: Option<DVec2>,
     /// What a click would snap to now.
     hovered: Option<Snap>,
 }
 
 impl Measuring {
     pub(super) fn toggle(&mut self) {
-        (self.points, self.hovered) = (if self.points.is_none() { Some(Vec::new()) } else { None }, None);
+        let points = if self.points.is_none() { Some(Vec::new()) } else { None };
+        *self = Self { points, ..Self::default() };
     }
 
     /// Another model is shown.
     pub(super) fn forget(&mut self) {
         self.points.iter_mut().for_each(Vec::clear);
-        self.hovered = None;
+        (self.hovered, self.pointer) = (None, None);
     }
 
     /// A click adds a point, and begins anew after the third one. Escape ends it.
@@ -46,17 +50,30 @@ impl Measuring {
                 }
                 points.extend(hands.pointer.and_then(snap));
             }
-            Input::PointerMoved => self.hovered = hands.pointer.and_then(snap),
+            Input::PointerMoved => {
+                self.pointer = hands.pointer;
+                if self.pointer.is_none() {
+                    self.hovered = None;
+                }
+            }
             _ => return Taken::No,
         }
         Taken::Yes
     }
 
     /// Shows points, lines between them and what was measured.
-    pub(super) fn show(&self, ui: &egui::Ui, stage: &Stage) {
+    pub(super) fn show(&mut self, ui: &egui::Ui, stage: &Stage) {
         let Some(points) = &self.points else { return };
-        self.draw(ui, stage, points);
-        let lines = lines(points, self.hovered);
+        if let Some(at) = self.pointer.take() {
+            self.hovered = stage.snap(at, RADIUS * stage.scale());
+        }
+        if stage.shows_scene() {
+            self.draw(ui, stage, points);
+        }
+        let lines = match stage.shows_scene() {
+            true => lines(points, self.hovered),
+            false => vec!["Press B until one model is shown.".to_owned()],
+        };
         let area = egui::Area::new(egui::Id::unique("measuring")).order(egui::Order::Middle);
         let area = area.anchor(egui::Align2::RIGHT_CENTER, [-8.0, 0.0]).fade_in(false);
         area.constrain_to(ui.available_rect_before_wrap()).show(ui.ctx(), |ui| {
@@ -73,7 +90,7 @@ impl Measuring {
         let projector = Projector::new(&stage.camera(), stage.viewport());
         let scale = f64::from(ui.ctx().pixels_per_point());
         let size = stage.viewport().size();
-        let painter = ui.painter();
+        let painter = ui.painter().with_clip_rect(ui.available_rect_before_wrap());
         let on_screen = |at: DVec2| egui::pos2((at.x / scale) as f32, (at.y / scale) as f32);
         let all = points.iter().chain(self.hovered.as_ref().filter(|_| points.len() < MOST));
         let places: Vec<Option<DVec2>> = all.map(|snap| projector.to_screen(snap.point)).collect();

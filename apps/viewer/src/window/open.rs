@@ -48,6 +48,7 @@ impl OpenWindow {
     pub(super) fn toggle(&mut self) {
         self.shown = !self.shown;
         (self.is_new, self.note, self.names) = (true, "", Vec::new());
+        self.path.clear();
     }
 
     pub(super) fn is_shown(&self) -> bool {

@@ -151,7 +151,7 @@ impl Viewer {
         let notices = Notices {
             loading: percent.map(|percent| (name.as_str(), percent)),
             failure: self.failure.as_deref().map(|failure| (name.as_str(), failure)),
-            moved: self.asks_to_load_again.then(|| stage.moved_objects()),
+            moved: self.asks_to_load_again.then(|| stage.moved_nodes().len()),
             is_empty: self.shown.is_none() && self.pending.is_none(),
         };
         if let Some(answer) = notices.show(ui.ctx(), ui.available_rect_before_wrap()) {
@@ -320,19 +320,20 @@ impl Handler for Viewer {
     fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
         let beside = self.shown.as_ref().map_or(&[][..], |shown| &shown.scenery);
         self.side.show(ui, stage, beside);
-        self.measuring.show(ui, stage);
-        if let Some(comparing) = &self.comparing {
-            comparing.show(ui, &self.sources[self.current].title());
-        }
-        if self.request.overlay.shows_axes {
-            self.axes.show(ui, stage, self.request.overlay.axes);
-        }
         #[cfg(feature = "study")]
         self.quality.show(ui, stage, |ui, stage| self.classics.show(ui, stage));
         #[cfg(not(feature = "study"))]
         self.quality.show(ui, stage, |_, _| {});
         if let Some(playback) = &mut self.playback {
             playback.show(ui, stage);
+        }
+        // On what no panel covers.
+        self.measuring.show(ui, stage);
+        if let Some(comparing) = &self.comparing {
+            comparing.show(ui, &self.sources[self.current].title());
+        }
+        if self.request.overlay.shows_axes {
+            self.axes.show(ui, stage, self.request.overlay.axes);
         }
         if self.open.is_shown() && stage.cheat_sheet == Visibility::Shown {
             self.open.toggle();

@@ -203,6 +203,9 @@ fn draw_tiles(
             next.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |start| Some(end(start)));
         start..end(start)
     };
+    if let Some(cancel) = options.cancel {
+        cancel.begin_tiles(count);
+    }
     let free = Mutex::new(scratches.iter_mut());
     options.workers.run(count > 1, |_| {
         let Some(scratch) = free.lock().unwrap_or_else(PoisonError::into_inner).next() else {
@@ -213,6 +216,9 @@ fn draw_tiles(
             && !options.is_cancelled()
         {
             draw_tile(view, scratch, bands, index);
+            if let Some(cancel) = options.cancel {
+                cancel.finish_tile();
+            }
             own.start += 1;
             if own.is_empty() {
                 own = take();

@@ -34,8 +34,8 @@ pub enum SimdLevelError {
     /// This processor lacks the instructions, or the crate was built without the
     /// feature `scalar`.
     #[error(
-        "the SIMD level {0} is not to be had: this processor lacks it, or it is `scalar` and the feature of \
-         that name is off; take another, or leave it to be chosen"
+        "the SIMD level {0} is not available: this processor lacks it, or it is `scalar` and the feature of \
+         that name is off; choose another one, or let the program choose"
     )]
     Unsupported(SimdLevel),
 }

@@ -276,6 +276,7 @@ mod tests {
         let expected = render(&scene, &camera, renderer.settings()).expect("drawn");
         let mut frame = Frame::default();
         renderer.render_cancellable(&scene, &camera, &cancel, &mut frame).expect("nobody cancelled it");
+        assert_eq!(cancel.progress(), 1.0, "all of it is drawn");
         assert!(frame == expected, "the same bytes");
         let mut renderer = Renderer::new(renderer.settings().clone());
         cancel.cancel();

@@ -85,6 +85,15 @@ impl HeadlessWindow<'_> {
 
     /// Presses and releases a key with its modifiers. A key that types something also types it.
     pub fn key(&mut self, chord: Chord) {
+        self.strike(chord, Self::rest);
+    }
+
+    /// The same, but the key is down for one frame only: less is drawn of movements that last as long as it is held.
+    pub fn tap(&mut self, chord: Chord) {
+        self.strike(chord, Self::frame);
+    }
+
+    fn strike(&mut self, chord: Chord, hold_down: fn(&mut Self)) {
         let held = self.modifiers;
         self.hold(chord.modifiers);
         let typed = typed(chord.key).filter(|_| !chord.modifiers.contains(Modifiers::CTRL));
@@ -97,7 +106,7 @@ impl HeadlessWindow<'_> {
             self.interface(Event::Text(typed.to_string()));
         }
         self.event(InputEvent::KeyDown(press(code)));
-        self.rest();
+        hold_down(self);
         self.key_to_interface(chord.key, false);
         self.event(InputEvent::KeyUp(code));
         self.rest();

@@ -22,7 +22,7 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: 
         let mut lines = stage.overlay.lines(corner).to_vec();
         match corner {
             Corner::TopRight => lines.extend(times(stage)),
-            Corner::BottomRight => lines.extend(stage.progress().map(progress)),
+            Corner::BottomRight => lines.extend(stage.progress().map(|of| progress(of, stage.percent()))),
             Corner::BottomLeft => drop(lines.splice(..0, messages.iter().cloned())),
             _ => {}
         }
@@ -72,7 +72,9 @@ fn write(
         Corner::BottomLeft => (Align2::LEFT_BOTTOM, vec2(GAP, -GAP)),
         Corner::BottomRight => (Align2::RIGHT_BOTTOM, vec2(-GAP, -GAP)),
     };
-    let area = Area::new(Id::unique(("corner", corner as usize))).order(Order::Background);
+    let id = Id::unique(("corner", corner as usize));
+    let before = context.memory(|memory| memory.area_rect(id));
+    let area = Area::new(id).order(Order::Background);
     let area = area.anchor(anchor, offset).constrain_to(free).interactable(false).fade_in(false);
     let shown = area.show(context, |ui| {
         ui.set_max_width(width.max(1.0));
@@ -85,20 +87,25 @@ fn write(
             });
         });
     });
-    shown.response.rect
+    let written = shown.response.rect;
+    if before.is_none_or(|before| before.size() != written.size()) {
+        // egui places an anchored area by the size that it had before: longer text would leave the window.
+        context.request_discard("a corner has other text");
+    }
+    written
 }
 
-/// "refining 3/4, 2 left, 7 s"
-fn progress(progress: Progress) -> String {
-    match progress {
-        Progress::Drawing { seconds } => format!("drawing, {seconds} s"),
-        Progress::Picture { seconds } => format!("drawing a picture to save, {seconds} s"),
-        Progress::Refining { step, of, seconds } => {
-            let left = (of + 1).saturating_sub(step);
-            let time = if seconds > 0 { format!(", {seconds} s") } else { String::new() };
-            format!("refining {step}/{of}, {left} left{time}")
+/// "refining 3/4, 2 left, 43 %, 7 s": the share of this step that is drawn.
+fn progress(progress: Progress, percent: Option<u8>) -> String {
+    let work = match progress {
+        Progress::Drawing { .. } => "drawing".to_owned(),
+        Progress::Picture { .. } => "drawing a picture to save".to_owned(),
+        Progress::Refining { step, of, .. } => {
+            format!("refining {step}/{of}, {} left", (of + 1).saturating_sub(step))
         }
-    }
+    };
+    let share = percent.map(|percent| format!(", {percent} %, {} s", progress.seconds()));
+    work + &share.unwrap_or_default()
 }
 
 /// What the last frame took, as far as that is to be shown.
@@ -142,11 +149,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn progress_says_what_is_left_and_how_long_it_takes() {
-        let refining = |seconds| progress(Progress::Refining { step: 3, of: 4, seconds });
-        assert_eq!(refining(0), "refining 3/4, 2 left", "at first");
-        assert_eq!(refining(7), "refining 3/4, 2 left, 7 s", "when it takes long");
-        assert_eq!(progress(Progress::Drawing { seconds: 2 }), "drawing, 2 s", "the first picture");
+    fn progress_says_what_is_left_and_how_much_is_drawn() {
+        let refining = |seconds| Progress::Refining { step: 3, of: 4, seconds };
+        assert_eq!(progress(refining(0), None), "refining 3/4, 2 left", "at first");
+        assert_eq!(progress(refining(7), Some(43)), "refining 3/4, 2 left, 43 %, 7 s", "when it takes long");
+        let drawing = progress(Progress::Drawing { seconds: 2 }, Some(0));
+        assert_eq!(drawing, "drawing, 0 %, 2 s", "the first picture");
     }
 
     #[test]

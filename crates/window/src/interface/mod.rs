@@ -135,7 +135,8 @@ impl Interface {
             application(stage, ui);
             free = ui.available_rect_before_wrap();
             name_view(ui.ctx(), free, stage);
-            if let (Some(camera), Some(bounds)) = (shown_by, stage.selection_bounds()) {
+            let bounds = stage.selection_bounds().filter(|_| stage.shows_scene());
+            if let (Some(camera), Some(bounds)) = (shown_by, bounds) {
                 outline::show(ui, camera, moment.viewport, &bounds);
             }
             let left = corners::show(ui.ctx(), free, stage, moment.now);

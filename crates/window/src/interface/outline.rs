@@ -11,15 +11,16 @@ const COLOR: Color32 = Color32::from_rgba_premultiplied(200, 138, 50, 200);
 /// In points.
 const WIDTH: f32 = 1.5;
 
-/// Draws the edges of a box in front of the eye, under all widgets.
+/// Draws the edges of a box in front of the eye, where no panel is.
 pub(super) fn show(ui: &Ui, camera: &Camera, viewport: Viewport, bounds: &Bounds3) {
+    let painter = ui.painter().with_clip_rect(ui.available_rect_before_wrap());
     let projector = Projector::new(camera, viewport);
     let points = f64::from(ui.ctx().pixels_per_point());
     let point = |pixel: DVec2| egui::pos2((pixel.x / points) as f32, (pixel.y / points) as f32);
     for (from, to) in edges(bounds) {
         let ends = projector.to_screen(from).zip(projector.to_screen(to));
         if let Some((from, to)) = ends.and_then(|(from, to)| clip_line(from, to, viewport.size())) {
-            ui.painter().line_segment([point(from), point(to)], Stroke::new(WIDTH, COLOR));
+            painter.line_segment([point(from), point(to)], Stroke::new(WIDTH, COLOR));
         }
     }
 }

@@ -26,7 +26,7 @@ pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<B
     let window = Window::new("Keys and commands").open(&mut open).collapsible(false).fade_in(false);
     let window = window.anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0));
     let size = (free.size() - BESIDE).max(vec2(200.0, 40.0));
-    window.resizable(false).constrain_to(free).show(context, |ui| {
+    window.auto_sized().constrain_to(free).show(context, |ui| {
         ui.set_max_width(size.x);
         let search = TextEdit::singleline(&mut stage.command_search).hint_text("search");
         let search = ui.add(search.desired_width(f32::INFINITY));

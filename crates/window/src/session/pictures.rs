@@ -73,9 +73,12 @@ impl Session<'_> {
         let is_current = self.pictured.as_ref() == Some(&self.stage.subject());
         let report = self.gallery.report().filter(|_| is_current);
         let progress = self.pacing.progress(now);
-        if (report, progress) != (self.stage.quality_report(), self.stage.progress()) {
+        let is_long = progress.is_some_and(|progress| progress.seconds() > 0);
+        let percent = is_long.then(|| self.worker.percent());
+        let before = (self.stage.quality_report(), self.stage.progress(), self.stage.percent());
+        if (report, progress, percent) != before {
             self.stage.set_quality_report(report);
-            self.stage.set_progress(progress);
+            self.stage.set_progress(progress, percent);
             self.pacing.changed(Change::Overlay, now);
         }
         let wanted = self.gallery.shown(self.stage.wanted_picture()).cloned();

@@ -87,7 +87,16 @@ fn the_copied_command_line_draws_the_same_bytes() {
         click(window, "Hide teapot");
         window.key(Key::Escape.into());
         compare(window, "without the teapot");
+        window.key(Key::Tab.into());
+        window.key(Chord::new(Modifiers::ALT, Key::Right));
+        window.key(Chord::new(Modifiers::ALT | Modifiers::SHIFT, Key::Up));
+        compare(window, "with an object that was moved and turned");
     });
+}
+
+/// The place of a node in the tree.
+fn number_of(window: &HeadlessWindow<'_>, id: trigon_scene::NodeId) -> usize {
+    window.stage().scene.tree().iter().position(|(node, _)| *node == id).expect("it is in the scene")
 }
 
 #[test]
@@ -98,6 +107,12 @@ fn states_are_saved_and_loaded() {
     with_window(&flags, SIZE, |window| {
         key(window, '8');
         shift(window, 'm');
+        window.key(Key::Tab.into());
+        window.key(Chord::new(Modifiers::ALT, Key::Right));
+        let moved = window.stage().selection.expect("selected");
+        let place =
+            |window: &HeadlessWindow<'_>, id| window.stage().scene.node(id).map(|node| node.transform);
+        let (number, placed) = (number_of(window, moved), place(window, moved));
         let (orbit, display) = (window.stage().orbit, window.stage().settings.display);
         ctrl(window, 's');
         let state = State::read(&path).expect("saved");
@@ -109,6 +124,9 @@ fn states_are_saved_and_loaded() {
         window.wait();
         let again = window.stage().orbit;
         assert_eq!(window.stage().settings.display, display, "as it was");
+        let again_moved = window.stage().scene.tree()[number].0;
+        assert_eq!(place(window, again_moved), placed, "what was moved is where it was");
+        assert!(copied(window).contains("--place-node="), "and stays in the command line");
         assert!(again.target().distance(orbit.target()) < 1e-9, "there");
         assert!(again.orientation().dot(orbit.orientation()).abs() > 1.0 - 1e-12, "turned as it was");
         std::fs::write(&path, "{}").expect("writable");

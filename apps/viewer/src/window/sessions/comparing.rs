@@ -1,9 +1,10 @@
 //! Two models in one window.
 
 use trigon_camera::Viewport;
+use trigon_math::DVec2;
 use trigon_window::{Chord, HeadlessWindow, Key, Modifiers};
 
-use super::{key, says, shift, with_window};
+use super::{click_at, key, says, shift, with_window};
 
 const SIZE: Viewport = Viewport { width: 600, height: 240 };
 
@@ -55,5 +56,38 @@ fn without_another_model_the_keys_say_what_to_do() {
     with_window("", SIZE, |window| {
         key(window, 'b');
         assert!(says(window, "--compare"), "the flag");
+    });
+}
+
+/// Clicks side by side picked in a picture of the first model alone, which fills the window and is not shown.
+#[test]
+fn clicks_beside_another_model_picked_what_was_not_there() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [one, other] = [("one.obj", SQUARE), ("two.obj", SQUARE)].map(|(name, text)| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        path
+    });
+    let flags = format!("{} --compare={} --view=front", one.display(), other.display());
+    with_window(&flags, SIZE, |window| {
+        while says(window, "loading two.obj") {
+            window.wait();
+        }
+        let middles = [150.0, 300.0, 450.0].map(|x| DVec2::new(x, 140.0));
+        for at in middles {
+            click_at(window, at);
+            assert_eq!(window.stage().selection, None, "side by side, at {at}");
+        }
+        key(window, 'r');
+        click_at(window, middles[1]);
+        assert!(says(window, "Press B until one model is shown."), "nothing is measured");
+        window.key(Key::Escape.into());
+        key(window, 'b');
+        click_at(window, middles[1]);
+        assert!(window.stage().selection.is_some(), "the first model alone");
+        window.key(Key::Escape.into());
+        key(window, 'b');
+        click_at(window, middles[1]);
+        assert_eq!(window.stage().selection, None, "the other one is not the window's");
     });
 }

@@ -5,15 +5,15 @@ use trigon_window::egui;
 #[derive(Default)]
 pub(super) struct CommandPanel {
     command: String,
-    /// Whether it draws the same bytes.
-    is_exact: bool,
+    /// Why it does not draw the same bytes.
+    differs: Option<&'static str>,
     /// Whether it is yet to be copied.
     is_new: bool,
 }
 
 impl CommandPanel {
-    pub(super) fn new(command: String, is_exact: bool) -> Self {
-        Self { command, is_exact, is_new: true }
+    pub(super) fn new(command: String, differs: Option<&'static str>) -> Self {
+        Self { command, differs, is_new: true }
     }
 
     pub(super) fn show(&mut self, ui: &mut egui::Ui) {
@@ -21,10 +21,9 @@ impl CommandPanel {
         if std::mem::take(&mut self.is_new) || is_asked {
             ui.ctx().copy_text(self.command.clone());
         }
-        let said = if self.is_exact {
-            "On the clipboard. It writes this picture, with the same bytes."
-        } else {
-            "On the clipboard. It writes nearly this picture: no flag asks for as many samples of both kinds."
+        let said = match self.differs {
+            None => "On the clipboard. It writes this picture, with the same bytes.".to_owned(),
+            Some(why) => format!("On the clipboard. It writes nearly this picture: {why}."),
         };
         ui.add(egui::Label::new(said).wrap());
         ui.separator();

@@ -70,8 +70,8 @@ impl SidePanel {
     }
 
     /// Copies a command line to the clipboard in the next pass, and keeps it to be read.
-    pub(super) fn show_command(&mut self, command: String, is_exact: bool) {
-        self.command = CommandPanel::new(command, is_exact);
+    pub(super) fn show_command(&mut self, command: String, differs: Option<&'static str>) {
+        self.command = CommandPanel::new(command, differs);
     }
 
     /// Another model is shown.

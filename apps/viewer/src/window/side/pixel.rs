@@ -19,6 +19,11 @@ impl PixelPanel {
 
     /// Explains the pixel at a point of the window, in physical pixels.
     pub(super) fn explain(&mut self, stage: &Stage, at: Option<DVec2>) {
+        if !stage.shows_scene() {
+            self.explained =
+                Some(Err("Press B until this model alone is shown; then click a pixel.".to_owned()));
+            return;
+        }
         let size = stage.viewport().size();
         let at = at.filter(|at| at.cmpge(DVec2::ZERO).all() && at.cmplt(size).all());
         self.explained = at.map(|at| {

@@ -27,9 +27,10 @@ impl Viewer {
 
     /// Loads the current source again, or asks first if that would put back what was moved.
     pub(super) fn load_again(&mut self, stage: &mut Stage) {
-        match stage.moved_objects() {
-            0 => self.load(stage, View::Keep),
-            _ => self.asks_to_load_again = true,
+        if stage.moved_nodes().is_empty() {
+            self.load(stage, View::Keep);
+        } else {
+            self.asks_to_load_again = true;
         }
     }
 

@@ -6,7 +6,7 @@ use trigon_scene::RenderSettings;
 use trigon_window::Stage;
 
 use super::{View, Viewer};
-use crate::args::{CommandLine, DECIDED, ExactCamera, Request, Subject, of_settings, plain};
+use crate::args::{CommandLine, DECIDED, ExactCamera, PlacedNode, Request, Subject, of_settings, plain};
 use crate::failure::Failure;
 use crate::loading;
 use crate::source::Source;
@@ -16,12 +16,12 @@ use crate::window::side::Content;
 /// A command line that draws the window's picture.
 pub(in crate::window) struct Copied {
     pub(in crate::window) state: State,
-    /// Whether it sets everything as it is. Some combinations of samples have no flag.
-    pub(in crate::window) is_exact: bool,
+    /// What it does not set as it is.
+    pub(in crate::window) differs: Option<&'static str>,
 }
 
 impl Viewer {
-    /// What the window shows now. Objects that were moved by hand are where the file has them.
+    /// What the window shows now.
     pub(in crate::window) fn copied(&self, stage: &Stage) -> Result<Copied, Failure> {
         let source = &self.sources[self.current];
         let mistake = |error: clap::Error| Failure::Usage(plain(&error));
@@ -34,7 +34,7 @@ impl Viewer {
         flags.push(format!("--camera-exact={exact}"));
         flags.extend(self.overlay_flags());
         flags.extend(self.playback.iter().flat_map(|playback| playback.flags()));
-        flags.extend(self.hidden_flag(stage));
+        flags.extend(self.node_flags(stage));
         let files = match source {
             Source::BuiltIn => Vec::new(),
             Source::Files(files) => files.clone(),
@@ -42,8 +42,13 @@ impl Viewer {
         let state = State { files, flags };
         let line = CommandLine::new(state.words(false)).map_err(mistake)?;
         let request = Request::from_line(&line, source.first_file()).map_err(mistake)?;
-        let is_exact = is_alike(request.settings, settings);
-        Ok(Copied { state, is_exact })
+        let moved_beside = !stage.moved_nodes().is_empty() && !stage.beside.is_empty();
+        let differs = if !is_alike(request.settings, settings) {
+            Some("no flag asks for as many samples of both kinds")
+        } else {
+            moved_beside.then_some("its grid, normals and bones follow the objects that were moved")
+        };
+        Ok(Copied { state, differs })
     }
 
     fn overlay_flags(&self) -> impl Iterator<Item = String> {
@@ -59,30 +64,32 @@ impl Viewer {
         .map(|(_, flag)| format!("--{flag}=true"))
     }
 
-    /// The nodes that are hidden, by their numbers in the tree.
-    fn hidden_flag(&self, stage: &Stage) -> Option<String> {
-        let shown = self.shown.as_ref()?;
-        let model = shown.model(stage);
-        let is_hidden = |&(_, (id, _)): &(usize, (trigon_scene::NodeId, usize))| {
-            model.scene.node(id).is_some_and(|node| !node.visible)
-        };
-        let hidden: Vec<String> = model
-            .scene
-            .tree()
-            .into_iter()
-            .enumerate()
-            .filter(is_hidden)
-            .map(|(number, _)| number.to_string())
-            .collect();
-        (!hidden.is_empty()).then(|| format!("--hide-nodes={}", hidden.join(",")))
+    /// The nodes that are hidden, and those that were moved, by their numbers in the tree.
+    fn node_flags(&self, stage: &Stage) -> Vec<String> {
+        let Some(shown) = &self.shown else { return Vec::new() };
+        let (model, moved) = (shown.model(stage), stage.moved_nodes());
+        let (mut hidden, mut flags) = (Vec::new(), Vec::new());
+        for (number, (id, _)) in model.scene.tree().into_iter().enumerate() {
+            let Some(node) = model.scene.node(id) else { continue };
+            if !node.visible {
+                hidden.push(number.to_string());
+            }
+            if moved.contains(&id) || self.request.placed.iter().any(|placed| placed.number == number) {
+                flags.push(format!("--place-node={}", PlacedNode { number, place: node.transform }));
+            }
+        }
+        if !hidden.is_empty() {
+            flags.push(format!("--hide-nodes={}", hidden.join(",")));
+        }
+        flags
     }
 
     /// Copies it to the clipboard, and shows it.
     pub(super) fn copy_command(&mut self, stage: &mut Stage) {
         match self.copied(stage) {
-            Ok(Copied { mut state, is_exact }) => {
+            Ok(Copied { mut state, differs }) => {
                 state.flags.push("--output=view.png".to_owned());
-                self.side.show_command(state.command(), is_exact);
+                self.side.show_command(state.command(), differs);
                 self.side.open(Content::Command);
             }
             Err(failure) => self.tell_failure(stage, &failure),

@@ -56,9 +56,9 @@ fn what_keys_have_moved_is_undone_and_done_again() {
     session.event(InputEvent::Modifiers(Modifiers::NONE), ms(1400));
     let moved = at(&session);
     assert_ne!(moved, start, "Alt and an arrow move it");
-    assert_eq!(session.stage.moved_objects(), 1, "which is known");
+    assert_eq!(session.stage.moved_nodes().len(), 1, "which is known");
     press(&mut session, Modifiers::CTRL, Key::Character('z'), ms(2000));
-    assert_eq!((at(&session), session.stage.moved_objects()), (start, 0), "Ctrl+Z puts it back");
+    assert_eq!((at(&session), session.stage.moved_nodes().len()), (start, 0), "Ctrl+Z puts it back");
     for (modifiers, key) in [(Modifiers::CTRL | Modifiers::SHIFT, 'z'), (Modifiers::CTRL, 'y')] {
         press(&mut session, modifiers, Key::Character(key), ms(3000));
         assert_eq!(at(&session), moved, "redone");

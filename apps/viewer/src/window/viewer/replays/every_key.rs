@@ -57,7 +57,8 @@ fn check_layers(window: &mut HeadlessWindow<'_>, what: &str) {
 fn with_window(test: impl Fn(&mut HeadlessWindow<'_>, &str)) {
     let folder = tempfile::tempdir().expect("a folder");
     let files = [written(folder.path(), "walk.gltf", GLTF), written(folder.path(), "other.obj", OBJ)];
-    let flags = format!("--screenshot-filename={}/shot.png", folder.path().display());
+    let at = folder.path().display();
+    let flags = format!("--screenshot-filename={at}/shot.png --statefile-filename={at}/state.json");
     for (size, scale) in WINDOWS {
         let mut viewer = viewer(&flags, &files);
         let mut window = open(&mut viewer, size);
@@ -75,18 +76,17 @@ fn every_key_of_the_sheet_does_something_harmless() {
         let bindings = window.stage().keymap.bindings().to_vec();
         assert!(bindings.len() > 60, "all of them: {}", bindings.len());
         for binding in bindings.iter().filter(|binding| binding.name != "quit") {
-            window.key(binding.chord);
+            window.tap(binding.chord);
             loaded(window);
             let what = format!("{name}-{}-{}", binding.chord, binding.name);
             check_layers(window, &what);
             screenshot(window, &what);
             assert!(!window.is_closed(), "{what}");
-            // What it opened is closed, and animations stop.
-            (0..2).for_each(|_| key(window, "Escape"));
-            // So is what Escape leaves.
+            // What it began or shows, and Escape leaves, ends; then what it opened is closed.
             if TOGGLES.contains(&binding.name.as_ref()) || binding.name.starts_with("animation.play") {
-                window.key(binding.chord);
+                window.tap(binding.chord);
             }
+            (0..2).for_each(|_| window.tap(Key::Escape.into()));
         }
         key(window, "Ctrl+Q");
         assert!(window.is_closed(), "{name}: the last one ends it");
@@ -130,4 +130,33 @@ fn the_menu_stays_in_the_window() {
             key(window, "Escape");
         }
     });
+}
+
+/// Its scroll area ended after 400 points, in windows of any height.
+#[test]
+fn the_list_of_keys_did_not_use_the_height_of_the_window() {
+    let (_folder, mut viewer) = simple();
+    let mut window = open(&mut viewer, Viewport { width: 1600, height: 1000 });
+    key(&mut window, "H");
+    let height = |(_, [min, max]): &(trigon_window::egui::LayerId, [DVec2; 2])| (max - min).y;
+    let layers = window.layers();
+    let tallest = layers.iter().map(height).filter(|&height| height < 1000.0).fold(0.0, f64::max);
+    assert!(tallest > 600.0, "{layers:?}");
+}
+
+#[test]
+fn the_outline_of_the_selected_object_was_drawn_over_panels() {
+    let (_folder, mut viewer) = simple();
+    let mut window = open(&mut viewer, SIZE);
+    ["Shift+D", "3", "1", "PageUp", "PageUp", "PageUp", "PageUp"]
+        .iter()
+        .for_each(|chord| key(&mut window, chord));
+    let panel = |window: &HeadlessWindow<'_>| -> Vec<[u8; 4]> {
+        let pixels = window.pixels();
+        (0..400).flat_map(|y| pixels[y * 800..y * 800 + 300].to_vec()).collect()
+    };
+    let before = panel(&window);
+    key(&mut window, "Tab");
+    assert!(window.stage().selection.is_some(), "it is selected");
+    assert!(panel(&window) == before, "the panel stays as it is");
 }

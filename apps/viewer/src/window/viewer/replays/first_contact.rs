@@ -120,7 +120,7 @@ fn escape_closes_every_panel() {
 fn move_object(window: &mut HeadlessWindow<'_>) {
     key(window, "Tab");
     key(window, "Alt+Right");
-    assert_eq!(window.stage().moved_objects(), 1, "it was moved");
+    assert_eq!(window.stage().moved_nodes().len(), 1, "it was moved");
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn loading_again_asks_first_if_objects_were_moved() {
     key(&mut window, "Enter");
     loaded(&mut window);
     assert_eq!(window.stage().scene.bounds(), start, "Enter loads it");
-    assert_eq!(window.stage().moved_objects(), 0, "and nothing is moved");
+    assert_eq!(window.stage().moved_nodes().len(), 0, "and nothing is moved");
 }
 
 #[test]
