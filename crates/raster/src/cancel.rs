@@ -36,13 +36,13 @@ impl Cancel {
         if tiles == 0 { 0.0 } else { drawn.min(tiles) as f32 / tiles as f32 }
     }
 
-    /// A pass begins to draw so many tiles.
+    /// Starts counting the finished tiles of a pass, which has `count` tiles.
     pub(crate) fn begin_tiles(&self, count: usize) {
         self.0.drawn.store(0, Ordering::Relaxed);
         self.0.tiles.store(u32::try_from(count).unwrap_or(u32::MAX), Ordering::Relaxed);
     }
 
-    /// One of them is drawn.
+    /// Counts a finished tile.
     pub(crate) fn finish_tile(&self) {
         self.0.drawn.fetch_add(1, Ordering::Relaxed);
     }

@@ -27,8 +27,8 @@ pub trait Drawer: Send + Sync {
         false
     }
 
-    /// Whether the window's scene is where the window's camera sees it. If not, nothing in the image can be
-    /// picked, and the selected object has no outline.
+    /// Whether the image shows the window's scene through the window's camera. If not, nothing in the image can
+    /// be picked, and the selected object has no outline.
     fn shows_scene(&self) -> bool {
         true
     }

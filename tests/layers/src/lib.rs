@@ -10,8 +10,10 @@ mod module;
 mod patch;
 mod resolve;
 mod signatures;
+mod workspace;
 
 pub use circles::{Circle, circles};
 pub use module::Crate;
 pub use patch::{FilePatch, Patch};
 pub use signatures::long_signatures;
+pub use workspace::{packages, rust_files, workspace};

@@ -1,9 +1,10 @@
 //! Functions with too many parameters, or with parameters that are packed into tuples.
 
 use crate::collect::is_for_tests;
+use crate::workspace::rust_files;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use syn::visit::{self, Visit};
 use syn::{Attribute, FnArg, ImplItemFn, ItemFn, ItemImpl, ItemMod, Signature, TraitItemFn, Type};
 
@@ -19,36 +20,26 @@ const MOST_PACKED: usize = 2;
 /// # Errors
 /// A file that cannot be read or parsed.
 pub fn long_signatures(crate_folder: &Path) -> io::Result<Vec<String>> {
-    let mut files = Vec::new();
-    list(&crate_folder.join("src"), &mut files)?;
     let mut found = Vec::new();
-    for path in files {
+    for path in rust_files(&crate_folder.join("src"))? {
+        let within = path.strip_prefix(crate_folder).unwrap_or(&path);
+        if is_of_tests(within) {
+            continue;
+        }
         let invalid =
             |error| io::Error::new(io::ErrorKind::InvalidData, format!("{}: {error}", path.display()));
         let file = syn::parse_file(&fs::read_to_string(&path)?).map_err(invalid)?;
         let mut visitor = Signatures { long: Vec::new() };
         visitor.visit_file(&file);
-        let shown = path.strip_prefix(crate_folder).unwrap_or(&path).display();
-        found.extend(visitor.long.iter().map(|name| format!("{shown}: {name}")));
+        found.extend(visitor.long.iter().map(|name| format!("{}: {name}", within.display())));
     }
     found.sort();
     Ok(found)
 }
 
-/// All source files below a folder that are not for tests.
-fn list(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
-    for entry in folder.read_dir()? {
-        let path = entry?.path();
-        if path.file_stem().is_some_and(|stem| stem == "tests") {
-            continue;
-        }
-        if path.is_dir() {
-            list(&path, files)?;
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            files.push(path);
-        }
-    }
-    Ok(())
+/// Whether a file or one of its folders within the crate is named `tests`.
+fn is_of_tests(path: &Path) -> bool {
+    path.components().any(|part| Path::new(part.as_os_str()).file_stem().is_some_and(|stem| stem == "tests"))
 }
 
 struct Signatures {

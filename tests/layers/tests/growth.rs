@@ -1,7 +1,7 @@
 //! Public types that will grow can: see "Types that grow" in `docs/conventions.md`.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use trigon_layers::{packages, rust_files, workspace};
 
 /// A public struct or enum: its name, the attributes and comments before it, and the file's text.
 struct PublicType {
@@ -26,28 +26,14 @@ impl PublicType {
     }
 }
 
-fn files(folder: PathBuf) -> Vec<PathBuf> {
-    let mut folders = vec![folder];
-    let mut files = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in folder.read_dir().expect("a folder that can be listed") {
-            let path = entry.expect("an entry that can be read").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                files.push(path);
-            }
-        }
-    }
-    files
-}
-
 /// Those that stand at the start of a line, which the formatter sees to.
 fn public_types() -> Vec<PublicType> {
-    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../crates");
     let mut types = Vec::new();
-    for entry in crates.read_dir().expect("a folder of crates") {
-        for path in files(entry.expect("a folder that can be listed").path().join("src")) {
+    for package in packages().expect("folders that can be listed") {
+        if package.starts_with(workspace().join("apps")) {
+            continue;
+        }
+        for path in rust_files(&package.join("src")).expect("folders that can be listed") {
             let file = fs::read_to_string(path).expect("a source file");
             for (at, line) in file.match_indices("\npub ").map(|(at, _)| (at + 1, &file[at + 1..])) {
                 let (is_enum, rest) = match (line.strip_prefix("pub enum "), line.strip_prefix("pub struct "))

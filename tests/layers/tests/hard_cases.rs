@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use trigon_layers::{rust_files, workspace};
 
 /// A row of a table of cases.
 struct Row {
@@ -9,13 +10,9 @@ struct Row {
     test: String,
 }
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
 /// The rows of all tables whose first column is the case.
 fn rows() -> Vec<Row> {
-    let page = fs::read_to_string(root().join("docs/hard-cases.md")).expect("the page");
+    let page = fs::read_to_string(workspace().join("docs/hard-cases.md")).expect("the page");
     let mut header: Option<Vec<&str>> = None;
     let mut rows = Vec::new();
     for line in page.lines() {
@@ -38,32 +35,24 @@ fn rows() -> Vec<Row> {
 }
 
 /// The text of all Rust files below a folder.
-fn sources(folder: &Path, text: &mut String) {
-    let entries = fs::read_dir(folder).unwrap_or_else(|_| panic!("{} is a folder", folder.display()));
-    for path in entries.map(|entry| entry.expect("an entry").path()) {
-        if path.is_dir() {
-            sources(&path, text);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            text.push_str(&fs::read_to_string(&path).expect("a source"));
-        }
-    }
+fn sources(folder: &Path) -> String {
+    let files = rust_files(folder).expect("folders that can be listed");
+    files.iter().map(|path| fs::read_to_string(path).expect("a source")).collect()
 }
 
 /// The folder of a package: a crate, or else an application.
 fn package(name: &str) -> PathBuf {
-    let folders = ["crates", "apps"].map(|parent| root().join(parent).join(name));
+    let folders = ["crates", "apps"].map(|parent| workspace().join(parent).join(name));
     folders.into_iter().find(|folder| folder.is_dir()).unwrap_or_else(|| panic!("no package {name}"))
 }
 
 /// What a row names that is no test. A name after that of a package is a test of that package.
 fn missing(row: &Row) -> Vec<String> {
-    let mut text = String::new();
-    sources(&root().join("tests/src"), &mut text);
+    let mut text = sources(&workspace().join("tests/src"));
     let (mut missing, mut count) = (Vec::new(), 0);
     for name in row.test.split('`').skip(1).step_by(2) {
         if let Some(package_name) = name.strip_prefix("trigon-") {
-            text.clear();
-            sources(&package(package_name), &mut text);
+            text = sources(&package(package_name));
             continue;
         }
         count += 1;

@@ -1,15 +1,12 @@
 //! No circle of files crosses folders in a crate, and within a folder none holds more than four.
 
-use std::path::{Path, PathBuf};
-use trigon_layers::{Circle, Crate, circles};
+use std::path::PathBuf;
+use trigon_layers::{Circle, Crate, circles, packages};
 
 /// The root files of all crates and apps, by the names of their folders.
 fn roots() -> Vec<(String, PathBuf)> {
-    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let folders = ["crates", "apps"].map(|part| workspace.join(part).read_dir().expect("a folder of crates"));
-    let folders =
-        folders.into_iter().flatten().map(|entry| entry.expect("a folder that can be listed").path());
-    let roots = folders.flat_map(|folder| {
+    let folders = packages().expect("folders that can be listed");
+    let roots = folders.into_iter().flat_map(|folder| {
         let name = folder.file_name().expect("not the root").to_string_lossy().into_owned();
         ["lib.rs", "main.rs"].map(|root| (name.clone(), folder.join("src").join(root)))
     });

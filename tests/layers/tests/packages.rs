@@ -2,7 +2,8 @@
 //! are tests, and it includes no file from outside of its folder. `.ci/package` builds the packages themselves.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use trigon_layers::{packages, rust_files, workspace};
 
 const KEYS: [&str; 8] = [
     "description = ",
@@ -15,30 +16,13 @@ const KEYS: [&str; 8] = [
     "[package.metadata.docs.rs]",
 ];
 
-fn workspace() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-/// The folders of all crates and apps.
-fn packages() -> Vec<PathBuf> {
-    let folders =
-        ["crates", "apps"].map(|part| workspace().join(part).read_dir().expect("a folder of crates"));
-    let packages: Vec<PathBuf> = folders
-        .into_iter()
-        .flatten()
-        .map(|entry| entry.expect("a folder that can be listed").path())
-        .collect();
-    assert!(packages.len() >= 11, "nine crates and two apps: {packages:?}");
-    packages
-}
-
 fn text(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 #[test]
 fn manifests_say_what_registries_show() {
-    for package in packages() {
+    for package in packages().expect("folders that can be listed") {
         let manifest = text(&package.join("Cargo.toml"));
         let missing: Vec<&str> = KEYS.into_iter().filter(|key| !manifest.contains(key)).collect();
         assert!(missing.is_empty(), "{}/Cargo.toml: {missing:?}", package.display());
@@ -53,7 +37,7 @@ fn manifests_say_what_registries_show() {
 
 #[test]
 fn examples_of_readmes_are_tests() {
-    for package in packages() {
+    for package in packages().expect("folders that can be listed") {
         let readme = text(&package.join("README.md"));
         if readme.contains("```rust") {
             let root = text(&package.join("src/lib.rs"));
@@ -76,23 +60,14 @@ fn included(source: &str) -> impl Iterator<Item = &str> {
 #[test]
 fn packages_include_no_file_from_outside() {
     let (mut count, mut faults) = (0, Vec::new());
-    for package in packages() {
-        let mut folders = vec![package.clone()];
-        while let Some(folder) = folders.pop() {
-            for entry in folder.read_dir().expect("a folder that can be listed") {
-                let path = entry.expect("an entry that can be read").path();
-                if path.is_dir() {
-                    folders.push(path);
-                } else if path.extension().is_some_and(|extension| extension == "rs") {
-                    // Each `..` leaves a folder, from the one of the source file upwards.
-                    let depth =
-                        path.strip_prefix(&package).expect("within the package").components().count() - 1;
-                    for name in included(&text(&path)) {
-                        count += 1;
-                        let is_outside = name.split('/').filter(|part| *part == "..").count() > depth;
-                        faults.extend(is_outside.then(|| format!("{}: {name}", path.display())));
-                    }
-                }
+    for package in packages().expect("folders that can be listed") {
+        for path in rust_files(&package).expect("folders that can be listed") {
+            // Each `..` leaves a folder, from the one of the source file upwards.
+            let depth = path.strip_prefix(&package).expect("within the package").components().count() - 1;
+            for name in included(&text(&path)) {
+                count += 1;
+                let is_outside = name.split('/').filter(|part| *part == "..").count() > depth;
+                faults.extend(is_outside.then(|| format!("{}: {name}", path.display())));
             }
         }
     }

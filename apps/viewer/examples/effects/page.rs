@@ -57,8 +57,7 @@ written for this one picture. Instructions of one warm frame, in millions (callg
 Of the 19.8 million that the textured picture takes more, 7.6 are because its sampler is data: a pipeline by hand that knows its
 sampler only at run time takes 156.8. About 2.7 do not depend on the number of pixels, which frames of half the width and height
 show (57.8 and 64.8): at the vertices, the scene sums the light of any number of lamps, and the pipeline by hand reads a single
-number. The rest is spent for each group of eight pixels, on branches for parts that are absent and on varyings whose places are
-known only at run time. Compiling the pipeline a second time for the default sampler would save the first of these three.
+number. The other 9.5 are not explained yet. Compiling the pipeline a second time for the default sampler would save the first part.
 
 To count the instructions of a frame (the difference of two counts, divided by ten):
 

@@ -1,4 +1,4 @@
-//! Where a node is, as one word, exactly: every number is written so that it is read back with the same bits.
+//! The transform of a node as one word. Every number is read back with the same bits.
 
 use std::fmt;
 use std::str::FromStr;
@@ -51,7 +51,7 @@ impl FromStr for PlacedNode {
         };
         match place {
             Transform::Decomposed { rotation, .. } if (rotation.length() - 1.0).abs() > TOLERANCE => {
-                Err(format!("the node is turned by no rotation; {FORM}"))
+                Err(format!("the length of the rotation is not 1; {FORM}"))
             }
             _ => Ok(Self { number, place }),
         }
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_place_is_refused() {
+    fn invalid_places_are_refused() {
         for text in [
             "",
             "1",

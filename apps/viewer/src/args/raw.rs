@@ -241,8 +241,8 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "NODE,...", value_delimiter = ',', help_heading = "Scenery")]
     pub(crate) hide_nodes: Vec<String>,
 
-    /// Where a node is instead of where its file has it, as the window copies it (Ctrl+C) and keeps it in state
-    /// files; once for each node
+    /// Move a node from its place in the file; the window writes this into copied commands (Ctrl+C) and state
+    /// files, once for each node
     #[arg(long, value_name = "PLACE", help_heading = "Scenery")]
     pub(crate) place_node: Vec<PlacedNode>,
 

@@ -84,18 +84,19 @@ pub enum InnerMiter {
 
 impl Default for Bevel {
     fn default() -> Self {
+        let settings = BevelSettings::default();
         Self {
-            width: 0.1,
+            width: settings.width,
             width_type: BevelWidth::default(),
-            segments: 1,
-            profile: 0.5,
-            clamp_overlap: true,
+            segments: settings.segments as u32,
+            profile: settings.profile,
+            clamp_overlap: settings.clamp_overlap,
             vertices: false,
             outer_miter: OuterMiter::default(),
             inner_miter: InnerMiter::default(),
-            mark_sharp: false,
-            mark_seams: false,
-            harden_normals: false,
+            mark_sharp: settings.mark_sharp,
+            mark_seams: settings.mark_seams,
+            harden_normals: settings.harden_normals,
         }
     }
 }

@@ -17,19 +17,25 @@ fn columns(window: &HeadlessWindow<'_>, columns: std::ops::Range<usize>) -> Vec<
     (90..240).flat_map(|y| pixels[y * 600 + columns.start..y * 600 + columns.end].to_vec()).collect()
 }
 
-#[test]
-fn two_models_are_seen_side_by_side_in_turn_and_where_they_differ() {
+/// Opens two models, `one.obj` and `two.obj`, side by side.
+fn with_pair(texts: [&str; 2], test: impl FnOnce(&mut HeadlessWindow<'_>)) {
     let folder = tempfile::tempdir().expect("a folder");
-    let [one, other] = [("one.obj", TRIANGLE), ("two.obj", SQUARE)].map(|(name, text)| {
-        let path = folder.path().join(name);
-        std::fs::write(&path, text).expect("written");
-        path
-    });
+    let [one, other] = ["one.obj", "two.obj"].map(|name| folder.path().join(name));
+    for (path, text) in [&one, &other].into_iter().zip(texts) {
+        std::fs::write(path, text).expect("written");
+    }
     let flags = format!("{} --compare={} --view=front", one.display(), other.display());
     with_window(&flags, SIZE, |window| {
         while says(window, "loading two.obj") {
             window.wait();
         }
+        test(window);
+    });
+}
+
+#[test]
+fn two_models_are_seen_side_by_side_in_turn_and_where_they_differ() {
+    with_pair([TRIANGLE, SQUARE], |window| {
         assert!(says(window, "one.obj | two.obj"), "what is where");
         assert!(columns(window, 0..300) != columns(window, 300..600), "two pictures");
         key(window, 'b');
@@ -62,17 +68,7 @@ fn without_another_model_the_keys_say_what_to_do() {
 /// Clicks side by side picked in a picture of the first model alone, which fills the window and is not shown.
 #[test]
 fn clicks_beside_another_model_picked_what_was_not_there() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let [one, other] = [("one.obj", SQUARE), ("two.obj", SQUARE)].map(|(name, text)| {
-        let path = folder.path().join(name);
-        std::fs::write(&path, text).expect("written");
-        path
-    });
-    let flags = format!("{} --compare={} --view=front", one.display(), other.display());
-    with_window(&flags, SIZE, |window| {
-        while says(window, "loading two.obj") {
-            window.wait();
-        }
+    with_pair([SQUARE, SQUARE], |window| {
         let middles = [150.0, 300.0, 450.0].map(|x| DVec2::new(x, 140.0));
         for at in middles {
             click_at(window, at);
