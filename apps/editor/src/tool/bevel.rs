@@ -184,7 +184,7 @@ impl Tool for BevelTool {
         ];
         let switches = switches.map(|(name, is_on)| format!("{name} ({})", on(is_on))).join(", ");
         self.modal.status(format!(
-            "Bevel A: {width:.4} {unit} {}, M: {}, S/wheel: segments {}, P: profile {:.3}, {switches}, \
+            "Bevel A: {width:.4} {unit} {} M: {}, S/wheel: segments {}, P: profile {:.3}, {switches}, \
              O: outer ({}), I: inner ({})",
             self.modal.typed(),
             name(command.width_type),
