@@ -25,8 +25,8 @@ and `trigon-viewer FILE --explain=time` measures any model in the same way.
 
 A shadow map holds the depth at the centre of each texel. A point on the same plane can lie up to √2 texels away from that
 centre, and would shadow itself. So points are moved along the surface normal before they are looked up: by √2 · sin θ texels,
-where θ is the angle between normal and light, which is exactly what a plane needs, and by another quarter of a texel for
-curvature and rounding. No bias is added to depths. A shadow therefore begins at most 1.7 texels away from what casts it.
+where θ is the angle between the normal and the direction in which the map looks, which is exactly what a plane needs, and by
+another quarter of a texel for curvature and rounding. No bias is added to depths. A shadow therefore begins at most 1.7 texels away from what casts it.
 Shadow rays need none of this.
 
 ## What metals reflect

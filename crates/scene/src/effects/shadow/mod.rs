@@ -7,9 +7,11 @@
 //!
 //! ! **Bias.** A map holds the depth at the centres of its texels; a point on the same plane lies
 //! up to √2 texels away, and would shadow itself. So points are moved along the normal of the
-//! surface, by √2 · sin θ texels where θ is the angle between normal and light, which is exactly
-//! what a plane needs, and by a quarter of a texel for curvature and rounding. No constant is added
-//! to depths. A shadow therefore begins at most 1.7 texels away from its caster.
+//! surface, by √2 · sin θ texels where θ is the angle between the normal and the axis of the map,
+//! which is exactly what a plane needs, and by a quarter of a texel for curvature and rounding. (In a
+//! cone or the sixth of a point light's surroundings, the way to a texel of the same depth is square to
+//! that axis, not to the ray.) No constant is added to depths. A shadow therefore begins at most 1.7
+//! texels away from its caster.
 //!
 //! Four depths around a point are compared, and the results mixed bilinearly.
 
@@ -20,12 +22,13 @@ mod fit;
 pub(crate) use cache::ShadowCache;
 
 use super::work::{Work, note};
+use std::f64::consts::FRAC_1_SQRT_2;
 use std::sync::Arc;
 
-use trigon_math::{DAffine3, DMat4, DVec3, DVec4, Mat4};
+use trigon_math::{DAffine3, DMat4, DVec3, DVec4, Mat4, Vec3};
 use trigon_raster::simd::{F32, I32, LANES, Simd, greater, lanes_of, lesser, prelude::*};
 
-use crate::render::lanes::{V3, dot, mapped, mix, positive, scaled, sum};
+use crate::render::lanes::{V3, dot, mapped, mix, positive, scaled, splat, sum};
 use crate::render::lighting::LitPoints;
 use fit::View;
 
@@ -53,6 +56,9 @@ struct PlacedMap {
     to_texels: Mat4,
     /// The width of a texel in metres, where w is 1.
     texel: f32,
+    /// The direction in which the map looks, in camera space, if its rays meet in the lamp; parallel
+    /// ones come from the direction of the light.
+    axis: Option<Vec3>,
 }
 
 impl PlacedMap {
@@ -67,7 +73,16 @@ impl PlacedMap {
         );
         let from_camera = map.view.world_to_clip() * DMat4::from(*camera_to_world);
         let texel = map.view.width_at_one / f64::from(map.resolution);
-        Self { to_texels: (to_texels * from_camera).as_mat4(), texel: texel as f32, map }
+        let to_texels = (to_texels * from_camera).as_mat4();
+        if map.view.camera.projection.is_orthographic() {
+            return Self { to_texels, texel: texel as f32, axis: None, map };
+        }
+        let along = map.view.camera.orientation * DVec3::NEG_Z;
+        let axis = camera_to_world.matrix3.inverse() * along;
+        // A point that is moved away from the lamp comes to where texels are wider: by the share
+        // sin θ · cos θ · √2 of a texel at most, and all of it counts again.
+        let wider = texel / (1.0 - FRAC_1_SQRT_2 * texel).max(0.5);
+        Self { to_texels, texel: wider as f32, axis: Some(axis.normalize_or_zero().as_vec3()), map }
     }
 
     /// The fraction of the light that arrives at eight points, and which of them lie inside the
@@ -77,10 +92,12 @@ impl PlacedMap {
         &self,
         simd: S,
         points: &LitPoints<S>,
-        sine: F32<S>,
+        towards: V3<S>,
     ) -> (F32<S>, trigon_raster::simd::Mask<S>) {
         const ASIDE: f32 = std::f32::consts::SQRT_2;
         const CURVATURE: f32 = 0.25;
+        let cosine = dot(points.facing, self.axis.map_or(towards, |axis| splat(simd, axis)));
+        let sine = positive(1.0 - cosine * cosine).sqrt();
         let w = mapped(&self.to_texels, points.position)[3];
         let offset = (sine * ASIDE + CURVATURE) * w * self.texel;
         let moved = sum(points.position, scaled(points.facing, offset));
@@ -154,11 +171,9 @@ impl ShadowMaps {
         Some(simd.vectorize(
             #[inline(always)]
             || {
-                let cosine = dot(points.facing, towards);
-                let sine = positive(1.0 - cosine * cosine).sqrt();
                 let mut share = F32::splat(simd, 1.0);
                 for map in maps {
-                    let (found, known) = map.share(simd, points, sine);
+                    let (found, known) = map.share(simd, points, towards);
                     share = known.select(found, share);
                 }
                 share

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::effect::Effect;
+use proptest::prelude::*;
 
 /// A floor, and a square of one metre one metre above it.
 fn square_over_floor(lamp: Node) -> Scene {
@@ -55,15 +56,65 @@ fn a_shadow_grows_with_the_distance_from_a_point() {
     }
 }
 
+/// A rotation by any angle about any axis.
+fn rotation() -> impl Strategy<Value = DQuat> {
+    [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0, 0.01..1.0].prop_map(|q| DQuat::from_array(q).normalize())
+}
+
+/// A lamp of any kind at up to 20 metres from the origin, that shines at a point near it.
+fn lamp() -> impl Strategy<Value = Node> {
+    let spot = (0.02_f32..std::f32::consts::FRAC_PI_2)
+        .prop_map(|outer| Light { kind: LightKind::Spot { inner: outer * 0.9, outer }, ..Light::spot(1.0) });
+    let light = prop_oneof![Just(Light::directional(1.0)), Just(Light::point(1.0)), spot];
+    let target = [-0.3..0.3_f64, -0.3..0.3, -0.3..0.3].prop_map(DVec3::from);
+    (light, rotation(), prop_oneof![0.5..3.0_f64, 3.0..20.0], target).prop_map(
+        |(light, rotation, distance, target)| {
+            let from = rotation * DVec3::Z * distance;
+            let bright = Light {
+                intensity: if light.kind == LightKind::Directional {
+                    1.0
+                } else {
+                    (distance * distance) as f32
+                },
+                ..light
+            };
+            shining(bright, from, target - from)
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: ProptestConfig::default().cases / 4, ..ProptestConfig::default() })]
+
+    /// "Acne" along no direction, on no slope, under no lamp and in no map: a plane hides nothing of itself.
+    #[test]
+    fn a_plane_casts_no_shadow_on_itself(lamp in lamp(), turn in rotation(), resolution in 8_u32..600) {
+        let mut scene = Scene::new();
+        let plane = scene.add_object("plane", primitives::plane(3.0, 3.0), Material { double_sided: true, ..matt(Vec3::ONE) });
+        scene.node_mut(plane).expect("just added").transform =
+            Transform::from_scale_rotation_translation(DVec3::ONE, turn, DVec3::ZERO);
+        scene.add(lamp);
+        let [off, mapped] = [Shadows::Off, Shadows::Maps { resolution }].map(|shadows| {
+            render(&scene, &from_above(), &settings(EffectSettings { shadows, ..Default::default() })).expect("drawn")
+        });
+        let pixels = || off.color.chunks_exact(4).zip(mapped.color.chunks_exact(4));
+        let wrong = pixels().filter(|(off, mapped)| off != mapped).count();
+        prop_assert_eq!(wrong, 0, "of {} pixels", pixels().count());
+    }
+}
+
 /// "Acne": a surface that shadows itself.
 #[test]
 fn what_nothing_hides_is_as_bright_as_without_shadows() {
-    for tilt in [0.0, 0.5, 1.0, 1.3, 1.5] {
+    let tilts = [0.0, 0.5, 1.0, 1.3, 1.5].into_iter();
+    let turned = tilts.flat_map(|tilt| [0.0, 0.4, 2.2, 3.9].map(|around| [tilt, around]));
+    for [tilt, around] in turned {
         let mut scene = Scene::new();
         scene.add_object("floor", primitives::plane(3.0, 3.0), matt(Vec3::ONE));
         let ball = scene.add_object("ball", primitives::uv_sphere(0.5, 96, 48), matt(Vec3::ONE));
         scene.node_mut(ball).expect("just added").transform = Transform::from_translation(DVec3::Y * 0.5);
         let along = DVec3::new(elementary::sin(tilt), -elementary::cos(tilt), 0.2);
+        let along = DQuat::from_xyzw(0.0, elementary::sin(around), 0.0, elementary::cos(around)) * along;
         scene.add(shining(Light::directional(1.0), DVec3::ZERO, along));
         let draw = |shadows| {
             let settings = settings(EffectSettings { shadows, ..Default::default() });
@@ -85,8 +136,8 @@ fn what_nothing_hides_is_as_bright_as_without_shadows() {
                 wrong += usize::from(mapped.pixel(x, y) != off.pixel(x, y));
             }
         }
-        assert!(lit > 1000, "something is lit at {tilt}: {lit}");
-        assert_eq!(wrong, 0, "of {lit} pixels that nothing hides, at {tilt}");
+        assert!(lit > 1000, "something is lit at {tilt}, {around}: {lit}");
+        assert_eq!(wrong, 0, "of {lit} pixels that nothing hides, at {tilt}, {around}");
     }
 }
 
