@@ -54,6 +54,10 @@ pub struct Stats {
     pub samples_seen: u64,
     /// Fragments that were shaded.
     pub pixels_shaded: u64,
+    /// Those of them that are translucent.
+    pub pixels_blended: u64,
+    /// Visible triangles that edges were painted on, counted once per tile.
+    pub triangles_edged: u64,
     /// Fragments whose mask was evaluated.
     pub samples_masked: u64,
     /// How long the stages took, if
@@ -80,6 +84,8 @@ impl AddAssign for Stats {
         self.groups_tested += other.groups_tested;
         self.samples_seen += other.samples_seen;
         self.pixels_shaded += other.pixels_shaded;
+        self.pixels_blended += other.pixels_blended;
+        self.triangles_edged += other.triangles_edged;
         self.samples_masked += other.samples_masked;
         self.times += other.times;
     }

@@ -259,8 +259,8 @@ texture_rows! {
     Occlusion => TextureRow {
         format: TextureFormat::Linear,
         effect: Effect::OcclusionMaps,
-        drawn_if: DrawnIf::LightInPixels,
-        matters: |_| true,
+        drawn_if: DrawnIf::AmbientLightInPixels,
+        matters: |material| material.occlusion.is_some_and(|map| map.strength != 0.0),
         get: |material| material.occlusion.map(|map| map.binding),
         set: |material, binding| {
             let strength = material.occlusion.map_or(1.0, |map| map.strength);

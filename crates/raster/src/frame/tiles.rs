@@ -69,6 +69,7 @@ fn draw_colors(
     let is_blended = !surfaces.translucent.is_empty();
     let encoding = if is_blended { None } else { frame.wants.bytes };
     stats.pixels_shaded += shade_tile(frame, &area, (&state.buffer, &state.triangles), shading, encoding);
+    stats.triangles_edged += shading.edged;
     stats.times.shading += clock.lap();
     let colors = match encoding {
         Some(encoding) => TileColors::Encoded(encoding),
@@ -77,7 +78,9 @@ fn draw_colors(
     };
     if is_blended {
         let triangles = surfaces.translucent;
-        stats.pixels_shaded += blend_translucent(frame, &area, state, (layers, shading), triangles);
+        let blended = blend_translucent(frame, &area, state, (layers, shading), triangles);
+        stats.pixels_shaded += blended;
+        stats.pixels_blended += blended;
         stats.times.blending += clock.lap();
     }
     resolve(frame, &area, colors, (shading, strip), bands);

@@ -62,6 +62,8 @@ pub(crate) struct Shading {
     pub(crate) edges: Edges,
     /// What edges cover beyond their faces.
     pub(crate) outer: OuterInk,
+    /// How many triangles got edges.
+    pub(crate) edged: u64,
 }
 
 impl Shading {
@@ -95,6 +97,7 @@ impl Shading {
             empty_groups: Vec::new(),
             edges: Edges::new(),
             outer: OuterInk::default(),
+            edged: 0,
         }
     }
 }

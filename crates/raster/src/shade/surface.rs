@@ -54,16 +54,19 @@ pub(crate) fn list_visible(
     let mut outer = std::mem::take(&mut shading.outer);
     let ink = frame.ink.as_ref().filter(|ink| ink.has_lines());
     let own = ink.map(|_| outer.own_lanes(frame, area));
+    shading.edged = 0;
     let count = at_level!(frame.token, simd => list(simd, buffer, (triangles.len(), own), shading));
     divide(frame, buffer, triangles, shading);
     if let Some(ink) = ink {
         outer.begin(triangles.len());
-        let Shading { runs, records, seen, .. } = shading;
+        let Shading { runs, records, seen, edged, .. } = shading;
         records.clear();
         for run in runs {
             let context = frame.shade_context(area, triangles, run.draw);
             let seen = &seen[run.slots.clone()];
-            run.records = Some(records.append(frame.token, &context, seen, Some(outer.faces_mut())));
+            let shape = records.append(frame.token, &context, seen, Some(outer.faces_mut()));
+            *edged += if shape.lines.is_some() { seen.len() as u64 } else { 0 };
+            run.records = Some(shape);
         }
         outer.find(frame, (ink, area), buffer, triangles);
     } else if !outer.is_empty() {

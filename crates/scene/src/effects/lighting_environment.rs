@@ -9,6 +9,7 @@ use super::fog::Mist;
 use super::metal_sky::{MetalSky, SkyOnMetal};
 use super::rays::{AmbientRays, RayScene};
 use super::shadow::ShadowMaps;
+use super::work::{Work, note};
 use crate::render::lanes::{V3, dot, splat};
 use crate::render::lighting::{Arriving, Lamp, Lights, LitPoints, Microfacets};
 
@@ -63,7 +64,7 @@ impl LightingEnvironment {
     pub(crate) fn around<S: Simd>(&self, simd: S, normal: V3<S>) -> V3<S> {
         match &self.surroundings {
             Some(surroundings) => surroundings.matt(simd, normal),
-            None => splat(simd, self.lights.ambient),
+            None => self.ambient(simd),
         }
     }
 
@@ -77,8 +78,18 @@ impl LightingEnvironment {
                 let direction = [n[0] * twice - v[0], n[1] * twice - v[1], n[2] * twice - v[2]];
                 surroundings.mirrored(simd, direction, roughness)
             }
-            None => splat(simd, self.lights.ambient),
+            None => self.ambient(simd),
         }
+    }
+
+    /// Light that is the same from everywhere.
+    #[inline(always)]
+    fn ambient<S: Simd>(&self, simd: S) -> V3<S> {
+        // What a mirror shows is added to it, be there any or not.
+        if self.lights.ambient != Vec3::ZERO {
+            note(Work::AmbientLight);
+        }
+        splat(simd, self.lights.ambient)
     }
 
     /// The built-in sky's light on metals, if they mirror it and any point is metallic.
@@ -91,6 +102,11 @@ impl LightingEnvironment {
     ) -> Option<SkyOnMetal<S>> {
         let sky = self.metal_sky.as_ref().filter(|_| facets.metallic.simd_gt(0.0).any_true())?;
         Some(sky.light(simd, points, facets.roughness))
+    }
+
+    /// Whether no light at all reaches a surface, but for what rays of sight find.
+    pub(crate) fn is_dark(&self) -> bool {
+        self.lights.lamps.is_empty() && !self.has_ambient()
     }
 
     /// Whether there is any ambient light.

@@ -1,10 +1,24 @@
 //! What is done for effects, noted where it is done. Tests alone look at it: in other builds nothing is left of it.
 
+use crate::material::MaterialTexture;
+
 /// Something that is done for effects only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Work {
-    /// Eight texture look-ups.
-    TextureLookUp,
+    /// Light of a lamp on eight points.
+    LampLight,
+    /// Ambient light without an environment on eight points.
+    AmbientLight,
+    /// What eight points mirror of a lamp or of ambient light.
+    Highlight,
+    /// Eight look-ups in a texture.
+    TextureLookUp(MaterialTexture),
+    /// Eight colours are found that others show through.
+    Blend,
+    /// Eight alphas are compared with a mask's.
+    Mask,
+    /// Light of its own is added to eight colours.
+    Emission,
     /// Eight vertices hand on tangents.
     Tangents,
     /// Eight colours of vertices are multiplied.

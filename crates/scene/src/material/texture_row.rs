@@ -25,7 +25,9 @@ pub(crate) enum DrawnIf {
     Always,
     /// Light that is found at each pixel.
     LightInPixels,
-    /// The same, and tangents.
+    /// The same, and ambient light.
+    AmbientLightInPixels,
+    /// Light that is found at each pixel, and tangents.
     TangentsInPixels,
     /// Rays that go on through the surface.
     Refracting,

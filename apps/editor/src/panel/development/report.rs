@@ -69,6 +69,8 @@ pub(super) fn stages(ui: &mut Ui, stats: &Stats, frame: &Frame, shades: u64) {
         ("Blocks full", stats.blocks_accepted, "Blocks of 8 × 8 pixels fully covered by a triangle"),
         ("Blocks hidden", stats.blocks_rejected, "Blocks that a triangle misses, or that hide it"),
         ("Shaded", stats.pixels_shaded, "Shaded fragments"),
+        ("Blended", stats.pixels_blended, "Shaded fragments that are translucent"),
+        ("With edges", stats.triangles_edged, "Visible triangles with painted edges, counted once per tile"),
         ("Masked", stats.samples_masked, "Fragments with a mask test"),
     ];
     Grid::new("stages").num_columns(2).spacing([10.0, 2.0]).show(ui, |ui| {

@@ -22,7 +22,7 @@ use crate::effect::Effect;
 use crate::render::Stage;
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, ShadingModel, Style};
-use survey::Survey;
+use survey::{Survey, has_ambient};
 
 /// The effects of a frame, and why.
 ///
@@ -99,9 +99,8 @@ fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
         Effect::Reflection | Effect::Refraction if stage.settings.effects.bounces == 0 => {
             Err(Absence::NotAsked)
         }
-        Effect::NormalMaps | Effect::OcclusionMaps | Effect::Reflection | Effect::Refraction => {
-            of_pixels(effect, stage, survey)
-        }
+        Effect::OcclusionMaps => occlusion_maps(stage, survey),
+        Effect::NormalMaps | Effect::Reflection | Effect::Refraction => of_pixels(effect, stage, survey),
         Effect::Highlights
         | Effect::Textures
         | Effect::Emission
@@ -243,12 +242,17 @@ fn ambient_occlusion(stage: &Stage<'_>, survey: &Survey) -> Outcome {
     if stage.settings.shading != ShadingModel::Phong {
         return Err(Absence::ShadingModel);
     }
-    let ambient = stage.settings.effects.environment.is_some() || stage.lights.ambient != Vec3::ZERO;
-    match (ambient, survey.casters) {
+    match (has_ambient(stage), survey.casters) {
         (false, _) => Err(Absence::NoAmbientLight),
         (true, 0) => Err(Absence::NoCaster),
         (true, _) => Ok(Cause::Asked),
     }
+}
+
+/// Occlusion maps dim ambient light alone.
+fn occlusion_maps(stage: &Stage<'_>, survey: &Survey) -> Outcome {
+    let cause = of_pixels(Effect::OcclusionMaps, stage, survey)?;
+    if has_ambient(stage) { Ok(cause) } else { Err(Absence::NoAmbientLight) }
 }
 
 /// Effects of objects that require per-pixel lighting.

@@ -48,7 +48,7 @@ pub enum Absence {
     NothingLit,
     /// The settings request it, but no lamp shines.
     NoLamp,
-    /// The settings request it, but there is no ambient light.
+    /// Nothing in view has ambient light that it could change.
     NoAmbientLight,
     /// The settings request it, but there are no shadow casters.
     NoCaster,

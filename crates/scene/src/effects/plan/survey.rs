@@ -1,10 +1,13 @@
 //! What a scene contains, and what of it the camera can see.
 
+use trigon_math::Vec3;
+
 use super::Named;
 use crate::effect::Effect;
 use crate::effects::Optics;
-use crate::material::{AlphaMode, Material, Shading};
+use crate::material::{AlphaMode, DrawnIf, Material, MaterialTexture, Shading};
 use crate::render::{Shape, Stage};
+use crate::settings::ShadingModel;
 
 /// What a scene contains, and what of it the camera can see.
 #[derive(Debug, Default)]
@@ -57,10 +60,14 @@ fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) ->
             let shading = stage.settings.reflection.of(material);
             !matches!(shading, Shading::Unlit | Shading::Lambert)
         }
-        Effect::Textures => material.textures().next().is_some(),
+        Effect::Textures => {
+            let shading = stage.settings.reflection.of(material);
+            let material = Material { shading, ..material.clone() };
+            material.textures().any(|(place, _)| is_drawn(place, &material, stage))
+        }
         Effect::NormalMaps => lit && material.normal_map.is_some(),
-        Effect::OcclusionMaps => lit && material.occlusion.is_some(),
-        Effect::Emission => material.emissive != trigon_math::Vec3::ZERO,
+        Effect::OcclusionMaps => lit && (MaterialTexture::Occlusion.row().matters)(material),
+        Effect::Emission => material.emissive != Vec3::ZERO,
         Effect::VertexColors => shape.geometry.columns.colors.is_some(),
         Effect::Masks => matches!(material.alpha_mode, AlphaMode::Mask { .. }),
         Effect::Transparency => material.alpha_mode == AlphaMode::Blend,
@@ -80,6 +87,24 @@ fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) ->
         | Effect::Outline
         | Effect::Edges => false,
     }
+}
+
+/// Whether a texture of a material has an effect on what it shows.
+fn is_drawn(place: MaterialTexture, material: &Material, stage: &Stage<'_>) -> bool {
+    let settings = stage.settings;
+    let in_pixels = material.shading != Shading::Unlit && settings.shading == ShadingModel::Phong;
+    let has_what_it_needs = match place.row().drawn_if {
+        DrawnIf::Always => true,
+        DrawnIf::LightInPixels | DrawnIf::TangentsInPixels => in_pixels,
+        DrawnIf::AmbientLightInPixels => in_pixels && has_ambient(stage),
+        DrawnIf::Refracting => in_pixels && settings.effects.bounces > 0 && is_traced(material, true),
+    };
+    has_what_it_needs && material.texture(place).is_some() && (place.row().matters)(material)
+}
+
+/// Whether light comes from everywhere.
+pub(super) fn has_ambient(stage: &Stage<'_>) -> bool {
+    stage.settings.effects.environment.is_some() || stage.lights.ambient != Vec3::ZERO
 }
 
 /// Whether a material may be metallic somewhere: textures are not searched.

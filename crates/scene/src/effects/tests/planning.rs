@@ -2,8 +2,11 @@
 
 use crate::effect::Effect;
 use crate::effects::work::{Work, done};
+use crate::material::MaterialTexture;
+use proptest::prelude::*;
 use std::num::NonZeroUsize;
-use trigon_mesh::{Deltas, MorphTarget};
+use trigon_mesh::{Deltas, Mesh, MorphTarget};
+use trigon_raster::Stats;
 
 use super::*;
 
@@ -127,14 +130,19 @@ fn off_means_zero() {
 /// For which effects each kind of work may be done.
 fn reasons(work: Work) -> &'static [Effect] {
     match work {
-        Work::TextureLookUp => &[
-            Effect::Textures,
-            Effect::NormalMaps,
-            Effect::OcclusionMaps,
-            Effect::Emission,
-            Effect::Masks,
-            Effect::Highlights,
-        ],
+        Work::LampLight => &[Effect::Lamps],
+        Work::AmbientLight => &[Effect::AmbientLight],
+        Work::Highlight => &[Effect::Highlights],
+        Work::TextureLookUp(place) => match place.row().effect {
+            Effect::NormalMaps => &[Effect::NormalMaps],
+            Effect::OcclusionMaps => &[Effect::OcclusionMaps],
+            Effect::Emission => &[Effect::Emission],
+            Effect::Refraction => &[Effect::Refraction],
+            _ => &[Effect::Textures],
+        },
+        Work::Blend => &[Effect::Transparency],
+        Work::Mask => &[Effect::Masks],
+        Work::Emission => &[Effect::Emission],
         Work::Tangents => &[Effect::NormalMaps],
         Work::VertexColors => &[Effect::VertexColors],
         Work::Pose => &[Effect::Poses],
@@ -150,33 +158,198 @@ fn reasons(work: Work) -> &'static [Effect] {
     }
 }
 
+/// What was done for a picture.
+struct Done {
+    plan: EffectPlan,
+    work: Vec<Work>,
+    /// What the rasterizer counts itself.
+    stats: Stats,
+}
+
+impl Done {
+    fn of(scene: &Scene, settings: &RenderSettings) -> Self {
+        let one = NonZeroUsize::new(1);
+        let mut renderer = Renderer::new(RenderSettings { threads: one, ..settings.clone() });
+        done::take();
+        renderer.render(scene, &from_front()).expect("drawn");
+        let plan = renderer.plan().expect("drawn").clone();
+        Self { plan, work: done::take(), stats: *renderer.stats() }
+    }
+
+    /// Whether anything was done for an effect.
+    fn has(&self, effect: Effect) -> bool {
+        match effect {
+            Effect::Edges => self.stats.triangles_edged > 0,
+            Effect::Transparency if self.stats.pixels_blended > 0 => true,
+            _ => self.work.iter().any(|work| reasons(*work).contains(&effect)),
+        }
+    }
+
+    /// Fails if anything was done for no effect that is on.
+    fn check(&self, what: &str) {
+        for &work in &self.work {
+            let is_due = reasons(work).iter().any(|effect| self.plan.is_on(*effect));
+            assert!(is_due, "{work:?} is done for no effect that is on ({what}): {}", self.plan);
+        }
+        for effect in [Effect::Edges, Effect::Transparency] {
+            assert!(self.plan.is_on(effect) || !self.has(effect), "{effect} is off and done ({what})");
+        }
+    }
+}
+
 /// The same by what is done while a picture is drawn, whatever the plan and the counts say.
 #[test]
 fn what_is_off_is_not_done() {
-    let mut missed = Vec::new();
     for made_for in Effect::ALL {
-        let [off, on] = with(made_for).map(|(scene, settings)| {
-            let mut renderer = Renderer::new(RenderSettings { threads: NonZeroUsize::new(1), ..settings });
-            done::take();
-            renderer.render(&scene, &from_front()).expect("drawn");
-            let plan = renderer.plan().expect("drawn").clone();
-            let done = done::take();
-            for &work in &done {
-                let is_due = reasons(work).iter().any(|effect| plan.is_on(*effect));
-                assert!(is_due, "{work:?} is done for no effect that is on ({made_for}): {plan}");
+        let [off, on] = with(made_for).map(|(scene, settings)| Done::of(&scene, &settings));
+        off.check(&format!("without {made_for}"));
+        on.check(&format!("with {made_for}"));
+        assert!(!off.has(made_for), "{made_for} is off and done: {:?}", off.work);
+        assert!(on.has(made_for), "{made_for} is on and not done: {:?}", on.work);
+        assert!(on.plan.is_on(made_for), "{made_for}: {}", on.plan.decision(made_for));
+    }
+}
+
+/// A scene of one ball, in any material, light and style.
+fn any_scene() -> impl Strategy<Value = (Scene, RenderSettings)> {
+    let flag = any::<bool>;
+    let factor = || prop_oneof![Just(0.0_f32), Just(1.0), 0.0_f32..1.0];
+    let shading = (0..4_u8, factor(), factor(), factor()).prop_map(
+        |(kind, metallic, roughness, specular)| match kind {
+            0 => Shading::Unlit,
+            1 => Shading::Lambert,
+            2 => Shading::blinn_phong(Vec3::splat(specular), 20.0 * roughness),
+            _ => Shading::MetallicRoughness(MetallicRoughness {
+                metallic,
+                roughness,
+                specular,
+                ..MetallicRoughness::default()
+            }),
+        },
+    );
+    let alpha_mode = prop_oneof![
+        Just(AlphaMode::Opaque),
+        Just(AlphaMode::Blend),
+        factor().prop_map(|cutoff| AlphaMode::Mask { cutoff })
+    ];
+    let textures = prop::collection::vec(prop::bool::weighted(0.3), MaterialTexture::ALL.len());
+    let material = (shading, alpha_mode, textures, (factor(), factor(), factor()), flag()).prop_map(
+        |(shading, alpha_mode, textures, (emission, transmission, strength), double_sided)| {
+            let emissive = Vec3::splat(emission);
+            let material =
+                Material { shading, alpha_mode, emissive, transmission, double_sided, ..Material::default() };
+            (material, textures, strength)
+        },
+    );
+    let lights = (prop::option::of(factor()), prop::option::of(factor()), 0..3_u8);
+    let effects = (0..3_u8, flag(), flag(), flag(), 0..3_u32, flag());
+    let style = prop::sample::select(vec![
+        Style::Surface,
+        Style::Surface,
+        Style::SurfaceWithEdges,
+        Style::HiddenLine,
+    ]);
+    let model = prop::sample::select(vec![
+        ShadingModel::Flat,
+        ShadingModel::Gouraud,
+        ShadingModel::Phong,
+        ShadingModel::Phong,
+    ]);
+    (material, lights, effects, (style, model), (flag(), flag())).prop_map(
+        |(
+            (mut material, textures, strength),
+            (lamp, ambient, lighting),
+            effects,
+            (style, model),
+            (colored, posed),
+        )| {
+            let mut scene = Scene::new();
+            let binding = TextureBinding::new(scene.add_texture("grey", grey()));
+            for (place, is_there) in MaterialTexture::ALL.into_iter().zip(textures) {
+                material.set_texture(place, is_there.then_some(binding));
             }
-            done
-        });
-        let has_work = |done: &[Work]| done.iter().any(|work| reasons(*work).contains(&made_for));
-        assert!(!has_work(&off), "{made_for} is off and done: {off:?}");
-        if !has_work(&on) {
-            missed.push(made_for);
+            material.occlusion = material.occlusion.map(|map| Occlusion { strength, ..map });
+            let ball = scene.add_object("ball", painted_ball(colored, posed), material);
+            scene.node_mut(ball).expect("just added").morph_weights = if posed { vec![0.5] } else { vec![] };
+            for light in [lamp.map(Light::point), ambient.map(Light::ambient)].into_iter().flatten() {
+                scene.add(Node::from_light(light).at(DVec3::new(0.0, 0.0, 3.0)));
+            }
+            let lighting = [Lighting::Scene, Lighting::Automatic, Lighting::Studio][usize::from(lighting)];
+            let (shadows, environment, occlusion, fog, bounces, outline) = effects;
+            let effects = EffectSettings {
+                shadows: [Shadows::Off, Shadows::Rays, Shadows::Maps { resolution: 16 }]
+                    [usize::from(shadows)],
+                environment: environment.then(|| Arc::new(Environment::uniform(Vec3::ONE))),
+                ambient_occlusion: occlusion.then_some(AmbientOcclusion { rays: 2, distance: 1.0 }),
+                fog: fog.then_some(Fog { color: Vec3::ONE, density: 0.1 }),
+                outline: outline.then(|| Outline { nodes: vec![ball], color: Vec3::X, width: 2 }),
+                bounces,
+                ..EffectSettings::default()
+            };
+            let settings = RenderSettings {
+                style,
+                lighting,
+                shading: model,
+                width: 24,
+                height: 24,
+                ..settings(effects)
+            };
+            (scene, settings)
+        },
+    )
+}
+
+fn painted_ball(colored: bool, posed: bool) -> Mesh {
+    let mut ball = primitives::uv_sphere(1.0, 12, 6);
+    let corner_colors = colored.then(|| vec![Vec4::ONE; ball.corner_count()]);
+    let positions = Deltas::from_dense(vec![Vec3::X; ball.vertex_count()]);
+    let morph_targets =
+        if posed { vec![MorphTarget { positions, ..MorphTarget::default() }] } else { vec![] };
+    ball.set_attributes(Attributes { corner_colors, morph_targets, ..ball.attributes().clone() })
+        .expect("one each");
+    ball
+}
+
+proptest! {
+    #[test]
+    fn what_is_off_is_not_done_whatever_a_scene_has((scene, settings) in any_scene()) {
+        let done = Done::of(&scene, &settings);
+        done.check("any scene");
+        let mut renderer = Renderer::new(settings);
+        renderer.render(&scene, &from_front()).expect("drawn");
+        for effect in Effect::ALL {
+            let is_zero = renderer.effect_counts(effect) == EffectCounts::default();
+            prop_assert!(done.plan.is_on(effect) || is_zero, "{} is off: {:?}", effect, renderer.effect_counts(effect));
         }
     }
-    // Light at vertices, what the rasterizer blends and the edges that it paints are noted nowhere.
-    let unnoted =
-        [Effect::Lamps, Effect::AmbientLight, Effect::Highlights, Effect::Transparency, Effect::Edges];
-    assert_eq!(missed, unnoted, "all others are done where they are on");
+}
+
+/// Textures that nothing shows are no reason to prepare their coordinates.
+#[test]
+fn a_texture_without_effect_is_neither_planned_nor_looked_up() {
+    let maps_of = |shading: Shading, lights: &[Light], strength: f32| {
+        let mut scene = Scene::new();
+        let binding = TextureBinding::new(scene.add_texture("grey", grey()));
+        let occlusion = Some(Occlusion { binding, strength });
+        scene.add_object(
+            "ball",
+            painted_ball(false, false),
+            Material { shading, occlusion, ..Material::default() },
+        );
+        for &light in lights {
+            scene.add(Node::from_light(light).at(DVec3::Z * 3.0));
+        }
+        let done = Done::of(&scene, &settings(EffectSettings::default()));
+        let looked_up = done.work.contains(&Work::TextureLookUp(MaterialTexture::Occlusion));
+        let planned = [Effect::Textures, Effect::OcclusionMaps].map(|effect| done.plan.is_on(effect));
+        assert_eq!(planned, [looked_up; 2], "{}", done.plan);
+        looked_up
+    };
+    let [lamp, ambient] = [Light::point(3.0), Light::ambient(1.0)];
+    assert!(!maps_of(Shading::Unlit, &[lamp, ambient], 1.0), "no light");
+    assert!(!maps_of(Shading::Lambert, &[lamp], 1.0), "no ambient light");
+    assert!(!maps_of(Shading::Lambert, &[lamp, ambient], 0.0), "no strength");
+    assert!(maps_of(Shading::Lambert, &[lamp, ambient], 1.0), "all that it needs");
 }
 
 /// Nothing is prepared for light that no material takes.

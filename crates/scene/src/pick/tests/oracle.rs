@@ -2,13 +2,13 @@
 //! cut, no pixels for points. Where a rounding could decide otherwise, the answer is open.
 
 use trigon_camera::{Camera, Projection};
-use trigon_math::{DAffine3, DVec2, DVec3};
+use trigon_math::{DAffine3, DMat3, DVec2, DVec3};
 use trigon_mesh::Mesh;
 
 use super::super::Region;
 use super::grid::Vertex;
 use super::target::Target;
-use crate::{NodeId, Scene};
+use crate::{NodeId, Scene, Transform};
 
 /// What a rounding in f64 moves points by, in pixels: coordinates up to thousands of pixels,
 /// rounded in their 53rd bit a few dozen times.
@@ -75,6 +75,13 @@ impl Lens {
         Self { eye: camera.position, axes, size, scale: size.y / 2.0 / half, parallel, near, far }
     }
 
+    /// Where the ray through a point of the picture of a perspective begins, and a vector along it.
+    pub(super) fn ray(&self, at: DVec2) -> (DVec3, DVec3) {
+        let [right, up, ahead] = self.axes;
+        let (across, down) = (at.x - self.size.x / 2.0, at.y - self.size.y / 2.0);
+        (self.eye, right * (across / self.scale) - up * (down / self.scale) + ahead)
+    }
+
     /// Across, upwards, and along the line of sight.
     fn local(&self, world: DVec3) -> DVec3 {
         DVec3::from_array(self.axes.map(|axis| axis.dot(world - self.eye)))
@@ -106,6 +113,26 @@ impl Lens {
         // A tenth of that in depth: 1e-10 of the distance in f64, 2e-4 in the renderer's f32.
         let margin = 0.1 * reach * distance.abs().max(1.0);
         Answer::of(distance - self.near, margin).min(Answer::of(self.far - distance, margin))
+    }
+}
+
+/// Where a node is: its own map within those of the nodes that it hangs on.
+pub(super) fn in_world(scene: &Scene, id: NodeId) -> DAffine3 {
+    let node = scene.node(id).expect("it is there");
+    let own = match node.transform {
+        Transform::Affine(affine) => affine,
+        Transform::Decomposed { translation, rotation, scale } => {
+            let columns = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| rotation.mul_vec3(axis * scale));
+            DAffine3 { matrix3: DMat3::from_cols(columns[0], columns[1], columns[2]), translation }
+        }
+    };
+    match node.parent() {
+        None => own,
+        Some(parent) => {
+            let outer = in_world(scene, parent);
+            let translation = outer.matrix3 * own.translation + outer.translation;
+            DAffine3 { matrix3: outer.matrix3 * own.matrix3, translation }
+        }
     }
 }
 
@@ -146,7 +173,7 @@ impl Oracle {
             .map(|(id, node)| {
                 let mesh = scene.meshes().get(node.mesh.expect("an object")).expect("its mesh").mesh();
                 let material = scene.materials.get(node.materials[0]).expect("its material");
-                let world = scene.world_transform(id);
+                let world = in_world(scene, id);
                 let positions = mesh.positions().iter();
                 let points: Vec<Vertex> =
                     positions.map(|point| oracle.lens.vertex(&world, point.as_dvec3())).collect();

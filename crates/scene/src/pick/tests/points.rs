@@ -7,6 +7,7 @@ use trigon_math::{DVec2, DVec3};
 use trigon_mesh::{Deltas, MorphTarget, primitives};
 
 use super::super::region::center;
+use super::oracle::{Lens, in_world};
 use crate::{
     ElementSet, Frame, Material, NodeId, Outputs, Picker, Reach, Region, RenderSettings, Scene, Transform,
     render,
@@ -49,13 +50,14 @@ fn triangles(scene: &Scene) -> Vec<(NodeId, usize, [DVec3; 3])> {
     let mut all = Vec::new();
     for (id, node) in scene.nodes().iter() {
         let mesh = scene.meshes().get(node.mesh.expect("an object")).expect("its mesh").mesh();
-        let triangulation = mesh.triangulation();
-        for (triangle, &face) in triangulation.triangles.iter().zip(&triangulation.triangle_faces) {
-            let corners = triangle.map(|corner| {
-                let vertex = mesh.corner_vertices()[corner as usize];
-                scene.world_transform(id).transform_point3(mesh.positions()[vertex as usize].as_dvec3())
-            });
-            all.push((id, face as usize, corners));
+        let world = in_world(scene, id);
+        for face in 0..mesh.face_count() {
+            // Flat and convex, so a fan covers them.
+            let around = mesh.face_vertices(face);
+            let place = |vertex: u32| world.transform_point3(mesh.positions()[vertex as usize].as_dvec3());
+            for pair in around[1..].windows(2) {
+                all.push((id, face, [around[0], pair[0], pair[1]].map(place)));
+            }
         }
     }
     all
@@ -76,15 +78,13 @@ fn every_pixel_is_what_a_ray_meets_first() {
     let (scene, camera) = (solids(), camera());
     let frame = draw(&scene, &camera);
     let picker = Picker::new(&scene, &camera, &frame);
-    let projector = Projector::new(&camera, Viewport { width: SIZE[0], height: SIZE[1] });
+    let lens = Lens::new(&camera, DVec2::from(SIZE.map(f64::from)));
     let triangles = triangles(&scene);
     let (mut checked, mut skipped) = (0, 0);
     for (x, y) in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))) {
-        let ray = projector.ray(center(x, y)).expect("a ray");
-        let met: Vec<_> = triangles
-            .iter()
-            .map(|&(node, face, corners)| (meet((ray.origin, ray.direction), corners), node, face))
-            .collect();
+        let ray = lens.ray(DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5));
+        let met: Vec<_> =
+            triangles.iter().map(|&(node, face, corners)| (meet(ray, corners), node, face)).collect();
         // Within 1/100 of an outline, vertices on the sub-pixel grid may decide
         // otherwise: there the neighbour is as right.
         let close = met.iter().any(|((_, share), ..)| share.abs() < 0.01);

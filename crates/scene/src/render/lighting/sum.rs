@@ -4,7 +4,7 @@ use trigon_raster::simd::{Each, F32, Simd, prelude::*};
 
 use super::lamp::BRIGHTEST;
 use super::points::{Brdf, LitPoints, Reflected};
-use crate::effects::LightingEnvironment;
+use crate::effects::{LightingEnvironment, Work, note};
 use crate::render::lanes::{V3, dot, lesser_of, normalized, positive, pow, scaled, sum, tinted};
 
 impl LightingEnvironment {
@@ -30,6 +30,7 @@ impl LightingEnvironment {
         mut shine: impl FnMut(IncidentLight<S>),
     ) {
         for (number, lamp) in self.lights.lamps.iter().enumerate() {
+            note(Work::LampLight);
             let arriving = lamp.arriving(simd, points.position);
             let n_dot_l = positive(dot(points.normal, arriving.towards));
             let mut share = arriving.share * n_dot_l;
@@ -67,6 +68,7 @@ impl<S: Simd> Brdf<S> {
         match self {
             Self::Lambert => reflected.diffuse = sum(reflected.diffuse, light),
             Self::BlinnPhong { specular, shininess } => {
+                note(Work::Highlight);
                 let half = normalized(sum(towards, points.view));
                 let highlight = pow(positive(dot(points.normal, half)), *shininess);
                 let one = [F32::splat(n_dot_l.token(), 1.0); 3];
@@ -75,6 +77,7 @@ impl<S: Simd> Brdf<S> {
             Self::Microfacets(facets) => {
                 /// Where the surface is seen edge-on, V would divide by zero.
                 const LEAST_COSINE: f32 = 1e-4;
+                note(Work::Highlight);
                 let half = normalized(sum(towards, points.view));
                 let n_dot_v = dot(points.normal, points.view).abs() + LEAST_COSINE;
                 let n_dot_h = positive(dot(points.normal, half));

@@ -3,7 +3,7 @@
 //! what the mesh cannot show, is left out.
 
 use trigon_math::glam::Affine2;
-use trigon_math::{Mat3, Vec3};
+use trigon_math::{Mat3, Vec3, Vec4};
 
 use super::reflection::f0;
 use super::{Coverage, Illumination, Layout, LightSlots, Map, Maps, MaterialParams, MicrofacetModel, Model};
@@ -39,20 +39,29 @@ impl<'a> BoundMaterial<'a> {
     pub(crate) fn new(material: &Material, columns: &Columns, context: &MaterialContext<'a>) -> Self {
         let mut fitting = Fitting { context, columns, layout: Layout::default() };
         let optics = Optics::of(material);
-        let (shading, illumination) = shown(material, context);
-        let material = Material { shading, ..material.clone() };
+        let may_trace = context.lighting.bounces > 0 && context.shading == ShadingModel::Phong;
+        let (shading, illumination) = shown(material, context, optics.is_some() && may_trace);
+        let mut material = Material { shading, ..material.clone() };
+        if illumination == Illumination::None && shading != Shading::Unlit {
+            // Without any light.
+            material.base_color *= Vec4::W;
+        }
         let in_pixels = illumination == Illumination::InPixels;
         let shows = |display| in_pixels || illumination == Illumination::Value(display);
         let optics = optics.filter(|_| in_pixels && context.lighting.bounces > 0);
+        let is_shown = |texture: MaterialTexture| {
+            shown_as(texture).iter().any(|&display| illumination == Illumination::Value(display))
+        };
         let is_drawn = |texture: MaterialTexture| match texture.row().drawn_if {
             DrawnIf::Always => true,
-            DrawnIf::LightInPixels => in_pixels || shown_as(texture).iter().any(|&display| shows(display)),
+            DrawnIf::LightInPixels => in_pixels || is_shown(texture),
+            DrawnIf::AmbientLightInPixels => in_pixels && context.lighting.has_ambient() || is_shown(texture),
             DrawnIf::TangentsInPixels => shows(Display::Normal) && columns.tangents.is_some(),
             DrawnIf::Refracting => matches!(optics, Some(Optics::Glass { .. })),
         };
         let maps = Maps::new(|texture| {
             let binding = material.texture(texture).filter(|_| is_drawn(texture))?;
-            if (texture.row().matters)(&material) { fitting.map(&binding) } else { None }
+            if (texture.row().matters)(&material) { fitting.map(texture, &binding) } else { None }
         });
         let params = MaterialParams {
             model: model(&material),
@@ -89,11 +98,11 @@ struct Fitting<'o, 'a> {
 
 impl<'a> Fitting<'_, 'a> {
     /// A texture that exists, on coordinates that the mesh has.
-    fn map(&mut self, binding: &TextureBinding) -> Option<Map<'a>> {
+    fn map(&mut self, place: MaterialTexture, binding: &TextureBinding) -> Option<Map<'a>> {
         let texture = &self.context.scene.textures.get(binding.texture)?.texture;
         self.columns.uv_sets.get(binding.uv_set)?;
         let at = self.layout.add_coordinates(binding.uv_set, binding.transform);
-        Some(Map { texture, sampler: binding.sampler, at })
+        Some(Map { texture, sampler: binding.sampler, at, place })
     }
 
     /// What the look and its light have to know at each pixel.
@@ -149,11 +158,15 @@ fn shown_as(texture: MaterialTexture) -> &'static [Display] {
     }
 }
 
-/// A material's law of reflection, and where light is found. Surfaces that show how metallic and how rough they
+/// A material's law of reflection, and where light is found: nowhere where there is none, unless rays of sight go on
+/// from it. Surfaces that show how metallic and how rough they
 /// are have a law that knows both.
-fn shown(material: &Material, context: &MaterialContext<'_>) -> (Shading, Illumination) {
+fn shown(material: &Material, context: &MaterialContext<'_>, is_traced: bool) -> (Shading, Illumination) {
     let shading = context.reflection.of(material);
     match context.display {
+        Display::Shaded | Display::Matcap if context.lighting.is_dark() && !is_traced => {
+            (shading, Illumination::None)
+        }
         Display::Shaded | Display::Matcap => (shading, illumination(&shading, context.shading)),
         Display::Metallic | Display::Roughness => {
             (Reflection::MetallicRoughness.of(material), Illumination::Value(context.display))

@@ -1,9 +1,11 @@
 //! Faces of one colour: the light on a triangle as a whole.
 
+use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;
 use trigon_raster::simd::{Each, F32, LANES, Simd, prelude::*};
 
 use super::{Coverage, Illumination, Surface, shown};
+use crate::effects::{Work, note};
 use crate::render::lanes::{V3, cross, difference, dot, negated, normalized, scaled, select, splat, sum};
 use crate::render::lighting::LitPoints;
 
@@ -19,10 +21,15 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             | Illumination::InPixels
             | Illumination::Value(_) => base,
         };
-        let [r, g, b] = sum(lit, splat(simd, self.params.material.emissive));
+        let emissive = self.params.material.emissive;
+        if emissive != Vec3::ZERO {
+            note(Work::Emission);
+        }
+        let [r, g, b] = sum(lit, splat(simd, emissive));
         match self.params.coverage {
             Coverage::Opaque => [r, g, b, F32::splat(simd, 1.0)],
             Coverage::Translucent => {
+                note(Work::Blend);
                 let alpha = F32::splat(simd, self.params.material.base_color.w.clamp(0.0, 1.0));
                 [r * alpha, g * alpha, b * alpha, alpha]
             }

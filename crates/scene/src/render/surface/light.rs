@@ -5,6 +5,7 @@ use trigon_raster::{FragmentLanes, VertexLanes};
 
 use super::traced::TracedSurface;
 use super::{LightSlots, Surface, Values, load, shown};
+use crate::effects::{Work, note};
 use crate::material::MaterialTexture;
 use crate::render::lanes::{V3, dot, mixed, negated, normalized, product, scaled, splat, sum, turned};
 use crate::render::lighting::{Brdf, LitPoints, Reflected};
@@ -158,6 +159,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         let around = scaled(self.lighting.around(simd, points.normal), open);
         match brdf {
             Brdf::Microfacets(facets) => {
+                note(Work::Highlight);
                 let shares = facets.surrounded(dot(points.normal, points.view).abs());
                 reflected.diffuse = sum(reflected.diffuse, product(around, shares.diffuse));
                 let mut mirrored = match traced {

@@ -19,6 +19,8 @@ pub(crate) struct Map<'a> {
     pub(crate) sampler: Sampler,
     /// The varying that holds u; v is the next.
     pub(crate) at: usize,
+    /// What it is of its material.
+    pub(crate) place: MaterialTexture,
 }
 
 /// A material made ready.
@@ -88,7 +90,7 @@ impl Map<'_> {
     /// RGBA at eight points.
     #[inline(always)]
     pub(crate) fn look_up<S: Simd>(&self, simd: S, values: &impl Values<S>) -> [F32<S>; 4] {
-        note(Work::TextureLookUp);
+        note(Work::TextureLookUp(self.place));
         let uv = [values.varying(self.at), values.varying(self.at + 1)];
         let [[ux, uy], [vx, vy]] = [values.gradient(self.at), values.gradient(self.at + 1)];
         self.texture.sample_lanes(simd, uv, [ux, vx], [uy, vy], &self.sampler)

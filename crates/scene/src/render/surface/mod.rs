@@ -84,6 +84,7 @@ impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
 
     #[inline(always)]
     fn masks<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> Mask<S> {
+        note(Work::Mask);
         let alpha = self.params.albedo(simd, self.layout.color, fragments)[3];
         alpha.simd_ge(F32::splat(simd, self.params.cutoff))
     }
@@ -156,6 +157,9 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
     #[inline(always)]
     fn with_emission<S: Simd>(&self, simd: S, values: &impl Values<S>, shaded: V3<S>) -> V3<S> {
         let emissive = self.params.material.emissive;
+        if emissive != Vec3::ZERO {
+            note(Work::Emission);
+        }
         match self.params.maps.get(MaterialTexture::Emissive) {
             Some(map) => {
                 let [r, g, b, _] = map.look_up_apart(simd, values);
@@ -172,6 +176,7 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
         match self.params.coverage {
             Coverage::Opaque => [r, g, b, F32::splat(simd, 1.0)],
             Coverage::Translucent => {
+                note(Work::Blend);
                 let alpha = saturated(alpha);
                 [r * alpha, g * alpha, b * alpha, alpha]
             }

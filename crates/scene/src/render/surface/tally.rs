@@ -2,7 +2,7 @@
 
 use super::{BoundMaterial, Coverage, Illumination, Model};
 use crate::effect::Effect;
-use crate::effects::{Counts, LightingEnvironment};
+use crate::effects::{Counts, LightingEnvironment, Optics};
 use crate::material::MaterialTexture;
 
 impl BoundMaterial<'_> {
@@ -14,8 +14,12 @@ impl BoundMaterial<'_> {
             Effect::Lamps
         } else if lighting.surroundings.is_some() {
             Effect::Environment
-        } else {
+        } else if lighting.has_ambient() {
             Effect::AmbientLight
+        } else if matches!(params.optics, Some(Optics::Glass { .. })) {
+            Effect::Refraction
+        } else {
+            Effect::Reflection
         };
         let specular = !matches!(params.model, Model::Lambert);
         let position = match () {
