@@ -1,5 +1,6 @@
 //! Imports through the public face: one module per subject.
 
+mod accessors;
 mod capture;
 mod captures;
 mod export;

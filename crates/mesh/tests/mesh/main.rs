@@ -7,6 +7,7 @@ mod normals;
 mod outlines;
 mod primitives;
 mod rendering;
+mod tangents;
 mod teapot;
 mod transform;
 mod triangulation;
