@@ -53,6 +53,39 @@ fn scale_and_shift(projection: &Projection) -> (DVec2, DVec2) {
     (DVec2::new(matrix.x_axis.x, matrix.y_axis.y), matrix.z_axis.truncate().truncate().abs())
 }
 
+/// The pixel and the depth of a point in the camera's space, by the definitions of the projections' fields.
+fn by_definition(projection: &Projection, seen: DVec3) -> (DVec2, f64) {
+    let (size, ahead) = (DVec2::new(1920.0, 1080.0), -seen.z);
+    // From -1 to 1 over the window, y up.
+    let in_window = |x: f64, y: f64| DVec2::new(1.0 + x, 1.0 - y) / 2.0 * size;
+    let reversed = |near: f64, far: Option<f64>| match far {
+        Some(far) => near * (far - ahead) / (ahead * (far - near)),
+        None => near / ahead,
+    };
+    match *projection {
+        Projection::Perspective { vertical_fov, near, far, .. } => {
+            #[expect(
+                clippy::disallowed_methods,
+                reason = "of the oracle's own; its last bit is far below the bound"
+            )]
+            let half = (vertical_fov / 2.0).tan() * ahead;
+            (in_window(seen.x / half * size.y / size.x, seen.y / half), reversed(near, far))
+        }
+        Projection::Orthographic { height, near, far, .. } => {
+            let half = height / 2.0;
+            (in_window(seen.x / half * size.y / size.x, seen.y / half), (far - ahead) / (far - near))
+        }
+        Projection::Frustum { left, right, bottom, top, near, far, .. } => {
+            let at =
+                |value: f64, low: f64, high: f64| 2.0 * (value * near / ahead - low) / (high - low) - 1.0;
+            (in_window(at(seen.x, left, right), at(seen.y, bottom, top)), reversed(near, far))
+        }
+        Projection::Pinhole { focal, center, near, far, .. } => {
+            (center + focal * DVec2::new(seen.x, -seen.y) / ahead, reversed(near, far))
+        }
+    }
+}
+
 /// How far a point may come back from where it started, in units of rounding.
 ///
 /// - World to camera and back: a few roundings of the distance from the eye,
@@ -104,6 +137,15 @@ proptest! {
         let (miss, bound) = (back.distance(point), round_trip_bound(&camera, point));
         prop_assert!(miss <= bound, "came back {miss} away, {bound} is allowed");
 
+        let seen = camera.orientation.conjugate() * (point - camera.position);
+        let (exact, exact_depth) = by_definition(&projection, seen);
+        let reach = if projection.is_orthographic() { 1.0 } else { -seen.z };
+        let pixels = bound / reach * scale_and_shift(&projection).0.max_element() * 1920.0 + 1e-9;
+        prop_assert!((screen - exact).length() <= pixels, "at {screen}, not {exact}; {pixels} is allowed");
+        // What moves it along the line of sight by the bound changes its depth by so much of it.
+        let planes = projection.far().map_or(1.0, |far| 1.0 + -seen.z / far);
+        let share = bound / -seen.z * planes + 1e-14;
+        prop_assert!((depth - exact_depth).abs() <= share * 2.0, "depth {depth}, not {exact_depth}");
         prop_assert_eq!(projector.to_screen(point), Some(screen));
         prop_assert_eq!(projector.to_depth(point), Some(depth));
         let ray = projector.ray(screen).expect("the picture has pixels");

@@ -85,6 +85,10 @@ proptest! {
         });
         prop_assert!(pictures[0] == pictures[1], "rotated");
         prop_assert!(pictures[0] == pictures[2], "reversed");
+        let triangles = pictures[0].triangles.as_ref().expect("asked for");
+        for (index, &shown) in triangles.iter().enumerate() {
+            prop_assert_eq!(shown == 0, covers(points, centre(pixel(index))), "at {:?}", pixel(index));
+        }
     }
 
     #[test]
@@ -93,6 +97,8 @@ proptest! {
         let [before, after] = [points, moved].map(|points| count(&Values::on_grid(&points), &[[0, 1, 2]]));
         for (index, &count) in before.iter().enumerate() {
             let [x, y] = pixel(index);
+            prop_assert_eq!(count, u32::from(covers(points, centre([x, y]))), "at {:?}", [x, y]);
+            prop_assert_eq!(after[index], u32::from(covers(moved, centre([x, y]))), "moved, at {:?}", [x, y]);
             if (0..SIDE).contains(&(x + dx)) && (0..SIDE).contains(&(y + dy)) {
                 prop_assert_eq!(count, after[((y + dy) * SIDE + x + dx) as usize]);
             }

@@ -3,6 +3,7 @@
 
 use crate::coverage_support::{SIDE, Values, clip_position, draw, pixel};
 use crate::effort::cases;
+use crate::hard_cases::wide_lines::Line;
 use proptest::prelude::*;
 use trigon_raster::{BlendMode, Lines, Pass, PointShape, Points};
 use trigon_study::oracle::GridPoint;
@@ -37,6 +38,9 @@ proptest! {
             draw(&pass)
         });
         prop_assert!(pictures[0] == pictures[1]);
+        let line = Line::new([0, 1].map(|i| pipeline.vertices[i].0), width);
+        let shown: Vec<bool> = pictures[0].triangles.iter().flatten().map(|&id| id != u32::MAX).collect();
+        line.check(&shown);
     }
 
     /// One pixel in each column that the line passes (or row, if it is steep),
@@ -75,6 +79,8 @@ proptest! {
         let counts = count(&[a, b], &[[0, 1], [1, 0]], width);
         prop_assert!(counts.iter().all(|&count| count <= 1), "no pixel twice");
         let once = count(&[a, b], &[[0, 1]], width);
+        let line = Line::new([a, b].map(|end| clip_position(end, 0.5)), width);
+        line.check(&counts.iter().map(|&count| count == 1).collect::<Vec<_>>());
         prop_assert_eq!(counts, once);
     }
 
@@ -84,6 +90,10 @@ proptest! {
         let moved = ends.map(|[x, y]| [x + 256 * dx, y]);
         let [before, after] = [ends, moved].map(|ends| count(&ends, &[[0, 1]], 1.0));
         prop_assert!(before.contains(&1), "it is seen");
+        for (ends, counts) in [(ends, &before), (moved, &after)] {
+            let line = Line::new(ends.map(|end| clip_position(end, 0.5)), 1.0);
+            line.check(&counts.iter().map(|&count| count == 1).collect::<Vec<_>>());
+        }
         for (index, &count) in before.iter().enumerate() {
             let [x, y] = pixel(index);
             if x + dx < SIDE {
@@ -135,6 +145,11 @@ fn a_segment_without_length_is_the_same_from_either_end() {
         draw(&pass)
     });
     assert!(pictures[0] == pictures[1], "both directions");
+    for (index, &id) in pictures[0].triangles.iter().flatten().enumerate() {
+        // A square of five pixels, whose middle is not on a sample: 5000 = 19 · 256 + 136.
+        let is_inside = pixel(index).iter().all(|at| (256 * at + 128 - 5000).abs() < 640);
+        assert_eq!(id == 0, is_inside, "at {:?}", pixel(index));
+    }
 }
 
 /// Translucent segments that share no vertex. Asking each about each other would take

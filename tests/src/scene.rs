@@ -9,6 +9,10 @@ use trigon_scene::{
     render,
 };
 
+use crate::hard_cases::flight::check_ids;
+use crate::hard_cases::flight_oracle::Oracle;
+use crate::hard_cases::flight_scenes::in_triangles;
+
 fn settings() -> RenderSettings {
     let outputs = Outputs { depth: true, ids: true, ..Outputs::default() };
     RenderSettings { outputs, samples_per_axis: 1, ..RenderSettings::new(80, 60) }
@@ -73,11 +77,18 @@ fn a_chain_of_100_000_nodes_is_placed_without_recursion() {
 fn large_world_coordinates_change_nothing() {
     let picture = |offset: DVec3| {
         let mut scene = Scene::new();
-        let knot =
-            scene.add_object("knot", primitives::torus_knot(&TorusKnot::default()), Material::default());
+        let knot = scene.add_object(
+            "knot",
+            in_triangles(&primitives::torus_knot(&TorusKnot::default())),
+            Material::default(),
+        );
         scene.node_mut(knot).expect("there").transform.set_translation(offset);
         let at = DVec3::new(1.5, 1.0, 2.0);
-        draw(&scene, &Camera::look_at(offset + at, offset, DVec3::Y))
+        let camera = Camera::look_at(offset + at, offset, DVec3::Y);
+        let outputs = Outputs { triangle_ids: true, ..settings().outputs };
+        let frame = render(&scene, &camera, &RenderSettings { outputs, ..settings() }).expect("in range");
+        check_ids(&frame, &Oracle::new(&scene, &camera, [80, 60]), "far away");
+        frame
     };
     let here = picture(DVec3::ZERO);
     assert_eq!(here, picture(DVec3::new(1e7, -3e7, 2e7)), "exactly representable offsets cancel exactly");

@@ -1,4 +1,5 @@
-//! `docs/hard-cases.md` has at least 150 rows, and each names tests that exist where the row says.
+//! `docs/hard-cases.md` has at least 150 rows, and each names tests that exist where the row says; and oracles import
+//! nothing of what they judge.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -92,5 +93,78 @@ fn every_hard_case_names_tests_that_exist() {
         (!missing.is_empty()).then(|| format!("`{}` names {missing:?}", row.case))
     };
     let faults: Vec<String> = rows().iter().filter_map(fault).collect();
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+/// What oracles may import: numbers of other crates, vectors of glam (which `trigon_math` hands on), each other, and the
+/// types that hold the data that they read.
+const DATA: [&str; 4] = ["std::", "num_", "super::", "crate::oracle"];
+
+/// The oracles of whole pictures: where they are, and the types of data that they read.
+const PICTURES: [(&str, &[&str]); 4] = [
+    (
+        "tests/src/hard_cases/flight_oracle.rs",
+        &[
+            "trigon_camera::{Camera, Projection}",
+            "trigon_mesh::Mesh",
+            "trigon_scene::{Node, NodeId, Scene, Transform}",
+        ],
+    ),
+    ("tests/src/hard_cases/flight_facet.rs", &[]),
+    ("crates/scene/src/pick/tests/grid.rs", &[]),
+    (
+        "crates/scene/src/pick/tests/oracle.rs",
+        &[
+            "trigon_camera::{Camera, Projection}",
+            "trigon_mesh::Mesh",
+            "crate::{NodeId, Scene, Transform}",
+            "super::super::Region",
+            "Answer::{No, Open, Yes}",
+        ],
+    ),
+];
+
+/// Vectors and matrices of glam, by the names under which `trigon_math` hands them on.
+const VECTORS: [&str; 8] = ["DAffine3", "DMat3", "DQuat", "DVec2", "DVec3", "UVec2", "Vec4", "Vec3"];
+
+/// What of an oracle's text is the engine's doing rather than data.
+const DOINGS: [&str; 8] = [
+    "world_transform",
+    "to_affine",
+    ".matrix(",
+    "view_projection",
+    "is_closed()",
+    "Projector",
+    ".bounds()",
+    "is_mirroring",
+];
+
+/// What the file imports that is neither data nor a vector, and the engine's functions that it calls.
+fn of_the_engine(text: &str, data: &[&str]) -> Vec<String> {
+    // What tests of the oracle itself import is no matter.
+    let text = text.split("#[cfg(test)]").next().unwrap_or_default();
+    let imports = text.split("\nuse ").skip(1).map(|rest| rest.split(';').next().unwrap_or_default());
+    let is_foreign = |import: &&str| {
+        let is_data = DATA.iter().any(|start| import.starts_with(start)) || data.contains(import);
+        let vectors = import.strip_prefix("trigon_math::").map(|names| names.trim_matches(['{', '}']));
+        !is_data && !vectors.is_some_and(|names| names.split(", ").all(|name| VECTORS.contains(&name)))
+    };
+    let foreign = imports.filter(is_foreign).map(str::to_owned);
+    foreign
+        .chain(DOINGS.iter().filter(|doing| text.contains(*doing)).map(|doing| (*doing).to_owned()))
+        .collect()
+}
+
+#[test]
+fn oracles_import_nothing_of_what_they_judge() {
+    let folder = workspace().join("crates/study/src/oracle");
+    let exact =
+        rust_files(&folder).expect("a folder that can be listed").into_iter().map(|path| (path, &[][..]));
+    let pictures = PICTURES.iter().map(|(path, data)| (workspace().join(path), *data));
+    let fault = |(path, data): (PathBuf, &[&str])| {
+        let found = of_the_engine(&fs::read_to_string(&path).expect("a source"), data);
+        (!found.is_empty()).then(|| format!("{} has {found:?}", path.display()))
+    };
+    let faults: Vec<String> = exact.chain(pictures).filter_map(fault).collect();
     assert!(faults.is_empty(), "{faults:#?}");
 }

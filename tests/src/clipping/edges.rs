@@ -5,6 +5,7 @@ use trigon_math::{ClipPolygon, Vec4, clip_segment};
 
 use super::check::{bits, clip, weights_are_convex};
 use super::input;
+use super::vertices::positions_follow_weights;
 use crate::effort::cases;
 
 /// The vertices' bits, from the least on: equal for equal cycles.
@@ -40,6 +41,7 @@ proptest! {
         [a, b, c] in input::triangle(), planes in input::planes(),
     ) {
         let polygon = clip([a, b, c], &planes);
+        positions_follow_weights([a, b, c], &planes, polygon.vertices());
         let expected = cycle(&polygon, [0, 1, 2]);
         prop_assert_eq!(&cycle(&clip([b, c, a], &planes), [2, 0, 1]), &expected);
         prop_assert_eq!(&cycle(&clip([c, a, b], &planes), [1, 2, 0]), &expected);
@@ -65,6 +67,7 @@ proptest! {
                 prop_assert_eq!(p.weights, [s.weights[1], s.weights[0]]);
                 weights_are_convex(&p);
                 weights_are_convex(&q);
+                positions_follow_weights([a, b], &planes, &[p, q]);
                 let (left, right) = (clip([a, b, c], &planes), clip([b, a, d], &planes));
                 let (p, q) = (p.position, q.position);
                 prop_assert!(left.is_empty() || has_edge(&left, p, q), "left triangle");

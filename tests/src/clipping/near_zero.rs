@@ -21,6 +21,13 @@ fn w_about_zero_is_finite_and_continuous() {
     };
     let at_zero = clipped(0.0);
     assert_eq!(at_zero.len(), 4, "the apex is cut off");
+    // By y = 64 w: at the share s of the way from (∓1, -1, 1/2, 1) to (1, 2, 0, 0), where -1 + 3 s = 64 - 64 s.
+    let share = 65.0 / 67.0;
+    for side in [-1.0, 1.0] {
+        let exact = [side + (1.0 - side) * share, -1.0 + 3.0 * share, 0.5 - 0.5 * share, 1.0 - share];
+        let is_there = |v: &Vec4| (0..4).all(|axis| (f64::from(v[axis]) - exact[axis]).abs() < 1e-7);
+        assert!(at_zero.iter().any(is_there), "{exact:?} is none of {at_zero:?}");
+    }
     for w in ABOUT_ZERO {
         let here = clipped(w);
         assert_eq!(here.len(), at_zero.len(), "w = {w:e}");

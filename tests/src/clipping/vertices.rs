@@ -3,7 +3,7 @@
 use num_traits::{Signed, Zero};
 use proptest::prelude::*;
 use trigon_math::elementary::exp2;
-use trigon_math::{ClipPolygon, Vec4};
+use trigon_math::{ClipVertex, Vec4};
 
 use super::{check, input};
 use crate::effort::cases;
@@ -13,13 +13,18 @@ use trigon_study::oracle::area::rational;
 /// (2⁻²⁴ of the position, three times 2⁻²⁵ of a corner) and `2⁻⁴⁴·(m + b·w)` for
 /// the cuts in `f64`. One cut makes at most 16 roundings of 2⁻⁵³, relative to a
 /// coordinate and the band times `w`; there are up to seven cuts.
-fn positions_follow_weights(triangle: [Vec4; 3], band: f64, polygon: &ClipPolygon) {
+pub(super) fn positions_follow_weights<const N: usize>(
+    corners: [Vec4; N],
+    planes: &input::Planes,
+    vertices: &[ClipVertex<N>],
+) {
+    let band = f64::from(planes.horizontal.unwrap_or(1.0).max(planes.vertical.unwrap_or(1.0)));
     let largest = |axis: usize| {
-        triangle.iter().fold(0.0_f64, |largest, corner| largest.max(f64::from(corner[axis].abs())))
+        corners.iter().fold(0.0_f64, |largest, corner| largest.max(f64::from(corner[axis].abs())))
     };
-    for vertex in polygon.vertices() {
+    for vertex in vertices {
         for axis in 0..4 {
-            let weighted = triangle
+            let weighted = corners
                 .iter()
                 .zip(vertex.weights)
                 .fold(num_rational::BigRational::zero(), |sum, (corner, weight)| {
@@ -32,7 +37,7 @@ fn positions_follow_weights(triangle: [Vec4; 3], band: f64, polygon: &ClipPolygo
             let error = (rational(vertex.position[axis]) - weighted).abs();
             assert!(
                 error <= rational(bound),
-                "axis {axis} of {vertex:?} is not where its weights say; {triangle:?}"
+                "axis {axis} of {vertex:?} is not where its weights say; {corners:?}"
             );
         }
     }
@@ -67,8 +72,7 @@ proptest! {
     #[test]
     fn vertices_are_where_their_weights_say(triangle in input::triangle(), planes in input::planes()) {
         let polygon = check::clip(triangle, &planes);
-        let band = planes.horizontal.unwrap_or(1.0).max(planes.vertical.unwrap_or(1.0));
-        positions_follow_weights(triangle, f64::from(band), &polygon);
+        positions_follow_weights(triangle, &planes, polygon.vertices());
     }
 
     /// Hard case 23: what is equal at all corners is equal at all vertices.

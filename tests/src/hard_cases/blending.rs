@@ -106,6 +106,7 @@ proptest! {
     #[test]
     fn clear_layers_change_nothing_and_solid_ones_hide(layers in proptest::collection::vec(layer(), 64)) {
         let all = blended(&layers, 0..64, TileSize::Pixels64);
+        is_close(all, &layers);
         let visible = |index: &usize| layers[*index].color.w > 0.0;
         prop_assert_eq!(blended(&layers, (0..64).filter(visible), TileSize::Pixels64), all, "without the clear ones");
         let nearer = |a: usize, b: usize| layers[a].depth.total_cmp(&layers[b].depth).then(b.cmp(&a)).is_ge();

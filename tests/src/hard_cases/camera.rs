@@ -11,6 +11,7 @@ use trigon_scene::{Material, Scene, Transform, render};
 
 use super::flight::{check_ids, check_numbers, settings};
 use super::flight_oracle::Oracle;
+use super::flight_scenes::in_triangles;
 use crate::effort::cases;
 
 const SIZE: [u32; 2] = [48, 36];
@@ -53,7 +54,7 @@ proptest! {
     fn any_field_of_view_shows_what_rays_meet(angle in field_of_view(), tilt in prop::array::uniform3(-1.0..1.0_f64)) {
         let shape = TorusKnot { segments: 60, sides: 5, ..TorusKnot::default() };
         let mut scene = Scene::new();
-        let knot = scene.add_object("knot", primitives::torus_knot(&shape), Material::default());
+        let knot = scene.add_object("knot", in_triangles(&primitives::torus_knot(&shape)), Material::default());
         let size = elementary::tan(angle / 2.0);
         let depth = if size < 0.2 { size } else { 0.2 };
         // Turned in its plane, and leaning by less than a third of its distance.

@@ -45,7 +45,7 @@ pub(super) fn check_numbers(frame: &Frame) {
 }
 
 /// Holds every pixel against the oracle; which share of them it could decide.
-pub(super) fn check_ids(frame: &Frame, oracle: &Oracle, context: &str) -> f64 {
+pub(crate) fn check_ids(frame: &Frame, oracle: &Oracle, context: &str) -> f64 {
     let objects = frame.object_ids.as_ref().expect("asked for");
     let triangles = frame.triangle_ids.as_ref().expect("asked for");
     let mut decided = 0;

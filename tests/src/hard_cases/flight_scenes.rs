@@ -42,6 +42,19 @@ pub(super) fn all() -> [Hard; 6] {
     [slivers(), coplanar(), far_away(), deep(), fan(), wide()]
 }
 
+/// A mesh cut into triangles, so that nothing is left open about which triangles there are.
+pub(crate) fn in_triangles(mesh: &Mesh) -> Mesh {
+    let mut builder = MeshBuilder::new();
+    mesh.positions().iter().for_each(|&position| {
+        builder.push_vertex(position);
+    });
+    for triangle in mesh.triangulation().triangles {
+        let vertices = triangle.map(|corner| mesh.corner_vertices()[corner as usize]);
+        builder.push_face(&vertices).expect("three vertices that exist");
+    }
+    builder.build()
+}
+
 /// Drawn from the front only, so that a crack shows the background.
 fn shell() -> Material {
     Material { double_sided: false, ..Material::default() }
@@ -50,8 +63,8 @@ fn shell() -> Material {
 /// Closed meshes with needles: the caps of a cylinder, and of a sphere pressed flat.
 fn slivers() -> Hard {
     let mut scene = Scene::new();
-    scene.add_object("cylinder", primitives::cylinder(1.0, 2.0, 90), shell());
-    let flat = scene.add_object("pressed", primitives::uv_sphere(1.0, 40, 12), shell());
+    scene.add_object("cylinder", in_triangles(&primitives::cylinder(1.0, 2.0, 90)), shell());
+    let flat = scene.add_object("pressed", in_triangles(&primitives::uv_sphere(1.0, 40, 12)), shell());
     let pressed = DVec3::new(2.0, 1e-4, 2.0);
     scene.node_mut(flat).expect("just added").transform =
         Transform::from_scale_rotation_translation(pressed, DQuat::IDENTITY, DVec3::Y * -1.5);
@@ -62,9 +75,9 @@ fn slivers() -> Hard {
 fn coplanar() -> Hard {
     let mut scene = Scene::new();
     for _ in 0..2 {
-        scene.add_object("cube", primitives::cube(2.0), shell());
+        scene.add_object("cube", in_triangles(&primitives::cube(2.0)), shell());
     }
-    scene.add_object("larger", primitives::cube(2.001), shell());
+    scene.add_object("larger", in_triangles(&primitives::cube(2.001)), shell());
     Hard { name: "coplanar", scene, target: DVec3::new(0.3, 0.2, 0.1), distances: [2.5, 40.0], decided: 0.8 }
 }
 
@@ -79,7 +92,7 @@ fn far_away() -> Hard {
         ..TorusKnot::default()
     };
     let mut scene = Scene::new();
-    let knot = scene.add_object("knot", primitives::torus_knot(&shape), shell());
+    let knot = scene.add_object("knot", in_triangles(&primitives::torus_knot(&shape)), shell());
     let target = DVec3::new(1.0e7 + 1.0 / 3.0, -9.7e6 - 0.1, 1.1e7 + 0.7);
     scene.node_mut(knot).expect("just added").transform.set_translation(target);
     Hard { name: "far away", scene, target, distances: [0.1, 1.0], decided: 0.7 }
@@ -90,7 +103,7 @@ fn deep() -> Hard {
     let mut scene = Scene::new();
     for step in 0..9 {
         let size = elementary::pow(10.0, f64::from(step) - 3.0);
-        let cube = scene.add_object("cube", primitives::cube(1.0), shell());
+        let cube = scene.add_object("cube", in_triangles(&primitives::cube(1.0)), shell());
         let angle = 0.7 * f64::from(step);
         let place = DVec3::new(elementary::cos(angle), 0.3 - 0.1 * f64::from(step), elementary::sin(angle));
         scene.node_mut(cube).expect("just added").transform = Transform::from_scale_rotation_translation(
@@ -123,7 +136,7 @@ fn fan() -> Hard {
 /// steps of a metre over which the camera flies at a man's height.
 fn wide() -> Hard {
     let mut scene = Scene::new();
-    scene.add_object("land", land(100_000.0, [60_001.0, -49_999.0]), Material::default());
+    scene.add_object("land", in_triangles(&land(100_000.0, [60_001.0, -49_999.0])), Material::default());
     let target = DVec3::new(60_005.0, 0.0, -49_995.0);
     Hard { name: "wide", scene, target, distances: [1.0, 30.0], decided: 0.7 }
 }

@@ -64,7 +64,7 @@ fn far_out() -> impl Strategy<Value = f32> {
 }
 
 /// A corner at a depth, in an infinite perspective with the near plane at 1/8.
-fn far_corner() -> impl Strategy<Value = Vec4> {
+pub(super) fn far_corner() -> impl Strategy<Value = Vec4> {
     (far_out(), far_out(), 0.25_f32..8.0).prop_map(|(x, y, w)| Vec4::new(x * w, y * w, 0.125, w))
 }
 

@@ -26,18 +26,24 @@ const EYE: f64 = 8.0;
 /// A white floor at y = 0, seen from straight above: x to the right, z down, 4 metres
 /// across.
 fn floor(shading: Shading, model: ShadingModel, lights: &[(Light, DVec3)]) -> Frame {
+    let (sin, cos) = trigon_math::elementary::sin_cos(-std::f64::consts::FRAC_PI_4);
+    // A spot's axis points down.
+    let nodes = lights.iter().map(|&(light, place)| node(light, DQuat::from_xyzw(sin, 0.0, 0.0, cos), place));
+    floor_under(shading, model, nodes)
+}
+
+fn node(light: Light, rotation: DQuat, place: DVec3) -> Node {
+    let turned = Transform::from_scale_rotation_translation(DVec3::ONE, rotation, place);
+    Node::from_light(light).with_transform(turned)
+}
+
+/// The same under lights that are turned in any way.
+fn floor_under(shading: Shading, model: ShadingModel, lights: impl Iterator<Item = Node>) -> Frame {
     let mut scene = Scene::new();
     let white = Material { base_color: Vec4::ONE, shading, ..Material::default() };
     scene.add_object("floor", primitives::grid(6.0, 6.0, 24, 24), white);
-    let (sin, cos) = trigon_math::elementary::sin_cos(-std::f64::consts::FRAC_PI_4);
-    for &(light, place) in lights {
-        // A spot's axis points down.
-        let turned = Transform::from_scale_rotation_translation(
-            DVec3::ONE,
-            DQuat::from_xyzw(sin, 0.0, 0.0, cos),
-            place,
-        );
-        scene.add(Node::from_light(light).with_transform(turned));
+    for light in lights {
+        scene.add(light);
     }
     let projection = Projection::orthographic(4.0, 0.1, 20.0).expect("in range");
     let camera = Camera::look_at(DVec3::Y * EYE, DVec3::ZERO, DVec3::NEG_Z).with_projection(projection);
@@ -68,6 +74,104 @@ fn height() -> impl Strategy<Value = f64> {
 
 fn model() -> impl Strategy<Value = ShadingModel> {
     prop_oneof![Just(ShadingModel::Flat), Just(ShadingModel::Gouraud), Just(ShadingModel::Phong)]
+}
+
+/// A spot light: its angles and range are any numbers.
+#[derive(Clone, Copy, Debug)]
+struct Spot {
+    place: DVec3,
+    rotation: DQuat,
+    angles: [f32; 2],
+    range: f32,
+    intensity: f32,
+}
+
+fn spot() -> impl Strategy<Value = Spot> {
+    let place = [-3.0..3.0_f64, -0.5..3.0, -3.0..3.0].prop_map(DVec3::from);
+    let rotation = [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0, 0.01..1.0];
+    let angle = || {
+        prop_oneof![
+            6 => 0.0..FRAC_PI_2, 2 => 0.0..0.1_f32, 1 => FRAC_PI_2..7.0, 1 => Just(0.0), 1 => any::<u32>().prop_map(f32::from_bits)
+        ]
+    };
+    // In order or not, and hardly apart.
+    let angles = (angle(), angle(), 0_u8..4).prop_map(|(a, b, order)| match order {
+        0 => [a, b],
+        1 => [a, a],
+        2 => [a, a + 1e-3],
+        _ => [a.min(b), a.max(b)],
+    });
+    let range = prop_oneof![
+        3 => 0.1_f32..6.0, 1 => Just(f32::INFINITY), 1 => any::<u32>().prop_map(f32::from_bits)
+    ];
+    (place, rotation, angles, range, 0.1_f32..100.0).prop_map(
+        |(place, rotation, angles, range, intensity)| Spot {
+            place,
+            rotation: DQuat::from_array(rotation).normalize(),
+            angles,
+            range,
+            intensity,
+        },
+    )
+}
+
+impl Spot {
+    fn node(&self) -> Node {
+        let [inner, outer] = self.angles;
+        let kind = LightKind::Spot { inner, outer };
+        node(Light { kind, range: self.range, ..Light::point(self.intensity) }, self.rotation, self.place)
+    }
+
+    /// The least and the greatest light on a white floor, by KHR_lights_punctual and Lambert's law in f64. Each factor
+    /// is that of places which are up to three roundings of 10 metres farther or nearer on each axis (see below).
+    fn light_at(&self, point: DVec3) -> [f64; 2] {
+        let way = self.place - point;
+        let off = 3.0_f64.sqrt() * 3.0 * 10.0 * f64::from(f32::EPSILON);
+        // Within that of the lamp there may be any light.
+        let distance = way.length();
+        if distance < 100.0 * off {
+            return [0.0, f64::INFINITY];
+        }
+        let distances = [distance + off, distance - off];
+        let share = 2.0 * off / distance;
+        let height = [self.place.y - off, self.place.y + off].map(|height| height.max(0.0) / distance);
+        let cosine = (self.rotation * DVec3::Z).dot(way / distance);
+        let cone = [cosine - share, cosine + share].map(|cosine| self.cone(cosine));
+        // Near the range, the rounding of 1 is much of what is left.
+        let window = [(distances[0], -1e-6), (distances[1], 1e-6)]
+            .map(|(distance, rounding)| (self.window(distance) + rounding).clamp(0.0, 1.0));
+        let sides = [0, 1].map(|i| {
+            let square = distances[i] * distances[i];
+            f64::from(self.intensity) * height[i] * cone[i] * window[i] / square
+        });
+        // The product and its factors are rounded some twenty times.
+        [sides[0] * (1.0 - 4e-6), sides[1] * (1.0 + 4e-6)]
+    }
+
+    /// The share that a cone lets through, where the cosine of the angle from its axis is this.
+    fn cone(&self, cosine: f64) -> f64 {
+        #[expect(
+            clippy::disallowed_methods,
+            reason = "of the oracle's own; its last bit is far below the bound"
+        )]
+        let [inner, outer] = self.angles.map(|angle| f64::from(angle).cos());
+        if inner.is_nan() || outer.is_nan() {
+            return 0.0;
+        }
+        let share = ((cosine - outer) / (inner - outer).max(0.001)).clamp(0.0, 1.0);
+        share * share
+    }
+
+    /// The share that a range leaves.
+    fn window(&self, distance: f64) -> f64 {
+        let range = f64::from(self.range);
+        if range > 0.0 {
+            let relative = distance / range;
+            (1.0 - relative * relative * relative * relative).max(0.0)
+        } else {
+            1.0
+        }
+    }
 }
 
 fn metal(roughness: f32) -> Shading {
@@ -158,6 +262,19 @@ proptest! {
         check_numbers(&together);
         let is_darker = together.color.iter().zip(&alone.color).any(|(together, alone)| together < alone);
         prop_assert!(!is_darker, "a pixel lost light");
+    }
+
+    /// Anywhere above the floor or below it, turned in any way, with any angles and range.
+    #[test]
+    fn a_spot_of_any_pose_lights_by_the_formula_of_the_extension(spot in spot()) {
+        let frame = floor_under(Shading::Lambert, ShadingModel::Phong, std::iter::once(spot.node()));
+        check_numbers(&frame);
+        for (index, shown) in (0..SIDE * SIDE).zip(frame.radiance.expect("asked for")) {
+            let [x, z] = [index % SIDE, index / SIDE].map(|at| (f64::from(at) + 0.5) * PIXEL - 2.0);
+            let [low, high] = spot.light_at(DVec3::new(x, 0.0, z));
+            let shown = f64::from(shown.y);
+            prop_assert!((low..=high).contains(&shown), "{shown} at ({x}, {z}) is not between {low} and {high}");
+        }
     }
 
     /// From nothing to a half-turn from side to side.

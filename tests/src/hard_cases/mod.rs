@@ -2,17 +2,18 @@
 //! each family.
 
 mod against_rays;
+mod animation;
 mod blending;
 mod camera;
 mod coverage;
 mod depth;
 mod edits;
-mod flight;
+pub(crate) mod flight;
 mod flight_facet;
-mod flight_oracle;
-mod flight_scenes;
+pub(crate) mod flight_oracle;
+pub(crate) mod flight_scenes;
 mod hostile_values;
-mod huge;
+pub(crate) mod huge;
 mod junctions;
 mod lights;
 mod mesh;
@@ -21,3 +22,4 @@ mod sizes;
 pub(crate) mod slivers;
 mod texture;
 mod transforms;
+pub(crate) mod wide_lines;

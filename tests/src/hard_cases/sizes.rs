@@ -66,12 +66,15 @@ proptest! {
         }
         let mut renderer = Renderer::new(RenderSettings { style, ..settings([1, 1]) });
         for (width, height) in sizes {
-            let camera = scene.overview(f64::from(width) / f64::from(height));
+            let camera = Camera::look_at(DVec3::new(0.3, 0.4, 3.0), DVec3::ZERO, DVec3::Y);
             (renderer.settings_mut().width, renderer.settings_mut().height) = (width, height);
             let again = renderer.render(&scene, &camera).expect("in range");
             check_numbers(&again);
             let anew = render(&scene, &camera, renderer.settings()).expect("in range");
             prop_assert!(again == anew, "{}×{} differs", width, height);
+            if style == Style::Surface {
+                check_ids(&again, &Oracle::new(&scene, &camera, [width, height]), "another size");
+            }
         }
     }
 }

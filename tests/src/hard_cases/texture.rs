@@ -110,7 +110,11 @@ proptest! {
             let vertices = corners.map(|corner| (clip_position(corner, 0.5), uv + moved)).to_vec();
             seen(&Textured { texture: &texture, sampler, vertices }, &[[0, 1, 2]])
         };
-        prop_assert!(picture(Vec2::ZERO) == picture(Vec2::from(repetitions.map(|v| v as f32))), "by {repetitions:?}");
+        let moved = picture(Vec2::from(repetitions.map(|v| v as f32)));
+        prop_assert!(picture(Vec2::ZERO) == moved, "by {repetitions:?}");
+        // Columns are black and white in turns.
+        let light = if flat[0] % 2 == 0 { 0.0 } else { 1.0 };
+        prop_assert!(moved.iter().all(|(_, color)| color.x == light), "texel {flat:?} is {light}");
     }
 
     /// Hard case 41: a textured ground to the horizon, and beyond behind the eye. Every

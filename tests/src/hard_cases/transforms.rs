@@ -2,16 +2,18 @@
 
 use proptest::prelude::*;
 use trigon_camera::{Camera, Projection, Projector, Viewport};
-use trigon_math::{DAffine3, DMat3, DQuat, DVec2, DVec3, elementary};
+use trigon_math::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec4, elementary};
 use trigon_mesh::primitives::{self, TorusKnot};
 use trigon_mesh::{Attributes, SkinWeights};
 use trigon_scene::{
-    Frame, Material, Node, NodeId, RenderSettings, Scene, ShadingModel, Skin, Transform, render,
+    Frame, Light, Lighting, Material, Node, NodeId, RenderSettings, Scene, Shading, ShadingModel, Skin,
+    Transform, render,
 };
 use trigon_study::oracle::DoubleDouble;
 
 use super::flight::{check_ids, check_numbers, settings};
 use super::flight_oracle::Oracle;
+use super::flight_scenes::in_triangles;
 use crate::effort::cases;
 
 const SIZE: [u32; 2] = [48, 36];
@@ -136,10 +138,12 @@ proptest! {
         let picture = |transforms: &[Transform]| {
             let mut scene = Scene::new();
             let last = chain(&mut scene, transforms);
-            show(&mut scene, last, primitives::cone(1.0, 2.0, 7));
+            show(&mut scene, last, in_triangles(&primitives::cone(1.0, 2.0, 7)));
             let unit = elementary::exp2(f64::from(size));
             let eye = world.translation + DVec3::new(3.0, 2.0, 4.0) * unit;
-            let mut frame = draw(&scene, &Camera::look_at(eye, world.translation, DVec3::Y));
+            let camera = Camera::look_at(eye, world.translation, DVec3::Y);
+            let mut frame = draw(&scene, &camera);
+            check_ids(&frame, &Oracle::new(&scene, &camera, SIZE), "a chain of exact maps");
             // The nodes have other numbers.
             frame.object_ids = None;
             frame
@@ -160,13 +164,15 @@ proptest! {
             let power = |exponent: i32| elementary::exp2(f64::from(exponent));
             let (size, own) = (power(exponent), power(inner));
             let mut scene = Scene::new();
-            let mesh = primitives::uv_sphere(1.0, 12, 6).transformed(&DAffine3::from_scale(DVec3::splat(own)));
+            let mesh = primitives::icosphere(1.0, 1).transformed(&DAffine3::from_scale(DVec3::splat(own)));
             let ball = scene.add_object("ball", mesh, shell());
             scene.node_mut(ball).expect("just added").transform.scale_by(DVec3::splat(size / own));
             let projection = Projection::perspective(0.7, size / 16.0, None).expect("positive");
-            let camera = Camera::look_at(eye.normalize_or(DVec3::X) * size * 3.0, DVec3::ZERO, DVec3::Y);
+            let camera = Camera::look_at(eye.normalize_or(DVec3::X) * size * 3.0, DVec3::ZERO, DVec3::Y)
+                .with_projection(projection);
             let settings = RenderSettings { shading, ..settings(SIZE) };
-            let mut frame = render(&scene, &camera.with_projection(projection), &settings).expect("in range");
+            let mut frame = render(&scene, &camera, &settings).expect("in range");
+            check_ids(&frame, &Oracle::new(&scene, &camera, SIZE), "scaled");
             frame.positions = None;
             for depth in frame.depth.iter_mut().flatten() {
                 *depth /= size as f32;
@@ -237,7 +243,7 @@ proptest! {
             major_radius: 0.03, minor_radius: 0.012, tube_radius: 0.004, segments: 60, sides: 4, ..TorusKnot::default()
         };
         let mut scene = Scene::new();
-        let knot = scene.add_object("knot", primitives::torus_knot(&shape), shell());
+        let knot = scene.add_object("knot", in_triangles(&primitives::torus_knot(&shape)), shell());
         scene.node_mut(knot).expect("just added").transform =
             Transform::from_scale_rotation_translation(DVec3::ONE, turned, offset);
         let projection = Projection::perspective(0.6, 1e-3, None).expect("positive");
@@ -257,7 +263,8 @@ proptest! {
     #[test]
     fn joints_of_any_size_turn_normals_alike(turned in turn(), exponent in -60..=60_i32, flat in any::<bool>()) {
         let picture = |size: f64| {
-            let mut mesh = if flat { primitives::cube(1.0) } else { primitives::uv_sphere(1.0, 12, 6) };
+            let mut mesh = if flat { in_triangles(&primitives::cube(1.0)) } else { primitives::icosphere(1.0, 1) };
+            let still = mesh.clone();
             let vertices = mesh.vertex_count();
             let skin = SkinWeights::new(1, vec![0; vertices], vec![1.0; vertices]);
             let attributes = Attributes { skin, ..mesh.attributes().clone() };
@@ -265,17 +272,61 @@ proptest! {
             let mut scene = Scene::new();
             let node = scene.add_object("followed", mesh, shell());
             let joint = Transform::from_scale_rotation_translation(DVec3::splat(size), turned, DVec3::ZERO);
+            // The same without a joint: the node itself is where that is.
+            let mut placed = Scene::new();
+            let twin = placed.add_object("placed", still, shell());
+            placed.node_mut(twin).expect("just added").transform = joint;
             let joint = scene.add(Node::default().with_transform(joint));
             let skin = scene.skins.insert(Skin { joints: vec![joint], ..Skin::default() });
             scene.node_mut(node).expect("just added").skin = Some(skin);
             let projection = Projection::perspective(0.7, size / 16.0, None).expect("positive");
-            let camera = Camera::look_at(DVec3::new(1.0, 2.0, 3.0) * size, DVec3::ZERO, DVec3::Y);
-            let frame = draw(&scene, &camera.with_projection(projection));
+            let camera = Camera::look_at(DVec3::new(1.0, 2.0, 3.0) * size, DVec3::ZERO, DVec3::Y)
+                .with_projection(projection);
+            let frame = draw(&scene, &camera);
+            check_ids(&frame, &Oracle::new(&placed, &camera, SIZE), "on a joint");
             (frame.object_ids, frame.normals)
         };
         let usual = picture(1.0);
         prop_assert!(usual.0.as_ref().is_some_and(|ids| ids.contains(&0)), "seen");
         prop_assert!(picture(elementary::exp2(f64::from(exponent))) == usual, "2^{} differs", exponent);
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(24))]
+
+    /// Light on a face is the cosine between its normal and the light, and a mirror turns no normal round: a cube under
+    /// a map with one or three negative factors, lit and seen from outside.
+    #[test]
+    fn mirrored_faces_are_lit_by_lamberts_law(
+        turned in turn(), light in turn(), sizes in prop::array::uniform3(0.5..2.0_f64), mirrored in prop::sample::select(vec![1_u8, 2, 4, 7]),
+    ) {
+        let scale = DVec3::from_array([0, 1, 2].map(|axis| if mirrored >> axis & 1 == 1 { -sizes[axis] } else { sizes[axis] }));
+        let mut scene = Scene::new();
+        let white = Material { base_color: Vec4::ONE, shading: Shading::Lambert, double_sided: false, ..Material::default() };
+        let cube = scene.add_object("cube", primitives::cube(1.0), white);
+        scene.node_mut(cube).expect("just added").transform =
+            Transform::from_scale_rotation_translation(scale, turned, DVec3::ZERO);
+        let lamp = Transform::from_scale_rotation_translation(DVec3::ONE, light, DVec3::ZERO);
+        scene.add(Node::from_light(Light::directional(1.0)).with_transform(lamp));
+        let mut settings = RenderSettings { lighting: Lighting::Scene, ..settings(SIZE) };
+        settings.outputs.radiance = true;
+        let frame = render(&scene, &Camera::look_at(DVec3::new(2.0, 3.0, 5.0), DVec3::ZERO, DVec3::Y), &settings).expect("in range");
+        let mesh = primitives::cube(1.0);
+        let (faces, radiance) = (frame.face_ids.expect("asked for"), frame.radiance.expect("asked for"));
+        let mut seen = 0;
+        for (&face, shown) in faces.iter().zip(&radiance).filter(|(face, _)| **face != u32::MAX) {
+            let corners: Vec<DVec3> = mesh.face_vertices(face as usize).iter()
+                .map(|&vertex| turned * (mesh.positions()[vertex as usize].as_dvec3() * scale)).collect();
+            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[1]).normalize();
+            // The cube is around the origin.
+            let outside = normal * normal.dot(corners[0]).signum();
+            let exact = outside.dot(light * DVec3::Z).max(0.0);
+            let error = (f64::from(shown.x) - exact).abs();
+            prop_assert!(error < 8.0 * f64::from(f32::EPSILON), "face {} shows {}, not {}", face, shown.x, exact);
+            seen += 1;
+        }
+        prop_assert!(seen > 50, "only {} pixels show it", seen);
     }
 }
 
