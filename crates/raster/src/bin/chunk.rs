@@ -75,13 +75,18 @@ impl Chunk {
         self.pushed.push(entry);
     }
 
-    /// Notes that some of eight primitives may have samples in one tile each.
+    /// Notes that some of eight primitives, which become entries, may have samples in one tile each.
     #[inline(always)]
-    pub(crate) fn push_some<S: Simd>(&mut self, mask: Mask<S>, tiles: U32<S>, places: U32<S>) {
+    pub(crate) fn push_some<S: Simd>(
+        &mut self,
+        mask: Mask<S>,
+        (tiles, places): (U32<S>, U32<S>),
+        entry: fn(u32) -> Entry,
+    ) {
         let count = mask.to_bitmask().count_ones() as usize;
         let [tiles, places]: [[u32; LANES]; 2] = [tiles.compress(mask).into(), places.compress(mask).into()];
         append(&mut self.tiles, &tiles, count);
-        append(&mut self.pushed, &places.each(Entry::primitive), count);
+        append(&mut self.pushed, &places.each(entry), count);
     }
 
     /// Notes all tiles that a triangle may have samples in.
@@ -104,7 +109,7 @@ impl Chunk {
             return false;
         };
         let entry = Entry::quad(self.quads.len());
-        let tiles = grid.tiles_of(columns, rows);
+        let tiles = grid.tiles_that_see(columns, rows);
         if tiles.len() == 1 {
             self.push(tiles.rows.start * grid.columns + tiles.columns.start, entry);
         } else {
@@ -257,7 +262,8 @@ impl Chunk {
     }
 
     /// Gives away what its tiles list, so that some of its primitives can be set up again,
-    /// if it has none but triangles that are drawn as they are; else it is left as it is.
+    /// if it has none but triangles and points that are drawn as they are; else it is left as it
+    /// is.
     pub(crate) fn set_aside(&mut self, earlier: &mut EarlierEntries) -> bool {
         let Stats { culled, set_up, clipped, .. } = self.stats;
         let is_plain = self.extras.is_empty() && self.quads.is_empty() && self.large.is_empty();

@@ -31,9 +31,9 @@ impl EarlierEntries {
         (tiles, entries): (&mut Vec<u32>, &mut Vec<Entry>),
     ) -> u64 {
         let rest = &self.entries[self.done..];
-        let first = self.done + rest.iter().take_while(|entry| entry.0 < primitives.start).count();
+        let first = self.done + rest.iter().take_while(|entry| entry.place() < primitives.start).count();
         let rest = &self.entries[first..];
-        self.done = first + rest.iter().take_while(|entry| entry.0 < primitives.end).count();
+        self.done = first + rest.iter().take_while(|entry| entry.place() < primitives.end).count();
         let kept = &self.entries[first..self.done];
         tiles.extend_from_slice(&self.tiles[first..self.done]);
         entries.extend_from_slice(kept);

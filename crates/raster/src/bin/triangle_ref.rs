@@ -1,13 +1,13 @@
 //! How chunks and tiles name what is drawn: in as few bytes as they can, as there are many.
 
-/// What a tile of a chunk lists: a primitive that is drawn as it is, one of the triangles
-/// made from a cut one, or a line or a point, which is two triangles.
+/// What a tile of a chunk lists: a triangle that is drawn as it is, a point that is drawn from its
+/// vertex, one of the triangles made from a cut one, or a line or a point that is two triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Entry(pub(super) u32);
 
 /// What an [`Entry`] stands for.
 pub(super) enum Listed {
-    /// The primitive at this place in the chunk.
+    /// The triangle or the point at this place in the chunk.
     Primitive(u32),
     /// The index of one of the chunk's own triangles.
     Extra(usize),
@@ -18,11 +18,29 @@ pub(super) enum Listed {
 impl Entry {
     const EXTRA: u32 = 1 << 31;
     const QUAD: u32 = 1 << 30;
+    const POINT: u32 = 1 << 29;
 
-    /// The primitive at this place in the chunk, as it is.
+    /// The triangle at this place in the chunk, as it is.
     #[inline(always)]
     pub(crate) fn primitive(place: u32) -> Self {
         Self(place)
+    }
+
+    /// The point at this place in the chunk, drawn from its vertex.
+    #[inline(always)]
+    pub(crate) fn point(place: u32) -> Self {
+        Self(place | Self::POINT)
+    }
+
+    /// The place in the chunk of a triangle or a point that is drawn as it is.
+    #[inline(always)]
+    pub(super) fn place(self) -> u32 {
+        self.0 & !Self::POINT
+    }
+
+    #[inline(always)]
+    fn is_point(self) -> bool {
+        self.0 & Self::POINT != 0
     }
 
     /// A triangle of the chunk's own.
@@ -44,13 +62,13 @@ impl Entry {
         } else if self.0 & Self::QUAD != 0 {
             Listed::Quad((self.0 & !Self::QUAD) as usize)
         } else {
-            Listed::Primitive(self.0)
+            Listed::Primitive(self.place())
         }
     }
 }
 
 /// A triangle of a frame: a primitive that is drawn as it is, one that its
-/// chunk keeps, or half of a line or a point.
+/// chunk keeps, or half of a line or a point. Or a point that is drawn from its vertex.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TriangleRef {
     /// The primitive's ordinal in the frame.
@@ -60,12 +78,13 @@ pub(crate) struct TriangleRef {
 
 impl TriangleRef {
     const WHOLE: u32 = u32::MAX;
+    const POINT: u32 = Self::WHOLE - 1;
     const QUAD: u32 = 1 << 31;
 
-    /// A primitive of a chunk whose ordinals start here.
+    /// A triangle or a point that is drawn as it is, of a chunk whose ordinals start here.
     #[inline(always)]
-    pub(super) fn whole(start: u32, Entry(place): Entry) -> Self {
-        Self { ordinal: start + place, extra: Self::WHOLE }
+    pub(super) fn whole(start: u32, entry: Entry) -> Self {
+        Self { ordinal: start + entry.place(), extra: Self::WHOLE - u32::from(entry.is_point()) }
     }
 
     /// Half of a line or a point.
@@ -74,30 +93,36 @@ impl TriangleRef {
         Self { ordinal, extra: Self::QUAD | (quad as u32) << 1 | half }
     }
 
-    /// Whether it is simply a primitive.
+    /// Whether it is simply a triangle that was recorded.
     #[inline(always)]
     pub(crate) fn is_whole(self) -> bool {
         self.extra == Self::WHOLE
+    }
+
+    /// Whether it is a point that is drawn from its vertex.
+    #[inline(always)]
+    pub(crate) fn is_point(self) -> bool {
+        self.extra == Self::POINT
     }
 
     /// The part of its primitive that it is, if it is not all of it: a number that grows from
     /// part to part.
     #[inline(always)]
     pub(crate) fn part(self) -> Option<u32> {
-        (!self.is_whole()).then_some(self.extra)
+        (self.extra < Self::POINT).then_some(self.extra)
     }
 
     /// Its index among the chunk's own triangles.
     #[inline(always)]
     pub(super) fn extra(self) -> Option<usize> {
-        // What is whole has all bits set.
+        // What is drawn as it is has this bit set, too.
         (self.extra & Self::QUAD == 0).then_some(self.extra as usize)
     }
 
     /// The index of a line or a point among the chunk's, and which half of it it is.
     #[inline(always)]
     pub(super) fn quad(self) -> Option<(usize, usize)> {
-        let is_half = !self.is_whole() && self.extra & Self::QUAD != 0;
+        let is_half = self.extra < Self::POINT && self.extra & Self::QUAD != 0;
         is_half.then_some(((self.extra & !Self::QUAD) as usize >> 1, self.extra as usize & 1))
     }
 

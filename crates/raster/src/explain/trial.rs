@@ -43,7 +43,12 @@ impl Entrant {
 impl<'f> Trial<'f> {
     pub(super) fn new(frame: &'f FrameView<'f>) -> Self {
         let places = frame.chunks.iter().flat_map(|chunk| chunk.all());
-        Self { frame, triangles: places.map(|place| (place, frame.triangle(place))).collect() }
+        let triangles = places.flat_map(|place| {
+            // A point that is drawn from its vertex stands for both halves of its square.
+            let other = frame.draw_view(frame.draw_of(place)).square(place).map(|square| square.half(1));
+            [Some(frame.triangle(place)), other].into_iter().flatten().map(move |triangle| (place, triangle))
+        });
+        Self { frame, triangles: triangles.collect() }
     }
 
     /// What happened at a sample of a pixel of the finer grid.

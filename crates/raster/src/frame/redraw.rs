@@ -25,7 +25,10 @@ pub(crate) fn redraw(
     let layout = Layout::new(pass, target, options);
     let signature = Signature::new(pass, &layout, options.workers.count());
     let is_last = arena.followed.take().is_some_and(|last| last == signature);
-    let changes = changes.filter(|changes| is_last && can_follow(&arena.plan, pass, changes));
+    let changes = changes.filter(|changes| {
+        let can_follow = || can_follow(&arena.plan, pass, changes);
+        is_last && can_follow() && arena.plan.has_points_of(&pass.draws, layout.axis)
+    });
     let mut scratches = std::mem::take(&mut arena.scratches);
     let (view, tiles) = match changes {
         Some(changes) => {
@@ -58,6 +61,7 @@ fn follow<'f>(
     let has_lines = layout.ink.as_ref().is_some_and(Ink::has_lines);
     let Arena { plan, places, varyings, chunks, touched, .. } = arena;
     let used = chunks.len().min(plan.chunks);
+    plan.update_points(&pass.draws, axis);
     let mut clock = Clock::new(options.timed);
     touched.mark(plan, changes);
     touched.run_vertices(&pass.draws, plan, grid.viewport, options, (places, varyings));

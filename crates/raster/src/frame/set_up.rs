@@ -4,10 +4,10 @@ use super::options::FrameOptions;
 use crate::Culling;
 use crate::bin::{Chunk, EarlierEntries, Grid};
 use crate::clip;
-use crate::geometry::Shape;
+use crate::geometry::{PointSizes, Shape};
 use crate::line::LineStyle;
 use crate::pass::Recorded;
-use crate::point::PointStyle;
+use crate::point::{PlainPoints, PointStyle};
 use crate::setup::Setup;
 use crate::simd::{LANES, Simd, Token, at_level};
 use crate::vertex::{DrawVertices, ScreenVertex};
@@ -45,8 +45,7 @@ impl SetUp<'_> {
     /// Sets up the primitives of a chunk that is empty.
     pub(super) fn chunk(&self, chunk: &mut Chunk) {
         for (draw, range) in self.plan.parts(chunk.ordinals.clone()) {
-            let shape = &self.pass[draw.draw].geometry.shape;
-            set_up_part(self.part(draw, chunk), shape, self.axis, self.token, range);
+            self.set_up_part(self.part(draw, chunk), draw, range);
         }
         chunk.sort();
     }
@@ -62,16 +61,22 @@ impl SetUp<'_> {
             let mut setup = self.part(draw, chunk);
             let place = setup.place(range.start);
             let moved = &moved[place as usize..place as usize + range.len()];
-            let shape = &self.pass[draw.draw].geometry.shape;
-            let Shape::Triangles { triangles, culling, .. } = *shape else {
-                // No tile lists any line or point so far.
-                set_up_part(setup, shape, self.axis, self.token, range);
-                continue;
-            };
-            setup.culling = culling;
-            let triangles = &triangles[range.start as usize..range.end as usize];
-            let triangles = (range.start, triangles);
-            at_level!(self.token, simd => set_up_moved(simd, &mut setup, triangles, (moved, earlier)));
+            let marks = (moved, &mut *earlier);
+            let (token, indices) = (self.token, range.start as usize..range.end as usize);
+            match (&self.pass[draw.draw].geometry.shape, &draw.points) {
+                (&Shape::Triangles { triangles, culling, .. }, _) => {
+                    setup.culling = culling;
+                    let triangles = (range.start, &triangles[indices]);
+                    at_level!(token, simd => set_up_moved_triangles(simd, &mut setup, triangles, marks));
+                }
+                (&Shape::Points { points, sizes, .. }, Some(plain)) => {
+                    let points = (range.start, &points[indices]);
+                    let looks = (plain, &sizes);
+                    at_level!(token, simd => set_up_moved_points(simd, &mut setup, (points, looks), marks));
+                }
+                // No tile lists any other line or point so far.
+                _ => self.set_up_part(setup, draw, range),
+            }
         }
         chunk.sort();
     }
@@ -93,27 +98,33 @@ impl SetUp<'_> {
             chunk,
         }
     }
-}
 
-/// Sets up some primitives of one draw.
-fn set_up_part(mut setup: Setup<'_>, shape: &Shape<'_>, axis: u32, token: Token, range: Range<u32>) {
-    let multisampled = setup.grid.pattern.count() > 1;
-    match *shape {
-        Shape::Triangles { triangles, culling, .. } => {
-            setup.culling = culling;
-            let triangles = &triangles[range.start as usize..range.end as usize];
-            at_level!(token, simd => set_up_triangles(simd, &mut setup, range.start, triangles));
-        }
-        Shape::Lines { segments, width, outline, depth_bias } => {
-            let style = LineStyle::new((width, outline), depth_bias, axis, multisampled);
-            for index in range {
-                setup.segment(index, segments[index as usize], style);
+    /// Sets up some primitives of one draw.
+    fn set_up_part(&self, mut setup: Setup<'_>, draw: &DrawPlan, range: Range<u32>) {
+        let Self { axis, token, .. } = *self;
+        let multisampled = setup.grid.pattern.count() > 1;
+        let indices = range.start as usize..range.end as usize;
+        match (&self.pass[draw.draw].geometry.shape, &draw.points) {
+            (&Shape::Triangles { triangles, culling, .. }, _) => {
+                setup.culling = culling;
+                let triangles = &triangles[indices];
+                at_level!(token, simd => set_up_triangles(simd, &mut setup, range.start, triangles));
             }
-        }
-        Shape::Points { points, sizes, shape, outline, depth_bias } => {
-            let style_of = sizes.each(|size| PointStyle::new((size, outline), shape, depth_bias, axis));
-            for index in range {
-                setup.point(index, points[index as usize], style_of(index));
+            (&Shape::Lines { segments, width, outline, depth_bias }, _) => {
+                let style = LineStyle::new((width, outline), depth_bias, axis, multisampled);
+                for index in range {
+                    setup.segment(index, segments[index as usize], style);
+                }
+            }
+            (&Shape::Points { points, sizes, .. }, Some(plain)) => {
+                let points = (range.start, &points[indices]);
+                at_level!(token, simd => set_up_points(simd, &mut setup, points, (plain, &sizes)));
+            }
+            (&Shape::Points { points, sizes, shape, outline, depth_bias }, None) => {
+                let style_of = sizes.each(|size| PointStyle::new((size, outline), shape, depth_bias, axis));
+                for index in range {
+                    setup.point(index, points[index as usize], style_of(index));
+                }
             }
         }
     }
@@ -126,23 +137,70 @@ fn set_up_triangles<S: Simd>(simd: S, setup: &mut Setup<'_>, first: u32, triangl
     }
 }
 
-/// The same where some triangles were moved: what the others are listed by is kept.
 #[inline(always)]
-fn set_up_moved<S: Simd>(
+fn set_up_points<S: Simd>(
     simd: S,
     setup: &mut Setup<'_>,
-    (first, triangles): (u32, &[[u32; 3]]),
+    (first, points): (u32, &[u32]),
+    looks: (&PlainPoints, &PointSizes<'_>),
+) {
+    for (group, points) in points.chunks(LANES).enumerate() {
+        setup.eight_points(simd, (first + (group * LANES) as u32, points), looks);
+    }
+}
+
+/// [`set_up_triangles`] where some were moved.
+#[inline(always)]
+fn set_up_moved_triangles<S: Simd>(
+    simd: S,
+    setup: &mut Setup<'_>,
+    triangles: (u32, &[[u32; 3]]),
+    marks: (&[bool], &mut EarlierEntries),
+) {
+    set_up_moved(
+        setup,
+        triangles,
+        marks,
+        #[inline(always)]
+        |setup, first, triangles| setup.eight_triangles(simd, first, triangles),
+    );
+}
+
+/// [`set_up_points`] where some were moved.
+#[inline(always)]
+fn set_up_moved_points<S: Simd>(
+    simd: S,
+    setup: &mut Setup<'_>,
+    (points, looks): ((u32, &[u32]), (&PlainPoints, &PointSizes<'_>)),
+    marks: (&[bool], &mut EarlierEntries),
+) {
+    set_up_moved(
+        setup,
+        points,
+        marks,
+        #[inline(always)]
+        |setup, first, points| setup.eight_points(simd, (first, points), looks),
+    );
+}
+
+/// Sets up those groups of eight primitives that have moved ones; what the others are listed by is
+/// kept.
+#[inline(always)]
+fn set_up_moved<T>(
+    setup: &mut Setup<'_>,
+    (first, primitives): (u32, &[T]),
     (moved, earlier): (&[bool], &mut EarlierEntries),
+    mut set_up: impl FnMut(&mut Setup<'_>, u32, &[T]),
 ) {
     let place = setup.place(first);
     let mut kept = 0;
-    let groups = triangles.chunks(LANES).zip(moved.chunks(LANES));
-    for ((triangles, moved), at) in groups.zip((0..).step_by(LANES)) {
+    let groups = primitives.chunks(LANES).zip(moved.chunks(LANES));
+    for ((primitives, moved), at) in groups.zip((0..).step_by(LANES)) {
         if moved.contains(&true) {
             setup.chunk.take_back(earlier, place + kept..place + at);
-            setup.eight_triangles(simd, first + at, triangles);
-            kept = at + triangles.len() as u32;
+            set_up(setup, first + at, primitives);
+            kept = at + primitives.len() as u32;
         }
     }
-    setup.chunk.take_back(earlier, place + kept..place + triangles.len() as u32);
+    setup.chunk.take_back(earlier, place + kept..place + primitives.len() as u32);
 }

@@ -77,7 +77,7 @@ pub(crate) fn prepare<'f>(
     let grid = layout.grid;
     arena.followed = None;
     let Arena { plan, places, varyings, chunks, .. } = arena;
-    let used = plan.make(&pass.draws, chunks, options.workers.count());
+    let used = plan.make(&pass.draws, chunks, (options.workers.count(), layout.axis));
     let chunks = &mut chunks[..used];
     places.resize(plan.places, ScreenVertex::MISSING);
     varyings.resize(plan.varyings, 0.0);

@@ -160,6 +160,9 @@ impl Touched {
     }
 }
 
+/// Primitives that are left out together.
+const BLOCK: usize = 64;
+
 /// Looks for the primitives of a draw that look different.
 struct Search<'a> {
     slots: Slots<'a>,
@@ -182,8 +185,6 @@ impl Search<'_> {
         has_edges: bool,
         (found, first): (&mut Found, usize),
     ) {
-        /// Triangles that are left out together.
-        const BLOCK: usize = 64;
         let mut seeds = Vec::new();
         let Found { differ, moved, any, any_moved } = found;
         let mut note_moved = |triangle: u32| {
@@ -231,16 +232,22 @@ impl Search<'_> {
             (found.differ[place(quad)], found.any) = (true, true);
             (found.moved[place(quad)], found.any_moved) = (true, true);
         }
-        if self.changed.iter().all(|&word| word == 0) {
-            return;
-        }
-        for (quad, place) in range.zip(first..) {
-            let corners = self.geometry.corners(quad);
-            if self.has(self.changed, corners) {
-                (found.differ[place], found.any) = (true, true);
-            }
-            if self.has(self.moved, corners) {
-                (found.moved[place], found.any_moved) = (true, true);
+        let indices = range.start as usize..range.end as usize;
+        let (corners, count) = match self.geometry.shape {
+            Shape::Triangles { .. } => return,
+            Shape::Lines { segments, .. } => (segments[indices].as_flattened(), 2),
+            Shape::Points { points, .. } => (&points[indices], 1),
+        };
+        let blocks = corners.chunks(BLOCK * count).zip((first..).step_by(BLOCK));
+        for (block, first) in blocks.filter(|(block, _)| self.reaches(block)) {
+            for (corners, place) in block.chunks(count).zip(first..) {
+                let has = |bits| corners.iter().any(|&corner| is_set(bits, self.slots.of(corner)));
+                if has(self.changed) {
+                    (found.differ[place], found.any) = (true, true);
+                    if has(self.moved) {
+                        (found.moved[place], found.any_moved) = (true, true);
+                    }
+                }
             }
         }
     }

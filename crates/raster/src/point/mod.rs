@@ -1,14 +1,18 @@
-//! Points become squares of one record each; for a disc the tile looks at the
-//! distance from the centre, and for anti-aliased ones at what they cover (see
-//! [`Stroke`]).
+//! Points are squares; for a disc the tile looks at the distance from the centre, and for
+//! anti-aliased ones at what they cover (see [`Stroke`]). Most are drawn from their vertices
+//! ([`PlainPoints`]), all others get one record each.
+
+mod plain;
+
+pub(crate) use plain::PlainPoints;
 
 use crate::line::{Form, Stroke, half_size, smooth_size};
-use crate::setup::{Ends, Kind, Quad, QuadDetail, Setup};
+use crate::setup::{DetailIndex, Ends, Kind, Quad, QuadDetail, Setup};
 use crate::vertex::{ScreenVertex, nearer};
 use crate::{Outline, PointShape};
 
 /// How a draw's points look.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PointStyle {
     /// Half the size, in units of the grid.
     half: i32,
@@ -34,6 +38,22 @@ impl PointStyle {
         };
         Self { half: half.round() as i32, kind, smooth, depth_bias }
     }
+
+    /// The square around a point.
+    fn square(&self, ordinal: u32, centre: ScreenVertex, detail: Option<DetailIndex>) -> Quad {
+        let ([column, row], half) = (centre.raw(), self.half);
+        // Within the guard band and the largest size, nothing leaves the grid.
+        let corner = |x: i32, y: i32| [column + x * half, row + y * half];
+        Quad {
+            corners: [[corner(-1, -1), corner(1, -1)], [corner(-1, 1), corner(1, 1)]],
+            depths: [nearer(centre.depth(), self.depth_bias); 2],
+            inverse_w: [centre.inverse_w(); 2],
+            ordinal,
+            detail,
+            kind: if self.smooth.is_some() { Kind::Stroke } else { self.kind },
+            ends: Ends::Point,
+        }
+    }
 }
 
 impl Setup<'_> {
@@ -50,23 +70,11 @@ impl Setup<'_> {
     }
 
     fn square(&mut self, primitive: u32, centre: ScreenVertex, style: PointStyle) {
-        let [column, row] = centre.raw();
-        let PointStyle { half, .. } = style;
-        // Within the guard band and the largest size, nothing leaves the grid.
-        let corner = |x: i32, y: i32| [column + x * half, row + y * half];
         let detail = style.smooth.and_then(|size| {
             let form = if style.kind == Kind::RoundPoint { Form::Round } else { Form::Square };
-            let stroke = Some(Stroke::point([column, row], size, form));
+            let stroke = Some(Stroke::point(centre.raw(), size, form));
             self.chunk.keep(QuadDetail { weights: QuadDetail::WHOLE, stroke })
         });
-        self.push_quad(Quad {
-            corners: [[corner(-1, -1), corner(1, -1)], [corner(-1, 1), corner(1, 1)]],
-            depths: [nearer(centre.depth(), style.depth_bias); 2],
-            inverse_w: [centre.inverse_w(); 2],
-            ordinal: self.first + primitive,
-            detail,
-            kind: if style.smooth.is_some() { Kind::Stroke } else { style.kind },
-            ends: Ends::Point,
-        });
+        self.push_quad(style.square(self.first + primitive, centre, detail));
     }
 }

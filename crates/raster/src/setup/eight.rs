@@ -199,7 +199,7 @@ impl Setup<'_> {
         }
         let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
         let places = (lane_numbers(simd) + self.place(first) as i32).bitcast();
-        self.chunk.push_some(drawn, tiles, places);
+        self.chunk.push_some(drawn, (tiles, places), Entry::primitive);
         true
     }
 

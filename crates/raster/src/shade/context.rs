@@ -69,6 +69,11 @@ impl<'f> ShadeContext<'f> {
             && !matches!(shape, Shape::Triangles { .. })
             && matches!(blend_mode, BlendMode::Opaque | BlendMode::Overlay | BlendMode::Translucent)
     }
+
+    /// The same, and nothing in the tile is painted over them.
+    pub(crate) fn is_of_plain_marks(&self) -> bool {
+        self.has_flat_marks() && self.outer.is_none()
+    }
 }
 
 /// Looks up varyings by the indices that a draw uses.

@@ -10,7 +10,7 @@ use super::layout::{RecordShape, cold, hot};
 use super::lines::Lines;
 use super::sorted::Sorted;
 use crate::bin::TriangleRef;
-use crate::ink::{Marks, VisibleFaces};
+use crate::ink::{FaceLine, Footprint, Marks, VisibleFaces};
 use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
 /// What few pipelines read of a triangle.
@@ -57,7 +57,7 @@ impl Records {
         token: Token,
         context: &ShadeContext<'_>,
         seen: &[u32],
-        mut outer: Option<&mut VisibleFaces>,
+        outer: Option<&mut VisibleFaces>,
     ) -> RecordShape {
         let shape = RecordShape { first: self.used, ..RecordShape::new(context) };
         let [row, record] = shape.first;
@@ -70,11 +70,14 @@ impl Records {
         }
         self.seen.extend_from_slice(seen);
         (self.used, self.shape) = (used, shape);
-        // Edges of faces beside them ask where they lie.
-        if outer.is_none() && context.has_flat_marks() {
+        if context.has_flat_marks() {
             self.fill_flat(context, seen, shape);
+            if let Some(outer) = outer {
+                note_flat(context, seen, outer);
+            }
             return shape;
         }
+        let mut outer = outer;
         at_level!(token, simd => {
             let rows = self.rows[row..used[0]].chunks_mut(LANES * shape.size);
             let tags = self.tags[record..used[1]].chunks_mut(LANES);
@@ -169,6 +172,15 @@ impl Records {
                 columns
             },
         )
+    }
+}
+
+/// Notes where flat lines and points lie, for the edges of faces beside them.
+fn note_flat(context: &ShadeContext<'_>, seen: &[u32], outer: &mut VisibleFaces) {
+    for &number in seen {
+        let greatest = context.draw.triangle(context.triangles[number as usize]).nearest();
+        let footprint = Footprint { least: f32::NEG_INFINITY, greatest };
+        outer.note(number, footprint, FaceLine::UNLINED);
     }
 }
 

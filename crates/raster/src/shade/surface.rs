@@ -33,7 +33,7 @@ pub(crate) fn shade_tile(
         }
         let winners = (buffer.winners(), LANES * buffer.samples);
         // With lines on it no triangle is flat.
-        if context.is_flat && frame.ink.is_none() {
+        if context.is_flat && (frame.ink.is_none() || context.is_of_plain_marks()) {
             shade_flat(frame, &context, shading, (run, winners), encoding);
         } else {
             shade_run(frame, &context, shading, (run, winners), encoding);

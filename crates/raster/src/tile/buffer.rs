@@ -174,6 +174,17 @@ impl VisibilityBuffer {
         self.blocks[block].farthest
     }
 
+    /// Finds the farthest depth of each block of a tile anew where that may help.
+    #[inline(always)]
+    pub(super) fn refresh_all<S: Simd>(&mut self, simd: S, area: &TileArea) {
+        let [columns, rows] = area.padded().map(|side| side / 8);
+        for row in 0..rows {
+            for block in row * BLOCKS..row * BLOCKS + columns {
+                self.farthest_in(simd, block);
+            }
+        }
+    }
+
     #[inline(always)]
     fn refresh<S: Simd>(&mut self, simd: S, block: usize) {
         let length = GROUPS * self.samples;

@@ -13,6 +13,7 @@ mod key_order;
 mod masked;
 mod micro;
 mod multisample;
+mod points;
 mod quad;
 mod rasterizer;
 mod single;

@@ -5,6 +5,7 @@
 
 mod large;
 mod marks;
+mod points;
 mod quick;
 mod small;
 

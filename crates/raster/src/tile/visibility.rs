@@ -5,6 +5,7 @@
 use super::edge_origins::EdgeOrigins;
 use super::eight::EightTriangles;
 use super::micro::Covered;
+use super::points::EightPoints;
 use super::quad::QuadEdges;
 use super::rasterizer::TileRasterizer;
 use super::single::covering_apart;
@@ -70,6 +71,11 @@ pub(crate) fn cover_overlay(
         hierarchical: frame.hierarchical,
         precedes: &precedes,
     };
+    buffer.settle();
+    if frame.hierarchical {
+        // Most overlays lie behind what hides them: the bounds are found anew once for all of them.
+        at_level!(frame.token, simd => buffer.refresh_all(simd, area));
+    }
     let mut counts = Counts::default();
     let end = surfaces.overlay.end;
     cover_all(frame, &rasterizer, (&triangles[..end], surfaces.overlay.start), (buffer, &mut counts));
@@ -148,6 +154,16 @@ fn cover_triangles<S: Simd, const MULTI: bool>(
     let mut edges = QuadEdges::new(frame.grid.pattern);
     let mut start = first;
     while start < triangles.len() {
+        let points = points_side_by_side(frame, &triangles[start..]);
+        if points > 0 {
+            let points = &triangles[start..start + points];
+            cover_points::<S, MULTI>(simd, frame, rasterizer, (points, start), (buffer, counts));
+            start += points.len();
+            if !rasterizer.in_order && rasterizer.may_give_up && rasterizer.ties.are_many() {
+                return false;
+            }
+            continue;
+        }
         let together = side_by_side(frame, rasterizer, &triangles[start..]);
         let eight =
             (together > 0).then(|| eight(simd, frame, rasterizer, &triangles[start..start + together]));
@@ -189,6 +205,40 @@ fn cover_triangles<S: Simd, const MULTI: bool>(
         start = end;
     }
     true
+}
+
+/// How many of the next are points of one draw that are drawn from their vertices: up to eight.
+#[inline(always)]
+fn points_side_by_side(frame: &FrameView<'_>, triangles: &[TriangleRef]) -> usize {
+    let first = triangles[0];
+    if !first.is_point() {
+        return 0;
+    }
+    let draw = &frame.plan.draws[frame.draw_of(first)].ordinals;
+    let belongs = |place: &TriangleRef| place.is_point() && draw.contains(&place.ordinal);
+    triangles.iter().take(LANES).take_while(|place| belongs(place)).count()
+}
+
+/// Draws up to eight points of one draw from their vertices, the first of which has the number
+/// `first`.
+#[inline(always)]
+fn cover_points<S: Simd, const MULTI: bool>(
+    simd: S,
+    frame: &FrameView<'_>,
+    rasterizer: &TileRasterizer<'_>,
+    (points, first): (&[TriangleRef], usize),
+    (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
+) {
+    // In a function of its own, so that it takes no registers from the kernels of triangles.
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let surroundings = (&rasterizer.area, frame.grid.pattern);
+            if let Some(eight) = EightPoints::new(simd, frame, surroundings, points) {
+                rasterizer.points::<S, MULTI>(simd, (&eight, first as u32), buffer, counts);
+            }
+        },
+    );
 }
 
 /// Draws a line or a point if this is its first triangle. Returns false if it is not, or if the line

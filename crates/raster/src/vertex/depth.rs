@@ -1,6 +1,7 @@
 //! Depths of vertices on the screen.
 
 use super::ScreenVertex;
+use crate::simd::{F32, Simd, prelude::*};
 use crate::viewport::Viewport;
 use trigon_math::Vec4;
 
@@ -41,5 +42,40 @@ pub(crate) fn nearer(depth: f32, share: f32) -> f32 {
         if moved < 1.0 { moved } else { 1.0 }
     } else {
         depth
+    }
+}
+
+/// [`nearer`], for lanes.
+#[inline(always)]
+pub(crate) fn nearer_lanes<S: Simd>(simd: S, depth: F32<S>, share: f32) -> F32<S> {
+    if share > 0.0 {
+        let one = F32::splat(simd, 1.0);
+        let moved = depth * (1.0 + if share < 1.0 { share } else { 1.0 });
+        moved.simd_lt(one).select(moved, one)
+    } else {
+        depth
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::{LANES, SimdLevel, at_level};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn lanes_move_as_single_depths_do(
+            depths: [f32; 8],
+            share in prop_oneof![Just(0.0), 0.0_f32..2.0, Just(f32::NAN), Just(-1.0)],
+        ) {
+            let depths = depths.map(|depth| if depth.is_nan() { 0.5 } else { depth });
+            for token in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
+                let moved: [f32; LANES] = at_level!(token, simd => {
+                    nearer_lanes(simd, F32::simd_from(simd, depths), share).into()
+                });
+                prop_assert_eq!(moved.map(f32::to_bits), depths.map(|depth| nearer(depth, share).to_bits()));
+            }
+        }
     }
 }

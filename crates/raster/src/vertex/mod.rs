@@ -8,7 +8,7 @@ mod run;
 mod screen;
 mod used;
 
-pub(crate) use depth::nearer;
+pub(crate) use depth::{nearer, nearer_lanes};
 pub(crate) use draw::DrawVertices;
 pub use lanes::VertexLanes;
 pub(crate) use program::VertexProgram;

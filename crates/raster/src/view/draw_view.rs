@@ -1,8 +1,9 @@
 //! One draw of a frame, with its triangles as tiles list them.
 
 use crate::bin::{Chunk, TriangleRef};
-use crate::geometry::Geometry;
-use crate::setup::SetupTriangle;
+use crate::geometry::{Geometry, Shape};
+use crate::point::PlainPoints;
+use crate::setup::{Quad, SetupTriangle};
 use crate::simd::Each;
 use crate::vertex::{DrawVertices, ScreenVertex};
 
@@ -13,6 +14,8 @@ pub(crate) struct DrawView<'f> {
     pub(crate) vertices: DrawVertices<'f>,
     /// Ordinal of its first primitive in the frame.
     pub(crate) first: u32,
+    /// How its points look, if they are drawn from their vertices.
+    pub(crate) points: Option<&'f PlainPoints>,
     /// Those of the whole frame, in the order of their ordinals.
     pub(crate) chunks: &'f [Chunk],
 }
@@ -24,15 +27,28 @@ impl<'f> DrawView<'f> {
         place.ordinal - self.first
     }
 
-    /// A triangle, ready.
+    /// A triangle, ready; the first half of a point.
     #[inline]
     pub(crate) fn triangle(&self, place: TriangleRef) -> SetupTriangle {
+        if let Some(square) = self.square(place) {
+            return square.half(0);
+        }
         if !place.is_whole()
             && let Some(triangle) = self.chunk_of(place).made(place)
         {
             return triangle;
         }
         SetupTriangle::whole(self.corners(place).each(|vertex| *vertex), place.ordinal)
+    }
+
+    /// The square around a point that is drawn from its vertex.
+    #[inline]
+    pub(crate) fn square(&self, place: TriangleRef) -> Option<Quad> {
+        let Shape::Points { points, sizes, .. } = &self.geometry.shape else { return None };
+        let plain = self.points.filter(|_| place.is_point())?;
+        let primitive = self.primitive(place);
+        let centre = self.vertices.get(points[primitive as usize]);
+        Some(plain.square(sizes, (primitive, place.ordinal), *centre))
     }
 
     /// The vertices of a primitive.

@@ -134,6 +134,7 @@ impl<'f> FrameView<'f> {
             geometry: &self.pass[plan.draw].geometry,
             vertices: self.vertices(draw),
             first: plan.ordinals.start,
+            points: plan.points.as_ref(),
             chunks: self.chunks,
         }
     }

@@ -3,6 +3,7 @@
 use crate::BlendMode;
 use crate::bin::Chunk;
 use crate::pass::Recorded;
+use crate::point::PlainPoints;
 use crate::vertex::{Slots, UsedVertices};
 use std::ops::Range;
 
@@ -28,6 +29,8 @@ pub(crate) struct DrawPlan {
     pub(crate) places: Range<usize>,
     /// The same for its varyings.
     pub(crate) varyings: usize,
+    /// How its points look, if they are drawn from their vertices.
+    pub(crate) points: Option<PlainPoints>,
 }
 
 /// The draws of a frame in the order of their ordinals: opaque, masked,
@@ -51,13 +54,14 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// Plans a frame for a number of workers and cuts it into chunks. Returns how many of
-    /// `chunks` are used, from the first on, in the order of their ordinals.
+    /// Plans a frame for a number of workers, with so many internal pixels for each pixel and axis,
+    /// and cuts it into chunks. Returns how many of `chunks` are used, from the first on, in the order
+    /// of their ordinals.
     pub(crate) fn make(
         &mut self,
         recorded: &[Recorded<'_>],
         chunks: &mut Vec<Chunk>,
-        workers: usize,
+        (workers, supersampling): (usize, u32),
     ) -> usize {
         self.draws.clear();
         self.listed.clear();
@@ -65,7 +69,8 @@ impl Plan {
         self.draws.extend((0..recorded.len()).map(|draw| {
             let Recorded { geometry, pipeline } = &recorded[draw];
             let used = UsedVertices::new(geometry.indices(), pipeline.vertex_count(), &mut self.listed);
-            DrawPlan { draw, ordinals: 0..0, used, places: 0..0, varyings: 0 }
+            let points = PlainPoints::of(&recorded[draw], supersampling);
+            DrawPlan { draw, ordinals: 0..0, used, places: 0..0, varyings: 0, points }
         }));
         // Equal keys stay in the order of the pass.
         self.draws.sort_unstable_by_key(|plan| {
@@ -88,6 +93,21 @@ impl Plan {
         let size = (ordinal / (SHARES * workers as u32)).clamp(LEAST, MOST);
         self.chunks = self.cut(recorded, chunks, size);
         self.chunks
+    }
+
+    /// Brings the looks of points up to date with a pass for which [`has_points_of`](Self::has_points_of)
+    /// holds.
+    pub(crate) fn update_points(&mut self, recorded: &[Recorded<'_>], supersampling: u32) {
+        for plan in &mut self.draws {
+            plan.points = PlainPoints::of(&recorded[plan.draw], supersampling);
+        }
+    }
+
+    /// Whether the same draws of a pass have points that are drawn from their vertices.
+    pub(crate) fn has_points_of(&self, recorded: &[Recorded<'_>], supersampling: u32) -> bool {
+        self.draws.iter().all(|plan| {
+            plan.points.is_some() == PlainPoints::of(&recorded[plan.draw], supersampling).is_some()
+        })
     }
 
     /// Whether equal depths can be decided by the ordinal among opaque draws.

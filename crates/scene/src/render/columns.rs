@@ -67,6 +67,12 @@ impl Columns {
         columns.map(|column| size_of_val(column.as_slice())).sum()
     }
 
+    /// Where a vertex lies, if it exists.
+    pub(crate) fn position(&self, vertex: u32) -> Option<Vec3> {
+        let [x, y, z] = self.positions.each_ref().map(|column| column.get(vertex as usize).copied());
+        Some(Vec3::new(x?, y?, z?))
+    }
+
     pub(crate) fn vertex_count(&self) -> usize {
         self.positions[0].len()
     }

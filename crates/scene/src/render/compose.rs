@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-use fixedbitset::FixedBitSet;
 use trigon_camera::Camera;
 use trigon_math::{Mat3, Vec3};
 use trigon_raster::{Culling, EdgeFlags};
@@ -26,7 +25,7 @@ use crate::marks;
 use crate::material::{AlphaMode, Material, Shading};
 use crate::node::Node;
 use crate::node::NodeId;
-use crate::scene::{MeshAsset, Scene};
+use crate::scene::{MeshAsset, Scene, VertexList};
 use crate::settings::{RenderSettings, Style};
 
 /// The size of loose points, in line widths.
@@ -338,7 +337,7 @@ impl<'s> Composer<'s> {
         let edges = &self.settings.marks.edges;
         let mut numbers = marks::numbers(edges, object.id);
         numbers.drain(..first.min(numbers.len()));
-        let marks = WireMarks { numbers, colors: marks::colors(edges) };
+        let marks = WireMarks { numbers: Arc::new(numbers), colors: marks::colors(edges) };
         let (pipeline, geometry) = (self.wire(object, color, marks), object.geometry);
         let (object, width) = (object.index, self.settings.line_width);
         let no_face = vec![u32::MAX; segments.len()];
@@ -352,8 +351,8 @@ impl<'s> Composer<'s> {
         let dots = || Dots {
             pipeline: self.wire(object, color, WireMarks::default()),
             geometry: object.geometry,
-            points: Cow::Borrowed(points),
-            no_face: vec![u32::MAX; points.len()],
+            points: Arc::new(points.to_vec()),
+            no_face: Arc::new(vec![u32::MAX; points.len()]),
             object: object.index,
             size: self.settings.line_width * POINT_TO_LINE,
             marked: None,
@@ -367,30 +366,21 @@ impl<'s> Composer<'s> {
     /// below them can be picked.
     fn vertices<'c>(&'c self, object: &Object<'s>) -> Option<Box<dyn Record + 'c>> {
         let shown = self.settings.vertices.filter(|_| self.purpose == Purpose::Colors)?;
-        let used = object.asset.used_vertices();
         let listed = &self.settings.marks.vertices;
-        let (of_vertices, colors) = (marks::numbers(listed, object.id), marks::colors(listed));
-        let number = |&vertex: &u32| of_vertices.get(vertex as usize).copied().unwrap_or(0);
-        let is_shown = |vertex: &u32| {
-            let number = usize::from(number(vertex));
-            used[*vertex as usize] && (number == 0 || colors[number].w > 0.0)
-        };
-        let points: Vec<u32> = (0..used.len() as u32).filter(is_shown).collect();
-        if points.is_empty() {
+        let list = object.asset.vertex_list(object.id, listed);
+        if list.points.is_empty() {
             return None;
         }
-        let numbers: Vec<u8> = points.iter().map(number).collect();
-        let mut marked = FixedBitSet::with_capacity(points.len());
-        marked.extend((0..points.len()).filter(|&point| numbers[point] != 0));
-        let marks = WireMarks { numbers, colors };
+        let VertexList { points, numbers, marked, no_face, .. } = &*list;
+        let marks = WireMarks { numbers: Arc::clone(numbers), colors: marks::colors(listed) };
         Some(Box::new(Dots {
             pipeline: self.wire(object, shown.color, marks),
             geometry: object.geometry,
-            no_face: vec![u32::MAX; points.len()],
-            points: Cow::Owned(points),
+            no_face: Arc::clone(no_face),
+            points: Arc::clone(points),
             object: object.index,
             size: shown.size,
-            marked: Some((marked, shown.marked_size)),
+            marked: Some((Arc::clone(marked), shown.marked_size)),
             blend_mode: trigon_raster::BlendMode::Overlay,
             depth_bias: VERTEX_DEPTH_BIAS,
         }))

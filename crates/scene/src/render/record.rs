@@ -1,6 +1,5 @@
 //! Draws that own their pipelines, until they are recorded in a pass.
 
-use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -42,11 +41,11 @@ pub(super) enum Marked<'s> {
 /// The marks of lines or points.
 #[derive(Clone, Copy)]
 pub(super) struct WireNumbers<'s> {
-    pub(super) numbers: &'s [u8],
-    /// The vertices that the points are; none of lines.
-    pub(super) points: &'s [u32],
+    pub(super) numbers: &'s Arc<Vec<u8>>,
+    /// The vertices that the points are; `None` of lines.
+    pub(super) points: Option<&'s Arc<Vec<u32>>>,
     /// The points that are larger.
-    pub(super) large: Option<&'s FixedBitSet>,
+    pub(super) large: Option<&'s Arc<FixedBitSet>>,
 }
 
 /// Triangles of one mesh.
@@ -116,7 +115,7 @@ impl Record for Segments<'_> {
     }
 
     fn source(&self) -> Source<'_> {
-        let wires = WireNumbers { numbers: &self.pipeline.marks.numbers, points: &[], large: None };
+        let wires = WireNumbers { numbers: &self.pipeline.marks.numbers, points: None, large: None };
         self.pipeline.source(self.geometry, wires)
     }
 }
@@ -125,12 +124,12 @@ impl Record for Segments<'_> {
 pub(super) struct Dots<'s> {
     pub(super) pipeline: Wire<'s>,
     pub(super) geometry: &'s Geometry,
-    pub(super) points: Cow<'s, [u32]>,
-    pub(super) no_face: Vec<u32>,
+    pub(super) points: Arc<Vec<u32>>,
+    pub(super) no_face: Arc<Vec<u32>>,
     pub(super) object: u32,
     pub(super) size: f32,
     /// Those of another size.
-    pub(super) marked: Option<(FixedBitSet, f32)>,
+    pub(super) marked: Option<(Arc<FixedBitSet>, f32)>,
     pub(super) blend_mode: BlendMode,
     /// See [`Points::depth_bias`].
     pub(super) depth_bias: f32,
@@ -152,7 +151,7 @@ impl Record for Dots<'_> {
     fn source(&self) -> Source<'_> {
         let large = self.marked.as_ref().map(|(set, _)| set);
         let numbers = &self.pipeline.marks.numbers;
-        self.pipeline.source(self.geometry, WireNumbers { numbers, points: &self.points, large })
+        self.pipeline.source(self.geometry, WireNumbers { numbers, points: Some(&self.points), large })
     }
 }
 

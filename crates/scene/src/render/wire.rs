@@ -1,6 +1,8 @@
 //! The pipelines that draw edges, loose lines and points, and the faces that
 //! do nothing but hide what is behind them.
 
+use std::sync::Arc;
+
 use trigon_math::{UVec2, Vec3, Vec4};
 use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
 use trigon_raster::{Fragment, FragmentLanes, LanePipeline, MarkColors, Pipeline, VertexLanes, VertexOutput};
@@ -23,7 +25,7 @@ pub(super) struct Wire<'a> {
 #[derive(Default)]
 pub(super) struct WireMarks {
     /// By the index of the line or point; without a mark beyond the end.
-    pub(super) numbers: Vec<u8>,
+    pub(super) numbers: Arc<Vec<u8>>,
     /// By their numbers.
     pub(super) colors: [Vec4; MarkColors::COUNT],
 }

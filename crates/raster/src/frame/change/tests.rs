@@ -50,7 +50,36 @@ impl Pipeline for Model {
     }
 }
 
+/// The vertices of a model with one colour for each primitive: its points are drawn from them.
+impl Pipeline for Vec<(Vec4, Vec4)> {
+    type Varyings = ();
+    const FLAT: bool = true;
+
+    fn vertex_count(&self) -> usize {
+        self.len()
+    }
+
+    fn vertex(&self, index: usize) -> VertexOutput<()> {
+        VertexOutput { position: self[index].0, varyings: () }
+    }
+
+    fn fragment(&self, fragment: &Fragment<()>) -> Vec4 {
+        Vec4::new(0.01 * fragment.triangle as f32, 0.5, 0.2, 1.0)
+    }
+}
+
 const QUADS: u32 = 9;
+
+/// One for each vertex of a sheet.
+const ALL_POINTS: [u32; ((QUADS + 1) * (QUADS + 1)) as usize] = {
+    let mut points = [0; ((QUADS + 1) * (QUADS + 1)) as usize];
+    let mut index = 0;
+    while index < points.len() {
+        points[index] = index as u32;
+        index += 1;
+    }
+    points
+};
 
 impl Model {
     /// A wavy sheet in front of the camera, `shift` deep.
@@ -281,8 +310,13 @@ impl View {
             _ => (Outline::Sharp, BlendMode::Overlay),
         };
         let marked = Some(MarkedPoints { set: &models[0].large, size: 7.0 });
-        let points = Points { outline, blend_mode, marked, ..Points::new(&models[0], points, 4.0) };
-        pass.points(Points { object: 10, ..points });
+        if self.background == 2 && self.has_lines {
+            let points = Points::new(&models[0].vertices, &ALL_POINTS, 4.0);
+            pass.points(Points { object: 10, blend_mode, marked, ..points });
+        } else {
+            let points = Points { outline, blend_mode, marked, ..Points::new(&models[0], points, 4.0) };
+            pass.points(Points { object: 10, ..points });
+        }
         if let Some(width) = self.edges {
             pass.edges(FaceEdges { width, color: Vec3::X, opacity: 0.7 });
         }

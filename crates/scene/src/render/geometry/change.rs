@@ -12,12 +12,15 @@ use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
-use trigon_mesh::{ChangedElements, Mesh, RenderLinks, RenderMesh, RenderUpdate, Triangulation};
+use trigon_math::{Bounds3, Vec3};
+use trigon_mesh::{
+    ChangedElements, Mesh, RenderLinks, RenderMesh, RenderUpdate, Triangulation, UpdatedVertex,
+};
 use trigon_raster::EdgeFlags;
 
 use super::edge_flags::flags_of_face;
 use super::side_edges::{NO_EDGE, sides_of_triangle};
-use super::{Geometry, GeometryChange, GeometryState, places_for};
+use super::{Geometry, GeometryChange, GeometryState, box_around, places_for};
 
 impl Geometry {
     /// Geometry that can follow changes of its mesh.
@@ -57,14 +60,33 @@ impl Geometry {
     fn follow(&mut self, mesh: &Mesh, changed: &ChangedElements) -> Option<(Vec<u32>, Vec<u32>)> {
         let update = self.links.as_mut()?.follow(mesh, changed);
         self.state = GeometryState::default();
-        self.bounds = OnceLock::new();
+        let bounds = self.bounds_without(&update.vertices);
         self.blocks = OnceLock::new();
         self.tangential = places_for(&self.columns);
         let mut columns = take(&mut self.columns);
         let (triangles, ()) =
             rayon::join(|| self.replace_triangles(mesh, &update), || columns.update(mesh, &update.vertices));
         self.columns = columns;
+        let bounds = bounds.map(|bounds| self.bounds_with(bounds, &update.vertices));
+        self.bounds = bounds.map_or_else(OnceLock::new, OnceLock::from);
         Some((update.vertices.iter().map(|updated| updated.vertex).collect(), triangles?))
+    }
+
+    /// The box, if it is known and stays the same without some vertices.
+    fn bounds_without(&self, vertices: &[UpdatedVertex]) -> Option<Bounds3> {
+        let bounds = *self.bounds.get()?;
+        let is_on_border = |vertex: &UpdatedVertex| {
+            // New vertices have no place yet.
+            let place = self.columns.position(vertex.vertex).map(Vec3::as_dvec3);
+            place.is_some_and(|place| (place.cmpeq(bounds.min) | place.cmpeq(bounds.max)).any())
+        };
+        (!vertices.iter().any(is_on_border)).then_some(bounds)
+    }
+
+    /// The box with vertices that were written.
+    fn bounds_with(&self, bounds: Bounds3, vertices: &[UpdatedVertex]) -> Bounds3 {
+        let places = vertices.iter().filter_map(|vertex| self.columns.position(vertex.vertex));
+        bounds.union(box_around(places))
     }
 
     /// Replaces the triangles of faces; those that are other ones now, or have other flags or

@@ -28,7 +28,7 @@ impl MarkPalette {
 #[derive(PartialEq)]
 pub(super) enum MarkOrigin {
     Faces(Option<Arc<MarkNumbers>>),
-    Wires { numbers: Vec<u8>, points: Vec<u32>, large: FixedBitSet },
+    Wires { numbers: Arc<Vec<u8>>, points: Option<Arc<Vec<u32>>>, large: Option<Arc<FixedBitSet>> },
 }
 
 /// Primitives whose marks are others; increasing.
@@ -42,11 +42,9 @@ impl MarkOrigin {
     pub(super) fn new(marked: &Marked<'_>) -> Self {
         match *marked {
             Marked::Faces(marks) => Self::Faces(marks.map(|marks| Arc::clone(&marks.numbers))),
-            Marked::Wires(WireNumbers { numbers, points, large }) => Self::Wires {
-                numbers: numbers.to_vec(),
-                points: points.to_vec(),
-                large: large.cloned().unwrap_or_default(),
-            },
+            Marked::Wires(WireNumbers { numbers, points, large }) => {
+                Self::Wires { numbers: Arc::clone(numbers), points: points.cloned(), large: large.cloned() }
+            }
         }
     }
 
@@ -61,11 +59,31 @@ impl MarkOrigin {
             (
                 Self::Wires { numbers, points, large },
                 Self::Wires { numbers: now, points: points_now, large: large_now },
-            ) if points == points_now => Some(MarkedPrimitives {
-                recolored: differing(numbers, now),
-                resized: large.symmetric_difference(large_now).map(|point| point as u32).collect(),
+            ) if are_equal(points.as_ref(), points_now.as_ref()) => Some(MarkedPrimitives {
+                recolored: if Arc::ptr_eq(numbers, now) { Vec::new() } else { differing(numbers, now) },
+                resized: differing_bits(large.as_ref(), large_now.as_ref()),
             }),
             _ => None,
+        }
+    }
+}
+
+/// Whether two lists are equal. Most often they are one.
+fn are_equal(before: Option<&Arc<Vec<u32>>>, now: Option<&Arc<Vec<u32>>>) -> bool {
+    match (before, now) {
+        (Some(before), Some(now)) => Arc::ptr_eq(before, now) || before == now,
+        (before, now) => before == now,
+    }
+}
+
+/// Where two sets differ.
+fn differing_bits(before: Option<&Arc<FixedBitSet>>, now: Option<&Arc<FixedBitSet>>) -> Vec<u32> {
+    match (before, now) {
+        (Some(before), Some(now)) if Arc::ptr_eq(before, now) => Vec::new(),
+        (before, now) => {
+            let none = FixedBitSet::new();
+            let [before, now] = [before, now].map(|set| set.map_or(&none, |set| &**set));
+            before.symmetric_difference(now).map(|bit| bit as u32).collect()
         }
     }
 }

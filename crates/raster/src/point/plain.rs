@@ -1,0 +1,182 @@
+//! Points that are drawn from their vertices: of a dense mesh there are as many as vertices, and a
+//! record for each would take longer to write and to read than the point to draw.
+
+use super::PointStyle;
+use crate::bin::Entry;
+use crate::geometry::{PointSizes, Shape};
+use crate::pass::Recorded;
+use crate::setup::{Column, Kind, Quad, Setup};
+use crate::simd::{Each, I32, LANES, Mask, Simd, inlined, lane_numbers, lanes_of, prelude::*};
+use crate::vertex::ScreenVertex;
+use crate::{BlendMode, Outline};
+
+/// How the points of a draw look if they are drawn from their vertices: sharp, opaque, and of one
+/// colour each, so that the halves of their squares need not be told apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PlainPoints {
+    /// Of usual ones, and of those of the other size.
+    styles: [PointStyle; 2],
+}
+
+/// From this size on, in 1/256 pixel, points are drawn by the kernel for squares of any size.
+const WIDE: i32 = 32 * 256;
+
+impl PlainPoints {
+    /// `None` if the draw has no such points.
+    pub(crate) fn of(recorded: &Recorded<'_>, supersampling: u32) -> Option<Self> {
+        let Shape::Points { sizes, shape, outline, depth_bias, .. } = recorded.geometry.shape else {
+            return None;
+        };
+        let is_opaque = matches!(recorded.geometry.blend_mode, BlendMode::Opaque | BlendMode::Overlay);
+        let marked = sizes.marked.map_or(sizes.size, |marked| marked.size);
+        let styles = [sizes.size, marked]
+            .map(|size| PointStyle::new((size, outline), shape, depth_bias, supersampling));
+        let are_small = styles.iter().all(|style| 2 * style.half < WIDE);
+        let are_plain = outline == Outline::Sharp && is_opaque && recorded.pipeline.is_flat();
+        (are_plain && are_small).then_some(Self { styles })
+    }
+
+    /// Whether points are discs.
+    #[inline(always)]
+    pub(crate) fn are_round(&self) -> bool {
+        self.styles[0].kind == Kind::RoundPoint
+    }
+
+    /// By what share of their distance points are moved towards the eye.
+    #[inline(always)]
+    pub(crate) fn depth_bias(&self) -> f32 {
+        self.styles[0].depth_bias
+    }
+
+    /// Half the sizes of some of the draw's points, in 1/256 pixel.
+    #[inline(always)]
+    pub(crate) fn half_sizes<S: Simd>(
+        &self,
+        simd: S,
+        sizes: &PointSizes<'_>,
+        primitives: [u32; LANES],
+    ) -> I32<S> {
+        let [usual, marked] = self.styles.each(
+            #[inline(always)]
+            |style| style.half,
+        );
+        let Some(set) = sizes.marked.map(|marked| marked.set) else { return I32::splat(simd, usual) };
+        let halves = primitives.each(
+            #[inline(always)]
+            |primitive| if set.contains(primitive as usize) { marked } else { usual },
+        );
+        I32::simd_from(simd, halves)
+    }
+
+    /// The square around a point of the draw, from its vertex.
+    pub(crate) fn square(
+        &self,
+        sizes: &PointSizes<'_>,
+        (primitive, ordinal): (u32, u32),
+        centre: ScreenVertex,
+    ) -> Quad {
+        let [usual, marked] = self.styles;
+        let is_marked = sizes.marked.is_some_and(|marked| marked.set.contains(primitive as usize));
+        let style = if is_marked { marked } else { usual };
+        style.square(ordinal, centre, None)
+    }
+}
+
+impl Setup<'_> {
+    /// Points `first..` of the draw, up to eight.
+    #[inline(always)]
+    pub(crate) fn eight_points<S: Simd>(
+        &mut self,
+        simd: S,
+        (first, points): (u32, &[u32]),
+        (plain, sizes): (&PlainPoints, &PointSizes<'_>),
+    ) {
+        let last = points.len() - 1;
+        let vertices = lanes_of(
+            #[inline(always)]
+            |lane| self.vertices.get(points[lane.min(last)]),
+        );
+        let centres = Column::new(simd, vertices, 0);
+        let lanes = (1_u64 << points.len()) - 1;
+        let placed = !centres.x.simd_eq(I32::splat(simd, ScreenVertex::NOWHERE)).to_bitmask() & lanes;
+        for lane in (0..points.len()).filter(|lane| placed >> lane & 1 == 0) {
+            let stats = &mut self.chunk.stats;
+            let is_invalid = vertices[lane].outcode().is_invalid();
+            *(if is_invalid { &mut stats.invalid } else { &mut stats.outside }) += 1;
+        }
+        let primitives = lanes_of(
+            #[inline(always)]
+            |lane| first + lane.min(last) as u32,
+        );
+        let half = plain.half_sizes(simd, sizes, primitives);
+        let (seen, pixels) = self.pixels_of_squares(simd, ([centres.x, centres.y], half), placed);
+        self.chunk.stats.culled += u64::from((placed & !seen).count_ones());
+        self.chunk.stats.set_up += u64::from(seen.count_ones());
+        self.push_points(simd, first, seen, pixels);
+    }
+
+    /// Those of the `placed` lanes whose squares hold a sample of the view, and the first and last
+    /// columns and rows of those samples.
+    #[inline(always)]
+    fn pixels_of_squares<S: Simd>(
+        &self,
+        simd: S,
+        (centres, half): ([I32<S>; 2], I32<S>),
+        placed: u64,
+    ) -> (u64, [[I32<S>; 2]; 2]) {
+        let grid = self.grid;
+        let [least, greatest] = grid.pattern.reach();
+        let mut seen = Mask::from_bitmask(simd, placed);
+        let pixels = [(0, grid.viewport.width), (1, grid.viewport.height)].each(
+            #[inline(always)]
+            |(axis, side)| {
+                // What lies on the left or upper side belongs to the square.
+                let begin = (centres[axis] - half + (255 - greatest)) >> 8;
+                let end = (centres[axis] + half - (least + 1)) >> 8;
+                seen = seen & begin.simd_le(end) & end.simd_ge(I32::splat(simd, 0));
+                seen &= begin.simd_lt(I32::splat(simd, side as i32));
+                [begin, end]
+            },
+        );
+        (seen.to_bitmask(), pixels)
+    }
+
+    /// Bins the points of lanes, from the first and last columns and rows of their pixels.
+    #[inline(always)]
+    fn push_points<S: Simd>(&mut self, simd: S, first: u32, seen: u64, pixels: [[I32<S>; 2]; 2]) {
+        let grid = self.grid;
+        let apron = grid.apron as i32;
+        let tiles = inlined(
+            #[inline(always)]
+            |(axis, side): (usize, u32)| {
+                let [begin, end] = pixels[axis];
+                [(begin - apron).max(0), (end + apron).min(side as i32 - 1)].each(
+                    #[inline(always)]
+                    |pixel| grid.tiles_at(pixel),
+                )
+            },
+        );
+        let (columns, rows) = (tiles((0, grid.viewport.width)), tiles((1, grid.viewport.height)));
+        let lanes = Mask::from_bitmask(simd, seen);
+        let alone = columns[0].simd_eq(columns[1]) & rows[0].simd_eq(rows[1]);
+        let place = self.place(first);
+        if !(lanes & !alone).any_true() {
+            let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
+            let places = (lane_numbers(simd) + place as i32).bitcast();
+            return self.chunk.push_some(lanes, (tiles, places), Entry::point);
+        }
+        let [columns, rows] = [columns, rows].each(
+            #[inline(always)]
+            |range| range.each(<[i32; LANES]>::from),
+        );
+        // One after the other, because tiles list their points in the order of primitives.
+        for lane in (0..LANES).filter(|lane| seen >> lane & 1 != 0) {
+            for row in rows[0][lane]..=rows[1][lane] {
+                for column in columns[0][lane]..=columns[1][lane] {
+                    let tile = row as u32 * grid.columns + column as u32;
+                    self.chunk.push(tile, Entry::point(place + lane as u32));
+                }
+            }
+        }
+    }
+}
