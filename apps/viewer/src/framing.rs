@@ -111,6 +111,11 @@ impl Framing {
         Ok(Shot { camera: shot.camera.with_clip_planes(&bounds), ..shot })
     }
 
+    /// Whether the distance follows from the size of the model.
+    pub(crate) fn is_fitted(&self) -> bool {
+        matches!(self.eye, Eye::Default | Eye::Direction(_) | Eye::Side(_))
+    }
+
     /// After all turns of scripts.
     fn scripted(&self, shot: Shot) -> Shot {
         let pivot = shot.camera.position + shot.camera.forward() * shot.distance;

@@ -49,6 +49,13 @@ impl Rasterizer {
         self.execution.cancel = cancel;
     }
 
+    /// Tells the token, if there is one, that the drawing under way has so many passes more than was known when it began.
+    pub fn expect_passes(&self, more: u32) {
+        if let Some(cancel) = &self.execution.cancel {
+            cancel.expect_passes(more);
+        }
+    }
+
     /// Everything up to the tiles of what [`draw`](Self::draw) would do.
     pub(crate) fn prepare<'f>(&'f mut self, pass: &'f Pass<'_>, target: &Target<'_>) -> FrameView<'f> {
         let Execution { settings, token, workers, .. } = &self.execution;

@@ -89,9 +89,15 @@ fn redo(stage: &mut Stage) {
 }
 
 fn look_at_selected(stage: &mut Stage) {
-    if let Some(middle) = stage.selection_bounds().and_then(|bounds| bounds.center()) {
-        stage.orbit.set_target(middle);
+    match stage.selection_bounds().and_then(|bounds| bounds.center()) {
+        Some(middle) => stage.orbit.set_target(middle),
+        None => say_nothing_is_selected(stage),
     }
+}
+
+/// After a key that does something to the selected object.
+pub(crate) fn say_nothing_is_selected(stage: &mut Stage) {
+    stage.overlay.notify("no object is selected; Tab or a click selects one");
 }
 
 fn toggle_orbit_style(stage: &mut Stage) {

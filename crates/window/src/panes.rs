@@ -138,6 +138,11 @@ impl Views {
         Projector::new(camera, area.size).at_distance(at - area.origin(), distance)
     }
 
+    /// How many images are drawn for it.
+    pub(crate) fn count(&self) -> u32 {
+        self.parts.len().max(1) as u32
+    }
+
     /// Whether there is one view in all of the window.
     pub(crate) fn is_one(&self) -> bool {
         self.parts.is_empty()

@@ -111,6 +111,11 @@ pub struct Stage {
     pub full_screen: bool,
     /// Nodes beside the model, such as a grid: views are not fitted to them.
     pub beside: Vec<NodeId>,
+    /// The height of what covers the lower edge of the window all the time, such as a bar, in points: fitted
+    /// views leave it free, and as much at the upper edge.
+    pub covered_below: f32,
+    /// In how many columns a drawer shows the scene side by side: views are fitted to one of them.
+    pub columns: u32,
     /// Whether the time of each of its stages is shown.
     pub stage_times: Visibility,
     /// The size of text and widgets, in addition to the display's own scale: 0.5 to 4.
@@ -176,6 +181,8 @@ impl Stage {
             frame_time: Visibility::Hidden,
             full_screen: false,
             beside: Vec::new(),
+            covered_below: 0.0,
+            columns: 1,
             stage_times: Visibility::Hidden,
             text_scale: 1.0,
             command_search: String::new(),
@@ -298,7 +305,30 @@ impl Stage {
             }
             alone.visible_points().collect()
         };
-        self.orbit.fit_points(&points, self.viewport.aspect(), DEFAULT_MARGIN);
+        self.fit_points(&points);
+    }
+
+    /// Takes points into the part of the picture that nothing covers all the time, seen from the same side.
+    pub fn fit_points(&mut self, points: &[DVec3]) {
+        let room = self.room();
+        self.orbit.fit_points(points, self.fit_aspect() / room, DEFAULT_MARGIN);
+        self.orbit.zoom(room);
+    }
+
+    /// The width of the part of the window that views are fitted to, divided by its height.
+    #[must_use]
+    pub fn fit_aspect(&self) -> f64 {
+        self.viewport.aspect() / f64::from(self.columns.max(1))
+    }
+
+    /// The share of the window's height for fitted views, with the middle of the window in its middle: see
+    /// [`Stage::covered_below`].
+    #[must_use]
+    pub fn room(&self) -> f64 {
+        /// However low the window is.
+        const LEAST: f64 = 0.5;
+        let covered = f64::from(self.covered_below) * f64::from(self.text_scale) * self.scale;
+        (1.0 - 2.0 * covered / f64::from(self.viewport.height.max(1))).clamp(LEAST, 1.0)
     }
 
     /// What the image in the window shows at a point, in physical pixels, and its world position.

@@ -178,7 +178,7 @@ impl Worker {
             self.forget_others(job.purpose);
         }
         self.begun += 1;
-        let (number, cancel) = (self.begun, Cancel::default());
+        let (number, cancel) = (self.begun, Cancel::for_drawings(job.views.count()));
         let Job { purpose, ref views, .. } = job;
         self.under_way = Some(UnderWay { number, purpose, views: views.clone(), cancel: cancel.clone() });
         self.holder(purpose).hands.begin((number, job, cancel));

@@ -90,7 +90,7 @@ const MENU: [MenuEntry; 21] = {
         entry("orthographic", "Perspective / orthographic"),
         MenuEntry::Line,
         entry("edges", "Edges"),
-        entry("wireframe", "Surface / wireframe / hidden lines"),
+        entry("wireframe", "Faces, wires, hidden lines"),
         entry("metadata", "Counts and sizes"),
         entry("quality", "Accuracy and what it costs"),
         entry("undo", "Undo moving an object"),

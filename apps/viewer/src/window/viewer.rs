@@ -277,6 +277,7 @@ impl Handler for Viewer {
         for ignored in &self.request.ignored {
             stage.overlay.notify(format!("warning: {ignored}"));
         }
+        stage.columns = if self.comparing.is_some() { 2 } else { 1 };
         self.load(stage, View::Fit);
         if let Some(comparing) = &mut self.comparing {
             comparing.load(stage, &self.request);
@@ -318,15 +319,16 @@ impl Handler for Viewer {
     }
 
     fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
+        // Under the panels, so that it has the width of the window.
+        if let Some(playback) = &mut self.playback {
+            playback.show(ui, stage);
+        }
         let beside = self.shown.as_ref().map_or(&[][..], |shown| &shown.scenery);
         self.side.show(ui, stage, beside);
         #[cfg(feature = "study")]
         self.quality.show(ui, stage, |ui, stage| self.classics.show(ui, stage));
         #[cfg(not(feature = "study"))]
         self.quality.show(ui, stage, |_, _| {});
-        if let Some(playback) = &mut self.playback {
-            playback.show(ui, stage);
-        }
         // On what no panel covers.
         self.measuring.show(ui, stage);
         if let Some(comparing) = &self.comparing {

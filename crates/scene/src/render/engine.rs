@@ -82,6 +82,12 @@ impl Engine {
         let plan = EffectPlan::of_stage(&stage);
         let mut counts = Counts::default();
         let apart = sees_apart(settings, &plan);
+        if let Some(cancel) = cancel {
+            // Shadow maps are added when it is known which of them are missing.
+            let colors = u32::from(settings.outputs.of_light());
+            let beneath = u32::from(settings.share_through_faces().is_some()) * colors;
+            cancel.begin_drawing(colors + beneath + u32::from(apart));
+        }
         self.stats = Stats::default();
         let mut is_kept = false;
         if settings.outputs.of_light() {

@@ -15,6 +15,9 @@ pub(super) const BACKDROP: Color32 = Color32::from_rgba_premultiplied(10, 11, 14
 /// From the edges, in points.
 pub(super) const GAP: f32 = 8.0;
 
+/// Between text and the edge of its backdrop, in points.
+const MARGIN: f32 = 6.0;
+
 /// Writes all corners of the area that no panel covers; returns the area between the upper and the lower ones.
 pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: Duration) -> egui::Rect {
     let messages = stage.overlay.messages(now);
@@ -30,10 +33,11 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: 
     });
     let mut left = free;
     for (corner, lines) in all.iter().filter(|(_, lines)| !lines.is_empty()) {
-        let is_beside = |other: Corner| other != *corner && is_lower(other) == is_lower(*corner);
-        let is_alone = !all.iter().any(|(other, lines)| is_beside(*other) && !lines.is_empty());
-        let width = (free.width() - 4.0 * GAP) * if is_alone { 1.0 } else { share(*corner) };
-        let written = write(context, (free, width), *corner, lines);
+        let row = all.each_ref().map(|(other, lines)| {
+            let is_beside = is_lower(*other) == is_lower(*corner);
+            if is_beside { natural_width(context, lines) } else { 0.0 }
+        });
+        let written = write(context, place(*corner, free, row), *corner, lines);
         if is_lower(*corner) {
             left.max.y = left.max.y.min(written.min.y);
         } else {
@@ -41,6 +45,44 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: 
         }
     }
     left
+}
+
+/// Where a corner is written.
+struct Place {
+    /// The area that no panel covers.
+    free: egui::Rect,
+    /// The most that it takes of its width.
+    width: f32,
+    /// How far it is moved to the right to make room for a wider one at the left.
+    shift: f32,
+}
+
+/// The width of lines that are not wrapped, with their frame; 0 of none.
+fn natural_width(context: &Context, lines: &[String]) -> f32 {
+    let font = egui::TextStyle::Monospace.resolve(&context.global_style());
+    let width = |line: &String| {
+        let text = context.fonts_mut(|fonts| fonts.layout_no_wrap(line.clone(), font.clone(), INK));
+        text.size().x + 2.0 * MARGIN
+    };
+    lines.iter().map(width).fold(0.0, f32::max).ceil()
+}
+
+/// The place of a corner, given the widths of all in its row, by their numbers, if no line is wrapped. Lines are wrapped
+/// only where not all of them fit.
+fn place(corner: Corner, free: egui::Rect, row: [f32; Corner::ALL.len()]) -> Place {
+    let shown = row.iter().filter(|&&width| width > 0.0).count();
+    let gaps = GAP * (shown + 1) as f32;
+    let room = free.width() - 4.0 * GAP;
+    if row.iter().sum::<f32>() + gaps > free.width() {
+        return Place { free, width: if shown == 1 { room } else { room * share(corner) }, shift: 0.0 };
+    }
+    let [left, middle, right] = [Corner::TopLeft, Corner::Top, Corner::TopRight].map(|of| row[of as usize]);
+    let beside = (free.width() - middle) / 2.0 - GAP;
+    let shift = match corner {
+        Corner::Top => (left + GAP - beside).max(0.0) - (right + GAP - beside).max(0.0),
+        _ => 0.0,
+    };
+    Place { free, width: free.width(), shift }
 }
 
 fn is_lower(corner: Corner) -> bool {
@@ -58,16 +100,12 @@ fn share(corner: Corner) -> f32 {
     }
 }
 
-/// Writes one of them, no wider than that. Returns where.
-fn write(
-    context: &Context,
-    (free, width): (egui::Rect, f32),
-    corner: Corner,
-    lines: &[String],
-) -> egui::Rect {
+/// Writes one of them. Returns where.
+fn write(context: &Context, place: Place, corner: Corner, lines: &[String]) -> egui::Rect {
+    let Place { free, width, shift } = place;
     let (anchor, offset) = match corner {
         Corner::TopLeft => (Align2::LEFT_TOP, vec2(GAP, GAP)),
-        Corner::Top => (Align2::CENTER_TOP, vec2(0.0, GAP)),
+        Corner::Top => (Align2::CENTER_TOP, vec2(shift, GAP)),
         Corner::TopRight => (Align2::RIGHT_TOP, vec2(-GAP, GAP)),
         Corner::BottomLeft => (Align2::LEFT_BOTTOM, vec2(GAP, -GAP)),
         Corner::BottomRight => (Align2::RIGHT_BOTTOM, vec2(-GAP, -GAP)),
@@ -78,7 +116,7 @@ fn write(
     let area = area.anchor(anchor, offset).constrain_to(free).interactable(false).fade_in(false);
     let shown = area.show(context, |ui| {
         ui.set_max_width(width.max(1.0));
-        let frame = Frame::new().fill(BACKDROP).inner_margin(6).corner_radius(4);
+        let frame = Frame::new().fill(BACKDROP).inner_margin(MARGIN).corner_radius(4);
         frame.show(ui, |ui| {
             ui.with_layout(Layout::top_down(Align::Min), |ui| {
                 for line in lines {
@@ -155,6 +193,20 @@ mod tests {
         assert_eq!(progress(refining(7), Some(43)), "refining 3/4, 2 left, 43 %, 7 s", "when it takes long");
         let drawing = progress(Progress::Drawing { seconds: 2 }, Some(0));
         assert_eq!(drawing, "drawing, 0 %, 2 s", "the first picture");
+    }
+
+    /// Beside a wide panel the name of the file and the counts were wrapped, although all of them fit.
+    #[test]
+    fn lines_that_fit_beside_each_other_were_wrapped() {
+        let free = egui::Rect::from_min_size(egui::pos2(392.0, 0.0), vec2(408.0, 400.0));
+        let row = [160.0, 128.0, 44.0, 0.0, 0.0];
+        let places = Corner::ALL.map(|corner| place(corner, free, row));
+        assert!(places.iter().all(|place| place.width >= 160.0), "all of them fit");
+        let middle = (free.width() - row[1]) / 2.0 + places[Corner::Top as usize].shift;
+        assert!(middle >= row[0] + 2.0 * GAP, "beside the left one: {middle}");
+        assert!(middle + row[1] + 2.0 * GAP <= free.width() - row[2], "and the right one: {middle}");
+        let crowded = place(Corner::TopLeft, free, [200.0, 200.0, 44.0, 0.0, 0.0]);
+        assert!(crowded.width < 160.0, "in too narrow a window all of them are wrapped");
     }
 
     #[test]

@@ -36,6 +36,8 @@ pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<B
         if rows.is_empty() {
             ui.label("no key and no command of that name");
         }
+        // Rows below the last visible one are not noticed without a bar.
+        ui.style_mut().spacing.scroll = egui::style::ScrollStyle::solid();
         ScrollArea::vertical().max_height(size.y).show(ui, |ui| {
             let count = ((size.x / COLUMN) as u16).clamp(1, 3);
             let width = (size.x / f32::from(count) - 16.0).min(WIDEST);

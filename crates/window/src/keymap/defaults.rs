@@ -64,7 +64,7 @@ pub(super) fn menu() -> Vec<MenuEntry> {
         command("orthographic", "Perspective / orthographic"),
         MenuEntry::Line,
         command("edges", "Edges"),
-        command("wireframe", "Surface / wireframe / hidden lines"),
+        command("wireframe", "Faces, wires, hidden lines"),
         MenuEntry::Line,
         command("full_screen", "Full screen"),
         command("cheat_sheet", "Keys and commands"),

@@ -200,6 +200,9 @@ impl Session<'_> {
             Action::Hold(motion) => {
                 self.move_held(now);
                 if matches!(motion, Motion::Object(_)) {
+                    if self.stage.selection.is_none() {
+                        commands::say_nothing_is_selected(&mut self.stage);
+                    }
                     self.stage.begin_move();
                 }
                 let steps = self.held.press(key.code, motion, now);

@@ -33,6 +33,22 @@ fn with_pair(texts: [&str; 2], test: impl FnOnce(&mut HeadlessWindow<'_>)) {
     });
 }
 
+/// Each half cut off what would have fitted into the whole window.
+#[test]
+fn side_by_side_the_sides_of_wide_models_were_cut_off() {
+    const WIDE: &str = "v 0 0 0\nv 8 0 0\nv 8 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    with_pair([WIDE, WIDE], |window| {
+        for keys in ["", "1"] {
+            keys.chars().for_each(|chord| key(window, chord));
+            for left in [0, 300] {
+                let edges = [left + 2, left + 297].map(|column| columns(window, column..column + 1));
+                assert!(edges[0] == edges[1], "nothing of it at the edges of its half");
+                assert!(columns(window, left + 150..left + 151) != edges[0], "but in the middle");
+            }
+        }
+    });
+}
+
 #[test]
 fn two_models_are_seen_side_by_side_in_turn_and_where_they_differ() {
     with_pair([TRIANGLE, SQUARE], |window| {

@@ -1,6 +1,5 @@
 //! The scene as a tree: what is hidden, shown, selected and looked at.
 
-use trigon_camera::DEFAULT_MARGIN;
 use trigon_scene::{Node, NodeId};
 use trigon_window::{Stage, egui};
 
@@ -65,7 +64,7 @@ fn apply(stage: &mut Stage, id: NodeId, done: &Done) {
             stage.selection = Some(id);
             let points: Vec<_> = stage.scene.visible_points_below(id).collect();
             if !points.is_empty() {
-                stage.orbit.fit_points(&points, stage.viewport().aspect(), DEFAULT_MARGIN);
+                stage.fit_points(&points);
             }
         }
     }

@@ -56,16 +56,21 @@ impl Viewer {
     }
 
     pub(super) fn show(&mut self, stage: &mut Stage, model: Model, view: View) -> Result<(), Failure> {
+        let playback = Playback::new(&model.scene, &self.request);
+        let bar = playback.as_ref().map_or(0.0, Playback::height);
         if view == View::Fit || self.shown.is_none() {
-            stage.orbit = self.home(stage, &model)?;
-            stage.set_home(stage.orbit);
+            let covered = std::mem::replace(&mut stage.covered_below, bar);
+            let home = self.home(stage, &model).inspect_err(|_| stage.covered_below = covered)?;
+            stage.orbit = home;
+            stage.set_home(home);
         }
+        stage.covered_below = bar;
         stage.set_title(model.source.window_title());
         stage.selection = None;
         self.side.forget();
         self.measuring.forget();
         let mut scene = model.scene;
-        self.playback = Playback::new(&scene, &self.request);
+        self.playback = playback;
         if self.playback.as_ref().is_some_and(Playback::is_playing) {
             stage.animate();
         }
@@ -131,8 +136,11 @@ impl Viewer {
 
     /// The view that the command line asks for.
     pub(super) fn home(&self, stage: &Stage, model: &Model) -> Result<Orbit, Failure> {
-        let shot = model.shot(&self.request.framing, stage.viewport().aspect())?;
+        let shot = model.shot(&self.request.framing, stage.fit_aspect())?;
         let mut orbit = Orbit::from_camera(&shot.camera, shot.distance, self.request.framing.up);
+        if self.request.framing.is_fitted() {
+            orbit.zoom(stage.room());
+        }
         if self.request.window.interaction_style == Some(InteractionStyle::Trackball) {
             orbit.set_style(OrbitStyle::Trackball);
         }

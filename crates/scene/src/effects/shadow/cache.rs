@@ -37,6 +37,9 @@ impl ShadowCache {
         }
         self.maps.retain(|(kept, _)| poses.contains(kept));
         self.drawn = 0;
+        let missing = poses.iter().filter(|pose| !self.maps.iter().any(|(kept, _)| kept == *pose));
+        let passes: usize = missing.map(|pose| fit::views(pose, casters).len()).sum();
+        rasterizer.expect_passes(u32::try_from(passes).unwrap_or(u32::MAX));
         let mut maps = ShadowMaps::default();
         for pose in poses {
             let maps_of_lamp = self.of(pose, (scene, casters), rasterizer)?;

@@ -20,6 +20,76 @@ const OPENERS: [&str; 9] = ["H", "Ctrl+O", "Shift+D", "N", "M", "Z", "D", "X", "
 const TOGGLES: [&str; 7] =
     ["quality.difference", "axis", "grid", "file.name", "metadata", "frame_time", "frame_time.stages"];
 
+/// What undoes a key that changes the picture, so that the next one is seen alone.
+const UNDONE_BY: [(&str, &str); 15] = [
+    ("edges", "E"),
+    ("wireframe", "Shift+E Shift+E"),
+    ("samples", "A A A"),
+    ("orthographic", "5"),
+    ("orbit_style", "K"),
+    ("up.z", "Alt+Y"),
+    ("display.next", "Shift+C"),
+    ("display.previous", "C"),
+    ("display.matcap", "Shift+M"),
+    ("display.depth", "Ctrl+D"),
+    ("animation.next", "W W"),
+    ("text.larger", "Ctrl+-"),
+    ("text.smaller", "Ctrl+="),
+    ("object.move", "Ctrl+Z"),
+    ("object.turn", "Ctrl+Z"),
+];
+
+/// The corners of a cube, and the two triangles of each of its sides.
+const BOX: [[f32; 3]; 8] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [0.0, 1.0, 1.0],
+    [1.0, 1.0, 1.0],
+];
+const FACES: [[u8; 6]; 6] = [
+    [0, 2, 3, 0, 3, 1],
+    [4, 5, 7, 4, 7, 6],
+    [0, 1, 5, 0, 5, 4],
+    [2, 6, 7, 2, 7, 3],
+    [0, 4, 6, 0, 6, 2],
+    [1, 3, 7, 1, 7, 5],
+];
+
+/// A red box on a blue one, which looks different from every side. The red one moves in a second, or turns around.
+const BOXES: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],
+"nodes":[{"name":"lower","mesh":0,"scale":[2,1,1.5]},{"name":"upper","mesh":1,"translation":[0,1,0]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.8,1],"metallicFactor":0}},
+{"pbrMetallicRoughness":{"baseColorFactor":[0.8,0.1,0.1,1],"metallicFactor":0}}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]},
+{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":1}]}],
+"buffers":[{"byteLength":196,"uri":"boxes.bin"}],
+"bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":36},
+{"buffer":0,"byteOffset":132,"byteLength":8},{"buffer":0,"byteOffset":140,"byteLength":24},
+{"buffer":0,"byteOffset":164,"byteLength":32}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},
+{"bufferView":1,"componentType":5121,"count":36,"type":"SCALAR"},
+{"bufferView":2,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
+{"bufferView":3,"componentType":5126,"count":2,"type":"VEC3"},
+{"bufferView":4,"componentType":5126,"count":2,"type":"VEC4"}],
+"animations":[{"name":"Slide","samplers":[{"input":2,"output":3}],
+"channels":[{"sampler":0,"target":{"node":1,"path":"translation"}}]},
+{"name":"Turn","samplers":[{"input":2,"output":4}],
+"channels":[{"sampler":0,"target":{"node":1,"path":"rotation"}}]}]}"#;
+
+/// Writes the boxes and their buffer.
+fn written_boxes(folder: &Path) -> PathBuf {
+    let values = [0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0_f32];
+    let mut bytes: Vec<u8> = BOX.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
+    bytes.extend(FACES.iter().flatten());
+    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+    written(folder, "boxes.bin", bytes);
+    written(folder, "boxes.gltf", BOXES)
+}
+
 /// Writes what is to be seen, if somebody wants to look at it.
 fn screenshot(window: &HeadlessWindow<'_>, name: &str) {
     let Some(folder) = std::env::var_os("TRIGON_REPLAY_PICTURES") else { return };
@@ -56,7 +126,7 @@ fn check_layers(window: &mut HeadlessWindow<'_>, what: &str) {
 /// A window that shows an animated model, and another one beside it.
 fn with_window(test: impl Fn(&mut HeadlessWindow<'_>, &str)) {
     let folder = tempfile::tempdir().expect("a folder");
-    let files = [written(folder.path(), "walk.gltf", GLTF), written(folder.path(), "other.obj", OBJ)];
+    let files = [written_boxes(folder.path()), written(folder.path(), "other.obj", OBJ)];
     let at = folder.path().display();
     let flags = format!("--screenshot-filename={at}/shot.png --statefile-filename={at}/state.json");
     for (size, scale) in WINDOWS {
@@ -68,14 +138,28 @@ fn with_window(test: impl Fn(&mut HeadlessWindow<'_>, &str)) {
     }
 }
 
+/// Undoes what a key did to the picture.
+fn restore(window: &mut HeadlessWindow<'_>, name: &str, home: Orbit) {
+    let undone = UNDONE_BY.iter().filter(|(of, _)| *of == name).flat_map(|(_, by)| by.split(' '));
+    undone.for_each(|chord| window.tap(chord.parse().expect("a chord")));
+    if window.stage().orbit != home {
+        window.tap(Key::Enter.into());
+    }
+    loaded(window);
+}
+
 #[test]
 fn every_key_of_the_sheet_does_something_harmless() {
     with_window(|window, name| {
         check_layers(window, name);
         screenshot(window, &format!("{name}-start"));
+        let home = window.stage().orbit;
         let bindings = window.stage().keymap.bindings().to_vec();
         assert!(bindings.len() > 60, "all of them: {}", bindings.len());
         for binding in bindings.iter().filter(|binding| binding.name != "quit") {
+            if binding.name.starts_with("object") || binding.name == "look_at_selected" {
+                key(window, "Tab");
+            }
             window.tap(binding.chord);
             loaded(window);
             let what = format!("{name}-{}-{}", binding.chord, binding.name);
@@ -87,6 +171,7 @@ fn every_key_of_the_sheet_does_something_harmless() {
                 window.tap(binding.chord);
             }
             (0..2).for_each(|_| window.tap(Key::Escape.into()));
+            restore(window, &binding.name, home);
         }
         key(window, "Ctrl+Q");
         assert!(window.is_closed(), "{name}: the last one ends it");
@@ -104,11 +189,29 @@ fn panels_never_cover_each_other() {
                 check_layers(window, &what);
                 screenshot(window, &what);
                 (0..4).for_each(|_| key(window, "Escape"));
-                // Texts stay where Escape closes nothing.
-                for text in [one, other].into_iter().filter(|text| ["N", "M", "Z", "D", "X"].contains(text)) {
+                // Texts stay where Escape closes nothing. Into the path field the key only typed.
+                let is_text = |text: &&&str| ["N", "M", "Z", "D", "X"].contains(*text) && *one != "Ctrl+O";
+                for text in [one, other].into_iter().filter(is_text) {
                     key(window, text);
                 }
             }
+        }
+    });
+}
+
+/// The lowest part of the model was behind the bar.
+#[test]
+fn the_bar_of_animations_covered_the_model_in_fitted_views() {
+    with_window(|window, name| {
+        for view in ["Enter", "1", "3", "7", "9"] {
+            key(window, view);
+            let bar = window.widgets("Play")[0].center.y * 2.0 - window.stage().viewport().size().y;
+            let stage = window.stage();
+            let projector = Projector::new(&stage.camera(), stage.viewport());
+            let seen = stage.scene.visible_points().filter_map(|point| projector.to_screen(point));
+            let lowest = seen.map(|at| at.y).fold(0.0, f64::max);
+            assert!(lowest > bar * 0.5, "{name}, {view}: it is seen, down to {lowest}");
+            assert!(lowest < bar, "{name}, {view}: down to {lowest}, the bar begins at {bar}");
         }
     });
 }

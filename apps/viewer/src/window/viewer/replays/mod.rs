@@ -8,7 +8,7 @@ mod first_contact;
 use std::path::{Path, PathBuf};
 
 use clap::Parser;
-use trigon_camera::Viewport;
+use trigon_camera::{Orbit, Projector, Viewport};
 use trigon_math::DVec2;
 use trigon_window::{Chord, HeadlessWindow, Key, Modifiers, PointerButton, Stage};
 
