@@ -18,7 +18,7 @@ use trigon_study::workloads::{Canvas, Workload};
 #[global_allocator]
 static ALLOCATOR: dhat::Alloc = dhat::Alloc;
 
-/// Width and height of pictures of several tiles.
+/// Width and height of images of several tiles.
 const SMALL: u32 = 96;
 
 /// With four samples a pixel, enough to be shared among threads.
@@ -121,7 +121,7 @@ fn assert_threads_allocate_what_their_pool_does(kinds: &[Kind]) {
     }
 }
 
-/// Beyond the caller's vertices, indices and picture.
+/// Beyond the caller's vertices, indices and image.
 fn assert_peak_of_a_million_triangles() {
     const MOST: usize = 40_000_000;
     let scene = Workload::Torus.scene();

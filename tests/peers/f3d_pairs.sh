@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Draws models with trigon and with F3D in turns, both with one sample for each pixel, and writes for each model the
-# best time and the peak memory of both, and their pictures side by side.
+# best time and the peak memory of both, and their images side by side.
 #
 #   tests/peers/f3d_pairs.sh FOLDER [REPETITIONS] MODELS...
 #
 # Needs the release viewer, and Debian's f3d, xvfb, time, jq and imagemagick. Times mean something on a quiet machine only.
 set -euo pipefail
-folder=${1:?where the pictures go}
+folder=${1:?where the images go}
 repetitions=${2:-5}
 shift 2
 cd "$(dirname "$0")/../.."

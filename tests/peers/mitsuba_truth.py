@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Six scenes as Mitsuba 3 draws them, beside trigon's pictures of the same meshes from the same camera.
+"""Six scenes as Mitsuba 3 draws them, beside trigon's images of the same meshes from the same camera.
 
 usage: mitsuba_truth.py FOLDER [--samples N]
 
-FOLDER is what `cargo run --release -p trigon-study --example truth -- FOLDER` wrote. Both pictures are linear light; Mitsuba
-takes N samples a pixel (1,024) of a box filter, and lamps have no size, so that its pictures have no noise but at edges. Prints
-a row for each picture: the root of the mean square of the difference, as a share of the mean light, over all pixels that show
+FOLDER is what `cargo run --release -p trigon-study --example truth -- FOLDER` wrote. Both images are linear light; Mitsuba
+takes N samples a pixel (1,024) of a box filter, and lamps have no size, so that its images have no noise but at edges. Prints
+a row for each image: the root of the mean square of the difference, as a share of the mean light, over all pixels that show
 a surface and over those whose neighbours show nothing else, and the greatest difference of the latter. Needs mitsuba and numpy.
 """
 import argparse
@@ -36,8 +36,8 @@ def surface(described, folder):
     else:
         bsdf = {"type": "principled", "base_color": rgb(color), "roughness": described["roughness"], "metallic": 0.0, "specular": 0.5}
     if "normals" in described:
-        picture = {"type": "bitmap", "filename": str(folder / described["normals"]), "raw": True}
-        bsdf = {"type": "normalmap", "normalmap": picture, "bsdf": bsdf}
+        image = {"type": "bitmap", "filename": str(folder / described["normals"]), "raw": True}
+        bsdf = {"type": "normalmap", "normalmap": image, "bsdf": bsdf}
     return {"type": "twosided", "bsdf": bsdf}
 
 
@@ -79,7 +79,7 @@ def draw(scene, folder, samples):
         described[f"object{number}"] = {
             "type": "ply",
             "filename": str(folder / one["mesh"]),
-            # PLY counts upwards, Mitsuba from the first row of a picture.
+            # PLY counts upwards, Mitsuba from the first row of an image.
             "flip_tex_coords": True,
             "bsdf": surface(one["surface"], folder),
         }
@@ -104,20 +104,20 @@ def main():
     parser.add_argument("--samples", type=int, default=1024)
     arguments = parser.parse_args()
     print(f"Mitsuba {mitsuba.__version__}, {arguments.samples} samples a pixel")
-    print("| picture | RMSE, % of the mean light | within surfaces | greatest within, % |")
+    print("| image | RMSE, % of the mean light | within surfaces | greatest within, % |")
     print("|---|--:|--:|--:|")
     for scene in json.loads((arguments.folder / "scenes.json").read_text()):
         truth = draw(scene, arguments.folder, arguments.samples)
         numpy.save(arguments.folder / f"{scene['name']}.truth.npy", truth)
-        for picture in scene["pictures"]:
-            ours = numpy.load(arguments.folder / picture["file"])
+        for image in scene["images"]:
+            ours = numpy.load(arguments.folder / image["file"])
             covered = (truth[..., 3] > 0) | (ours[..., 3] > 0)
             whole = inner((truth[..., 3] > 0.9999) & (ours[..., 3] > 0.9999))
             difference = ours[..., :3] - truth[..., :3]
             mean = truth[covered][:, :3].mean()
             rms = lambda mask: 100 * math.sqrt((difference[mask] ** 2).mean()) / mean
             greatest = 100 * numpy.abs(difference[whole]).max() / mean
-            print(f"| {picture['name']} | {rms(covered):.3g} | {rms(whole):.3g} | {greatest:.3g} |")
+            print(f"| {image['name']} | {rms(covered):.3g} | {rms(whole):.3g} | {greatest:.3g} |")
 
 
 if __name__ == "__main__":

@@ -1,11 +1,11 @@
 #!/bin/bash
-# Other renderers' pictures of the workloads, and their times beside trigon's.
+# Other renderers' images of the workloads, and their times beside trigon's.
 #
-# usage: tests/peers/rivals.sh PEERS pictures FOLDER   draw W2 to W6 with every peer, as RENDERER-WORKLOAD.png
+# usage: tests/peers/rivals.sh PEERS images FOLDER   draw W2 to W6 with every peer, as RENDERER-WORKLOAD.png
 #        tests/peers/rivals.sh PEERS times [ROUNDS]    time everything in turn, and print crates/study/rivals/times.csv
 #
 # PEERS is the folder of the programs that draw the workloads with OpenGL, Vulkan, euc and retrofire, where ./setup.sh has been
-# run once. To publish: pictures, then `cargo run --release -p trigon-study --example rivals -- FOLDER > crates/study/rivals/errors.csv`,
+# run once. To publish: images, then `cargo run --release -p trigon-study --example rivals -- FOLDER > crates/study/rivals/errors.csv`,
 # then on a machine that does nothing else times > crates/study/rivals/times.csv, then trigon-viewer study.
 set -e
 [ $# -ge 2 ] || { sed -n '2,9s/^# \?//p' "$0"; exit 2; }
@@ -18,7 +18,7 @@ workloads="W2 W3 W4 W5 W6"
 one_core="llvmpipe-debian:1 llvmpipe-new:1 lavapipe-new:1 swiftshader:1 euc:1 retrofire:1"
 two_cores="llvmpipe-debian:2+1 llvmpipe-new:2+1 lavapipe-new:2+1 swiftshader:2"
 
-pictures() {
+images() {
     mkdir -p "$1"
     export PEERS_PNG=$(cd "$1" && pwd) PEERS_REPS=1
     for each in $one_core; do one "${each%%:*}" "${each#*:}" $workloads >&2; done
@@ -62,7 +62,7 @@ PYTHON
 }
 
 case $2 in
-    pictures) pictures "${3:-target/rivals}";;
+    images) images "${3:-target/rivals}";;
     times) times "${3:-5}";;
     *) echo "there is no $2" >&2; exit 2;;
 esac

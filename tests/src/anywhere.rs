@@ -8,7 +8,7 @@ use crate::hard_cases::slivers::sliver;
 use num_traits::Signed;
 use proptest::prelude::*;
 use trigon_math::elementary::exp2;
-use trigon_raster::{Culling, Draw, ExecuteSettings, Output, Pass, Pictures, Target, TileSize};
+use trigon_raster::{Culling, Draw, ExecuteSettings, Output, Pass, Target, TargetImages, TileSize};
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::area::rational;
 use trigon_study::oracle::coverage::{centre, covers, doubled_area};
@@ -41,7 +41,7 @@ fn tile_size() -> impl Strategy<Value = TileSize> {
 }
 
 /// The images of one triangle that has been moved by whole pixels.
-fn drawn(points: [GridPoint; 3], numbers: [[f32; 2]; 3], tile_size: TileSize) -> Pictures {
+fn drawn(points: [GridPoint; 3], numbers: [[f32; 2]; 3], tile_size: TileSize) -> TargetImages {
     let vertex = |corner: usize| {
         let [depth, value] = numbers[corner];
         (clip_position_on(SIDE, points[corner], depth), value)
@@ -52,7 +52,7 @@ fn drawn(points: [GridPoint; 3], numbers: [[f32; 2]; 3], tile_size: TileSize) ->
     let outputs = [Output::Linear, Output::Depth, Output::Triangle];
     let mut target = Target::new(SIDE as u32, SIDE as u32, &outputs).expect("the size is in range");
     rasterizer(&ExecuteSettings { tile_size, ..Default::default() }).draw(&pass, &mut target);
-    target.into_pictures()
+    target.into_images()
 }
 
 fn moved(points: [GridPoint; 3], pixels: [i32; 2]) -> [GridPoint; 3] {
@@ -91,11 +91,11 @@ proptest! {
         const ROUNDED: f64 = 13.5 / (1 << 24) as f64;
         let points = moved(points, at);
         let plane = Plane { corners: points, depths };
-        let pictures = drawn(points, [0, 1, 2].map(|corner| [depths[corner], values[corner]]), tile_size);
-        let [ids, depth] = [pictures.triangles.is_some(), pictures.depth.is_some()];
+        let images = drawn(points, [0, 1, 2].map(|corner| [depths[corner], values[corner]]), tile_size);
+        let [ids, depth] = [images.triangles.is_some(), images.depth.is_some()];
         prop_assert!(ids && depth, "asked for");
-        let (ids, depth) = (pictures.triangles.unwrap_or_default(), pictures.depth.unwrap_or_default());
-        let colors = pictures.linear.unwrap_or_default();
+        let (ids, depth) = (images.triangles.unwrap_or_default(), images.depth.unwrap_or_default());
+        let colors = images.linear.unwrap_or_default();
         let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(f64::from(value.abs())));
         // Rationals are slow: every seventh pixel.
         for (pixel, index) in window(at).filter(|(_, index)| ids[*index] == 0).step_by(7) {

@@ -131,29 +131,29 @@ proptest! {
         samples in Samples::any(),
         step in prop_oneof![Just(1_usize), Just(7), Just(31)],
     ) {
-        let picture = |order: &mut dyn Iterator<Item = usize>, settings: &ExecuteSettings| {
+        let image = |order: &mut dyn Iterator<Item = usize>, settings: &ExecuteSettings| {
             let mut target = samples.target([SIDE as u32; 2], &[Output::Linear]);
             rasterizer(settings).draw(&record(&layers, order), &mut target);
-            target.into_pictures()
+            target.into_images()
         };
         let count = layers.len();
-        let reference = picture(&mut (0..count), &ExecuteSettings::default());
+        let reference = image(&mut (0..count), &ExecuteSettings::default());
         if samples.per_axis == 1 {
             check(&layers, samples.per_pixel, reference.linear.as_ref().expect("asked for"));
         }
-        prop_assert!(picture(&mut (0..count).rev(), &ExecuteSettings::default()) == reference, "reversed");
+        prop_assert!(image(&mut (0..count).rev(), &ExecuteSettings::default()) == reference, "reversed");
         if count % step != 0 || step == 1 {
             let shuffled = &mut (0..count).map(|index| index * step % count);
-            prop_assert!(picture(shuffled, &ExecuteSettings::default()) == reference, "shuffled");
+            prop_assert!(image(shuffled, &ExecuteSettings::default()) == reference, "shuffled");
         }
         for tile_size in [TileSize::Pixels8, TileSize::Pixels16, TileSize::Pixels32, TileSize::Pixels64] {
             let settings = ExecuteSettings { tile_size, ..Default::default() };
-            prop_assert!(picture(&mut (0..count), &settings) == reference, "{tile_size:?}");
+            prop_assert!(image(&mut (0..count), &settings) == reference, "{tile_size:?}");
         }
         for (level, threads) in levels().zip([1, 2, 3].into_iter().cycle()) {
             let settings =
                 ExecuteSettings { simd: Some(level), threads: NonZeroUsize::new(threads), ..Default::default() };
-            prop_assert!(picture(&mut (0..count), &settings) == reference, "{settings:?}");
+            prop_assert!(image(&mut (0..count), &settings) == reference, "{settings:?}");
         }
     }
 }

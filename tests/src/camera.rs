@@ -8,7 +8,7 @@ use trigon_math::{DMat3, DVec2, DVec3, elementary};
 
 use crate::effort::cases;
 
-const PICTURE: Viewport = Viewport { width: 1920, height: 1080 };
+const IMAGE: Viewport = Viewport { width: 1920, height: 1080 };
 
 /// Rounding unit of f64.
 const UNIT: f64 = f64::EPSILON / 2.0;
@@ -35,7 +35,7 @@ fn any_projection() -> impl Strategy<Value = Projection> {
             }
             _ => {
                 let (focal, center) = (DVec2::new(n[0], n[1]) * 2000.0, DVec2::new(n[2], n[3]) * 1080.0);
-                Projection::pinhole(focal, center, PICTURE, PixelCenters::AtIntegers, near)
+                Projection::pinhole(focal, center, IMAGE, PixelCenters::AtIntegers, near)
                     .and_then(|k| k.with_planes(near, far))
             }
         };
@@ -49,7 +49,7 @@ fn any_point(size: f64) -> impl Strategy<Value = DVec3> {
 
 /// Scales and shifts of x and y, read off the matrix.
 fn scale_and_shift(projection: &Projection) -> (DVec2, DVec2) {
-    let matrix = projection.matrix(PICTURE.aspect());
+    let matrix = projection.matrix(IMAGE.aspect());
     (DVec2::new(matrix.x_axis.x, matrix.y_axis.y), matrix.z_axis.truncate().truncate().abs())
 }
 
@@ -126,11 +126,11 @@ proptest! {
     ) {
         let offset = DVec3::new(offset, -offset, offset);
         let camera = Camera::look_at(position + offset, target + offset, DVec3::Y).with_projection(projection);
-        let projector = Projector::new(&camera, PICTURE);
+        let projector = Projector::new(&camera, IMAGE);
         // A point of the visible space, between the planes.
         let (near, far) = (projection.near(), projection.far().unwrap_or(projection.near() * 1e4));
-        let screen = (DVec2::from(across) * 0.5 + DVec2::splat(0.5)) * PICTURE.size();
-        let point = projector.at_distance(screen, near + (far - near) * ahead).expect("the picture has pixels");
+        let screen = (DVec2::from(across) * 0.5 + DVec2::splat(0.5)) * IMAGE.size();
+        let point = projector.at_distance(screen, near + (far - near) * ahead).expect("the image has pixels");
 
         let (screen, depth) = projector.to_screen_and_depth(point).expect("before the eye");
         let back = projector.unproject(screen, depth).expect("before infinity");
@@ -148,7 +148,7 @@ proptest! {
         prop_assert!((depth - exact_depth).abs() <= share * 2.0, "depth {depth}, not {exact_depth}");
         prop_assert_eq!(projector.to_screen(point), Some(screen));
         prop_assert_eq!(projector.to_depth(point), Some(depth));
-        let ray = projector.ray(screen).expect("the picture has pixels");
+        let ray = projector.ray(screen).expect("the image has pixels");
         let along = (point - ray.origin).dot(ray.direction);
         prop_assert!(ray.at(along).distance(point) <= bound, "the pixel's ray misses the point");
     }
@@ -161,10 +161,10 @@ proptest! {
         point in any_point(10.0),
     ) {
         let camera = Camera::look_at(position, target, DVec3::Y).with_projection(projection);
-        let clip = camera.view_projection(PICTURE.aspect()) * point.extend(1.0);
+        let clip = camera.view_projection(IMAGE.aspect()) * point.extend(1.0);
         let distance = -camera.to_camera(point).z;
         prop_assume!(distance.abs() > 1e-3);
-        let projected = Projector::new(&camera, PICTURE).to_screen_and_depth(point);
+        let projected = Projector::new(&camera, IMAGE).to_screen_and_depth(point);
         if clip.w <= 0.0 {
             prop_assert_eq!(projected, None, "behind the eye");
             return Ok(());
@@ -183,7 +183,7 @@ proptest! {
 
     #[test]
     fn depth_is_one_at_near_and_zero_at_far(projection in any_projection()) {
-        let projector = Projector::new(&Camera::default().with_projection(projection), PICTURE);
+        let projector = Projector::new(&Camera::default().with_projection(projection), IMAGE);
         // Terms of up to far / (far - near), 3 with the ratios above; less than eight roundings.
         let bound = 3.0 * 8.0 * UNIT;
         let near = projector.to_depth(DVec3::NEG_Z * projection.near()).expect("before the eye");
@@ -218,7 +218,7 @@ proptest! {
 #[test]
 fn nothing_at_or_behind_the_eye_is_on_the_screen() {
     let camera = Camera::look_at(DVec3::ONE, DVec3::ZERO, DVec3::Y);
-    let projector = Projector::new(&camera, PICTURE);
+    let projector = Projector::new(&camera, IMAGE);
     for point in [camera.position, camera.position + DVec3::ONE, camera.position + camera.right(), DVec3::NAN]
     {
         assert_eq!(projector.to_screen(point), None, "{point} is not before the eye");
@@ -230,7 +230,7 @@ fn nothing_at_or_behind_the_eye_is_on_the_screen() {
 }
 
 #[test]
-fn a_picture_without_pixels_has_no_rays() {
+fn an_image_without_pixels_has_no_rays() {
     for viewport in [Viewport { width: 0, height: 0 }, Viewport { width: 3, height: 0 }] {
         let projector = Projector::new(&Camera::default(), viewport);
         assert_eq!(projector.ray(DVec2::ZERO), None, "{viewport:?}");

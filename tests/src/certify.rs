@@ -1,5 +1,5 @@
 //! Certified pixels: whatever is off within the bounds, they stay as they are. And
-//! of ordinary pictures most pixels are certified.
+//! of ordinary images most pixels are certified.
 
 use crate::coverage_support::{Samples, rasterizer};
 use crate::effort::cases;
@@ -8,7 +8,7 @@ use trigon_math::glam::camera::rh::{proj::directx::perspective_infinite_reverse,
 use trigon_math::{Vec2, Vec3, Vec4, elementary};
 use trigon_raster::{
     Background, BlendMode, Certainty, Certificate, Culling, Draw, ExecuteSettings, Fragment, Lines, Output,
-    Pass, Pictures, Pipeline, PointShape, Points, Tolerance, VertexOutput,
+    Pass, Pipeline, PointShape, Points, TargetImages, Tolerance, VertexOutput,
 };
 
 const SIZE: [u32; 2] = [32, 24];
@@ -193,11 +193,11 @@ fn with_pass<T>(scene: &Scene, act: impl FnOnce(&Pass<'_>) -> T) -> T {
 
 const OUTPUTS: [Output; 5] = [Output::Srgb8, Output::Unorm8, Output::Object, Output::Face, Output::Triangle];
 
-fn draw(scene: &Scene, samples: Samples) -> Pictures {
+fn draw(scene: &Scene, samples: Samples) -> TargetImages {
     with_pass(scene, |pass| {
         let mut target = samples.target(SIZE, &OUTPUTS);
         rasterizer(&ExecuteSettings::default()).draw(pass, &mut target);
-        target.into_pictures()
+        target.into_images()
     })
 }
 
@@ -212,13 +212,13 @@ fn tolerance() -> impl Strategy<Value = Tolerance> {
         .prop_map(|(position, ulps, color)| Tolerance::new(position, ulps, color).expect("in range"))
 }
 
-fn ids(pictures: &Pictures, index: usize) -> [u32; 3] {
-    let planes = [&pictures.objects, &pictures.faces, &pictures.triangles];
+fn ids(images: &TargetImages, index: usize) -> [u32; 3] {
+    let planes = [&images.objects, &images.faces, &images.triangles];
     planes.map(|plane| plane.as_ref().expect("asked for")[index])
 }
 
-fn bytes(pictures: &Pictures, index: usize) -> [[u8; 4]; 2] {
-    [&pictures.srgb8, &pictures.unorm8].map(|plane| plane.as_ref().expect("asked for")[index])
+fn bytes(images: &TargetImages, index: usize) -> [[u8; 4]; 2] {
+    [&images.srgb8, &images.unorm8].map(|plane| plane.as_ref().expect("asked for")[index])
 }
 
 proptest! {
@@ -290,7 +290,7 @@ fn ordinary_scene() -> (Shapes, [Vec<[u32; 3]>; 3]) {
 }
 
 #[test]
-fn most_pixels_of_an_ordinary_picture_are_certified() {
+fn most_pixels_of_an_ordinary_image_are_certified() {
     let (shapes, [torus, ground, glass]) = ordinary_scene();
     let mut pass = Pass::new();
     pass.triangles(Draw { faces: Some(&[0; 1024]), ..Draw::new(&shapes, &torus) });

@@ -11,7 +11,7 @@ use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::{centre, covers};
 
 /// Points that meet pixel centres and each other often, anywhere in and around
-/// the picture, or far out in the guard band.
+/// the image, or far out in the guard band.
 fn point() -> impl Strategy<Value = GridPoint> {
     let near = -20 * 256..(SIDE + 20) * 256;
     let half = (-8..2 * SIDE + 8).prop_map(|v| v * 128);
@@ -77,22 +77,22 @@ proptest! {
     fn the_order_and_winding_of_corners_change_nothing(points in triangle(), depths in [0.0_f32..1.0, 0.0..1.0, 0.0..1.0]) {
         let vertices = [0, 1, 2].map(|i| (clip_position(points[i], depths[i]), depths[i] * 7.0));
         let pipeline = Values { vertices: vertices.to_vec() };
-        let pictures = [[0, 1, 2], [1, 2, 0], [2, 1, 0]].map(|corners| {
+        let images = [[0, 1, 2], [1, 2, 0], [2, 1, 0]].map(|corners| {
             let triangles = [corners];
             let mut pass = Pass::new();
             pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &triangles) });
             draw(&pass)
         });
-        prop_assert!(pictures[0] == pictures[1], "rotated");
-        prop_assert!(pictures[0] == pictures[2], "reversed");
-        let triangles = pictures[0].triangles.as_ref().expect("asked for");
+        prop_assert!(images[0] == images[1], "rotated");
+        prop_assert!(images[0] == images[2], "reversed");
+        let triangles = images[0].triangles.as_ref().expect("asked for");
         for (index, &shown) in triangles.iter().enumerate() {
             prop_assert_eq!(shown == 0, covers(points, centre(pixel(index))), "at {:?}", pixel(index));
         }
     }
 
     #[test]
-    fn whole_pixels_move_the_picture_exactly(points in triangle(), dx in -20..20_i32, dy in -20..20_i32) {
+    fn whole_pixels_move_the_image_exactly(points in triangle(), dx in -20..20_i32, dy in -20..20_i32) {
         let moved = points.map(|[x, y]| [x + 256 * dx, y + 256 * dy]);
         let [before, after] = [points, moved].map(|points| count(&Values::on_grid(&points), &[[0, 1, 2]]));
         for (index, &count) in before.iter().enumerate() {

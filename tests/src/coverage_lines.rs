@@ -32,14 +32,14 @@ proptest! {
     ) {
         let vertices = (0..2).map(|i| (clip_position(ends[i], depths[i]), depths[i] * 3.0)).collect();
         let pipeline = Values { vertices };
-        let pictures = [[[0, 1]], [[1, 0]]].map(|segments| {
+        let images = [[[0, 1]], [[1, 0]]].map(|segments| {
             let mut pass = Pass::new();
             pass.lines(Lines { width, ..Lines::new(&pipeline, &segments) });
             draw(&pass)
         });
-        prop_assert!(pictures[0] == pictures[1]);
+        prop_assert!(images[0] == images[1]);
         let line = Line::new([0, 1].map(|i| pipeline.vertices[i].0), width);
-        let shown: Vec<bool> = pictures[0].triangles.iter().flatten().map(|&id| id != u32::MAX).collect();
+        let shown: Vec<bool> = images[0].triangles.iter().flatten().map(|&id| id != u32::MAX).collect();
         line.check(&shown);
     }
 
@@ -103,7 +103,7 @@ proptest! {
     }
 }
 
-/// A segment through the picture, with one end or both up to 30,000 pixels out.
+/// A segment through the image, with one end or both up to 30,000 pixels out.
 fn crossing() -> impl Strategy<Value = [GridPoint; 2]> {
     let far = || [-15_000 * 256..15_000 * 256, -15_000 * 256..15_000 * 256_i32];
     (inside(), far(), 0..=4_i32).prop_map(|(through, [x, y], part)| {
@@ -139,13 +139,13 @@ fn points_have_their_size() {
 fn a_segment_without_length_is_the_same_from_either_end() {
     let vertices = [0.25, 0.75].map(|value| (clip_position([5000, 5000], value), value));
     let pipeline = Values { vertices: vertices.to_vec() };
-    let pictures = [[[0, 1]], [[1, 0]]].map(|segments| {
+    let images = [[[0, 1]], [[1, 0]]].map(|segments| {
         let mut pass = Pass::new();
         pass.lines(Lines { width: 5.0, ..Lines::new(&pipeline, &segments) });
         draw(&pass)
     });
-    assert!(pictures[0] == pictures[1], "both directions");
-    for (index, &id) in pictures[0].triangles.iter().flatten().enumerate() {
+    assert!(images[0] == images[1], "both directions");
+    for (index, &id) in images[0].triangles.iter().flatten().enumerate() {
         // A square of five pixels, whose middle is not on a sample: 5000 = 19 · 256 + 136.
         let is_inside = pixel(index).iter().all(|at| (256 * at + 128 - 5000).abs() < 640);
         assert_eq!(id == 0, is_inside, "at {:?}", pixel(index));

@@ -1,16 +1,16 @@
 //! What the tests of the rasterizer share: triangles given on the sub-pixel
-//! grid, and pictures that count how often each pixel is covered.
+//! grid, and images that count how often each pixel is covered.
 
 use proptest::prelude::*;
 use trigon_math::Vec4;
 use trigon_raster::simd::SimdLevel;
 use trigon_raster::{
-    BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Rasterizer,
-    Target, VertexOutput,
+    BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rasterizer, Target,
+    TargetImages, VertexOutput,
 };
 use trigon_study::oracle::GridPoint;
 
-/// Width and height of the pictures: a power of two, so that points of the
+/// Width and height of the images: a power of two, so that points of the
 /// sub-pixel grid are exact in clip space.
 pub(crate) const SIDE: i32 = 64;
 
@@ -20,7 +20,7 @@ pub(crate) fn clip_position(point: GridPoint, depth: f32) -> Vec4 {
     clip_position_on(SIDE, point, depth)
 }
 
-/// The same on a picture of another width and height, a power of two.
+/// The same on an image of another width and height, a power of two.
 pub(crate) fn clip_position_on(side: i32, [x, y]: GridPoint, depth: f32) -> Vec4 {
     let unit = (side * 128) as f32;
     Vec4::new(x as f32 / unit - 1.0, 1.0 - y as f32 / unit, depth, 1.0)
@@ -100,17 +100,21 @@ pub(crate) fn rasterizer(settings: &ExecuteSettings) -> Rasterizer {
     Rasterizer::new(*settings).expect("the level is supported")
 }
 
-/// All pictures of a pass, `width` by `height` pixels.
-pub(crate) fn draw_sized(pass: &Pass<'_>, [width, height]: [i32; 2], settings: &ExecuteSettings) -> Pictures {
+/// All images of a pass, `width` by `height` pixels.
+pub(crate) fn draw_sized(
+    pass: &Pass<'_>,
+    [width, height]: [i32; 2],
+    settings: &ExecuteSettings,
+) -> TargetImages {
     let outputs =
         [Output::Srgb8, Output::Linear, Output::Depth, Output::Object, Output::Face, Output::Triangle];
     let mut target = Target::new(width as u32, height as u32, &outputs).expect("the size is in range");
     rasterizer(settings).draw(pass, &mut target);
-    target.into_pictures()
+    target.into_images()
 }
 
-/// All pictures of a pass, [`SIDE`] by [`SIDE`] pixels.
-pub(crate) fn draw(pass: &Pass<'_>) -> Pictures {
+/// All images of a pass, [`SIDE`] by [`SIDE`] pixels.
+pub(crate) fn draw(pass: &Pass<'_>) -> TargetImages {
     draw_sized(pass, [SIDE; 2], &ExecuteSettings::default())
 }
 

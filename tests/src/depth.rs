@@ -6,7 +6,9 @@ use crate::coverage_support::{SIDE, Samples, Values, clip_position, draw, pixel,
 use crate::depth_plane;
 use crate::effort::cases;
 use proptest::prelude::*;
-use trigon_raster::{BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Output, Pass, Pictures, Stats};
+use trigon_raster::{
+    BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Output, Pass, Stats, TargetImages,
+};
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::{centre, covers};
 use trigon_study::oracle::depth::Plane;
@@ -19,7 +21,7 @@ fn quad(depth: f32) -> Values {
 }
 
 /// Draws the same quad once for each (object, face), in the order given.
-fn coincident(keys: &[(u32, u32)], surface: BlendMode) -> Pictures {
+fn coincident(keys: &[(u32, u32)], surface: BlendMode) -> TargetImages {
     let pipelines: Vec<_> = keys.iter().map(|_| quad(0.25)).collect();
     let faces: Vec<_> = keys.iter().map(|&(_, face)| [face; 2]).collect();
     let mut pass = Pass::new();
@@ -54,11 +56,11 @@ proptest! {
     ) {
         let keys: Vec<_> = keys.into_iter().collect();
         let surface = if masked { BlendMode::Masked } else { BlendMode::Opaque };
-        let pictures = coincident(&keys, surface);
+        let images = coincident(&keys, surface);
         let least = keys.iter().min().expect("at least one");
         let inside = (20 * SIDE + 20) as usize;
-        let objects = pictures.objects.expect("asked for");
-        let faces = pictures.faces.expect("asked for");
+        let objects = images.objects.expect("asked for");
+        let faces = images.faces.expect("asked for");
         prop_assert_eq!((objects[inside], faces[inside]), *least);
         let seen = objects.iter().zip(&faces).filter(|(object, _)| **object != u32::MAX);
         prop_assert!(seen.clone().all(|(&object, &face)| (object, face) == *least), "one winner all over");
@@ -74,8 +76,8 @@ proptest! {
         let pipeline = Values { vertices };
         let mut pass = Pass::new();
         pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &[[0, 1, 2], [3, 4, 5]]) });
-        let pictures = draw(&pass);
-        let (depth, ids) = (pictures.depth.expect("asked for"), pictures.triangles.expect("asked for"));
+        let images = draw(&pass);
+        let (depth, ids) = (images.depth.expect("asked for"), images.triangles.expect("asked for"));
         for index in 0..depth.len() {
             let planes = [0, 3].map(|first| {
                 let corner = |i: usize| (points[first + i], f64::from(depths[first + i]));
@@ -111,17 +113,17 @@ proptest! {
         let pipeline = Values { vertices: (0..3).map(|i| (clip_position(points[i], depths[i]), 1.0)).collect() };
         let mut pass = Pass::new();
         pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &[[0, 1, 2]]) });
-        let pictures = draw(&pass);
+        let images = draw(&pass);
         let low = depths.iter().copied().fold(1.0, f32::min);
         let high = depths.iter().copied().fold(0.0, f32::max);
-        for (depth, id) in pictures.depth.iter().flatten().zip(pictures.triangles.iter().flatten()) {
+        for (depth, id) in images.depth.iter().flatten().zip(images.triangles.iter().flatten()) {
             prop_assert!(*id == u32::MAX || (low <= *depth && *depth <= high), "{depth} of {depths:?}");
         }
     }
 }
 
 /// Hundreds of triangles over each other, from small to much larger than the
-/// picture; every third depth is one of eight, so that many are equal.
+/// image; every third depth is one of eight, so that many are equal.
 fn heap(seed: u64) -> Values {
     let mut random = Random(seed);
     let vertices = (0..600).flat_map(|i| {
@@ -140,7 +142,7 @@ fn heap(seed: u64) -> Values {
 }
 
 /// The heap, its last third with a mask, and what it took.
-fn draw_heap(heap: &Values, samples: Samples, depth_test: DepthTest) -> (Pictures, Stats) {
+fn draw_heap(heap: &Values, samples: Samples, depth_test: DepthTest) -> (TargetImages, Stats) {
     let triangles: Vec<_> = (0..600).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let (opaque, masked) = triangles.split_at(400);
     let mut pass = Pass::new();
@@ -150,7 +152,7 @@ fn draw_heap(heap: &Values, samples: Samples, depth_test: DepthTest) -> (Picture
     let mut target = samples.target([SIDE as u32; 2], &[Output::Linear, Output::Depth, Output::Triangle]);
     let settings = ExecuteSettings { depth_test, ..Default::default() };
     let stats = rasterizer(&settings).draw(&pass, &mut target);
-    (target.into_pictures(), stats)
+    (target.into_images(), stats)
 }
 
 proptest! {
@@ -161,7 +163,7 @@ proptest! {
         let heap = heap(seed);
         let (quick, stats) = draw_heap(&heap, samples, DepthTest::Hierarchical);
         let (late, late_stats) = draw_heap(&heap, samples, DepthTest::Late);
-        prop_assert!(quick == late, "the same picture");
+        prop_assert!(quick == late, "the same image");
         prop_assert!(stats.tiles_rejected > 0, "and something was left out");
         prop_assert_eq!(late_stats.tiles_rejected, 0, "which late tests do not");
     }
@@ -177,7 +179,7 @@ fn stages_are_timed_only_on_request() {
         let mut target = Samples::ONE.target([SIDE as u32; 2], &[Output::Linear, Output::Object]);
         let settings = ExecuteSettings { timed, ..Default::default() };
         let Stats { times, samples_seen, .. } = rasterizer(&settings).draw(&pass, &mut target);
-        let objects = target.into_pictures().objects.expect("asked for");
+        let objects = target.into_images().objects.expect("asked for");
         let seen = objects.iter().filter(|&&object| object != u32::MAX).count() as u64;
         assert!(seen > 0, "the triangles cover something");
         assert_eq!(samples_seen, if timed { seen } else { 0 }, "{timed}");

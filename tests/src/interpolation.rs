@@ -70,9 +70,9 @@ impl LanePipeline for LaneProbe {
 fn seen<P: LanePipeline>(pipeline: &P) -> Vec<([f64; 2], Vec4)> {
     let mut pass = Pass::new();
     pass.triangles(Draw { culling: Culling::None, ..Draw::new(pipeline, &[[0, 1, 2]]) });
-    let pictures = draw(&pass);
-    let ids = pictures.triangles.expect("asked for");
-    let seen = pictures.linear.expect("asked for").into_iter().enumerate().filter(|(i, _)| ids[*i] == 0);
+    let images = draw(&pass);
+    let ids = images.triangles.expect("asked for");
+    let seen = images.linear.expect("asked for").into_iter().enumerate().filter(|(i, _)| ids[*i] == 0);
     seen.map(|(index, color)| (pixel(index).map(|v| f64::from(v) + 0.5), color)).collect()
 }
 

@@ -12,7 +12,7 @@ mod coverage_support;
 mod depth;
 mod depth_plane;
 mod effort;
-mod exact_pictures;
+mod exact_images;
 mod explain;
 mod goldens;
 mod hard_cases;

@@ -6,7 +6,7 @@ use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::Vec4;
 use trigon_raster::{
-    BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, VertexOutput,
+    BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, TargetImages, VertexOutput,
 };
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::{centre, covers, sample_points};
@@ -54,13 +54,13 @@ fn half_plane() -> impl Strategy<Value = HalfPlane> {
         .prop_map(|(corners, a, b, [x, y])| HalfPlane { corners, line: [a, b, -(a * x + b * y)] })
 }
 
-fn draw(shape: &HalfPlane, surface: BlendMode, samples: u32, settings: &ExecuteSettings) -> Pictures {
+fn draw(shape: &HalfPlane, surface: BlendMode, samples: u32, settings: &ExecuteSettings) -> TargetImages {
     let outputs = [Output::Linear, Output::Depth];
     let mut target = Samples { per_axis: 1, per_pixel: samples }.target([SIDE as u32; 2], &outputs);
     let mut pass = Pass::new();
     pass.triangles(Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(shape, &[[0, 1, 2]]) });
     rasterizer(settings).draw(&pass, &mut target);
-    target.into_pictures()
+    target.into_images()
 }
 
 /// A varying is a weighted mean of values below 2^8 pixels in size (corners may lie
@@ -110,12 +110,12 @@ proptest! {
 
     #[test]
     fn masks_per_sample_are_the_same_at_every_level(shape in half_plane()) {
-        let picture = |simd| {
+        let image = |simd| {
             draw(&shape, BlendMode::MaskedPerSample, 8, &ExecuteSettings { simd, ..Default::default() })
         };
-        let reference = picture(None);
+        let reference = image(None);
         for level in levels() {
-            prop_assert!(picture(Some(level)) == reference, "{level}");
+            prop_assert!(image(Some(level)) == reference, "{level}");
         }
     }
 }

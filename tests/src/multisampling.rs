@@ -7,7 +7,7 @@ use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::{UVec2, Vec4};
 use trigon_raster::{
-    BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, VertexOutput,
+    BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, TargetImages, VertexOutput,
 };
 use trigon_study::oracle::coverage::{centre, covers, mask, sample_points, standard_positions};
 
@@ -15,12 +15,12 @@ fn pattern() -> impl Strategy<Value = u32> {
     prop_oneof![Just(2_u32), Just(4), Just(8), Just(16)]
 }
 
-/// All pictures of a pass with so many samples, [`SIDE`] by [`SIDE`] pixels.
-fn draw(pass: &Pass<'_>, per_pixel: u32) -> Pictures {
+/// All images of a pass with so many samples, [`SIDE`] by [`SIDE`] pixels.
+fn draw(pass: &Pass<'_>, per_pixel: u32) -> TargetImages {
     let outputs = [Output::Linear, Output::Depth, Output::Triangle];
     let mut target = Samples { per_axis: 1, per_pixel }.target([SIDE as u32; 2], &outputs);
     rasterizer(&ExecuteSettings::default()).draw(pass, &mut target);
-    target.into_pictures()
+    target.into_images()
 }
 
 /// How much light the pixels hold on average over their samples, if every layer
@@ -139,9 +139,9 @@ proptest! {
         }
     }
 
-    /// A grid over the whole picture, its inner vertices moved at random.
+    /// A grid over the whole image, its inner vertices moved at random.
     #[test]
-    fn a_tiled_picture_holds_every_sample_once(
+    fn a_tiled_image_holds_every_sample_once(
         cells in 2..24_i32,
         samples in pattern(),
         seed in any::<u64>(),
@@ -213,13 +213,13 @@ fn depth_and_ids_are_those_of_the_first_sample() {
         let triangles = [[4, 5, 6], [4, 6, 7], [0, 1, 2], [0, 2, 3]];
         let mut pass = Pass::new();
         pass.triangles(Draw::new(&pipeline, &triangles));
-        let pictures = draw(&pass, samples);
+        let images = draw(&pass, samples);
         let at = |pixel: UVec2| (pixel.y * SIDE as u32 + pixel.x) as usize;
-        let (depth, ids) = (pictures.depth.expect("asked for"), pictures.triangles.expect("asked for"));
+        let (depth, ids) = (images.depth.expect("asked for"), images.triangles.expect("asked for"));
         let (here, beside) = (at(UVec2::new(20, 30)), at(UVec2::new(21, 30)));
         assert_eq!((depth[here], ids[here] >= 2), (0.75, true), "the square lies on the first of {samples}");
         assert_eq!((depth[beside], ids[beside] >= 2), (0.5, false), "the wall beside it");
-        let share = pictures.linear.expect("asked for")[here].x;
+        let share = images.linear.expect("asked for")[here].x;
         assert_eq!(share, 1.0 / samples as f32, "and on no other");
     }
 }

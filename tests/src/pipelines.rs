@@ -1,5 +1,5 @@
 //! Pipelines in lanes, flat ones and scalar ones: the same program gives the same
-//! picture, however it is written.
+//! image, however it is written.
 
 use crate::coverage_support::{SIDE, Samples, rasterizer};
 use crate::effort::cases;
@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use trigon_math::Vec4;
 use trigon_raster::simd::{F32, Simd};
 use trigon_raster::{
-    BlendMode, Culling, Draw, ExecuteSettings, FragmentLanes, LanePipeline, MipFilter, Output, Pass,
-    Pictures, Sampler, Texture, TextureFormat, VertexLanes,
+    BlendMode, Culling, Draw, ExecuteSettings, FragmentLanes, LanePipeline, MipFilter, Output, Pass, Sampler,
+    TargetImages, Texture, TextureFormat, VertexLanes,
 };
 
 fn vertices() -> impl Strategy<Value = Vertices> {
@@ -41,13 +41,13 @@ fn draw<P: LanePipeline>(
     triangles: &[[u32; 3]],
     surface: BlendMode,
     samples: Samples,
-) -> Pictures {
+) -> TargetImages {
     let mut pass = Pass::new();
     pass.triangles(Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(pipeline, triangles) });
     let outputs = [Output::Linear, Output::Depth, Output::Triangle];
     let mut target = samples.target([SIDE as u32; 2], &outputs);
     rasterizer(&ExecuteSettings::default()).draw(&pass, &mut target);
-    target.into_pictures()
+    target.into_images()
 }
 
 proptest! {
@@ -98,8 +98,8 @@ proptest! {
         let vertices = vertices.in_front();
         let triangles = triangles(&vertices);
         let pipeline = Counting { flat: Flat(&vertices), asked: AtomicUsize::new(0) };
-        let pictures = draw(&pipeline, &triangles, BlendMode::Opaque, Samples::ONE);
-        let seen: HashSet<u32> = pictures.triangles.into_iter().flatten().filter(|&id| id != u32::MAX).collect();
+        let images = draw(&pipeline, &triangles, BlendMode::Opaque, Samples::ONE);
+        let seen: HashSet<u32> = images.triangles.into_iter().flatten().filter(|&id| id != u32::MAX).collect();
         prop_assert_eq!(pipeline.asked.into_inner(), seen.len());
     }
 }

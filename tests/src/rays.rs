@@ -33,7 +33,7 @@ fn corner(reach: f32, w: impl Strategy<Value = f32>) -> impl Strategy<Value = Ve
     (-reach..reach, -reach..reach, w).prop_map(|(x, y, w)| Vec4::new(x * w.abs(), y * w.abs(), NEAR, w))
 }
 
-/// Triangles over much of the picture; one in four is cut at the near plane.
+/// Triangles over much of the image; one in four is cut at the near plane.
 fn triangles() -> impl Strategy<Value = Vec<Triangle>> {
     let before = || corner(1.5, 0.3_f32..4.0);
     let any = || corner(1.5, -2.0_f32..4.0);

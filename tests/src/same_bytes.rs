@@ -1,4 +1,4 @@
-//! The same picture, to the byte, with any number of threads, any size of tiles,
+//! The same image, to the byte, with any number of threads, any size of tiles,
 //! any SIMD level, either way to test depth and any order of draws; and hostile
 //! vertices harm nobody else. Hard cases 6,
 //! 12, 17, 20, 43.
@@ -10,7 +10,7 @@ use std::num::NonZeroUsize;
 use trigon_math::{UVec2, Vec3, Vec4};
 use trigon_raster::{
     Background, BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Lines, Outline, Output, Pass,
-    Pictures, Pipeline, PointShape, Points, Rasterizer, Target, TileSize, VertexOutput,
+    Pipeline, PointShape, Points, Rasterizer, Target, TargetImages, TileSize, VertexOutput,
 };
 
 /// Coloured vertices; a fragment shows the colour, by its alpha, with dark
@@ -115,12 +115,12 @@ fn record<'a>(pass: &mut Pass<'a>, soup: &'a Soup) {
     pass.points(Points { object: object + 2, blend_mode: surface, shape, outline, ..points });
 }
 
-fn picture(
+fn image(
     soups: &[Soup],
     [width, height]: [u32; 2],
     samples: Samples,
     settings: &ExecuteSettings,
-) -> Pictures {
+) -> TargetImages {
     let outputs =
         [Output::Srgb8, Output::Linear, Output::Depth, Output::Object, Output::Face, Output::Triangle];
     let mut target = samples.target([width, height], &outputs);
@@ -133,7 +133,7 @@ fn picture(
         record(&mut pass, soup);
     }
     rasterizer(settings).draw(&pass, &mut target);
-    target.into_pictures()
+    target.into_images()
 }
 
 /// Numbers of threads and sizes of tiles.
@@ -165,7 +165,7 @@ proptest! {
         others in [executions(), executions()],
     ) {
         // Large enough to be shared among threads.
-        let draw = |settings: &ExecuteSettings| picture(&soups, [300, 200], samples, settings);
+        let draw = |settings: &ExecuteSettings| image(&soups, [300, 200], samples, settings);
         let reference = draw(&ExecuteSettings::default());
         for settings in &others {
             prop_assert!(draw(settings) == reference, "{settings:?}");
@@ -178,7 +178,7 @@ proptest! {
         samples in Samples::any(),
         others in [arithmetics(), arithmetics()],
     ) {
-        let draw = |settings: &ExecuteSettings| picture(&soups, [150, 100], samples, settings);
+        let draw = |settings: &ExecuteSettings| image(&soups, [150, 100], samples, settings);
         let reference = draw(&ExecuteSettings::default());
         for settings in &others {
             prop_assert!(draw(settings) == reference, "{settings:?}");
@@ -192,14 +192,14 @@ proptest! {
     #[test]
     fn the_order_of_draws_and_triangles_changes_nothing(soups in soups(), samples in Samples::any()) {
         let settings = ExecuteSettings::default();
-        let mut reference = picture(&soups, [100, 80], samples, &settings);
+        let mut reference = image(&soups, [100, 80], samples, &settings);
         let mut turned = soups;
         turned.reverse();
         for soup in &mut turned {
             soup.triangles.reverse();
             soup.faces.reverse();
         }
-        let mut other = picture(&turned, [100, 80], samples, &settings);
+        let mut other = image(&turned, [100, 80], samples, &settings);
         // The index of a triangle in its draw is what has changed.
         reference.triangles = None;
         other.triangles = None;
@@ -210,7 +210,7 @@ proptest! {
     #[test]
     fn hostile_vertices_harm_nobody_else(soups in soups(), hostile in proptest::collection::vec(hostile(), 3..12)) {
         let settings = ExecuteSettings::default();
-        let reference = picture(&soups, [160, 120], Samples::ONE, &settings);
+        let reference = image(&soups, [160, 120], Samples::ONE, &settings);
         let count = hostile.len() as u32;
         let hostile = Soup {
             object: 500,
@@ -223,11 +223,11 @@ proptest! {
             faces: Vec::new(),
         };
         let all: Vec<_> = soups.iter().cloned().chain([hostile]).collect();
-        let pictures = picture(&all, [160, 120], Samples::ONE, &settings);
-        prop_assert!(pictures.linear.iter().flatten().all(|color| color.is_finite()), "a colour is not finite");
-        prop_assert!(pictures.depth.iter().flatten().all(|depth| (0.0..=1.0).contains(depth)), "a depth is not one");
+        let images = image(&all, [160, 120], Samples::ONE, &settings);
+        prop_assert!(images.linear.iter().flatten().all(|color| color.is_finite()), "a colour is not finite");
+        prop_assert!(images.depth.iter().flatten().all(|depth| (0.0..=1.0).contains(depth)), "a depth is not one");
         // Translucent, so it changes no id and no depth.
-        prop_assert!(pictures.objects == reference.objects && pictures.depth == reference.depth);
+        prop_assert!(images.objects == reference.objects && images.depth == reference.depth);
     }
 }
 
@@ -332,7 +332,7 @@ fn colours_that_overflow_stay_finite() {
         for layers in [&layers[..2], &layers[..3], &layers[..4], &layers[..]] {
             let mut pass = Pass::new();
             for (object, layer) in layers.iter().enumerate() {
-                // Half of the picture, so that samples of a pixel differ.
+                // Half of the image, so that samples of a pixel differ.
                 let triangles = if surface == BlendMode::Opaque { &triangles[..1] } else { &triangles[..] };
                 pass.triangles(Draw {
                     blend_mode: surface,
@@ -425,10 +425,10 @@ fn unused_vertices_between_used_ones_are_not_run() {
         let mut pass = Pass::new();
         pass.triangles(Draw { culling: Culling::None, ..Draw::new(pipeline, triangles) });
         let stats = Rasterizer::default().draw(&pass, &mut target);
-        (target.into_pictures(), stats)
+        (target.into_images(), stats)
     };
     let (sparse, stats) = execute(&pipeline, &triangles);
-    assert!(sparse == execute(&dense, &[[0, 1, 2]]).0, "the same picture as with these vertices alone");
+    assert!(sparse == execute(&dense, &[[0, 1, 2]]).0, "the same image as with these vertices alone");
     assert!(stats.vertices <= 4, "{} vertices were run", stats.vertices);
     assert_eq!(stats.invalid, 1, "an index out of range");
 }

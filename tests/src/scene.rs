@@ -1,4 +1,4 @@
-//! The scene as a container, and what a picture promises about it.
+//! The scene as a container, and what an image promises about it.
 
 use proptest::prelude::*;
 use trigon_camera::{Camera, Projection};
@@ -75,7 +75,7 @@ fn a_chain_of_100_000_nodes_is_placed_without_recursion() {
 /// A model ten million metres away looks exactly as one at the origin.
 #[test]
 fn large_world_coordinates_change_nothing() {
-    let picture = |offset: DVec3| {
+    let image = |offset: DVec3| {
         let mut scene = Scene::new();
         let knot = scene.add_object(
             "knot",
@@ -90,8 +90,8 @@ fn large_world_coordinates_change_nothing() {
         check_ids(&frame, &Oracle::new(&scene, &camera, [80, 60]), "far away");
         frame
     };
-    let here = picture(DVec3::ZERO);
-    assert_eq!(here, picture(DVec3::new(1e7, -3e7, 2e7)), "exactly representable offsets cancel exactly");
+    let here = image(DVec3::ZERO);
+    assert_eq!(here, image(DVec3::new(1e7, -3e7, 2e7)), "exactly representable offsets cancel exactly");
 }
 
 /// A pixel's ids and depth belong together: the camera ray through the pixel
@@ -150,16 +150,16 @@ proptest! {
     #![proptest_config(crate::effort::cases(24))]
 
     /// Moving everything, the camera included, by a rigid motion that is exact
-    /// in binary moves nothing in the picture.
+    /// in binary moves nothing in the image.
     #[test]
     fn only_the_placement_relative_to_the_camera_counts(x in -1000_i32..1000, y in -1000_i32..1000) {
-        let picture = |offset: DVec3| {
+        let image = |offset: DVec3| {
             let mut scene = Scene::new();
             let cube = scene.add_object("cube", primitives::cube(1.0), Material::from_color(Vec3::X));
             scene.node_mut(cube).expect("there").transform.set_translation(offset);
             draw(&scene, &Camera::look_at(offset + DVec3::new(2.0, 1.0, 3.0), offset, DVec3::Y))
         };
-        prop_assert_eq!(picture(DVec3::ZERO), picture(DVec3::new(f64::from(x), f64::from(y), 0.5)));
+        prop_assert_eq!(image(DVec3::ZERO), image(DVec3::new(f64::from(x), f64::from(y), 0.5)));
     }
 
     /// A child under a chain of parents lands where the product of their maps

@@ -1,4 +1,4 @@
-//! A pass with a scissor: inside the rectangle the bytes of the whole picture,
+//! A pass with a scissor: inside the rectangle the bytes of the whole image,
 //! outside of it what the caller's buffers held.
 
 use crate::coverage_support::{Samples, rasterizer};
@@ -7,7 +7,7 @@ use crate::programs::{Scalar, Vertices};
 use proptest::prelude::*;
 use trigon_math::{UVec2, Vec3, Vec4};
 use trigon_raster::{
-    Background, BlendMode, Culling, Draw, ExecuteSettings, Lines, Output, Pass, Pictures, Rect, Target,
+    Background, BlendMode, Culling, Draw, ExecuteSettings, Lines, Output, Pass, Rect, Target, TargetImages,
     TileSize,
 };
 
@@ -70,7 +70,7 @@ fn draw(scene: &Scene, gradient: bool, scissor: Option<Rect>, tile_size: TileSiz
     rasterizer(&settings).draw(&pass, target);
 }
 
-/// Rectangles of all kinds: within the picture, over its rim, empty, inside out.
+/// Rectangles of all kinds: within the image, over its rim, empty, inside out.
 fn rect() -> impl Strategy<Value = Rect> {
     let at = |side: u32| {
         let side = side as i32;
@@ -120,16 +120,16 @@ proptest! {
         tile_size in prop_oneof![Just(TileSize::Pixels8), Just(TileSize::Automatic)],
     ) {
         let [before, after] = &scenes;
-        let picture = |scene: &Scene| {
+        let image = |scene: &Scene| {
             let mut target = samples.target(SIZE, &outputs);
             draw(scene, gradient, None, tile_size, &mut target);
-            target.into_pictures()
+            target.into_images()
         };
-        let (whole, old) = (picture(after), picture(before));
+        let (whole, old) = (image(after), image(before));
         let mut target = samples.target(SIZE, &outputs);
         draw(before, gradient, None, tile_size, &mut target);
         draw(after, gradient, Some(rect), tile_size, &mut target);
-        let expected = Pictures {
+        let expected = TargetImages {
             srgb8: pasted(rect, whole.srgb8.as_ref(), old.srgb8.as_ref()),
             unorm8: pasted(rect, whole.unorm8.as_ref(), old.unorm8.as_ref()),
             linear: pasted(rect, whole.linear.as_ref(), old.linear.as_ref()),
@@ -138,7 +138,7 @@ proptest! {
             faces: pasted(rect, whole.faces.as_ref(), old.faces.as_ref()),
             triangles: pasted(rect, whole.triangles.as_ref(), old.triangles.as_ref()),
         };
-        prop_assert!(target.into_pictures() == expected, "{rect:?}");
+        prop_assert!(target.into_images() == expected, "{rect:?}");
     }
 }
 

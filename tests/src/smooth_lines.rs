@@ -5,7 +5,9 @@ use crate::coverage_support::{SIDE, Samples, Values, clip_position, levels, pixe
 use crate::effort::cases;
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
-use trigon_raster::{ExecuteSettings, Lines, Outline, Output, Pass, Pictures, PointShape, Points, TileSize};
+use trigon_raster::{
+    ExecuteSettings, Lines, Outline, Output, Pass, PointShape, Points, TargetImages, TileSize,
+};
 use trigon_study::oracle::GridPoint;
 
 fn inside() -> impl Strategy<Value = GridPoint> {
@@ -19,18 +21,18 @@ fn lines<'a>(pipeline: &'a Values, segments: &'a [[u32; 2]], width: f32) -> Pass
     pass
 }
 
-fn draw(pass: &Pass<'_>, samples: Samples, settings: &ExecuteSettings) -> Pictures {
+fn draw(pass: &Pass<'_>, samples: Samples, settings: &ExecuteSettings) -> TargetImages {
     let outputs = [Output::Linear, Output::Depth, Output::Object];
     let mut target = samples.target([SIDE as u32; 2], &outputs);
     rasterizer(settings).draw(pass, &mut target);
-    target.into_pictures()
+    target.into_images()
 }
 
 /// The coverage of each pixel: a layer adds its share of 1.
 fn coverage(points: &[GridPoint], segments: &[[u32; 2]], width: f32) -> Vec<f32> {
     let pipeline = Values::on_grid(points);
-    let pictures = draw(&lines(&pipeline, segments, width), Samples::ONE, &ExecuteSettings::default());
-    pictures.linear.expect("asked for").iter().map(|color| color.x).collect()
+    let images = draw(&lines(&pipeline, segments, width), Samples::ONE, &ExecuteSettings::default());
+    images.linear.expect("asked for").iter().map(|color| color.x).collect()
 }
 
 fn length(x: f64, y: f64) -> f64 {

@@ -1,4 +1,4 @@
-//! Targets: plain bytes, pictures in the caller's memory, extreme shapes, and what
+//! Targets: plain bytes, images in the caller's memory, extreme shapes, and what
 //! is refused.
 
 use crate::coverage_support::{Samples, rasterizer};
@@ -40,7 +40,7 @@ fn surface() -> impl Strategy<Value = BlendMode> {
 proptest! {
     #![proptest_config(cases(60))]
 
-    /// In whatever company a picture is asked for: each takes another path.
+    /// In whatever company an image is asked for: each takes another path.
     #[test]
     fn plain_bytes_are_the_nearest_to_linear_light(
         colors in [color(), color(), color()],
@@ -48,15 +48,15 @@ proptest! {
         samples in Samples::any(),
     ) {
         let vertices = vertices(colors);
-        let picture = |outputs: &[Output]| {
+        let image = |outputs: &[Output]| {
             let mut target = samples.target([40, 30], outputs);
             draw(&vertices, surface, &mut target);
-            target.into_pictures()
+            target.into_images()
         };
-        let both = picture(&[Output::Unorm8, Output::Linear, Output::Srgb8]);
+        let both = image(&[Output::Unorm8, Output::Linear, Output::Srgb8]);
         let codes = both.unorm8.expect("asked for");
-        prop_assert!(picture(&[Output::Unorm8]).unorm8.expect("asked for") == codes, "alone");
-        prop_assert!(picture(&[Output::Srgb8]).srgb8 == both.srgb8, "sRGB alone");
+        prop_assert!(image(&[Output::Unorm8]).unorm8.expect("asked for") == codes, "alone");
+        prop_assert!(image(&[Output::Srgb8]).srgb8 == both.srgb8, "sRGB alone");
         for (code, color) in codes.iter().zip(both.linear.expect("asked for")) {
             for (&code, value) in code.iter().zip(color.to_array()) {
                 let error = f64::from(value.clamp(0.0, 1.0)) * 255.0 - f64::from(code);
@@ -67,7 +67,7 @@ proptest! {
     }
 
     #[test]
-    fn pictures_in_the_callers_memory_hold_the_same_bytes(
+    fn images_in_the_callers_memory_hold_the_same_bytes(
         colors in [color(), color(), color()],
         surface in surface(),
         samples in Samples::any(),
@@ -80,8 +80,8 @@ proptest! {
         let mut target = target.with_unorm8(&mut unorm8).expect("as many as needed");
         draw(&vertices, surface, &mut target);
         prop_assert!(target.srgb8() == owned.srgb8() && target.unorm8() == owned.unorm8());
-        let pictures = target.into_pictures();
-        prop_assert!(pictures.srgb8.is_none() && pictures.unorm8.is_none(), "they are the caller's");
+        let images = target.into_images();
+        prop_assert!(images.srgb8.is_none() && images.unorm8.is_none(), "they are the caller's");
         prop_assert!(owned.srgb8() == Some(srgb8.as_slice()), "and there");
     }
 }

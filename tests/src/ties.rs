@@ -15,8 +15,8 @@ use std::cmp::Reverse;
 use std::num::NonZeroUsize;
 use trigon_math::Vec4;
 use trigon_raster::{
-    BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Stats,
-    Target, TileSize, VertexOutput,
+    BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Stats, Target,
+    TargetImages, TileSize, VertexOutput,
 };
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::{covers, sample_points};
@@ -55,7 +55,7 @@ struct Heap {
     side: i32,
     copies: Vec<Triangle>,
     surfaces: Vec<BlendMode>,
-    /// Whether faces of one more draw, which is beside the picture, descend: then the order of
+    /// Whether faces of one more draw, which is beside the image, descend: then the order of
     /// draws is surely not that of keys.
     descends: bool,
 }
@@ -116,7 +116,7 @@ impl Heap {
         self.surfaces.iter().enumerate().map(part).collect()
     }
 
-    fn draw(&self, samples: u32, settings: &ExecuteSettings) -> (Pictures, Stats) {
+    fn draw(&self, samples: u32, settings: &ExecuteSettings) -> (TargetImages, Stats) {
         let mut parts = self.parts();
         if self.descends {
             let position = clip_position_on(self.side, [-4096, -4096], 0.5);
@@ -140,7 +140,7 @@ impl Heap {
         let target = Target::new(side, side, &outputs).expect("the size is in range");
         let mut target = target.with_samples(samples).expect("a standard pattern");
         let stats = rasterizer(settings).draw(&pass, &mut target);
-        (target.into_pictures(), stats)
+        (target.into_images(), stats)
     }
 
     /// What is seen at a sample without what is translucent, and its colour with that.
@@ -157,10 +157,10 @@ impl Heap {
     }
 
     /// Holds every `step`th pixel against the search.
-    fn check(&self, pictures: &Pictures, samples: u32, step: usize, settings: &ExecuteSettings) {
-        let linear = pictures.linear.as_ref().expect("asked for");
-        let objects = pictures.objects.as_ref().expect("asked for");
-        let faces = pictures.faces.as_ref().expect("asked for");
+    fn check(&self, images: &TargetImages, samples: u32, step: usize, settings: &ExecuteSettings) {
+        let linear = images.linear.as_ref().expect("asked for");
+        let objects = images.objects.as_ref().expect("asked for");
+        let faces = images.faces.as_ref().expect("asked for");
         for index in (0..linear.len()).step_by(step) {
             let pixel = [index as i32 % self.side, index as i32 / self.side];
             let found: Vec<_> = sample_points(samples, pixel).map(|sample| self.search(sample)).collect();
@@ -174,7 +174,7 @@ impl Heap {
     }
 }
 
-/// Triangles from a pixel to all of a picture of 64 pixels.
+/// Triangles from a pixel to all of an image of 64 pixels.
 fn corners() -> impl Strategy<Value = [GridPoint; 3]> {
     let reach = prop::sample::select(vec![300, 900, 3000, 12_000, 60_000]);
     (reach, [0..64 * 256, 0..64 * 256]).prop_flat_map(|(reach, middle)| {
@@ -247,7 +247,7 @@ proptest! {
 }
 
 /// One object's triangles, all in one place, whose faces go round so many draws in an order
-/// that is none: large enough a picture to be shared among threads.
+/// that is none: large enough an image to be shared among threads.
 fn coincident(corners: [GridPoint; 3], surface: BlendMode) -> Heap {
     const DRAWS: usize = 10;
     let mut random = Random(25);
@@ -280,8 +280,8 @@ fn many_coincident_triangles_show_the_smallest_key() {
             let first = heap.draw(samples, &ExecuteSettings::default());
             heap.check(&first.0, samples, 97, &ExecuteSettings::default());
             for settings in settings() {
-                let (pictures, _) = heap.draw(samples, &settings);
-                assert!(pictures == first.0, "{corners:?}, {samples} samples, {surface:?}, {settings:?}");
+                let (images, _) = heap.draw(samples, &settings);
+                assert!(images == first.0, "{corners:?}, {samples} samples, {surface:?}, {settings:?}");
             }
         }
     }
@@ -335,8 +335,8 @@ fn tiles_with_few_ties_are_drawn_once() {
         copy.corners = [[0, 0], [6_144, 0], [0, 6_144]].map(|[x, y]| [corner[0] + x, corner[1] + y]);
     }
     for heap in [in_order, apart, beside] {
-        let (pictures, stats) = heap.draw(1, &ExecuteSettings::default());
-        heap.check(&pictures, 1, 97, &ExecuteSettings::default());
+        let (images, stats) = heap.draw(1, &ExecuteSettings::default());
+        heap.check(&images, 1, 97, &ExecuteSettings::default());
         assert_eq!(stats.tiles_reordered, 0, "{heap:?}");
     }
 }

@@ -1,12 +1,12 @@
 //! What working on a mesh of a million triangles takes in the editor's window, from an event to the finished
-//! picture, at 1920×1080 with edges shown.
+//! image, at 1920×1080 with edges shown.
 //!
 //! ```text
 //! cargo run --release -p trigon-editor --example editor_prices [-- PART OF A NAME]
 //! ```
-//! The window is one without a display, worked through the same session as behind a real one, but that pictures
+//! The window is one without a display, worked through the same session as behind a real one, but that images
 //! are drawn on the thread that asks and the interface is laid out after them: behind a real window both happen
-//! at once. Prints milliseconds from the event to the picture in full size, and where they went.
+//! at once. Prints milliseconds from the event to the image in full size, and where they went.
 
 use std::time::{Duration, Instant};
 
@@ -40,7 +40,7 @@ fn main() {
         ("undo a move of 10000, scattered", scattered(), undo_moves),
         ("undo after 10000 actions", compact(), undo_after_many),
     ];
-    tell(["", "best", "middle", "worst", "events", "picture", "interface"].map(str::to_owned));
+    tell(["", "best", "middle", "worst", "events", "image", "interface"].map(str::to_owned));
     for (name, selected, work) in rows {
         if name.contains(&part) {
             measure(name, &selected, work);
@@ -59,34 +59,33 @@ struct Worked<'a> {
     results: Vec<Stages>,
 }
 
-/// From an event to a picture.
+/// From an event to an image.
 #[derive(Clone, Copy)]
 struct Stages {
     events: Duration,
-    picture: Duration,
+    image: Duration,
     interface: Duration,
 }
 
 impl Stages {
     fn all(&self) -> Duration {
-        self.events + self.picture + self.interface
+        self.events + self.image + self.interface
     }
 }
 
 impl Worked<'_> {
-    /// Does something, and measures until a picture is finished.
+    /// Does something, and measures until an image is finished.
     fn time(&mut self, is_finished: fn(&DrawnFrame) -> bool, act: impl FnOnce(&mut Self)) {
         self.window.take_frames();
         let start = self.started.elapsed();
         act(self);
         let frames = self.window.take_frames();
-        let finished = frames.iter().position(is_finished).expect("a picture follows");
-        let mut stages =
-            Stages { events: Duration::ZERO, picture: Duration::ZERO, interface: Duration::ZERO };
+        let finished = frames.iter().position(is_finished).expect("an image follows");
+        let mut stages = Stages { events: Duration::ZERO, image: Duration::ZERO, interface: Duration::ZERO };
         let mut last = start;
         for frame in &frames[..=finished] {
             stages.events += frame.begun - last;
-            stages.picture += frame.drawn - frame.begun;
+            stages.image += frame.drawn - frame.begun;
             stages.interface += frame.ended - frame.drawn;
             last = frame.ended;
         }
@@ -105,7 +104,7 @@ fn measure(name: &str, selected: &[u32], work: fn(&mut Worked<'_>)) {
     }
     let folder = tempfile::tempdir().expect("a folder for the recovery file");
     let (mut stage, mut editor) = measured_editor(document, Some(folder.path().into()));
-    // Of a picture at rest only the first is measured: with one sample in a pixel, as while something moves.
+    // Of an image at rest only the first is measured: with one sample in a pixel, as while something moves.
     stage.settings.samples_per_axis = 1;
     let started = Instant::now();
     let window = HeadlessWindow::open_measured(stage, &mut *editor, SIZE, move || started.elapsed());
@@ -116,8 +115,8 @@ fn measure(name: &str, selected: &[u32], work: fn(&mut Worked<'_>)) {
     let middle = results[results.len() / 2];
     let all = [results[0].all(), middle.all(), results[results.len() - 1].all()];
     let [best, middle_all, worst] = all.map(milliseconds);
-    let [events, picture, interface] = [middle.events, middle.picture, middle.interface].map(milliseconds);
-    tell([name.to_owned(), best, middle_all, worst, events, picture, interface]);
+    let [events, image, interface] = [middle.events, middle.image, middle.interface].map(milliseconds);
+    tell([name.to_owned(), best, middle_all, worst, events, image, interface]);
 }
 
 /// The middle of what no panel covers.

@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     ///
     /// A .glb is the editor's own file, which other programs open, too; the others, and a .glb with
     /// one of --up, --scale and --selection-only, are for other programs alone, and what they cannot
-    /// hold is said. Materials and pictures of an .obj lie beside it.
+    /// hold is said. Materials and images of an .obj lie beside it.
     #[arg(long, short, value_name = "FILE", requires = "run")]
     pub(crate) output: Option<PathBuf>,
 

@@ -21,16 +21,16 @@ pub(crate) enum Request {
     Redo,
     /// Runs the last command that was not a selection again.
     RepeatLast,
-    /// Asks for a picture file and assigns it to a material.
+    /// Asks for an image file and assigns it to a material.
     ChooseTexture {
         /// Which material.
         material: MaterialName,
-        /// What the picture says.
+        /// What the image says.
         slot: TextureSlot,
     },
-    /// Compares the picture at rest with the reference, or stops it.
+    /// Compares the image at rest with the reference, or stops it.
     Compare(Comparison),
-    /// Refines the picture at rest so far.
+    /// Refines the image at rest so far.
     Refine(Refinement),
     /// Starts a tool that follows the pointer.
     StartTool(ToolKind),
@@ -75,7 +75,7 @@ pub(crate) enum ViewRequest {
     ToggleFourViews,
     /// By degrees to the right and up.
     Orbit(f64, f64),
-    /// In shares of the picture's height to the right and up.
+    /// In shares of the image's height to the right and up.
     Pan(f64, f64),
     /// By degrees counter-clockwise.
     Roll(f64),
@@ -118,7 +118,7 @@ pub(crate) enum FileRequest {
     SaveAs(PathBuf),
     Import(PathBuf),
     Export(PathBuf),
-    /// Gives a material a picture.
+    /// Gives a material an image.
     Texture {
         material: MaterialName,
         slot: TextureSlot,
@@ -181,7 +181,7 @@ pub(crate) enum UiRequest {
 }
 
 impl UiRequest {
-    /// Whether it leaves the document and its picture as they are.
+    /// Whether it leaves the document and its image as they are.
     pub(crate) fn is_about_window(self) -> bool {
         !matches!(
             self,

@@ -7,7 +7,7 @@ use trigon_scene::{Background, Frame, Lighting, Material, RenderSettings, Scene,
 
 use crate::failure::Failure;
 
-/// The arrows' share of the picture's smaller side.
+/// The arrows' share of the image's smaller side.
 const SHARE: u32 = 6;
 
 /// Draws arrows of these colours (linear RGB) into the lower left corner.
@@ -32,7 +32,7 @@ pub(crate) fn draw(
     Ok(())
 }
 
-/// The width and height of the arrows over a picture of a size, all in pixels.
+/// The width and height of the arrows over an image of a size, all in pixels.
 pub(crate) fn side(width: u32, height: u32) -> u32 {
     (width.min(height) / SHARE).max(1)
 }
@@ -54,7 +54,7 @@ pub(crate) fn arrows(
     render(&scene(colors), &looking_at_arrows(orientation), &settings).map_err(Failure::work)
 }
 
-/// Turned as the picture's camera, and at rest in the middle of the arrows.
+/// Turned as the image's camera, and at rest in the middle of the arrows.
 fn looking_at_arrows(orientation: DQuat) -> Camera {
     /// Arrows have a length of 1.
     const HEIGHT: f64 = 2.3;
@@ -81,7 +81,7 @@ fn scene(colors: [Vec3; 3]) -> Scene {
     scene
 }
 
-/// One pixel of straight alpha over another, in sRGB as programs that show pictures do it.
+/// One pixel of straight alpha over another, in sRGB as programs that show images do it.
 fn blended(over: [u8; 4], below: [u8; 4]) -> [u8; 4] {
     let [front, back] = [over[3], below[3]].map(u32::from);
     // Out of 255².

@@ -70,7 +70,7 @@ impl Fault {
         }
     }
 
-    /// A file beside the model that is missing or cannot be used is an error: the picture
+    /// A file beside the model that is missing or cannot be used is an error: the image
     /// lacks it.
     fn of_reader(warning: &Warning) -> Self {
         let is_missing = !warning.tried.is_empty();

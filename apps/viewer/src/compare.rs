@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use trigon_camera::Camera;
-use trigon_io::{Picture, PictureDifference, compare_pictures};
+use trigon_io::{ImageDifference, RgbaImage, compare_images};
 use trigon_scene::{Frame, RenderSettings, Renderer, Scene};
 
 use crate::args::{Destination, Request, Subject};
@@ -54,8 +54,8 @@ fn compared(
     }
     let [one, two] = draw_both([&model.scene, &changed.scene], &camera, &request.settings)?;
     let difference = difference(&one, &two);
-    let heat = frame_of(&difference.picture);
-    let subject = Subject { model: source.picture_subject(), frame: 0 };
+    let heat = frame_of(&difference.image);
+    let subject = Subject { model: source.image_subject(), frame: 0 };
     outlet.put(subject, &beside(&[&one, &two, &heat]))?;
     if request.json {
         json_line(&facts(&source, other, &difference, &outlet.written), reporter);
@@ -70,7 +70,7 @@ fn compared(
 fn facts(
     source: &Source,
     other: &Path,
-    difference: &PictureDifference,
+    difference: &ImageDifference,
     written: &[PathBuf],
 ) -> serde_json::Value {
     serde_json::json!({
@@ -80,7 +80,7 @@ fn facts(
 }
 
 /// "the error is 0.012; 531 pixels differ, by up to 200 of 255"
-pub(crate) fn said(difference: &PictureDifference) -> String {
+pub(crate) fn said(difference: &ImageDifference) -> String {
     format!(
         "the error is {:.6}; {} pixels differ, by up to {} of 255",
         difference.error, difference.different_pixels, difference.largest
@@ -96,18 +96,18 @@ pub(crate) fn camera_for(camera: &Camera, other: &Scene) -> Camera {
     camera.with_projection(projection)
 }
 
-/// How far apart two pictures of one size are.
-pub(crate) fn difference(one: &Frame, other: &Frame) -> PictureDifference {
-    let [one, other] = [one, other].map(picture_of);
-    compare_pictures(&one, &other).expect("both were drawn with the same settings")
+/// How far apart two images of one size are.
+pub(crate) fn difference(one: &Frame, other: &Frame) -> ImageDifference {
+    let [one, other] = [one, other].map(image_of);
+    compare_images(&one, &other).expect("both were drawn with the same settings")
 }
 
-fn picture_of(frame: &Frame) -> Picture {
-    Picture { width: frame.width, height: frame.height, rgba: frame.color.clone() }
+fn image_of(frame: &Frame) -> RgbaImage {
+    RgbaImage { width: frame.width, height: frame.height, rgba: frame.color.clone() }
 }
 
-pub(crate) fn frame_of(picture: &Picture) -> Frame {
-    Frame { width: picture.width, height: picture.height, color: picture.rgba.clone(), ..Frame::default() }
+pub(crate) fn frame_of(image: &RgbaImage) -> Frame {
+    Frame { width: image.width, height: image.height, color: image.rgba.clone(), ..Frame::default() }
 }
 
 /// Frames of one height beside each other.

@@ -12,7 +12,7 @@ use crate::loading;
 use crate::report::Reporter;
 use crate::source::Source;
 
-/// Pictures of which the quickest counts.
+/// Images of which the quickest counts.
 const REPETITIONS: usize = 5;
 
 /// Explains every source; the worst exit code is returned.
@@ -43,7 +43,7 @@ fn explain(
         .map_err(Failure::work)
 }
 
-/// The plan, and how much longer a picture takes with each effect than without it.
+/// The plan, and how much longer an image takes with each effect than without it.
 fn timed(
     scene: &Scene,
     camera: &Camera,
@@ -51,7 +51,7 @@ fn timed(
     plan: &EffectPlan,
 ) -> Result<String, Failure> {
     let whole = milliseconds(scene, camera, settings)?;
-    let mut table = format!("a picture takes {whole:.2} ms\n");
+    let mut table = format!("an image takes {whole:.2} ms\n");
     for (effect, decision) in plan.iter() {
         let cost = match effect.left_out(scene, settings).filter(|_| plan.is_on(effect)) {
             Some((scene, settings)) => {
@@ -65,7 +65,7 @@ fn timed(
     Ok(table)
 }
 
-/// The shortest of several pictures, after one that fills caches.
+/// The shortest of several images, after one that fills caches.
 fn milliseconds(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Result<f64, Failure> {
     let (mut renderer, mut frame) = (Renderer::new(settings.clone()), Frame::default());
     let mut shortest = f64::INFINITY;

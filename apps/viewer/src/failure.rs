@@ -11,7 +11,7 @@ pub(crate) enum Failure {
     /// A correct file with nothing to draw: exit code 1.
     #[error("{0}")]
     Empty(String),
-    /// A picture is not the one that it should be: exit code 3.
+    /// An image is not the one that it should be: exit code 3.
     #[error("{0}")]
     Mismatch(String),
     /// Something could not be done: exit code 1.

@@ -18,13 +18,13 @@ pub(crate) struct Framing {
     pub(crate) eye: Eye,
     /// The model's up axis.
     pub(crate) up: DVec3,
-    /// Up in the picture, if it is not the model's up axis.
+    /// Up in the image, if it is not the model's up axis.
     pub(crate) view_up: Option<DVec3>,
     /// What the camera looks at, if it is not the model's middle.
     pub(crate) focal_point: Option<DVec3>,
-    /// Radians from the lower to the upper edge of the picture.
+    /// Radians from the lower to the upper edge of the image.
     pub(crate) view_angle: f64,
-    /// What part of the picture the model fills.
+    /// What part of the image the model fills.
     pub(crate) zoom: f64,
     /// Radians to the right around what the camera looks at.
     pub(crate) azimuth: f64,
@@ -42,7 +42,7 @@ pub(crate) enum Turn {
     Azimuth(f64),
     /// Up.
     Elevation(f64),
-    /// About the line of sight, clockwise as the picture shows it turning the other way.
+    /// About the line of sight, clockwise as the image shows it turning the other way.
     Roll(f64),
     /// Back to before all turns.
     Reset,
@@ -177,7 +177,7 @@ impl Framing {
 
     /// A camera that shows the whole model from a direction.
     fn fitted(&self, mut points: Vec<DVec3>, center: DVec3, aspect: f64) -> Result<Shot, Failure> {
-        /// The emptiest picture that fitting itself can do.
+        /// The emptiest image that fitting itself can do.
         const LARGEST_MARGIN: f64 = 0.95;
         let orientation = self.turn(self.orientation());
         let (direction, up) = (orientation * DVec3::NEG_Z, orientation * DVec3::Y);
@@ -189,7 +189,7 @@ impl Framing {
             points.extend(mirrored);
         }
         let camera = base.fit_points(&points, direction, up, aspect, margin);
-        // What a margin cannot express: larger than the picture, or tiny in it.
+        // What a margin cannot express: larger than the image, or tiny in it.
         Ok(zoomed(camera, center, self.zoom / (1.0 - margin)))
     }
 
@@ -323,7 +323,7 @@ mod tests {
 
     use super::*;
 
-    const PICTURE: Viewport = Viewport { width: 1000, height: 600 };
+    const IMAGE: Viewport = Viewport { width: 1000, height: 600 };
 
     fn default() -> Framing {
         Framing {
@@ -352,12 +352,12 @@ mod tests {
     }
 
     fn shot(framing: &Framing) -> Shot {
-        framing.shot(&scene(), PICTURE.aspect()).expect("a camera")
+        framing.shot(&scene(), IMAGE.aspect()).expect("a camera")
     }
 
-    /// How much of the picture the model takes, in the direction where it takes more.
+    /// How much of the image the model takes, in the direction where it takes more.
     fn filled(camera: &Camera) -> f64 {
-        let projector = Projector::new(camera, PICTURE);
+        let projector = Projector::new(camera, IMAGE);
         let scene = scene();
         let out = scene.visible_points().map(|point| {
             let at = projector.to_screen(point).expect("before the eye");
@@ -368,7 +368,7 @@ mod tests {
     }
 
     #[test]
-    fn whatever_the_angles_the_model_fills_the_picture_to_the_margin() {
+    fn whatever_the_angles_the_model_fills_the_image_to_the_margin() {
         for framing in [
             default(),
             Framing { azimuth: 1.0, elevation: 0.7, ..default() },

@@ -4,7 +4,7 @@ use trigon_scene::Frame;
 
 use crate::failure::Failure;
 
-/// What is written over a picture.
+/// What is written over an image.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Lettering {
     /// Above, in the middle.
@@ -16,7 +16,7 @@ pub(crate) struct Lettering {
 }
 
 impl Lettering {
-    /// Writes over a picture; text is `scale` times as large as usual.
+    /// Writes over an image; text is `scale` times as large as usual.
     #[cfg(feature = "window")]
     pub(crate) fn write(&self, frame: &mut Frame, scale: f32) -> Result<(), Failure> {
         if *self != Self::default() {
@@ -52,7 +52,7 @@ mod painted {
     const BACKDROP: Color32 = Color32::from_rgba_premultiplied(10, 11, 14, 170);
     const GAP: f32 = 8.0;
 
-    /// egui paints on premultiplied pixels; the picture has straight alpha.
+    /// egui paints on premultiplied pixels; the image has straight alpha.
     pub(super) fn write(text: &Lettering, frame: &mut Frame, scale: f32) -> Result<(), String> {
         let context = Context::default();
         context.set_pixels_per_point(scale);

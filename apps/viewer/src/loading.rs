@@ -88,7 +88,7 @@ fn hidden_bar(what: String) -> ProgressBar {
     bar
 }
 
-/// Loads the picture that the model is to be lit by, if any.
+/// Loads the image that the model is to be lit by, if any.
 pub(crate) fn light(request: &mut Request, reporter: Reporter) -> Result<(), Failure> {
     let Some(path) = &request.environment else { return Ok(()) };
     let (environment, warnings) =

@@ -38,7 +38,7 @@ pub(crate) struct Look {
     pub(crate) backfaces: Option<Backfaces>,
 }
 
-/// Pictures in place of the model's own; an empty name takes its own off.
+/// Images in place of the model's own; an empty name takes its own off.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Textures {
     pub(crate) base_color: Option<PathBuf>,
@@ -71,7 +71,7 @@ impl Look {
     /// Changes the scene's materials.
     ///
     /// # Errors
-    /// When a picture cannot be read.
+    /// When an image cannot be read.
     pub(crate) fn apply(&self, scene: &mut Scene) -> Result<(), Failure> {
         if *self == Self::default() {
             return Ok(());
@@ -132,7 +132,7 @@ impl Look {
         }
     }
 
-    /// Loads the pictures that take the place of the model's.
+    /// Loads the images that take the place of the model's.
     fn exchanges(&self, scene: &mut Scene) -> Result<Exchanges, Failure> {
         let textures = &self.textures;
         let mut exchanges = Exchanges {
@@ -182,15 +182,15 @@ fn microfacets(material: &mut Material) -> &mut MetallicRoughness {
     }
 }
 
-/// A picture as a texture; an empty name stands for none.
+/// An image as a texture; an empty name stands for none.
 fn exchange(scene: &mut Scene, file: Option<&Path>, format: TextureFormat) -> Result<Exchange, Failure> {
     let Some(file) = file else { return Ok(None) };
     if file.as_os_str().is_empty() {
         return Ok(Some(None));
     }
-    let picture = trigon_io::load_image(file, &Limits::default()).map_err(Failure::work)?;
-    let texels = picture.rgba.as_chunks::<4>().0.to_vec();
-    let texture = Texture::new(picture.width, picture.height, texels, format)
+    let image = trigon_io::load_image(file, &Limits::default()).map_err(Failure::work)?;
+    let texels = image.rgba.as_chunks::<4>().0.to_vec();
+    let texture = Texture::new(image.width, image.height, texels, format)
         .map_err(|error| Failure::work(format!("{}: {error}", file.display())))?;
     let id = scene.add_texture(file.to_string_lossy(), texture);
     Ok(Some(Some(TextureBinding::new(id))))

@@ -12,6 +12,7 @@ mod explain;
 mod failure;
 mod folders;
 mod framing;
+mod image;
 mod ladder;
 mod lettering;
 mod lists;
@@ -20,7 +21,6 @@ mod look;
 mod model;
 mod moment;
 mod outlet;
-mod picture;
 mod pixel;
 mod replay;
 mod report;
@@ -62,8 +62,8 @@ fn main() -> ExitCode {
         return ExitCode::from(failure.exit_code());
     }
     ExitCode::from(match &request.mode {
-        Mode::Picture { output, capture } => {
-            picture::run(&request, output.as_ref(), capture.as_deref(), reporter)
+        Mode::Image { output, capture } => {
+            image::run(&request, output.as_ref(), capture.as_deref(), reporter)
         }
         Mode::Compare { other, output } => compare::run(&request, other, output, reporter),
         Mode::Replay { capture, output } => replay::run(capture, output.as_ref(), &request, reporter),
@@ -107,6 +107,6 @@ fn look_at(request: &Request, reporter: Reporter) -> u8 {
 
 #[cfg(not(feature = "window"))]
 fn look_at(_: &Request, reporter: Reporter) -> u8 {
-    reporter.error("this trigon-viewer was built without its window; write a picture instead with --output picture.png, or build it with the feature `window`");
+    reporter.error("this trigon-viewer was built without its window; write an image instead with --output image.png, or build it with the feature `window`");
     1
 }

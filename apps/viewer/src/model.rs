@@ -169,7 +169,7 @@ impl Model {
 
     /// The names of its nodes, children moved to the right; the first ones if there are many.
     pub(crate) fn tree(&self) -> Vec<String> {
-        /// As many as most pictures have room for.
+        /// As many as most images have room for.
         const MOST: usize = 40;
         let nodes = self.scene.tree();
         let line = |&(id, depth): &(NodeId, usize)| {

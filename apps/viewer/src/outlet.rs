@@ -14,7 +14,7 @@ use crate::args::{Beside, Destination, Format, Subject};
 use crate::failure::Failure;
 use crate::report::Reporter;
 
-/// Where finished pictures go.
+/// Where finished images go.
 pub(crate) struct Outlet<'a> {
     output: Option<&'a Destination>,
     pub(crate) beside: &'a [Beside],
@@ -29,17 +29,17 @@ impl<'a> Outlet<'a> {
         Self { output, beside: &[], taken: HashSet::new(), written: Vec::new(), reporter }
     }
 
-    /// Bytes of a picture would only garble a terminal.
+    /// Bytes of an image would only garble a terminal.
     pub(crate) fn refuse_terminal(&self) -> Result<(), Failure> {
         if self.output == Some(&Destination::Stdout) && io::stdout().is_terminal() {
             return Err(Failure::Usage(
-                "--output - writes a picture to standard output, which is a terminal; redirect it (> picture.png) or name a file (--output picture.png)".to_owned(),
+                "--output - writes an image to standard output, which is a terminal; redirect it (> image.png) or name a file (--output image.png)".to_owned(),
             ));
         }
         Ok(())
     }
 
-    /// Writes a picture; returns the file, if it is one.
+    /// Writes an image; returns the file, if it is one.
     pub(crate) fn put(&mut self, subject: Subject<'_>, frame: &Frame) -> Result<Option<PathBuf>, Failure> {
         match self.output {
             None => Ok(None),
@@ -127,7 +127,7 @@ fn write_stream(frame: &Frame) -> Result<(), Failure> {
         .map_err(Failure::work)
 }
 
-/// Writes a picture; an old file of that name is replaced at once or not at all.
+/// Writes an image; an old file of that name is replaced at once or not at all.
 pub(crate) fn write_file(path: &Path, frame: &Frame) -> Result<(), Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let (width, height, color) = (frame.width, frame.height, &frame.color);

@@ -14,7 +14,7 @@ use crate::loading;
 use crate::report::Reporter;
 use crate::source::Source;
 
-/// `--explain-pixel`: explains a pixel of every source's picture; returns the worst exit code.
+/// `--explain-pixel`: explains a pixel of every source's image; returns the worst exit code.
 pub(crate) fn run(request: &Request, at: [u32; 2], reporter: Reporter) -> u8 {
     let mut unwritten = 0;
     let code = Source::visit_all(request, reporter, |source, request| {
@@ -38,10 +38,10 @@ pub(crate) fn run(request: &Request, at: [u32; 2], reporter: Reporter) -> u8 {
 /// A pixel with its explanation.
 pub(crate) struct ExplainedPixel(PixelExplanation);
 
-/// Explains a pixel of the picture that a renderer draws.
+/// Explains a pixel of the image that a renderer draws.
 ///
 /// # Errors
-/// When it lies outside of the picture, or that cannot be drawn.
+/// When it lies outside of the image, or that cannot be drawn.
 pub(crate) fn explained(
     renderer: &mut Renderer,
     scene: &Scene,
@@ -52,7 +52,7 @@ pub(crate) fn explained(
     let settings = renderer.settings();
     let outside = || {
         Failure::Usage(format!(
-            "the pixel {x},{y} lies outside of the picture, which has {}x{} pixels, counted from 0",
+            "the pixel {x},{y} lies outside of the image, which has {}x{} pixels, counted from 0",
             settings.width, settings.height
         ))
     };

@@ -36,8 +36,8 @@ fn replay(
     outlet.put(Subject { model: Some(path), frame: 0 }, &frame)?;
     match capture.mismatch(&frame) {
         None => {
-            let (path, hash) = (path.display(), capture.picture_hash());
-            reporter.info(format_args!("{path}: the same picture, {hash:016x}"));
+            let (path, hash) = (path.display(), capture.image_hash());
+            reporter.info(format_args!("{path}: the same image, {hash:016x}"));
             Ok(())
         }
         Some(mismatch) => Err(Failure::Mismatch(format!(

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use crate::args::{CommandLine, Destination, Mode, RANGES, Request, Step, Template, plain, steps};
 use crate::failure::Failure;
+use crate::image;
 use crate::lists::print_lines;
 use crate::loading;
 use crate::outlet::Outlet;
-use crate::picture;
 use crate::report::Reporter;
 use crate::source::Source;
 
@@ -28,7 +28,7 @@ pub(crate) fn run(
 ) -> u8 {
     let done = done(request, outlet, reporter).and_then(|session| {
         let request = session.request(reporter)?;
-        picture::draw_source(session.source(), &request, capture, outlet, reporter)
+        image::draw_source(session.source(), &request, capture, outlet, reporter)
     });
     match done {
         Ok(()) => 0,
@@ -39,7 +39,7 @@ pub(crate) fn run(
     }
 }
 
-/// The request after a script, for a window: pictures that it asks for are not taken.
+/// The request after a script, for a window: images that it asks for are not taken.
 #[cfg(feature = "window")]
 pub(crate) fn changed(request: &Request, reporter: Reporter) -> Result<Request, Failure> {
     if request.script.is_none() {
@@ -136,7 +136,7 @@ impl Session {
         let model = loading::load_aloud(self.source(), &request, reporter)?;
         let lines = model.summary().lines().into_iter().map(|line| format!("  {line}"));
         let lines = std::iter::once(model.source.title()).chain(lines);
-        if matches!(&request.mode, Mode::Picture { output: Some(Destination::Stdout), .. }) {
+        if matches!(&request.mode, Mode::Image { output: Some(Destination::Stdout), .. }) {
             lines.for_each(|line| reporter.info(line));
         } else {
             print_lines(lines, reporter);
@@ -144,7 +144,7 @@ impl Session {
         Ok(())
     }
 
-    /// Writes a picture of what there is.
+    /// Writes an image of what there is.
     fn draw(
         &self,
         file: Option<&str>,
@@ -168,10 +168,10 @@ impl Session {
             }
         };
         let output = Destination::File(template);
-        request.mode = Mode::Picture { output: Some(output.clone()), capture: None };
+        request.mode = Mode::Image { output: Some(output.clone()), capture: None };
         request.reference = None;
         let mut own = Outlet::new(Some(&output), reporter);
-        picture::draw_source(session.source(), &request, None, &mut own, reporter)?;
+        image::draw_source(session.source(), &request, None, &mut own, reporter)?;
         outlet.written.append(&mut own.written);
         Ok(())
     }

@@ -48,15 +48,15 @@ impl Source {
         groups.into_iter().map(|(_, files)| Self::Files(files)).collect()
     }
 
-    /// What stands for it in names of pictures: the file, or that there are several.
-    pub(crate) fn picture_subject(&self) -> Option<&Path> {
+    /// What stands for it in names of images: the file, or that there are several.
+    pub(crate) fn image_subject(&self) -> Option<&Path> {
         match self {
             Self::Files(files) if files.len() > 1 => Some(Path::new("multi_file")),
             _ => self.first_file(),
         }
     }
 
-    /// The first file: it names pictures and windows.
+    /// The first file: it names images and windows.
     pub(crate) fn first_file(&self) -> Option<&Path> {
         match self {
             Self::BuiltIn => None,

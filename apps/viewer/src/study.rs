@@ -9,7 +9,7 @@ use crate::report::Reporter;
 /// What is measured, and where the report goes.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub(crate) struct StudyArgs {
-    /// Take less than a minute: fewer runs, smaller pictures
+    /// Take less than a minute: fewer runs, smaller images
     #[arg(long)]
     pub(crate) quick: bool,
 

@@ -1,4 +1,4 @@
-//! Prints where the corners of a cube land in a picture of 80 by 40, and draws them.
+//! Prints where the corners of a cube land in an image of 80 by 40, and draws them.
 #![expect(clippy::print_stdout, reason = "an example that prints")]
 
 use trigon_camera::{AxisView, DEFAULT_MARGIN, Orbit, Projector, Viewport};
@@ -13,15 +13,15 @@ fn main() {
     orbit.orbit(0.3, -0.2);
 
     let projector = Projector::new(&orbit.camera(&bounds), viewport);
-    let mut picture = vec![vec![b' '; 80]; 40];
+    let mut image = vec![vec![b' '; 80]; 40];
     for (name, corner) in (b'a'..).zip(0..8) {
         let side = |bit: i32| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
         let point = DVec3::new(side(0), side(1), side(2));
         let Some((screen, depth)) = projector.to_screen_and_depth(point) else { continue };
         println!("{}: {point} at {:6.2} {:6.2}, depth {depth:.4}", name as char, screen.x, screen.y);
-        picture[screen.y as usize % 40][screen.x as usize % 80] = name;
+        image[screen.y as usize % 40][screen.x as usize % 80] = name;
     }
-    for row in picture {
+    for row in image {
         println!("{}", String::from_utf8_lossy(&row));
     }
 }

@@ -18,7 +18,7 @@
 //! let camera = Camera::look_at(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, DVec3::Y);
 //! let projector = Projector::new(&camera, Viewport { width: 10, height: 5 });
 //!
-//! // What the camera looks at lands in the middle of the picture …
+//! // What the camera looks at lands in the middle of the image …
 //! let (screen, depth) = projector.to_screen_and_depth(DVec3::ZERO).expect("in front of the eye");
 //! assert_eq!(screen, DVec2::new(5.0, 2.5));
 //! // … and comes back from there.

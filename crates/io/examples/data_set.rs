@@ -1,4 +1,4 @@
-//! A data set from a model: pictures from all around and above, each with depth, normals
+//! A data set from a model: images from all around and above, each with depth, normals
 //! and ids as NumPy arrays, and the cameras that took them.
 //!
 //! `cargo run --release -p trigon-io --example data_set -- FOLDER [MODEL [COUNT [SEED]]]`

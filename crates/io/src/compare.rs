@@ -6,7 +6,7 @@
 
 use thiserror::Error;
 
-use crate::picture::Picture;
+use crate::rgba_image::RgbaImage;
 
 /// The side of a block in pixels, and the distance between blocks.
 const BLOCK: usize = 8;
@@ -19,7 +19,7 @@ const C2: f64 = 58.5225;
 /// The difference between two images.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct PictureDifference {
+pub struct ImageDifference {
     /// 0 for equal images, up to 1 and in rare cases to 2; below 0.04 they look alike.
     pub error: f64,
     /// The number of pixels with a different byte.
@@ -28,20 +28,20 @@ pub struct PictureDifference {
     pub largest: u8,
     /// A map of the differences: opaque, black where the images are equal, stretched so that the
     /// largest difference is white in its channel. Alpha counts for all three channels.
-    pub picture: Picture,
+    pub image: RgbaImage,
 }
 
 /// Images of different sizes cannot be compared.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-#[error("one picture is {}×{}, the other {}×{}; draw it in the size of the other", .0[0], .0[1], .1[0], .1[1])]
+#[error("one image is {}×{}, the other {}×{}; draw it in the size of the other", .0[0], .0[1], .1[0], .1[1])]
 pub struct SizeMismatch([u32; 2], [u32; 2]);
 
 /// Compares two images.
 ///
 /// # Errors
 /// They have different sizes.
-pub fn compare_pictures(one: &Picture, other: &Picture) -> Result<PictureDifference, SizeMismatch> {
-    let sizes = [one, other].map(|picture| [picture.width, picture.height]);
+pub fn compare_images(one: &RgbaImage, other: &RgbaImage) -> Result<ImageDifference, SizeMismatch> {
+    let sizes = [one, other].map(|image| [image.width, image.height]);
     if sizes[0] != sizes[1] {
         return Err(SizeMismatch(sizes[0], sizes[1]));
     }
@@ -55,16 +55,16 @@ pub fn compare_pictures(one: &Picture, other: &Picture) -> Result<PictureDiffere
         [r, g, b, 255]
     };
     let rgba = differences.iter().flat_map(stretched).collect();
-    Ok(PictureDifference {
+    Ok(ImageDifference {
         error: 1.0 - similarity(one, other),
         different_pixels: differences.iter().filter(|&&pixel| pixel != [0; 4]).count() as u64,
         largest,
-        picture: Picture { width: one.width, height: one.height, rgba },
+        image: RgbaImage { width: one.width, height: one.height, rgba },
     })
 }
 
 /// The mean of all blocks and channels, summed in the order of rows.
-fn similarity(one: &Picture, other: &Picture) -> f64 {
+fn similarity(one: &RgbaImage, other: &RgbaImage) -> f64 {
     let (width, height) = (one.width as usize, one.height as usize);
     let (mut sum, mut count) = (0.0, 0.0);
     for y in starts(height) {
@@ -84,14 +84,14 @@ fn starts(side: usize) -> impl Iterator<Item = usize> {
 }
 
 /// SSIM of one channel of one block, cropped at the image's edges.
-fn block(one: &Picture, other: &Picture, [left, top]: [usize; 2], channel: usize) -> f64 {
+fn block(one: &RgbaImage, other: &RgbaImage, [left, top]: [usize; 2], channel: usize) -> f64 {
     let (width, height) = (one.width as usize, one.height as usize);
     // Sums of a, b, a², b² and ab are exact: 64 · 255² is far below 2³².
     let mut sums = [0u32; 5];
     let mut count = 0u32;
     for y in top..(top + BLOCK).min(height) {
         for x in left..(left + BLOCK).min(width) {
-            let [a, b] = [one, other].map(|picture| value(picture, y * width + x, channel));
+            let [a, b] = [one, other].map(|image| value(image, y * width + x, channel));
             for (sum, term) in sums.iter_mut().zip([a, b, a * a, b * b, a * b]) {
                 *sum += term;
             }
@@ -105,8 +105,8 @@ fn block(one: &Picture, other: &Picture, [left, top]: [usize; 2], channel: usize
 }
 
 /// A channel of a pixel, colours times alpha, so that transparent pixels do not count.
-fn value(picture: &Picture, pixel: usize, channel: usize) -> u32 {
-    let [byte, alpha] = [channel, 3].map(|channel| u32::from(picture.rgba[4 * pixel + channel]));
+fn value(image: &RgbaImage, pixel: usize, channel: usize) -> u32 {
+    let [byte, alpha] = [channel, 3].map(|channel| u32::from(image.rgba[4 * pixel + channel]));
     if channel == 3 { byte } else { byte * alpha / 255 }
 }
 
@@ -114,9 +114,9 @@ fn value(picture: &Picture, pixel: usize, channel: usize) -> u32 {
 mod tests {
     use super::*;
 
-    fn picture(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 4]) -> Picture {
+    fn image(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 4]) -> RgbaImage {
         let rows = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        Picture { width, height, rgba: rows.flat_map(|(x, y)| pixel(x, y)).collect() }
+        RgbaImage { width, height, rgba: rows.flat_map(|(x, y)| pixel(x, y)).collect() }
     }
 
     fn stripes(x: u32, _: u32) -> [u8; 4] {
@@ -124,10 +124,10 @@ mod tests {
     }
 
     #[test]
-    fn the_same_picture_has_no_error_in_any_size() {
+    fn the_same_image_has_no_error_in_any_size() {
         for (width, height) in [(1, 1), (3, 9), (8, 8), (37, 21)] {
-            let one = picture(width, height, stripes);
-            let difference = compare_pictures(&one, &one).expect("of one size");
+            let one = image(width, height, stripes);
+            let difference = compare_images(&one, &one).expect("of one size");
             assert_eq!(difference.error, 0.0, "{width}×{height}");
             assert_eq!((difference.different_pixels, difference.largest), (0, 0), "{width}×{height}");
         }
@@ -135,29 +135,29 @@ mod tests {
 
     #[test]
     fn what_looks_more_different_has_a_larger_error() {
-        let one = picture(40, 40, stripes);
-        let error = |other: &Picture| compare_pictures(&one, other).expect("of one size").error;
-        let brighter = picture(40, 40, |x, y| stripes(x, y).map(|channel| channel.saturating_add(2)));
-        let moved = picture(40, 40, |x, y| stripes(x + 2, y));
+        let one = image(40, 40, stripes);
+        let error = |other: &RgbaImage| compare_images(&one, other).expect("of one size").error;
+        let brighter = image(40, 40, |x, y| stripes(x, y).map(|channel| channel.saturating_add(2)));
+        let moved = image(40, 40, |x, y| stripes(x + 2, y));
         assert!(error(&brighter) < 0.04, "hardly seen: {}", error(&brighter));
-        assert!(error(&moved) > 0.5, "another picture: {}", error(&moved));
-        let dot = picture(40, 40, |x, y| if (x, y) == (20, 20) { [255; 4] } else { stripes(x, y) });
-        let difference = compare_pictures(&one, &dot).expect("of one size");
+        assert!(error(&moved) > 0.5, "another image: {}", error(&moved));
+        let dot = image(40, 40, |x, y| if (x, y) == (20, 20) { [255; 4] } else { stripes(x, y) });
+        let difference = compare_images(&one, &dot).expect("of one size");
         assert_eq!((difference.different_pixels, difference.largest), (1, 205), "one pixel");
-        assert_eq!(difference.picture.rgba[4 * (40 * 20 + 20) + 2], 255, "stretched");
-        assert_eq!(difference.picture.rgba[..4], [0, 0, 0, 255], "black elsewhere");
+        assert_eq!(difference.image.rgba[4 * (40 * 20 + 20) + 2], 255, "stretched");
+        assert_eq!(difference.image.rgba[..4], [0, 0, 0, 255], "black elsewhere");
     }
 
     #[test]
     fn colours_of_what_is_transparent_do_not_count() {
-        let [one, other] = [0, 255].map(|red| picture(16, 16, |_, _| [red, 0, 0, 0]));
-        assert_eq!(compare_pictures(&one, &other).expect("of one size").error, 0.0, "nothing is seen");
+        let [one, other] = [0, 255].map(|red| image(16, 16, |_, _| [red, 0, 0, 0]));
+        assert_eq!(compare_images(&one, &other).expect("of one size").error, 0.0, "nothing is seen");
     }
 
     #[test]
     fn different_sizes_say_both() {
-        let [one, other] = [4, 5].map(|width| picture(width, 3, stripes));
-        let message = compare_pictures(&one, &other).expect_err("no way").to_string();
+        let [one, other] = [4, 5].map(|width| image(width, 3, stripes));
+        let message = compare_images(&one, &other).expect_err("no way").to_string();
         assert!(message.contains("4×3") && message.contains("5×3"), "{message}");
     }
 }

@@ -9,7 +9,7 @@ use trigon_scene::Environment;
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::folder::{Folder, to_the_end};
 use crate::limits::Limits;
-use crate::picture::{check_claim, decoder_limits, reason};
+use crate::rgba_image::{check_claim, decoder_limits, reason};
 use crate::warning::{Warning, Warnings};
 
 /// The largest value of a pixel. The sun of a clear sky has a hundred thousand; the format allows
@@ -33,7 +33,7 @@ pub fn load_environment(
     let bytes = Folder::none(limits).read_model(path, &to_the_end)?;
     let mut warnings = Warnings::about(path);
     let environment = decode(&bytes, limits, &mut warnings).map_err(|why| {
-        LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as a Radiance picture (.hdr)")
+        LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as a Radiance image (.hdr)")
     })?;
     Ok((environment, warnings.into_list()))
 }
@@ -59,7 +59,7 @@ fn decode(bytes: &[u8], limits: &Limits, warnings: &mut Warnings) -> Result<Envi
         bright,
         Place::Whole,
         "a pixel is brighter than 1e9 and is held to that",
-        "check the picture's scale",
+        "check the image's scale",
     );
     let (pixels, _) = pixels.as_chunks::<3>();
     Environment::from_equirectangular(size.0 as usize, size.1 as usize, pixels)
@@ -74,7 +74,7 @@ mod tests {
 
     /// An image of 16 × 8 pixels without compression, each with a mantissa for red, green and blue
     /// and a common exponent.
-    fn picture(pixel: impl Fn(usize, usize) -> [u8; 4]) -> Vec<u8> {
+    fn image(pixel: impl Fn(usize, usize) -> [u8; 4]) -> Vec<u8> {
         let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n".to_vec();
         bytes.extend((0..128).flat_map(|index| pixel(index % 16, index / 16)));
         bytes
@@ -88,14 +88,14 @@ mod tests {
     }
 
     #[test]
-    fn light_comes_from_where_the_picture_has_it() {
+    fn light_comes_from_where_the_image_has_it() {
         // 128 with the exponent 129 is 1; 130 doubles it.
-        let (environment, warnings) = read(&picture(|x, y| match (x, y) {
+        let (environment, warnings) = read(&image(|x, y| match (x, y) {
             (_, 0..4) => [0, 0, 128, 130],
             (0..8, _) => [128, 0, 0, 129],
             _ => [0, 128, 0, 129],
         }))
-        .expect("a picture");
+        .expect("an image");
         assert!(warnings.is_empty(), "nothing to warn of");
         let seen = |direction: Vec3| environment.radiance(direction, 0.0);
         for (direction, light) in [
@@ -109,14 +109,14 @@ mod tests {
 
     #[test]
     fn absurd_brightness_is_held_to_what_can_be_summed() {
-        let (environment, warnings) = read(&picture(|_, _| [255, 255, 255, 255])).expect("a picture");
+        let (environment, warnings) = read(&image(|_, _| [255, 255, 255, 255])).expect("an image");
         assert_eq!((warnings.len(), warnings[0].more), (1, 3 * 128 - 1), "said once, and counted");
         assert!(environment.irradiance(Vec3::Y).is_finite(), "finite light");
     }
 
     #[test]
-    fn what_is_no_picture_says_why() {
-        let whole = picture(|_, _| [128, 0, 0, 129]);
+    fn what_is_no_image_says_why() {
+        let whole = image(|_, _| [128, 0, 0, 129]);
         let claim = |size: &str| format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n{size}\n").into_bytes();
         for (bytes, word) in [
             (b"\x89PNG".to_vec(), "Radiance"),
@@ -127,7 +127,7 @@ mod tests {
             (claim("-Y 16000 +X 16000"), "limit"),
             (claim("+Y 8 +X 16"), "broken"),
         ] {
-            let error = read(&bytes).map(|_| ()).expect_err("no picture").to_string();
+            let error = read(&bytes).map(|_| ()).expect_err("no image").to_string();
             assert!(error.contains("a.hdr") && error.contains(word), "{error:?} has {word:?}");
         }
     }

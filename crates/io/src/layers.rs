@@ -1,7 +1,7 @@
 //! Images that are combined into one texture: MTL stores colour and opacity, or roughness and
 //! metalness, in separate files.
 
-use crate::picture::Picture;
+use crate::rgba_image::RgbaImage;
 
 /// The part of the texture that an image provides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -24,24 +24,23 @@ pub(crate) struct HeightMap;
 
 /// Combines images, the first below. Smaller ones are stretched to the largest; channels without an
 /// image are white.
-pub(crate) fn merge(mut layers: Vec<(Role, Picture)>) -> Result<Picture, HeightMap> {
+pub(crate) fn merge(mut layers: Vec<(Role, RgbaImage)>) -> Result<RgbaImage, HeightMap> {
     match layers.as_slice() {
         [(Role::Whole, _)] => return Ok(layers.remove(0).1),
-        [(Role::Directions, picture)] if shows_directions(picture) => return Ok(layers.remove(0).1),
+        [(Role::Directions, image)] if shows_directions(image) => return Ok(layers.remove(0).1),
         [(Role::Directions, _)] => return Err(HeightMap),
         _ => {}
     }
-    let largest =
-        layers.iter().max_by_key(|(_, picture)| u64::from(picture.width) * u64::from(picture.height));
-    let (width, height) = largest.map_or((1, 1), |(_, picture)| (picture.width, picture.height));
-    let mut merged = Picture { width, height, rgba: vec![255; 4 * width as usize * height as usize] };
+    let largest = layers.iter().max_by_key(|(_, image)| u64::from(image.width) * u64::from(image.height));
+    let (width, height) = largest.map_or((1, 1), |(_, image)| (image.width, image.height));
+    let mut merged = RgbaImage { width, height, rgba: vec![255; 4 * width as usize * height as usize] };
     for (role, layer) in &layers {
         lay_over(&mut merged, *role, layer);
     }
     Ok(merged)
 }
 
-fn lay_over(merged: &mut Picture, role: Role, layer: &Picture) {
+fn lay_over(merged: &mut RgbaImage, role: Role, layer: &RgbaImage) {
     let has_alpha = layer.rgba.chunks_exact(4).any(|texel| texel[3] != 255);
     let stretched = |at: usize, from: u32, to: u32| at * from as usize / to as usize;
     let (width, row) = (merged.width as usize, layer.width as usize);
@@ -60,10 +59,10 @@ fn lay_over(merged: &mut Picture, role: Role, layer: &Picture) {
 
 /// Whether the colours of an image are directions: mostly up, which is blue, and balanced sideways.
 /// Heights are grey.
-fn shows_directions(picture: &Picture) -> bool {
-    let texels = picture.rgba.len() as u64 / 4;
+fn shows_directions(image: &RgbaImage) -> bool {
+    let texels = image.rgba.len() as u64 / 4;
     let mean = |channel: usize| {
-        let sum: u64 = picture.rgba.iter().skip(channel).step_by(4).map(|&value| u64::from(value)).sum();
+        let sum: u64 = image.rgba.iter().skip(channel).step_by(4).map(|&value| u64::from(value)).sum();
         sum / texels.max(1)
     };
     let sideways = 88..=168;
@@ -74,30 +73,29 @@ fn shows_directions(picture: &Picture) -> bool {
 mod tests {
     use super::*;
 
-    fn picture(width: u32, texels: &[[u8; 4]]) -> Picture {
-        Picture { width, height: texels.len() as u32 / width, rgba: texels.concat() }
+    fn image(width: u32, texels: &[[u8; 4]]) -> RgbaImage {
+        RgbaImage { width, height: texels.len() as u32 / width, rgba: texels.concat() }
     }
 
     #[test]
-    fn each_picture_fills_its_channels() {
+    fn each_image_fills_its_channels() {
         let (color, grey) = ([[1, 2, 3, 255]; 4], [[9, 9, 9, 255], [200, 200, 200, 255]]);
-        let layers = vec![(Role::Whole, picture(2, &color)), (Role::Alpha, picture(2, &grey))];
+        let layers = vec![(Role::Whole, image(2, &color)), (Role::Alpha, image(2, &grey))];
         let expected = [[1, 2, 3, 9], [1, 2, 3, 200]].repeat(2);
-        assert_eq!(merge(layers), Ok(picture(2, &expected)), "stretched over two rows");
+        assert_eq!(merge(layers), Ok(image(2, &expected)), "stretched over two rows");
         let clear = [[0, 0, 0, 7]];
-        let layers = vec![(Role::Whole, picture(2, &color)), (Role::Alpha, picture(1, &clear))];
-        assert_eq!(merge(layers), Ok(picture(2, &[[1, 2, 3, 7]; 4])), "its own alpha");
-        let layers =
-            vec![(Role::Roughness, picture(1, &[[50; 4]])), (Role::Metallic, picture(1, &[[60; 4]]))];
-        assert_eq!(merge(layers), Ok(picture(1, &[[255, 50, 60, 255]])), "as glTF keeps them");
+        let layers = vec![(Role::Whole, image(2, &color)), (Role::Alpha, image(1, &clear))];
+        assert_eq!(merge(layers), Ok(image(2, &[[1, 2, 3, 7]; 4])), "its own alpha");
+        let layers = vec![(Role::Roughness, image(1, &[[50; 4]])), (Role::Metallic, image(1, &[[60; 4]]))];
+        assert_eq!(merge(layers), Ok(image(1, &[[255, 50, 60, 255]])), "as glTF keeps them");
     }
 
     #[test]
     fn directions_are_told_from_heights() {
-        let up = picture(1, &[[128, 127, 255, 255]]);
+        let up = image(1, &[[128, 127, 255, 255]]);
         assert_eq!(merge(vec![(Role::Directions, up.clone())]), Ok(up), "a normal map");
         for grey in [0, 128, 255] {
-            let heights = picture(1, &[[grey, grey, grey, 255]]);
+            let heights = image(1, &[[grey, grey, grey, 255]]);
             assert_eq!(merge(vec![(Role::Directions, heights)]), Err(HeightMap), "heights at {grey}");
         }
     }

@@ -52,11 +52,11 @@ mod lossy;
 mod numbers;
 mod options;
 mod outputs;
-mod picture;
 mod png;
 mod polygons;
 mod rebase;
 mod refusal;
+mod rgba_image;
 mod rows;
 mod sequence;
 mod texture_request;
@@ -66,7 +66,7 @@ mod warning;
 mod write;
 
 pub use capture::{Capture, Mismatch, PixelMismatch};
-pub use compare::{PictureDifference, SizeMismatch, compare_pictures};
+pub use compare::{ImageDifference, SizeMismatch, compare_images};
 pub use environment::load_environment;
 pub use error::{LoadError, LoadErrorKind, Place};
 pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport, UpAxis, export};
@@ -81,8 +81,8 @@ pub use options::{LoadOptions, Progress, ProgressHook, SceneChoice, Stage};
 pub use outputs::{
     Output, UnknownOutput, encode_exr, encode_npy, encode_png16, write_exr, write_npy, write_png16,
 };
-pub use picture::{Picture, load_image};
 pub use png::{Pixels, encode_png, write_png};
+pub use rgba_image::{RgbaImage, load_image};
 pub use sequence::{Sequence, write_apng, write_gif};
 pub use warning::Warning;
 pub use write::{WriteError, write_atomically};

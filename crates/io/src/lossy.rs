@@ -93,7 +93,7 @@ pub(crate) fn into_io(error: ImageError) -> io::Error {
 mod tests {
     use super::*;
     use crate::Limits;
-    use crate::picture::decode_picture;
+    use crate::rgba_image::decode_image;
 
     /// A field of red with a transparent half.
     fn half_red() -> Vec<u8> {
@@ -104,19 +104,19 @@ mod tests {
     fn webp_keeps_every_byte() {
         let mut bytes = Vec::new();
         encode_webp(&mut bytes, 8, 8, &half_red()).expect("memory takes it");
-        let picture = decode_picture(&bytes, &Limits::default()).expect("a WebP");
-        assert_eq!(picture.rgba, half_red(), "the same pixels");
+        let image = decode_image(&bytes, &Limits::default()).expect("a WebP");
+        assert_eq!(image.rgba, half_red(), "the same pixels");
     }
 
     #[test]
     fn jpeg_puts_transparency_on_white() {
         let mut bytes = Vec::new();
         encode_jpeg(&mut bytes, 8, 8, &half_red()).expect("memory takes it");
-        let picture = decode_picture(&bytes, &Limits::default()).expect("a JPEG");
+        let image = decode_image(&bytes, &Limits::default()).expect("a JPEG");
         // Quality 90 quantises frequencies by up to 24 levels, of which an edge has some.
         let near = |pixel: &[u8], wanted: [u8; 3]| (0..3).all(|i| pixel[i].abs_diff(wanted[i]) < 40);
-        assert!(near(&picture.rgba[..3], [200, 0, 0]), "red: {:?}", &picture.rgba[..3]);
-        assert!(near(&picture.rgba[28..31], [255; 3]), "white: {:?}", &picture.rgba[28..31]);
+        assert!(near(&image.rgba[..3], [200, 0, 0]), "red: {:?}", &image.rgba[..3]);
+        assert!(near(&image.rgba[28..31], [255; 3]), "white: {:?}", &image.rgba[28..31]);
     }
 
     #[test]

@@ -90,8 +90,8 @@ mod tests {
         let path = dir.path().join("a.png");
         fs::write(&path, "old").expect("a file");
         write_png(&path, 2, 1, Pixels::Rgb8(&[1, 2, 3, 4, 5, 6])).expect("written");
-        let picture = crate::load_image(&path, &crate::Limits::default()).expect("a picture");
-        assert_eq!(picture.rgba, [1, 2, 3, 255, 4, 5, 6, 255], "the pixels");
+        let image = crate::load_image(&path, &crate::Limits::default()).expect("an image");
+        assert_eq!(image.rgba, [1, 2, 3, 255, 4, 5, 6, 255], "the pixels");
         assert_eq!(fs::read_dir(dir.path()).expect("a folder").count(), 1, "no temporary file");
     }
 
@@ -107,8 +107,8 @@ mod tests {
     fn sixteen_bit_grey_keeps_its_values() {
         let mut bytes = Vec::new();
         encode_png(&mut bytes, 3, 1, Pixels::Gray16(&[0, 0x1234, 0xffff])).expect("memory takes it");
-        let picture = image::load_from_memory(&bytes).expect("a PNG").into_luma16();
-        assert_eq!(picture.into_raw(), [0, 0x1234, 0xffff], "every bit");
+        let image = image::load_from_memory(&bytes).expect("a PNG").into_luma16();
+        assert_eq!(image.into_raw(), [0, 0x1234, 0xffff], "every bit");
     }
 
     #[test]

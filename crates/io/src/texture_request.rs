@@ -17,7 +17,7 @@ pub(crate) struct Request {
     pub(crate) file: PathBuf,
     pub(crate) place: Place,
     /// The images that it consists of.
-    pub(crate) layers: Vec<(Role, PictureBytes)>,
+    pub(crate) layers: Vec<(Role, ImageBytes)>,
     pub(crate) purpose: Purpose,
 }
 
@@ -42,12 +42,12 @@ impl Purpose {
 }
 
 /// The bytes of an image file: its own, or a part of a shared buffer.
-pub(crate) enum PictureBytes {
+pub(crate) enum ImageBytes {
     Own(Vec<u8>),
     Shared(Arc<[u8]>, Range<usize>),
 }
 
-impl PictureBytes {
+impl ImageBytes {
     pub(crate) fn get(&self) -> &[u8] {
         match self {
             Self::Own(bytes) => bytes,

@@ -12,8 +12,8 @@ use crate::import::Import;
 use crate::layers::{HeightMap, Role, merge};
 use crate::limits::Limits;
 use crate::options::Stage;
-use crate::picture::{Picture, decode_picture, picture_size, placeholder};
-use crate::texture_request::{PictureBytes, Purpose, Request};
+use crate::rgba_image::{RgbaImage, decode_image, image_size, placeholder};
+use crate::texture_request::{ImageBytes, Purpose, Request};
 
 /// Decodes images and adds them to the scene, in order. A broken one becomes a warning, and a
 /// checkerboard if it is the colour of a surface.
@@ -30,8 +30,8 @@ pub(crate) fn add_textures(
             Stage::Textures,
             done.fetch_add(1, Ordering::Relaxed) as f32 / requests.len() as f32,
         )?;
-        let picture = fits.and_then(|()| decode(request, &options.limits));
-        Ok(picture.and_then(|picture| to_texture(picture, request.purpose).map_err(broken)))
+        let image = fits.and_then(|()| decode(request, &options.limits));
+        Ok(image.and_then(|image| to_texture(image, request.purpose).map_err(broken)))
     };
     let decoded: Vec<Result<Texture, Fault>> =
         requests.par_iter().zip(fits).map(make).collect::<Result<_, LoadError>>()?;
@@ -47,12 +47,12 @@ pub(crate) fn add_textures(
         };
         let must_show = request.purpose == Purpose::BaseColor;
         let instead = if must_show { "shown as a checkerboard" } else { "left out" };
-        let what = format!("picture \"{}\" is {instead}: {why}", request.name);
+        let what = format!("image \"{}\" is {instead}: {why}", request.name);
         import.warnings.push_about(&request.file, request.place.clone(), what, remedy);
         ids.push(must_show.then(|| {
             *stand_in.get_or_insert_with(|| {
                 let texture = to_texture(placeholder(), Purpose::BaseColor);
-                let texture = texture.expect("the placeholder is a small picture");
+                let texture = texture.expect("the placeholder is a small image");
                 import.scene.add_texture("placeholder", texture)
             })
         }));
@@ -60,8 +60,8 @@ pub(crate) fn add_textures(
     Ok(ids)
 }
 
-fn decode(request: &Request, limits: &Limits) -> Result<Picture, Fault> {
-    let layer = |(role, bytes): &(Role, PictureBytes)| Ok((*role, decode_picture(bytes.get(), limits)?));
+fn decode(request: &Request, limits: &Limits) -> Result<RgbaImage, Fault> {
+    let layer = |(role, bytes): &(Role, ImageBytes)| Ok((*role, decode_image(bytes.get(), limits)?));
     let layers = request.layers.iter().map(layer).collect::<Result<_, String>>().map_err(broken)?;
     merge(layers).map_err(|HeightMap| {
         let why = "it is a height map, which is not drawn; only normal maps are";
@@ -82,12 +82,12 @@ fn within_budget(requests: &[Request], limits: &Limits) -> Vec<Result<(), Fault>
     let mut left = limits.total_pixels;
     let mut admit = |request: &Request| {
         for (_, bytes) in &request.layers {
-            let (width, height) = picture_size(bytes.get(), limits).map_err(broken)?;
+            let (width, height) = image_size(bytes.get(), limits).map_err(broken)?;
             let pixels = u64::from(width) * u64::from(height);
             left = left.checked_sub(pixels).ok_or_else(|| {
                 let most = limits.total_pixels;
-                let why = format!("with it, the model's pictures have more than {most} pixels");
-                (why, "make the pictures smaller")
+                let why = format!("with it, the model's images have more than {most} pixels");
+                (why, "make the images smaller")
             })?;
         }
         Ok(())
@@ -95,7 +95,7 @@ fn within_budget(requests: &[Request], limits: &Limits) -> Vec<Result<(), Fault>
     requests.iter().map(&mut admit).collect()
 }
 
-fn to_texture(picture: Picture, purpose: Purpose) -> Result<Texture, String> {
-    let texels = picture.rgba.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2], texel[3]]).collect();
-    Texture::new(picture.width, picture.height, texels, purpose.format()).map_err(|error| error.to_string())
+fn to_texture(image: RgbaImage, purpose: Purpose) -> Result<Texture, String> {
+    let texels = image.rgba.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2], texel[3]]).collect();
+    Texture::new(image.width, image.height, texels, purpose.format()).map_err(|error| error.to_string())
 }

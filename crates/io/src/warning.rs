@@ -165,12 +165,12 @@ mod tests {
     fn what_was_looked_for_is_kept_and_not_shown() {
         let mut warnings = Warnings::about(Path::new("a.obj"));
         let tried = vec![PathBuf::from("maps/a.png"), PathBuf::from("a.png")];
-        let said = ("no picture".to_owned(), "mend it");
+        let said = ("no image".to_owned(), "mend it");
         warnings.push_unusable(Path::new("a.mtl"), Place::Line(2), said.clone(), tried.clone());
         warnings.push_unusable(Path::new("a.mtl"), Place::Line(3), said, Vec::new());
         let list = warnings.into_list();
         assert_eq!(list[0].tried, tried, "of the first");
-        assert_eq!(list[0].to_string(), "a.mtl, line 2: no picture … and 1 more; mend it", "one line");
+        assert_eq!(list[0].to_string(), "a.mtl, line 2: no image … and 1 more; mend it", "one line");
     }
 
     #[test]

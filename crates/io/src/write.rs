@@ -11,7 +11,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum WriteError {
     /// The sizes do not match, or are zero.
-    #[error("a picture of {width}×{height} pixels does not fit {length} values; pass width × height pixels")]
+    #[error("an image of {width}×{height} pixels does not fit {length} values; pass width × height pixels")]
     Size {
         /// Pixels.
         width: u32,
@@ -65,7 +65,7 @@ pub enum WriteError {
         source: io::Error,
     },
     /// The writer failed.
-    #[error("the picture cannot be written ({0}); check that the receiving program is still running")]
+    #[error("the image cannot be written ({0}); check that the receiving program is still running")]
     Stream(#[from] io::Error),
 }
 

@@ -1,6 +1,6 @@
 //! Cuts triangles at the near plane and draws what is left, as text.
 //!
-//! Run with `cargo run -p trigon-math --example near_clip`. A row of the picture
+//! Run with `cargo run -p trigon-math --example near_clip`. A row of the image
 //! is a height, a column a distance from the eye, which is at the left edge.
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
@@ -18,7 +18,7 @@ fn seen_from_the_side(ahead: f32, height: f32) -> Vec4 {
 
 /// Ten columns and three rows to a unit; the eye is 20 columns from the left.
 fn on_paper(position: Vec4) -> FixedPoint {
-    let fixed = |value| Fixed::from_f32(value).expect("the picture is small");
+    let fixed = |value| Fixed::from_f32(value).expect("the image is small");
     FixedPoint::new(fixed(20.0 + 10.0 * position.w), fixed(6.5 - 3.0 * position.y))
 }
 

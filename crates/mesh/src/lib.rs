@@ -34,12 +34,12 @@
 //!     let [a, b, c] = triangle.map(|i| corner(i) - point);
 //!     a.cross(b).z > 0.0 && b.cross(c).z > 0.0 && c.cross(a).z > 0.0
 //! };
-//! let picture = [0, 1, 2, 3].map(|row| -> String {
+//! let image = [0, 1, 2, 3].map(|row| -> String {
 //!     let pixel = |column| Vec3::new(column as f32 + 0.45, row as f32 + 0.55, 0.0);
 //!     let is_covered = |column| triangles.iter().any(|t| covers(pixel(column), t));
 //!     (0..8).map(|column| if is_covered(column) { '#' } else { '.' }).collect()
 //! });
-//! assert_eq!(picture, ["########", "##....##", "##....##", "########"]);
+//! assert_eq!(image, ["########", "##....##", "##....##", "########"]);
 //! # Ok::<(), trigon_mesh::MeshError>(())
 //! ```
 

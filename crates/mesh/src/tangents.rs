@@ -99,7 +99,7 @@ mod tests {
     use crate::primitives;
 
     #[test]
-    fn tangents_follow_growing_u_and_bitangents_point_up_in_the_picture() {
+    fn tangents_follow_growing_u_and_bitangents_point_up_in_the_image() {
         let mesh = primitives::uv_sphere(1.0, 24, 12);
         let tangents = mesh.generate_tangents(0).expect("a sphere has texture coordinates");
         let (normals, uvs) = (mesh.shading_normals(), &mesh.attributes().uv_sets[0]);

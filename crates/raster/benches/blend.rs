@@ -78,7 +78,7 @@ fn layers(criterion: &mut Criterion) {
     let mut target = Target::new(1920, 1080, &[Output::Unorm8]).expect("the size is in range");
     let settings = ExecuteSettings { threads: NonZeroUsize::new(1), ..Default::default() };
     let mut rasterizer = Rasterizer::new(settings).expect("the best level is supported");
-    // Each cloud covers the picture as often as the sheets.
+    // Each cloud covers the image as often as the sheets.
     for (name, (sheets, triangles)) in [
         ("4 sheets", quads(4, 1.1, 0.0)),
         ("200 sheets", quads(200, 1.1, 0.0)),

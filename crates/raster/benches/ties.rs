@@ -54,7 +54,7 @@ fn ties(criterion: &mut Criterion) {
     for samples in [1, 4] {
         let target = Target::new(640, 400, &[Output::Unorm8]).expect("the size is in range");
         let mut target = target.with_samples(samples).expect("a standard pattern");
-        // All of the picture, and 12 by 8 pixels of it.
+        // All of the image, and 12 by 8 pixels of it.
         for (size, width) in [("large", 4.0), ("small", 0.0375)] {
             let mut bench = |depths, depth: &dyn Fn(u32) -> f32| {
                 let parts: Vec<_> = (0..DRAWS).map(|number| Part::new(number, width, depth)).collect();

@@ -1,4 +1,4 @@
-//! Which pixels of a picture are proven to stay as they are if everything is a
+//! Which pixels of an image are proven to stay as they are if everything is a
 //! little off: prints a map of a torus, `.` where a pixel may come to see
 //! something else and `o` where one of its bytes may change.
 //!

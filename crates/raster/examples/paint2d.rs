@@ -2,7 +2,7 @@
 //! feathered edges, and glyphs as quads with texels one to one.
 //!
 //! `cargo run --release -p trigon-raster --example paint2d [panel.ppm]` writes a
-//! PPM picture, or letters to the terminal.
+//! PPM image, or letters to the terminal.
 
 #![allow(clippy::print_stdout, reason = "the terminal is the screen here")]
 

@@ -40,8 +40,8 @@
 //! Rasterizer::default().draw(&pass, &mut target);
 //!
 //! let symbol = |color: &Vec4| if color.w == 0.0 { ' ' } else { char::from(b'0' + (color.x * 10.0) as u8) };
-//! let picture: String = target.linear().unwrap().iter().map(symbol).collect();
-//! let rows: Vec<&str> = picture.as_bytes().chunks(10).map(|row| std::str::from_utf8(row).unwrap()).collect();
+//! let image: String = target.linear().unwrap().iter().map(symbol).collect();
+//! let rows: Vec<&str> = image.as_bytes().chunks(10).map(|row| std::str::from_utf8(row).unwrap()).collect();
 //! assert_eq!(rows, [
 //!     "         9",
 //!     "       778",
@@ -138,7 +138,7 @@ pub use rasterizer::Rasterizer;
 pub use settings::{DepthTest, ExecuteSettings, TileSize};
 pub use shade::FragmentLanes;
 pub use stats::{StageTimes, Stats};
-pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Pictures, Target, TargetError};
+pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Target, TargetError, TargetImages};
 pub use texture::{
     Dual, Filter, MAX_ANISOTROPY, MAX_TEXTURE_SIZE, MipFilter, Sampler, Texture, TextureError, TextureFormat,
     Wrap,

@@ -1,4 +1,4 @@
-//! From a change of a mesh to the picture that shows it: 10,000 vertices of a torus of a
+//! From a change of a mesh to the image that shows it: 10,000 vertices of a torus of a
 //! million triangles, in one place or all over it, 1920×1080 pixels, one sample.
 //!
 //! ```sh
@@ -7,9 +7,9 @@
 //!
 //! The torus takes its normals from its faces (`derived`, if nothing else is said), so that
 //! they change with the vertices, or has normals of its own (`given`). In each round the
-//! cases take turns: a picture without a change, one after each kind of change, and one
+//! cases take turns: an image without a change, one after each kind of change, and one
 //! after the same change by a new mesh; or only those that are named: `none`, `compact`,
-//! `scattered`, `replaced`. The last picture of each is held against one of a new scene, byte
+//! `scattered`, `replaced`. The last image of each is held against one of a new scene, byte
 //! for byte.
 
 #![expect(clippy::print_stdout, reason = "numbers are what this is for")]
@@ -28,7 +28,7 @@ const QUADS: [u32; 2] = [1000, 500];
 const MOVED: u32 = 10_000;
 const KINDS: [Kind; 4] = [Kind::None, Kind::Compact, Kind::Scattered, Kind::Replaced];
 
-/// What happens before a picture.
+/// What happens before an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     /// Nothing.
@@ -115,13 +115,13 @@ impl Case {
         }
     }
 
-    /// Draws what was loaded; the milliseconds of the first change and its picture.
+    /// Draws what was loaded; the milliseconds of the first change and its image.
     fn first(&mut self, camera: &Camera) -> Result<f64, Box<dyn Error>> {
         self.renderer.render_into(&self.scene, camera, &mut self.frame)?;
         self.round(0, camera)
     }
 
-    /// The milliseconds from a change to the picture.
+    /// The milliseconds from a change to the image.
     fn round(&mut self, round: u32, camera: &Camera) -> Result<f64, Box<dyn Error>> {
         let change = self.change(round);
         let start = Instant::now();

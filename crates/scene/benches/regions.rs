@@ -1,5 +1,5 @@
 //! A torus of a million quads at 1920 by 1080: what the elements of regions take, given
-//! the picture's ids, and what the ids take of a picture.
+//! the image's ids, and what the ids take of an image.
 //!
 //! `cargo bench -p trigon-scene --bench regions -- [FILTER]`
 
@@ -77,10 +77,10 @@ fn elements(criterion: &mut Criterion) {
     });
 }
 
-/// Pictures as windows draw them at rest and while something moves.
+/// Images as windows draw them at rest and while something moves.
 fn frames(criterion: &mut Criterion) {
     let (scene, camera) = (scene(), camera());
-    for (name, samples_per_axis) in [("a draft", 1), ("a picture", 3)] {
+    for (name, samples_per_axis) in [("a draft", 1), ("an image", 3)] {
         let mut group = criterion.benchmark_group(name);
         group.sample_size(10);
         for (what, with) in [("colours", false), ("colours, ids and depth", true)] {

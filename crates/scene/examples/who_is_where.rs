@@ -1,9 +1,9 @@
-//! Three objects, and who is seen where: colours say what a picture looks like,
-//! ids say what it shows. Prints the picture as text, one letter an object.
+//! Three objects, and who is seen where: colours say what an image looks like,
+//! ids say what it shows. Prints the image as text, one letter an object.
 //!
 //! `cargo run --release -p trigon-scene --example who_is_where`
 
-#![allow(clippy::print_stdout, reason = "the terminal is the picture here")]
+#![allow(clippy::print_stdout, reason = "the terminal is the image here")]
 
 use trigon_scene::math::{DVec3, Vec3};
 use trigon_scene::mesh::primitives;

@@ -1,10 +1,10 @@
-//! What faces show: the lit picture, one clay for all, or one value of their surfaces.
+//! What faces show: the lit image, one clay for all, or one value of their surfaces.
 
 use trigon_math::{Vec3, Vec4};
 
 use crate::material::{AlphaMode, Material, Shading};
 
-/// What the faces of a picture show.
+/// What the faces of an image show.
 ///
 /// Values that are no colours (all but those of base colour and emission) are shown as they are stored: 0 is black
 /// and 1 is the display's white, so that the byte of a pixel is 255 times the value. What is blended is shown as

@@ -17,7 +17,7 @@
 //! let settings = RenderSettings { outputs, ..RenderSettings::new(9, 9) };
 //! let frame = render(&scene, &scene.overview(settings.aspect()), &settings)?;
 //!
-//! // A red ball in the middle of the picture, and we know which one it is.
+//! // A red ball in the middle of the image, and we know which one it is.
 //! let [red, green, blue, alpha] = frame.pixel(4, 4);
 //! assert!(red > 200 && green < 10 && blue < 10 && alpha == 255);
 //! assert_eq!(frame.hit(scene.nodes(), 4, 4).map(|hit| hit.node), Some(ball));
@@ -25,7 +25,7 @@
 //! # Ok::<(), trigon_scene::RenderError>(())
 //! ```
 //!
-//! One picture is a call of [`render`]. For many, a [`Renderer`] holds the settings and
+//! One image is a call of [`render`]. For many, a [`Renderer`] holds the settings and
 //! keeps threads, memory and shadow maps from one to the next; the bytes are the same.
 
 mod animation;

@@ -14,6 +14,6 @@ pub type TextureId = Id<TextureAsset>;
 pub struct TextureAsset {
     /// A display name; need not be unique.
     pub name: String,
-    /// The picture.
+    /// The image.
     pub texture: Arc<Texture>,
 }

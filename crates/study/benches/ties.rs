@@ -29,7 +29,7 @@ struct Arguments {
     /// How many triangles lie over each other
     #[arg(long, value_name = "N", default_value = "4000")]
     triangles: u32,
-    /// Width and height of the picture in pixels
+    /// Width and height of the image in pixels
     #[arg(long, value_name = "N,N", value_delimiter = ',', default_value = "640,400")]
     size: Vec<u32>,
     /// Numbers of samples in a pixel
@@ -62,7 +62,7 @@ struct Arguments {
     shapes: Vec<Shape>,
 }
 
-/// Which part of the picture each triangle covers.
+/// Which part of the image each triangle covers.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 enum Shape {
     /// All of it.
@@ -71,7 +71,7 @@ enum Shape {
     Small,
     /// 3 pixels across, all of them at one place.
     Micro,
-    /// 12 pixels across, side by side over the picture, 20 for each triangle of the others.
+    /// 12 pixels across, side by side over the image, 20 for each triangle of the others.
     Spread,
     /// All of it, as faces of one mesh that a scene draws.
     Scene,

@@ -24,7 +24,7 @@ use trigon_scene::{
 };
 use trigon_study::oracle::face_edges::{View, coverage};
 
-/// Time a torus of a million triangles with and without edges, and compare small pictures
+/// Time a torus of a million triangles with and without edges, and compare small images
 /// with the exact area of the lines.
 #[derive(Parser)]
 struct Arguments {
@@ -43,7 +43,7 @@ struct Arguments {
     /// Leave the comparison out
     #[arg(long)]
     no_comparison: bool,
-    /// Save the pictures in this folder
+    /// Save the images in this folder
     #[arg(long, value_name = "FOLDER")]
     png: Option<PathBuf>,
 }
@@ -160,7 +160,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// The picture of black edges on white faces before white, and how dark it is.
+/// The image of black edges on white faces before white, and how dark it is.
 fn drawn(case: &Case, width: f32, samples: [u32; 2]) -> Result<(Frame, Vec<f64>), Box<dyn Error>> {
     let mut scene = Scene::new();
     let white = Material {
@@ -188,7 +188,7 @@ fn drawn(case: &Case, width: f32, samples: [u32; 2]) -> Result<(Frame, Vec<f64>)
     Ok((frame, darkness))
 }
 
-/// Of the pictures that are compared.
+/// Of the images that are compared.
 const SIZE: [usize; 2] = [192, 144];
 
 /// The share of each pixel that lines cover.
@@ -201,7 +201,7 @@ fn exact(case: &Case, width: f32) -> Vec<f64> {
     coverage(&view, &positions, &faces.collect::<Vec<_>>(), f64::from(width))
 }
 
-/// One picture beside the exact area: the root of the mean square of the difference, over all
+/// One image beside the exact area: the root of the mean square of the difference, over all
 /// pixels.
 fn compare(arguments: &Arguments, case: &Case, width: f32) -> Result<(), Box<dyn Error>> {
     let exact = exact(case, width);

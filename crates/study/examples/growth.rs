@@ -88,7 +88,7 @@ impl Growth {
     }
 }
 
-/// How many frames are timed of pictures that take long.
+/// How many frames are timed of images that take long.
 const LARGE: usize = 5;
 
 /// The median time of a frame in milliseconds.
@@ -115,7 +115,7 @@ fn by_triangles(arguments: &Arguments) -> Result<Growth, Box<dyn Error>> {
 
 /// W3 on other numbers of pixels.
 fn by_pixels(arguments: &Arguments) -> Result<Growth, Box<dyn Error>> {
-    let mut growth = Growth::new("pixels", "pixels of the picture");
+    let mut growth = Growth::new("pixels", "pixels of the image");
     let mut scene = Scene::knot(Shading::BlinnPhong);
     let mut side = 256;
     while side <= arguments.side {
@@ -126,9 +126,9 @@ fn by_pixels(arguments: &Arguments) -> Result<Growth, Box<dyn Error>> {
     Ok(growth)
 }
 
-/// A picture of 200 by 200 pixels of a small model, with one thread and with two: too
+/// An image of 200 by 200 pixels of a small model, with one thread and with two: too
 /// little to do is no reason to be slower.
-fn small_pictures() -> Result<(), Box<dyn Error>> {
+fn small_images() -> Result<(), Box<dyn Error>> {
     const FRAMES: usize = 500;
     println!("200×200 pixels: triangles, ms with one thread, ms with two");
     for around in [16, 50, 160] {
@@ -147,5 +147,5 @@ fn main() -> Result<(), Box<dyn Error>> {
             growth.save(folder)?;
         }
     }
-    small_pictures()
+    small_images()
 }

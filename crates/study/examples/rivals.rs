@@ -1,8 +1,8 @@
-//! Holds the pictures of other renderers, and trigon's own, against the exact ones:
+//! Holds the images of other renderers, and trigon's own, against the exact ones:
 //!
 //! `cargo run --release -p trigon-study --example rivals -- FOLDER > crates/study/rivals/errors.csv`
 //!
-//! FOLDER holds pictures of the workloads as `RENDERER-WORKLOAD.png`, such as `euc-0.5.3-W5-cubes10k.png`;
+//! FOLDER holds images of the workloads as `RENDERER-WORKLOAD.png`, such as `euc-0.5.3-W5-cubes10k.png`;
 //! `tests/peers/rivals.sh` has them drawn.
 
 #![expect(clippy::print_stdout, reason = "a table is what this is for")]
@@ -24,23 +24,23 @@ const WORKLOADS: [Workload; 5] = [
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = std::env::args_os().nth(1).map(PathBuf::from).ok_or("name the folder of the pictures")?;
+    let folder = std::env::args_os().nth(1).map(PathBuf::from).ok_or("name the folder of the images")?;
     println!("{}", Measured::HEAD);
     for workload in WORKLOADS {
         let scene = workload.scene();
         let exact = Exact::new(&scene);
-        let judge = |renderer: String, picture: &[[u8; 4]], is_centred: bool| {
-            let errors = Errors::new(&exact, picture, is_centred, matches!(scene.shading, Shading::Flat));
+        let judge = |renderer: String, image: &[[u8; 4]], is_centred: bool| {
+            let errors = Errors::new(&exact, image, is_centred, matches!(scene.shading, Shading::Flat));
             println!("{}", Measured { renderer, workload: workload.name().to_owned(), errors }.line());
         };
         let is_centred = scene.samples == 1;
         judge_exact(&exact, is_centred, judge);
-        for (renderer, path) in pictures(&folder, workload)? {
-            let picture = image::open(&path)?.into_rgba8();
-            if picture.dimensions() != (scene.size.x, scene.size.y) {
+        for (renderer, path) in images(&folder, workload)? {
+            let image = image::open(&path)?.into_rgba8();
+            if image.dimensions() != (scene.size.x, scene.size.y) {
                 return Err(format!("{} is not of the workload's size", path.display()).into());
             }
-            judge(renderer, picture.into_raw().as_chunks().0, is_centred);
+            judge(renderer, image.into_raw().as_chunks().0, is_centred);
         }
         for (renderer, scene) in own(&scene) {
             let mut canvas = Canvas::with_own_pixels(Rasterizer::default(), &scene)?;
@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What bytes can hold at best: the exact picture, seen at the centres of pixels and as a mean of rays.
+/// What bytes can hold at best: the exact image, seen at the centres of pixels and as a mean of rays.
 fn judge_exact(exact: &Exact, is_centred: bool, judge: impl Fn(String, &[[u8; 4]], bool)) {
     let bytes = |color: trigon_math::DVec3| {
         let [r, g, b] = (color * 255.0).round().to_array().map(|channel| channel as u8);
@@ -65,16 +65,16 @@ fn judge_exact(exact: &Exact, is_centred: bool, judge: impl Fn(String, &[[u8; 4]
     judge("exact-means".to_owned(), &means, false);
 }
 
-/// The renderers that have drawn a workload, with their pictures.
-fn pictures(folder: &Path, workload: Workload) -> Result<Vec<(String, PathBuf)>, Box<dyn Error>> {
+/// The renderers that have drawn a workload, with their images.
+fn images(folder: &Path, workload: Workload) -> Result<Vec<(String, PathBuf)>, Box<dyn Error>> {
     let suffix = format!("-{}.png", workload.name());
     let files = fs::read_dir(folder)?.collect::<Result<Vec<_>, _>>()?;
     let renderer = |path: &PathBuf| Some(path.file_name()?.to_str()?.strip_suffix(&suffix)?.to_owned());
     let paths = files.iter().map(fs::DirEntry::path);
-    let mut pictures: Vec<_> = paths.filter_map(|path| Some((renderer(&path)?, path))).collect();
-    pictures.retain(|(renderer, _)| !renderer.starts_with("trigon"));
-    pictures.sort();
-    Ok(pictures)
+    let mut images: Vec<_> = paths.filter_map(|path| Some((renderer(&path)?, path))).collect();
+    images.retain(|(renderer, _)| !renderer.starts_with("trigon"));
+    images.sort();
+    Ok(images)
 }
 
 /// The scene as trigon draws it: at each preset, or with the samples that the workload has.

@@ -1,4 +1,4 @@
-//! Times the workloads, or saves their pictures:
+//! Times the workloads, or saves their images:
 //!
 //! `cargo run --release -p trigon-study --example workloads -- --csv --threads 1,2 W2 W3`
 
@@ -28,7 +28,7 @@ struct Arguments {
     /// Draw with these instructions: scalar, sse2, avx2, avx512 or neon; the best, unless given
     #[arg(long, value_name = "LEVEL")]
     simd: Option<SimdLevel>,
-    /// Cut the picture into squares of 8, 16, 32 or 64 pixels
+    /// Cut the image into squares of 8, 16, 32 or 64 pixels
     #[arg(long, value_name = "PIXELS", value_parser = tile_size)]
     tile: Option<TileSize>,
     /// Draw with the samples of this preset: draft, standard, high or reference; with those of the workload, unless given
@@ -46,7 +46,7 @@ struct Arguments {
     /// Tell how long each stage of a frame takes, too
     #[arg(long)]
     stages: bool,
-    /// Save the pictures in this folder
+    /// Save the images in this folder
     #[arg(long, value_name = "FOLDER")]
     png: Option<PathBuf>,
     /// Append each frame's time to this file, to pool several runs

@@ -9,7 +9,7 @@ use trigon_raster::{
     Pass, Pipeline, Rasterizer, Target, VertexLanes, VertexOutput,
 };
 
-/// The engine's rasterizer, kept from picture to picture.
+/// The engine's rasterizer, kept from frame to frame.
 pub struct Engine {
     pub(crate) rasterizer: Rasterizer,
 }
@@ -73,14 +73,14 @@ impl Engine {
     }
 }
 
-/// A target for a picture of the study, which is small.
+/// A target for an image of the study, which is small.
 pub(crate) fn target([width, height]: [usize; 2], outputs: &[Output]) -> Target<'static> {
-    Target::new(width as u32, height as u32, outputs).expect("pictures of the study have a size in range")
+    Target::new(width as u32, height as u32, outputs).expect("images of the study have a size in range")
 }
 
-/// One picture of a target.
+/// One image of a target.
 pub(crate) fn field<T: Copy>([width, height]: [usize; 2], pixels: Option<&[T]>) -> Field<T> {
-    let pixels = pixels.expect("the picture was asked for");
+    let pixels = pixels.expect("the image was asked for");
     Field::from_fn([width, height], |[x, y]| pixels[y * width + x])
 }
 

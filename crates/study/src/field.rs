@@ -1,4 +1,4 @@
-//! A picture of values of any kind: what every algorithm of the study draws into.
+//! An image of values of any kind: what every algorithm of the study draws into.
 
 use std::ops::{Index, IndexMut};
 
@@ -46,7 +46,7 @@ impl<T> Field<T> {
         &mut self.values
     }
 
-    /// The value at a place, if that is in the picture.
+    /// The value at a place, if that is in the image.
     #[must_use]
     pub fn get(&self, place: [i32; 2]) -> Option<&T> {
         self.index(place).map(|index| &self.values[index])
@@ -76,7 +76,7 @@ impl<T> Field<T> {
         self.values.chunks_mut(self.width)
     }
 
-    /// A picture of the same size with what a function makes of each value.
+    /// An image of the same size with what a function makes of each value.
     pub fn map<U>(&self, value: impl FnMut(&T) -> U) -> Field<U> {
         Field { width: self.width, values: self.values.iter().map(value).collect() }
     }

@@ -4,13 +4,13 @@
 //!   engine, each in a file of its own with its source: [`fill`], [`visibility`],
 //!   [`mod@line`], [`shading`], [`interpolation`], [`depth`], [`antialiasing`], [`texture`],
 //!   [`transparency`], [`shadow`], [`color`], [`coordinates`], [`same_bytes`], [`storage`], [`threads`];
-//!   [`frames`] for whole pictures; [`rivals`] for those of other renderers.
+//!   [`frames`] for whole images; [`rivals`] for those of other renderers.
 //! - Exact answers to hold them against: [`oracle`].
 //! - What all that costs: [`report`].
 //! - [`workloads`] that other renderers draw too, and the harness that times them. The
 //!   bench `limits` measures what the processor allows under the renderer's rules.
 //!
-//! Everything is closed form, or chance from a fixed seed: the same pictures are made
+//! Everything is closed form, or chance from a fixed seed: the same images are made
 //! anywhere. The library never prints, and the renderer never needs it.
 //!
 //! ```

@@ -1,4 +1,4 @@
-//! How far pictures are apart, in light and in what a person sees.
+//! How far images are apart, in light and in what a person sees.
 
 use trigon_math::elementary;
 

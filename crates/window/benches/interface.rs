@@ -1,6 +1,6 @@
 //! An interface of 1920 by 1080 pixels in which one label changes: what the painter
 //! takes for it, and what all of a frame takes, egui's own part included; and what that
-//! takes while a picture is drawn beside it, on as many threads as there are cores.
+//! takes while an image is drawn beside it, on as many threads as there are cores.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use egui::{ClippedPrimitive, Context};
@@ -75,8 +75,8 @@ fn one_label(criterion: &mut Criterion) {
             paint(&mut painter, primitives)
         });
     });
-    beside_a_picture(|| {
-        group.bench_function("frame beside a picture", |b| {
+    beside_an_image(|| {
+        group.bench_function("frame beside an image", |b| {
             b.iter(|| {
                 count += 1;
                 let primitives = pass(&context, &mut painter, 11 + count as u32 % 2);
@@ -93,8 +93,8 @@ fn one_label(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Runs something while a picture is drawn on another thread.
-fn beside_a_picture(run: impl FnOnce()) {
+/// Runs something while an image is drawn on another thread.
+fn beside_an_image(run: impl FnOnce()) {
     let (scene, cancel) = (showcase(), Cancel::default());
     let settings = RenderSettings { samples: 16, ..RenderSettings::new(SIZE[0], SIZE[1]) };
     let camera = scene.overview(settings.aspect());

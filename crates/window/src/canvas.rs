@@ -91,11 +91,11 @@ fn differing(a: &[[u8; 4]], b: &[[u8; 4]]) -> Vec<Range<usize>> {
     ranges
 }
 
-/// The rows of a frame as a picture of some size shows them, from the top.
+/// The rows of a frame as an image of some size shows them, from the top.
 struct Rows<'f> {
     frame: Option<&'f Frame>,
     size: [usize; 2],
-    /// The frame's column for each one of the picture, unless they are the same.
+    /// The frame's column for each one of the image, unless they are the same.
     columns: Option<Vec<usize>>,
     /// The last row, and the frame's row that it shows.
     row: Vec<[u8; 4]>,
@@ -199,7 +199,7 @@ mod tests {
         let (parts, painted, _) = show(&color);
         assert_eq!(parts.len(), 3, "white instead of dark in every row: {parts:?}");
         assert_eq!(painted, [Rect::new([0, 0], [200, 3])], "all is painted at first");
-        assert!(show(&color).0.is_empty(), "the same picture");
+        assert!(show(&color).0.is_empty(), "the same image");
         color[4 * (200 + 70)] = 9;
         let (parts, painted, pixels) = show(&color);
         assert_eq!(parts, [Rect::new([64, 1], [128, 2])], "a piece of the middle row");
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_picture_it_is_dark() {
+    fn without_an_image_it_is_dark() {
         assert_eq!(shown(None, [2, 1]), [EMPTY; 2], "and opaque");
     }
 }

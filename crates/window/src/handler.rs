@@ -79,8 +79,8 @@ pub trait Handler {
         stage.exit();
     }
 
-    /// The image that [`Stage::request_picture`] requested.
-    fn picture(&mut self, stage: &mut Stage, frame: Frame) {
+    /// The image that [`Stage::request_image`] requested.
+    fn image(&mut self, stage: &mut Stage, frame: Frame) {
         let _ = (stage, frame);
     }
 

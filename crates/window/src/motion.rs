@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn rolling_turns_the_picture_with_the_hand() {
+    fn rolling_turns_the_image_with_the_hand() {
         let mut stage = stage();
         let point = DVec3::new(0.5, 0.0, 0.0);
         let screen = |stage: &Stage| {
@@ -148,7 +148,7 @@ mod tests {
         let at = screen(&stage) - middle;
         assert!(at.x.abs() < 1e-9 && at.y > 0.0, "it is below now: {at}");
         hold(&mut stage, Motion::Camera(CameraMotion::Roll(1.0)), 0.1);
-        assert!((screen(&stage) - middle).x < at.x, "the eye turns counter-clockwise, the picture clockwise");
+        assert!((screen(&stage) - middle).x < at.x, "the eye turns counter-clockwise, the image clockwise");
     }
 
     #[test]
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn objects_move_in_the_picture_whatever_they_hang_on() {
+    fn objects_move_in_the_image_whatever_they_hang_on() {
         let mut stage = stage();
         let turned = Transform::from_scale_rotation_translation(
             DVec3::splat(4.0),

@@ -119,12 +119,12 @@ pub(crate) enum Progress {
     /// A refinement of the image on screen: the step, counted from 1, and the number of steps.
     Refining { step: usize, of: usize, seconds: u64 },
     /// An image for a file, for a second or more.
-    Picture { seconds: u64 },
+    Image { seconds: u64 },
 }
 
 impl Progress {
     pub(crate) fn seconds(self) -> u64 {
-        let (Self::Drawing { seconds } | Self::Refining { seconds, .. } | Self::Picture { seconds }) = self;
+        let (Self::Drawing { seconds } | Self::Refining { seconds, .. } | Self::Image { seconds }) = self;
         seconds
     }
 }
@@ -160,7 +160,7 @@ impl Pacing {
     pub(crate) fn progress(&self, now: Duration) -> Option<Progress> {
         let seconds = self.work_begun().map_or(0, |begun| now.saturating_sub(begun).as_secs());
         if self.occupied.is_some() {
-            return (seconds > 0).then_some(Progress::Picture { seconds });
+            return (seconds > 0).then_some(Progress::Image { seconds });
         }
         match self.wanted.iter().position(|&step| Some(step) == self.next_step()) {
             Some(next) => Some(Progress::Refining { step: next + 1, of: self.wanted.len(), seconds }),
@@ -189,7 +189,7 @@ impl Pacing {
 
     /// Whether the image being drawn only improves the one on screen.
     pub(crate) fn is_refining(&self) -> bool {
-        self.under_way.is_some_and(|picture| matches!(picture.quality, Quality::Full(1..)))
+        self.under_way.is_some_and(|image| matches!(image.quality, Quality::Full(1..)))
     }
 
     /// The first step that is wanted and not done.
@@ -226,7 +226,7 @@ impl Pacing {
     pub(crate) fn lose_patience(&mut self, now: Duration) {
         if self.overdue().is_some_and(|due| due <= now) {
             self.full = Some(OVERDUE);
-            self.under_way = self.under_way.map(|picture| UnderWay { outdated: true, ..picture });
+            self.under_way = self.under_way.map(|image| UnderWay { outdated: true, ..image });
         }
     }
 
@@ -240,7 +240,7 @@ impl Pacing {
 
     /// Whether the next step of an animation can be shown.
     pub(crate) fn can_step(&self) -> bool {
-        self.under_way.is_none_or(|picture| matches!(picture.quality, Quality::Full(_)))
+        self.under_way.is_none_or(|image| matches!(image.quality, Quality::Full(_)))
     }
 
     /// When to draw next. `animated`: the program itself requests images; `expiry`: when the
@@ -249,7 +249,7 @@ impl Pacing {
         let after = |last: Option<Duration>| last.map_or(now, |last| last + FRAME);
         let (frame, paced) = (after(self.drawn), after(self.begun));
         let overlay = self.overlay.then_some(frame);
-        let picture = match (self.under_way, self.shown, animated) {
+        let image = match (self.under_way, self.shown, animated) {
             // Completion arrives as an event.
             (Some(UnderWay { quality: Quality::Draft { .. }, .. }), ..) => None,
             _ if self.occupied.is_some() => None,
@@ -262,14 +262,14 @@ impl Pacing {
             (None, Shown::Full(_), Frames::None) => self.next_step().map(|_| paced),
         };
         let expiry = expiry.map(|due| due.max(frame));
-        match [overlay, picture, expiry, self.next_second()].into_iter().flatten().min() {
+        match [overlay, image, expiry, self.next_second()].into_iter().flatten().min() {
             Some(due) if due <= now => Wake::Now,
             Some(due) => Wake::At(due),
             None => Wake::Never,
         }
     }
 
-    /// A frame begins: the picture to be begun for it, if any.
+    /// A frame begins: the image to be begun for it, if any.
     pub(crate) fn begin(&mut self, now: Duration, animated: Frames) -> Option<Quality> {
         self.drawn = Some(now);
         let moving = animated == Frames::Wanted || self.moved.is_some_and(|moved| now < moved + REST);
@@ -287,17 +287,17 @@ impl Pacing {
         Some(quality)
     }
 
-    /// What is written over the picture is up to date.
+    /// What is written over the image is up to date.
     pub(crate) fn composed(&mut self) {
         self.overlay = false;
     }
 
-    /// Since when whoever draws is at something else, and no picture can be begun; `None` if nothing is.
+    /// Since when whoever draws is at something else, and no image can be begun; `None` if nothing is.
     pub(crate) fn occupy(&mut self, since: Option<Duration>) {
         self.occupied = since;
     }
 
-    /// The picture under way is in the window, and took this long.
+    /// The image under way is in the window, and took this long.
     pub(crate) fn finished(&mut self, took: Duration) {
         let Some(UnderWay { quality, outdated }) = self.under_way.take() else { return };
         self.overlay = true;
@@ -313,18 +313,18 @@ impl Pacing {
         }
     }
 
-    /// The picture under way was cancelled; if it is still wanted, it is begun again.
+    /// The image under way was cancelled; if it is still wanted, it is begun again.
     pub(crate) fn cancelled(&mut self) {
-        if self.under_way.take().is_some_and(|picture| picture.outdated) {
+        if self.under_way.take().is_some_and(|image| image.outdated) {
             self.shown = Shown::Old;
         }
         self.overlay = true;
     }
 
-    /// The picture under way cannot be drawn. That and what would follow is not tried
+    /// The image under way cannot be drawn. That and what would follow is not tried
     /// again before something changes.
     pub(crate) fn failed(&mut self) {
-        let outdated = self.under_way.take().is_some_and(|picture| picture.outdated);
+        let outdated = self.under_way.take().is_some_and(|image| image.outdated);
         self.shown = if outdated { Shown::Old } else { Shown::Full(usize::MAX) };
         self.overlay = true;
     }

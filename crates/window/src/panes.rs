@@ -4,7 +4,7 @@
 //! There is still one camera, [`Stage::orbit`](crate::Stage::orbit). The three others look at the same target from
 //! as far, so whatever moves or zooms one view does so to all, and there is no second state to keep. Each
 //! view is drawn by itself into its part of one [`Frame`], with its ids and depths. So all that follows, from
-//! refinement to picking, goes on to have one picture.
+//! refinement to picking, goes on to have one image.
 
 use trigon_camera::{AxisView, Camera, Orbit, Projector, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
@@ -55,13 +55,13 @@ impl Area {
         Self { min, size: Viewport { width, height } }
     }
 
-    /// The same part of a picture that is stretched to the window.
-    fn scaled(self, window: Viewport, picture: Viewport) -> Self {
+    /// The same part of an image that is stretched to the window.
+    fn scaled(self, window: Viewport, image: Viewport) -> Self {
         let scaled = |at: u32, from: u32, to: u32| {
             u32::try_from(u64::from(at) * u64::from(to) / u64::from(from.max(1))).unwrap_or(to).min(to)
         };
-        let across = |x| scaled(x, window.width, picture.width);
-        let down = |y| scaled(y, window.height, picture.height);
+        let across = |x| scaled(x, window.width, image.width);
+        let down = |y| scaled(y, window.height, image.height);
         let min = [across(self.min[0]), down(self.min[1])];
         let width = across(self.min[0] + self.size.width) - min[0];
         let height = down(self.min[1] + self.size.height) - min[1];
@@ -158,9 +158,9 @@ impl Views {
             return draw(&self.main, settings);
         }
         let mut whole = empty(&settings);
-        let picture = Viewport { width: settings.width, height: settings.height };
+        let image = Viewport { width: settings.width, height: settings.height };
         for (camera, area) in &self.parts {
-            let area = area.scaled(self.window, picture);
+            let area = area.scaled(self.window, image);
             let Viewport { width, height } = area.size;
             if width > 0 && height > 0 {
                 let part = draw(camera, RenderSettings { width, height, ..settings.clone() })?;
@@ -241,18 +241,18 @@ mod tests {
         #[test]
         fn views_lie_in_the_window_and_apart(
             min in prop::array::uniform2(0u32..300), size in prop::array::uniform2(0u32..300),
-            picture in prop::array::uniform2(1u32..250)
+            image in prop::array::uniform2(1u32..250)
         ) {
             let window = Viewport { width: 200, height: 100 };
-            let picture = Viewport { width: picture[0], height: picture[1] };
+            let image = Viewport { width: image[0], height: image[1] };
             let area = Area { min, size: Viewport { width: size[0], height: size[1] } };
-            let mut taken = vec![false; (picture.width * picture.height) as usize];
+            let mut taken = vec![false; (image.width * image.height) as usize];
             for pane in panes(Orbit::new(DVec3::Y), window, Some(area)) {
-                let Area { min, size } = pane.area.scaled(window, picture);
-                prop_assert!(min[0] + size.width <= picture.width && min[1] + size.height <= picture.height);
+                let Area { min, size } = pane.area.scaled(window, image);
+                prop_assert!(min[0] + size.width <= image.width && min[1] + size.height <= image.height);
                 for y in min[1]..min[1] + size.height {
                     for x in min[0]..min[0] + size.width {
-                        let pixel = &mut taken[(y * picture.width + x) as usize];
+                        let pixel = &mut taken[(y * image.width + x) as usize];
                         prop_assert!(!std::mem::replace(pixel, true), "({x}, {y}) is in two");
                     }
                 }

@@ -2,8 +2,8 @@
 //! wake-up times come out. So all of it can be tested without a display.
 
 mod controls;
+mod images;
 mod offers;
-mod pictures;
 mod wrapping;
 
 use std::path::PathBuf;
@@ -59,11 +59,11 @@ pub(crate) struct Session<'a> {
     nodes: Option<(Revision, Arc<DrawnNodes>)>,
     /// The images of the window, and what they show.
     gallery: Gallery,
-    pictured: Option<Subject>,
+    drawn_subject: Option<Subject>,
     /// The one on the canvas.
     shown: Option<Arc<Frame>>,
     /// Requested images that are not begun.
-    pictures: Vec<RenderSettings>,
+    images: Vec<RenderSettings>,
     canvas: Canvas,
     /// Whether the canvas still has to take that image, or another size.
     stale: bool,
@@ -95,9 +95,9 @@ impl<'a> Session<'a> {
             subject: None,
             nodes: None,
             gallery: Gallery::default(),
-            pictured: None,
+            drawn_subject: None,
             shown: None,
-            pictures: Vec::new(),
+            images: Vec::new(),
             canvas: Canvas::default(),
             stale: true,
             composed: Duration::ZERO,
@@ -181,12 +181,12 @@ impl<'a> Session<'a> {
             self.step(now);
         }
         if let Some(quality) = self.pacing.begin(now, self.frames()) {
-            self.begin_picture(quality);
+            self.begin_image(quality);
             self.collect(now);
         }
         self.composed = clock();
         // Not before the next image is started, which does not have to wait for it.
-        self.show_picture();
+        self.show_image();
         self.pacing.composed();
         self.run_interface(now);
         self.canvas.paint(&mut self.interface.painter).then_some(&self.canvas)
@@ -290,7 +290,7 @@ impl<'a> Session<'a> {
     /// Handles what any call of the handler may have changed.
     fn after_handler(&mut self, now: Duration) {
         self.note(now);
-        self.pictures.append(&mut self.stage.wishes().pictures);
+        self.images.append(&mut self.stage.wishes().images);
         self.begin_asked(now);
         if std::mem::take(&mut self.stage.wishes().animate) {
             self.animation = Animation::Running;
@@ -325,8 +325,8 @@ impl<'a> Session<'a> {
         if let Some(binding) = chosen {
             self.act(&binding, now);
         }
-        // A widget may have changed what is shown, and asked for pictures.
-        if before != self.stage.subject() || !self.stage.wishes().pictures.is_empty() {
+        // A widget may have changed what is shown, and asked for images.
+        if before != self.stage.subject() || !self.stage.wishes().images.is_empty() {
             self.after_handler(now);
         }
         if std::mem::take(&mut self.stage.wishes().animate) {

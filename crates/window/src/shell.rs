@@ -28,7 +28,7 @@ pub(crate) enum UserEvent {
     /// [`crate::Waker::wake`].
     Application,
     /// An image is finished.
-    Picture,
+    Image,
     /// The interface requests a pass.
     Interface,
     /// A screen reader requested an action.
@@ -75,7 +75,7 @@ impl<'a> Shell<'a> {
         };
         stage.waker().connect(ring(UserEvent::Application));
         let started = Instant::now();
-        let worker = Worker::of_threads(ring(UserEvent::Picture), move || started.elapsed());
+        let worker = Worker::of_threads(ring(UserEvent::Image), move || started.elapsed());
         let mut session = Session::new(stage, handler, worker);
         session.interface().connect(ring(UserEvent::Interface));
         Self {
@@ -253,7 +253,7 @@ impl ApplicationHandler<UserEvent> for Shell<'_> {
         let now = self.now();
         match ring {
             UserEvent::Application => self.session.woken(now),
-            UserEvent::Picture => self.session.collect(now),
+            UserEvent::Image => self.session.collect(now),
             UserEvent::Interface => self.session.interface_asked(now),
             #[cfg(feature = "accesskit")]
             UserEvent::Accessibility(event) => self.accessibility(event),

@@ -80,7 +80,7 @@ impl Shown {
 
 impl Shown {
     /// What a pointer at a point of a window of this size snaps to, within a radius in the window's pixels. `None` while
-    /// the picture is a draft, whose pixels are too large, and with four views.
+    /// the image is a draft, whose pixels are too large, and with four views.
     pub(crate) fn snap(&self, at: DVec2, radius: f64, window: Viewport, scene: &Scene) -> Option<Snap> {
         let size = Viewport { width: self.frame.width, height: self.frame.height };
         let is_whole = size == window && self.views.is_one();

@@ -156,7 +156,7 @@ pub(crate) struct Menu {
 pub(crate) struct Wishes {
     pub(crate) exit: bool,
     pub(crate) animate: bool,
-    pub(crate) pictures: Vec<RenderSettings>,
+    pub(crate) images: Vec<RenderSettings>,
 }
 
 impl Stage {
@@ -294,7 +294,7 @@ impl Stage {
         }
     }
 
-    /// Takes the whole scene but for what is beside it into the picture, seen from the same side.
+    /// Takes the whole scene but for what is beside it into the image, seen from the same side.
     pub fn fit_view(&mut self) {
         let points: Vec<_> = if self.beside.is_empty() {
             self.scene.visible_points().collect()
@@ -308,7 +308,7 @@ impl Stage {
         self.fit_points(&points);
     }
 
-    /// Takes points into the part of the picture that nothing covers all the time, seen from the same side.
+    /// Takes points into the part of the image that nothing covers all the time, seen from the same side.
     pub fn fit_points(&mut self, points: &[DVec3]) {
         let room = self.room();
         self.orbit.fit_points(points, self.fit_aspect() / room, DEFAULT_MARGIN);
@@ -351,7 +351,7 @@ impl Stage {
     }
 
     /// What a pointer at this point snaps to, within a radius, both in physical pixels: a vertex, an edge or a face of
-    /// the picture in the window. `None` on the background, and while that picture is a draft.
+    /// the image in the window. `None` on the background, and while that image is a draft.
     #[must_use]
     pub fn snap(&self, at: DVec2, radius: f64) -> Option<Snap> {
         self.shown.as_ref()?.snap(at, radius, self.viewport, &self.scene)
@@ -413,11 +413,11 @@ impl Stage {
         self.moves.end(&self.scene);
     }
 
-    /// Asks for a picture with these settings, which [`crate::Handler::picture`]
-    /// gets when the current call is over. For a picture of what is on the
+    /// Asks for an image with these settings, which [`crate::Handler::image`]
+    /// gets when the current call is over. For an image of what is on the
     /// screen, use [`Stage::settings`] with [`Stage::viewport`] for its size.
-    pub fn request_picture(&mut self, settings: RenderSettings) {
-        self.wishes.pictures.push(settings);
+    pub fn request_image(&mut self, settings: RenderSettings) {
+        self.wishes.images.push(settings);
     }
 
     /// Starts calling [`crate::Handler::frame`] again.
@@ -495,7 +495,7 @@ impl Stage {
     }
 
     /// Which image to show at rest.
-    pub(crate) fn wanted_picture(&self) -> Wanted {
+    pub(crate) fn wanted_image(&self) -> Wanted {
         match (self.comparison, self.shown_refinement()) {
             (Comparison::Shown, _) => Wanted::Difference,
             (_, Refinement::Reference) => Wanted::Best,
@@ -517,10 +517,10 @@ impl Stage {
         self.fitted(settings, shrink)
     }
 
-    /// What draws the window's picture again: [`Stage::settings`] for the window's size, with line widths in
+    /// What draws the window's image again: [`Stage::settings`] for the window's size, with line widths in
     /// physical pixels.
     #[must_use]
-    pub fn picture_settings(&self) -> RenderSettings {
+    pub fn image_settings(&self) -> RenderSettings {
         RenderSettings { outputs: self.settings.outputs, ..self.fitted(self.settings.clone(), 1.0) }
     }
 
@@ -557,6 +557,6 @@ pub(crate) struct Subject {
     drawer: DrawnBy,
     viewport: Viewport,
     scale: f64,
-    /// Whoever wants to see times waits for a picture that has them.
+    /// Whoever wants to see times waits for an image that has them.
     stage_times: Visibility,
 }

@@ -22,7 +22,7 @@ pub(crate) enum Purpose {
     /// The window.
     Window(Quality),
     /// Requested by the application.
-    Picture,
+    Image,
 }
 
 /// The task.
@@ -52,7 +52,7 @@ pub(crate) enum Task {
 
 /// The result of a job.
 pub(crate) enum Product {
-    Picture(Arc<Frame>),
+    Frame(Arc<Frame>),
     Comparison(Box<Compared>),
 }
 
@@ -331,10 +331,10 @@ impl Drawing {
                     }
                 });
                 drawn.map(|frame| {
-                    Product::Picture(match purpose {
+                    Product::Frame(match purpose {
                         Purpose::Window(_) => memory.share(frame),
                         // Whoever asked for it keeps it.
-                        Purpose::Picture => Arc::new(frame),
+                        Purpose::Image => Arc::new(frame),
                     })
                 })
             }
@@ -404,7 +404,7 @@ fn draw_otherwise(
         return Ok(frame);
     }
     Err(Unfinished::Impossible(format!(
-        "a picture of {}x{} was drawn for one of {width}x{height}",
+        "an image of {}x{} was drawn for one of {width}x{height}",
         frame.width, frame.height
     )))
 }

@@ -100,8 +100,8 @@ fn every_hard_case_names_tests_that_exist() {
 /// types that hold the data that they read.
 const DATA: [&str; 4] = ["std::", "num_", "super::", "crate::oracle"];
 
-/// The oracles of whole pictures: where they are, and the types of data that they read.
-const PICTURES: [(&str, &[&str]); 4] = [
+/// The oracles of whole images: where they are, and the types of data that they read.
+const IMAGES: [(&str, &[&str]); 4] = [
     (
         "tests/src/hard_cases/flight_oracle.rs",
         &[
@@ -160,11 +160,11 @@ fn oracles_import_nothing_of_what_they_judge() {
     let folder = workspace().join("crates/study/src/oracle");
     let exact =
         rust_files(&folder).expect("a folder that can be listed").into_iter().map(|path| (path, &[][..]));
-    let pictures = PICTURES.iter().map(|(path, data)| (workspace().join(path), *data));
+    let images = IMAGES.iter().map(|(path, data)| (workspace().join(path), *data));
     let fault = |(path, data): (PathBuf, &[&str])| {
         let found = of_the_engine(&fs::read_to_string(&path).expect("a source"), data);
         (!found.is_empty()).then(|| format!("{} has {found:?}", path.display()))
     };
-    let faults: Vec<String> = exact.chain(pictures).filter_map(fault).collect();
+    let faults: Vec<String> = exact.chain(images).filter_map(fault).collect();
     assert!(faults.is_empty(), "{faults:#?}");
 }

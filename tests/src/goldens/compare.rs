@@ -1,4 +1,4 @@
-//! Compares a frame with its golden picture, byte for byte.
+//! Compares a frame with its golden image, byte for byte.
 //!
 //! On a difference it writes what was expected, what was drawn and where they
 //! differ, and names the files. `TRIGON_UPDATE_GOLDENS=1` writes the goldens
@@ -26,7 +26,7 @@ pub(crate) fn assert_golden(name: &str, frame: &Frame) {
     let report = report_folder(name);
     fs::copy(&golden, report.join("expected.png")).expect("the golden can be copied");
     write(&report.join("actual.png"), frame.width, frame.height, &frame.color);
-    let mut message = format!("{name} differs from its golden picture; see {}", report.display());
+    let mut message = format!("{name} differs from its golden image; see {}", report.display());
     if size == (frame.width, frame.height) {
         let difference = difference(expected.rgba.as_slice(), &frame.color);
         let count = difference.chunks_exact(4).filter(|pixel| pixel[0] > 0).count();
@@ -46,7 +46,7 @@ fn write(path: &Path, width: u32, height: u32, rgba: &[u8]) {
     write_png(path, width, height, Pixels::Rgba8(rgba)).unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// White where the pictures differ in any channel.
+/// White where the images differ in any channel.
 fn difference(expected: &[u8], actual: &[u8]) -> Vec<u8> {
     let pairs = expected.chunks_exact(4).zip(actual.chunks_exact(4));
     pairs.flat_map(|(a, b)| if a == b { [0, 0, 0, 255] } else { [255; 4] }).collect()

@@ -1,4 +1,4 @@
-//! Golden pictures: small, exact, one fact each.
+//! Golden images: small, exact, one fact each.
 
 mod compare;
 
@@ -114,7 +114,7 @@ fn panes_blend_in_the_order_of_depth_not_of_submission() {
     };
     let (near, far) =
         ((Vec4::new(0.9, 0.1, 0.1, 0.5), DVec3::Z * 1.5), (Vec4::new(0.1, 0.1, 0.9, 0.5), DVec3::X * 0.6));
-    let mut pictures = Vec::new();
+    let mut images = Vec::new();
     for order in [[near, far], [far, near]] {
         let mut scene = Scene::new();
         for (color, at) in order {
@@ -122,9 +122,9 @@ fn panes_blend_in_the_order_of_depth_not_of_submission() {
         }
         let frame = render(&scene, &front(&scene), &settings()).expect("in range");
         assert_golden("blend_two_panes", &frame);
-        pictures.push(frame.color);
+        images.push(frame.color);
     }
-    assert!(pictures[0] == pictures[1], "the order of submission does not matter");
+    assert!(images[0] == images[1], "the order of submission does not matter");
 }
 
 #[test]

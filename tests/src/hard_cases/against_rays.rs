@@ -16,8 +16,8 @@ pub(super) fn check(corners: [Vec4; 3], tolerance: Tolerance) {
     let pipeline = Values::ones(corners);
     let mut pass = Pass::new();
     pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &[[0, 1, 2]]) });
-    let pictures = draw(&pass);
-    let (ids, depths) = (pictures.triangles.expect("asked for"), pictures.depth.expect("asked for"));
+    let images = draw(&pass);
+    let (ids, depths) = (images.triangles.expect("asked for"), images.depth.expect("asked for"));
     for (index, (&id, &depth)) in ids.iter().zip(&depths).enumerate() {
         assert!((0.0..=1.0).contains(&depth), "depth {depth}");
         let point = DVec2::from(pixel(index).map(f64::from)) + 0.5;

@@ -11,7 +11,7 @@ use trigon_raster::{
 
 const SIZE: [u32; 2] = [24, 16];
 
-/// A layer over all of the picture.
+/// A layer over all of the image.
 #[derive(Clone, Copy, Debug)]
 struct Layer {
     depth: f32,

@@ -49,7 +49,7 @@ proptest! {
         prop_assert_eq!(hidden, frame.width as usize * frame.height as usize, "the room has a hole");
     }
 
-    /// What is as large as the picture is drawn where rays meet it, at any angle.
+    /// What is as large as the image is drawn where rays meet it, at any angle.
     #[test]
     fn any_field_of_view_shows_what_rays_meet(angle in field_of_view(), tilt in prop::array::uniform3(-1.0..1.0_f64)) {
         let shape = TorusKnot { segments: 60, sides: 5, ..TorusKnot::default() };

@@ -15,7 +15,7 @@ use trigon_study::oracle::coverage::{centre, covers};
 /// The four directions in which edges run through the centres of many pixels.
 const DIRECTIONS: [[i32; 2]; 4] = [[1, 0], [0, 1], [1, 1], [1, -1]];
 
-/// A point in and around the picture, in so many parts of a pixel.
+/// A point in and around the image, in so many parts of a pixel.
 fn anywhere(parts: i32) -> impl Strategy<Value = [i32; 2]> {
     let coordinate = -20 * parts..(SIDE + 20) * parts;
     [coordinate.clone(), coordinate]
@@ -50,7 +50,7 @@ proptest! {
     }
 
     /// Corners between the steps of the grid go to the nearest, ties to the even one,
-    /// on either side of the picture's border.
+    /// on either side of the image's border.
     #[test]
     fn corners_go_to_the_nearest_step_and_ties_to_the_even_one(
         quarters in [anywhere(1024), anywhere(1024), anywhere(1024)],
@@ -81,10 +81,10 @@ fn nearest_even(quarters: i32) -> i32 {
 proptest! {
     #![proptest_config(cases(4))]
 
-    /// 80,000 triangles over a picture of any size: far below a pixel each, to some
+    /// 80,000 triangles over an image of any size: far below a pixel each, to some
     /// pixels.
     #[test]
-    fn eighty_thousand_triangles_tile_a_picture(
+    fn eighty_thousand_triangles_tile_an_image(
         side in prop::sample::select(&[64, 128, 256, 512, 1024][..]),
         seed in any::<u64>(),
     ) {
@@ -131,15 +131,15 @@ proptest! {
         let mut pipeline = Values::ones(positions);
         let triangles: Vec<_> = (0..points.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
         let bad = bad.index(triangles.len());
-        let picture = |pipeline: &Values, triangles: &[[u32; 3]]| {
+        let image = |pipeline: &Values, triangles: &[[u32; 3]]| {
             let mut pass = Pass::new();
             pass.triangles(Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(pipeline, triangles) });
             draw(&pass)
         };
         let mut without = triangles.clone();
         without[bad] = [0; 3];
-        let expected = picture(&pipeline, &without);
+        let expected = image(&pipeline, &without);
         pipeline.vertices[3 * bad + 1].0[axis] = value;
-        prop_assert!(picture(&pipeline, &triangles) == expected, "the others stay as they are");
+        prop_assert!(image(&pipeline, &triangles) == expected, "the others stay as they are");
     }
 }

@@ -7,13 +7,13 @@ use num_traits::Signed;
 use proptest::prelude::*;
 use trigon_camera::Projection;
 use trigon_math::{DVec3, Vec4, elementary};
-use trigon_raster::{Culling, Draw, Pass, Pictures};
+use trigon_raster::{Culling, Draw, Pass, TargetImages};
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::area::rational;
 use trigon_study::oracle::coverage::{centre, covers};
 use trigon_study::oracle::depth::Plane;
 
-fn pictures(vertices: Vec<Vec4>, triangles: &[[u32; 3]]) -> Pictures {
+fn images(vertices: Vec<Vec4>, triangles: &[[u32; 3]]) -> TargetImages {
     let pipeline = Values::ones(vertices);
     let mut pass = Pass::new();
     pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, triangles) });
@@ -50,8 +50,8 @@ proptest! {
         let fan = |first: u32| (1..5).map(move |i| [first, (first + i) % 6, (first + i + 1) % 6]).collect::<Vec<_>>();
         for fan in [fan(0), fan(first)] {
             let vertices = corners.map(|point| clip_position(point, depth(point))).to_vec();
-            let pictures = pictures(vertices, &fan);
-            let (ids, depths) = (pictures.triangles.expect("asked for"), pictures.depth.expect("asked for"));
+            let images = images(vertices, &fan);
+            let (ids, depths) = (images.triangles.expect("asked for"), images.depth.expect("asked for"));
             for (index, &found) in depths.iter().enumerate().filter(|&(index, _)| ids[index] != u32::MAX) {
                 let exact = f64::from(depth_at(centre(pixel(index)))) / f64::from(1 << 24);
                 prop_assert_eq!(f64::from(found), exact, "at {:?}", pixel(index));
@@ -72,7 +72,7 @@ proptest! {
         let planes = [depths, moved].map(|depths| Plane { corners, depths });
         prop_assume!(planes[0].stretch() < f64::from(1 << 19));
         let vertices = planes.iter().flat_map(|plane| [0, 1, 2].map(|i| clip_position(corners[i], plane.depths[i])));
-        let ids = pictures(vertices.collect(), &[[0, 1, 2], [3, 4, 5]]).triangles.expect("asked for");
+        let ids = images(vertices.collect(), &[[0, 1, 2], [3, 4, 5]]).triangles.expect("asked for");
         for (index, &id) in ids.iter().enumerate().step_by(5) {
             let sample = centre(pixel(index));
             if !covers(corners, sample) {
@@ -90,7 +90,7 @@ proptest! {
 }
 
 /// Facing walls at these distances, each seen through `projection` over all of the
-/// picture; which of them is seen, and how deep.
+/// image; which of them is seen, and how deep.
 fn walls(projection: &Projection, distances: &[f64]) -> (u32, f32) {
     let matrix = projection.matrix(1.0);
     let wall = |&distance: &f64| {
@@ -101,8 +101,8 @@ fn walls(projection: &Projection, distances: &[f64]) -> (u32, f32) {
     };
     let vertices: Vec<Vec4> = distances.iter().flat_map(wall).collect();
     let triangles: Vec<_> = (0..distances.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    let pictures = pictures(vertices, &triangles);
-    let (ids, depths) = (pictures.triangles.expect("asked for"), pictures.depth.expect("asked for"));
+    let images = images(vertices, &triangles);
+    let (ids, depths) = (images.triangles.expect("asked for"), images.depth.expect("asked for"));
     assert!(ids.iter().all(|id| *id == ids[0]), "one wall all over");
     (ids[0], depths[0])
 }
@@ -192,7 +192,7 @@ proptest! {
 proptest! {
     #![proptest_config(cases(20))]
 
-    /// Hard case 26: depth falls as distance grows, whatever the distances: a picture
+    /// Hard case 26: depth falls as distance grows, whatever the distances: an image
     /// of 4096 pixels, each with a small wall of its own.
     #[test]
     fn depth_is_monotone_in_distance(
@@ -213,10 +213,10 @@ proptest! {
                 .map(|point| (clip_position(point, 0.0).as_dvec4() * clip.w).with_z(clip.z).as_vec4())
         });
         let triangles: Vec<_> = (0..distances.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        let pictures = pictures(vertices.collect(), &triangles);
-        let ids = pictures.triangles.expect("asked for");
+        let images = images(vertices.collect(), &triangles);
+        let ids = images.triangles.expect("asked for");
         prop_assert!((0..).zip(&ids).all(|(index, &id)| id == index), "each has its pixel");
-        let mut seen: Vec<_> = distances.iter().zip(pictures.depth.expect("asked for")).collect();
+        let mut seen: Vec<_> = distances.iter().zip(images.depth.expect("asked for")).collect();
         seen.sort_by(|a, b| a.0.total_cmp(b.0));
         let wrong = seen.windows(2).find(|pair| pair[0].1 < pair[1].1);
         prop_assert!(wrong.is_none(), "{wrong:?}");

@@ -16,7 +16,7 @@ pub(super) struct Hard {
     target: DVec3,
     /// The least and the greatest distance from there, in metres.
     distances: [f64; 2],
-    /// How much of the pictures the oracle decides at least.
+    /// How much of the images the oracle decides at least.
     pub(super) decided: f64,
 }
 

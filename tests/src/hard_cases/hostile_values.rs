@@ -220,7 +220,7 @@ fn weights_that_do_not_sum_to_one_count_by_their_share() {
     ] {
         let shown = followed(&weights);
         // Three and one of the least steps that there are, and decimals, which
-        // are a rounding away from three to one: pictures of 32 pixels do not show it.
+        // are a rounding away from three to one: images of 32 pixels do not show it.
         assert_eq!(shown.object_ids, expected.object_ids, "{weights:?}");
     }
     for nothing in [[0.0, 0.0], [f32::NAN, 0.0], [-1.0, f32::INFINITY]] {

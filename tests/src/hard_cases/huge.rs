@@ -1,4 +1,4 @@
-//! Triangles that reach far beyond the picture: to the rim of the guard band,
+//! Triangles that reach far beyond the image: to the rim of the guard band,
 //! 32768 pixels from the middle, over it, and to the end of what is a coordinate.
 
 use super::against_rays::check;
@@ -12,10 +12,10 @@ use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::mask;
 use trigon_study::oracle::ray::Tolerance;
 
-/// The guard band's rim in steps of the grid from the picture's middle.
+/// The guard band's rim in steps of the grid from the image's middle.
 const RIM: i32 = 32768 * 256;
 
-/// Coordinates on the rim, a step inside it, and in the picture.
+/// Coordinates on the rim, a step inside it, and in the image.
 fn at_the_rim() -> impl Strategy<Value = i32> {
     let middle = SIDE * 128;
     prop_oneof![

@@ -9,7 +9,7 @@ use trigon_study::oracle::GridPoint;
 /// How many polygons meet the long edge.
 const PARTS: u32 = 64;
 
-/// An edge across the picture, its ends and the far ends of all polygons at it well
+/// An edge across the image, its ends and the far ends of all polygons at it well
 /// outside. In steps of the grid.
 struct Edge {
     middle: DVec2,

@@ -81,7 +81,7 @@ proptest! {
     /// degrees: every pixel once, and as deep as it lies. In f32 its corners could not
     /// be told from the eye's plane if they were much further away than 0.1.
     #[test]
-    fn a_wall_a_millionth_away_fills_the_picture(
+    fn a_wall_a_millionth_away_fills_the_image(
         angle in 0.01_f64..1.3,
         turn in 0.0_f64..7.0,
         size in 1e-4_f64..0.1,

@@ -1,4 +1,4 @@
-//! Pictures of the smallest and the largest size, and of none.
+//! Images of the smallest and the largest size, and of none.
 
 use proptest::prelude::*;
 use trigon_camera::{Camera, Projection};
@@ -21,7 +21,7 @@ fn ball() -> Scene {
 fn the_longest_rows_and_columns_show_what_rays_meet() {
     let scene = ball();
     for size in [[MAX_SIZE, 1], [1, MAX_SIZE]] {
-        // The picture's height is what the angle is for.
+        // The image's height is what the angle is for.
         let angle = if size[1] == 1 { 1e-4 } else { 1.2 };
         let projection = Projection::perspective(angle, 0.1, None).expect("in range");
         let camera =

@@ -108,10 +108,10 @@ proptest! {
         let pipeline = Values { vertices: vertices.to_vec() };
         let mut pass = Pass::new();
         pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &[[0, 1, 2]]) });
-        let pictures = draw(&pass);
+        let images = draw(&pass);
         let within = |value: f32, [a, b, c]: [f32; 3]| a.min(b).min(c) <= value && value <= a.max(b).max(c);
-        let ids = pictures.triangles.expect("asked for");
-        let (depth, linear) = (pictures.depth.expect("asked for"), pictures.linear.expect("asked for"));
+        let ids = images.triangles.expect("asked for");
+        let (depth, linear) = (images.depth.expect("asked for"), images.linear.expect("asked for"));
         for index in (0..ids.len()).filter(|&index| ids[index] == 0) {
             prop_assert!(within(depth[index], depths), "depth {} of {depths:?}", depth[index]);
             prop_assert!(within(linear[index].x, values), "{} of {values:?}", linear[index].x);

@@ -1,4 +1,4 @@
-//! Textures far from their ordinary scale: a texel as large as a thousand pictures,
+//! Textures far from their ordinary scale: a texel as large as a thousand images,
 //! coordinates of 10⁵, and planes to the horizon.
 
 use crate::coverage_support::{SIDE, clip_position, draw, pixel};
@@ -37,9 +37,9 @@ impl Pipeline for Textured<'_> {
 fn seen(pipeline: &Textured<'_>, triangles: &[[u32; 3]]) -> Vec<([i32; 2], Vec4)> {
     let mut pass = Pass::new();
     pass.triangles(Draw { culling: Culling::None, ..Draw::new(pipeline, triangles) });
-    let pictures = draw(&pass);
-    let ids = pictures.triangles.expect("asked for");
-    let all = pictures.linear.expect("asked for").into_iter().enumerate();
+    let images = draw(&pass);
+    let ids = images.triangles.expect("asked for");
+    let all = images.linear.expect("asked for").into_iter().enumerate();
     all.filter(|(index, _)| ids[*index] != u32::MAX).map(|(index, color)| (pixel(index), color)).collect()
 }
 
@@ -60,8 +60,8 @@ fn quarter(width: u32, height: u32) -> Texture {
 proptest! {
     #![proptest_config(cases(100))]
 
-    /// A texel is 10⁴ pictures wide: the colour is still the straight line between the
-    /// two texels that a picture lies between.
+    /// A texel is 10⁴ images wide: the colour is still the straight line between the
+    /// two texels that an image lies between.
     ///
     /// A coordinate below 1 is off by 10.5 + 3 roundings of 2^-24 (see
     /// `interpolation`), of which a texel holds 64, and by one for the product with 64;
@@ -105,13 +105,13 @@ proptest! {
         let texture = stripes(64, 64);
         let sampler = Sampler { magnification: Filter::Nearest, minification: Filter::Nearest, mip: MipFilter::None, ..Sampler::default() };
         let uv = Vec2::from(flat.map(|texel| (f32::from(texel) + 0.5) / 64.0));
-        let picture = |moved: Vec2| {
+        let image = |moved: Vec2| {
             let corners = [[0, 0], [SIDE * 512, 0], [0, SIDE * 512]];
             let vertices = corners.map(|corner| (clip_position(corner, 0.5), uv + moved)).to_vec();
             seen(&Textured { texture: &texture, sampler, vertices }, &[[0, 1, 2]])
         };
-        let moved = picture(Vec2::from(repetitions.map(|v| v as f32)));
-        prop_assert!(picture(Vec2::ZERO) == moved, "by {repetitions:?}");
+        let moved = image(Vec2::from(repetitions.map(|v| v as f32)));
+        prop_assert!(image(Vec2::ZERO) == moved, "by {repetitions:?}");
         // Columns are black and white in turns.
         let light = if flat[0] % 2 == 0 { 0.0 } else { 1.0 };
         prop_assert!(moved.iter().all(|(_, color)| color.x == light), "texel {flat:?} is {light}");

@@ -116,7 +116,7 @@ proptest! {
     }
 
     /// Maps that are exact in binary leave nothing to rounding: a chain of 64 of them,
-    /// mirrors among them, draws the very picture of their product.
+    /// mirrors among them, draws the very image of their product.
     #[test]
     fn a_chain_of_exact_maps_draws_what_one_node_draws(
         links in prop::collection::vec((0..6_usize, 0..8_u8, -1..=1_i32, prop::array::uniform3(-4..=4_i32)), 64),
@@ -135,7 +135,7 @@ proptest! {
             Transform::Affine(DAffine3 { matrix3, translation: DVec3::from_array(offset.map(f64::from)) })
         }).collect();
         let world = links.iter().fold(DAffine3::IDENTITY, |outer, link| outer * link.to_affine());
-        let picture = |transforms: &[Transform]| {
+        let image = |transforms: &[Transform]| {
             let mut scene = Scene::new();
             let last = chain(&mut scene, transforms);
             show(&mut scene, last, in_triangles(&primitives::cone(1.0, 2.0, 7)));
@@ -148,9 +148,9 @@ proptest! {
             frame.object_ids = None;
             frame
         };
-        let (chained, single) = (picture(&links), picture(&[Transform::Affine(world)]));
+        let (chained, single) = (image(&links), image(&[Transform::Affine(world)]));
         prop_assert!(single.face_ids.as_ref().is_some_and(|ids| ids.iter().any(|&id| id != u32::MAX)), "seen");
-        prop_assert!(chained == single, "the pictures differ");
+        prop_assert!(chained == single, "the images differ");
     }
 
     /// Everything 2ᵏ times as large, from 10⁻⁹ to 10⁹, looks the same to the bit, whether
@@ -160,7 +160,7 @@ proptest! {
         exponent in -30..=30_i32, inner in -30..=30_i32, eye in vector(-1.0..1.0),
         shading in prop_oneof![Just(ShadingModel::Flat), Just(ShadingModel::Gouraud), Just(ShadingModel::Phong)],
     ) {
-        let picture = |exponent: i32, inner: i32| {
+        let image = |exponent: i32, inner: i32| {
             let power = |exponent: i32| elementary::exp2(f64::from(exponent));
             let (size, own) = (power(exponent), power(inner));
             let mut scene = Scene::new();
@@ -179,9 +179,9 @@ proptest! {
             }
             frame
         };
-        let (usual, scaled) = (picture(0, 0), picture(exponent, inner));
+        let (usual, scaled) = (image(0, 0), image(exponent, inner));
         prop_assert!(usual.object_ids.as_ref().is_some_and(|ids| ids.contains(&0)), "seen");
-        prop_assert!(usual == scaled, "the pictures differ at 2^{} and 2^{}", exponent, inner);
+        prop_assert!(usual == scaled, "the images differ at 2^{} and 2^{}", exponent, inner);
     }
 
     /// What is nearly flat shows the side that is turned to the eye and not the other
@@ -262,7 +262,7 @@ proptest! {
     /// normals of one that follows a joint of its own size.
     #[test]
     fn joints_of_any_size_turn_normals_alike(turned in turn(), exponent in -60..=60_i32, flat in any::<bool>()) {
-        let picture = |size: f64| {
+        let image = |size: f64| {
             let mut mesh = if flat { in_triangles(&primitives::cube(1.0)) } else { primitives::icosphere(1.0, 1) };
             let still = mesh.clone();
             let vertices = mesh.vertex_count();
@@ -286,9 +286,9 @@ proptest! {
             check_ids(&frame, &Oracle::new(&placed, &camera, SIZE), "on a joint");
             (frame.object_ids, frame.normals)
         };
-        let usual = picture(1.0);
+        let usual = image(1.0);
         prop_assert!(usual.0.as_ref().is_some_and(|ids| ids.contains(&0)), "seen");
-        prop_assert!(picture(elementary::exp2(f64::from(exponent))) == usual, "2^{} differs", exponent);
+        prop_assert!(image(elementary::exp2(f64::from(exponent))) == usual, "2^{} differs", exponent);
     }
 }
 
@@ -381,7 +381,7 @@ fn check_normals([x, y, z]: [DVec3; 3]) {
         let expected = along.cross(across).normalize() * matrix3.determinant().signum();
         // Snapping moves corners by half a step on either axis, √2/512 pixel, and turns a
         // triangle over whose least height is twice that at most; the rest of a 128th is for
-        // f32, whose roundings are 2⁻¹⁸ of a picture of 48 pixels.
+        // f32, whose roundings are 2⁻¹⁸ of an image of 48 pixels.
         let screen = [0, 1, 2, 3].map(|i| projector.to_screen(corner(i)).expect("before the eye"));
         let is_thin =
             (0..4).any(|left| least_height([1, 2, 3].map(|i| screen[(left + i) % 4])) <= 1.0 / 128.0);

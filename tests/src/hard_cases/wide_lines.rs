@@ -60,7 +60,7 @@ impl Line {
         Self { ends: ends.map(place), width }
     }
 
-    /// Holds the pixels of a picture of [`SIDE`] that show a sharp line to its shape.
+    /// Holds the pixels of an image of [`SIDE`] that show a sharp line to its shape.
     pub(crate) fn check(&self, shown: &[bool]) {
         // Of a line that is shorter than snapping moves its ends there is no direction.
         if self.length() <= 0.1 {
@@ -83,7 +83,7 @@ impl Line {
     }
 
     /// How far a point's place along the line and across it may be off. What turns a short line by a hair moves what is
-    /// far from it by more; a line that is cut is as long as from the picture to the guard band.
+    /// far from it by more; a line that is cut is as long as from the image to the guard band.
     fn off(&self, point: [f64; 2]) -> f64 {
         let from_end = |end: [f64; 2]| (end[0] - point[0]).abs().max((end[1] - point[1]).abs());
         let reach = from_end(self.ends[0]).min(from_end(self.ends[1])).min(30_000.0) + self.width;
@@ -146,7 +146,7 @@ fn width() -> impl Strategy<Value = f32> {
     ]
 }
 
-/// Two ends: anywhere, or so that the line between them passes near the picture and both are as far away as they like.
+/// Two ends: anywhere, or so that the line between them passes near the image and both are as far away as they like.
 fn ends() -> impl Strategy<Value = [Vec4; 2]> {
     let through = ([-1.5_f32..1.5, -1.5_f32..1.5], [-1.0_f32..1.0, -1.0_f32..1.0]);
     let far = || prop_oneof![0.1_f32..3.0, 900.0_f32..1100.0, 1e3_f32..1e7];

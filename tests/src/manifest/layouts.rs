@@ -5,7 +5,7 @@ use crate::programs::Vertices;
 use trigon_math::glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_at_mat4};
 use trigon_math::{Mat4, Vec3, Vec4, elementary};
 
-/// What a picture shows.
+/// What an image shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
     /// A ring in perspective, near and far sides over each other.

@@ -1,18 +1,18 @@
-//! The same bytes everywhere: what small pictures of every feature hash to, in a
+//! The same bytes everywhere: what small images of every feature hash to, in a
 //! file that all machines share. Checked at every SIMD level of the machine, with
 //! 1, 2 and 3 threads. `TRIGON_UPDATE_MANIFEST=1` writes the file anew: a change
 //! of it is a change of what users see.
 
+mod cases;
 mod layouts;
-mod pictures;
 
 use crate::coverage_support::{levels, rasterizer};
-use pictures::all;
+use cases::all;
 use std::collections::BTreeMap;
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use trigon_raster::{ExecuteSettings, Pictures};
+use trigon_raster::{ExecuteSettings, TargetImages};
 
 const HEADER: &str = "\
 # What the pictures of tests/src/manifest hash to (FNV-1a, 64 bits, over all outputs, little-endian).
@@ -43,8 +43,8 @@ fn fnv1a(bytes: impl IntoIterator<Item = u8>) -> u64 {
     bytes.into_iter().fold(0xcbf2_9ce4_8422_2325, step)
 }
 
-fn hash(pictures: &Pictures) -> String {
-    let Pictures { srgb8, unorm8, linear, depth, objects, faces, triangles } = pictures;
+fn hash(images: &TargetImages) -> String {
+    let TargetImages { srgb8, unorm8, linear, depth, objects, faces, triangles } = images;
     let codes = [srgb8, unorm8].into_iter().flatten().flatten().flatten().copied();
     let colors = linear.iter().flatten().flat_map(|color| color.to_array());
     let floats = colors.chain(depth.iter().flatten().copied()).map(f32::to_bits);
@@ -64,17 +64,17 @@ fn every_setting() -> impl Iterator<Item = ExecuteSettings> {
 }
 
 #[test]
-fn every_picture_hashes_to_what_the_manifest_says() {
-    let pictures = all();
+fn every_image_hashes_to_what_the_manifest_says() {
+    let images = all();
     let by_name = |settings: &ExecuteSettings| -> BTreeMap<String, String> {
         let mut rasterizer = rasterizer(settings);
-        pictures.iter().map(|picture| (picture.name(), hash(&picture.draw(&mut rasterizer)))).collect()
+        images.iter().map(|image| (image.name(), hash(&image.draw(&mut rasterizer)))).collect()
     };
     if std::env::var_os("TRIGON_UPDATE_MANIFEST").is_some() {
         write(&by_name(&ExecuteSettings::default()));
     }
     let expected = read();
-    assert_eq!(expected.len(), pictures.len(), "a line for each picture");
+    assert_eq!(expected.len(), images.len(), "a line for each image");
     let mut wrong = Vec::new();
     for settings in every_setting() {
         for (name, hash) in by_name(&settings) {
@@ -83,18 +83,18 @@ fn every_picture_hashes_to_what_the_manifest_says() {
             }
         }
     }
-    assert!(wrong.is_empty(), "{} pictures differ:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(wrong.is_empty(), "{} images differ:\n{}", wrong.len(), wrong.join("\n"));
 }
 
 /// Else the manifest would hold nothing.
 #[test]
-fn every_picture_shows_something_of_its_own() {
+fn every_image_shows_something_of_its_own() {
     let mut rasterizer = rasterizer(&ExecuteSettings::default());
     let mut seen = BTreeMap::new();
-    for picture in all().into_iter().filter(|picture| !picture.is_scalar()) {
-        let other = seen.insert(hash(&picture.draw(&mut rasterizer)), picture.name());
-        assert_eq!(other, None, "{} is the same", picture.name());
-        assert!(picture.is_worth_drawing(&mut rasterizer), "{} is empty", picture.name());
+    for image in all().into_iter().filter(|image| !image.is_scalar()) {
+        let other = seen.insert(hash(&image.draw(&mut rasterizer)), image.name());
+        assert_eq!(other, None, "{} is the same", image.name());
+        assert!(image.is_worth_drawing(&mut rasterizer), "{} is empty", image.name());
     }
 }
 

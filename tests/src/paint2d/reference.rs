@@ -10,31 +10,31 @@ use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_raster::paint2d::{Mesh, Vertex};
 
-/// The largest difference of two pictures in levels, and where it is.
+/// The largest difference of two images in levels, and where it is.
 fn difference(a: &[[u8; 4]], b: &[[u8; 4]]) -> (u8, usize) {
     let pixel = |i: usize| [0, 1, 2, 3].map(|c| a[i][c].abs_diff(b[i][c])).into_iter().max();
-    (0..a.len()).map(|i| (pixel(i).unwrap_or(0), i)).max().expect("the pictures are not empty")
+    (0..a.len()).map(|i| (pixel(i).unwrap_or(0), i)).max().expect("the images are not empty")
 }
 
 /// Paints layers, each of triangles that do not overlap. Each is held to what the
-/// reference paints over the same picture; all at once must give the same bytes.
+/// reference paints over the same image; all at once must give the same bytes.
 fn check(layers: &[Mesh<'_>], at_once: &[Mesh<'_>]) -> Result<(), TestCaseError> {
-    let mut picture = background();
+    let mut image = background();
     for (layer, mesh) in layers.iter().enumerate() {
-        let mut expected = picture.clone();
+        let mut expected = image.clone();
         oracle::paint(SIZE, &mut expected, &[*mesh]);
-        picture = painted_over(&picture, &[*mesh]).0;
-        let (levels, pixel) = difference(&picture, &expected);
+        image = painted_over(&image, &[*mesh]).0;
+        let (levels, pixel) = difference(&image, &expected);
         prop_assert!(
             levels <= 1,
             "{levels} levels in layer {layer} at {}, {}: {:?} instead of {:?}",
             pixel as i32 % SIZE[0],
             pixel as i32 / SIZE[0],
-            picture[pixel],
+            image[pixel],
             expected[pixel]
         );
     }
-    prop_assert!(painted(at_once) == picture, "the layers at once are other bytes");
+    prop_assert!(painted(at_once) == image, "the layers at once are other bytes");
     Ok(())
 }
 

@@ -111,7 +111,7 @@ proptest! {
         }
     }
 
-    /// A smaller canvas cut from the picture, with everything moved by whole
+    /// A smaller canvas cut from the image, with everything moved by whole
     /// pixels.
     #[test]
     fn a_smaller_canvas_is_a_crop(shape in prop_oneof![shape(), glyph()], [left, top] in [0..SIZE[0], 0..SIZE[1]]) {

@@ -4,16 +4,16 @@ use proptest::prelude::*;
 use trigon_raster::Wrap;
 use trigon_raster::paint2d::{Canvas, Image, Mesh, Painted, Painter, Rect, Vertex};
 
-/// Width and height of the pictures: no multiples of eight.
+/// Width and height of the images: no multiples of eight.
 pub(crate) const SIZE: [i32; 2] = [37, 29];
 
-/// A picture to paint on, every pixel different.
+/// An image to paint on, every pixel different.
 pub(crate) fn background() -> Vec<[u8; 4]> {
     let level = |i: i32| (i * 37 % 256) as u8;
     (0..SIZE[0] * SIZE[1]).map(|i| [level(i), level(i + 3), level(i * 5), 255]).collect()
 }
 
-/// Paints on a copy of a picture.
+/// Paints on a copy of an image.
 pub(crate) fn painted_over(below: &[[u8; 4]], meshes: &[Mesh<'_>]) -> (Vec<[u8; 4]>, Painted) {
     painted_by(&mut Painter::new(), below, meshes)
 }

@@ -11,7 +11,7 @@ use super::{GRAB, PLAIN, SELECTED};
 
 /// How far from the eye the pyramid's base is, in metres.
 const LENGTH: f64 = 1.0;
-/// Of the picture that a camera takes, if its projection does not tell.
+/// Of the image that a camera takes, if its projection does not tell.
 const FRAME: Viewport = Viewport { width: 16, height: 9 };
 
 /// Draws all visible cameras.
@@ -64,7 +64,7 @@ fn pyramid(camera: &Camera) -> Vec<[DVec3; 2]> {
     lines
 }
 
-/// A picture of the shape that the projection tells.
+/// An image of the shape that the projection tells.
 fn frame(camera: &Camera) -> Viewport {
     match camera.projection.own_aspect() {
         Some(aspect) if aspect > 0.0 => Viewport { width: (aspect * 1000.0) as u32, height: 1000 },
@@ -102,7 +102,7 @@ mod tests {
             let at = projector.to_screen(*from).expect("before the eye");
             let on_border = (at.x.abs() < 1e-9 || (at.x - 16.0).abs() < 1e-9)
                 && (at.y.abs() < 1e-9 || (at.y - 9.0).abs() < 1e-9);
-            assert!(on_border, "{at} is a corner of the picture");
+            assert!(on_border, "{at} is a corner of the image");
         }
     }
 }

@@ -14,7 +14,7 @@ const PIECES: usize = 16;
 /// Of an origin, in logical pixels.
 const DOT: f32 = 3.0;
 
-/// Draws the 3D cursor: a ring of red and white with a cross, readable on any picture.
+/// Draws the 3D cursor: a ring of red and white with a cross, readable on any image.
 pub(crate) fn draw_cursor(painter: &Painter, view: &OverlayView, cursor: DVec3) {
     let Some(center) = view.point(cursor) else { return };
     let at = |piece: usize| {

@@ -19,7 +19,7 @@ const FILL: Color32 = Color32::from_rgba_premultiplied(24, 24, 24, 24);
 /// Of a dash, in logical pixels.
 const DASH: f32 = 5.0;
 
-/// Draws white dashes on a dark line, readable on any picture.
+/// Draws white dashes on a dark line, readable on any image.
 pub(crate) fn draw_gesture(painter: &Painter, gesture: &Gesture) {
     match gesture {
         Gesture::Box([from, to]) => {

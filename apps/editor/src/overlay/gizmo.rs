@@ -38,7 +38,7 @@ pub(crate) enum Handle {
     Axis(usize),
     /// In the plane perpendicular to an axis: 0 to 2.
     Plane(usize),
-    /// In the plane of the picture, around the line of sight, or equally in all directions.
+    /// In the plane of the image, around the line of sight, or equally in all directions.
     View,
 }
 

@@ -16,11 +16,11 @@ const LINES: i64 = 30;
 const LEAST_GAP: f64 = 8.0;
 /// Of the pieces whose depth is looked at, in logical pixels.
 const PIECE: f32 = 12.0;
-/// What a line has to lie behind the picture to be hidden, as a share of its distance: faces on the floor do not
+/// What a line has to lie behind the image to be hidden, as a share of its distance: faces on the floor do not
 /// flicker.
 const BEHIND: f64 = 1.0 + 1e-3;
 
-/// The distance along the line of sight of what the picture shows at a point in physical pixels; `None`
+/// The distance along the line of sight of what the image shows at a point in physical pixels; `None`
 /// for background.
 pub(crate) type Depth<'a> = &'a dyn Fn(DVec2) -> Option<f64>;
 
@@ -135,11 +135,11 @@ fn visible(view: &OverlayView, line: [DVec3; 2], is_hidden: impl Fn(DVec2) -> bo
 
 /// How far away the floor is at each pixel, along the line of sight.
 ///
-/// In a perspective the reciprocal of that distance is linear across the picture, in a parallel
+/// In a perspective the reciprocal of that distance is linear across the image, in a parallel
 /// projection the distance itself: three pixels tell all.
 #[derive(Debug)]
 struct FloorDepth {
-    /// At the corner of the picture, and how much it grows with each pixel to the right and down.
+    /// At the corner of the image, and how much it grows with each pixel to the right and down.
     corner: f64,
     growth: DVec2,
     is_parallel: bool,
@@ -165,7 +165,7 @@ impl FloorDepth {
         Self { corner, growth, is_parallel }
     }
 
-    /// Whether the picture shows something before the floor at a pixel. Where the floor is no number,
+    /// Whether the image shows something before the floor at a pixel. Where the floor is no number,
     /// such as seen from its edge, nothing hides it.
     fn is_hidden(&self, pixel: DVec2, depth: Depth<'_>) -> bool {
         let floor = self.corner + self.growth.dot(pixel);
@@ -242,14 +242,14 @@ mod tests {
     }
 
     #[test]
-    fn what_the_picture_shows_before_the_floor_hides_it() {
+    fn what_the_image_shows_before_the_floor_hides_it() {
         let view = from(DVec3::new(0.0, 3.0, 10.0));
         let line = [DVec3::new(-5.0, 0.0, 0.0), DVec3::new(5.0, 0.0, 0.0)];
         let floor = FloorDepth::of(&view);
         let visible = |depth: Depth<'_>| visible(&view, line, |pixel| floor.is_hidden(pixel, depth));
         let whole = visible(&|_| None);
         assert_eq!(whole.len(), 1, "one piece: {whole:?}");
-        // A wall 2 m before the eye in the middle of the picture.
+        // A wall 2 m before the eye in the middle of the image.
         let wall = |at: DVec2| ((at.x - 400.0).abs() < 50.0).then_some(2.0);
         let parts = visible(&wall);
         assert_eq!(parts.len(), 2, "left and right of the wall: {parts:?}");

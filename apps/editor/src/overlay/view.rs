@@ -5,23 +5,23 @@ use trigon_edit::scene::math::{DVec2, DVec3};
 use trigon_window::clip_line;
 use trigon_window::egui::{Pos2, Rect, pos2};
 
-/// A camera, the picture that it sees, and how large its pixels are.
+/// A camera, the image that it sees, and how large its pixels are.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct OverlayView {
     projector: Projector,
     /// Physical pixels to a logical one.
     scale: f64,
-    /// Where the picture is in the window, in physical pixels.
+    /// Where the image is in the window, in physical pixels.
     origin: DVec2,
 }
 
 impl OverlayView {
-    /// For a picture in physical pixels.
+    /// For an image in physical pixels.
     pub(crate) fn new(camera: &Camera, viewport: Viewport, scale: f64) -> Self {
         Self { projector: Projector::new(camera, viewport), scale, origin: DVec2::ZERO }
     }
 
-    /// The same picture at another place of the window, in physical pixels.
+    /// The same image at another place of the window, in physical pixels.
     pub(crate) fn placed_at(self, origin: DVec2) -> Self {
         Self { origin, ..self }
     }
@@ -82,18 +82,18 @@ impl OverlayView {
         self.projector.ray(pixel)
     }
 
-    /// Physical pixels of the picture at a logical point of the window.
+    /// Physical pixels of the image at a logical point of the window.
     pub(crate) fn physical(&self, at: Pos2) -> DVec2 {
         DVec2::new(f64::from(at.x), f64::from(at.y)) * self.scale - self.origin
     }
 
-    /// The logical point of the window at physical pixels of the picture.
+    /// The logical point of the window at physical pixels of the image.
     pub(crate) fn logical(&self, at: DVec2) -> Pos2 {
         let at = (at + self.origin) / self.scale;
         pos2(at.x as f32, at.y as f32)
     }
 
-    /// The part of the window that the picture fills, in logical pixels.
+    /// The part of the window that the image fills, in logical pixels.
     pub(crate) fn rect(&self) -> Rect {
         Rect::from_two_pos(self.logical(DVec2::ZERO), self.logical(self.projector.viewport().size()))
     }
@@ -137,7 +137,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_line_past_the_eye_ends_in_the_picture() {
+    fn a_line_past_the_eye_ends_in_the_image() {
         let view = front();
         // From the target past the eye, a little below it.
         let line = view.line(DVec3::ZERO, DVec3::new(0.0, -1.0, 20.0)).expect("its far half is seen");
@@ -148,7 +148,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn lines_stay_in_the_picture_however_long_they_are() {
+    fn lines_stay_in_the_image_however_long_they_are() {
         let view = front();
         let line = view.line(DVec3::new(-1e9, 0.0, 0.0), DVec3::new(1e9, 0.0, 0.0)).expect("it crosses");
         for (end, x) in line.into_iter().zip([0.0, 400.0]) {

@@ -136,7 +136,7 @@ mod tests {
             [Request::Run(object(shape, [1.0, 3.0, 0.0]))],
             "where it was typed"
         );
-        case.picture("add");
+        case.image("add");
     }
 
     #[test]
@@ -145,6 +145,6 @@ mod tests {
         case.harness.get_by_label("Torus").click();
         case.run();
         case.assert_nothing_is_clipped();
-        case.picture("add_narrow");
+        case.image("add_narrow");
     }
 }

@@ -151,7 +151,7 @@ mod tests {
         let chosen = case.take_requests();
         assert!(matches!(&chosen[..], [Request::Adjust(_)]), "from a list: {chosen:?}");
         assert_eq!(case.document().history().done().len(), entries, "in the place of the last");
-        case.picture("adjust");
+        case.image("adjust");
     }
 
     #[test]
@@ -173,7 +173,7 @@ mod tests {
             case.harness.query_by_role_and_label(egui::Role::SpinButton, "Radius").is_some(),
             "its parameters"
         );
-        case.picture("adjust_optional");
+        case.image("adjust_optional");
     }
 
     #[test]

@@ -61,6 +61,6 @@ mod tests {
         assert_eq!(case.document().nodes().nodes().len(), 0, "before all");
         case.click("Delete Objects");
         assert_eq!(case.document().history().done().len(), 4, "all again");
-        case.picture("history");
+        case.image("history");
     }
 }

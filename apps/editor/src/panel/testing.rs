@@ -99,9 +99,9 @@ impl<S> Case<S> {
         }
     }
 
-    /// `TRIGON_PICTURES=folder` writes what the panel looks like, to be looked at.
-    pub(super) fn picture(&mut self, name: &str) {
-        if let Some(folder) = std::env::var_os("TRIGON_PICTURES") {
+    /// `TRIGON_IMAGES=folder` writes what the panel looks like, to be looked at.
+    pub(super) fn image(&mut self, name: &str) {
+        if let Some(folder) = std::env::var_os("TRIGON_IMAGES") {
             let path = std::path::Path::new(&folder).join(format!("{name}.png"));
             self.harness.render().expect("it can be drawn").save(path).expect("the folder exists");
         }

@@ -149,7 +149,7 @@ impl Constraint {
     }
 }
 
-/// The axis of which the picture runs most nearly as the pointer went; `None` where it hardly moved.
+/// The axis of which the image runs most nearly as the pointer went; `None` where it hardly moved.
 pub(crate) fn nearest_axis(view: &ToolView, point: DVec3, axes: &DMat3, way: DVec2) -> Option<Axis> {
     /// In logical pixels: less is a hand that trembles.
     const LEAST: f64 = 4.0;
@@ -161,7 +161,7 @@ pub(crate) fn nearest_axis(view: &ToolView, point: DVec3, axes: &DMat3, way: DVe
     let step = view.metres_per_pixel(point);
     let alike = |axis: &Axis| {
         let end = view.screen(point + axes.col(axis.index()) * step);
-        // Axes towards the viewer have hardly a direction in the picture; their length tells.
+        // Axes towards the viewer have hardly a direction in the image; their length tells.
         end.map_or(0.0, |end| (end - center).dot(way).abs())
     };
     Axis::ALL.into_iter().max_by(|a, b| alike(a).total_cmp(&alike(b)))

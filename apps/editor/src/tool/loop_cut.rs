@@ -24,7 +24,7 @@ pub(crate) struct LoopCutTool {
     /// The edge under the pointer, and the lines that would be cut.
     hovered: Option<(MeshId, EdgeId)>,
     lines: Vec<[DVec3; 2]>,
-    /// Once a click has cut: where the edge runs in the picture.
+    /// Once a click has cut: where the edge runs in the image.
     sliding: Option<DVec2>,
     position: f64,
     /// Whether the cuts keep their distance in place of their part of each edge, and from which side.

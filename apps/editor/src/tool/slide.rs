@@ -13,10 +13,10 @@ use super::view::ToolView;
 pub(crate) struct Slide {
     /// Whether whole loops of edges slide, rather than vertices each along an edge.
     pub(super) edges: bool,
-    /// In the picture, from the nearest vertex: to the end on the side of positive factors, and on the
+    /// In the image, from the nearest vertex: to the end on the side of positive factors, and on the
     /// other one.
     ways: [DVec2; 2],
-    /// Where vertices may go, in the world, and that in the picture.
+    /// Where vertices may go, in the world, and that in the image.
     directions: Vec<(DVec3, DVec2)>,
 }
 
@@ -41,7 +41,7 @@ impl Slide {
             return (if left >= right { left.min(1.0) } else { -right.min(1.0) }, DVec3::ZERO);
         }
         let nearest = self.directions.iter().map(|&(world, screen)| (part(way, screen), world, screen));
-        // The one along which the pointer went farthest in the picture.
+        // The one along which the pointer went farthest in the image.
         let farthest = nearest.max_by(|a, b| {
             let along = |(_, _, screen): &(f64, DVec3, DVec2)| way.dot(screen.normalize_or_zero());
             along(a).total_cmp(&along(b))

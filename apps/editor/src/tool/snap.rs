@@ -13,9 +13,9 @@ pub(crate) enum SnapTarget {
     Increment,
     /// Places on the grid.
     Grid,
-    /// The nearest vertex in the picture.
+    /// The nearest vertex in the image.
     Vertex,
-    /// The nearest edge in the picture.
+    /// The nearest edge in the image.
     Edge,
     /// The face under the pointer.
     Face,

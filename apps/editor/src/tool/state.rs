@@ -1,4 +1,4 @@
-//! What all tools are to the window: they take inputs, tell their state, and say what is drawn over the picture.
+//! What all tools are to the window: they take inputs, tell their state, and say what is drawn over the image.
 
 use trigon_edit::Document;
 use trigon_edit::mesh::math::{DVec2, DVec3};
@@ -19,7 +19,7 @@ pub(crate) trait Tool {
     /// movement.
     fn pointer_jumped(&mut self, to: DVec2);
 
-    /// What is to be drawn over the picture.
+    /// What is to be drawn over the image.
     fn marks(&self) -> ToolMarks {
         ToolMarks::default()
     }

@@ -90,7 +90,7 @@ impl SnapTargets {
         self.faces.extend(faces.map(|face| mesh.face_vertices(face).iter().map(place).collect::<Vec<_>>()));
     }
 
-    /// The point of a target that is nearest to a place in the picture; `None` where none is near. What faces
+    /// The point of a target that is nearest to a place in the image; `None` where none is near. What faces
     /// hide is left out unless `through` says that it is seen.
     pub(crate) fn find(
         &self,
@@ -140,7 +140,7 @@ impl SnapTargets {
     }
 }
 
-/// How far along the ray through a place of the picture a face lies that is drawn there.
+/// How far along the ray through a place of the image a face lies that is drawn there.
 fn distance_to_face(view: &ToolView, place: DVec2, ray: &Ray, face: &[DVec3]) -> Option<f64> {
     let outline: Option<Vec<DVec2>> = face.iter().map(|&corner| view.screen(corner)).collect();
     if !contains(&outline?, place) {
@@ -166,7 +166,7 @@ fn nearest_on_edge(view: &ToolView, [start, end]: [DVec3; 2], place: DVec2) -> O
         return Some(start);
     }
     let axis = way.try_normalize()?;
-    // Onto the edge in the picture first, so that the ray there passes the edge itself.
+    // Onto the edge in the image first, so that the ray there passes the edge itself.
     let along = ((place - from).dot(to - from) / (length * length)).clamp(0.0, 1.0);
     let distance = view.dragged_along(start, axis, (to - from) * along);
     Some(start + axis * distance.clamp(0.0, way.length()))

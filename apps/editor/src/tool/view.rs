@@ -8,7 +8,7 @@ use trigon_edit::scene::camera::{Camera, Projector, Viewport};
 pub(crate) struct ToolView {
     /// The camera of the view in which the pointer is.
     pub(crate) camera: Camera,
-    /// The size of the picture, in physical pixels.
+    /// The size of the image, in physical pixels.
     pub(crate) viewport: Viewport,
     /// Physical pixels per logical one.
     pub(crate) scale: f64,
@@ -40,7 +40,7 @@ impl ToolView {
         if self.screen(point).is_some() { distance } else { 1.0 }
     }
 
-    /// Where a point goes that is dragged by some pixels parallel to the picture: it stays under the
+    /// Where a point goes that is dragged by some pixels parallel to the image: it stays under the
     /// pointer.
     pub(crate) fn dragged(&self, point: DVec3, pixels: DVec2) -> DVec3 {
         let (projector, distance) = (self.projector(), self.distance(point));
@@ -82,7 +82,7 @@ impl ToolView {
     }
 
     /// An axis that points at the viewer cannot be followed; the pointer goes along it as it would across
-    /// the picture, upwards and rightwards away from the viewer.
+    /// the image, upwards and rightwards away from the viewer.
     fn along_parallel_axis(&self, point: DVec3, axis: DVec3, pixels: DVec2) -> f64 {
         let away = self.camera.forward().dot(axis);
         let direction = if away < 0.0 { -1.0 } else { 1.0 };
@@ -90,7 +90,7 @@ impl ToolView {
     }
 
     /// Where a point goes that is dragged by some pixels within a plane through it: to where the pointer's
-    /// ray meets the plane; where it hardly does, parallel to the picture as far as the plane allows.
+    /// ray meets the plane; where it hardly does, parallel to the image as far as the plane allows.
     pub(crate) fn dragged_within(&self, point: DVec3, normal: DVec3, pixels: DVec2) -> DVec3 {
         if pixels == DVec2::ZERO {
             return DVec3::ZERO;
@@ -158,7 +158,7 @@ pub(in crate::tool) mod tests {
 
         /// Points on the axis are drawn on a line; the pointer beside it is nearest to one of them.
         #[test]
-        fn a_pointer_on_the_picture_of_an_axis_finds_its_place(
+        fn a_pointer_on_the_image_of_an_axis_finds_its_place(
             view in views(), point in vector(1.0), axis in vector(1.0), along in -2.0f64..2.0
         ) {
             prop_assume!(axis.length() > 0.1);
@@ -172,7 +172,7 @@ pub(in crate::tool) mod tests {
         }
 
         #[test]
-        fn a_pointer_on_the_picture_of_a_plane_finds_its_place(
+        fn a_pointer_on_the_image_of_a_plane_finds_its_place(
             view in views(), point in vector(1.0), normal in vector(1.0), along in vector(1.5)
         ) {
             prop_assume!(normal.length() > 0.1);

@@ -18,7 +18,7 @@ pub(crate) enum Purpose {
     SaveAs,
     Import,
     Export,
-    /// A picture for a material.
+    /// An image for a material.
     Texture(MaterialName, TextureSlot),
 }
 
@@ -60,7 +60,7 @@ impl Purpose {
             Self::SaveAs => "Save As",
             Self::Import => "Import",
             Self::Export => "Export",
-            Self::Texture(..) => "Open Picture",
+            Self::Texture(..) => "Open Image",
         }
     }
 

@@ -142,7 +142,7 @@ impl Editor {
             Request::File(request) => self.file_request(stage, request),
             Request::Ui(request) => self.ui_request(stage, request),
         }
-        // The picture is drawn again only where it may be another one.
+        // The image is drawn again only where it may be another one.
         if is_shown {
             self.show(stage);
         }

@@ -16,7 +16,7 @@ impl Editor {
         };
     }
 
-    /// Whether the pointer is on the picture, beside all panels.
+    /// Whether the pointer is on the image, beside all panels.
     pub(super) fn is_in_view(&self, stage: &Stage, hands: Hands) -> bool {
         let Some((free, at)) = self.free.zip(hands.pointer) else { return true };
         free.contains(point(stage, at))

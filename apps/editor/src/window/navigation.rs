@@ -60,13 +60,13 @@ fn frame_selected(editor: &mut Editor, stage: &mut Stage) {
     }
 }
 
-/// Takes all meshes into the picture, seen from the same side. Lights and empties may be far away.
+/// Takes all meshes into the image, seen from the same side. Lights and empties may be far away.
 pub(crate) fn frame_all(editor: &Editor, stage: &mut Stage) {
     let points: Vec<DVec3> = stage.scene.visible_points().collect();
     frame(editor, stage, &points);
 }
 
-/// Takes points into the part of the picture that no panel covers. What the view turns around stays in
+/// Takes points into the part of the image that no panel covers. What the view turns around stays in
 /// the middle of the window, so that they get the room that is on both sides of it.
 fn frame(editor: &Editor, stage: &mut Stage, points: &[DVec3]) {
     /// Before the panels were laid out, as shares of the window.

@@ -14,7 +14,7 @@ use crate::tool::ToolView;
 /// Of the names of views, in points.
 const NAME: f32 = 13.0;
 
-/// A view in points, as everything over the picture is drawn.
+/// A view in points, as everything over the image is drawn.
 pub(crate) fn overlay_view(stage: &Stage, pane: &Pane) -> OverlayView {
     OverlayView::new(&stage.camera_of(pane), pane.area.size, points(stage)).placed_at(pane.area.origin())
 }

@@ -35,7 +35,7 @@ fn command(editor: &mut Editor, stage: &Stage, at: DVec2, modifiers: Modifiers) 
     })
 }
 
-/// Asks the picture; the question is given how near is near enough, in physical pixels.
+/// Asks the image; the question is given how near is near enough, in physical pixels.
 fn ask<T>(
     editor: &mut Editor,
     (stage, pane): (&Stage, &Pane),

@@ -10,13 +10,13 @@ use trigon_edit::{Document, Picks};
 use trigon_window::scene::math::DVec2;
 use trigon_window::{Pane, Stage};
 
-/// A picture of ids, drawn when somebody asks.
+/// An image of ids, drawn when somebody asks.
 pub(crate) struct Pointing {
     renderer: Renderer,
     known: Option<Known>,
 }
 
-/// What the picture is of.
+/// What the image is of.
 struct Known {
     camera: Camera,
     viewport: Viewport,
@@ -37,7 +37,7 @@ impl Pointing {
         self.known = None;
     }
 
-    /// The picture of what the stage shows now; `None` where there is nothing to be seen.
+    /// The image of what the stage shows now; `None` where there is nothing to be seen.
     fn known(&mut self, scene: &Scene, camera: Camera, viewport: Viewport) -> Option<&Known> {
         let is_current =
             self.known.as_ref().is_some_and(|known| known.camera == camera && known.viewport == viewport);

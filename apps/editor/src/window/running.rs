@@ -94,7 +94,7 @@ impl Running {
         }
     }
 
-    /// Whether it follows how far the pointer goes, and not where it is in the picture.
+    /// Whether it follows how far the pointer goes, and not where it is in the image.
     pub(crate) fn goes_on_beyond_borders(&self) -> bool {
         matches!(self.what, What::Tool(_)) && !matches!(self.start, ButtonStart::Waits)
     }

@@ -73,7 +73,7 @@ pub(crate) struct ViewState {
     pub(crate) local: Option<BTreeSet<NodeId>>,
     /// The view that the scene's camera replaced.
     pub(crate) before_camera: Option<Orbit>,
-    /// Whether what lies over the picture is drawn: grid, axes, lights, cameras, the gizmo.
+    /// Whether what lies over the image is drawn: grid, axes, lights, cameras, the gizmo.
     pub(crate) overlays: bool,
 }
 

@@ -11,7 +11,7 @@ pub(super) enum Surfaces {
     /// Their own materials.
     #[default]
     Own,
-    /// The same without pictures.
+    /// The same without images.
     Plain,
 }
 
@@ -29,13 +29,13 @@ impl Surfaces {
     pub(super) fn dress(self, scene: &mut Scene) {
         match self {
             Self::Own => {}
-            Self::Plain => scene.materials.iter_mut().for_each(|(_, material)| take_pictures_off(material)),
+            Self::Plain => scene.materials.iter_mut().for_each(|(_, material)| take_images_off(material)),
         }
     }
 }
 
-fn take_pictures_off(material: &mut Material) {
-    // The factor of a picture that is off would make all of the surface shine.
+fn take_images_off(material: &mut Material) {
+    // The factor of an image that is off would make all of the surface shine.
     if material.emissive_texture.take().is_some() {
         material.emissive = Vec3::ZERO;
     }
@@ -52,8 +52,8 @@ mod tests {
 
     fn scene() -> Scene {
         let mut scene = Scene::new();
-        let picture = Texture::new(1, 1, vec![[255, 0, 0, 255]], TextureFormat::Srgb).expect("one texel");
-        let texture = scene.add_texture("red", picture);
+        let image = Texture::new(1, 1, vec![[255, 0, 0, 255]], TextureFormat::Srgb).expect("one texel");
+        let texture = scene.add_texture("red", image);
         let material = Material { emissive: Vec3::ONE, ..Material::from_texture(texture) };
         let material = Material { emissive_texture: Some(TextureBinding::new(texture)), ..material };
         scene.add_object("cube", primitives::cube(2.0), material);
@@ -61,11 +61,11 @@ mod tests {
     }
 
     #[test]
-    fn solid_shows_no_pictures() {
+    fn solid_shows_no_images() {
         let mut plain = scene();
         Surfaces::of(DisplayMode::Solid).dress(&mut plain);
         let (_, material) = plain.materials.iter().next().expect("one");
-        assert!(material.base_color_texture.is_none() && material.emissive_texture.is_none(), "no pictures");
+        assert!(material.base_color_texture.is_none() && material.emissive_texture.is_none(), "no images");
         assert_eq!(material.emissive, Vec3::ZERO, "and no light in their place");
         let mut own = scene();
         Surfaces::of(DisplayMode::Textured).dress(&mut own);

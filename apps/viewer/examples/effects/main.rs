@@ -1,4 +1,4 @@
-//! Writes `docs/effects.md`: what each effect adds to a picture, why it was on, and what it costs, on four scenes.
+//! Writes `docs/effects.md`: what each effect adds to an image, why it was on, and what it costs, on four scenes.
 //!
 //! `cargo run --release -p trigon-viewer --no-default-features --example effects -- docs --instructions`
 //!
@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
-/// Draws one picture some times, so that its instructions can be counted.
+/// Draws one image some times, so that its instructions can be counted.
 fn draw(name: &str, shot: usize, frames: usize) -> Result<(), Box<dyn Error>> {
     let (_, made) = SUBJECTS.into_iter().find(|(known, _)| *known == name).ok_or("there is no such scene")?;
     let subject = made();
@@ -57,7 +57,7 @@ fn write(folder: &Path, is_counted: bool) -> Result<(), Box<dyn Error>> {
         let counts: Result<Vec<f64>, _> = (0..counted).map(|shot| instructions(name, shot)).collect();
         let counts = counts?;
         for pair in &pairs {
-            let names = pictures(name, &subject.camera, pair, folder)?;
+            let names = images(name, &subject.camera, pair, folder)?;
             text.push_str(&page::row(pair.effect, &names, &pair.reason, &cost(pair, &rounds, &counts)));
         }
     }
@@ -71,7 +71,7 @@ struct Pair {
     effect: Effect,
     reason: String,
     shots: [usize; 2],
-    pictures: [(Scene, RenderSettings); 2],
+    images: [(Scene, RenderSettings); 2],
 }
 
 /// All effects that a subject shows, and what has to be drawn for them.
@@ -87,26 +87,16 @@ fn collect(subject: &Subject) -> (Shots, Vec<Pair>) {
         let lacks = (off.1 == settings).then_some(effect);
         let numbers = [shots.number(lacks, &off.0, &off.1), shots.number(None, &subject.scene, &settings)];
         let reason = plan.decision(effect).to_string();
-        pairs.push(Pair {
-            effect,
-            reason,
-            shots: numbers,
-            pictures: [off, (subject.scene.clone(), settings)],
-        });
+        pairs.push(Pair { effect, reason, shots: numbers, images: [off, (subject.scene.clone(), settings)] });
     }
     (shots, pairs)
 }
 
-/// Draws both pictures, and returns the names of their files.
-fn pictures(
-    subject: &str,
-    camera: &Camera,
-    pair: &Pair,
-    folder: &Path,
-) -> Result<[String; 2], Box<dyn Error>> {
+/// Draws both images, and returns the names of their files.
+fn images(subject: &str, camera: &Camera, pair: &Pair, folder: &Path) -> Result<[String; 2], Box<dyn Error>> {
     let name = |way: &str| format!("{subject}-{}-{way}.png", pair.effect).to_lowercase().replace(' ', "-");
     let names = ["without", "with"].map(name);
-    for ((scene, settings), name) in pair.pictures.iter().zip(&names) {
+    for ((scene, settings), name) in pair.images.iter().zip(&names) {
         let smooth = RenderSettings { samples_per_axis: 3, width: 240, height: 150, ..settings.clone() };
         let frame = render(scene, camera, &smooth)?;
         let path: PathBuf = folder.join("effects").join(name);

@@ -1,4 +1,4 @@
-//! What pictures cost: times in turns, and instructions.
+//! What images cost: times in turns, and instructions.
 
 use std::error::Error;
 use std::process::Command;
@@ -7,10 +7,10 @@ use std::time::Instant;
 use trigon_camera::Camera;
 use trigon_scene::{Effect, Frame, RenderSettings, Renderer, Scene};
 
-/// How often each picture is timed.
+/// How often each image is timed.
 const ROUNDS: usize = 15;
 
-/// A picture, drawn over and over.
+/// An image, drawn over and over.
 pub(crate) struct Shot {
     /// What the scene lacks; none if it is the subject's own.
     lacks: Option<Effect>,
@@ -18,7 +18,7 @@ pub(crate) struct Shot {
     settings: RenderSettings,
 }
 
-/// The shots of a subject; two effects whose pictures without them are the same share one.
+/// The shots of a subject; two effects whose images without them are the same share one.
 #[derive(Default)]
 pub(crate) struct Shots(Vec<Shot>);
 

@@ -6,12 +6,12 @@ use trigon_scene::Effect;
 pub(crate) const INTRODUCTION: &str = "# Effects
 
 Every effect is off until a scene and its settings call for it. An effect that is off costs nothing: no attribute, texture,
-pass, ray or byte (test `off_means_zero`). The tables below take each effect away from a picture that has it, so that you see
+pass, ray or byte (test `off_means_zero`). The tables below take each effect away from an image that has it, so that you see
 what it adds and what it costs. Every effect that a plan can list has at least one row.
 
-Pictures are timed at 480×300 pixels without anti-aliasing, on one thread, with everything warm. All pictures of a scene are
+Images are timed at 480×300 pixels without anti-aliasing, on one thread, with everything warm. All images of a scene are
 drawn in turn, 15 times over, so that a slow moment of the machine affects all of them alike. Two effects that leave the same
-picture behind share its time. A time is the median, with the quartiles in parentheses. A cost is the median of the 15 ratios; where
+image behind share its time. A time is the median, with the quartiles in parentheses. A cost is the median of the 15 ratios; where
 their quartiles lie on both sides of 1, or the median is within 2 % of it, there is no measurable difference. Instructions, where
 the table has them, are those of one warm frame (callgrind, AVX2) and hardly vary.
 
@@ -38,7 +38,7 @@ and vectors of eight pixels without any metal look nothing up. `--metal-reflecti
 material is a metal.
 
 Three metal balls of roughness 0, 0.35 and 0.7, on 43 % of 480×300 pixels, need 13 % more instructions with it, and 15 million
-once for the table of the sky, which is a quarter of such a picture (callgrind, AVX2, one thread). Without a metal in view there
+once for the table of the sky, which is a quarter of such an image (callgrind, AVX2, one thread). Without a metal in view there
 is neither.
 ";
 
@@ -47,14 +47,14 @@ pub(crate) const OTHERS: &str = "
 ## Over a pipeline written by hand
 
 The bench `overhead` draws a knot of 70,000 triangles at 1920×1080 through the scene renderer, and through a pipeline that is
-written for this one picture. Instructions of one warm frame, in millions (callgrind, AVX2, one thread):
+written for this one image. Instructions of one warm frame, in millions (callgrind, AVX2, one thread):
 
-| picture | by hand | by the scene renderer | more |
+| image | by hand | by the scene renderer | more |
 |---|--:|--:|--:|
 | one colour, unlit | 60.3 | 60.6 | 0.5 % |
 | a texture, and light at the vertices | 149.2 | 169.0 | 13.3 % |
 
-Of the 19.8 million that the textured picture takes more, 7.6 are because its sampler is data: a pipeline by hand that knows its
+Of the 19.8 million that the textured image takes more, 7.6 are because its sampler is data: a pipeline by hand that knows its
 sampler only at run time takes 156.8. About 2.7 do not depend on the number of pixels, which frames of half the width and height
 show (57.8 and 64.8): at the vertices, the scene sums the light of any number of lamps, and the pipeline by hand reads a single
 number. The other 9.5 are not explained yet. Compiling the pipeline a second time for the default sampler would save the first part.
@@ -69,10 +69,10 @@ To count the instructions of a frame (the difference of two counts, divided by t
 
 The same meshes, lamps and cameras, drawn by Mitsuba 3.9.1: a physically based renderer whose surfaces, lamps and shadows share
 no code with trigon's. It takes 1,024 samples per pixel with a box filter, trigon 16. Differences are in linear light, relative to the mean light of
-the picture: over all pixels that show a surface, and over those whose neighbours show the same one. `docs/testing.md` has the
+the image: over all pixels that show a surface, and over those whose neighbours show the same one. `docs/testing.md` has the
 command.
 
-| picture | RMSE | within surfaces | greatest within | why they differ |
+| image | RMSE | within surfaces | greatest within | why they differ |
 |---|--:|--:|--:|---|
 | Lambert's law, a ball in the sun | 0.14 % | 0.009 % | 0.35 % | f32; at outlines 16 samples against 1,024. The greatest difference is where light grazes the ball: Mitsuba also tests on which side of the triangle itself the sun is |
 | GGX, a white metal of roughness 0.4 | 0.14 % | 0.12 % | 2.3 % | Mitsuba treats masking and shadowing of microfacets as independent; glTF, and so trigon, correlates them by height. It shows at grazing light |

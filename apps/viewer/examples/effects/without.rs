@@ -1,4 +1,4 @@
-//! Pictures without one of their effects.
+//! Images without one of their effects.
 
 use trigon_mesh::Attributes;
 use trigon_scene::{AlphaMode, Effect, LightKind, MeshId, RenderSettings, Scene};

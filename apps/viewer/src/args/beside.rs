@@ -33,12 +33,12 @@ impl Beside {
     }
 
     /// The name of its file, next to the image's: `chair.png` and `chair.depth.npy`.
-    pub(crate) fn path(self, picture: &Path) -> PathBuf {
+    pub(crate) fn path(self, image: &Path) -> PathBuf {
         let ending = match self.format() {
             Format::Npy => "npy",
             Format::Png16 => "png",
         };
-        picture.with_extension(format!("{}.{ending}", self.output))
+        image.with_extension(format!("{}.{ending}", self.output))
     }
 }
 
@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_lie_next_to_the_picture() {
+    fn files_lie_next_to_the_image() {
         for (text, name) in [
             ("depth", "a/big.chair.depth.npy"),
             ("object-ids.npy", "a/big.chair.object-ids.npy"),

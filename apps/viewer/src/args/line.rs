@@ -107,7 +107,7 @@ impl CommandLine {
         decided: &[&str],
         file: Option<&Path>,
     ) -> Result<Vec<String>, clap::Error> {
-        /// They are about the program, not about the picture.
+        /// They are about the program, not about the image.
         const ASIDE: [&str; 20] = [
             "config",
             "no-config",

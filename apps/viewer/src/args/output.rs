@@ -35,7 +35,7 @@ impl FromStr for Destination {
 const ENDINGS: [&str; 7] = ["png", "jpg", "jpeg", "webp", "exr", "gif", "apng"];
 
 /// The name of an image that is a single file.
-pub(crate) fn picture_name(text: &str) -> Result<Template, String> {
+pub(crate) fn image_name(text: &str) -> Result<Template, String> {
     match text.parse()? {
         Destination::Stdout => Err("name a file".to_owned()),
         Destination::File(template) => Ok(template),

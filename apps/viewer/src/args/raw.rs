@@ -172,7 +172,7 @@ pub(crate) struct RawArgs {
     pub(crate) explain_pixel: Option<[u32; 2]>,
 
     /// The name of the window's screenshots, with the variables of --output
-    #[arg(long, value_name = "FILE", value_parser = super::output::picture_name, default_value = "{model}_{n}.png", help_heading = "Window")]
+    #[arg(long, value_name = "FILE", value_parser = super::output::image_name, default_value = "{model}_{n}.png", help_heading = "Window")]
     pub(crate) screenshot_filename: Template,
 
     /// Load the files and print what is in them, but draw nothing

@@ -151,7 +151,7 @@ pub(crate) struct Reference {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Mode {
     /// Write images, and capture what they were drawn from.
-    Picture {
+    Image {
         /// The destination of each, if any.
         output: Option<Destination>,
         /// The file of the capture.
@@ -174,10 +174,10 @@ pub(crate) enum Mode {
     Compare {
         /// The second one.
         other: PathBuf,
-        /// Where the picture goes.
+        /// Where the image goes.
         output: Destination,
     },
-    /// Explain this pixel of their pictures.
+    /// Explain this pixel of their images.
     ExplainPixel([u32; 2]),
     /// Say what is wrong with the models.
     Check,
@@ -228,13 +228,13 @@ impl Request {
         let mut ignored = raw.gpu_only.warnings();
         ignored.extend(ignored::warnings(&raw, &mode));
         check_stdin(&mode, &files)?;
-        let pictures = Source::group(&files, &grouping).len();
-        check_output(&mode, pictures)?;
+        let images = Source::group(&files, &grouping).len();
+        check_output(&mode, images)?;
         check_outputs(&mode, &raw.outputs)?;
         check_frames(&raw, &mode)?;
         if raw.json == Some(true) && raw.output == Some(Destination::Stdout) {
             return Err(
-                "--json and --output - both write to standard output; name a file for the picture".to_owned()
+                "--json and --output - both write to standard output; name a file for the image".to_owned()
             );
         }
         Ok(Self {
@@ -307,7 +307,7 @@ fn mode(raw: &RawArgs) -> Mode {
         (_, Some(explanation)) => Mode::Explain(explanation),
         (Some(replay), None) => Mode::Replay { capture: replay.clone(), output },
         (None, None) if output.is_some() || capture.is_some() || raw.reference.is_some() => {
-            Mode::Picture { output, capture }
+            Mode::Image { output, capture }
         }
         (None, None) => Mode::Window,
     }
@@ -489,7 +489,7 @@ fn line_width(raw: &RawArgs, style: Style) -> Result<f32, String> {
     match raw.material.point_size {
         Some(size) if style == Style::Surface => Ok(size / POINT_TO_LINE),
         Some(_) => Err(
-            "--point-size is for pictures without edges, where points are three lines wide; leave out --point-size, or set --line-width"
+            "--point-size is for images without edges, where points are three lines wide; leave out --point-size, or set --line-width"
                 .to_owned(),
         ),
         None => Ok(raw.line_width),
@@ -527,7 +527,7 @@ fn insisted(raw: &RawArgs) -> Result<Insisted, String> {
 /// The time budget for an image.
 fn limit(raw: &RawArgs, mode: &Mode) -> Result<Option<Limit>, String> {
     let Some(time) = raw.quality.time_budget else { return Ok(None) };
-    if !matches!(mode, Mode::Picture { .. }) {
+    if !matches!(mode, Mode::Image { .. }) {
         return Err("--time-budget needs an image, and none is drawn; name one (--output image.png), or choose a --preset".to_owned());
     }
     Ok(Some(Limit::new(time, insisted(raw)?)))

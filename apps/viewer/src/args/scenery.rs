@@ -63,11 +63,11 @@ pub(crate) struct SceneryArgs {
     #[arg(long, short = 'm', num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Scenery")]
     pub(crate) metadata: Option<bool>,
 
-    /// Show the scene as a tree: in the window a panel to hide, show and select nodes, in pictures their names
+    /// Show the scene as a tree: in the window a panel to hide, show and select nodes, in images their names
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Scenery")]
     pub(crate) scene_hierarchy: Option<bool>,
 
-    /// Write the name of the --hdri-file over the picture
+    /// Write the name of the --hdri-file over the image
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Scenery")]
     pub(crate) hdri_filename: Option<bool>,
 

@@ -1,11 +1,11 @@
-//! The directions of the axes in a corner of the window: the same arrows as in pictures.
+//! The directions of the axes in a corner of the window: the same arrows as in images.
 
 use trigon_math::{DQuat, Vec3};
 use trigon_window::{Comparison, Stage, egui};
 
 use crate::axes;
 
-/// The room below them, where the window says how far a picture is refined, in points.
+/// The room below them, where the window says how far an image is refined, in points.
 const BELOW: f32 = 40.0;
 
 /// The arrows, drawn anew only when the camera turns.
@@ -21,7 +21,7 @@ impl AxesOverlay {
         let side = axes::side(viewport.width, viewport.height);
         let of = (stage.orbit.orientation(), side);
         if self.drawn.as_ref().is_none_or(|(known, _)| *known != of) {
-            // Too large a picture is the only error, and the window is larger.
+            // Too large an image is the only error, and the window is larger.
             let Ok(arrows) = axes::arrows(side, of.0, colors, &stage.settings) else { return };
             let size = [side as usize; 2];
             let image = egui::ColorImage::from_rgba_unmultiplied(size, &arrows.color);

@@ -60,7 +60,7 @@ commands! {
     Matcap: "Inspect", "display.matcap", "Shift+M", "one clay for all (matcap)";
     Depth: "Inspect", "display.depth", "Ctrl+D", "depth in grey";
     Measure: "Inspect", "measure", "R", "measure: clicks snap to vertices, edges and faces";
-    Copy: "Inspect", "command.copy", "Ctrl+C", "copy the command line that draws this picture";
+    Copy: "Inspect", "command.copy", "Ctrl+C", "copy the command line that draws this image";
     SaveState: "Inspect", "state.save", "Ctrl+S", "save, load files, camera and settings";
     LoadState: "Inspect", "state.load", "Ctrl+L", "save, load files, camera and settings";
     Blink: "Inspect", "compare.blink", "B", "with --compare: one model, the other";

@@ -101,7 +101,7 @@ struct PairDrawer {
     other: Arc<Scene>,
     pair: Pair,
     renderers: Mutex<[Renderer; 2]>,
-    /// How far the last two pictures were apart.
+    /// How far the last two images were apart.
     said: Mutex<String>,
 }
 
@@ -145,7 +145,7 @@ impl Drawer for PairDrawer {
                 let other = draw(second, &self.other, settings.clone())?;
                 let difference = compare::difference(&one, &other);
                 *self.said.lock().unwrap_or_else(PoisonError::into_inner) = compare::said(&difference);
-                Ok(compare::frame_of(&difference.picture))
+                Ok(compare::frame_of(&difference.image))
             }
         }
     }

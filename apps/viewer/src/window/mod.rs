@@ -68,7 +68,7 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
             1
         }
         Err(error) => {
-            reporter.error(format_args!("{error}; write a picture instead with --output picture.png"));
+            reporter.error(format_args!("{error}; write an image instead with --output image.png"));
             1
         }
     }
@@ -87,7 +87,7 @@ fn set_stage(stage: &mut Stage, request: &Request) {
     }
 }
 
-/// At rest the picture becomes the reference, unless somebody asked for something else,
+/// At rest the image becomes the reference, unless somebody asked for something else,
 /// or for another shading: then for its look.
 fn refinement(request: &Request) -> Refinement {
     let usual = request.settings.shading == ShadingModel::Phong;
@@ -139,7 +139,7 @@ fn no_display(request: &Request) -> String {
         Some(file) => format!(" {}", file.display()),
     };
     format!(
-        "there is no display to open a window on; write a picture instead: trigon-viewer{file} --output picture.png"
+        "there is no display to open a window on; write an image instead: trigon-viewer{file} --output image.png"
     )
 }
 
@@ -151,7 +151,7 @@ mod tests {
     use crate::args::RawArgs;
 
     #[test]
-    fn at_rest_the_picture_is_refined_unless_its_look_or_a_flag_says_otherwise() {
+    fn at_rest_the_image_is_refined_unless_its_look_or_a_flag_says_otherwise() {
         let refinement = |flags: &[&str]| {
             let words = ["trigon-viewer"].into_iter().chain(flags.iter().copied());
             refinement(&Request::new(RawArgs::parse_from(words)).expect("consistent flags"))

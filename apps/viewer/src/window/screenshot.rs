@@ -1,4 +1,4 @@
-//! The folder of screenshots: one in the user's pictures folder, or the working folder if there is
+//! The folder of screenshots: one in the user's images folder, or the working folder if there is
 //! none.
 
 use std::fs;
@@ -22,10 +22,9 @@ pub(super) fn save(frame: &Frame, template: &Template, model: Option<&Path>) -> 
     Ok(path)
 }
 
-/// `~/Pictures/trigon-viewer` if there is a folder for pictures.
+/// `~/Pictures/trigon-viewer` if there is a folder for images.
 fn folder() -> PathBuf {
-    let pictures =
-        std::env::home_dir().map(|home| home.join("Pictures")).filter(|pictures| pictures.is_dir());
-    let own = pictures.map(|pictures| pictures.join("trigon-viewer"));
+    let images = std::env::home_dir().map(|home| home.join("Pictures")).filter(|folder| folder.is_dir());
+    let own = images.map(|images| images.join("trigon-viewer"));
     own.filter(|own| fs::create_dir_all(own).is_ok()).unwrap_or_default()
 }

@@ -30,8 +30,8 @@ use super::side::SidePanel;
 use super::watch::Watch;
 use crate::args::Request;
 use crate::failure::Failure;
+use crate::image;
 use crate::model::{Model, Summary};
-use crate::picture;
 use crate::report::Reporter;
 use crate::source::Source;
 
@@ -257,17 +257,17 @@ impl Viewer {
     }
 
     fn take_screenshot(stage: &mut Stage, background: Background) {
-        let settings = stage.picture_settings();
-        stage.request_picture(RenderSettings { background, ..settings });
+        let settings = stage.image_settings();
+        stage.request_image(RenderSettings { background, ..settings });
     }
 
-    /// Draws and writes over a screenshot what lies over the window's picture, as `--output` does.
+    /// Draws and writes over a screenshot what lies over the window's image, as `--output` does.
     fn with_overlay(&self, stage: &Stage, frame: Frame) -> Result<Frame, Failure> {
         let Some(shown) = &self.shown else { return Ok(frame) };
         let mut request = self.request.clone();
         (request.overlay.name, request.overlay.metadata) = (self.show_name, self.show_metadata);
         request.overlay.tree = false;
-        picture::finished(frame, &shown.model(stage), &stage.camera(), &request)
+        image::finished(frame, &shown.model(stage), &stage.camera(), &request)
     }
 }
 
@@ -348,7 +348,7 @@ impl Handler for Viewer {
         self.add(stage, files);
     }
 
-    fn picture(&mut self, stage: &mut Stage, frame: Frame) {
+    fn image(&mut self, stage: &mut Stage, frame: Frame) {
         let model = self.shown.as_ref().and_then(|shown| shown.source.first_file());
         let saved = self
             .with_overlay(stage, frame)

@@ -271,7 +271,7 @@ pub(crate) const OPTIONS: &[Row] = &[
     ("limits: colours of STEP files", BOX, "--color=Blue --scalar-coloring=no", Refused("simulation")),
 ];
 
-/// Lines of a script, tried with a picture at the end: what it shows is what the flags show.
+/// Lines of a script, tried with an image at the end: what it shows is what the flags show.
 #[rustfmt::skip]
 pub(crate) const COMMANDS: &[Row] = &[
     ("set", BOX, "set scene.up.direction +Z", Shows("--up=+Z")),

@@ -1,6 +1,6 @@
 //! Every example of options and commands in F3D's user documentation (03-OPTIONS,
 //! 05-ANIMATIONS, 06-CONFIGURATION_FILE, 07-COMMANDS, 08-PARSING and what other pages show),
-//! one row each: what trigon does with it, held by its effect on the picture, on the output
+//! one row each: what trigon does with it, held by its effect on the image, on the output
 //! or on the exit code.
 
 mod examples;
@@ -17,12 +17,12 @@ use models::{CORNER, DOTS_PLY, TYPICAL, bones, quad, room, slide};
 /// What an example does.
 #[derive(Clone, Copy, Debug)]
 enum Expected {
-    /// Same: the picture differs from the one without it, of the same file.
+    /// Same: the image differs from the one without it, of the same file.
     Changes,
-    /// Same: the picture is that without it, because it names the default, or what F3D's flag
+    /// Same: the image is that without it, because it names the default, or what F3D's flag
     /// turns on is always on.
     Keeps,
-    /// Same: the picture is that of these flags, which differs from the one without.
+    /// Same: the image is that of these flags, which differs from the one without.
     Shows(&'static str),
     /// Same: standard output holds this.
     Says(&'static str),
@@ -113,21 +113,21 @@ impl Folder {
         command.output().expect("the viewer starts")
     }
 
-    /// The pixels of a picture.
-    fn picture(&self, words: &str) -> Result<(trigon_io::Picture, String), String> {
+    /// The pixels of an image.
+    fn image(&self, words: &str) -> Result<(trigon_io::RgbaImage, String), String> {
         let size = if words.contains("--resolution") { "" } else { "--resolution=60,40" };
-        let output = self.run(&format!("{size} {words} --output=picture.png"));
+        let output = self.run(&format!("{size} {words} --output=image.png"));
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         if output.status.code() != Some(0) {
             return Err(format!("`{words}` said: {said}"));
         }
-        let picture = trigon_io::load_image(self.path("picture.png"), &trigon_io::Limits::default());
-        Ok((picture.expect("a picture"), said))
+        let image = trigon_io::load_image(self.path("image.png"), &trigon_io::Limits::default());
+        Ok((image.expect("an image"), said))
     }
 
     /// Whether two command lines show the same.
     fn same(&self, one: &str, other: &str) -> Result<bool, String> {
-        Ok(self.picture(one)?.0 == self.picture(other)?.0)
+        Ok(self.image(one)?.0 == self.image(other)?.0)
     }
 
     /// Whether a run ends with a code and says something.
@@ -168,12 +168,12 @@ impl Folder {
             }
             Exit(code, part) => self.ends(&whole, code, part),
             Warned => {
-                let said = self.picture(&whole)?.1;
+                let said = self.image(&whole)?.1;
                 holds(said.contains(" is ignored: "), || format!("no warning: {said}"))?;
                 holds(self.same(&whole, plain)?, || "it changes something".to_owned())
             }
             Ignored(reason) => {
-                let said = self.picture(&whole)?.1;
+                let said = self.image(&whole)?.1;
                 holds(said.contains(reason), || format!("it does not say {reason:?}: {said}"))?;
                 holds(self.same(&whole, plain)?, || "it changes something".to_owned())
             }

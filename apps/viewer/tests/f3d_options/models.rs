@@ -16,7 +16,7 @@ pub(crate) const TYPICAL: &str = r#"[
   {"match": ".*mhd", "options": {"volume": true}}
 ]"#;
 
-/// Light from above and darkness below, as a Radiance picture.
+/// Light from above and darkness below, as a Radiance image.
 pub(crate) fn room() -> Vec<u8> {
     let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n".to_vec();
     bytes.extend((0..128).flat_map(|index| if index < 64 { [0, 0, 128, 129] } else { [128, 0, 0, 129] }));

@@ -39,14 +39,14 @@ fn two_models_are_compared() {
     let flags = "--camera-position=3,2,9 --resolution=60,40 --output o.png";
     let said = folder.said(&format!("two.obj --compare one.obj {flags}"), 3);
     assert!(said.contains("pixels differ"), "how much: {said}");
-    let pair = picture(&folder.path("o.png"));
+    let pair = image(&folder.path("o.png"));
     assert_eq!((pair.width, pair.height), (180, 40), "both and where they differ");
     let said = folder.said(&format!("two.obj --compare two.obj {flags}"), 0);
     assert!(said.contains("no pixel differs"), "{said}");
-    let same = picture(&folder.path("o.png"));
-    let row = |picture: &trigon_io::Picture, part: usize| {
+    let same = image(&folder.path("o.png"));
+    let row = |image: &trigon_io::RgbaImage, part: usize| {
         let start = 4 * (20 * 180 + part * 60);
-        picture.rgba[start..start + 4 * 60].to_vec()
+        image.rgba[start..start + 4 * 60].to_vec()
     };
     assert_eq!(row(&same, 0), row(&same, 1), "the same twice");
     assert_eq!(row(&pair, 0), row(&same, 0), "seen by the first one's camera");
@@ -63,7 +63,7 @@ fn what_faces_show_is_chosen_by_flags() {
     let folder = Folder::new();
     let shown = |flags: &str| {
         folder.said(&format!("corner.obj --resolution=60,40 --output o.png {flags}"), 0);
-        picture(&folder.path("o.png")).rgba
+        image(&folder.path("o.png")).rgba
     };
     let plain = shown("");
     for display in ["matcap", "base-color", "normal", "geometric-normal", "roughness", "alpha", "depth"] {

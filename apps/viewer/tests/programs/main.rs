@@ -1,4 +1,4 @@
-//! The whole program, run as a user runs it: pictures, streams, messages, exit
+//! The whole program, run as a user runs it: images, streams, messages, exit
 //! codes. No display, no network.
 
 mod comparing;
@@ -70,8 +70,8 @@ fn png_size(bytes: &[u8]) -> (u32, u32) {
     (number(16), number(20))
 }
 
-fn picture(path: &Path) -> trigon_io::Picture {
-    trigon_io::load_image(path, &trigon_io::Limits::default()).expect("a picture")
+fn image(path: &Path) -> trigon_io::RgbaImage {
+    trigon_io::load_image(path, &trigon_io::Limits::default()).expect("an image")
 }
 
 /// The least of the SIMD levels that are always built in.
@@ -84,39 +84,39 @@ const NARROW: &str = if cfg!(target_arch = "x86_64") {
 };
 
 #[test]
-fn a_model_becomes_a_picture_of_the_size_asked_for() {
+fn a_model_becomes_an_image_of_the_size_asked_for() {
     let folder = Folder::new();
     let said = folder.said("corner.obj --output out.png --resolution 120x80", 0);
     assert_eq!(said, "trigon-viewer: wrote out.png (120×80)\n", "one line, no warning");
-    let picture = picture(&folder.path("out.png"));
-    assert_eq!((picture.width, picture.height), (120, 80), "the size");
-    let red = picture.rgba.chunks(4).filter(|p| p[0] > 60 && p[1] < 60 && p[2] < 60).count();
-    assert!((1500..8000).contains(&red), "the model fills a good part of the picture: {red} of 9600 pixels");
+    let image = image(&folder.path("out.png"));
+    assert_eq!((image.width, image.height), (120, 80), "the size");
+    let red = image.rgba.chunks(4).filter(|p| p[0] > 60 && p[1] < 60 && p[2] < 60).count();
+    assert!((1500..8000).contains(&red), "the model fills a good part of the image: {red} of 9600 pixels");
 }
 
 #[test]
 fn without_a_file_there_is_the_built_in_scene() {
     let folder = Folder::new();
     folder.said("--output out.png --resolution 100,60 --samples=1", 0);
-    let picture = picture(&folder.path("out.png"));
-    let mut colors: Vec<&[u8]> = picture.rgba.chunks(4).collect();
+    let image = image(&folder.path("out.png"));
+    let mut colors: Vec<&[u8]> = image.rgba.chunks(4).collect();
     colors.sort_unstable();
     colors.dedup();
     assert!(colors.len() > 500, "it is no plain area: {} colours", colors.len());
 }
 
-/// The same bytes on every machine: the README's picture, drawn once on one of
+/// The same bytes on every machine: the README's image, drawn once on one of
 /// them, is what the program draws on this one.
 #[test]
-fn the_picture_in_the_readme_is_what_the_program_draws() {
+fn the_image_in_the_readme_is_what_the_program_draws() {
     let folder = Folder::new();
     folder.said("--output teapot.png", 0);
     let shown = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/images/showcase.png");
-    assert!(picture(&folder.path("teapot.png")) == picture(&shown), "draw docs/images/showcase.png again");
+    assert!(image(&folder.path("teapot.png")) == image(&shown), "draw docs/images/showcase.png again");
 }
 
 #[test]
-fn a_dash_writes_the_picture_and_nothing_else_to_standard_output() {
+fn a_dash_writes_the_image_and_nothing_else_to_standard_output() {
     let folder = Folder::new();
     let output = folder.run("corner.obj --output - --resolution 64,48");
     assert!(output.status.success(), "{output:?}");
@@ -139,7 +139,7 @@ fn a_reader_that_leaves_early_is_no_panic() {
 }
 
 #[test]
-fn every_flag_about_the_picture_changes_it() {
+fn every_flag_about_the_image_changes_it() {
     let folder = Folder::new();
     let stream = |flags: &str| {
         let output = folder.run(&format!("corner.obj --output - --resolution 60,40 {flags}"));
@@ -187,7 +187,7 @@ fn a_preset_is_some_settings_at_once() {
     let folder = Folder::new();
     let drawn = |flags: &str| {
         folder.said(&format!("corner.obj --output o.png --resolution 60,40 {flags}"), 0);
-        picture(&folder.path("o.png"))
+        image(&folder.path("o.png"))
     };
     assert!(drawn("--preset=draft") == drawn("--anti-aliasing=none"), "one sample");
     assert!(drawn("--preset=standard") == drawn("--samples=2"), "2×2");
@@ -198,7 +198,7 @@ fn a_preset_is_some_settings_at_once() {
 #[test]
 fn a_time_budget_says_what_it_chose_and_what_that_gives_up() {
     let folder = Folder::new();
-    // The longest and the shortest that there is: on any machine a picture of this size
+    // The longest and the shortest that there is: on any machine an image of this size
     // fits into the one, and none into the other.
     for (time, quality, gave_up) in
         [("3600s", "4×4 samples of 16,", "gave up nothing"), ("0.001ms", "1 sample,", "; gave up ")]
@@ -229,7 +229,7 @@ fn several_files_are_drawn_together_or_under_several_names() {
     fs::create_dir(folder.path("other")).expect("a folder");
     fs::copy(folder.path("b.obj"), folder.path("other/b.obj")).expect("a copy");
     let said = folder.said("b.obj other/b.obj --output {model}.png --resolution 20,20", 2);
-    assert!(said.contains("two models") && said.contains("{n}"), "no picture is lost silently: {said}");
+    assert!(said.contains("two models") && said.contains("{n}"), "no image is lost silently: {said}");
 }
 
 #[test]
@@ -263,7 +263,7 @@ fn failures_are_one_line_that_names_the_file() {
         let said = folder.failed(flags);
         assert!(words.iter().all(|word| said.contains(word)), "`{flags}`: {said}");
     }
-    assert!(!folder.path("o.png").exists(), "no picture of a failure");
+    assert!(!folder.path("o.png").exists(), "no image of a failure");
 }
 
 #[test]
@@ -282,7 +282,7 @@ fn warnings_are_lines_and_can_be_silenced() {
 }
 
 #[test]
-fn a_picture_that_shows_nothing_of_the_model_says_so() {
+fn an_image_that_shows_nothing_of_the_model_says_so() {
     let folder = Folder::new();
     let away = "--camera-position 9,9,9 --camera-focal-point 20,20,20 --output o.png --resolution 20,20";
     let said = folder.said(&format!("corner.obj {away}"), 0);
@@ -315,10 +315,10 @@ fn a_senseless_command_line_exits_with_2() {
 }
 
 #[test]
-fn without_a_display_the_message_says_how_to_get_a_picture() {
+fn without_a_display_the_message_says_how_to_get_an_image() {
     let folder = Folder::new();
     let said = folder.failed("corner.obj");
-    assert!(said.contains("--output picture.png"), "the remedy: {said}");
+    assert!(said.contains("--output image.png"), "the remedy: {said}");
 }
 
 /// The contents tell the format, or --force-reader does.
@@ -361,7 +361,7 @@ fn the_same_model_gives_the_same_bytes() {
     let folder = Folder::new();
     let bytes = |flags: &str| folder.run(&format!("--output - --resolution 150,90 {flags}")).stdout;
     let one = bytes("--threads=1");
-    assert_eq!(png_size(&one), (150, 90), "a picture");
+    assert_eq!(png_size(&one), (150, 90), "an image");
     for flags in ["--threads=2", "--threads=7", NARROW, &format!("{NARROW} --threads=3")] {
         assert!(one == bytes(flags), "{flags}");
     }
@@ -395,7 +395,7 @@ fn a_turntable_becomes_files_or_one_that_moves() {
     let said = folder.said(&format!("{draw} --output view_{{frame:2}}.png"), 0);
     assert_eq!(said.lines().count(), 4, "a line each: {said}");
     let views =
-        ["view_00.png", "view_01.png", "view_02.png", "view_03.png"].map(|name| picture(&folder.path(name)));
+        ["view_00.png", "view_01.png", "view_02.png", "view_03.png"].map(|name| image(&folder.path(name)));
     assert!((1..4).all(|view| views[view] != views[0]), "each from another side");
     let said = folder.said(&format!("{draw} --output all.gif"), 0);
     assert!(said.contains("wrote all.gif (40×30, 4 frames)"), "{said}");
@@ -403,11 +403,11 @@ fn a_turntable_becomes_files_or_one_that_moves() {
     let [gif, apng] = ["all.gif", "all.apng"].map(|name| fs::read(folder.path(name)).expect("written"));
     assert!(gif.starts_with(b"GIF89a") && gif.windows(11).any(|part| part == b"NETSCAPE2.0"), "endless");
     assert!(apng.windows(4).any(|part| part == b"acTL"), "it moves");
-    assert!(picture(&folder.path("all.apng")) == views[0], "and its first frame is that of the files");
+    assert!(image(&folder.path("all.apng")) == views[0], "and its first frame is that of the files");
 }
 
 #[test]
-fn pictures_are_written_as_their_endings_say() {
+fn images_are_written_as_their_endings_say() {
     let folder = Folder::new();
     for (name, start) in [
         ("o.jpg", &b"\xff\xd8\xff"[..]),
@@ -418,7 +418,7 @@ fn pictures_are_written_as_their_endings_say() {
         folder.said(&format!("corner.obj --resolution 40,30 --output {name}"), 0);
         assert!(fs::read(folder.path(name)).expect("written").starts_with(start), "{name}");
     }
-    assert!(picture(&folder.path("o.webp")) == picture(&folder.path("o.png")), "WebP loses nothing");
+    assert!(image(&folder.path("o.webp")) == image(&folder.path("o.png")), "WebP loses nothing");
 }
 
 #[test]
@@ -485,7 +485,7 @@ fn array(path: &Path) -> Vec<u8> {
 }
 
 #[test]
-fn outputs_are_written_next_to_the_picture_or_in_it() {
+fn outputs_are_written_next_to_the_image_or_in_it() {
     let folder = Folder::new();
     let draw = "corner.obj --resolution 30,20 --view=front";
     let said = folder.said(&format!("{draw} --output o.png --outputs depth,object-ids,depth.png"), 0);
@@ -531,9 +531,9 @@ fn a_capture_is_replayed_without_its_model() {
     fs::remove_file(folder.path("corner.obj")).expect("the model was there");
     let replay = format!("--replay corner.trigon --threads=1 {NARROW} --output again.png");
     let said = folder.said(&replay, 0);
-    assert!(said.contains("corner.trigon: the same picture, "), "{said}");
-    let [first, again] = ["first.png", "again.png"].map(|name| picture(&folder.path(name)).rgba);
-    assert!(first == again, "the same picture");
+    assert!(said.contains("corner.trigon: the same image, "), "{said}");
+    let [first, again] = ["first.png", "again.png"].map(|name| image(&folder.path(name)).rgba);
+    assert!(first == again, "the same image");
 
     let path = folder.path("corner.trigon");
     let mut capture = trigon_io::Capture::read(&path, &trigon_io::Limits::default()).expect("a capture");

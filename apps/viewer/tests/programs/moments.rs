@@ -1,4 +1,4 @@
-//! Scenes and moments of a file, and light from a picture.
+//! Scenes and moments of a file, and light from an image.
 
 use super::*;
 
@@ -17,14 +17,11 @@ const SLIDE: &str = r#"{"asset": {"version": "2.0"}, "scene": 0,
 "animations": [{"name": "slide", "samplers": [{"input": 1, "output": 2}],
 "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]}"#;
 
-/// Where the model is in a picture without background: the mean column and row.
-fn middle(picture: &trigon_io::Picture) -> (f64, f64) {
+/// Where the model is in an image without background: the mean column and row.
+fn middle(image: &trigon_io::RgbaImage) -> (f64, f64) {
     let (mut sum, mut count) = ((0.0, 0.0), 0.0);
-    for (index, _) in picture.rgba.chunks(4).enumerate().filter(|(_, pixel)| pixel[3] > 0) {
-        sum = (
-            sum.0 + f64::from(index as u32 % picture.width),
-            sum.1 + f64::from(index as u32 / picture.width),
-        );
+    for (index, _) in image.rgba.chunks(4).enumerate().filter(|(_, pixel)| pixel[3] > 0) {
+        sum = (sum.0 + f64::from(index as u32 % image.width), sum.1 + f64::from(index as u32 / image.width));
         count += 1.0;
     }
     (sum.0 / count, sum.1 / count)
@@ -37,7 +34,7 @@ fn scenes_and_moments_of_animations_are_chosen() {
     let seen = |flags: &str| {
         let fixed = "--camera-position 2,1,12 --camera-focal-point 2,1,0 --no-background --resolution 120x80";
         folder.said(&format!("slide.gltf {fixed} --output o.png {flags}"), 0);
-        middle(&picture(&folder.path("o.png")))
+        middle(&image(&folder.path("o.png")))
     };
     let rest = seen("");
     let moved = |flags: &str| {
@@ -67,7 +64,7 @@ fn scenes_and_moments_of_animations_are_chosen() {
 }
 
 #[test]
-fn a_radiance_picture_lights_the_model() {
+fn a_radiance_image_lights_the_model() {
     let folder = Folder::new();
     // Blue from above, red from below: without compression, 128 with the exponent 129 is 1.
     let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n".to_vec();
@@ -80,7 +77,7 @@ fn a_radiance_picture_lights_the_model() {
             &format!("floor.obj --hdri-file room.hdr --view={side} --resolution 60x40 --output o.png"),
             0,
         );
-        let rgba = picture(&folder.path("o.png")).rgba;
+        let rgba = image(&folder.path("o.png")).rgba;
         let pixel = &rgba[4 * (60 * 20 + 30)..][..3];
         let others = (0..3).filter(|&channel| channel != brightest).map(|channel| pixel[channel]);
         assert!(
@@ -89,15 +86,12 @@ fn a_radiance_picture_lights_the_model() {
         );
     }
     assert!(folder.failed("floor.obj --hdri-file gone.hdr --output o.png").contains("gone.hdr"), "no file");
-    folder.write("text.hdr", "no picture");
-    assert!(
-        folder.failed("floor.obj --hdri-file text.hdr --output o.png").contains("Radiance"),
-        "no picture"
-    );
+    folder.write("text.hdr", "no image");
+    assert!(folder.failed("floor.obj --hdri-file text.hdr --output o.png").contains("Radiance"), "no image");
     folder.said("floor.obj --hdri-file room.hdr --sky --output o.png", 2);
     folder.said("floor.obj --hdri-file room.hdr --hdri-skybox --hdri-ambient=false --output o.png", 2);
     folder
         .said("floor.obj --hdri-file room.hdr --hdri-skybox --view=top --resolution 60x40 --output o.png", 0);
-    let corner = &picture(&folder.path("o.png")).rgba[..4];
+    let corner = &image(&folder.path("o.png")).rgba[..4];
     assert!(corner[0] > 2 * corner[2] && corner[3] == 255, "beside the floor is the room's: {corner:?}");
 }

@@ -1,10 +1,10 @@
-//! Fitting: the whole model is in the picture, with the margin asked for.
+//! Fitting: the whole model is in the image, with the margin asked for.
 
 use proptest::prelude::*;
 use trigon_camera::{Camera, PixelCenters, Projection, Projector, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3, elementary};
 
-const PICTURE: Viewport = Viewport { width: 300, height: 200 };
+const IMAGE: Viewport = Viewport { width: 300, height: 200 };
 
 fn corners(bounds: &Bounds3) -> impl Iterator<Item = DVec3> {
     let (a, b) = (bounds.min, bounds.max);
@@ -16,14 +16,14 @@ fn corners(bounds: &Bounds3) -> impl Iterator<Item = DVec3> {
 /// planes. Returns the greatest distance from the middle, 1 at the margin.
 fn check(projection: Projection, bounds: &Bounds3, direction: DVec3, margin: f64) -> f64 {
     let camera = Camera::default().with_projection(projection);
-    let camera = camera.fit(bounds, direction, DVec3::Y, PICTURE.aspect(), margin);
-    let projector = Projector::new(&camera, PICTURE);
+    let camera = camera.fit(bounds, direction, DVec3::Y, IMAGE.aspect(), margin);
+    let projector = Projector::new(&camera, IMAGE);
     // The eye is rounded to the grid of f64 where it stands.
     let grid = camera.position.length() * f64::EPSILON / (bounds.max - bounds.min).length();
     let mut reach: f64 = 0.0;
     for corner in corners(bounds) {
         let (screen, depth) = projector.to_screen_and_depth(corner).expect("before the eye");
-        let ndc = PICTURE.to_ndc(screen).abs() / (1.0 - margin);
+        let ndc = IMAGE.to_ndc(screen).abs() / (1.0 - margin);
         assert!(
             ndc.max_element() < 1.0 + 1e-9 + 4.0 * grid,
             "corner {corner} is at {ndc}, beyond the margin"
@@ -38,7 +38,7 @@ fn projections() -> [Projection; 5] {
     let k = Projection::pinhole(
         DVec2::new(250.0, 260.0),
         DVec2::new(170.0, 80.0),
-        PICTURE,
+        IMAGE,
         PixelCenters::AtHalves,
         0.1,
     );
@@ -53,7 +53,7 @@ fn projections() -> [Projection; 5] {
 
 proptest! {
     #[test]
-    fn the_whole_box_is_in_the_picture(
+    fn the_whole_box_is_in_the_image(
         which in 0usize..5,
         size in prop::array::uniform3(0.01f64..1.0),
         exponent in -6i32..=20,
@@ -72,9 +72,9 @@ proptest! {
 }
 
 proptest! {
-    /// A model's own points fill the picture, where its box would leave room.
+    /// A model's own points fill the image, where its box would leave room.
     #[test]
-    fn points_fill_the_picture_up_to_the_margin(
+    fn points_fill_the_image_up_to_the_margin(
         which in 0usize..5,
         points in prop::collection::vec(prop::array::uniform3(-1.0f64..1.0), 2..40),
         direction in prop::array::uniform3(-1.0f64..1.0),
@@ -82,13 +82,13 @@ proptest! {
     ) {
         let points: Vec<DVec3> = points.into_iter().map(DVec3::from).collect();
         let camera = Camera::default().with_projection(projections()[which]);
-        let aspect = PICTURE.aspect();
+        let aspect = IMAGE.aspect();
         let camera = camera.fit_points(&points, DVec3::from(direction), DVec3::Y, aspect, margin);
-        let projector = Projector::new(&camera, PICTURE);
+        let projector = Projector::new(&camera, IMAGE);
         let mut reach: f64 = 0.0;
         for &point in &points {
             let screen = projector.to_screen(point).expect("before the eye");
-            reach = reach.max((PICTURE.to_ndc(screen).abs() / (1.0 - margin)).max_element());
+            reach = reach.max((IMAGE.to_ndc(screen).abs() / (1.0 - margin)).max_element());
         }
         prop_assert!(reach < 1.0 + 1e-9, "a point is at {} of the margin", reach);
         // Points nearly in line with the eye may leave it close enough to be held
@@ -129,14 +129,14 @@ fn bounds_without_size_have_a_camera() {
         for projection in projections() {
             for direction in [DVec3::NEG_Z, DVec3::NEG_Y, DVec3::ZERO, DVec3::NAN] {
                 let camera = Camera::default().with_projection(projection);
-                let camera = camera.fit(&bounds, direction, DVec3::Y, PICTURE.aspect(), 0.1);
+                let camera = camera.fit(&bounds, direction, DVec3::Y, IMAGE.aspect(), 0.1);
                 let middle = if bounds.min.is_finite() && bounds.max.is_finite() && bounds != Bounds3::EMPTY {
                     (bounds.min + bounds.max) * 0.5
                 } else {
                     DVec3::ZERO
                 };
                 assert_ne!(camera.position, middle, "{bounds:?}: the eye is in the model");
-                let (screen, depth) = Projector::new(&camera, PICTURE)
+                let (screen, depth) = Projector::new(&camera, IMAGE)
                     .to_screen_and_depth(middle)
                     .unwrap_or_else(|| panic!("{bounds:?} is behind the eye of {camera:?}"));
                 assert!(screen.distance(DVec2::new(150.0, 100.0)) < 1.0, "{bounds:?} is at {screen}");

@@ -118,7 +118,7 @@ fn directions_of_the_hand() {
     assert!(orbit.camera(&BOX).up().distance(DVec3::NEG_X) < 1e-12, "roll is counter-clockwise");
     let mut orbit = Orbit::new(DVec3::Y);
     orbit.pan(2.0, 1.0);
-    assert_eq!(orbit.target(), DVec3::new(2.0, 1.0, 0.0), "pan moves the target in the picture's plane");
+    assert_eq!(orbit.target(), DVec3::new(2.0, 1.0, 0.0), "pan moves the target in the image's plane");
     orbit.zoom(2.0);
     assert_eq!(orbit.distance(), 2.5, "twice as large from half the distance");
 }

@@ -3,10 +3,10 @@
 use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Projector, Viewport};
 use trigon_math::{DAffine3, DMat3, DVec2, DVec3};
 
-const PICTURE: Viewport = Viewport { width: 640, height: 480 };
+const IMAGE: Viewport = Viewport { width: 640, height: 480 };
 
 fn projector(projection: Projection) -> Projector {
-    Projector::new(&Camera::default().with_projection(projection), PICTURE)
+    Projector::new(&Camera::default().with_projection(projection), IMAGE)
 }
 
 fn assert_near(actual: DVec2, expected: DVec2, why: &str) {
@@ -14,7 +14,7 @@ fn assert_near(actual: DVec2, expected: DVec2, why: &str) {
 }
 
 #[test]
-fn corners_of_a_frustum_are_corners_of_the_picture() {
+fn corners_of_a_frustum_are_corners_of_the_image() {
     let frustum = Projection::frustum_from_corners(DVec3::new(0.5, -2.0, 1.0), DVec3::new(3.0, -1.0, 10.0))
         .expect("an ordinary off-centre frustum");
     let projector = projector(frustum);
@@ -35,13 +35,13 @@ fn one_point_perspective_divides_by_one_plus_z_over_f() {
     let projector = projector(one_point);
     let pixels_per_unit = 480.0 / height;
     for (x, y, z) in [(1.0, 0.5, 0.0), (1.0, 0.5, 4.0), (-2.0, 1.0, -3.0), (0.3, -0.7, 100.0)] {
-        // The picture plane is at distance F before the eye; z counts from it.
+        // The image plane is at distance F before the eye; z counts from it.
         let screen = projector.to_screen(DVec3::new(x, y, -(focal_length + z))).expect("before the eye");
         let r = 1.0 / focal_length;
         let flat = DVec2::new(x / (1.0 + r * z), -y / (1.0 + r * z));
         assert_near(screen, DVec2::new(320.0, 240.0) + flat * pixels_per_unit, "x / (1 + rz)");
     }
-    // The switch to orthographic keeps what lies on the picture plane.
+    // The switch to orthographic keeps what lies on the image plane.
     let parallel = one_point.to_orthographic(focal_length).expect("a positive distance");
     let Projection::Orthographic { height: shown, .. } = parallel else { panic!("not orthographic") };
     assert!((shown - height).abs() < 1e-12, "{shown} units are visible instead of {height}");
@@ -55,16 +55,16 @@ fn pinhole_follows_computer_vision() {
     let pose = DAffine3 { matrix3: rotation, translation: DVec3::new(0.1, -0.2, 3.0) };
     let (focal, center) = (DVec2::new(500.0, 510.0), DVec2::new(310.0, 250.0));
     for (pixel_centers, offset) in [(PixelCenters::AtHalves, 0.0), (PixelCenters::AtIntegers, 0.5)] {
-        let k = Projection::pinhole(focal, center, PICTURE, pixel_centers, 0.1).expect("a sound K");
+        let k = Projection::pinhole(focal, center, IMAGE, pixel_centers, 0.1).expect("a sound K");
         let camera = Camera::from_opencv(&pose, k);
         let point = DVec3::new(0.4, 0.3, -0.5);
         let p = pose.transform_point3(point);
         let uv = focal * DVec2::new(p.x / p.z, p.y / p.z) + center;
-        let screen = Projector::new(&camera, PICTURE).to_screen(point).expect("before the eye");
+        let screen = Projector::new(&camera, IMAGE).to_screen(point).expect("before the eye");
         assert_near(screen, uv + DVec2::splat(offset), "u = fx X / Z + cx");
         let double = Viewport { width: 1280, height: 960 };
         let scaled = Projector::new(&camera, double).to_screen(point).expect("before the eye");
-        assert_near(scaled, (uv + DVec2::splat(offset)) * 2.0, "a larger picture shows the same view");
+        assert_near(scaled, (uv + DVec2::splat(offset)) * 2.0, "a larger image shows the same view");
     }
 }
 
@@ -76,14 +76,13 @@ fn vertical_field_of_view_reaches_the_upper_edge() {
 }
 
 #[test]
-fn other_planes_leave_the_picture_as_it_is() {
+fn other_planes_leave_the_image_as_it_is() {
     let center = DVec2::new(300.0, 200.0);
     let all = [
         Projection::perspective(1.0, 0.1, Some(50.0)).expect("valid"),
         Projection::orthographic(4.0, 0.1, 50.0).expect("valid"),
         Projection::frustum(-0.1, 0.3, 0.0, 0.2, 0.1, Some(50.0)).expect("valid"),
-        Projection::pinhole(DVec2::splat(400.0), center, PICTURE, PixelCenters::AtHalves, 0.1)
-            .expect("valid"),
+        Projection::pinhole(DVec2::splat(400.0), center, IMAGE, PixelCenters::AtHalves, 0.1).expect("valid"),
     ];
     let point = DVec3::new(0.3, 0.2, -4.0);
     for projection in all {
@@ -110,7 +109,7 @@ fn constructors_refuse_and_name_the_number() {
         (Projection::frustum(1.0, 1.0, 0.0, 1.0, 0.1, None), "left"),
         (Projection::frustum(0.0, 1.0, 2.0, 1.0, 0.1, None), "bottom"),
         (Projection::one_point(0.0, 1.0, 0.1, None), "focal length"),
-        (Projection::pinhole(DVec2::new(1.0, 0.0), DVec2::ZERO, PICTURE, PixelCenters::AtHalves, 0.1), "fy"),
+        (Projection::pinhole(DVec2::new(1.0, 0.0), DVec2::ZERO, IMAGE, PixelCenters::AtHalves, 0.1), "fy"),
         (
             Projection::pinhole(
                 DVec2::ONE,

@@ -78,11 +78,11 @@ impl AssignTexture {
     }
 
     fn load(&self, path: &Path) -> Result<(String, Texture), EditError> {
-        let picture =
+        let image =
             load_image(path, &Limits::default()).map_err(|error| EditError::Texture(error.to_string()))?;
         let texels =
-            picture.rgba.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2], texel[3]]).collect();
-        let texture = Texture::new(picture.width, picture.height, texels, self.slot.format())
+            image.rgba.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2], texel[3]]).collect();
+        let texture = Texture::new(image.width, image.height, texels, self.slot.format())
             .map_err(|error| EditError::Texture(format!("{}: {error}", path.display())))?;
         let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
         Ok((name, texture))
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_goes_where_its_kind_belongs() {
+    fn an_image_goes_where_its_kind_belongs() {
         let mut document = document();
         let assign = |slot: &str, texture: u32| {
             json!({ "op": "assign_texture", "material": "plastic", "slot": slot,
@@ -180,7 +180,7 @@ mod tests {
         let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/corpus/image/ok_checker.png");
         let from_file = json!({ "op": "assign_texture", "material": "plastic", "slot": "emissive",
             "texture": { "from": "file", "path": file } });
-        run(&mut document, from_file).expect("a picture");
+        run(&mut document, from_file).expect("an image");
         let id = TextureSlot::Emissive.of(&material(&document, "plastic")).expect("assigned").texture;
         let asset = document.nodes().textures.get(id).expect("added").clone();
         assert_eq!(
@@ -189,10 +189,10 @@ mod tests {
             "as colours"
         );
         document.undo().expect("one");
-        assert!(document.nodes().textures.get(id).is_none(), "undone with its picture");
+        assert!(document.nodes().textures.get(id).is_none(), "undone with its image");
         let missing = json!({ "op": "assign_texture", "material": "plastic",
-            "texture": { "from": "file", "path": "no/such/picture.png" } });
+            "texture": { "from": "file", "path": "no/such/image.png" } });
         let refused = run(&mut document, missing).expect_err("there is none").to_string();
-        assert!(refused.contains("picture.png"), "{refused}");
+        assert!(refused.contains("image.png"), "{refused}");
     }
 }

@@ -8,7 +8,7 @@ use super::hash::fnv1a;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Mismatch {
-    /// The hash of the captured picture.
+    /// The hash of the captured image.
     pub captured_hash: u64,
     /// The hash of the new image.
     pub drawn_hash: u64,
@@ -63,7 +63,7 @@ impl PixelMismatch {
 impl fmt::Display for Mismatch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { captured_hash, drawn_hash, pixels } = self;
-        write!(f, "the picture differs from the captured one: ")?;
+        write!(f, "the image differs from the captured one: ")?;
         match pixels {
             Some(PixelMismatch { count, total, first: [x, y], captured, drawn }) => write!(
                 f,

@@ -13,7 +13,7 @@
 //! | 4 | the version of the format, [`VERSION`] |
 //! | 1 + n | the version of the program that wrote it: its length, and text |
 //! | 8 | the hash of what follows (FNV-1a, 64 bits) |
-//! | rest | scene, settings, camera, the picture's bytes and further parameters of materials, compressed by zlib |
+//! | rest | scene, settings, camera, the image's bytes and further parameters of materials, compressed by zlib |
 //!
 //! Within the last part values follow each other without tags; the lists of fields in this folder
 //! are its order. Any change of them is a new version.
@@ -104,7 +104,7 @@ impl Capture {
 
     /// The hash of the captured image: FNV-1a, 64 bits, over its bytes.
     #[must_use]
-    pub fn picture_hash(&self) -> u64 {
+    pub fn image_hash(&self) -> u64 {
         fnv1a(&self.color)
     }
 
@@ -163,7 +163,7 @@ impl Capture {
         let (camera, color) = (Camera::read(&mut from)?, Vec::<u8>::read(&mut from)?);
         let pixels = u64::from(settings.width) * u64::from(settings.height);
         if pixels.checked_mul(4) != Some(color.len() as u64) {
-            return Err(Damage::malformed("the picture has another size than the settings"));
+            return Err(Damage::malformed("the image has another size than the settings"));
         }
         parameters::read(&mut scene, &mut from)?;
         from.finish()?;
@@ -171,7 +171,7 @@ impl Capture {
     }
 }
 
-const CAPTURE_AGAIN: &str = "capture the picture again, or copy the file again";
+const CAPTURE_AGAIN: &str = "capture the image again, or copy the file again";
 
 /// A file with uncompressed parts.
 fn sealed(version: u32, program: &str, parts: &[u8]) -> Vec<u8> {

@@ -13,7 +13,7 @@ use trigon_scene::{
 
 use super::*;
 
-/// A small capture with parts of most kinds. Its picture is not what it would show.
+/// A small capture with parts of most kinds. Its image is not what it would show.
 fn capture() -> Capture {
     let mut scene = Scene::new();
     let texture = Texture::new(2, 1, vec![[1, 2, 3, 4], [5, 6, 7, 8]], TextureFormat::Srgb);
@@ -60,7 +60,7 @@ fn what_is_read_is_written_again_bit_by_bit() {
     let file = capture().to_bytes();
     let again = read(&file).expect("a capture");
     assert_eq!(again.program, "0.0.1", "the program that wrote it");
-    assert_eq!(again.picture_hash(), fnv1a(&[7; 16]), "the picture");
+    assert_eq!(again.image_hash(), fnv1a(&[7; 16]), "the image");
     assert!(again.to_bytes() == file, "every part");
 }
 
@@ -101,10 +101,10 @@ fn parts_that_contradict_each_other_are_named() {
     let mut wide = whole.clone();
     let at = wide.len() - 16 - 8 - 1;
     wide.truncate(at);
-    assert!(message_of(&wide).contains("ends too early"), "without a picture");
+    assert!(message_of(&wide).contains("ends too early"), "without an image");
     let mut other = capture();
     other.color.push(0);
-    assert!(message(&other.to_bytes()).contains("another size"), "a picture that is too long");
+    assert!(message(&other.to_bytes()).contains("another size"), "an image that is too long");
     other = capture();
     other.camera.position.x = f64::NAN;
     assert!(message(&other.to_bytes()).contains("no valid position"), "a camera that is nowhere");

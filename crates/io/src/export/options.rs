@@ -50,7 +50,7 @@ pub struct ExportOptions<'a> {
     pub up: UpAxis,
     /// The file that the scene came from: images are taken from it as they were encoded. Others are
     /// written as PNG.
-    pub pictures: Option<&'a GltfSource>,
+    pub images: Option<&'a GltfSource>,
     /// Whether polygons are triangulated. GLB and STL have nothing else.
     pub faces: FaceExport,
     /// How numbers are written.
@@ -63,7 +63,7 @@ impl Default for ExportOptions<'_> {
             nodes: None,
             scale: 1.0,
             up: UpAxis::Y,
-            pictures: None,
+            images: None,
             faces: FaceExport::Polygons,
             encoding: Encoding::Binary,
         }

@@ -1,4 +1,4 @@
-//! What a frame holds beside a picture, in files for other programs: NumPy's `.npy`,
+//! What a frame holds beside an image, in files for other programs: NumPy's `.npy`,
 //! OpenEXR, and PNG of 16 bits.
 
 mod npy;

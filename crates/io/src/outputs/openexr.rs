@@ -16,7 +16,7 @@ use crate::write::{WriteError, write_atomically};
 
 type Channel = AnyChannel<FlatSamples>;
 
-/// Writes all that the frame holds as one OpenEXR picture of 32-bit channels,
+/// Writes all that the frame holds as one OpenEXR image of 32-bit channels,
 /// compressed without loss (ZIP).
 ///
 /// | output | channels |

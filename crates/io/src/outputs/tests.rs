@@ -7,7 +7,7 @@ use trigon_scene::{Frame, Outputs, RenderSettings, render, showcase};
 use super::*;
 use crate::write::WriteError;
 
-/// A small picture of everything.
+/// A small image of everything.
 fn frame() -> Frame {
     let mut outputs = Outputs::default();
     Output::ALL.into_iter().for_each(|output| output.ask_for(&mut outputs));
@@ -77,7 +77,7 @@ fn arrays_hold_the_frame_bit_for_bit() {
 /// The channels of an OpenEXR file, read by the crate's own reader.
 fn exr_channels(bytes: &[u8]) -> Vec<(String, FlatSamples)> {
     let reader = read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer();
-    let image = reader.all_attributes().from_buffered(std::io::Cursor::new(bytes)).expect("a picture");
+    let image = reader.all_attributes().from_buffered(std::io::Cursor::new(bytes)).expect("an image");
     let layer = image.layer_data;
     assert_eq!((layer.size.x(), layer.size.y()), (37, 23), "the size");
     let channels = layer.channel_data.list.into_iter();

@@ -16,11 +16,11 @@ fn settings() -> RenderSettings {
     RenderSettings { samples_per_axis: 1, ..RenderSettings::new(48, 32) }
 }
 
-/// Captures a picture, reads it back, and draws it again.
+/// Captures an image, reads it back, and draws it again.
 fn check(what: &str, scene: &Scene, camera: &Camera, settings: &RenderSettings) {
     let frame = render(scene, camera, settings).expect("in range");
     let colors: std::collections::BTreeSet<_> = frame.color.chunks(4).collect();
-    assert!(colors.len() > 1, "{what}: something is in the picture");
+    assert!(colors.len() > 1, "{what}: something is in the image");
     let file = Capture::new(scene.clone(), *camera, settings.clone(), &frame).to_bytes();
     let capture = Capture::from_bytes("a.trigon", &file, &Limits::default()).expect("a capture");
     assert_eq!(&capture.camera, camera, "{what}");

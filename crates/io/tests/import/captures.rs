@@ -1,8 +1,8 @@
-//! Captures in `crates/io/tests/captures` are drawn again, to the byte: pictures that were
+//! Captures in `crates/io/tests/captures` are drawn again, to the byte: images that were
 //! wrong once, and one that no change of the format may lose.
 //!
 //! `TRIGON_UPDATE_GOLDENS=1` captures them anew from what they hold: look at the
-//! pictures first (`trigon-viewer --replay FILE --output PICTURE.png`).
+//! images first (`trigon-viewer --replay FILE --output IMAGE.png`).
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

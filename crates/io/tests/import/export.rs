@@ -289,7 +289,7 @@ fn a_glb_tells_that_it_cuts_polygons() {
 
 /// Files beside the model, found again by its reader.
 #[test]
-fn materials_and_pictures_lie_beside_an_obj() {
+fn materials_and_images_lie_beside_an_obj() {
     let mut scene = scene_of(seamed());
     let texels = vec![[255, 0, 0, 255], [0, 255, 0, 255]];
     let texture = scene
@@ -309,7 +309,7 @@ fn materials_and_pictures_lie_beside_an_obj() {
     let (_, found) = read.scene.materials.iter().next().expect("one");
     let close = (found.base_color - Vec4::new(1.0, 0.5, 0.25, 0.5)).abs().max_element();
     assert!(found.name == "dark_wood" && close < 1e-6, "a rounding of sRGB: {found:?}");
-    let binding = found.base_color_texture.expect("the picture");
+    let binding = found.base_color_texture.expect("the image");
     assert_eq!(binding.transform, TextureBinding::new(binding.texture).transform, "in its place");
     let texture = &read.scene.textures.get(binding.texture).expect("it exists").texture;
     assert_eq!(texture.texels().next(), Some([255, 0, 0, 255]), "its texels");

@@ -1,4 +1,4 @@
-//! What glTF can ask for, in pictures small enough to be written down: a letter for
+//! What glTF can ask for, in images small enough to be written down: a letter for
 //! each pixel. And light, against the formulas of the specification.
 
 use serde_json::{Value, json};
@@ -34,7 +34,7 @@ fn front() -> Camera {
     Camera { position: DVec3::new(0.5, 0.5, 10.0), projection, ..Camera::default() }
 }
 
-fn picture(scene: &Scene, camera: &Camera, side: u32) -> Frame {
+fn image(scene: &Scene, camera: &Camera, side: u32) -> Frame {
     let settings = RenderSettings {
         samples_per_axis: 1,
         background: Background::Transparent,
@@ -76,7 +76,7 @@ fn in_place(upper: &str, lower: &str) -> Vec<String> {
 fn check(what: &str, doc: &Doc, expected: &[String]) {
     let loaded = doc.load();
     assert!(loaded.warnings.is_empty(), "{what}: {:?}", loaded.warnings);
-    assert_eq!(letters(&picture(&loaded.scene, &front(), 8)), expected, "{what}");
+    assert_eq!(letters(&image(&loaded.scene, &front(), 8)), expected, "{what}");
 }
 
 /// Changes the texture of the square.
@@ -239,11 +239,11 @@ fn instances_scenes_and_cameras() {
     let scene = doc.load().scene;
     let (_, camera) = scene.cameras()[0];
     // The camera stands a metre further to the right.
-    assert_eq!(letters(&picture(&scene, &camera, 8)), rows(0, ""), "nothing is there");
+    assert_eq!(letters(&image(&scene, &camera, 8)), rows(0, ""), "nothing is there");
     doc.json["nodes"][2]["translation"] = json!([0, 0.5, 9]);
     let scene = doc.load().scene;
     let (_, camera) = scene.cameras()[0];
-    assert_eq!(letters(&picture(&scene, &camera, 8)), rows(0, "..RG/..BW/....RG/....BW"), "two to the right");
+    assert_eq!(letters(&image(&scene, &camera, 8)), rows(0, "..RG/..BW/....RG/....BW"), "two to the right");
     doc.json["scene"] = json!(0);
     check("another scene", &doc, &rows(2, "..RG/..BW"));
 }
@@ -292,7 +292,7 @@ fn animations_at_a_time() {
         let pose = scene.pose(&scene.animations[0], time);
         scene.apply_pose(&pose);
         let expected = rows(2, &[row; 4].join("/"));
-        assert_eq!(letters(&picture(&scene, &front(), 8)), expected, "{interpolation} at {time}");
+        assert_eq!(letters(&image(&scene, &front(), 8)), expected, "{interpolation} at {time}");
     }
 }
 
@@ -328,7 +328,7 @@ fn a_spot_falls_off_as_the_extension_says() {
     let light = json!({"type": "spot", "intensity": intensity, "range": range,
         "spot": {"innerConeAngle": inner, "outerConeAngle": outer}});
     const SIDE: u32 = 32;
-    let frame = picture(&lit(matt(), light, height).load().scene, &front(), SIDE);
+    let frame = image(&lit(matt(), light, height).load().scene, &front(), SIDE);
     let [inner_cosine, outer_cosine] = [inner, outer].map(trigon_math::elementary::cos);
     let mut lit = 0;
     for (x, y) in
@@ -367,7 +367,7 @@ fn highlights_follow_ior_and_specular() {
         let pbr = json!({"metallicFactor": 0, "roughnessFactor": 1, "baseColorFactor": [0, 0, 0, 1]});
         let material = json!({"pbrMetallicRoughness": pbr, "extensions": extensions});
         let sun = json!({"type": "directional", "intensity": lux});
-        let frame = picture(&lit(material, sun, 3.0).load().scene, &front(), 8);
+        let frame = image(&lit(material, sun, 3.0).load().scene, &front(), 8);
         for (channel, f0) in f0.into_iter().enumerate() {
             let shown = f0 * lux / (4.0 * std::f64::consts::PI);
             assert_shows(&frame, [4, 4], channel, shown, &extensions.to_string());
@@ -380,7 +380,7 @@ fn emission_has_a_strength() {
     let mut doc = square();
     doc.json["materials"] = json!([{"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]},
         "emissiveFactor": [0.25, 0.1, 0], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 2}}}]);
-    let frame = picture(&doc.load().scene, &front(), 8);
+    let frame = image(&doc.load().scene, &front(), 8);
     for (channel, shown) in [0.5, 0.2, 0.0].into_iter().enumerate() {
         assert_shows(&frame, [4, 4], channel, shown, "twice as strong");
     }
@@ -402,7 +402,7 @@ fn translucent_squares_are_laid_over_each_other() {
         push(&mut doc.json["meshes"], near);
         let (far, near) = (json!({"mesh": 0}), json!({"mesh": 1, "translation": [0, 0, 1]}));
         doc.json["nodes"] = if swapped { json!([near, far]) } else { json!([far, near]) };
-        let frame = picture(&doc.load().scene, &front(), 8);
+        let frame = image(&doc.load().scene, &front(), 8);
         let alpha: f64 = 0.5 + 0.5 * 0.25;
         for (channel, premultiplied) in [0.5, 0.125, 0.0].into_iter().enumerate() {
             assert_shows(&frame, [4, 4], channel, premultiplied / alpha, "straight again");

@@ -18,7 +18,7 @@ fn format(loaded: &Loaded, binding: Option<TextureBinding>) -> TextureFormat {
     loaded.scene.textures.get(texture).expect("in the scene").texture.format()
 }
 
-/// The textured square with all textures, which are one picture.
+/// The textured square with all textures, which are one image.
 fn full() -> Doc {
     let mut doc = textured_square();
     let texture = json!({"index": 0});
@@ -68,7 +68,7 @@ fn every_factor_and_texture_arrives() {
     ] {
         assert_eq!(format(&loaded, binding), expected, "how the bytes are meant");
     }
-    assert_eq!(loaded.scene.textures.len(), 2, "one picture, once as colours and once as data");
+    assert_eq!(loaded.scene.textures.len(), 2, "one image, once as colours and once as data");
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn a_normal_map_brings_tangents_and_nothing_else_does() {
     assert_eq!(tangents(&textured_square()), None, "no normal map, no tangents");
     let mut doc = full();
     let generated = tangents(&doc).expect("generated");
-    // u grows with x, and v falls with y: up in the picture is up in space.
+    // u grows with x, and v falls with y: up in the image is up in space.
     assert!(
         generated.iter().all(|&tangent| tangent.distance(Vec4::new(1.0, 0.0, 0.0, 1.0)) < 1e-6),
         "{generated:?}"
@@ -109,9 +109,9 @@ fn a_normal_map_brings_tangents_and_nothing_else_does() {
 }
 
 #[test]
-fn a_broken_picture_of_data_is_left_out() {
+fn a_broken_image_of_data_is_left_out() {
     let mut doc = full();
-    let view = doc.view(b"no picture at all");
+    let view = doc.view(b"no image at all");
     push(&mut doc.json["images"], json!({"bufferView": view, "name": "broken"}));
     push(&mut doc.json["textures"], json!({"source": 1}));
     doc.json["materials"][0]["normalTexture"]["index"] = json!(1);

@@ -252,7 +252,7 @@ fn is_seen(doc: &Doc) -> bool {
     let camera = scene.cameras()[0].1;
     let outputs = Outputs { ids: true, ..Outputs::default() };
     let settings = RenderSettings { outputs, ..RenderSettings::new(9, 9) };
-    let frame = render(&scene, &camera, &settings).expect("a picture");
+    let frame = render(&scene, &camera, &settings).expect("an image");
     frame.hit(scene.nodes(), 4, 4).is_some()
 }
 
@@ -264,7 +264,7 @@ fn mirrored_nodes_show_their_front_and_not_their_back() {
         let weights = doc.floats("VEC4", &[1., 0., 0., 0.].repeat(4));
         doc.json["cameras"] = json!([{"type": "orthographic",
             "orthographic": {"xmag": 2, "ymag": 2, "znear": 1, "zfar": 9}}]);
-        // Whichever way it is mirrored, the square covers the middle of the picture.
+        // Whichever way it is mirrored, the square covers the middle of the image.
         doc.json["nodes"] = json!([{"camera": 0, "translation": [0, 0, 5]},
             {"scale": [x, y, z], "children": [2, 3]},
             {"mesh": 0, "translation": [-0.5, -0.5, 0]}, {}]);

@@ -238,14 +238,14 @@ fn skins_and_instances_are_told_apart() {
 #[test]
 fn all_buffers_and_images_are_there_used_or_not() {
     let mut doc = textured_square();
-    let loose = data_uri(b"no picture");
+    let loose = data_uri(b"no image");
     let unused = doc.view(b"unused");
     doc.json["buffers"] = json!([{}, {"byteLength": 3, "uri": data_uri(b"abc")},
         {"byteLength": 8, "extensions": {"EXT_meshopt_compression": {"fallback": true}}}]);
     for image in [json!({"uri": loose}), json!({"bufferView": unused}), json!({"uri": loose})] {
         push(&mut doc.json["images"], image);
     }
-    // The picture of the colour as data, too, by way of another image of the same bytes.
+    // The image of the colour as data, too, by way of another image of the same bytes.
     let image = doc.json["images"][0].clone();
     let copy = push(&mut doc.json["images"], image);
     let texture = push(&mut doc.json["textures"], json!({"source": copy}));
@@ -259,7 +259,7 @@ fn all_buffers_and_images_are_there_used_or_not() {
     assert_eq!(source.buffer(1), Some(&b"abc"[..]), "of no accessor");
     assert_eq!([source.buffer(2), source.buffer(3)], [None, None], "a stand-in, and nothing");
     let images: Vec<_> = (0..6).map(|image| source.image(image).map(<[u8]>::to_vec)).collect();
-    let plain = Some(b"no picture".to_vec());
+    let plain = Some(b"no image".to_vec());
     let expected = [Some(png()), plain.clone(), Some(b"unused".to_vec()), plain, Some(png()), None];
     assert_eq!(images, expected, "encoded as they are");
     let textures: Vec<Vec<usize>> =

@@ -48,7 +48,7 @@ pub(crate) fn textured_square() -> Doc {
 fn obj_and_gltf_agree_which_way_is_up() {
     let dir = tempfile::tempdir().expect("a folder");
     std::fs::create_dir(dir.path().join("lib")).expect("a folder");
-    write_png(dir.path().join("lib/my tex.png"), 2, 2, Pixels::Rgb8(&PIXELS)).expect("a picture");
+    write_png(dir.path().join("lib/my tex.png"), 2, 2, Pixels::Rgb8(&PIXELS)).expect("an image");
     std::fs::write(dir.path().join("lib/m.mtl"), "newmtl m\nmap_Kd -bm 1 my tex.png\n").expect("a file");
     let obj = "mtllib lib/m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0.75\nvt 1 0\nvt 0 0\nusemtl m\nf 1/1 2/2 3/3\n";
     std::fs::write(dir.path().join("a.obj"), obj).expect("a file");
@@ -61,13 +61,13 @@ fn obj_and_gltf_agree_which_way_is_up() {
         Vec3::X,
         "glTF counts from the upper left"
     );
-    assert_eq!(from_obj.files.len(), 3, "the model, the library, the picture: {:?}", from_obj.files);
+    assert_eq!(from_obj.files.len(), 3, "the model, the library, the image: {:?}", from_obj.files);
 }
 
 #[test]
 fn obj_scale_and_offset_count_from_below() {
     let dir = tempfile::tempdir().expect("a folder");
-    write_png(dir.path().join("t.png"), 2, 2, Pixels::Rgb8(&PIXELS)).expect("a picture");
+    write_png(dir.path().join("t.png"), 2, 2, Pixels::Rgb8(&PIXELS)).expect("an image");
     std::fs::write(dir.path().join("m.mtl"), "newmtl m\nmap_Kd -s 0.5 0.5 -o 0 0.5 t.png\n").expect("a file");
     let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nusemtl m\nf 1/1 2/1 3/1\n";
     std::fs::write(dir.path().join("a.obj"), obj).expect("a file");
@@ -92,9 +92,9 @@ fn samplers_and_texture_transforms_arrive() {
 }
 
 #[test]
-fn broken_and_foreign_pictures_become_a_checkerboard() {
+fn broken_and_foreign_images_become_a_checkerboard() {
     for (bytes, word) in [
-        (b"RIFF\x10\0\0\0WEBPVP8 ".to_vec(), "picture"),
+        (b"RIFF\x10\0\0\0WEBPVP8 ".to_vec(), "image"),
         (b"GIF89a\x01\0\x01\0".to_vec(), "Gif"),
         (b"\xabKTX 20\xbb\r\n\x1a\n".to_vec(), "KTX2"),
         (png()[..40].to_vec(), "too early"),
@@ -112,13 +112,13 @@ fn broken_and_foreign_pictures_become_a_checkerboard() {
 }
 
 #[test]
-fn missing_pictures_are_warnings_and_unused_ones_are_not_read() {
+fn missing_images_are_warnings_and_unused_ones_are_not_read() {
     let mut doc = textured_square();
     doc.json["images"] = json!([{"uri": "../gone.png"}, {"uri": "data:image/png;base64,broken"}]);
     let loaded = doc.load();
     warns_once(&loaded, "gone.png");
     assert_eq!(loaded.scene.textures.len(), 0, "no texture");
-    assert_eq!(loaded.warnings.len(), 1, "the unused picture is nobody's business: {:#?}", warnings(&loaded));
+    assert_eq!(loaded.warnings.len(), 1, "the unused image is nobody's business: {:#?}", warnings(&loaded));
 }
 
 #[test]
@@ -132,21 +132,21 @@ fn a_set_that_is_missing_is_replaced() {
     assert_eq!(sets[1], sets[0], "the first set stands in");
 }
 
-/// Each picture is within the limits, all together are not.
+/// Each image is within the limits, all together are not.
 #[test]
-fn pictures_are_limited_together() {
+fn images_are_limited_together() {
     let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\n";
     let dir = tempfile::tempdir().expect("a folder");
     let (mut obj, mut mtl) = (format!("mtllib a.mtl\n{square}"), String::new());
     for index in 0..3 {
         obj += &format!("usemtl m{index}\nf 1/1 2/1 3/1\n");
         mtl += &format!("newmtl m{index}\nmap_Kd {index}.png\n");
-        std::fs::write(dir.path().join(format!("{index}.png")), png()).expect("a picture");
+        std::fs::write(dir.path().join(format!("{index}.png")), png()).expect("an image");
     }
     std::fs::write(dir.path().join("a.mtl"), mtl).expect("a library");
     std::fs::write(dir.path().join("a.obj"), obj).expect("a model");
-    let picture = load_image(dir.path().join("0.png"), &Limits::default()).expect("a picture");
-    let one = u64::from(picture.width * picture.height);
+    let image = load_image(dir.path().join("0.png"), &Limits::default()).expect("an image");
+    let one = u64::from(image.width * image.height);
     let limits = Limits { total_pixels: 2 * one, ..Limits::default() };
     let options = LoadOptions { limits, ..LoadOptions::default() };
     let loaded = load(dir.path().join("a.obj"), &options).expect("still a model");
@@ -163,7 +163,7 @@ fn a_name_that_was_mended_is_shown_where_it_stands() {
     let obj = "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
     std::fs::write(dir.path().join("a.obj"), obj).expect("a model");
     std::fs::write(dir.path().join("a.mtl"), "newmtl m\nmap_Kd C:\\x\\textures\\a.png\n").expect("a library");
-    std::fs::write(dir.path().join("textures/A.png"), png()).expect("a picture");
+    std::fs::write(dir.path().join("textures/A.png"), png()).expect("an image");
     let found = load(dir.path().join("a.obj"), &LoadOptions::default()).expect("a model");
     warns_once(&found, "a.mtl, line 2");
     assert!(warnings(&found)[0].contains("A.png"), "{:?}", warnings(&found));
@@ -174,11 +174,11 @@ fn a_name_that_was_mended_is_shown_where_it_stands() {
 fn obj_with(statements: &str) -> Loaded {
     let dir = tempfile::tempdir().expect("a folder");
     let write = |name: &str, pixels: &[u8; 3]| {
-        write_png(dir.path().join(name), 1, 1, Pixels::Rgb8(pixels)).expect("a picture");
+        write_png(dir.path().join(name), 1, 1, Pixels::Rgb8(pixels)).expect("an image");
     };
     write("n.png", &[128, 128, 255]);
     write("g.png", &[51, 51, 51]);
-    write_png(dir.path().join("t.png"), 2, 2, Pixels::Rgb8(&PIXELS)).expect("a picture");
+    write_png(dir.path().join("t.png"), 2, 2, Pixels::Rgb8(&PIXELS)).expect("an image");
     std::fs::write(dir.path().join("m.mtl"), format!("newmtl m\n{statements}")).expect("a library");
     let obj = "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
     std::fs::write(dir.path().join("a.obj"), obj).expect("a model");
@@ -209,7 +209,7 @@ fn maps_of_mtl_become_textures_of_the_material() {
     let Shading::BlinnPhong { specular_texture, .. } = material.shading else {
         panic!("{:?}", material.shading)
     };
-    assert_eq!(texel(&found, specular_texture), Vec4::new(1.0, 0.0, 0.0, 1.0), "the same picture, opaque");
+    assert_eq!(texel(&found, specular_texture), Vec4::new(1.0, 0.0, 0.0, 1.0), "the same image, opaque");
     let grey = texel(&found, material.emissive_texture).x;
     assert!((grey - 0.0331).abs() < 1e-4, "0.2 in sRGB is darker in light: {grey}");
     let normal = texel(&found, material.normal_map.map(|map| map.binding));

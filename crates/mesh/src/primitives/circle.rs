@@ -25,16 +25,16 @@ pub(super) fn on_ground(point: DVec2) -> DVec3 {
     DVec3::new(point.x, 0.0, -point.y)
 }
 
-/// Where a point of the unit circle (y up) is in a picture (v down) that the
+/// Where a point of the unit circle (y up) is in an image (v down) that the
 /// circle just fits in.
-pub(super) fn in_picture(point: DVec2) -> Vec2 {
+pub(super) fn in_image(point: DVec2) -> Vec2 {
     DVec2::new(0.5 + 0.5 * point.x, 0.5 - 0.5 * point.y).as_vec2()
 }
 
-/// The corners of a regular polygon in a picture, counter-clockwise, its first
+/// The corners of a regular polygon in an image, counter-clockwise, its first
 /// one at the top.
 pub(super) fn regular_polygon<const N: usize>() -> [Vec2; N] {
-    std::array::from_fn(|i| in_picture(turned(i as u32, N as u32).perp()))
+    std::array::from_fn(|i| in_image(turned(i as u32, N as u32).perp()))
 }
 
 #[cfg(test)]

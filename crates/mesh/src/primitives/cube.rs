@@ -11,7 +11,7 @@ const FACES: [[u32; 4]; 6] =
     [[5, 1, 3, 7], [0, 4, 6, 2], [6, 7, 3, 2], [0, 1, 5, 4], [4, 5, 7, 6], [1, 0, 2, 3]];
 
 /// A cube round the origin, its edges parallel to the axes and `edge` metres
-/// long. Each face shows the whole picture.
+/// long. Each face shows the whole image.
 #[must_use]
 pub fn cube(edge: f32) -> Mesh {
     let half = length(edge) / 2.0;

@@ -2,14 +2,14 @@
 
 use trigon_math::{DVec2, DVec3, Vec2};
 
-use super::circle::{in_picture, on_ground, turned};
+use super::circle::{in_image, on_ground, turned};
 use super::ring::{Ring, band};
 use super::solid::{MOST_PIECES, Solid, length};
 use crate::Mesh;
 
 /// An upright cylinder round the origin with `segments` sides, 3 to 2048. The
 /// side is shaded smoothly, the two ends are flat polygons with sharp rims.
-/// The picture goes once round the side, and each end shows a circle of it.
+/// The image goes once round the side, and each end shows a circle of it.
 pub fn cylinder(radius: f32, height: f32, segments: u32) -> Mesh {
     let segments = segments.clamp(3, MOST_PIECES);
     let radius = f64::from(length(radius));
@@ -26,17 +26,17 @@ pub fn cylinder(radius: f32, height: f32, segments: u32) -> Mesh {
     };
     let (lower, upper) = (ring(-half, 1.0), ring(half, 0.0));
     band(&mut solid, &lower, &upper);
-    let uvs: Vec<Vec2> = directions.iter().copied().map(in_picture).collect();
+    let uvs: Vec<Vec2> = directions.iter().copied().map(in_image).collect();
     solid.face(&upper.vertices, &uvs);
     end_below(&mut solid, &lower, &directions);
     solid.build()
 }
 
-/// Closes a ring with a polygon that faces down, its picture upright when it is
+/// Closes a ring with a polygon that faces down, its image upright when it is
 /// tipped over towards +Z.
 pub(super) fn end_below(solid: &mut Solid, ring: &Ring, directions: &[DVec2]) {
     let vertices: Vec<u32> = ring.vertices.iter().rev().copied().collect();
     let flipped = directions.iter().rev().map(|d| DVec2::new(d.x, -d.y));
-    let uvs: Vec<Vec2> = flipped.map(in_picture).collect();
+    let uvs: Vec<Vec2> = flipped.map(in_image).collect();
     solid.face(&vertices, &uvs);
 }

@@ -25,7 +25,7 @@ const FACES: [[u32; 5]; 12] = [
 ];
 
 /// A regular dodecahedron with edges of `edge` metres; its edges that cross an
-/// axis are parallel to another. Each face shows a pentagon of the picture.
+/// axis are parallel to another. Each face shows a pentagon of the image.
 #[must_use]
 pub fn dodecahedron(edge: f32) -> Mesh {
     let half_cube = f64::from(length(edge)) * GOLDEN_RATIO / 2.0;

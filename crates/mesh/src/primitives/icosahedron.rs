@@ -34,7 +34,7 @@ pub(super) const FACES: [[u32; 3]; 20] = [
 ];
 
 /// A regular icosahedron with edges of `edge` metres; its edges that cross an
-/// axis are parallel to another. Each face shows a triangle of the picture.
+/// axis are parallel to another. Each face shows a triangle of the image.
 #[must_use]
 pub fn icosahedron(edge: f32) -> Mesh {
     let half = f64::from(length(edge)) / 2.0;

@@ -12,7 +12,7 @@ use crate::{Mesh, MeshBuilder};
 const MOST_SUBDIVISIONS: u32 = 7;
 
 /// A sphere of nearly equal triangles: an icosahedron whose edges were halved
-/// `subdivisions` times (0 to 7), 20·4ⁿ triangles. The picture goes round it as
+/// `subdivisions` times (0 to 7), 20·4ⁿ triangles. The image goes round it as
 /// on a world map; where a triangle crosses the map's border its texture
 /// coordinates run past 1, so let textures repeat.
 #[must_use]

@@ -8,7 +8,7 @@
 //! the function says otherwise.
 //!
 //! All surfaces have one set of texture coordinates, (0, 0) in the upper left
-//! corner of the picture, so that the picture is upright and not mirrored seen
+//! corner of the image, so that the image is upright and not mirrored seen
 //! from outside. Curved surfaces carry exact corner normals and are marked
 //! smooth; the others are flat.
 

@@ -14,7 +14,7 @@ const FACES: [[u32; 3]; 8] =
     [[2, 4, 0], [2, 0, 5], [2, 5, 1], [2, 1, 4], [3, 0, 4], [3, 5, 0], [3, 1, 5], [3, 4, 1]];
 
 /// A regular octahedron with edges of `edge` metres and its corners on the
-/// axes. Each face shows a triangle of the picture.
+/// axes. Each face shows a triangle of the image.
 #[must_use]
 pub fn octahedron(edge: f32) -> Mesh {
     let radius = f64::from(length(edge)) * FRAC_1_SQRT_2;

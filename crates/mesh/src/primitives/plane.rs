@@ -6,7 +6,7 @@ use super::solid::{MOST_PIECES, SQUARE, Solid, length};
 use crate::Mesh;
 
 /// A level rectangle that faces up: `width` metres along X, `depth` metres
-/// along Z. One quad with the whole picture, whose top is at −Z.
+/// along Z. One quad with the whole image, whose top is at −Z.
 #[must_use]
 pub fn plane(width: f32, depth: f32) -> Mesh {
     let mut solid = Solid::with_capacity(4, 1, 4);
@@ -20,7 +20,7 @@ pub fn plane(width: f32, depth: f32) -> Mesh {
 }
 
 /// The rectangle of [`plane`] as `columns` by `rows` quads, 1 to 2048 each,
-/// with the picture over all of it. Vertices and faces are numbered row by row
+/// with the image over all of it. Vertices and faces are numbered row by row
 /// from −Z, each row from −X.
 #[must_use]
 pub fn grid(width: f32, depth: f32, columns: u32, rows: u32) -> Mesh {

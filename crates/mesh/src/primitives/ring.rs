@@ -25,7 +25,7 @@ impl Ring {
         Self { vertices, normals, v: v as f32 }
     }
 
-    /// The same ring met a second time, at the end of the picture.
+    /// The same ring met a second time, at the end of the image.
     pub(super) fn again(&self, v: f32) -> Self {
         Self { v, ..self.clone() }
     }

@@ -10,7 +10,7 @@ use crate::{Attributes, Mesh, MeshBuilder};
 /// million faces for the largest grid.
 pub(super) const MOST_PIECES: u32 = 2048;
 
-/// The picture's corners, counter-clockwise from the lower left one.
+/// The image's corners, counter-clockwise from the lower left one.
 pub(super) const SQUARE: [Vec2; 4] =
     [Vec2::new(0.0, 1.0), Vec2::new(1.0, 1.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 0.0)];
 

@@ -24,7 +24,7 @@ const MOST_SUBDIVISIONS: u32 = 64;
 /// origin, and is as large as its published numbers: 3.15 high, the rim 2.8
 /// wide inside.
 ///
-/// Normals are those of the exact surface. The picture goes round each of the
+/// Normals are those of the exact surface. The image goes round each of the
 /// four parts once.
 ///
 /// It is faithful, so it is not one closed surface: the edge of the lid

@@ -10,7 +10,7 @@ use crate::Mesh;
 const FACES: [[u32; 3]; 4] = [[0, 2, 1], [3, 0, 1], [3, 1, 2], [3, 2, 0]];
 
 /// A regular tetrahedron with edges of `edge` metres, its lowest face level,
-/// its centre in the origin. Each face shows a triangle of the picture.
+/// its centre in the origin. Each face shows a triangle of the image.
 #[must_use]
 pub fn tetrahedron(edge: f32) -> Mesh {
     let edge = f64::from(length(edge));

@@ -10,7 +10,7 @@ use crate::Mesh;
 /// A level torus: a tube of `minor_radius` round a circle of `major_radius`
 /// about +Y, with `major_segments` by `minor_segments` quads (3 to 2048 each).
 /// A tube as thick as the circle is wide or thicker meets itself in the
-/// middle. The picture's top is on the inside, where the tube is closed.
+/// middle. The image's top is on the inside, where the tube is closed.
 #[must_use]
 pub fn torus(major_radius: f32, minor_radius: f32, major_segments: u32, minor_segments: u32) -> Mesh {
     let [major, minor] = [major_segments, minor_segments].map(|n| n.clamp(3, MOST_PIECES));

@@ -9,7 +9,7 @@ use crate::Mesh;
 
 /// A sphere with `segments` sides round its axis (3 to 2048) and `rings` bands
 /// from pole to pole (2 to 2048): quads, and triangles at the poles. The
-/// picture goes round it as on a world map.
+/// image goes round it as on a world map.
 #[must_use]
 pub fn uv_sphere(radius: f32, segments: u32, rings: u32) -> Mesh {
     let segments = segments.clamp(3, MOST_PIECES);

@@ -17,7 +17,7 @@ fn check_solid(name: &str, mesh: &Mesh, counts: [usize; 3], euler: i64) {
 }
 
 /// Normals of unit length on the side of the face, and texture coordinates in
-/// the picture that do not mirror it.
+/// the image that do not mirror it.
 fn check_surface(name: &str, mesh: &Mesh) {
     let faces = mesh.face_normals();
     let normals = mesh.shading_normals();
@@ -30,9 +30,9 @@ fn check_surface(name: &str, mesh: &Mesh) {
         }
         let uvs = &mesh.attributes().uv_sets[0][corners];
         let area: f32 = (1..uvs.len() - 1).map(|i| (uvs[i] - uvs[0]).perp_dot(uvs[i + 1] - uvs[0])).sum();
-        assert!(area < 0.0, "{name}: face {face} mirrors its picture ({area}), v points down");
+        assert!(area < 0.0, "{name}: face {face} mirrors its image ({area}), v points down");
         let inside = uvs.iter().all(|uv| uv.x >= 0.0 && uv.x <= 2.0 && uv.y >= 0.0 && uv.y <= 1.0);
-        assert!(inside, "{name}: face {face} leaves the picture: {uvs:?}");
+        assert!(inside, "{name}: face {face} leaves the image: {uvs:?}");
     }
 }
 

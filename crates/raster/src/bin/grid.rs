@@ -8,7 +8,7 @@ use crate::viewport::Viewport;
 use std::ops::Range;
 
 /// `columns * rows` squares of `size` pixels, numbered row by row. Each sees `apron` pixels
-/// more on all sides, as far as the picture goes.
+/// more on all sides, as far as the image goes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
     pub(crate) viewport: Viewport,
@@ -200,7 +200,7 @@ mod tests {
     }
 
     proptest! {
-        /// Asking every tile of the picture whether it lies outside an edge.
+        /// Asking every tile of the image whether it lies outside an edge.
         #[test]
         fn a_triangle_is_in_the_tiles_that_no_edge_shuts_out(
             points in [point(), point(), point()],

@@ -17,7 +17,7 @@ pub enum Certainty {
     Color,
 }
 
-/// What is proven of the pixels of a picture; see
+/// What is proven of the pixels of an image; see
 /// [`Rasterizer::certify`](crate::Rasterizer::certify).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Certificate {
@@ -43,11 +43,11 @@ impl Certificate {
     /// What is proven of the pixel in column `x` and row `y`.
     ///
     /// # Panics
-    /// Outside of the picture.
+    /// Outside of the image.
     #[must_use]
     pub fn certainty(&self, x: u32, y: u32) -> Certainty {
         let [width, height] = self.size;
-        assert!(x < width && y < height, "({x}, {y}) in a picture of {width} by {height}");
+        assert!(x < width && y < height, "({x}, {y}) in an image of {width} by {height}");
         self.pixels[(y * width + x) as usize]
     }
 

@@ -1,5 +1,5 @@
 //! Certified pixels: those that are proven to stay as they are when everything
-//! that the picture was made from is off by no more than stated bounds.
+//! that the image was made from is off by no more than stated bounds.
 //!
 //! # What is proven
 //! Let a second pass differ from the first so that
@@ -87,7 +87,7 @@ impl Rasterizer {
     /// on the calling thread.
     ///
     /// # Errors
-    /// [`TargetError::Memory`] if there is not enough for a picture of colours.
+    /// [`TargetError::Memory`] if there is not enough for an image of colours.
     ///
     /// ```
     /// # use trigon_raster::{*, math::Vec4};

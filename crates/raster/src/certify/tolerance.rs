@@ -4,7 +4,7 @@
 /// the grid, so that sums with it cannot overflow.
 const POSITION_MAX: f64 = 256.0;
 
-/// By how much what a picture is made from may be off.
+/// By how much what an image is made from may be off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     position: f64,

@@ -3,7 +3,7 @@
 //! different.
 //!
 //! A tile is a function of the triangles that it lists, in their order, and of the other
-//! triangles of their faces, whose edges it may paint. So it keeps its picture if no triangle
+//! triangles of their faces, whose edges it may paint. So it keeps its image if no triangle
 //! that it lists, or listed, has a vertex with other values, nor has one of its face.
 
 use super::layout::Layout;

@@ -1,4 +1,4 @@
-//! Pictures of faces with edges: white faces, black lines, on white.
+//! Images of faces with edges: white faces, black lines, on white.
 
 mod marks;
 
@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_math::{Vec3, Vec4};
 
-/// The side of all pictures in pixels.
+/// The side of all images in pixels.
 const SIDE: u32 = 48;
 
 /// Faces of one colour, their corners in pixels with a depth.
@@ -64,7 +64,7 @@ impl Faces {
     }
 }
 
-/// How a picture is drawn.
+/// How an image is drawn.
 #[derive(Clone, Copy, Debug)]
 struct Grid {
     samples_per_axis: u32,
@@ -94,20 +94,20 @@ fn target<'a>(grid: Grid) -> Target<'a> {
     target.with_samples_per_axis(grid.samples_per_axis).unwrap().with_samples(grid.samples).unwrap()
 }
 
-fn picture(faces: &[&Faces], width: f32, grid: Grid, settings: ExecuteSettings) -> Vec<Vec4> {
+fn image(faces: &[&Faces], width: f32, grid: Grid, settings: ExecuteSettings) -> Vec<Vec4> {
     let mut target = target(grid);
     Rasterizer::new(settings).unwrap().draw(&pass(faces, width), &mut target);
     target.linear().unwrap().to_vec()
 }
 
-/// How dark a plain picture is, pixel by pixel.
+/// How dark a plain image is, pixel by pixel.
 fn darkness(faces: &[&Faces], width: f32, tile_size: TileSize) -> Vec<f32> {
     let settings = ExecuteSettings { tile_size, ..Default::default() };
-    picture(faces, width, PLAIN, settings).into_iter().map(|color| 1.0 - color.x).collect()
+    image(faces, width, PLAIN, settings).into_iter().map(|color| 1.0 - color.x).collect()
 }
 
-fn at(picture: &[f32], x: u32, y: u32) -> f32 {
-    picture[(y * SIDE + x) as usize]
+fn at(image: &[f32], x: u32, y: u32) -> f32 {
+    image[(y * SIDE + x) as usize]
 }
 
 /// The distance of a pixel's centre from the outline of a rectangle.
@@ -256,24 +256,24 @@ proptest! {
     ) {
         let glass = Faces { color: Vec4::splat(0.5), blend_mode: BlendMode::Translucent, ..glass };
         let list: &[&Faces] = if with_glass { &[&opaque, &glass] } else { &[&opaque] };
-        let expected = picture(list, width, grid, ExecuteSettings::default());
+        let expected = image(list, width, grid, ExecuteSettings::default());
         let tiles = [TileSize::Pixels8, TileSize::Pixels16, TileSize::Pixels32, TileSize::Pixels64];
         for tile_size in tiles {
             let settings = ExecuteSettings { tile_size, threads: NonZeroUsize::new(2), ..Default::default() };
-            prop_assert!(picture(list, width, grid, settings) == expected, "{:?}", tile_size);
+            prop_assert!(image(list, width, grid, settings) == expected, "{:?}", tile_size);
         }
         for level in SimdLevel::ALL.into_iter().filter(|level| level.token().is_some()) {
             let settings = ExecuteSettings { simd: Some(level), ..Default::default() };
-            prop_assert!(picture(list, width, grid, settings) == expected, "{:?}", level);
+            prop_assert!(image(list, width, grid, settings) == expected, "{:?}", level);
         }
     }
 
     #[test]
-    fn a_part_of_a_picture_has_the_edges_of_the_whole(
+    fn a_part_of_an_image_has_the_edges_of_the_whole(
         opaque in faces(), grid in grid(), width in width(), first in [0..40_i32, 0..40_i32],
     ) {
         let list: &[&Faces] = &[&opaque];
-        let whole = picture(list, width, grid, ExecuteSettings::default());
+        let whole = image(list, width, grid, ExecuteSettings::default());
         let last = first.map(|v| v + 7);
         let mut target = target(grid);
         let mut pass = pass(list, width);
@@ -290,7 +290,7 @@ proptest! {
         opaque in faces(), grid in grid(), width in width(), x in 0..SIDE, y in 0..SIDE,
     ) {
         let list: &[&Faces] = &[&opaque];
-        let drawn = picture(list, width, grid, ExecuteSettings::default());
+        let drawn = image(list, width, grid, ExecuteSettings::default());
         let target = Target::new(SIDE, SIDE, &[]).unwrap();
         let target = target.with_samples_per_axis(grid.samples_per_axis).unwrap();
         let target = target.with_samples(grid.samples).unwrap();

@@ -7,10 +7,10 @@ use thiserror::Error;
 /// The largest width and height of a canvas and of an image in pixels.
 pub const MAX_SIZE: u32 = 16384;
 
-/// A picture's sides and its number of pixels do not go together.
+/// An image's sides and its number of pixels do not go together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
-    "{width}x{height} with {pixels} pixels: sides must be 1 to {MAX_SIZE} and within the picture, pixels their product"
+    "{width}x{height} with {pixels} pixels: sides must be 1 to {MAX_SIZE} and within the image, pixels their product"
 )]
 pub struct SizeError {
     /// The width asked for.
@@ -33,7 +33,7 @@ impl SizeError {
     }
 }
 
-/// The caller's picture: row-major from the top left, four bytes a pixel,
+/// The caller's image: row-major from the top left, four bytes a pixel,
 /// premultiplied by alpha, which comes last, in gamma space.
 ///
 /// The painter treats the three other channels alike. So their order is that of
@@ -62,7 +62,7 @@ impl<'a> Canvas<'a> {
         Rect::new([0, 0], self.size)
     }
 
-    /// From pixel (x, y), which is inside, to the end of the picture.
+    /// From pixel (x, y), which is inside, to the end of the image.
     #[inline(always)]
     pub(super) fn pixels_from(&mut self, x: i32, y: i32) -> &mut [[u8; 4]] {
         let start = y as usize * self.size[0] as usize + x as usize;

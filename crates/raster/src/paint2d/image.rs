@@ -3,7 +3,7 @@
 use super::{Rect, SizeError};
 use crate::texture::{Filter, Wrap};
 
-/// A picture in gamma space, premultiplied by alpha, which comes last; never
+/// An image in gamma space, premultiplied by alpha, which comes last; never
 /// empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {

@@ -44,7 +44,7 @@ impl Painter {
         Self::default()
     }
 
-    /// With these instructions; the pictures are the same.
+    /// With these instructions; the images are the same.
     ///
     /// # Errors
     /// If the processor does not have them.
@@ -166,7 +166,7 @@ fn paint_triangle<S: Simd>(
     }
 }
 
-/// By y, then by x: no picture depends on which vertex is the first.
+/// By y, then by x: no image depends on which vertex is the first.
 #[inline(always)]
 fn sorted([a, b, c]: [Corner; 3]) -> [Corner; 3] {
     let key = |corner: &Corner| (corner.point.y, corner.point.x);

@@ -1,5 +1,5 @@
 //! Two triangles that are an upright rectangle of one colour: panels, and the
-//! quads of glyphs and pictures.
+//! quads of glyphs and images.
 
 use super::corner::Corner;
 use super::coverage::first_centre;

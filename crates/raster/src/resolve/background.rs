@@ -151,7 +151,7 @@ pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, shading: &mut Sh
     }
 }
 
-/// The bytes of the background in the two rows of a group; anything for rows below the picture.
+/// The bytes of the background in the two rows of a group; anything for rows below the image.
 fn row_codes(frame: &FrameView<'_>, area: &TileArea, group: u32) -> [u32; 2] {
     let [_, top] = TileArea::pixel_at(group as usize * LANES);
     let first = area.origin[1] as usize + top;
@@ -181,7 +181,7 @@ pub(super) fn lay_colors(frame: &FrameView<'_>, area: &TileArea, shading: &mut S
     }
 }
 
-/// The lanes of a group that lie in the picture, with their places in the tile.
+/// The lanes of a group that lie in the image, with their places in the tile.
 fn within(area: &TileArea, group: u32, lanes: u32) -> impl Iterator<Item = (usize, [usize; 2])> {
     bits(lanes)
         .map(move |lane| (lane, TileArea::pixel_at(group as usize * LANES + lane)))

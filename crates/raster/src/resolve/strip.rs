@@ -71,7 +71,7 @@ impl Strip {
         let Some(first) = self.areas.first() else { return };
         let (mut band, corner) = bands.lock(first.own_origin().map(|v| v as u32));
         let band = &mut *band;
-        let picture = if band.unorm8.is_empty() { &mut *band.srgb8 } else { &mut *band.unorm8 };
+        let image = if band.unorm8.is_empty() { &mut *band.srgb8 } else { &mut *band.unorm8 };
         let [_, rows] = frame.drawn_part(first);
         // For each of them once: its columns that are drawn, its width, and where its own begin.
         let parts: [_; Self::MOST] = std::array::from_fn(|number| {
@@ -81,7 +81,7 @@ impl Strip {
         for y in rows {
             let mut start = corner + y * bands.width();
             for ((columns, width, [left, top]), codes) in parts[..self.areas.len()].iter().zip(&self.codes) {
-                let row = &mut picture[start + columns.start..start + columns.end];
+                let row = &mut image[start + columns.start..start + columns.end];
                 copy_row(row, codes, [left + columns.start, top + y]);
                 start += width;
             }

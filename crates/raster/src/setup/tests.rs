@@ -12,10 +12,10 @@ use crate::{
 use proptest::prelude::*;
 use trigon_math::Vec4;
 
-/// Of the picture, in pixels.
+/// Of the image, in pixels.
 const SIDE: u32 = 64;
 
-/// Corners in clip space; in the picture, (-1, 1) to (1, -1) over w.
+/// Corners in clip space; in the image, (-1, 1) to (1, -1) over w.
 struct Corners(Vec<[f32; 4]>);
 
 impl Pipeline for Corners {
@@ -91,8 +91,8 @@ fn triangles_face_as_their_corners_say_however_they_are_cut() {
             let minor = |i: usize, j: usize| b[i] * c[j] - b[j] * c[i];
             let is_front = a[0] * minor(1, 2) + a[1] * minor(2, 0) + a[2] * minor(0, 1) > 0.0;
             for (culling, is_drawn) in ALL_CULLING.into_iter().zip([true, is_front, !is_front]) {
-                let (picture, stats) = alone(corners, culling);
-                let faces: Vec<_> = picture.iter().map(|pixel| pixel.x).filter(|&face| face != 0.0).collect();
+                let (image, stats) = alone(corners, culling);
+                let faces: Vec<_> = image.iter().map(|pixel| pixel.x).filter(|&face| face != 0.0).collect();
                 assert_eq!(!faces.is_empty(), is_drawn, "{corners:?} {culling:?}");
                 let expected = if is_front { 1.0 } else { 2.0 };
                 assert!(faces.iter().all(|&face| face == expected), "{corners:?} faces {expected}");
@@ -114,8 +114,8 @@ fn values_run_on_where_a_triangle_is_cut() {
         [corner(-0.75, -0.5, seen), corner(0.5, -0.75, near), corner(0.25, 0.75, near)],
     ] {
         for corners in orders(corners) {
-            let (picture, _) = alone(corners, Culling::None);
-            let shown = picture.iter().enumerate().filter(|(_, pixel)| pixel.x != 0.0);
+            let (image, _) = alone(corners, Culling::None);
+            let shown = image.iter().enumerate().filter(|(_, pixel)| pixel.x != 0.0);
             let mut count = 0;
             for (index, pixel) in shown {
                 let column = (index as u32 % SIDE) as f32 + 0.5;
@@ -131,11 +131,11 @@ fn values_run_on_where_a_triangle_is_cut() {
 fn cut_triangles_are_seen_among_whole_ones() {
     let whole = [corner(-0.9, -0.9, SEEN), corner(-0.7, -0.9, SEEN), corner(-0.9, -0.7, SEEN)];
     let cut = [corner(-0.5, -0.5, SEEN), corner(0.5, -0.5, SEEN), corner(0.0, 0.75, TOO_NEAR)];
-    let shown = |picture: &[Vec4]| picture.iter().filter(|pixel| pixel.x != 0.0).count();
+    let shown = |image: &[Vec4]| image.iter().filter(|pixel| pixel.x != 0.0).count();
     let [of_whole, of_cut] = [whole, cut].map(|corners| shown(&alone(corners, Culling::None).0));
     let settings = (Culling::None, 1, TileSize::default());
-    let (picture, _) = frame([whole, cut].concat(), &[[0, 1, 2], [3, 4, 5], [0, 1, 2]], settings);
-    assert_eq!(shown(&picture), of_whole + of_cut, "{of_whole} and {of_cut} pixels");
+    let (image, _) = frame([whole, cut].concat(), &[[0, 1, 2], [3, 4, 5], [0, 1, 2]], settings);
+    assert_eq!(shown(&image), of_whole + of_cut, "{of_whole} and {of_cut} pixels");
 }
 
 #[test]

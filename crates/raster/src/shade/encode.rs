@@ -3,7 +3,7 @@
 use crate::simd::{Each, F32, I32, LANES, Simd, U32, channels, greater, lanes_of, lesser, prelude::*};
 use trigon_math::{Vec4, color};
 
-/// What the bytes of a picture mean.
+/// What the bytes of an image mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Encoding {
     /// The sRGB transfer function, straight alpha.

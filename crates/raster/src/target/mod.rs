@@ -1,4 +1,4 @@
-//! Where a pass lands: row-major pictures, one for each output asked for.
+//! Where a pass lands: row-major images, one for each output asked for.
 
 mod bands;
 mod plane;
@@ -16,7 +16,7 @@ pub const MAX_TARGET_SIZE: u32 = 16384;
 /// The largest number of samples per pixel and axis.
 pub const MAX_SAMPLES_PER_AXIS: u32 = 4;
 
-/// One picture that a frame can leave behind. What is not asked for is neither
+/// One image that a frame can leave behind. What is not asked for is neither
 /// computed nor stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Output {
@@ -71,8 +71,8 @@ pub enum TargetError {
         /// Width times height.
         needed: usize,
     },
-    /// The pictures do not fit into memory.
-    #[error("no memory for pictures of {width}x{height} pixels: make the target smaller")]
+    /// The images do not fit into memory.
+    #[error("no memory for images of {width}x{height} pixels: make the target smaller")]
     Memory {
         /// The width asked for.
         width: u32,
@@ -134,7 +134,7 @@ impl<'a> Target<'a> {
         })
     }
 
-    /// The same with the picture of [`Output::Srgb8`] in the caller's memory.
+    /// The same with the image of [`Output::Srgb8`] in the caller's memory.
     ///
     /// # Errors
     /// [`TargetError::Length`] if there are not `width * height` pixels.
@@ -143,7 +143,7 @@ impl<'a> Target<'a> {
         Ok(self)
     }
 
-    /// The same with the picture of [`Output::Unorm8`] in the caller's memory.
+    /// The same with the image of [`Output::Unorm8`] in the caller's memory.
     ///
     /// # Errors
     /// [`TargetError::Length`] if there are not `width * height` pixels.
@@ -152,7 +152,7 @@ impl<'a> Target<'a> {
         Ok(self)
     }
 
-    /// The same with the picture of [`Output::Linear`] in the caller's memory.
+    /// The same with the image of [`Output::Linear`] in the caller's memory.
     ///
     /// # Errors
     /// [`TargetError::Length`] if there are not `width * height` pixels.
@@ -161,7 +161,7 @@ impl<'a> Target<'a> {
         Ok(self)
     }
 
-    /// The same with the picture of [`Output::Depth`] in the caller's memory.
+    /// The same with the image of [`Output::Depth`] in the caller's memory.
     ///
     /// # Errors
     /// [`TargetError::Length`] if there are not `width * height` pixels.
@@ -170,7 +170,7 @@ impl<'a> Target<'a> {
         Ok(self)
     }
 
-    /// The same with the picture of [`Output::Object`] in the caller's memory.
+    /// The same with the image of [`Output::Object`] in the caller's memory.
     ///
     /// # Errors
     /// [`TargetError::Length`] if there are not `width * height` pixels.
@@ -179,7 +179,7 @@ impl<'a> Target<'a> {
         Ok(self)
     }
 
-    /// The same with the picture of [`Output::Face`] in the caller's memory.
+    /// The same with the image of [`Output::Face`] in the caller's memory.
     ///
     /// # Errors
     /// [`TargetError::Length`] if there are not `width * height` pixels.
@@ -188,7 +188,7 @@ impl<'a> Target<'a> {
         Ok(self)
     }
 
-    /// The same with the picture of [`Output::Triangle`] in the caller's memory.
+    /// The same with the image of [`Output::Triangle`] in the caller's memory.
     ///
     /// # Errors
     /// [`TargetError::Length`] if there are not `width * height` pixels.
@@ -270,52 +270,52 @@ impl<'a> Target<'a> {
         self.pattern
     }
 
-    /// The picture of [`Output::Unorm8`], if asked for.
+    /// The image of [`Output::Unorm8`], if asked for.
     #[must_use]
     pub fn unorm8(&self) -> Option<&[[u8; 4]]> {
         self.unorm8.pixels()
     }
 
-    /// The picture of [`Output::Srgb8`], if asked for.
+    /// The image of [`Output::Srgb8`], if asked for.
     #[must_use]
     pub fn srgb8(&self) -> Option<&[[u8; 4]]> {
         self.srgb8.pixels()
     }
 
-    /// The picture of [`Output::Linear`], if asked for.
+    /// The image of [`Output::Linear`], if asked for.
     #[must_use]
     pub fn linear(&self) -> Option<&[Vec4]> {
         self.linear.pixels()
     }
 
-    /// The picture of [`Output::Depth`], if asked for.
+    /// The image of [`Output::Depth`], if asked for.
     #[must_use]
     pub fn depth(&self) -> Option<&[f32]> {
         self.depth.pixels()
     }
 
-    /// The picture of [`Output::Object`], if asked for.
+    /// The image of [`Output::Object`], if asked for.
     #[must_use]
     pub fn objects(&self) -> Option<&[u32]> {
         self.objects.pixels()
     }
 
-    /// The picture of [`Output::Face`], if asked for.
+    /// The image of [`Output::Face`], if asked for.
     #[must_use]
     pub fn faces(&self) -> Option<&[u32]> {
         self.faces.pixels()
     }
 
-    /// The picture of [`Output::Triangle`], if asked for.
+    /// The image of [`Output::Triangle`], if asked for.
     #[must_use]
     pub fn triangles(&self) -> Option<&[u32]> {
         self.triangles.pixels()
     }
 
-    /// Gives the pictures away.
+    /// Gives the images away.
     #[must_use]
-    pub fn into_pictures(self) -> Pictures {
-        Pictures {
+    pub fn into_images(self) -> TargetImages {
+        TargetImages {
             srgb8: self.srgb8.into_owned(),
             unorm8: self.unorm8.into_owned(),
             linear: self.linear.into_owned(),
@@ -327,10 +327,10 @@ impl<'a> Target<'a> {
     }
 }
 
-/// The pictures of a [`Target`], owned; those that were not asked for, or that
+/// The images of a [`Target`], owned; those that were not asked for, or that
 /// lie in borrowed memory, are `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Pictures {
+pub struct TargetImages {
     /// See [`Output::Srgb8`].
     pub srgb8: Option<Vec<[u8; 4]>>,
     /// See [`Output::Unorm8`].

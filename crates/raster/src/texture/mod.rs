@@ -1,4 +1,4 @@
-//! Pictures on surfaces: texels, mip levels and the ways to look them up.
+//! Images on surfaces: texels, mip levels and the ways to look them up.
 
 mod axis;
 mod channels;
@@ -46,7 +46,7 @@ pub enum TextureError {
     },
 }
 
-/// An RGBA picture with its mip levels, down to one texel.
+/// An RGBA image with its mip levels, down to one texel.
 ///
 /// Coordinates: (0, 0) is the corner of the first texel, at the top left, and
 /// (1, 1) the far corner of the last.

@@ -177,7 +177,7 @@ mod tests {
         }
     }
 
-    /// A picture of stripes that are `period` texels wide and run along v.
+    /// An image of stripes that are `period` texels wide and run along v.
     fn stripes(side: u32, period: u32) -> Texture {
         let light = |x: u32| if (x / period).is_multiple_of(2) { 255 } else { 0 };
         let texels = (0..side * side).map(|i| [light(i % side), 0, 0, 255]).collect();

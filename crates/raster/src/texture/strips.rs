@@ -4,7 +4,7 @@
 //! A strip stores rows of 9 texels: its own, and the one that follows; and below
 //! the last row the one that follows that. So the 2 by 2 texels of a bilinear
 //! look-up whose first lies in the strip are two short runs of it, wherever the
-//! first is: no look-up meets an edge, and neighbours in the picture share cache
+//! first is: no look-up meets an edge, and neighbours in the image share cache
 //! lines in both directions. The border costs an eighth of memory and a row.
 //!
 //! What follows the last column or row is the first, as [`Wrap::Repeat`] needs.
@@ -144,7 +144,7 @@ fn stored_texels(width: u32, height: u32) -> usize {
 mod tests {
     use super::*;
 
-    /// A picture whose texels hold their own coordinates.
+    /// An image whose texels hold their own coordinates.
     fn numbered(width: u32, height: u32) -> Strips {
         let texels = (0..width * height).map(|i| at(i % width, i / width)).collect();
         Strips::new(Rows { width, height, texels }, |_| None)

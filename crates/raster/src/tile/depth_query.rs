@@ -72,7 +72,7 @@ impl TileView<'_> {
                     let group = block * 8 + (row * 2 + column) as usize;
                     let group = SampleGroup { group, sample, first, point: self.area.point(first, offset) };
                     let covered = match inside {
-                        true => self.within_picture(simd, first),
+                        true => self.within_image(simd, first),
                         false => self.covered(simd, covering, group),
                     };
                     if let Some((seen, depth)) = self.seen(simd, candidate, covered, group) {
@@ -115,7 +115,7 @@ impl TileView<'_> {
 
     /// The lanes of a group that lie in the picture.
     #[inline(always)]
-    fn within_picture<S: Simd>(&self, simd: S, [x, y]: [i32; 2]) -> Mask<S> {
+    fn within_image<S: Simd>(&self, simd: S, [x, y]: [i32; 2]) -> Mask<S> {
         let [width, height] = self.area.size.each(
             #[inline(always)]
             |side| side as i32,
@@ -147,7 +147,7 @@ impl TileView<'_> {
             }
             Some(special) => special.covers_group(simd, group.point),
         };
-        covered & self.within_picture(simd, group.first)
+        covered & self.within_image(simd, group.first)
     }
 
     /// The covered lanes that are nearer than what is there.

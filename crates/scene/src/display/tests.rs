@@ -10,7 +10,7 @@ use crate::{
     showcase,
 };
 
-/// A plane that fills the picture.
+/// A plane that fills the image.
 fn plane() -> (Scene, Camera) {
     let mut scene = Scene::new();
     let pixel = |scene: &mut Scene, texel: [u8; 4], format| {
@@ -83,7 +83,7 @@ fn normals_are_along_the_worlds_axes_whichever_way_the_camera_looks() {
     }
 }
 
-/// The picture of values and the output of the same name agree, within the rounding of each.
+/// The image of values and the output of the same name agree, within the rounding of each.
 #[test]
 fn modes_agree_with_the_outputs_of_the_same_name() {
     // Its triangles are large: moving vertices to the sub-pixel grid, which outputs do not, changes no byte by one.

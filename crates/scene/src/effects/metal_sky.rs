@@ -38,7 +38,7 @@ static TABLE: LazyLock<Vec<[f32; 3]>> = LazyLock::new(|| {
         .collect()
 });
 
-/// The sky around the metals of a picture.
+/// The sky around the metals of an image.
 #[derive(Clone, Debug)]
 pub(crate) struct MetalSky {
     /// World +Y in camera space.

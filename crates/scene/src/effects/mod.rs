@@ -26,7 +26,7 @@ pub use plan::{Absence, Cause, Decision, EffectCounts, EffectPlan, Named};
 pub(crate) use rays::{AmbientRays, Optics, RayCache};
 pub use settings::{AmbientOcclusion, EffectSettings, Fog, MetalReflection, Outline, Shadows, ToneMapping};
 pub(crate) use shadow::{LampPose, ShadowCache};
-pub(crate) use tone::{lay_on_background, map_picture};
+pub(crate) use tone::{lay_on_background, map_tones};
 pub(crate) use work::{Work, note};
 
 #[cfg(test)]

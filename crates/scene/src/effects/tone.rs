@@ -13,7 +13,7 @@ use crate::settings::RenderSettings;
 
 /// Converts an image in linear light, premultiplied, without background, to sRGB bytes on its
 /// background.
-pub(crate) fn map_picture(
+pub(crate) fn map_tones(
     linear: &[Vec4],
     settings: &RenderSettings,
     pixels: &mut [[u8; 4]],
@@ -118,7 +118,7 @@ mod tests {
         settings.background = Background::Color(Vec3::splat(0.2));
         let mut pixels = [[0; 4]; 2];
         let linear = [Vec4::ZERO, Vec4::new(0.05, 0.0, 0.0, 1.0)];
-        map_picture(&linear, &settings, &mut pixels, &Rasterizer::default());
+        map_tones(&linear, &settings, &mut pixels, &Rasterizer::default());
         let grey = color::linear_to_srgb8(0.2);
         let red = color::linear_to_srgb8(0.4);
         assert_eq!(

@@ -7,7 +7,7 @@ use crate::effect::Effect;
 
 /// All that planner, renderer, importers and exporters know of a texture's place.
 pub(crate) struct TextureRow {
-    /// Whether the picture holds colours or data.
+    /// Whether the image holds colours or data.
     pub(crate) format: TextureFormat,
     /// The effect that its look-ups are counted for.
     pub(crate) effect: Effect,
@@ -47,7 +47,7 @@ macro_rules! texture_rows {
             /// All of them.
             pub const ALL: [Self; [$(stringify!($place)),+].len()] = [$(Self::$place),+];
 
-            /// Whether its pictures hold colours or data.
+            /// Whether its images hold colours or data.
             #[must_use]
             pub fn format(self) -> TextureFormat {
                 self.row().format

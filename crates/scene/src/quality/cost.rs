@@ -153,7 +153,7 @@ mod tests {
     use super::*;
     use crate::quality::{Preset, candidates};
 
-    fn picture(quality: Quality) -> RenderSettings {
+    fn image(quality: Quality) -> RenderSettings {
         let mut settings = RenderSettings::new(320, 200);
         quality.apply(&mut settings);
         settings
@@ -171,10 +171,10 @@ mod tests {
         let learnt = [(1, 1), (1, 4), (2, 1)];
         for (samples_per_axis, samples) in learnt {
             let quality = Quality { samples_per_axis, samples, ..Preset::Draft.quality() };
-            costs.learn(&picture(quality), invented(&picture(quality)));
+            costs.learn(&image(quality), invented(&image(quality)));
         }
         for quality in candidates() {
-            let (said, is) = (costs.predict(&picture(quality)), invented(&picture(quality)));
+            let (said, is) = (costs.predict(&image(quality)), invented(&image(quality)));
             let ratio = said.as_secs_f64() / is.as_secs_f64();
             assert!((0.8..1.25).contains(&ratio), "{quality}: {said:?} of {is:?}");
         }
@@ -186,9 +186,9 @@ mod tests {
         // Contradictory: the least work took longest.
         let qualities = Preset::ALL.map(Preset::quality);
         for (quality, milliseconds) in qualities.into_iter().zip([9, 1, 5, 2]) {
-            costs.learn(&picture(quality), Duration::from_millis(milliseconds));
+            costs.learn(&image(quality), Duration::from_millis(milliseconds));
         }
-        let times = qualities.map(|quality| costs.predict(&picture(quality)));
+        let times = qualities.map(|quality| costs.predict(&image(quality)));
         assert!(times.is_sorted(), "{times:?}");
         assert!(costs.costs.iter().all(|&cost| cost >= 0.0), "{:?}", costs.costs);
     }
@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn a_scene_that_comes_to_cost_more_does_so_at_every_quality() {
         let mut costs = CostModel::default();
-        let [draft, standard, ..] = Preset::ALL.map(|preset| picture(preset.quality()));
+        let [draft, standard, ..] = Preset::ALL.map(|preset| image(preset.quality()));
         [&draft, &standard].into_iter().for_each(|settings| costs.learn(settings, invented(settings)));
         for _ in 0..8 {
             costs.learn(&draft, 3 * invented(&draft));
@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn one_frame_that_waited_misleads_little_and_not_for_long() {
         let mut costs = CostModel::default();
-        let draft = picture(Preset::Draft.quality());
+        let draft = image(Preset::Draft.quality());
         let usual = invented(&draft);
         costs.learn(&draft, usual);
         costs.learn(&draft, 1000 * usual);

@@ -9,9 +9,9 @@ use crate::frame::Frame;
 /// from 0 to 1, premultiplied. 0 for images of different sizes or without colours, which cannot be
 /// compared.
 #[must_use]
-pub fn rmse(picture: &Frame, reference: &Frame) -> f64 {
-    let pixels = picture.color.len() / 4;
-    if pixels == 0 { 0.0 } else { (squares(picture, reference) / (3 * pixels) as f64).sqrt() }
+pub fn rmse(image: &Frame, reference: &Frame) -> f64 {
+    let pixels = image.color.len() / 4;
+    if pixels == 0 { 0.0 } else { (squares(image, reference) / (3 * pixels) as f64).sqrt() }
 }
 
 /// Learns from images of a scene and their references what error others will have.
@@ -48,9 +48,9 @@ struct Sums {
 }
 
 impl Sums {
-    fn of(picture: &Frame, reference: &Frame) -> Self {
-        let pixels = (picture.color.len() / 4) as f64;
-        Self { squares: squares(picture, reference), detail: mean_detail(picture) * pixels, pixels }
+    fn of(image: &Frame, reference: &Frame) -> Self {
+        let pixels = (image.color.len() / 4) as f64;
+        Self { squares: squares(image, reference), detail: mean_detail(image) * pixels, pixels }
     }
 
     fn plus(self, other: Self) -> Self {
@@ -74,8 +74,8 @@ impl Sums {
 impl ErrorModel {
     /// An image in a quality, and its reference. Both may be part of a frame; all qualities must be
     /// learnt from the same parts.
-    pub fn learn(&mut self, quality: Quality, picture: &Frame, reference: &Frame) {
-        let new = Sums::of(picture, reference);
+    pub fn learn(&mut self, quality: Quality, image: &Frame, reference: &Frame) {
+        let new = Sums::of(image, reference);
         if new.pixels == 0.0 {
             return;
         }
@@ -90,12 +90,12 @@ impl ErrorModel {
     ///
     /// Qualities with the same number of shaded samples and the same shadows are mostly wrong in
     /// the same places: they follow it half of the way.
-    pub fn correct(&mut self, quality: Quality, picture: &Frame, reference: &Frame) {
+    pub fn correct(&mut self, quality: Quality, image: &Frame, reference: &Frame) {
         /// The weight that older images keep: about ten images count.
         const KEPT: f64 = 0.9;
         let Some(known) = self.of_mut(quality) else { return };
         let before = known.now.squares / known.now.detail;
-        known.now = known.now.times(KEPT).plus(Sums::of(picture, reference));
+        known.now = known.now.times(KEPT).plus(Sums::of(image, reference));
         let change = (known.now.squares / known.now.detail / before).sqrt();
         let is_alike = |other: Quality| {
             other != quality
@@ -144,11 +144,11 @@ impl ErrorModel {
 }
 
 /// The sum of the squares of all differences.
-fn squares(picture: &Frame, reference: &Frame) -> f64 {
-    if [picture.width, picture.height] != [reference.width, reference.height] {
+fn squares(image: &Frame, reference: &Frame) -> f64 {
+    if [image.width, image.height] != [reference.width, reference.height] {
         return 0.0;
     }
-    let pairs = pixels(picture).iter().zip(pixels(reference));
+    let pairs = pixels(image).iter().zip(pixels(reference));
     // An empty sum of floats is −0.
     pairs
         .filter(|(a, b)| a != b)
@@ -231,7 +231,7 @@ mod tests {
         assert!((learnt / rmse(&coarse, &reference) - 1.0).abs() < 1e-12, "as it was: {learnt}");
         assert_eq!(errors.predict(high), None, "of this one nothing");
         errors.saw(draft, &coarse);
-        assert_eq!(errors.predict(draft), Some(learnt), "the same picture again");
+        assert_eq!(errors.predict(draft), Some(learnt), "the same image again");
         let detail = [8, 2].map(|width| mean_detail(&stripes(width, 255)));
         errors.saw(draft, &stripes(2, 255));
         let more = errors.predict(draft).expect("learnt");
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn newer_pictures_correct_older_ones() {
+    fn newer_images_correct_older_ones() {
         let [draft, high] = [Preset::Draft, Preset::High].map(Preset::quality);
         let (coarse, fine) = (stripes(8, 255), stripes(2, 255));
         let mut errors = ErrorModel::default();
@@ -269,12 +269,12 @@ mod tests {
     }
 
     #[test]
-    fn odd_pictures_are_no_trouble() {
+    fn odd_images_are_no_trouble() {
         let mut errors = ErrorModel::default();
         let quality = Preset::Draft.quality();
         errors.learn(quality, &Frame::default(), &Frame::default());
         errors.saw(quality, &Frame::default());
-        assert_eq!(errors, ErrorModel::default(), "no picture tells nothing");
+        assert_eq!(errors, ErrorModel::default(), "no image tells nothing");
         let dot = Frame { width: 1, height: 1, color: vec![9, 9, 9, 255], ..Frame::default() };
         errors.learn(quality, &dot, &dot);
         errors.saw(quality, &dot);

@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_added_to_a_picture() {
+    fn nothing_is_added_to_an_image() {
         let mut settings = RenderSettings::new(30, 20);
         let before = settings.clone();
         Preset::Reference.apply(&mut settings);

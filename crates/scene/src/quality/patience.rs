@@ -90,7 +90,7 @@ mod tests {
                 patience.note(draft, [ms(2), ms(2), LIMIT]);
                 waited += 1;
             }
-            assert_eq!(waited, expected, "pictures");
+            assert_eq!(waited, expected, "images");
         }
         assert!(!patience.is_resting(draft), "what is quick does not wait");
     }

@@ -1,4 +1,4 @@
-//! What a budget learns from, beside the pictures that it was asked for: parts of a picture
+//! What a budget learns from, beside the images that it was asked for: parts of an image
 //! in several qualities and in the reference.
 
 use std::time::Duration;
@@ -13,22 +13,22 @@ use crate::render::{RenderError, Renderer};
 use crate::scene::Scene;
 use crate::settings::{Outputs, RenderSettings};
 
-/// How many parts of a picture are drawn in all qualities to begin with. They lie about
-/// everywhere: the middle of a picture is not like its rest.
+/// How many parts of an image are drawn in all qualities to begin with. They lie about
+/// everywhere: the middle of an image is not like its rest.
 const FIRST_WINDOWS: u32 = 9;
 
-/// The part of a picture's width and height that each of them has, and the most pixels of
+/// The part of an image's width and height that each of them has, and the most pixels of
 /// its sides.
 const FIRST_WINDOW: (f64, u32) = (1.0 / 6.0, 96);
 
 /// The same for looking again.
 const LATER_WINDOW: (f64, u32) = (1.0 / 8.0, 64);
 
-/// How often a picture is drawn whose time counts: the first may fill caches.
+/// How often an image is drawn whose time counts: the first may fill caches.
 const MEASURED: u32 = 2;
 
 impl TimeBudget {
-    /// Learns what this scene costs, and what its errors are: draws parts of the picture,
+    /// Learns what this scene costs, and what its errors are: draws parts of the image,
     /// together a quarter of it, in all qualities, and the whole in the quickest.
     ///
     /// # Errors
@@ -52,7 +52,7 @@ impl TimeBudget {
             self.compare(&part, &there, (&mut studio, &mut times))?;
         }
         for (quality, time) in self.candidates.iter().zip(times).filter(|(_, time)| !time.is_zero()) {
-            // Their mean: what lies in one window is not what lies in the picture.
+            // Their mean: what lies in one window is not what lies in the image.
             self.costs.learn(&of_quality(&part, *quality), time / FIRST_WINDOWS);
         }
         let quickest = self.foreseen(&whole).into_iter().min_by_key(|foreseen| foreseen.time);
@@ -64,7 +64,7 @@ impl TimeBudget {
     }
 
     /// Looks again how far the last quality is from the reference, at some part of the
-    /// picture, if that is foreseen to fit into some time; says whether it did. A camera
+    /// image, if that is foreseen to fit into some time; says whether it did. A camera
     /// that moves on sees other things.
     ///
     /// # Errors
@@ -85,10 +85,10 @@ impl TimeBudget {
         let fits = self.patience.with_margin(time) <= spare;
         let Some(there) = window.camera(camera, &whole).filter(|_| fits) else { return Ok(false) };
         let mut studio = Studio { renderer, scene, clock };
-        let [(reference, _), (picture, _)] =
+        let [(reference, _), (image, _)] =
             [studio.draw(&both[0], &there, 1)?, studio.draw(&both[1], &there, 1)?];
-        // Costs are not learnt from it: a window is not the picture.
-        self.errors.correct(quality, &picture, &reference);
+        // Costs are not learnt from it: a window is not the image.
+        self.errors.correct(quality, &image, &reference);
         Ok(true)
     }
 
@@ -114,8 +114,8 @@ impl TimeBudget {
             let settings = of_quality(part, *quality);
             // The reference takes long and nobody waits for it.
             if settings != best {
-                let (picture, time) = studio.draw(&settings, camera, MEASURED)?;
-                self.errors.learn(Quality::of(&settings), &picture, &reference);
+                let (image, time) = studio.draw(&settings, camera, MEASURED)?;
+                self.errors.learn(Quality::of(&settings), &image, &reference);
                 *sum += time;
             }
         }
@@ -128,7 +128,7 @@ fn colors_alone(settings: &RenderSettings) -> RenderSettings {
     RenderSettings { outputs: Outputs::default(), ..settings.clone() }
 }
 
-/// Where pictures are drawn by the clock.
+/// Where images are drawn by the clock.
 struct Studio<'a> {
     renderer: &'a mut Renderer,
     scene: &'a Scene,
@@ -136,7 +136,7 @@ struct Studio<'a> {
 }
 
 impl Studio<'_> {
-    /// A picture, and how long it takes: the shortest time of so many. The renderer's
+    /// An image, and how long it takes: the shortest time of so many. The renderer's
     /// settings stay.
     fn draw(
         &mut self,

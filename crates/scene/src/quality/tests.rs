@@ -1,4 +1,4 @@
-//! Budgets on invented machines, and errors of real pictures.
+//! Budgets on invented machines, and errors of real images.
 
 use std::time::Duration;
 
@@ -121,7 +121,7 @@ fn errors_of_a_flight_are_foreseen() {
     }
 }
 
-/// A clock on which each picture takes a millisecond.
+/// A clock on which each image takes a millisecond.
 fn clock() -> impl FnMut() -> Duration {
     let mut now = Duration::ZERO;
     move || {
@@ -147,7 +147,7 @@ fn calibrating_tells_the_errors_of_all_qualities() {
     assert_eq!(Quality::of(renderer.settings()), choice.chosen.quality, "as chosen");
     let mut alone = before.clone();
     choice.chosen.quality.apply(&mut alone);
-    assert!(frame == render(&scene, &camera, &alone).expect("drawn"), "the picture is that of its settings");
+    assert!(frame == render(&scene, &camera, &alone).expect("drawn"), "the image is that of its settings");
 }
 
 #[test]

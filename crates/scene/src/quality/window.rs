@@ -1,10 +1,10 @@
-//! Parts of a picture, drawn by cameras of their own.
+//! Parts of an image, drawn by cameras of their own.
 
 use trigon_camera::{Camera, Viewport};
 
 use crate::settings::RenderSettings;
 
-/// A part of a picture, in pixels from the top left.
+/// A part of an image, in pixels from the top left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Window {
     corner: [u32; 2],
@@ -12,7 +12,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// One of a sequence that comes about everywhere: a part of the picture's width and
+    /// One of a sequence that comes about everywhere: a part of the image's width and
     /// height, neither longer than `most` pixels.
     ///
     /// The first lies in the middle, the others at the points of the sequence R2 (M.
@@ -29,12 +29,12 @@ impl Window {
         Self { corner: [place(0), place(1)], size }
     }
 
-    /// The settings of a picture of it alone.
+    /// The settings of an image of it alone.
     pub(super) fn settings(&self, whole: &RenderSettings) -> RenderSettings {
         RenderSettings { width: self.size[0], height: self.size[1], ..whole.clone() }
     }
 
-    /// The camera that sees of a picture what lies in the window, pixel on pixel; `None`
+    /// The camera that sees of an image what lies in the window, pixel on pixel; `None`
     /// where numbers do not reach.
     pub(super) fn camera(&self, camera: &Camera, whole: &RenderSettings) -> Option<Camera> {
         let whole = Viewport { width: whole.width, height: whole.height };

@@ -36,7 +36,7 @@ const POINT_TO_LINE: f32 = 3.0;
 /// hidden.
 const VERTEX_DEPTH_BIAS: f32 = 1.0 / 256.0;
 
-/// Everything that all draws of a picture share.
+/// Everything that all draws of an image share.
 pub(super) struct Composer<'s> {
     scene: &'s Scene,
     settings: &'s RenderSettings,

@@ -12,7 +12,7 @@ use super::backdrop::Backdrop;
 use super::compose::Composer;
 use super::depth_image::paint_depth;
 use super::kept::{Destination, Kept};
-use super::last_picture::{LastPicture, Step};
+use super::last_picture::{LastFrame, Step};
 use super::placement::DepthToDistance;
 use super::record::Record;
 use super::stage::Stage;
@@ -29,7 +29,7 @@ use crate::settings::{RenderSettings, Style};
 pub(super) struct Engine {
     rasterizer: Option<Rasterizer>,
     kept: Kept,
-    last: LastPicture,
+    last: LastFrame,
     plan: Option<EffectPlan>,
     counts: Counts,
     stats: Stats,
@@ -38,7 +38,7 @@ pub(super) struct Engine {
 }
 
 impl Engine {
-    /// Explains a pixel of the picture that [`draw`](Self::draw) would make; `None` outside of it.
+    /// Explains a pixel of the image that [`draw`](Self::draw) would make; `None` outside of it.
     pub(super) fn explain(
         &mut self,
         scene: &Scene,
@@ -55,8 +55,8 @@ impl Engine {
         let explained = record(&stage, camera, &lighting, settings, &mut Counts::default(), |pass, _, _| {
             rasterizer.explain_pixel(pass, &target, x, y)
         });
-        // The next picture does not follow from what the rasterizer holds now.
-        self.last = LastPicture::default();
+        // The next image does not follow from what the rasterizer holds now.
+        self.last = LastFrame::default();
         self.rasterizer = Some(rasterizer);
         Ok(explained)
     }
@@ -135,7 +135,7 @@ impl Engine {
     }
 
     /// Draws colours; and what is seen, too, unless that has a pass of its own. Whether the
-    /// picture is one that is kept: then the frame is finished.
+    /// image is one that is kept: then the frame is finished.
     fn draw_colors(
         &mut self,
         stage: &Stage<'_>,

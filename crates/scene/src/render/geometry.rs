@@ -276,7 +276,7 @@ impl Geometry {
         })
     }
 
-    /// The same if a picture has asked for it.
+    /// The same if an image has asked for it.
     pub(crate) fn sides_if_known(&self) -> Option<&[[u32; 3]]> {
         self.side_edges.get().map(|sides| sides.as_slice())
     }

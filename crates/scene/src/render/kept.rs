@@ -7,7 +7,7 @@ use super::stage::Stage;
 use crate::effect::Effect;
 use crate::effects::{
     AmbientRays, Casters, Counts, EffectPlan, LampPose, LightingEnvironment, Mist, RayCache, ShadowCache,
-    Shadows, draw_outline, lay_on_background, map_picture,
+    Shadows, draw_outline, lay_on_background, map_tones,
 };
 use crate::frame::{Frame, resize};
 use crate::outputs::{Needed, Seen};
@@ -113,7 +113,7 @@ impl Kept {
         }
     }
 
-    /// Draws the pass of colours, and what is laid over the picture afterwards. Leaves
+    /// Draws the pass of colours, and what is laid over the image afterwards. Leaves
     /// in `seen` and in the frame's depth what is needed of the pass beside colours.
     pub(super) fn draw(
         &mut self,
@@ -130,16 +130,16 @@ impl Kept {
         // The lists are borrowed for as long as the target lives.
         let mut seen = std::mem::take(&mut self.seen);
         let target = seen.with(target, depth.as_mut())?;
-        let pictures = Pictures { colors, radiance: radiance.as_mut() };
+        let images = ColorImages { colors, radiance: radiance.as_mut() };
         let is_mapped = plan.is_on(Effect::ToneMapping);
         if is_mapped {
             counts.of(Effect::ToneMapping).passes = 1;
             counts.of(Effect::ToneMapping).bytes = (pixels * size_of::<Vec4>()) as u64;
         }
         let stats = if is_mapped || settings.share_through_faces().is_some() {
-            self.draw_mapped(pass, settings, (target, pictures), rasterizer)?
+            self.draw_mapped(pass, settings, (target, images), rasterizer)?
         } else {
-            draw_directly(pass, (target, pictures), rasterizer)?
+            draw_directly(pass, (target, images), rasterizer)?
         };
         if let (true, Some(outline)) = (plan.is_on(Effect::Outline), &settings.effects.outline) {
             counts.of(Effect::Outline).passes = 1;
@@ -164,7 +164,7 @@ impl Kept {
         Ok(rasterizer.draw(pass, &mut self.seen.with(target, frame.depth.as_mut())?))
     }
 
-    /// Draws what shows through the faces of the next picture.
+    /// Draws what shows through the faces of the next image.
     pub(super) fn draw_beneath(
         &mut self,
         pass: &Pass<'_>,
@@ -178,12 +178,12 @@ impl Kept {
         Ok(rasterizer.draw(pass, &mut blank.with_linear(&mut self.beneath)?))
     }
 
-    /// Draws linear light, lets show what is beneath, and maps the tones into the picture.
+    /// Draws linear light, lets show what is beneath, and maps the tones into the image.
     fn draw_mapped(
         &mut self,
         pass: &Pass<'_>,
         settings: &RenderSettings,
-        (target, Pictures { colors, radiance }): (Target<'_>, Pictures<'_>),
+        (target, ColorImages { colors, radiance }): (Target<'_>, ColorImages<'_>),
         rasterizer: &mut Rasterizer,
     ) -> Result<Stats, TargetError> {
         let RenderSettings { width, height, .. } = *settings;
@@ -196,7 +196,7 @@ impl Kept {
                 *light = *light * (1.0 - share) + *beneath * share;
             }
         }
-        map_picture(linear, settings, colors, rasterizer);
+        map_tones(linear, settings, colors, rasterizer);
         if is_asked_for {
             lay_on_background(linear, settings);
         }
@@ -205,7 +205,7 @@ impl Kept {
 }
 
 /// The images that a pass of colours leaves, as far as they are requested.
-struct Pictures<'a> {
+struct ColorImages<'a> {
     /// Bytes, or none.
     colors: &'a mut [[u8; 4]],
     /// Linear light.
@@ -215,7 +215,7 @@ struct Pictures<'a> {
 /// Draws what is not changed afterwards.
 fn draw_directly(
     pass: &Pass<'_>,
-    (mut target, Pictures { colors, radiance }): (Target<'_>, Pictures<'_>),
+    (mut target, ColorImages { colors, radiance }): (Target<'_>, ColorImages<'_>),
     rasterizer: &mut Rasterizer,
 ) -> Result<Stats, TargetError> {
     if let Some(radiance) = radiance {

@@ -46,7 +46,7 @@ const ROWS: usize = 32;
 
 /// The last image, and what it was made from.
 #[derive(Default)]
-pub(super) struct LastPicture {
+pub(super) struct LastFrame {
     origin: Option<Box<Origin>>,
     /// Whether the images below have that origin, and are complete.
     is_whole: bool,
@@ -98,7 +98,7 @@ pub(super) struct ChangedDraw {
     recolored: Vec<u32>,
 }
 
-impl LastPicture {
+impl LastFrame {
     /// How the frame of a stage follows from the last one, which it replaces.
     pub(super) fn step(
         &mut self,

@@ -38,7 +38,7 @@ use crate::settings::RenderSettings;
 ///     seen += ids.iter().filter(|&&id| id != u32::MAX).count();
 ///     Ok::<(), trigon_scene::RenderError>(())
 /// })?;
-/// assert!(seen > 1000, "the scene is in all three pictures");
+/// assert!(seen > 1000, "the scene is in all three images");
 /// # Ok::<(), trigon_scene::RenderError>(())
 /// ```
 pub struct Renderer {
@@ -132,9 +132,9 @@ impl Renderer {
         Ok(())
     }
 
-    /// Explains the pixel in column `x` and row `y` of the picture that [`render`](Self::render) draws: all
+    /// Explains the pixel in column `x` and row `y` of the image that [`render`](Self::render) draws: all
     /// triangles that touch it, sample by sample, with exact edge values and depths, which of them is seen,
-    /// and why. Object ids are indices of nodes. `None` outside the picture.
+    /// and why. Object ids are indices of nodes. `None` outside the image.
     ///
     /// It costs about as much as all stages before the tiles, and then a test of each triangle.
     ///
@@ -146,7 +146,7 @@ impl Renderer {
     /// let cube = scene.add_object("cube", primitives::cube(1.0), Material::default());
     /// let mut renderer = Renderer::builder().size(40, 30).build();
     /// let camera = scene.overview(renderer.settings().aspect());
-    /// let pixel = renderer.explain_pixel(&scene, &camera, 20, 15)?.expect("inside the picture");
+    /// let pixel = renderer.explain_pixel(&scene, &camera, 20, 15)?.expect("inside the image");
     /// let winner = pixel.reported().winner().expect("the cube is in the middle");
     /// assert_eq!(scene.nodes().id_at(winner.object as usize), Some(cube));
     /// # Ok::<(), trigon_scene::RenderError>(())
@@ -234,9 +234,9 @@ mod tests {
         });
     }
 
-    /// What the explanation says wins is what the picture's ids show.
+    /// What the explanation says wins is what the image's ids show.
     #[test]
-    fn explanations_tell_what_the_picture_shows() {
+    fn explanations_tell_what_the_image_shows() {
         let scene = showcase();
         let outputs = Outputs { ids: true, ..Outputs::default() };
         let mut renderer = Renderer::builder().size(36, 24).samples_per_axis(2).outputs(outputs).build();
@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cancelled_picture_leaves_no_trace() {
+    fn a_cancelled_image_leaves_no_trace() {
         let (scene, cancel) = (showcase(), Cancel::default());
         let camera = scene.overview(1.0);
         let mut renderer = Renderer::builder().size(48, 48).build();
@@ -303,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn many_pictures_in_one_memory_are_those_drawn_one_by_one() {
+    fn many_images_in_one_memory_are_those_drawn_one_by_one() {
         let scene = showcase();
         let settings = RenderSettings { samples_per_axis: 1, ..RenderSettings::new(20, 16) };
         let cameras: Vec<Camera> = scene.surround(views::turntable(4, 0.3), settings.aspect()).collect();
@@ -313,7 +313,7 @@ mod tests {
             numbers.push(number);
             places.push(frame.color.as_ptr());
             let alone = render(&scene, &cameras[number], &settings)?;
-            assert!(*frame == alone, "picture {number}");
+            assert!(*frame == alone, "image {number}");
             Ok::<(), RenderError>(())
         };
         renderer.render_many(&scene, cameras.iter().copied(), visit).expect("drawn");

@@ -1,4 +1,4 @@
-//! What is found out about a picture before its draws are put together.
+//! What is found out about an image before its draws are put together.
 
 use trigon_camera::Camera;
 use trigon_math::{DAffine3, DMat3, DVec3};

@@ -9,10 +9,10 @@ use trigon_mesh::{Mesh, MeshBuilder, primitives};
 use super::render;
 use crate::{Background, Material, Outputs, RenderSettings, Scene, Shading, Style};
 
-/// The side of all pictures in pixels.
+/// The side of all images in pixels.
 const SIDE: u32 = 96;
 
-/// How dark each pixel is, of a mesh seen from straight above in parallel rays; the picture
+/// How dark each pixel is, of a mesh seen from straight above in parallel rays; the image
 /// is `height` high.
 fn darkness(mesh: Mesh, height: f64, style: Style, line_width: f32) -> Vec<f32> {
     let mut scene = Scene::new();
@@ -56,7 +56,7 @@ fn edges_grow_with_the_size_of_their_faces_and_never_hide_them() {
         let grid = primitives::grid(2.0, 2.0, segments, segments);
         let covered = mean(&darkness(grid, 2.0, Style::SurfaceWithEdges, 4.0));
         // A third of the radius is 5/9 of the area; distances are sampled.
-        assert!(covered < 0.6, "{covered} of the picture with {segments} faces in a row");
+        assert!(covered < 0.6, "{covered} of the image with {segments} faces in a row");
         assert!(covered > last, "{covered} after {last}");
         last = covered;
     }
@@ -78,7 +78,7 @@ fn sliver_polygon() -> Mesh {
 
 #[test]
 fn polygons_of_slivers_show_their_outline_in_full_width_and_no_diagonal() {
-    // 48 pixels are 1 unit: the sides lie 9.6 pixels from the picture's.
+    // 48 pixels are 1 unit: the sides lie 9.6 pixels from the image's.
     let found = darkness(sliver_polygon(), 2.0, Style::SurfaceWithEdges, 3.0);
     let at = |x: u32, y: u32| found[(y * SIDE + x) as usize];
     for y in 20..76 {

@@ -80,7 +80,7 @@ impl MeshAsset {
     }
 
     /// The same with the vertices at other places. Stray vertices of a file must not push
-    /// the model out of the picture.
+    /// the model out of the image.
     pub(super) fn bounds_of(&self, positions: &[Vec3]) -> Bounds3 {
         let used = positions.iter().zip(self.used_vertices().iter()).filter(|&(_, &used)| used);
         box_around(used.map(|(point, _)| *point))

@@ -1,4 +1,4 @@
-//! In which order nodes are listed: what an outliner shows. Pictures do not depend on it.
+//! In which order nodes are listed: what an outliner shows. Images do not depend on it.
 
 use fixedbitset::FixedBitSet;
 

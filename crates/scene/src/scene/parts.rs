@@ -32,7 +32,7 @@ pub struct SceneParts {
 }
 
 impl SceneParts {
-    /// Roughly the memory that they take, in bytes; pictures and curves, which scenes share or
+    /// Roughly the memory that they take, in bytes; images and curves, which scenes share or
     /// seldom have, do not count.
     #[must_use]
     pub fn bytes(&self) -> usize {

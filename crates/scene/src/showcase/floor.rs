@@ -1,20 +1,20 @@
-//! The showcase's pictures, made in code: a floor of two woods, and the soft
+//! The showcase's images, made in code: a floor of two woods, and the soft
 //! dark spot under an object.
 
 use trigon_math::{Vec2, Vec3, color};
 use trigon_raster::{Texture, TextureFormat};
 
-/// Texels along each side of the floor's picture.
+/// Texels along each side of the floor's image.
 const FLOOR_SIDE: u32 = 512;
 
-/// Fields along each side of the picture: enough that the grain does not
+/// Fields along each side of the image: enough that the grain does not
 /// visibly repeat from field to field.
 const FIELDS: u32 = 4;
 
 /// sRGB of the two woods.
 const WOODS: [Vec3; 2] = [Vec3::new(0.86, 0.74, 0.57), Vec3::new(0.52, 0.35, 0.22)];
 
-/// How many metres of floor the picture covers.
+/// How many metres of floor the image covers.
 pub(super) const METRES: f32 = 4.0;
 
 /// A chequered floor, light and dark wood with the grain turned from field to
@@ -46,7 +46,7 @@ fn wood(place: Vec2) -> Vec3 {
     WOODS[((column + row) % 2) as usize] * (shade * (0.55 + 0.45 * joint))
 }
 
-/// Texels along each side of a spot's picture.
+/// Texels along each side of a spot's image.
 const SPOT_SIDE: u32 = 64;
 
 /// The part of a spot's radius that is wholly black.

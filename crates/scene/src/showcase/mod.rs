@@ -18,7 +18,7 @@ use crate::transform::Transform;
 
 /// A scene to look at, to measure and to test with: the teapot among standard
 /// objects on a wooden floor. It has its own lights, and its own camera, which
-/// is composed for pictures of 1000×600 pixels.
+/// is composed for images of 1000×600 pixels.
 ///
 /// ```
 /// use trigon_scene::{RenderSettings, render, showcase};

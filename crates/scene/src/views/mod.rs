@@ -19,7 +19,7 @@ pub const OVERVIEW_DIRECTION: DVec3 = DVec3::new(-1.0, -0.5, -1.0);
 
 impl Scene {
     /// A perspective camera that sees everything visible from the upper right
-    /// in front, with +Y up and a tenth of the picture left free. `aspect` is
+    /// in front, with +Y up and a tenth of the image left free. `aspect` is
     /// width over height.
     #[must_use]
     pub fn overview(&self, aspect: f64) -> Camera {
@@ -31,9 +31,9 @@ impl Scene {
     /// the box around everything visible towards the eye. +Y is up, `aspect` is width
     /// over height.
     ///
-    /// All stand equally far away, so that nothing grows or shrinks from one picture to
+    /// All stand equally far away, so that nothing grows or shrinks from one image to
     /// the next: as near as a ball about that middle that holds every vertex allows,
-    /// with a tenth of the picture left free. A camera depends on its own viewpoint
+    /// with a tenth of the image left free. A camera depends on its own viewpoint
     /// only, not on the others.
     ///
     /// ```
@@ -111,8 +111,8 @@ mod tests {
                     let at = projector.to_screen(point).expect("before the camera") / viewport.size();
                     // Less than the margin: perspective widens what is near, which the ball covers.
                     let free = DEFAULT_MARGIN / 2.0 - 1e-6;
-                    assert!(at.cmpge(DVec2::splat(free)).all(), "{at} is in the picture, {viewport:?}");
-                    assert!(at.cmple(DVec2::splat(1.0 - free)).all(), "{at} is in the picture, {viewport:?}");
+                    assert!(at.cmpge(DVec2::splat(free)).all(), "{at} is in the image, {viewport:?}");
+                    assert!(at.cmple(DVec2::splat(1.0 - free)).all(), "{at} is in the image, {viewport:?}");
                 }
                 camera.position.distance(middle)
             });
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_fills_the_picture_up_to_the_margin() {
+    fn a_ball_fills_the_image_up_to_the_margin() {
         let mut scene = Scene::new();
         scene.add_object("ball", primitives::icosphere(2.0, 4), Material::default());
         let viewport = Viewport { width: 200, height: 200 };

@@ -7,7 +7,7 @@ use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{Each, F32, LANES, U32, greater};
 
 /// Numbers of 32 bits in 8 MB.
-const PICTURE: usize = 2 << 20;
+const IMAGE: usize = 2 << 20;
 /// Pixels of a tile.
 pub(crate) const TILE: usize = 64 * 64;
 /// Tiles of 1920 by 1080 pixels.
@@ -16,21 +16,21 @@ pub(crate) const TILES: usize = 510;
 const LAYERS: usize = 64;
 
 pub(crate) fn store() -> Kernel {
-    let mut memory = vec![1_u32; PICTURE];
+    let mut memory = vec![1_u32; IMAGE];
     let run = move || {
         memory.fill(black_box(7));
         black_box(&memory);
     };
-    Kernel { work: 4.0 * PICTURE as f64 / 1e9, run: Box::new(run) }
+    Kernel { work: 4.0 * IMAGE as f64 / 1e9, run: Box::new(run) }
 }
 
 pub(crate) fn load() -> Kernel {
-    let memory = vec![1_u32; PICTURE];
+    let memory = vec![1_u32; IMAGE];
     let run = move || {
         let sum = dispatch!(Level::new(), simd => all_bits(simd, black_box(&memory)));
         black_box(sum);
     };
-    Kernel { work: 4.0 * PICTURE as f64 / 1e9, run: Box::new(run) }
+    Kernel { work: 4.0 * IMAGE as f64 / 1e9, run: Box::new(run) }
 }
 
 #[inline(always)]
@@ -71,7 +71,7 @@ fn chains<S: Simd, const CHAINS: usize>(simd: S, steps: usize) -> f32 {
     sum[0]
 }
 
-/// Layers over every tile of a picture, each before those that were there, or behind.
+/// Layers over every tile of an image, each before those that were there, or behind.
 pub(crate) fn fill(passes: bool) -> Kernel {
     let (mut depths, mut codes) = (vec![0.0_f32; TILE], vec![0_u32; TILE]);
     let run = move || {

@@ -10,7 +10,7 @@ use trigon_study::workloads::Timings;
 /// One of the loops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Limit {
-    /// Writing memory, 8 MB: the size of a picture.
+    /// Writing memory, 8 MB: the size of an image.
     Store,
     /// Reading as much.
     Load,

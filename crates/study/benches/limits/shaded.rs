@@ -13,7 +13,7 @@ use trigon_study::workloads::{blinn_phong as light, knot_surface, lambert_lanes}
 /// Pixels of a tile's side.
 const SIDE: usize = 64;
 
-/// A tile is shaded as often as a picture has tiles.
+/// A tile is shaded as often as an image has tiles.
 fn tiles(mut shade: impl FnMut(&mut [u32]) + 'static) -> Kernel {
     let mut codes = vec![0_u32; TILE];
     let run = move || {

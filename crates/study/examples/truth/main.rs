@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release -p trigon-study --example truth -- FOLDER`
 //!
-//! writes for each scene its meshes as PLY, its picture of directions as PNG, what else belongs to it as
-//! JSON, and trigon's picture as NumPy arrays of linear light. `tests/peers/mitsuba_truth.py FOLDER` draws
+//! writes for each scene its meshes as PLY, its image of directions as PNG, what else belongs to it as
+//! JSON, and trigon's image as NumPy arrays of linear light. `tests/peers/mitsuba_truth.py FOLDER` draws
 //! the same with Mitsuba 3 and compares.
 
 mod scenes;
@@ -43,11 +43,11 @@ fn write(truth: &Truth, folder: &Path) -> Result<Value, Box<dyn Error>> {
         let material = scene.materials.get(node.materials[0]).ok_or("each object has a material")?;
         objects.push(json!({ "mesh": file, "surface": surface(scene, material, name, folder)? }));
     }
-    let mut pictures = Vec::new();
+    let mut images = Vec::new();
     for (suffix, shadows) in shadows {
         let file = format!("{name}{suffix}.npy");
         draw(truth, *shadows, &folder.join(&file))?;
-        pictures.push(json!({ "file": file, "name": format!("{name}{suffix}") }));
+        images.push(json!({ "file": file, "name": format!("{name}{suffix}") }));
     }
     let Projection::Perspective { vertical_fov, .. } = camera.projection else {
         return Err("all cameras are perspective".into());
@@ -63,7 +63,7 @@ fn write(truth: &Truth, folder: &Path) -> Result<Value, Box<dyn Error>> {
         },
         "objects": objects,
         "lights": scene.nodes().iter().filter_map(|(id, _)| light(scene, id)).collect::<Vec<Value>>(),
-        "pictures": pictures,
+        "images": images,
     }))
 }
 
@@ -131,7 +131,7 @@ fn looking(along: DVec3) -> DQuat {
     DQuat::from_rotation_arc(DVec3::NEG_Z, along.normalize())
 }
 
-/// The picture of directions of a bumpy surface.
+/// The image of directions of a bumpy surface.
 fn directions(side: u32) -> Vec<[u8; 4]> {
     let texel = |index: u32| {
         let at = |value: u32| (f64::from(value) + 0.5) / f64::from(side) * std::f64::consts::TAU * 4.0;

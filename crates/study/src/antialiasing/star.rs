@@ -11,7 +11,7 @@ pub struct Star {
 }
 
 impl Star {
-    /// 24 needles in a square picture.
+    /// 24 needles in a square image.
     #[must_use]
     pub fn new(side: usize) -> Self {
         const NEEDLES: usize = 24;

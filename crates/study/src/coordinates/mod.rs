@@ -17,7 +17,7 @@ pub enum Coordinates {
     CameraRelative,
 }
 
-/// Pixels for a metre at one metre's distance: a picture 1,000 pixels wide, 53 degrees
+/// Pixels for a metre at one metre's distance: an image 1,000 pixels wide, 53 degrees
 /// wide.
 const SCALE: f64 = 1000.0;
 
@@ -34,14 +34,14 @@ impl Coordinates {
         }
     }
 
-    /// How far a point is from where it should be on the picture, in pixels: the most of
+    /// How far a point is from where it should be on the image, in pixels: the most of
     /// 1,000 points about three metres before a camera that stands `offset` metres from
     /// the origin, a whole number, on each axis.
     pub fn worst_error(self, offset: f64) -> f64 {
         let view = View::new(self, offset);
         let seen = view.points.iter().map(|&point| view.matrix().transform_point3(point));
         let errors = seen.zip(&view.right).map(|(seen, right)| {
-            let [x, y] = on_picture(seen.as_dvec3());
+            let [x, y] = on_image(seen.as_dvec3());
             elementary::hypot(x - right[0], y - right[1])
         });
         errors.fold(0.0, f64::max)
@@ -73,7 +73,7 @@ struct View {
     points: Vec<Vec3>,
     node: DVec3,
     eye: DVec3,
-    /// Where the points are on the picture.
+    /// Where the points are on the image.
     right: Vec<[f64; 2]>,
 }
 
@@ -95,7 +95,7 @@ impl View {
             points: points.iter().map(stored).collect(),
             node,
             eye: node + eye,
-            right: points.iter().map(|point| on_picture(turn() * (point - eye))).collect(),
+            right: points.iter().map(|point| on_image(turn() * (point - eye))).collect(),
         }
     }
 
@@ -118,6 +118,6 @@ fn turn() -> DMat3 {
 }
 
 /// In pixels from the middle.
-fn on_picture(seen: DVec3) -> [f64; 2] {
+fn on_image(seen: DVec3) -> [f64; 2] {
     [seen.x / -seen.z, seen.y / -seen.z].map(|part| part * SCALE)
 }

@@ -1,10 +1,10 @@
-//! A picture by a z-buffer of each format: a road that leads to the horizon, and a layer of paint
+//! An image by a z-buffer of each format: a road that leads to the horizon, and a layer of paint
 //! above it, drawn after it.
 
 use super::DepthFormat;
 use crate::field::Field;
 
-/// A picture of the road.
+/// An image of the road.
 pub struct Road {
     size: [usize; 2],
     /// Of the eye above the road and above the paint, in metres.
@@ -12,7 +12,7 @@ pub struct Road {
 }
 
 impl Road {
-    /// Seen from 1.7 metres, with paint so many metres above it, in a picture of `width` pixels and
+    /// Seen from 1.7 metres, with paint so many metres above it, in an image of `width` pixels and
     /// half of that in height.
     #[must_use]
     pub fn new(width: usize, paint: f64) -> Self {
@@ -41,7 +41,7 @@ impl Road {
         buffers.is_paint
     }
 
-    /// What draws the picture again and again.
+    /// What draws the image again and again.
     #[must_use]
     pub fn repeated(&self, format: DepthFormat) -> Box<dyn FnMut() + '_> {
         let mut buffers = Buffers::new(self);

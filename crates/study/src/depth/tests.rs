@@ -29,7 +29,7 @@ fn floats_without_reversal_are_no_better_than_24_bits() {
 }
 
 #[test]
-fn a_picture_shows_what_its_format_resolves() {
+fn an_image_shows_what_its_format_resolves() {
     let road = Road::new(256, 0.0001);
     let wrong = DepthFormat::ALL.map(|format| road.wrong_per_mille(format));
     let [fixed16, fixed24, float, reversed] = wrong;

@@ -1,4 +1,4 @@
-//! What triangles are painted into: a picture that counts.
+//! What triangles are painted into: an image that counts.
 
 use super::Triangle;
 use crate::field::Field;
@@ -17,7 +17,7 @@ impl Painted {
     pub const NEVER: Self = Self { count: 0, last: u32::MAX };
 }
 
-/// A picture that counts how often each pixel is painted.
+/// An image that counts how often each pixel is painted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Canvas {
     pub(super) pixels: Field<Painted>,
@@ -25,7 +25,7 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// An empty picture.
+    /// An empty image.
     #[must_use]
     pub fn new(size: [usize; 2]) -> Self {
         Self { pixels: Field::new(size, Painted::NEVER), brush: 0 }
@@ -42,7 +42,7 @@ impl Canvas {
         self.pixels.size().map(|side| side as i32)
     }
 
-    /// Paints a pixel, if it is in the picture.
+    /// Paints a pixel, if it is in the image.
     #[inline]
     pub(crate) fn paint(&mut self, x: i32, y: i32) {
         if let Some(pixel) = self.pixels.get_mut([x, y]) {

@@ -1,10 +1,10 @@
-//! Triangles that tile the whole picture, so that each pixel has one owner.
+//! Triangles that tile the whole image, so that each pixel has one owner.
 
 use super::Triangle;
 use crate::random::Random;
 use trigon_math::{DVec2, Vec2, elementary};
 
-/// A tiling of the picture. Its corners are multiples of 1/16384 pixel (of the fan's
+/// A tiling of the image. Its corners are multiples of 1/16384 pixel (of the fan's
 /// rim, of 1/512), which `f32` holds exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Case {
@@ -14,7 +14,7 @@ pub enum Case {
     /// The same with corners on multiples of half a pixel: many pixels' centres lie
     /// exactly on an edge.
     Lattice,
-    /// Needles from a point in the picture to a rim 12,000 pixels away.
+    /// Needles from a point in the image to a rim 12,000 pixels away.
     Fan,
 }
 
@@ -32,7 +32,7 @@ impl Case {
         }
     }
 
-    /// The triangles on a square picture of `side` pixels, other ones for each seed.
+    /// The triangles on a square image of `side` pixels, other ones for each seed.
     #[must_use]
     pub fn triangles(self, side: usize, seed: u64) -> Vec<Triangle> {
         match self {
@@ -43,7 +43,7 @@ impl Case {
     }
 }
 
-/// A grid of squares over the picture and beyond, its corners moved about by up to a
+/// A grid of squares over the image and beyond, its corners moved about by up to a
 /// quarter of a square and put on multiples of `unit`.
 #[must_use]
 pub fn tiles(side: usize, square: f64, unit: f64, seed: u64) -> Vec<Triangle> {

@@ -1,6 +1,6 @@
 //! Edge functions that take in what is exactly on an edge (source rows C1 to C3): y
 //! down, clockwise, and asked at the pixel's upper left corner, as the source does. So
-//! a picture is half a pixel away from where it should be, and pixels on a shared edge
+//! an image is half a pixel away from where it should be, and pixels on a shared edge
 //! are painted twice.
 
 use super::{Canvas, Triangle, range};
@@ -22,7 +22,7 @@ pub(super) fn fill_at_centers(triangle: &Triangle, canvas: &mut Canvas) {
     test(bounding_box(triangle, canvas), Vec2::splat(0.5), triangle, canvas);
 }
 
-/// The first and the last column and row that a triangle can reach in the picture.
+/// The first and the last column and row that a triangle can reach in the image.
 pub(super) fn bounding_box(triangle: &Triangle, canvas: &Canvas) -> [[i32; 2]; 2] {
     let [width, height] = canvas.limits();
     let within = |values: [f32; 3], side: i32| {

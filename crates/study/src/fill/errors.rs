@@ -1,11 +1,11 @@
-//! How far a picture of a tiling is from the exact one.
+//! How far an image of a tiling is from the exact one.
 
 use super::{Canvas, Painted, Triangle, edges::bounding_box};
 use crate::field::Field;
 use crate::oracle::coverage::covers;
 use std::ops::AddAssign;
 
-/// What is wrong with a picture of a tiling, in pixels.
+/// What is wrong with an image of a tiling, in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FillErrors {
     /// Pixels whose right or lower neighbour belongs to another triangle: where
@@ -20,7 +20,7 @@ pub struct FillErrors {
 }
 
 impl FillErrors {
-    /// Of a picture, where each pixel has the exact owner `owners` says.
+    /// Of an image, where each pixel has the exact owner `owners` says.
     #[must_use]
     pub fn of(canvas: &Canvas, owners: &Field<u32>) -> Self {
         let mut errors = Self { edge_pixels: edge_pixels(owners), ..Self::default() };
@@ -50,7 +50,7 @@ impl AddAssign for FillErrors {
 }
 
 /// The one triangle that covers each pixel's centre, exactly: of triangles that tile the
-/// picture.
+/// image.
 #[must_use]
 pub fn owners(triangles: &[Triangle], size: [usize; 2]) -> Field<u32> {
     // Corners are multiples of this; see `Case`.

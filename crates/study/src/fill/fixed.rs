@@ -132,7 +132,7 @@ impl Edges {
         }
     }
 
-    /// Columns and rows that the triangle can reach in a picture of that size.
+    /// Columns and rows that the triangle can reach in an image of that size.
     pub(crate) fn bounding_box(&self, [width, height]: [i32; 2]) -> [RangeInclusive<i32>; 2] {
         let within = |axis: usize, side: i32| {
             let [low, high] = range(self.corners.map(|corner| corner[axis]));

@@ -82,7 +82,7 @@ impl Edges {
     }
 }
 
-/// The columns and rows that a triangle can reach in a picture: those of the pixels that hold
+/// The columns and rows that a triangle can reach in an image: those of the pixels that hold
 /// its corners, and between.
 pub(super) fn bounding_box(triangle: &Triangle, [width, height]: [i32; 2]) -> [RangeInclusive<i32>; 2] {
     let within = |values: [f32; 3], side: i32| {

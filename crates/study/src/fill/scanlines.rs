@@ -37,7 +37,7 @@ pub(crate) fn interpolate(from: i32, first: f32, to: i32, last: f32) -> Vec<f32>
 }
 
 /// Whole steps from the left side on, as far as the right side reaches. What lies
-/// outside the picture is not walked.
+/// outside the image is not walked.
 fn line(left: f32, right: f32, y: i32, canvas: &mut Canvas) {
     let width = canvas.limits()[0] as f32;
     let mut x = if left < -1.0 { left + (-1.0 - left).floor() } else { left };

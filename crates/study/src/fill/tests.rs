@@ -21,7 +21,7 @@ fn errors(fill: Fill, case: Case, seeds: u64) -> FillErrors {
     sum
 }
 
-/// The pixels of an 8 by 8 picture as text.
+/// The pixels of an 8 by 8 image as text.
 fn text(fill: Fill, triangle: Triangle) -> String {
     let mut canvas = Canvas::new([8, 8]);
     fill.paint(&[triangle], &mut canvas);
@@ -30,7 +30,7 @@ fn text(fill: Fill, triangle: Triangle) -> String {
 }
 
 #[test]
-fn every_case_tiles_the_picture() {
+fn every_case_tiles_the_image() {
     for case in Case::ALL {
         let owners = owners(&case.triangles(SIDE, 3), SIZE);
         let orphans = owners.values().iter().filter(|&&owner| owner == u32::MAX).count();
@@ -132,7 +132,7 @@ fn the_engine_is_fixed_point_with_eight_bits() {
 #[test]
 fn each_source_draws_the_triangle_its_own_way() {
     let triangle = [Vec2::new(0.75, 0.75), Vec2::new(6.25, 2.5), Vec2::new(2.5, 6.25)];
-    let pictures =
+    let images =
         [Fill::Fixed8, Fill::Strips, Fill::Scanlines, Fill::EdgesInBox].map(|fill| text(fill, triangle));
     let expected = [
         "........ .##..... .#####.. ..###... ..##.... ..#..... ........ ........",
@@ -140,5 +140,5 @@ fn each_source_draws_the_triangle_its_own_way() {
         "#....... ###..... .######. .#####.. .###.... ..##.... ..#..... ........",
         "........ .#...... ..###... ..####.. ..###... ...#.... ........ ........",
     ];
-    assert_eq!(pictures, expected, "exact, strips, scanlines, edges at the corners of pixels");
+    assert_eq!(images, expected, "exact, strips, scanlines, edges at the corners of pixels");
 }

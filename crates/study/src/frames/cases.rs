@@ -9,7 +9,7 @@ use trigon_scene::{
     Light, Material, Node, RenderSettings, Scene, Shadows, Texture, TextureFormat, Transform, showcase,
 };
 
-/// A scene, and what is asked for of its picture.
+/// A scene, and what is asked for of its image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Case {
     /// The built-in scene: some objects, many lights, fine wood.
@@ -63,7 +63,7 @@ impl Case {
         }
     }
 
-    /// A picture of it, at no particular quality.
+    /// An image of it, at no particular quality.
     #[must_use]
     pub fn settings(self, [width, height]: [u32; 2]) -> RenderSettings {
         let mut settings = RenderSettings::new(width, height);

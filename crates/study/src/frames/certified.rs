@@ -1,4 +1,4 @@
-//! Which share of a picture is proven, and what proving it takes.
+//! Which share of an image is proven, and what proving it takes.
 
 use crate::workloads::{Canvas, Scene, Workload};
 use std::num::NonZeroUsize;
@@ -15,14 +15,14 @@ pub struct Certified {
     pub color: f64,
 }
 
-/// Draws a workload's picture and proves it, as often as asked for, on one thread.
+/// Draws a workload's image and proves it, as often as asked for, on one thread.
 pub struct Prover {
     scene: Scene,
     canvas: Canvas<'static>,
 }
 
 impl Prover {
-    /// A picture so many times smaller in each direction. Nothing is drawn yet.
+    /// An image so many times smaller in each direction. Nothing is drawn yet.
     ///
     /// # Errors
     /// Not enough memory.
@@ -35,18 +35,18 @@ impl Prover {
         Ok(Self { scene, canvas })
     }
 
-    /// Width and height of the picture in pixels.
+    /// Width and height of the image in pixels.
     #[must_use]
     pub fn size(&self) -> [usize; 2] {
         self.scene.size.to_array().map(|side| side as usize)
     }
 
-    /// Draws the picture.
+    /// Draws the image.
     pub fn draw(&mut self) {
         self.canvas.draw(&self.scene);
     }
 
-    /// Draws the picture, and proves under the usual tolerance what can be proven of it.
+    /// Draws the image, and proves under the usual tolerance what can be proven of it.
     ///
     /// # Errors
     /// Not enough memory.

@@ -13,7 +13,7 @@ pub struct Step {
     pub choice: Choice,
     /// What choosing, drawing and learning from it took, which is what had been foreseen.
     pub drawing: Duration,
-    /// What all of it took, looking again at a part of the picture as well.
+    /// What all of it took, looking again at a part of the image as well.
     pub time: Duration,
     /// How far it is from the reference.
     pub error: f64,
@@ -37,15 +37,15 @@ pub fn fly(
     Preset::Reference.apply(best.settings_mut());
     let (mut renderer, mut budget) = (Renderer::new(settings.clone()), TimeBudget::new(limit));
     budget.calibrate(&mut renderer, &scene, &camera(0), clock)?;
-    let (mut steps, mut picture) = (Vec::new(), Frame::default());
+    let (mut steps, mut image) = (Vec::new(), Frame::default());
     for frame in 0..frames {
         let (camera, start) = (camera(frame), clock());
-        let choice = budget.render_into(&mut renderer, (&scene, &camera), clock, &mut picture)?;
+        let choice = budget.render_into(&mut renderer, (&scene, &camera), clock, &mut image)?;
         let drawing = clock().saturating_sub(start);
         let spare = limit.saturating_sub(drawing);
         budget.look_again(&mut renderer, (&scene, &camera), spare, clock)?;
         let time = clock().saturating_sub(start);
-        let error = rmse(&picture, &best.render(&scene, &camera)?);
+        let error = rmse(&image, &best.render(&scene, &camera)?);
         steps.push(Step { choice, drawing, time, error });
     }
     Ok(steps)

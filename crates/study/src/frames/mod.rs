@@ -1,4 +1,4 @@
-//! What does a whole picture's accuracy cost? Six scenes at all combinations of samples and shading, against a
+//! What does a whole image's accuracy cost? Six scenes at all combinations of samples and shading, against a
 //! [`Truth`]; and a time budget on flights past them.
 
 mod cases;

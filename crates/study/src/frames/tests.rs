@@ -38,7 +38,7 @@ fn sixty_qualities_and_more_are_compared() {
 /// those that were measured.
 #[test]
 fn nothing_that_does_less_is_better_than_a_preset() {
-    /// On so small pictures chance decides about so much.
+    /// On so small images chance decides about so much.
     const CHANCE: f64 = 0.85;
     for case in Case::ALL {
         let qualities = variants();
@@ -109,7 +109,7 @@ fn misses_are_parts_of_what_was_measured() {
 }
 
 #[test]
-fn most_of_a_smooth_picture_is_certified() {
+fn most_of_a_smooth_image_is_certified() {
     let proven = Prover::new(Workload::KnotPhong, 8).unwrap().prove().unwrap();
     let sum = proven.certified + proven.visibility + proven.color;
     // Three quotients by the same number: a few roundings.

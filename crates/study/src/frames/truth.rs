@@ -1,4 +1,4 @@
-//! What pictures are held against: more samples than any quality has, at places where none of
+//! What images are held against: more samples than any quality has, at places where none of
 //! them has one.
 
 use super::{Case, Repeated};
@@ -6,7 +6,7 @@ use trigon_math::color::srgb8_to_linear;
 use trigon_scene::quality::Preset;
 use trigon_scene::{Frame, RenderError};
 
-/// The light of each pixel of a case's picture: the mean of the four pixels that `reference` draws
+/// The light of each pixel of a case's image: the mean of the four pixels that `reference` draws
 /// in its place at twice the size, 8×8 shaded places with 16 samples each.
 ///
 /// They lie at odd sixteenths of a pixel. Those of grids of 1, 2, 3 and 4 in a row lie at halves,
@@ -34,14 +34,14 @@ impl Truth {
         Ok(Self { size: [width, height], light: (0..width * height).map(mean).collect() })
     }
 
-    /// The root of the mean square of a picture's difference from it, in linear light, over red,
+    /// The root of the mean square of an image's difference from it, in linear light, over red,
     /// green and blue.
     #[must_use]
     pub fn error(&self, frame: &Frame) -> f64 {
         assert_eq!(
             self.size,
             [frame.width as usize, frame.height as usize],
-            "pictures of one size are compared"
+            "images of one size are compared"
         );
         let squares = self.light.iter().enumerate().map(|(pixel, right)| {
             let found = light(frame, pixel);

@@ -1,7 +1,7 @@
 //! The renderer's varyings.
 
 use super::Wall;
-use super::wall::{Picture, TRIANGLES};
+use super::wall::{TRIANGLES, WallImage};
 use crate::engine::{Engine, clip_position, field, target};
 use trigon_math::{DVec2, Vec4};
 use trigon_raster::simd::{F32, Simd, prelude::*};
@@ -71,7 +71,7 @@ impl Drawer {
         self.engine.rasterizer.draw(&pass, &mut self.target);
     }
 
-    pub(super) fn picture(&self) -> Picture {
+    pub(super) fn image(&self) -> WallImage {
         let size = [self.target.width(), self.target.height()].map(|side| side as usize);
         field(size, self.target.linear()).map(|color| (color.w > 0.0).then_some([color.x, color.y]))
     }

@@ -48,11 +48,11 @@ impl Interpolation {
         if self == Self::Engine {
             let mut drawer = engine::Drawer::new(wall);
             drawer.draw();
-            return drawer.picture();
+            return drawer.image();
         }
-        let mut picture = Field::new(wall.size, None);
-        self.draw_into(wall, &mut picture);
-        picture
+        let mut image = Field::new(wall.size, None);
+        self.draw_into(wall, &mut image);
+        image
     }
 
     /// What draws a wall again and again, with all kept that can be kept.
@@ -62,19 +62,19 @@ impl Interpolation {
             let mut drawer = engine::Drawer::new(wall);
             return Box::new(move || drawer.draw());
         }
-        let mut picture = Field::new(wall.size, None);
+        let mut image = Field::new(wall.size, None);
         Box::new(move || {
-            picture.clear(None);
-            self.draw_into(wall, &mut picture);
+            image.clear(None);
+            self.draw_into(wall, &mut image);
         })
     }
 
     /// By one of the classical ways.
-    fn draw_into(self, wall: &Wall, picture: &mut Field<Option<Texel>>) {
+    fn draw_into(self, wall: &Wall, image: &mut Field<Option<Texel>>) {
         match self {
-            Self::Affine => wall.draw_into(picture, affine::row),
-            Self::Every16 => wall.draw_into(picture, every16::row),
-            Self::Perspective => wall.draw_into(picture, perspective::row),
+            Self::Affine => wall.draw_into(image, affine::row),
+            Self::Every16 => wall.draw_into(image, every16::row),
+            Self::Perspective => wall.draw_into(image, perspective::row),
             Self::Engine => {}
         }
     }

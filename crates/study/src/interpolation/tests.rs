@@ -19,8 +19,8 @@ fn every_division_brings_texels_nearer() {
 fn all_cover_the_same_pixels() {
     let wall = Wall::new(160);
     let covered = Interpolation::ALL.map(|way| way.draw(&wall).map(Option::is_some));
-    for (way, picture) in Interpolation::ALL.iter().zip(&covered) {
-        assert!(*picture == covered[0], "{way:?} covers what the others do");
+    for (way, image) in Interpolation::ALL.iter().zip(&covered) {
+        assert!(*image == covered[0], "{way:?} covers what the others do");
     }
 }
 

@@ -9,7 +9,7 @@ use std::ops::Range;
 pub type Texel = [f32; 2];
 
 /// The texel in each pixel; none where the wall is not.
-pub(super) type Picture = Field<Option<Texel>>;
+pub(super) type WallImage = Field<Option<Texel>>;
 
 /// A wall with a texture, beside an eye one metre from it.
 pub struct Wall {
@@ -18,7 +18,7 @@ pub struct Wall {
     triangles: [Facet; 2],
 }
 
-/// A corner on the picture.
+/// A corner on the image.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     /// In 1/256 pixel.
@@ -120,7 +120,7 @@ impl Facet {
 }
 
 impl Wall {
-    /// From 1.5 to 6 metres away, 1.8 metres high, 256 texels to the metre, in a picture
+    /// From 1.5 to 6 metres away, 1.8 metres high, 256 texels to the metre, in an image
     /// of `width` pixels and three quarters of that in height.
     #[must_use]
     pub fn new(width: usize) -> Self {
@@ -143,10 +143,10 @@ impl Wall {
 
     /// Draws each row of each triangle by a function of the row and its pixels.
     #[inline]
-    pub(super) fn draw_into(&self, picture: &mut Picture, row: impl Fn(&Row, &mut [Option<Texel>])) {
+    pub(super) fn draw_into(&self, image: &mut WallImage, row: impl Fn(&Row, &mut [Option<Texel>])) {
         for triangle in &self.triangles {
             for (y, span) in triangle.spans.iter().enumerate().filter(|(_, span)| span.end > 0) {
-                row(&triangle.row([span.start, y]), &mut picture.row_mut(y)[span.clone()]);
+                row(&triangle.row([span.start, y]), &mut image.row_mut(y)[span.clone()]);
             }
         }
     }

@@ -23,7 +23,7 @@ pub struct LineErrors {
 }
 
 impl LineErrors {
-    /// Of one segment, drawn in a picture that holds it. Its ends are left out of the
+    /// Of one segment, drawn in an image that holds it. Its ends are left out of the
     /// comparison of areas: there is more than one way to end a line.
     #[must_use]
     pub fn of(line: Line, segment: Segment, size: [usize; 2]) -> Self {

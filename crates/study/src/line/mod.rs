@@ -99,7 +99,7 @@ impl Line {
     }
 }
 
-/// Segments of `radius` pixels and the same back, from the middle of a square picture to
+/// Segments of `radius` pixels and the same back, from the middle of a square image to
 /// all sides.
 #[must_use]
 pub fn star(side: usize, radius: i32) -> Vec<Segment> {

@@ -5,7 +5,7 @@ use crate::field::Field;
 /// A segment between the centres of two pixels.
 pub type Segment = [[i32; 2]; 2];
 
-/// Adds ink to a pixel, if it is in the picture.
+/// Adds ink to a pixel, if it is in the image.
 #[inline]
 pub(super) fn paint(coverage: &mut Field<f32>, pixel: [i32; 2], share: f32) {
     if let Some(sum) = coverage.get_mut(pixel) {

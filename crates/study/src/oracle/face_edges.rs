@@ -1,4 +1,4 @@
-//! What the edges of faces cover of a picture's pixels, by area.
+//! What the edges of faces cover of an image's pixels, by area.
 //!
 //! Many points in each pixel are asked for what an eye sees there; an edge covers those
 //! that lie within half its width of a part of it that is seen. Projection, visibility and
@@ -26,15 +26,15 @@ const NEARER: f64 = 1e-5;
 pub struct View {
     /// The eye.
     pub eye: DVec3,
-    /// What is in the middle of the picture.
+    /// What is in the middle of the image.
     pub target: DVec3,
-    /// Half the height of the picture at a distance of 1.
+    /// Half the height of the image at a distance of 1.
     pub half_height: f64,
     /// Columns and rows of pixels.
     pub size: [usize; 2],
 }
 
-/// A corner on the picture.
+/// A corner on the image.
 #[derive(Clone, Copy, Debug)]
 struct Corner {
     /// In pixels, x to the right, y down.
@@ -44,7 +44,7 @@ struct Corner {
     vertex: u32,
 }
 
-/// A face on the picture.
+/// A face on the image.
 struct Face {
     corners: Vec<Corner>,
     /// Nearness at the origin, and its steps to the right and down.
@@ -74,7 +74,7 @@ impl Face {
         let perimeter: f64 = sides().map(|(a, b)| a.place.distance(b.place)).sum();
         let radius = doubled.abs() / perimeter;
         let half_width = (width * 0.5).min(radius / 3.0).min(radius * radius / 4.5);
-        // Nearness is linear on the picture. The area vector of its graph is its normal.
+        // Nearness is linear on the image. The area vector of its graph is its normal.
         let lifted = |corner: &Corner| corner.place.extend(corner.nearness);
         let normal: DVec3 = sides().map(|(a, b)| lifted(a).cross(lifted(b))).sum();
         if normal.z == 0.0 {

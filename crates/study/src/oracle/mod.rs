@@ -38,7 +38,7 @@ pub mod ray;
 
 pub use double_double::DoubleDouble;
 
-/// A point of the sub-pixel grid: x to the right and y down from the picture's
+/// A point of the sub-pixel grid: x to the right and y down from the image's
 /// top left corner, in 1/256 pixel.
 pub type GridPoint = [i32; 2];
 

@@ -57,7 +57,7 @@ fn flat(corners: [Corner; 3]) -> [GridPoint; 3] {
     corners.map(|[x, y, _]| [x, y])
 }
 
-/// The pixels of a picture whose centres a triangle can cover, row by row.
+/// The pixels of an image whose centres a triangle can cover, row by row.
 pub fn pixels(corners: [Corner; 3], size: [usize; 2]) -> impl Iterator<Item = [i32; 2]> {
     let range = |axis: usize| -> Range<i32> {
         let [a, b, c] = corners.map(|corner| corner[axis].div_euclid(STEPS));
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn pixels_are_those_of_the_box_in_the_picture() {
+    fn pixels_are_those_of_the_box_in_the_image() {
         let corners = [[-300, 100, 0], [600, 100, 0], [100, 300, 0]];
         assert_eq!(pixels(corners, [2, 9]).collect::<Vec<_>>(), [[0, 0], [1, 0], [0, 1], [1, 1]]);
         assert_eq!(Nearness::of(corners, [5, 5]), None, "beside it");

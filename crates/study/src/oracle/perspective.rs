@@ -3,7 +3,7 @@
 use super::GridPoint;
 use super::coverage::doubled_area;
 
-/// The value at a point of the picture, given the corners there, their distances from the eye
+/// The value at a point of the image, given the corners there, their distances from the eye
 /// along the line of sight, and their values. `None` for a triangle without area.
 ///
 /// Areas are exact integers; the rest is rounded in `f64` a dozen times, so where the point lies
@@ -11,7 +11,7 @@ use super::coverage::doubled_area;
 #[must_use]
 pub fn at(corners: [GridPoint; 3], distances: [f64; 3], values: [f64; 3], point: GridPoint) -> Option<f64> {
     let [a, b, c] = corners;
-    // A corner's weight on the picture is the area of the triangle with the point instead of it.
+    // A corner's weight on the image is the area of the triangle with the point instead of it.
     // A corner that is twice as far away counts half as much on the triangle in space.
     let areas = [[point, b, c], [a, point, c], [a, b, point]].map(doubled_area);
     let weights = [0, 1, 2].map(|i| areas[i] as f64 / distances[i]);

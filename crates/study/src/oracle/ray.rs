@@ -1,7 +1,7 @@
 //! What an eye sees, by rays and brute force: no edge functions, no projection of
 //! corners, no snapping, no cutting.
 //!
-//! A ray through the picture at (X, Y) meets a triangle where (X, Y, 1) is a sum of
+//! A ray through the image at (X, Y) meets a triangle where (X, Y, 1) is a sum of
 //! its corners' (x, y, w); the shares tell inside from outside, and they tell the
 //! depth. All of that is linear in X and Y (M. Olano and T. Greer, *Triangle scan
 //! conversion using 2D homogeneous coordinates*, Graphics Hardware 1997), so that
@@ -11,10 +11,10 @@
 use super::DoubleDouble;
 use trigon_math::{DVec2, UVec2, Vec4};
 
-/// A linear function on the picture: `x`, `y` and 1 in pixels times these.
+/// A linear function on the image: `x`, `y` and 1 in pixels times these.
 type Linear = [DoubleDouble; 3];
 
-/// A triangle in clip space, seen on a picture.
+/// A triangle in clip space, seen on an image.
 #[derive(Clone, Debug)]
 pub struct Facet {
     /// The shares of the corners in a ray, not negative inside. Zero on the edges, also
@@ -27,7 +27,7 @@ pub struct Facet {
 }
 
 impl Facet {
-    /// A triangle in reversed-Z clip space on a picture of `size` pixels. Its corners
+    /// A triangle in reversed-Z clip space on an image of `size` pixels. Its corners
     /// are finite and have z ≥ 0, so that what lies behind the eye lies before the
     /// near plane, z = w, too.
     #[must_use]
@@ -143,7 +143,7 @@ mod tests {
 
     const EXACT: Tolerance = Tolerance { outline: 1e-9, depth: 0.0 };
 
-    /// In the plane at distance `w`, from the points' places on the picture.
+    /// In the plane at distance `w`, from the points' places on the image.
     fn facing(points: [[f32; 2]; 3], w: f32) -> [Vec4; 3] {
         points.map(|[x, y]| Vec4::new((x / 32.0 - 1.0) * w, (1.0 - y / 16.0) * w, 0.25, w))
     }

@@ -2,13 +2,13 @@
 
 use super::figures::Row;
 use super::headline::Headline;
-use super::picture::Picture;
+use super::image_row::ImageRow;
 use super::plot::Plot;
 
 /// How long measuring may take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Effort {
-    /// Less than a minute: fewer runs, smaller pictures.
+    /// Less than a minute: fewer runs, smaller images.
     Quick,
     /// Some minutes.
     #[default]
@@ -54,7 +54,7 @@ pub(super) struct Chapter {
     pub(super) text: &'static str,
     pub(super) rows: Vec<Row>,
     pub(super) plots: Vec<Plot>,
-    pub(super) pictures: Vec<Picture>,
+    pub(super) images: Vec<ImageRow>,
     /// What else a reader should know, with figures that are not divided by each other.
     pub(super) findings: Vec<String>,
 }

@@ -23,7 +23,7 @@ pub(super) struct Conditions {
     pub(super) threads: usize,
     /// What is drawn, or worked on.
     pub(super) geometry: String,
-    /// Of the picture, in pixels; 0 where there is none.
+    /// Of the image, in pixels; 0 where there is none.
     pub(super) resolution: [usize; 2],
     pub(super) warmth: Warmth,
 }
@@ -79,7 +79,7 @@ impl Row {
         Self { case, variant, conditions, values: Vec::new(), is_listed: true }
     }
 
-    /// Of a picture of so many pixels.
+    /// Of an image of so many pixels.
     pub(super) fn sized(mut self, resolution: [usize; 2]) -> Self {
         self.conditions.resolution = resolution;
         self

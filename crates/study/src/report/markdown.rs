@@ -70,8 +70,8 @@ pub(super) fn write_chapter(Answer { chapter, sentences }: &Answer, text: &mut S
     for plot in &chapter.plots {
         let _ = write!(text, "\n![{}](images/{})\n", plot.title, plot.file(chapter.name));
     }
-    for picture in &chapter.pictures {
-        let _ = write!(text, "\n![{0}](images/{1})\n\n*{0}*\n", picture.caption, picture.file(chapter.name));
+    for image in &chapter.images {
+        let _ = write!(text, "\n![{0}](images/{1})\n\n*{0}*\n", image.caption, image.file(chapter.name));
     }
 }
 

@@ -7,9 +7,9 @@ mod chapter;
 mod chapters;
 mod figures;
 mod headline;
+mod image_row;
 mod labels;
 mod markdown;
-mod picture;
 mod plot;
 
 #[cfg(test)]
@@ -67,8 +67,8 @@ impl Report {
             for plot in &chapter.plots {
                 plot.write(&images.join(plot.file(chapter.name)))?;
             }
-            for picture in &chapter.pictures {
-                picture.write(&images.join(picture.file(chapter.name)))?;
+            for image in &chapter.images {
+                image.write(&images.join(image.file(chapter.name)))?;
             }
         }
         let mut csv = io::BufWriter::new(File::create(folder.join("results.csv"))?);

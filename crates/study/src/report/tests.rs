@@ -38,7 +38,7 @@ fn everything_that_the_report_names_is_written() {
     );
     for image in images {
         let file = fs::read(folder.join("images").join(image)).unwrap();
-        assert!(file.len() > 500, "{image} holds a picture");
+        assert!(file.len() > 500, "{image} holds an image");
     }
     for answer in &report.answers {
         for sentence in &answer.sentences {

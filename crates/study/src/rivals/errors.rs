@@ -1,15 +1,15 @@
-//! How far a picture is from the exact one, by causes.
+//! How far an image is from the exact one, by causes.
 
 use super::{Exact, Pixel};
 use crate::workloads::Scene;
 use trigon_math::DVec3;
 
-/// What is wrong with a picture. Differences of colours are of 255.
+/// What is wrong with an image. Differences of colours are of 255.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
     /// The root of the mean square against the mean light of each pixel that shows any surface.
-    pub picture: f64,
-    /// What can be said of pictures with one sample a pixel, at its centre.
+    pub image: f64,
+    /// What can be said of images with one sample a pixel, at its centre.
     pub centres: Option<Centres>,
 }
 
@@ -28,25 +28,22 @@ pub struct Centres {
 }
 
 impl Errors {
-    /// Of a picture of the same size. `is_flat` tells that each surface has one colour.
+    /// Of an image of the same size. `is_flat` tells that each surface has one colour.
     #[must_use]
-    pub fn new(exact: &Exact, picture: &[[u8; 4]], is_centred: bool, is_flat: bool) -> Self {
-        let touched = exact.pixels.iter().zip(picture).filter(|(pixel, _)| pixel.is_touched);
+    pub fn new(exact: &Exact, image: &[[u8; 4]], is_centred: bool, is_flat: bool) -> Self {
+        let touched = exact.pixels.iter().zip(image).filter(|(pixel, _)| pixel.is_touched);
         let squares: Vec<f64> =
             touched.map(|(pixel, found)| (pixel.mean * 255.0 - color(*found)).length_squared()).collect();
-        Self {
-            picture: root_mean(&squares),
-            centres: is_centred.then(|| Centres::new(exact, picture, is_flat)),
-        }
+        Self { image: root_mean(&squares), centres: is_centred.then(|| Centres::new(exact, image, is_flat)) }
     }
 }
 
 impl Centres {
-    fn new(exact: &Exact, picture: &[[u8; 4]], is_flat: bool) -> Self {
+    fn new(exact: &Exact, image: &[[u8; 4]], is_flat: bool) -> Self {
         let [mut outlines, mut wrong, mut inside, mut holes] = [0_u32; 4];
         let (mut squares, mut worst) = (Vec::new(), 0.0_f64);
         for (index, pixel) in exact.pixels.iter().enumerate() {
-            let found = color(picture[index]);
+            let found = color(image[index]);
             let others: Vec<&Pixel> =
                 exact.neighbours(index).filter(|other| is_other(pixel, other)).collect();
             if !others.is_empty() {
@@ -56,7 +53,7 @@ impl Centres {
                 let difference = (pixel.color * 255.0 - found).abs();
                 inside += 1;
                 let differs = is_flat && difference.max_element() > 0.5;
-                if picture[index] == Scene::BACKGROUND || differs {
+                if image[index] == Scene::BACKGROUND || differs {
                     holes += 1;
                 } else {
                     squares.push(difference.length_squared());

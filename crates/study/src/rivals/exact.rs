@@ -1,6 +1,6 @@
-//! A workload's picture as its definition has it, by rays in `f64`.
+//! A workload's image as its definition has it, by rays in `f64`.
 //!
-//! A ray through the picture at (X, Y) meets a triangle where (X, Y, 1) is a sum of its corners' (x, y, w); the shares are
+//! A ray through the image at (X, Y) meets a triangle where (X, Y, 1) is a sum of its corners' (x, y, w); the shares are
 //! linear in X and Y, and their sum is 1/w (M. Olano and T. Greer, *Triangle scan conversion using 2D homogeneous
 //! coordinates*, Graphics Hardware 1997). No corner is projected or snapped, and nothing is cut: all lie before the eye.
 
@@ -29,7 +29,7 @@ pub struct Pixel {
     pub is_touched: bool,
 }
 
-/// The exact picture of a workload.
+/// The exact image of a workload.
 pub struct Exact {
     /// Row by row from the top.
     pub pixels: Vec<Pixel>,
@@ -193,7 +193,7 @@ impl<'a> Rays<'a> {
     }
 
     /// How many texels a pixel is long, in the direction in which it is longer: u and v are quotients of functions that are
-    /// linear on the picture, so their derivatives are exact.
+    /// linear on the image, so their derivatives are exact.
     fn texels(&self, triangle: &Triangle, uv: [DVec2; 3], (at, nearness): (DVec2, f64)) -> f64 {
         let along = |axis: usize| {
             let slope = triangle.shares.map(|share| share[axis]);

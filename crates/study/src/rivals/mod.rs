@@ -1,6 +1,6 @@
-//! How right the pictures are that other renderers make of the [`workloads`](crate::workloads), and trigon's own.
+//! How right the images are that other renderers make of the [`workloads`](crate::workloads), and trigon's own.
 //!
-//! All are held against the same [`Exact`] picture: the workload's definition carried out in `f64`, by rays, with its own
+//! All are held against the same [`Exact`] image: the workload's definition carried out in `f64`, by rays, with its own
 //! camera, light and texture. It shares no code with the engine, and takes from the workloads only vertices, triangles and
 //! colours. Errors are taken apart:
 //!
@@ -8,7 +8,7 @@
 //!   surface hides another.
 //! - *Within surfaces*: pixels whose neighbours show the same surface. What differs there is depth in [flat
 //!   colours](crate::workloads::Shading::Flat), and interpolation, light or texture elsewhere.
-//! - *The whole picture*: against the mean of 256 rays through each pixel, which is what more samples come closer to.
+//! - *The whole image*: against the mean of 256 rays through each pixel, which is what more samples come closer to.
 
 mod errors;
 mod exact;

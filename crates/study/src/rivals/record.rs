@@ -11,7 +11,7 @@ pub struct Measured {
     pub renderer: String,
     /// The workload's name.
     pub workload: String,
-    /// What is wrong with its picture.
+    /// What is wrong with its image.
     pub errors: Errors,
 }
 
@@ -31,13 +31,13 @@ pub struct Timed {
 
 impl Measured {
     /// The first line of the file.
-    pub const HEAD: &str = "renderer,workload,picture,wrong at outlines,wrong within,within,worst within";
+    pub const HEAD: &str = "renderer,workload,image,wrong at outlines,wrong within,within,worst within";
 
     /// A line of the file.
     #[must_use]
     pub fn line(&self) -> String {
-        let Errors { picture, centres } = self.errors;
-        let mut line = format!("{},{},{picture}", self.renderer, self.workload);
+        let Errors { image, centres } = self.errors;
+        let mut line = format!("{},{},{image}", self.renderer, self.workload);
         let numbers = centres.map_or([None; 4], |centres| {
             let Centres { wrong_at_outlines, wrong_within, within, worst_within } = centres;
             [wrong_at_outlines, wrong_within, within, worst_within].map(Some)
@@ -61,7 +61,7 @@ impl Measured {
                 worst_within: number(4)?,
             })
         };
-        let errors = Errors { picture: number(0)?, centres: number(1).and_then(centres) };
+        let errors = Errors { image: number(0)?, centres: number(1).and_then(centres) };
         Some(Self { renderer: (*renderer).to_owned(), workload: (*workload).to_owned(), errors })
     }
 }

@@ -1,4 +1,4 @@
-//! The exact picture is exact, and trigon's pictures are as near to it as they should be.
+//! The exact image is exact, and trigon's images are as near to it as they should be.
 
 use super::*;
 use crate::workloads::{Canvas, Grid, Scene, Shading, Workload};
@@ -23,9 +23,9 @@ fn in_bytes(color: DVec3) -> [u8; 4] {
     [r, g, b, 255]
 }
 
-/// Errors of the exact picture itself are those of rounding: between a half either way every error is as likely.
+/// Errors of the exact image itself are those of rounding: between a half either way every error is as likely.
 #[test]
-fn the_exact_picture_is_off_by_its_rounding() {
+fn the_exact_image_is_off_by_its_rounding() {
     let exact = Exact::new(&small(Workload::KnotPhong));
     let centres: Vec<[u8; 4]> = exact.pixels.iter().map(|pixel| in_bytes(pixel.color)).collect();
     let errors = Errors::new(&exact, &centres, true, false).centres.unwrap();
@@ -33,7 +33,7 @@ fn the_exact_picture_is_off_by_its_rounding() {
     assert!(errors.worst_within <= 0.5, "{errors:?}");
     assert!((errors.within - (1.0_f64 / 12.0).sqrt()).abs() < 0.01, "{errors:?}");
     let means: Vec<[u8; 4]> = exact.pixels.iter().map(|pixel| in_bytes(pixel.mean)).collect();
-    assert!(Errors::new(&exact, &means, false, false).picture < 0.3, "what is best");
+    assert!(Errors::new(&exact, &means, false, false).image < 0.3, "what is best");
 }
 
 /// What the workloads show, by trigon, with one sample a pixel: 8 of 1000 pixels at outlines are more than the grid of 1/256 pixel can
@@ -57,15 +57,15 @@ fn trigon_is_near() {
     }
 }
 
-/// A picture that is moved by a pixel is wrong at its outlines, and more of it than that.
+/// An image that is moved by a pixel is wrong at its outlines, and more of it than that.
 #[test]
-fn a_picture_that_is_moved_is_far() {
+fn an_image_that_is_moved_is_far() {
     let scene = small(Workload::Cubes);
-    let (exact, mut picture) = (Exact::new(&scene), drawn(&scene));
-    let before = Errors::new(&exact, &picture, true, true);
-    picture.rotate_right(1);
-    let after = Errors::new(&exact, &picture, true, true);
-    assert!(after.picture > 1.2 * before.picture, "{before:?}, {after:?}");
+    let (exact, mut image) = (Exact::new(&scene), drawn(&scene));
+    let before = Errors::new(&exact, &image, true, true);
+    image.rotate_right(1);
+    let after = Errors::new(&exact, &image, true, true);
+    assert!(after.image > 1.2 * before.image, "{before:?}, {after:?}");
     let wrong = [before, after].map(|errors| errors.centres.unwrap().wrong_at_outlines);
     assert!(wrong[1] > 20.0 * wrong[0].max(1.0), "{wrong:?}");
 }
@@ -76,8 +76,8 @@ fn more_samples_come_nearer() {
     let scene = small(Workload::KnotPhong);
     let exact = Exact::new(&scene);
     let error = |preset: Preset| {
-        let picture = drawn(&scene.clone().at_quality(preset.quality()));
-        Errors::new(&exact, &picture, false, false).picture
+        let image = drawn(&scene.clone().at_quality(preset.quality()));
+        Errors::new(&exact, &image, false, false).image
     };
     let errors = Preset::ALL.map(error);
     assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");

@@ -1,4 +1,4 @@
-//! A triangle over the whole picture, lit in each pixel: position and normal by perspective,
+//! A triangle over the whole image, lit in each pixel: position and normal by perspective,
 //! then J. F. Blinn's highlight, as the workloads have it.
 
 use super::arithmetic::Arithmetic;

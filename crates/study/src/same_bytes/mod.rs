@@ -46,7 +46,7 @@ impl Rules {
         light
     }
 
-    /// What draws the picture again and again into the same memory.
+    /// What draws the image again and again into the same memory.
     #[must_use]
     pub fn repeated(self) -> Box<dyn FnMut()> {
         let mut light = Field::new([kernel::SIDE; 2], 0.0);
@@ -81,8 +81,8 @@ impl Rules {
     }
 }
 
-/// How many pixels a picture has.
+/// How many pixels an image has.
 pub const PIXELS: usize = kernel::SIDE * kernel::SIDE;
 
-/// Columns and rows of a picture.
+/// Columns and rows of an image.
 pub const SIZE: [usize; 2] = [kernel::SIDE; 2];

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn the_picture_has_a_highlight_and_shade() {
+fn the_image_has_a_highlight_and_shade() {
     let light = Rules::SameBytes.draw();
     let least = light.values().iter().copied().fold(f32::INFINITY, f32::min);
     let most = light.values().iter().copied().fold(0.0, f32::max);
@@ -24,5 +24,5 @@ fn the_renderers_rules_round_little() {
 fn estimates_are_no_more_accurate_than_quotients() {
     let [ours, _, estimated] = Rules::ALL.map(|rules| rules.error().rmse());
     assert!(estimated >= ours / 2.0, "{estimated} and {ours}");
-    assert!(estimated < 0.3, "but it is the same picture: {estimated}");
+    assert!(estimated < 0.3, "but it is the same image: {estimated}");
 }

@@ -7,9 +7,9 @@ use trigon_math::DVec3;
 use trigon_mesh::primitives;
 
 /// The light in each pixel; none where the ball is not.
-pub(super) type Picture = Field<Option<f64>>;
+pub(super) type BallImage = Field<Option<f64>>;
 
-/// A ball that fills the picture.
+/// A ball that fills the image.
 pub struct Ball {
     side: usize,
     faces: Vec<Facet>,
@@ -29,17 +29,17 @@ impl Facet {
     }
 
     /// Paints the light of each pixel, by the weights of the corners there.
-    pub(super) fn paint(&self, picture: &mut Picture, light: impl Fn([i64; 3]) -> f64) {
-        let pixels = self.edges.bounding_box(picture.size().map(|side| side as i32));
+    pub(super) fn paint(&self, image: &mut BallImage, light: impl Fn([i64; 3]) -> f64) {
+        let pixels = self.edges.bounding_box(image.size().map(|side| side as i32));
         self.edges.each_covered(&pixels, |[x, y], weights| {
-            picture[[x as usize, y as usize]] = Some(light(weights));
+            image[[x as usize, y as usize]] = Some(light(weights));
         });
     }
 }
 
 impl Ball {
     /// An icosahedron, each triangle cut in four `subdivisions` times, in a square
-    /// picture.
+    /// image.
     #[must_use]
     pub fn new(side: usize, subdivisions: u32) -> Self {
         let radius = side as f64 / 2.0;
@@ -68,8 +68,8 @@ impl Ball {
         self.faces.len()
     }
 
-    /// An empty picture of it.
-    pub(super) fn picture(&self) -> Picture {
+    /// An empty image of it.
+    pub(super) fn image(&self) -> BallImage {
         Field::new([self.side; 2], None)
     }
 

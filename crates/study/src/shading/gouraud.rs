@@ -1,11 +1,11 @@
 //! H. Gouraud, "Continuous shading of curved surfaces", IEEE Transactions on Computers,
 //! 1971: light at the corners, interpolated.
 
-use super::ball::{Facet, Picture};
+use super::ball::{BallImage, Facet};
 use super::light_of;
 use crate::fill::fixed::weighted;
 
-pub(super) fn draw(face: &Facet, picture: &mut Picture) {
+pub(super) fn draw(face: &Facet, image: &mut BallImage) {
     let lights = face.shares(face.normals.map(light_of));
-    face.paint(picture, |weights| weighted(&lights, weights));
+    face.paint(image, |weights| weighted(&lights, weights));
 }

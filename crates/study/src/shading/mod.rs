@@ -43,28 +43,28 @@ impl Shading {
     /// The light in each pixel of a ball; none where it is not.
     #[must_use]
     pub fn draw(self, ball: &Ball) -> Field<Option<f64>> {
-        let mut picture = ball.picture();
-        self.draw_into(ball, &mut picture);
-        picture
+        let mut image = ball.image();
+        self.draw_into(ball, &mut image);
+        image
     }
 
     /// What draws a ball again and again into the same memory.
     #[must_use]
     pub fn repeated(self, ball: &Ball) -> Box<dyn FnMut() + '_> {
-        let mut picture = ball.picture();
+        let mut image = ball.image();
         Box::new(move || {
-            picture.clear(None);
-            self.draw_into(ball, &mut picture);
+            image.clear(None);
+            self.draw_into(ball, &mut image);
         })
     }
 
-    fn draw_into(self, ball: &Ball, picture: &mut Field<Option<f64>>) {
+    fn draw_into(self, ball: &Ball, image: &mut Field<Option<f64>>) {
         let shade = match self {
             Self::Flat => flat::draw,
             Self::Gouraud => gouraud::draw,
             Self::Phong => phong::draw,
         };
-        ball.faces().iter().for_each(|face| shade(face, picture));
+        ball.faces().iter().for_each(|face| shade(face, image));
     }
 
     /// How far that is from a ball without triangles, where both are.
@@ -93,7 +93,7 @@ pub fn light_of(normal: DVec3) -> f64 {
     0.1 + 0.5 * normal.dot(LIGHT).max(0.0) + 0.4 * highlight
 }
 
-/// How far the light of a picture is from that of the ball in a pixel; 0 beside it.
+/// How far the light of an image is from that of the ball in a pixel; 0 beside it.
 #[must_use]
 pub fn error_at(ball: &Ball, drawn: &Field<Option<f64>>, place: [usize; 2]) -> f64 {
     drawn[place].zip(ball.normal(place)).map_or(0.0, |(light, normal)| (light - light_of(normal)).abs())

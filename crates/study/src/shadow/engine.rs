@@ -20,7 +20,7 @@ pub struct Drawer {
 }
 
 impl Drawer {
-    /// A picture of `side` by `side` pixels that shows the floor and nothing else.
+    /// An image of `side` by `side` pixels that shows the floor and nothing else.
     #[must_use]
     pub fn new(shadows: Shadows, side: usize) -> Self {
         let mut settings = RenderSettings::new(side as u32, side as u32);
@@ -32,10 +32,10 @@ impl Drawer {
         Self { scene: scene(), camera: camera(), renderer: Renderer::new(settings), frame: Frame::default() }
     }
 
-    /// Draws the picture. What can be kept of it, maps and trees, is kept for the next one.
+    /// Draws the image. What can be kept of it, maps and trees, is kept for the next one.
     pub fn draw(&mut self) {
         let drawn = self.renderer.render_into(&self.scene, &self.camera, &mut self.frame);
-        drawn.expect("pictures of the study have a size in range");
+        drawn.expect("images of the study have a size in range");
     }
 
     /// The share of light in each pixel.

@@ -77,15 +77,15 @@ impl Shadow {
 
 /// The light on a floor of `side` by `side` pixels as something says it.
 pub fn draw(side: usize, light: &dyn Fn([f64; 2]) -> f64) -> Field<f64> {
-    let mut picture = Field::new([side; 2], 0.0);
-    draw_into(&mut picture, light);
-    picture
+    let mut image = Field::new([side; 2], 0.0);
+    draw_into(&mut image, light);
+    image
 }
 
-/// The same into a square picture.
-pub fn draw_into(picture: &mut Field<f64>, light: &dyn Fn([f64; 2]) -> f64) {
-    let [side, _] = picture.size();
-    for (y, row) in picture.rows_mut().enumerate() {
+/// The same into a square image.
+pub fn draw_into(image: &mut Field<f64>, light: &dyn Fn([f64; 2]) -> f64) {
+    let [side, _] = image.size();
+    for (y, row) in image.rows_mut().enumerate() {
         for (x, pixel) in row.iter_mut().enumerate() {
             *pixel = light(stage::point([x, y], side));
         }
@@ -99,7 +99,7 @@ pub fn exact(side: usize) -> Field<f64> {
     stage::exact(side)
 }
 
-/// How far a picture is from right, in the pixels that lie within two of the shadow's edge.
+/// How far an image is from right, in the pixels that lie within two of the shadow's edge.
 #[must_use]
 pub fn error(drawn: &Field<f64>, right: &Field<f64>) -> Difference {
     let is_near_edge = |[x, y]: [usize; 2]| {

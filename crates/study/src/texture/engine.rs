@@ -9,7 +9,7 @@ use trigon_raster::{
     Culling, Draw, FragmentLanes, LanePipeline, Output, Pass, Sampler, Target, Texture, VertexLanes,
 };
 
-/// The corners of the floor on the picture, with their texture coordinates.
+/// The corners of the floor on the image, with their texture coordinates.
 struct Floor {
     positions: Vec<Vec4>,
     coordinates: [[f32; 8]; 2],

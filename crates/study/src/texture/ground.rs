@@ -15,7 +15,7 @@ const SQUARE: u32 = 8;
 const TINTS: [u8; 2] = [230, 20];
 
 impl Ground {
-    /// In a picture of `width` pixels, all of it below the horizon.
+    /// In an image of `width` pixels, all of it below the horizon.
     #[must_use]
     pub fn new(width: usize) -> Self {
         let texel = |x: u32, y: u32| {
@@ -37,14 +37,14 @@ impl Ground {
         &self.texture
     }
 
-    /// How far ahead a point of the picture lies on the floor, in metres.
+    /// How far ahead a point of the image lies on the floor, in metres.
     pub(super) fn distance(&self, [_, y]: [f64; 2]) -> f64 {
         let scale = self.width as f64 / 2.0;
-        // The horizon lies a twentieth of the height above the picture.
+        // The horizon lies a twentieth of the height above the image.
         scale / (y + self.width as f64 / 40.0)
     }
 
-    /// Texture coordinates at a point of the picture, turned by 0.6 against it.
+    /// Texture coordinates at a point of the image, turned by 0.6 against it.
     pub(super) fn coordinates(&self, point: [f64; 2]) -> [f64; 2] {
         const TURN: [f64; 2] = [0.8, 0.6];
         let (scale, ahead) = (self.width as f64 / 2.0, self.distance(point));
@@ -52,7 +52,7 @@ impl Ground {
         [TURN[0] * right - TURN[1] * ahead, TURN[1] * right + TURN[0] * ahead]
     }
 
-    /// The light at a point of the picture: that of the texel it lies in.
+    /// The light at a point of the image: that of the texel it lies in.
     pub(super) fn light(&self, point: [f64; 2]) -> f64 {
         let squares = self.coordinates(point).map(|part| (part * f64::from(SIDE / SQUARE)).floor() as i64);
         f64::from(TINTS[(squares[0] + squares[1]).rem_euclid(2) as usize]) / 255.0

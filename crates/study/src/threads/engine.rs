@@ -1,4 +1,4 @@
-//! The engine's way: one pool that lasts, and tiles of the picture that its threads take
+//! The engine's way: one pool that lasts, and tiles of the image that its threads take
 //! in turn.
 
 use super::Corner;
@@ -8,7 +8,7 @@ use std::num::NonZeroUsize;
 use trigon_math::DVec2;
 use trigon_raster::{Output, Target};
 
-/// A picture that is drawn by several threads again and again.
+/// An image that is drawn by several threads again and again.
 pub struct Shared {
     engine: Engine,
     target: Target<'static>,
@@ -29,7 +29,7 @@ impl Shared {
         Self { engine: Engine::with_threads(threads), target: target(size, &outputs), shape }
     }
 
-    /// Draws the picture.
+    /// Draws the image.
     pub fn draw(&mut self) {
         self.engine.draw(&self.shape, &mut self.target);
     }

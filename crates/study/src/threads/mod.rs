@@ -1,4 +1,4 @@
-//! How many threads does a picture want? Source D's measurement (row D12, its table 4.1),
+//! How many threads does an image want? Source D's measurement (row D12, its table 4.1),
 //! its way and the engine's: a square of two faces.
 
 mod engine;
@@ -19,10 +19,10 @@ pub const THREADS: [usize; 9] = [0, 1, 2, 4, 8, 16, 32, 64, 128];
 pub const TIMES_OF_THE_SOURCE: [f64; 9] =
     [254_569.0, 293_457.0, 207_791.0, 128_807.0, 84_151.0, 66_569.0, 61_264.0, 65_488.0, 75_354.0];
 
-/// A corner on the picture: right, down and away from the eye.
+/// A corner on the image: right, down and away from the eye.
 pub type Corner = [f64; 3];
 
-/// The two faces of a square that fills most of a picture, a little tilted.
+/// The two faces of a square that fills most of an image, a little tilted.
 #[must_use]
 pub fn square([width, height]: [usize; 2]) -> [[Corner; 3]; 2] {
     let corner = |x: f64, y: f64| [x * width as f64 + 0.25, y * height as f64 + 0.25, 2.0 + x + y];

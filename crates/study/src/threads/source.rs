@@ -43,7 +43,7 @@ pub(super) fn draw(faces: &[[Corner; 3]], size: [usize; 2], threads: usize) -> F
     buffers.map(|pixel| if is_painted(pixel) { pixel.face } else { u32::MAX })
 }
 
-/// The first and last column and row of the picture that a face can reach.
+/// The first and last column and row of the image that a face can reach.
 fn bounding_box(face: &[Corner; 3], size: [usize; 2]) -> [[usize; 2]; 2] {
     [0, 1].map(|axis| {
         let [low, high] = crate::fill::range(face.map(|corner| corner[axis]));

@@ -5,7 +5,7 @@ use super::*;
 const SIZE: [usize; 2] = [300, 200];
 
 #[test]
-fn any_number_of_threads_draws_the_same_picture() {
+fn any_number_of_threads_draws_the_same_image() {
     let faces = square(SIZE);
     let alone = draw_by_face(&faces, SIZE, 0);
     let shown = alone.values().iter().filter(|&&face| face != u32::MAX).count();

@@ -71,7 +71,7 @@ impl Way for Drawer {
         self.engine.rasterizer.draw(&pass, &mut self.target);
     }
 
-    fn picture(&self) -> Field<f64> {
+    fn image(&self) -> Field<f64> {
         let size = [self.target.width(), self.target.height()].map(|side| side as usize);
         field(size, self.target.linear()).map(|color| color.x.into())
     }

@@ -13,34 +13,34 @@ pub(super) struct Faces {
     key: Key,
     order: Vec<u32>,
     lights: Vec<f64>,
-    picture: Field<f64>,
+    image: Field<f64>,
 }
 
 impl Faces {
     pub(super) fn new(scene: &Scene, key: Key) -> Self {
-        Self { key, order: Vec::new(), lights: lights(scene), picture: Field::new(scene.size(), 0.0) }
+        Self { key, order: Vec::new(), lights: lights(scene), image: Field::new(scene.size(), 0.0) }
     }
 }
 
 impl Way for Faces {
     fn draw(&mut self, scene: &Scene) {
-        let Self { key, order, lights, picture } = self;
+        let Self { key, order, lights, image } = self;
         order.clear();
         order.extend(scene.faces().map(|(number, _)| number));
         order.sort_by_key(|&number| key(scene, number));
-        picture.clear(0.0);
+        image.clear(0.0);
         for &number in &*order {
             let Some(surface) = Surface::new(scene.face(number)) else { continue };
             let light = lights[number as usize] * (1.0 - SHOWS);
             surface.each_pixel(scene.limits(), |pixel, _| {
-                let below = &mut picture[pixel.map(|part| part as usize)];
+                let below = &mut image[pixel.map(|part| part as usize)];
                 *below = *below * SHOWS + light;
             });
         }
     }
 
-    fn picture(&self) -> Field<f64> {
-        self.picture.clone()
+    fn image(&self) -> Field<f64> {
+        self.image.clone()
     }
 }
 

@@ -10,7 +10,7 @@ pub(super) struct Fragments {
     /// The depth and the face of each.
     lists: Field<Vec<(f64, u32)>>,
     lights: Vec<f64>,
-    picture: Field<f64>,
+    image: Field<f64>,
 }
 
 impl Fragments {
@@ -18,7 +18,7 @@ impl Fragments {
         Self {
             lists: Field::new(scene.size(), Vec::new()),
             lights: lights(scene),
-            picture: Field::new(scene.size(), 0.0),
+            image: Field::new(scene.size(), 0.0),
         }
     }
 }
@@ -33,7 +33,7 @@ impl Way for Fragments {
             });
         }
         let lists = self.lists.values_mut().iter_mut();
-        for (list, pixel) in lists.zip(self.picture.values_mut()) {
+        for (list, pixel) in lists.zip(self.image.values_mut()) {
             list.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
             *pixel = list.iter().fold(0.0, |below, &(_, number)| {
                 below * SHOWS + self.lights[number as usize] * (1.0 - SHOWS)
@@ -41,7 +41,7 @@ impl Way for Fragments {
         }
     }
 
-    fn picture(&self) -> Field<f64> {
-        self.picture.clone()
+    fn image(&self) -> Field<f64> {
+        self.image.clone()
     }
 }

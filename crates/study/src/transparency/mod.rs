@@ -54,7 +54,7 @@ impl Transparency {
     pub fn draw(self, scene: &Scene) -> Field<f64> {
         let mut way = self.way(scene);
         way.draw(scene);
-        way.picture()
+        way.image()
     }
 
     /// What draws a scene again and again, with all memory kept.
@@ -88,7 +88,7 @@ trait Way {
     fn draw(&mut self, scene: &Scene);
 
     /// What was drawn last.
-    fn picture(&self) -> Field<f64>;
+    fn image(&self) -> Field<f64>;
 }
 
 /// The light of each pixel with all faces in the order of their [`Nearness`], of equal ones the

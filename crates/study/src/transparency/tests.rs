@@ -31,15 +31,15 @@ fn one_face_lets_half_of_the_light_through() {
     }
 }
 
-/// The memory of a picture is that of the one before.
+/// The memory of an image is that of the one before.
 #[test]
 fn what_is_drawn_twice_is_the_same() {
     let scene = Case::Balls.scene(64);
     for way in Transparency::ALL {
         let mut drawn = way.way(&scene);
         drawn.draw(&scene);
-        let first = drawn.picture();
+        let first = drawn.image();
         drawn.draw(&scene);
-        assert!(first == drawn.picture() && first == way.draw(&scene), "{way:?}");
+        assert!(first == drawn.image() && first == way.draw(&scene), "{way:?}");
     }
 }

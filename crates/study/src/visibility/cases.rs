@@ -9,7 +9,7 @@ use trigon_mesh::{Mesh, primitives};
 /// A scene that asks one question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Case {
-    /// 40 balls of 80 faces all over the picture: what is usual.
+    /// 40 balls of 80 faces all over the image: what is usual.
     Balls,
     /// Three long bodies that overlap in a ring: no order from back to front is right.
     Ring,
@@ -37,7 +37,7 @@ impl Case {
         }
     }
 
-    /// The bodies in a square picture of `side` pixels.
+    /// The bodies in a square image of `side` pixels.
     #[must_use]
     pub fn scene(self, side: usize) -> Scene {
         let size = side as f64;
@@ -51,7 +51,7 @@ impl Case {
     }
 }
 
-/// Balls of 80 faces at chance places, wholly in the picture.
+/// Balls of 80 faces at chance places, wholly in the image.
 #[must_use]
 pub fn balls(side: usize, count: usize, radius: f64, seed: u64) -> Scene {
     let mut random = Random::new(seed);
@@ -63,7 +63,7 @@ pub fn balls(side: usize, count: usize, radius: f64, seed: u64) -> Scene {
     Scene::new([side; 2], bodies)
 }
 
-/// Sixteen sheets over the whole picture, one behind the other; `tilt` pixels nearer and
+/// Sixteen sheets over the whole image, one behind the other; `tilt` pixels nearer and
 /// farther at their corners, each at others, so that tilted ones cross. What they cover is
 /// the same for any tilt.
 #[must_use]

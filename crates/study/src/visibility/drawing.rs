@@ -2,7 +2,7 @@
 
 use crate::field::Field;
 
-/// What a picture shows, and what it took to find out.
+/// What an image shows, and what it took to find out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
     /// The number of the face in each pixel, `u32::MAX` for none.

@@ -4,7 +4,7 @@ use super::Scene;
 use crate::field::Field;
 use crate::oracle::nearness::{self, Nearness};
 
-/// What is wrong with a picture.
+/// What is wrong with an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OrderErrors {
     /// Pixels that show anything, as they should.
@@ -15,7 +15,7 @@ pub struct OrderErrors {
 }
 
 impl OrderErrors {
-    /// Of a picture of a scene.
+    /// Of an image of a scene.
     #[must_use]
     pub fn of(scene: &Scene, shown: &Field<u32>) -> Self {
         let nearest = nearest(scene);

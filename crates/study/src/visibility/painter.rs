@@ -5,7 +5,7 @@
 
 use super::{Drawing, Scene, Surface};
 
-/// A picture and the order of faces, in memory that is kept from frame to frame.
+/// An image and the order of faces, in memory that is kept from frame to frame.
 pub(super) struct Painter {
     drawing: Drawing,
     order: Vec<(i64, u32)>,

@@ -39,7 +39,7 @@ impl Body {
     }
 }
 
-/// How a mesh stands in a picture.
+/// How a mesh stands in an image.
 #[derive(Clone, Copy, Debug)]
 pub struct Pose {
     /// How it is turned.
@@ -85,7 +85,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A picture of bodies.
+    /// An image of bodies.
     #[must_use]
     pub fn new(size: [usize; 2], bodies: Vec<Body>) -> Self {
         let of_body = |(number, body): (usize, &Body)| -> Vec<Face> {

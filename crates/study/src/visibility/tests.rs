@@ -8,7 +8,7 @@ fn misordered(visibility: Visibility, case: Case) -> usize {
     let scene = case.scene(SIDE);
     let drawing = visibility.draw(&scene).unwrap();
     let OrderErrors { seen, misordered } = OrderErrors::of(&scene, &drawing.faces);
-    assert!(seen > SIDE * SIDE / 10, "{case:?} fills a part of the picture: {seen} pixels");
+    assert!(seen > SIDE * SIDE / 10, "{case:?} fills a part of the image: {seen} pixels");
     misordered
 }
 
@@ -122,9 +122,9 @@ fn hidden_lines_end_where_the_body_before_them_begins() {
     assert_eq!(ends, [1000.0, 4000.0, 6000.0, 9000.0], "two parts of the edge are seen");
 }
 
-/// What is kept from picture to picture changes none.
+/// What is kept from frame to frame changes none.
 #[test]
-fn the_second_picture_is_the_first() {
+fn the_second_image_is_the_first() {
     let scene = Case::Crossing.scene(64);
     let (mut painter, mut buffers) = (Painter::new(&scene), Buffers::new(&scene));
     let firsts = [painter.draw(&scene).clone(), buffers.draw(&scene).clone()];

@@ -1,5 +1,5 @@
 //! Warnock's algorithm (J. E. Warnock, "A hidden surface algorithm for computer generated
-//! halftone pictures", University of Utah, 1969): a window that shows one face, or that a
+//! halftone images", University of Utah, 1969): a window that shows one face, or that a
 //! face fills before all others, is painted; any other is divided in four, down to
 //! single pixels.
 

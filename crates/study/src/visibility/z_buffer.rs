@@ -5,7 +5,7 @@
 use super::{Drawing, Scene, Surface};
 use crate::field::Field;
 
-/// A picture with its depths, kept from frame to frame.
+/// An image with its depths, kept from frame to frame.
 pub(super) struct Buffers {
     drawing: Drawing,
     depths: Field<f32>,

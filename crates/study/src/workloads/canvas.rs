@@ -16,7 +16,7 @@ pub struct Canvas<'a> {
 }
 
 impl<'a> Canvas<'a> {
-    /// A picture of the scene's size and samples in `pixels`: row-major from the
+    /// An image of the scene's size and samples in `pixels`: row-major from the
     /// top left, plain RGBA8, [`Scene::pixel_count`] of them.
     ///
     /// # Errors
@@ -45,14 +45,14 @@ impl<'a> Canvas<'a> {
         Ok(Self { target, ..self })
     }
 
-    /// The picture as it was drawn last.
+    /// The image as it was drawn last.
     #[must_use]
     pub fn pixels(&self) -> &[[u8; 4]] {
         self.target.unorm8().expect("every canvas has these pixels")
     }
 
     /// Draws one frame of a scene of the same size and samples, and tells what it
-    /// took; the picture is complete when this returns.
+    /// took; the image is complete when this returns.
     pub fn draw(&mut self, scene: &Scene) -> Stats {
         let Self { rasterizer, target } = self;
         recorded(scene, |pass| rasterizer.draw(pass, target))

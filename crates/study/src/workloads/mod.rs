@@ -1,10 +1,10 @@
-//! Eight pictures that every renderer can draw, each of which asks one question:
+//! Eight images that every renderer can draw, each of which asks one question:
 //! how fast are pixels filled, triangles set up, fragments shaded, textures
 //! read, hidden things skipped, samples kept?
 //!
 //! All are 1920 by 1080 pixels of plain (not sRGB) RGBA8 on [`Scene::BACKGROUND`];
 //! the nearer fragment wins; nothing is blended. A frame is the whole way from
-//! the caller's vertices to the finished row-major picture.
+//! the caller's vertices to the finished row-major image.
 
 mod canvas;
 mod geometry;
@@ -27,7 +27,7 @@ use trigon_raster::Culling;
 /// How many layers [`Workload::FillPass`] and [`Workload::FillReject`] draw.
 const LAYERS: u32 = 64;
 
-/// One of the pictures.
+/// One of the images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Workload {
     /// Nothing visible: what a frame costs at least.

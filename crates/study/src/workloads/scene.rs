@@ -34,7 +34,7 @@ pub struct Scene {
     pub samples_per_axis: u32,
     /// Samples of coverage and depth in each of them.
     pub samples: u32,
-    /// Width and height of the picture in pixels.
+    /// Width and height of the image in pixels.
     pub size: UVec2,
     /// From the mesh to clip space; depth is reversed, 1 near and 0 far.
     pub to_clip_space: Mat4,
@@ -89,7 +89,7 @@ impl Scene {
     }
 
     /// The same, seen in perspective, 45 degrees high, towards the origin; the
-    /// picture shows what lies between the planes at distances `near` and `far`.
+    /// image shows what lies between the planes at distances `near` and `far`.
     pub(super) fn seen_from(self, eye: Vec3, [near, far]: [f64; 2]) -> Self {
         let aspect = f64::from(self.size.x) / f64::from(self.size.y);
         // With the planes exchanged, depth is reversed.

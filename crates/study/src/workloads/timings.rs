@@ -9,7 +9,7 @@ pub struct Timings {
 }
 
 impl Timings {
-    /// Times `frame`, which returns when the picture is complete, `repetitions`
+    /// Times `frame`, which returns when the image is complete, `repetitions`
     /// times (at least once), after three frames that fill caches and arenas.
     ///
     /// A frame of more than 1.5 s is warmed up twice and repeated five times at

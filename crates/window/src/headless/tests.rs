@@ -55,7 +55,7 @@ fn a_drag_turns_the_camera_and_what_is_done_is_recorded() {
     let mut window = HeadlessWindow::open(stage(), &mut application, SIZE);
     let before = (window.stage().orbit, window.pixels());
     window.move_to(DVec2::new(160.0, 160.0));
-    assert!(!window.is_on_interface(), "the picture is there");
+    assert!(!window.is_on_interface(), "the image is there");
     window.press(PointerButton::Left);
     window.move_to(DVec2::new(220.0, 150.0));
     window.release(PointerButton::Left);

@@ -137,7 +137,7 @@ fn write(context: &Context, place: Place, corner: Corner, lines: &[String]) -> e
 fn progress(progress: Progress, percent: Option<u8>) -> String {
     let work = match progress {
         Progress::Drawing { .. } => "drawing".to_owned(),
-        Progress::Picture { .. } => "drawing a picture to save".to_owned(),
+        Progress::Image { .. } => "drawing an image to save".to_owned(),
         Progress::Refining { step, of, .. } => {
             format!("refining {step}/{of}, {} left", (of + 1).saturating_sub(step))
         }
@@ -192,7 +192,7 @@ mod tests {
         assert_eq!(progress(refining(0), None), "refining 3/4, 2 left", "at first");
         assert_eq!(progress(refining(7), Some(43)), "refining 3/4, 2 left, 43 %, 7 s", "when it takes long");
         let drawing = progress(Progress::Drawing { seconds: 2 }, Some(0));
-        assert_eq!(drawing, "drawing, 0 %, 2 s", "the first picture");
+        assert_eq!(drawing, "drawing, 0 %, 2 s", "the first image");
     }
 
     /// Beside a wide panel the name of the file and the counts were wrapped, although all of them fit.

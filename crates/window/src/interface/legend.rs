@@ -73,6 +73,6 @@ mod tests {
         let difference = Difference { rmse: 0.012_34, worst: 0.51, worst_levels: 120, share: 0.031 };
         let text = figures(&difference);
         assert!(text.ends_with("RMSE 0.0123, worst 0.510 (120 levels), in 3.1 % of the pixels"), "{text}");
-        assert_eq!(figures(&Difference::default()), "no difference from the reference", "of equal pictures");
+        assert_eq!(figures(&Difference::default()), "no difference from the reference", "of equal images");
     }
 }

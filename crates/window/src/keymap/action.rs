@@ -72,7 +72,7 @@ pub enum Motion {
 pub enum CameraMotion {
     /// About the target: radians to the right and up.
     Orbit(f64, f64),
-    /// Over the scene: heights of the picture to the right and up.
+    /// Over the scene: heights of the image to the right and up.
     Pan(f64, f64),
     /// Closer: natural logarithm of the magnification.
     Zoom(f64),
@@ -81,10 +81,10 @@ pub enum CameraMotion {
 }
 
 /// How a held key moves the selected object, per second, in axes of the
-/// picture: x to the right, y up, z towards the viewer.
+/// image: x to the right, y up, z towards the viewer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ObjectMotion {
-    /// In heights of the picture at the camera's target.
+    /// In heights of the image at the camera's target.
     Move(DVec3),
     /// Radians about the object's origin, around each axis.
     Turn(DVec3),
@@ -97,7 +97,7 @@ pub enum DragAction {
     Orbit,
     /// Moves the scene under the pointer.
     Pan,
-    /// Turns the picture.
+    /// Turns the image.
     Roll,
     /// Up is closer.
     Zoom,

@@ -14,7 +14,7 @@ use crate::input::{Chord, Key, Modifiers, PointerButton};
 
 /// Radians per second: a turn in four seconds.
 const TURN: f64 = FRAC_PI_2;
-/// Heights of the picture per second.
+/// Heights of the image per second.
 const SHIFT: f64 = 0.5;
 /// Logarithm of the magnification per second: twice as large in 0.7 s.
 const ZOOM: f64 = 1.0;

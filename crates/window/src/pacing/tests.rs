@@ -1,4 +1,4 @@
-//! When pictures are drawn, and how well, without drawing any.
+//! When images are drawn, and how well, without drawing any.
 
 use super::*;
 
@@ -18,11 +18,11 @@ const DRAFT: Quality = Quality::Draft { shrink: 1.0 };
 /// As the settings say.
 const FULL: Quality = Quality::Full(0);
 
-/// A pacing whose first picture is done: a full one that took this long.
+/// A pacing whose first image is done: a full one that took this long.
 fn rested(full: Duration) -> Pacing {
     let mut pacing = Pacing::new();
     for (quality, took) in [(DRAFT, ms(0)), (FULL, full)] {
-        assert_eq!(begin(&mut pacing, ms(0), Frames::None), Some(quality), "a draft, then a full picture");
+        assert_eq!(begin(&mut pacing, ms(0), Frames::None), Some(quality), "a draft, then a full image");
         pacing.finished(took);
     }
     begin(&mut pacing, ms(0), Frames::None);
@@ -30,7 +30,7 @@ fn rested(full: Duration) -> Pacing {
     pacing
 }
 
-/// Draws whenever it is time to, until `end`; pictures take no time. Returns which
+/// Draws whenever it is time to, until `end`; images take no time. Returns which
 /// were begun when.
 fn run(pacing: &mut Pacing, start: Duration, end: Duration, frames: Frames) -> Vec<(Duration, Quality)> {
     let (mut now, mut begun) = (start, Vec::new());
@@ -72,7 +72,7 @@ fn events_faster_than_frames_are_gathered() {
             frames += 1;
         }
     }
-    assert!((55..=61).contains(&frames), "1000 movements in a second gave {frames} pictures");
+    assert!((55..=61).contains(&frames), "1000 movements in a second gave {frames} images");
 }
 
 #[test]
@@ -94,17 +94,17 @@ fn a_draft_follows_the_last_one_at_once() {
         }
     }
     let expected = [1000, 1025, 1050, 1075].map(ms);
-    assert_eq!(begun, expected, "frames for what is written over the picture hold up none");
+    assert_eq!(begun, expected, "frames for what is written over the image hold up none");
 }
 
 #[test]
-fn what_moves_waits_in_frames_until_a_picture_is_given_up() {
+fn what_moves_waits_in_frames_until_an_image_is_given_up() {
     let mut pacing = rested(ms(500));
     pacing.changed(Change::Settled, ms(1000));
     assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(DRAFT), "it takes long, so first a draft");
     pacing.finished(ms(1));
     assert_eq!(begin(&mut pacing, ms(1100), Frames::None), Some(FULL), "at rest");
-    // A key goes down, and the picture has not noticed yet that nobody wants it.
+    // A key goes down, and the image has not noticed yet that nobody wants it.
     let mut frames = 0;
     for now in (1200..1300).map(ms) {
         pacing.changed(Change::Settled, now);
@@ -120,10 +120,10 @@ fn what_moves_waits_in_frames_until_a_picture_is_given_up() {
 fn an_animation_is_paced_to_sixty_frames() {
     let mut pacing = rested(ms(0));
     let begun = run(&mut pacing, ms(1000), ms(2000), Frames::Wanted);
-    assert!((59..=61).contains(&begun.len()), "{} pictures in a second", begun.len());
+    assert!((59..=61).contains(&begun.len()), "{} images in a second", begun.len());
     assert!(begun.iter().all(|&(_, quality)| quality == DRAFT), "all of them drafts");
     let after = run(&mut pacing, ms(2000), ms(9000), Frames::None);
-    assert_eq!(after.len(), 1, "when it ends, its last picture is refined: {after:?}");
+    assert_eq!(after.len(), 1, "when it ends, its last image is refined: {after:?}");
     assert_eq!(after[0].1, FULL, "in full");
 }
 
@@ -141,7 +141,7 @@ fn a_single_change_is_drawn_in_full_if_that_is_quick() {
 }
 
 #[test]
-fn a_picture_that_takes_longer_than_was_known_is_given_up_for_a_draft() {
+fn an_image_that_takes_longer_than_was_known_is_given_up_for_a_draft() {
     let mut pacing = rested(ms(20));
     pacing.changed(Change::Settled, ms(1000));
     assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(FULL), "it is expected in 20 ms");
@@ -162,11 +162,11 @@ fn a_picture_that_takes_longer_than_was_known_is_given_up_for_a_draft() {
 }
 
 #[test]
-fn writing_over_a_picture_draws_none() {
+fn writing_over_an_image_draws_none() {
     let mut pacing = rested(ms(0));
     pacing.changed(Change::Overlay, ms(1000));
     assert_eq!(pacing.next(ms(1000), Frames::None, None), Wake::Now, "it is to be seen");
-    assert_eq!(run(&mut pacing, ms(1000), ms(9000), Frames::None), [], "and no picture is drawn");
+    assert_eq!(run(&mut pacing, ms(1000), ms(9000), Frames::None), [], "and no image is drawn");
     pacing.changed(Change::Moving, ms(9000));
     assert_eq!(begin(&mut pacing, ms(9000), Frames::None), Some(DRAFT), "over a draft");
     pacing.finished(ms(0));
@@ -180,25 +180,25 @@ fn a_message_is_taken_away_in_time() {
     let mut pacing = rested(ms(0));
     assert_eq!(pacing.next(ms(10), Frames::None, Some(ms(3000))), Wake::At(ms(3000)), "wakes for it");
     assert_eq!(pacing.next(ms(3000), Frames::None, Some(ms(3000))), Wake::Now, "and draws");
-    assert_eq!(begin(&mut pacing, ms(3000), Frames::None), None, "no picture");
+    assert_eq!(begin(&mut pacing, ms(3000), Frames::None), None, "no image");
     assert_eq!(pacing.next(ms(3000), Frames::None, None), Wake::Never, "once");
 }
 
-/// A picture that takes long must not keep what is written over it from the screen.
+/// An image that takes long must not keep what is written over it from the screen.
 #[test]
-fn the_overlay_waits_for_no_picture() {
+fn the_overlay_waits_for_no_image() {
     let mut pacing = rested(ms(5000));
     pacing.changed(Change::Settled, ms(1000));
     assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(DRAFT), "under way");
     pacing.changed(Change::Overlay, ms(1010));
     assert_eq!(pacing.next(ms(1020), Frames::None, None), Wake::Now, "a key was pressed");
-    assert_eq!(begin(&mut pacing, ms(1020), Frames::None), None, "one picture at a time");
+    assert_eq!(begin(&mut pacing, ms(1020), Frames::None), None, "one image at a time");
     assert_eq!(pacing.next(ms(1020), Frames::None, None), Wake::Never, "and nothing spins meanwhile");
     assert_eq!(pacing.next(ms(1020), Frames::Wanted, None), Wake::Never, "not for an animation either");
 }
 
 #[test]
-fn full_pictures_that_nobody_will_see_are_useless_and_drafts_are_not() {
+fn full_images_that_nobody_will_see_are_useless_and_drafts_are_not() {
     let mut pacing = rested(ms(50));
     pacing.changed(Change::Moving, ms(1000));
     assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(DRAFT), "a draft");
@@ -208,7 +208,7 @@ fn full_pictures_that_nobody_will_see_are_useless_and_drafts_are_not() {
     assert_eq!(begin(&mut pacing, ms(1020), Frames::None), Some(DRAFT), "the movement went on");
     pacing.finished(ms(10));
     assert_eq!(begin(&mut pacing, ms(2000), Frames::None), Some(FULL), "at rest");
-    assert!(!pacing.is_useless(), "it is the right picture");
+    assert!(!pacing.is_useless(), "it is the right image");
     pacing.changed(Change::Moving, ms(2010));
     assert!(pacing.is_useless(), "it was");
     assert_eq!(pacing.next(ms(2050), Frames::None, None), Wake::Now, "the overlay may have changed");
@@ -272,7 +272,7 @@ fn refining_gives_way_and_goes_on_where_it_was() {
 }
 
 #[test]
-fn a_picture_that_takes_long_is_told_of_every_second() {
+fn an_image_that_takes_long_is_told_of_every_second() {
     let mut pacing = rested(ms(50));
     pacing.changed(Change::Settled, ms(1000));
     assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(FULL), "expected soon");
@@ -298,8 +298,8 @@ fn a_picture_that_takes_long_is_told_of_every_second() {
     );
     pacing.want(vec![0]);
     pacing.occupy(Some(ms(5000)));
-    assert_eq!(pacing.progress(ms(5999)), None, "a picture to be saved");
-    assert_eq!(pacing.progress(ms(6000)), Some(Progress::Picture { seconds: 1 }), "takes long");
+    assert_eq!(pacing.progress(ms(5999)), None, "an image to be saved");
+    assert_eq!(pacing.progress(ms(6000)), Some(Progress::Image { seconds: 1 }), "takes long");
     pacing.occupy(None);
     begin(&mut pacing, ms(6000), Frames::None);
     assert_eq!(pacing.next(ms(7000), Frames::None, None), Wake::Never, "and then nothing is told");

@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_of_other_sizes_and_cancelled_ones_are_not_compared() {
+    fn images_of_other_sizes_and_cancelled_ones_are_not_compared() {
         let (one, two) = (frame(&[[0; 4]]), frame(&[[0; 4]; 2]));
         assert!(compare(&one, &two, &Cancel::default()).is_none(), "another size");
         let cancel = Cancel::default();

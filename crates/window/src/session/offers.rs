@@ -40,7 +40,7 @@ impl Session<'_> {
         let taken = self.handler.input(&mut self.stage, &input, hands);
         if taken == Taken::Yes {
             self.after_handler(now);
-            // More of these follow: the pictures between them have to be quick.
+            // More of these follow: the images between them have to be quick.
             let goes_on = matches!(input, Input::PointerMoved | Input::Wheel(_) | Input::Pinch(_));
             if goes_on && before != self.stage.subject() {
                 self.pacing.changed(Change::Moving, now);

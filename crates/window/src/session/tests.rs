@@ -56,7 +56,7 @@ impl Handler for Recorder {
 
     fn command(&mut self, stage: &mut Stage, name: &str) {
         self.told.push(name.into());
-        stage.request_picture(RenderSettings::new(5, 4));
+        stage.request_image(RenderSettings::new(5, 4));
         stage.set_title("commanded");
     }
 
@@ -64,8 +64,8 @@ impl Handler for Recorder {
         self.told.push(format!("{} dropped", paths.len()));
     }
 
-    fn picture(&mut self, stage: &mut Stage, frame: Frame) {
-        self.told.push(format!("picture {}x{}", frame.width, frame.height));
+    fn image(&mut self, stage: &mut Stage, frame: Frame) {
+        self.told.push(format!("image {}x{}", frame.width, frame.height));
         stage.exit();
     }
 
@@ -87,11 +87,11 @@ fn session_of<'h>(stage: Stage, handler: &'h mut Recorder, worker: Worker) -> Se
 /// A session that has begun.
 fn started(handler: &mut Recorder) -> Session<'_> {
     let session = session_of(stage(), handler, Worker::of_caller());
-    assert_eq!(session.next(ms(0)), Wake::Now, "there is a picture to draw");
+    assert_eq!(session.next(ms(0)), Wake::Now, "there is an image to draw");
     session
 }
 
-/// A session that has come to rest: a draft, a full picture, and what the interface
+/// A session that has come to rest: a draft, a full image, and what the interface
 /// needs to find its place.
 fn begun(handler: &mut Recorder) -> Session<'_> {
     let mut session = started(handler);
@@ -119,8 +119,8 @@ fn run(session: &mut Session<'_>, start: Duration) -> Vec<Duration> {
 }
 
 /// Lives with a worker on other threads until something is so, or it rests; returns that
-/// moment. Time stands still while a picture is drawn, and goes on to whatever is next.
-/// A picture that is finished as soon as it is begun is taken over without `rung`, which
+/// moment. Time stands still while an image is drawn, and goes on to whatever is next.
+/// An image that is finished as soon as it is begun is taken over without `rung`, which
 /// then tells of it later: whoever waits looks whether what he waits for is there.
 fn live_until(
     session: &mut Session<'_>,
@@ -201,7 +201,7 @@ fn the_mouse_does_what_the_keymap_says() {
     let target = session.stage.orbit.target();
     drag(&mut session, PointerButton::Left, DVec2::new(0.0, 20.0), ms(3));
     assert_eq!(session.stage.orbit.target(), target, "rolling keeps the target");
-    assert_ne!(session.stage.orbit.orientation(), start.orientation(), "and turns the picture");
+    assert_ne!(session.stage.orbit.orientation(), start.orientation(), "and turns the image");
 }
 
 #[test]
@@ -252,7 +252,7 @@ fn held_keys_move_until_they_are_released_or_the_focus_is_lost() {
         let stopped = session.stage.orbit;
         let last = run(&mut session, ms(1500));
         assert_eq!(session.stage.orbit, stopped, "{end:?} stops it");
-        assert!(last.len() <= 2, "and the picture comes to rest: {last:?}");
+        assert!(last.len() <= 2, "and the image comes to rest: {last:?}");
     }
 }
 
@@ -296,9 +296,9 @@ fn the_handler_hears_of_everything_that_is_its_own() {
     session.settle(ms(1));
     session.settle(ms(2));
     session.event(key_down(3, Key::Character('g')), ms(3));
-    assert!(session.is_over(), "the picture's receiver asked to exit");
+    assert!(session.is_over(), "the image's receiver asked to exit");
     assert_eq!(session.stage.title(), "commanded", "and the title changed");
-    let expected = ["start", "frame 16", "2 dropped", "grid", "picture 5x4"];
+    let expected = ["start", "frame 16", "2 dropped", "grid", "image 5x4"];
     assert_eq!(handler.told, expected, "each once, in order");
 }
 

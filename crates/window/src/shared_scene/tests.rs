@@ -52,7 +52,7 @@ fn what_is_drawn_stays_and_what_is_changed_is_known() {
     assert_eq!(
         (drawn.scene.nodes().len(), scene.nodes().len()),
         (1, 2),
-        "the picture under way is of one node"
+        "the image under way is of one node"
     );
     assert_ne!(scene.revision(), before, "the next one has to be drawn");
     assert_ne!(

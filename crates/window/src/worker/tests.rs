@@ -17,22 +17,22 @@ use trigon_math::Vec3;
 use trigon_mesh::{MeshChange, primitives};
 use trigon_scene::{Material, render, showcase};
 
-/// A picture of a scene.
+/// An image of a scene.
 fn job_of(scene: Scene, settings: RenderSettings) -> Job {
     let camera = scene.overview(1.0);
     let scene = SceneUpdate::Whole(Box::new(scene));
     let task = Task::Draw { scene, settings: Box::new(settings), drawer: None };
-    Job { purpose: Purpose::Picture, views: camera.into(), stage_times: Visibility::Hidden, task }
+    Job { purpose: Purpose::Image, views: camera.into(), stage_times: Visibility::Hidden, task }
 }
 
-/// A square picture of a cube.
+/// A square image of a cube.
 fn job(side: u32) -> Job {
     let mut scene = Scene::new();
     scene.add_object("cube", primitives::cube(1.0), Material::default());
     job_of(scene, RenderSettings::new(side, side))
 }
 
-/// A picture of 8 by 8 pixels that somebody else draws.
+/// An image of 8 by 8 pixels that somebody else draws.
 fn drawn_by(drawer: impl Drawer + 'static) -> Job {
     let mut job = job(8);
     if let Task::Draw { drawer: used, .. } = &mut job.task {
@@ -41,10 +41,10 @@ fn drawn_by(drawer: impl Drawer + 'static) -> Job {
     job
 }
 
-/// The picture of a job that was finished.
-fn picture(worker: &mut Worker) -> Option<Frame> {
+/// The image of a job that was finished.
+fn image(worker: &mut Worker) -> Option<Frame> {
     match worker.collect()?.product {
-        Ok(Product::Picture(frame)) => Some(Arc::unwrap_or_clone(frame)),
+        Ok(Product::Frame(frame)) => Some(Arc::unwrap_or_clone(frame)),
         _ => None,
     }
 }
@@ -57,11 +57,11 @@ fn a_thread_draws_what_the_caller_would() {
     let (mut worker, rung) = Gate::default().worker(|_| false);
     worker.begin(job_of(scene.clone(), settings.clone()));
     rung.recv().expect("it rings when it is done");
-    assert!(picture(&mut worker).as_ref() == Some(&expected), "the same bytes");
+    assert!(image(&mut worker).as_ref() == Some(&expected), "the same bytes");
     assert!(!worker.is_busy(), "ready for the next one");
     let mut caller = Worker::of_caller();
     caller.begin(job_of(scene, settings));
-    assert!(picture(&mut caller) == Some(expected), "the same bytes here");
+    assert!(image(&mut caller) == Some(expected), "the same bytes here");
 }
 
 #[test]
@@ -86,10 +86,10 @@ fn a_cancelled_job_makes_room_for_the_next() {
     gate.open();
     rung.recv().expect("it ends");
     let finished = worker.collect().expect("it has ended");
-    assert_eq!(finished.product.err(), Some(Unfinished::Cancelled), "without a picture");
+    assert_eq!(finished.product.err(), Some(Unfinished::Cancelled), "without an image");
     worker.begin(job(8));
     rung.recv().expect("it goes on");
-    assert!(picture(&mut worker).is_some(), "with the next one");
+    assert!(image(&mut worker).is_some(), "with the next one");
 }
 
 /// Tells that it has begun, and draws once the gate is open.
@@ -104,7 +104,7 @@ impl Drawer for Slow {
 }
 
 #[test]
-fn what_is_cancelled_while_it_is_drawn_is_no_picture() {
+fn what_is_cancelled_while_it_is_drawn_is_no_image() {
     let (gate, (begun, has_begun)) = (Gate::default(), channel());
     let (mut worker, rung) = gate.worker(|_| false);
     worker.begin(drawn_by(Slow(begun, gate.clone())));
@@ -125,22 +125,22 @@ fn nobody_waits_for_the_last_tiles_of_what_was_only_better() {
     worker.cancel();
     assert!(!worker.is_busy(), "there is room at once");
     let given_up = worker.collect().expect("told at once, too");
-    assert_eq!(given_up.product.err(), Some(Unfinished::Cancelled), "without a picture");
+    assert_eq!(given_up.product.err(), Some(Unfinished::Cancelled), "without an image");
     worker.begin(job(12));
-    rung.recv().expect("pictures that somebody waits for are drawn meanwhile");
-    assert_eq!(picture(&mut worker).map(|frame| frame.width), Some(12), "beside it");
+    rung.recv().expect("images that somebody waits for are drawn meanwhile");
+    assert_eq!(image(&mut worker).map(|frame| frame.width), Some(12), "beside it");
     worker.begin(Job { purpose: Purpose::Window(Quality::Full(1)), ..job(8) });
     assert!(worker.collect().is_none() && worker.is_busy(), "what is only better waits for it");
     gate.open();
     let found = std::iter::from_fn(|| {
         rung.recv().expect("it goes on");
-        Some(picture(&mut worker))
+        Some(image(&mut worker))
     });
     let found = found.flatten().next().expect("in the end");
     assert_eq!(found.width, 8, "with the next one, and not with what was given up");
 }
 
-/// Draws a picture of some size, or refuses.
+/// Draws an image of some size, or refuses.
 struct Other(Result<u32, String>);
 
 impl Drawer for Other {
@@ -159,13 +159,13 @@ fn other_drawers_are_heard_and_not_trusted() {
         worker.collect().map(|Finished { product, .. }| product)
     };
     let drawn = product(Other(Ok(8)));
-    assert!(matches!(drawn, Some(Ok(Product::Picture(frame))) if frame.color[0] == 7), "its picture");
+    assert!(matches!(drawn, Some(Ok(Product::Frame(frame))) if frame.color[0] == 7), "its image");
     let reason = |product| match product {
         Some(Err(Unfinished::Impossible(reason))) => reason,
         _ => String::new(),
     };
     assert_eq!(reason(product(Other(Err("not convex".into())))), "not convex", "its reason");
-    assert!(reason(product(Other(Ok(3)))).contains("3x3"), "a picture of the wrong size is none");
+    assert!(reason(product(Other(Ok(3)))).contains("3x3"), "an image of the wrong size is none");
 }
 
 /// Draws what it is given, once the gate is open, and tells that it has begun.
@@ -186,7 +186,7 @@ impl Drawer for Waiting {
 }
 
 #[test]
-fn a_mesh_is_changed_while_a_picture_of_it_is_under_way() {
+fn a_mesh_is_changed_while_an_image_of_it_is_under_way() {
     let mut scene = SharedScene::default();
     scene.add_object("cube", primitives::cube(1.0), Material::default());
     let (id, _) = scene.meshes().iter().next().expect("it was added");
@@ -195,7 +195,7 @@ fn a_mesh_is_changed_while_a_picture_of_it_is_under_way() {
     let waiting: Arc<dyn Drawer> = Arc::new(Waiting(begun, gate.clone()));
     let (mut worker, rung) = Gate::default().worker(|_| false);
     let begin = |worker: &mut Worker, scene: &mut SharedScene| {
-        let purpose = Purpose::Picture;
+        let purpose = Purpose::Image;
         let update = scene.update(worker.held(purpose));
         let (drawer, settings) = (Some(Arc::clone(&waiting)), Box::new(settings.clone()));
         let task = Task::Draw { scene: update, settings, drawer };
@@ -214,12 +214,12 @@ fn a_mesh_is_changed_while_a_picture_of_it_is_under_way() {
     assert!(after != before, "the change is to be seen");
     gate.open();
     rung.recv().expect("it is done");
-    assert!(picture(&mut worker) == Some(before), "the scene as it was when the picture was begun");
+    assert!(image(&mut worker) == Some(before), "the scene as it was when the image was begun");
     for to in [0.9, 0.2, 0.7] {
         let expected = pull(&mut scene, to);
         begin(&mut worker, &mut scene);
         rung.recv().expect("it is done");
-        assert!(picture(&mut worker) == Some(expected), "with the vertex at {to}");
+        assert!(image(&mut worker) == Some(expected), "with the vertex at {to}");
     }
 }
 
@@ -234,18 +234,18 @@ fn nobody_holds_a_scene_that_another_one_replaced() {
     let (mut worker, rung) = Gate::default().worker(|_| false);
     let mut scene = SharedScene::default();
     let better = Purpose::Window(Quality::Full(1));
-    for purpose in [Purpose::Picture, better] {
+    for purpose in [Purpose::Image, better] {
         drawn(&mut worker, purpose, &mut scene);
         rung.recv().expect("it is done");
-        assert!(picture(&mut worker).is_some(), "by either thread");
+        assert!(image(&mut worker).is_some(), "by either thread");
     }
     assert!(worker.held(better).is_some(), "the second has the scene");
     scene.add_object("cube", primitives::cube(1.0), Material::default());
-    drawn(&mut worker, Purpose::Picture, &mut scene);
+    drawn(&mut worker, Purpose::Image, &mut scene);
     assert!(worker.held(better).is_none(), "and gives it up");
     rung.recv().expect("it is done");
-    assert!(picture(&mut worker).is_some(), "told once, for the picture");
+    assert!(image(&mut worker).is_some(), "told once, for the image");
     drawn(&mut worker, better, &mut scene);
     rung.recv().expect("it is done");
-    assert!(picture(&mut worker).is_some(), "and it goes on");
+    assert!(image(&mut worker).is_some(), "and it goes on");
 }

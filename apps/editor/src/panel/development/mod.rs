@@ -26,7 +26,7 @@ pub(crate) struct DrawnView<'v> {
     pub(crate) settings: RenderSettings,
     pub(crate) report: FrameReport,
     pub(crate) quality: Option<QualityReport>,
-    /// How the picture at rest is compared and refined.
+    /// How the image at rest is compared and refined.
     pub(crate) comparison: trigon_window::Comparison,
     pub(crate) refinement: trigon_window::Refinement,
 }
@@ -48,7 +48,7 @@ impl<'v> DrawnView<'v> {
     }
 }
 
-/// What the tab remembers: the picture that was asked for.
+/// What the tab remembers: the image that was asked for.
 #[derive(Default)]
 pub(crate) struct DevelopmentState {
     inspected: Option<Inspected>,
@@ -57,7 +57,7 @@ pub(crate) struct DevelopmentState {
     buffer: Buffer,
 }
 
-/// A picture with everything that is known of it.
+/// An image with everything that is known of it.
 struct Inspected {
     frame: Frame,
     stats: Stats,
@@ -97,7 +97,7 @@ fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
     CollapsingHeader::new(title).default_open(true).show_unindented(ui, contents);
 }
 
-/// Everything that a picture can hold.
+/// Everything that an image can hold.
 const ALL: Outputs = Outputs {
     color: true,
     depth: true,

@@ -5,7 +5,7 @@ use trigon_window::scene::{Frame, Scene};
 
 use super::super::row::written;
 
-/// Explains a pixel of a picture of a scene, which may have changed since.
+/// Explains a pixel of an image of a scene, which may have changed since.
 pub(super) fn explain(ui: &mut Ui, scene: &Scene, frame: &Frame, at: [u32; 2]) {
     for line in lines(scene, frame, at) {
         ui.add(egui::Label::new(line).wrap());

@@ -1,4 +1,4 @@
-//! Figures about pictures.
+//! Figures about images.
 
 use std::time::Duration;
 
@@ -25,7 +25,7 @@ pub(super) fn frame(ui: &mut Ui, view: &DrawnView<'_>) {
     line(ui, format!("Size: {} × {} pixels", view.settings.width, view.settings.height));
 }
 
-/// How far the picture at rest is from the reference.
+/// How far the image at rest is from the reference.
 pub(super) fn accuracy(ui: &mut Ui, view: &DrawnView<'_>, requests: &mut Vec<Request>) {
     let mut is_compared = view.comparison != Comparison::Off;
     if check_box(ui, &mut is_compared, "Compare with the reference").changed() {
@@ -43,7 +43,7 @@ pub(super) fn accuracy(ui: &mut Ui, view: &DrawnView<'_>, requests: &mut Vec<Req
         requests.push(Request::Refine(refinement));
     }
     match view.quality.map(|report| (report, report.difference)) {
-        None => line(ui, "Error: the picture is not finished yet."),
+        None => line(ui, "Error: the image is not finished yet."),
         Some((_, None)) => line(ui, "Error: not compared."),
         Some((_, Some(difference))) if difference.worst_levels == 0 => line(ui, "Error: none."),
         Some((_, Some(difference))) => {

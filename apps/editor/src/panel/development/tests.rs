@@ -1,4 +1,4 @@
-//! Figures and buffers of a small picture.
+//! Figures and buffers of a small image.
 
 use egui_kittest::kittest::Queryable;
 use trigon_edit::Document;
@@ -36,7 +36,7 @@ fn case(width: f32) -> Case<DevelopmentState> {
 }
 
 #[test]
-fn a_picture_is_inspected_when_it_is_asked_for() {
+fn an_image_is_inspected_when_it_is_asked_for() {
     let mut case = case(260.0);
     assert!(case.harness.query_by_label("Buffer image").is_none(), "not asked for yet");
     case.click("Inspect the image");
@@ -46,7 +46,7 @@ fn a_picture_is_inspected_when_it_is_asked_for() {
     case.click("Buffer image");
     assert!(case.harness.query_by_label("Object: ball (number 0)").is_some(), "the middle is the ball");
     assert!(case.harness.query_by_label("Material: red").is_some(), "in its material");
-    case.picture("development");
+    case.image("development");
     case.click("Compare with the reference");
     assert_eq!(case.take_requests(), [Request::Compare(Comparison::Measured)], "the stage compares");
 }
@@ -72,5 +72,5 @@ fn a_narrow_panel_clips_no_label() {
     case.click("Inspect the image");
     case.click("Buffer image");
     case.assert_nothing_is_clipped();
-    case.picture("development_narrow");
+    case.image("development_narrow");
 }

@@ -48,7 +48,7 @@ fn a_cube_of_two_metres_is_measured() {
     for expected in ["Surface: 24 m²", "Volume: 8 m³", "Watertight: yes"] {
         assert!(shown.contains(expected), "{expected:?} in\n{shown}");
     }
-    case.picture("information");
+    case.image("information");
     case.command(json!({ "op": "translate", "offset": [1, 0, 0] }));
     assert!(!text(&case).contains("Volume"), "measured before it was changed");
 }
@@ -88,5 +88,5 @@ fn a_narrow_panel_clips_no_label() {
     case.click("Measure selection");
     case.assert_nothing_is_clipped();
     assert!(case.harness.query_by_label("Middle mouse button").is_some(), "the keys are there");
-    case.picture("information_narrow");
+    case.image("information_narrow");
 }

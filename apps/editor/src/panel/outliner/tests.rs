@@ -43,7 +43,7 @@ fn a_click_selects_and_modifiers_add() {
     case.run();
     assert_eq!(selected(&mut case), [table, lamp, chair], "the range");
     assert_eq!(case.document().selection().active, Some(table), "its end is active");
-    case.picture("outliner");
+    case.image("outliner");
     case.command(serde_json::json!({ "op": "edit_objects" }));
     case.click("Lamp");
     assert!(!case.document().selection().is_editing(), "whole objects are selected in object mode");
@@ -111,7 +111,7 @@ fn rows_are_hung_on_one_another_and_reordered_by_the_menu() {
     let menu = |case: &mut Case<OutlinerState>, row: &str, item: &str| {
         case.harness.get_by_label(row).click_secondary();
         case.run();
-        case.picture("outliner_menu");
+        case.image("outliner_menu");
         case.click(item);
     };
     menu(&mut case, "Chair", "Move up");
@@ -143,7 +143,7 @@ fn rows_are_dragged_onto_and_between_rows() {
         case.run();
         case.harness.hover_at(to);
         case.run();
-        case.picture("outliner_drag");
+        case.image("outliner_drag");
         case.harness.drop_at(to);
         case.run();
     };
@@ -182,5 +182,5 @@ fn a_narrow_outliner_keeps_its_eyes_in_view() {
     case.assert_nothing_is_clipped();
     let eye = case.harness.get_by_label("Hide Lamp").rect();
     assert!(eye.right() <= 160.0, "{eye}");
-    case.picture("outliner_narrow");
+    case.image("outliner_narrow");
 }

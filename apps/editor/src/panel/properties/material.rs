@@ -195,18 +195,18 @@ impl Fields<'_> {
 
     fn textures(&self, ui: &mut Ui, requests: &mut Vec<Request>) {
         let slots = [
-            (TextureSlot::BaseColor, "Base colour picture"),
-            (TextureSlot::MetallicRoughness, "Metallic-roughness picture"),
+            (TextureSlot::BaseColor, "Base colour image"),
+            (TextureSlot::MetallicRoughness, "Metallic-roughness image"),
             (TextureSlot::Normal, "Normal map"),
             (TextureSlot::Occlusion, "Occlusion map"),
-            (TextureSlot::Emissive, "Emission picture"),
+            (TextureSlot::Emissive, "Emission image"),
         ];
         for (slot, label) in slots {
             ui.push_id(label, |ui| self.texture(ui, slot, label, requests));
         }
     }
 
-    /// The picture of a slot: which, another one, none.
+    /// The image of a slot: which, another one, none.
     fn texture(&self, ui: &mut Ui, slot: TextureSlot, label: &str, requests: &mut Vec<Request>) {
         let material = MaterialName::of(self.id);
         let textures = &self.document.nodes().textures;

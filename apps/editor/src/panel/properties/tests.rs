@@ -40,7 +40,7 @@ fn an_exact_transform_is_typed() {
     case.choose("Rotation as", "Quaternion");
     let field = case.harness.get_by_role_and_label(egui::Role::SpinButton, "Rotation W");
     assert_eq!(field.value().as_deref(), Some("W 0.707107"), "half of a right angle");
-    case.picture("properties");
+    case.image("properties");
 }
 
 #[test]
@@ -81,13 +81,13 @@ fn a_light_has_its_parameters() {
     assert_eq!((light.intensity, light.range), (7.5, 4.0), "as typed");
     let trigon_edit::scene::LightKind::Spot { outer, .. } = light.kind else { panic!("it is a spot") };
     assert_eq!(outer, 30f32.to_radians(), "shown in degrees");
-    case.picture("properties_light");
+    case.image("properties_light");
     case.choose("Kind", "Point");
     assert!(case.harness.query_by_label("Outer angle").is_none(), "a point has no cone");
 }
 
 #[test]
-fn a_material_has_its_values_and_pictures() {
+fn a_material_has_its_values_and_images() {
     let (mut case, [cube, _]) = case(260.0, 1100.0);
     select(&mut case, "Cube");
     case.choose("Surface", "Physical");
@@ -115,7 +115,7 @@ fn a_material_has_its_values_and_pictures() {
     case.choose("Material", "Plastic");
     let slots = case.document().nodes().node(cube).expect("it is there").materials.clone();
     assert_eq!(slots[0], slots[1], "the second slot shows the first material, too");
-    case.picture("properties_material");
+    case.image("properties_material");
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn selected_vertices_are_moved_by_their_median() {
     case.command(json!({ "op": "select", "elements": [0, 1] }));
     case.type_number("Mean crease", "0.5");
     assert!(case.take_requests().contains(&Request::Run(Crease { crease: 0.5 }.into())), "both edges");
-    case.picture("properties_elements");
+    case.image("properties_elements");
 }
 
 #[test]
@@ -187,7 +187,7 @@ fn a_narrow_panel_clips_no_label() {
     for object in ["Cube", "Lamp"] {
         select(&mut case, object);
         case.assert_nothing_is_clipped();
-        case.picture(&format!("properties_narrow_{object}"));
+        case.image(&format!("properties_narrow_{object}"));
     }
     case.command(json!({ "op": "edit_objects", "objects": ["Cube"] }));
     case.command(json!({ "op": "select_all" }));

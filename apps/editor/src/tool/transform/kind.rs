@@ -5,7 +5,7 @@
 pub(crate) enum TransformKind {
     Translate,
     Rotate,
-    /// Turns about both axes of the picture.
+    /// Turns about both axes of the image.
     Trackball,
     Scale,
     ShrinkFatten,

@@ -207,7 +207,7 @@ impl Tool for TransformTool {
     }
 
     fn marks(&self) -> ToolMarks {
-        /// Lines of locks go so far, in metres: beyond every picture.
+        /// Lines of locks go so far, in metres: beyond every image.
         const FAR: f64 = 1e4;
         let (pivot, axes) = (self.pivot(), self.constraint.axes(&self.frames));
         let free = |axis: &Axis| match self.constraint.freedom() {

@@ -115,7 +115,7 @@ fn a_click_selects_the_face_under_the_pointer_and_shift_adds_another() {
     assert_eq!(worked.selected(), 1, "and not");
     worked.click(right, Modifiers::NONE);
     assert_eq!(worked.selected(), 1, "in place of the first");
-    assert!(!worked.stage.settings.marks.faces.is_empty(), "it is marked in the picture");
+    assert!(!worked.stage.settings.marks.faces.is_empty(), "it is marked in the image");
     worked.click(DVec2::new(200.0, 200.0), Modifiers::NONE);
     assert_eq!(worked.selected(), 0, "beside everything");
 }

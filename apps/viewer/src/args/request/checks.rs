@@ -12,7 +12,7 @@ pub(super) fn check_stdin(mode: &Mode, files: &[PathBuf]) -> Result<(), String> 
     match files.iter().filter(|file| file.as_os_str() == STDIN).count() {
         0 => Ok(()),
         1 if *mode != Mode::Window => Ok(()),
-        1 => Err("a window does not read standard input, which it could not load again; write a picture with --output, or save the model as a file and name that".to_owned()),
+        1 => Err("a window does not read standard input, which it could not load again; write an image with --output, or save the model as a file and name that".to_owned()),
         _ => Err("standard input holds one model; name - once".to_owned()),
     }
 }
@@ -20,7 +20,7 @@ pub(super) fn check_stdin(mode: &Mode, files: &[PathBuf]) -> Result<(), String> 
 /// Several images need several names. F3D draws the first model and only warns about the rest,
 /// which scripts do not notice.
 pub(super) fn check_output(mode: &Mode, files: usize) -> Result<(), String> {
-    let Mode::Picture { output, capture } = mode else { return Ok(()) };
+    let Mode::Image { output, capture } = mode else { return Ok(()) };
     if files < 2 {
         return Ok(());
     }
@@ -46,12 +46,12 @@ pub(super) fn check_outputs(mode: &Mode, outputs: &[Beside]) -> Result<(), Strin
     if outputs.is_empty() {
         return Ok(());
     }
-    let Mode::Picture { output, .. } = mode else {
+    let Mode::Image { output, .. } = mode else {
         return Err("--outputs needs an image, and none is drawn; leave out --outputs, or the flag that replaces the image".to_owned());
     };
     match output {
         Some(Destination::Stdout) => Err(
-            "--outputs writes files beside the picture, but standard output has no name; name one (--output picture.png)".to_owned(),
+            "--outputs writes files beside the image, but standard output has no name; name one (--output image.png)".to_owned(),
         ),
         Some(Destination::File(template)) if template.is_exr() => {
             match outputs.iter().find(|beside| beside.names_format()) {
@@ -67,7 +67,7 @@ pub(super) fn check_outputs(mode: &Mode, outputs: &[Beside]) -> Result<(), Strin
 
 /// Frames need as many names, or one file that holds them all.
 pub(super) fn check_frames(raw: &RawArgs, mode: &Mode) -> Result<(), String> {
-    let Mode::Picture { output, capture } = mode else { return Ok(()) };
+    let Mode::Image { output, capture } = mode else { return Ok(()) };
     let (moves, many) = match output {
         Some(Destination::File(template)) => (template.is_moving(), template.tells_frames_apart()),
         Some(Destination::Stdout) | None => (false, false),
@@ -81,7 +81,7 @@ pub(super) fn check_frames(raw: &RawArgs, mode: &Mode) -> Result<(), String> {
     }
     if let (Some(views), false) = (raw.animation.turntable, frames) {
         return Err(format!(
-            "--turntable={views} makes {views} pictures; write {{frame}} in the name of --output (--output 'view_{{frame:3}}.png'), or end it in .gif or .apng"
+            "--turntable={views} makes {views} images; write {{frame}} in the name of --output (--output 'view_{{frame:3}}.png'), or end it in .gif or .apng"
         ));
     }
     Ok(())

@@ -7,12 +7,12 @@ use crate::args::raw::RawArgs;
 pub(super) fn warnings(raw: &RawArgs, mode: &Mode) -> Vec<String> {
     let (window, scenery, animation) = (&raw.window, &raw.scenery, &raw.animation);
     let in_window = [
-        ("--display-depth", raw.display_depth == Some(true), "it is of pictures; add --output picture.png"),
-        ("--json", raw.json == Some(true), "it tells of pictures; add --output or --no-render"),
+        ("--display-depth", raw.display_depth == Some(true), "it is of images; add --output image.png"),
+        ("--json", raw.json == Some(true), "it tells of images; add --output or --no-render"),
     ];
-    let in_picture = [
-        ("--watch", window.watch == Some(true), "a picture is drawn once; leave out --output"),
-        ("--refine", window.refine == Some(true), "a picture is as --preset and --samples say"),
+    let in_image = [
+        ("--watch", window.watch == Some(true), "an image is drawn once; leave out --output"),
+        ("--refine", window.refine == Some(true), "an image is as --preset and --samples say"),
         (
             "--interaction-style",
             window.interaction_style.is_some(),
@@ -21,7 +21,7 @@ pub(super) fn warnings(raw: &RawArgs, mode: &Mode) -> Vec<String> {
         (
             "--animation-autoplay",
             animation.animation_autoplay == Some(true),
-            "no window is opened; write {frame} in --output for many pictures",
+            "no window is opened; write {frame} in --output for many images",
         ),
         ("--animation-progress", animation.animation_progress.is_some(), "no window is opened"),
     ];
@@ -32,7 +32,7 @@ pub(super) fn warnings(raw: &RawArgs, mode: &Mode) -> Vec<String> {
     let has_grid = scenery.grid == Some(true);
     let ignored: Vec<_> = match mode {
         Mode::Window => in_window.to_vec(),
-        Mode::Picture { .. } => in_picture.to_vec(),
+        Mode::Image { .. } => in_image.to_vec(),
         _ => Vec::new(),
     };
     let ignored = ignored.into_iter().chain(without_grid.into_iter().filter(|_| !has_grid));

@@ -70,7 +70,7 @@ fn many_frames_need_many_names_or_a_file_for_all() {
     for output in ["a.gif", "a.apng", "a_{frame:3}.png"] {
         request(&format!("--turntable=8 --output {output}")).expect("a place for each");
     }
-    assert!(refusal("--output a.gif --capture a.trigon").contains("--capture"), "one picture");
+    assert!(refusal("--output a.gif --capture a.trigon").contains("--capture"), "one image");
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn a_camera_that_looks_nowhere_is_refused() {
 
 #[test]
 fn standard_input_is_read_once() {
-    request("- --output o.png").expect("a picture of what comes");
+    request("- --output o.png").expect("an image of what comes");
     assert!(refusal("-").contains("--output"), "no window");
     assert!(refusal("- - --output {n}.png").contains("once"), "not twice");
 }
@@ -148,7 +148,7 @@ fn metals_mirror_the_sky_unless_told_otherwise() {
 }
 
 #[test]
-fn a_time_budget_is_for_pictures() {
+fn a_time_budget_is_for_images() {
     let limit = request("--output o.png --time-budget 16ms --samples=2").expect("fine").limit;
     let choice = limit.expect("asked for").budget().choose(&RenderSettings::new(64, 64));
     assert_eq!(choice.limit.as_millis(), 16, "as typed");
@@ -158,7 +158,7 @@ fn a_time_budget_is_for_pictures() {
     assert!(refusal("--output o.png --time-budget=9ms --preset=high").contains("cannot be used"), "one");
 }
 
-/// Dark edges on `--background-color=black` made an empty picture.
+/// Dark edges on `--background-color=black` made an empty image.
 #[test]
 fn edges_can_be_seen_on_a_dark_background() {
     let edges = |flags: &str| request(flags).expect("fine").settings.edge_color;
@@ -226,5 +226,5 @@ fn outputs_are_asked_for_and_have_a_place() {
 #[test]
 fn a_typing_error_gets_a_proposal() {
     assert!(refusal("--resolutoin 10,10").contains("--resolution"), "did you mean");
-    assert!(refusal("--output picture.tiff").contains(".png"), "the remedy");
+    assert!(refusal("--output image.tiff").contains(".png"), "the remedy");
 }

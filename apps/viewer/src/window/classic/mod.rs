@@ -23,11 +23,11 @@ const WAYS: [Visibility; 6] = [
     Visibility::TreeRays,
 ];
 
-/// Rays against faces and points against planes that a picture may take: about ten
+/// Rays against faces and points against planes that an image may take: about ten
 /// seconds.
 const MOST_PAIRS: usize = 2_000_000_000;
 
-/// What hides what in the picture at rest is found by one of the algorithms; light comes
+/// What hides what in the image at rest is found by one of the algorithms; light comes
 /// from the eye, on whole triangles.
 struct Classic {
     way: Visibility,
@@ -75,7 +75,7 @@ impl Classic {
         self.told.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The picture, and what there is to say of it.
+    /// The image, and what there is to say of it.
     fn attempt(
         &self,
         (scene, camera): (&Scene, &Camera),

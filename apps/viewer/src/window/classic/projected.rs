@@ -15,7 +15,7 @@ const STEPS: f64 = 256.0;
 /// The greatest depth that the study takes, towards the eye.
 const DEEPEST: f64 = (1 << 18) as f64 - 1.0;
 
-/// Pixels from the picture's corner within which the study's integers are exact: the
+/// Pixels from the image's corner within which the study's integers are exact: the
 /// engine's guard band.
 const FARTHEST: f64 = 32_768.0;
 
@@ -37,7 +37,7 @@ impl Projected {
     /// another; meshes are taken at rest.
     ///
     /// # Errors
-    /// When something lies behind the eye or far outside of the picture: the algorithms
+    /// When something lies behind the eye or far outside of the image: the algorithms
     /// do not clip.
     pub(super) fn new(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Result<Self, String> {
         let viewport = Viewport { width: settings.width, height: settings.height };

@@ -7,7 +7,7 @@ use trigon_scene::RenderSettings;
 
 use super::settings::Setting;
 
-/// Compares what pictures took before and after a change.
+/// Compares what images took before and after a change.
 #[derive(Default)]
 pub(super) struct Costs {
     /// What was measured last.
@@ -28,7 +28,7 @@ impl Costs {
         *self = Self::default();
     }
 
-    /// A picture with these settings took this long.
+    /// An image with these settings took this long.
     pub(super) fn measured(&mut self, settings: &RenderSettings, took: Duration) {
         let before = self.last.replace((settings.clone(), took));
         let Some((_, before)) = before.filter(|(before, _)| before != settings) else { return };
@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_change_costs_what_the_picture_takes_longer() {
+    fn a_change_costs_what_the_image_takes_longer() {
         let mut costs = Costs::default();
         let (one, mut two) = (RenderSettings::new(8, 8), RenderSettings::new(8, 8));
         two.samples = 4;
@@ -58,7 +58,7 @@ mod tests {
         assert_eq!(costs.of(Setting::Multisampling), "", "nothing was changed");
         costs.changed(Setting::Multisampling);
         costs.measured(&one, ms(12));
-        assert_eq!(costs.of(Setting::Multisampling), "", "the new picture is not there yet");
+        assert_eq!(costs.of(Setting::Multisampling), "", "the new image is not there yet");
         costs.measured(&two, ms(20));
         assert_eq!(costs.of(Setting::Multisampling), "+8.0 ms", "more");
         costs.measured(&one, ms(10));

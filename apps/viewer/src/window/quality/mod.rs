@@ -13,7 +13,7 @@ use settings::Setting;
 
 use crate::ladder::Step;
 
-/// In points: half of a small window stays for the picture.
+/// In points: half of a small window stays for the image.
 const WIDTH: f32 = 392.0;
 
 /// Budgets that can be chosen, in milliseconds: 200 to 2 frames a second.
@@ -32,7 +32,7 @@ impl QualityPanel {
         self.set_shown(!self.shown, stage);
     }
 
-    /// The difference in place of the picture, or the picture again.
+    /// The difference in place of the image, or the image again.
     pub(super) fn toggle_difference(&self, stage: &mut Stage) {
         stage.comparison = match stage.comparison {
             Comparison::Shown => self.usual_comparison(),
@@ -137,7 +137,7 @@ impl QualityPanel {
     }
 }
 
-/// What the picture took, and how far it is from the reference.
+/// What the image took, and how far it is from the reference.
 fn figures(ui: &mut egui::Ui, stage: &Stage) {
     let [time, error] = stage.quality_report().map_or_else(
         || ["time: -".to_owned(), "error: -".to_owned()],

@@ -5,11 +5,11 @@ use trigon_window::{Chord, HeadlessWindow, Key, Modifiers};
 
 use super::{click, key, shift, with_window};
 use crate::args::{CommandLine, Mode, Request};
-use crate::picture;
+use crate::image;
 use crate::report::{Level, Reporter};
 use crate::state::State;
 
-/// As large as the pictures that are compared.
+/// As large as the images that are compared.
 const SIZE: Viewport = Viewport { width: 240, height: 160 };
 
 fn ctrl(window: &mut HeadlessWindow<'_>, key: char) {
@@ -30,8 +30,8 @@ fn words(command: &str) -> Vec<String> {
     command.split(' ').skip(1).map(|word| word.trim_matches('\'').to_owned()).collect()
 }
 
-/// What a command line draws, with another place for its picture.
-fn drawn_by(command: &str) -> trigon_io::Picture {
+/// What a command line draws, with another place for its image.
+fn drawn_by(command: &str) -> trigon_io::RgbaImage {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("view.png");
     let mut words = words(command);
@@ -39,12 +39,12 @@ fn drawn_by(command: &str) -> trigon_io::Picture {
     words.push(format!("--output={}", path.display()));
     let line = CommandLine::new(words.iter().map(Into::into)).expect("it makes sense");
     let request = Request::from_line(&line, None).expect("it makes sense");
-    let Mode::Picture { output, .. } = &request.mode else { panic!("no picture: {command}") };
-    assert_eq!(picture::run(&request, output.as_ref(), None, Reporter::new(Level::Error)), 0, "{command}");
+    let Mode::Image { output, .. } = &request.mode else { panic!("no image: {command}") };
+    assert_eq!(image::run(&request, output.as_ref(), None, Reporter::new(Level::Error)), 0, "{command}");
     trigon_io::load_image(&path, &trigon_io::Limits::default()).expect("written")
 }
 
-/// The same picture as the window's own screenshot, whatever was done in the window before.
+/// The same image as the window's own screenshot, whatever was done in the window before.
 #[test]
 fn the_copied_command_line_draws_the_same_bytes() {
     let folder = tempfile::tempdir().expect("a folder");

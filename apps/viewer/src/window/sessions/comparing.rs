@@ -53,7 +53,7 @@ fn side_by_side_the_sides_of_wide_models_were_cut_off() {
 fn two_models_are_seen_side_by_side_in_turn_and_where_they_differ() {
     with_pair([TRIANGLE, SQUARE], |window| {
         assert!(says(window, "one.obj | two.obj"), "what is where");
-        assert!(columns(window, 0..300) != columns(window, 300..600), "two pictures");
+        assert!(columns(window, 0..300) != columns(window, 300..600), "two images");
         key(window, 'b');
         let first = columns(window, 0..600);
         key(window, 'b');
@@ -81,7 +81,7 @@ fn without_another_model_the_keys_say_what_to_do() {
     });
 }
 
-/// Clicks side by side picked in a picture of the first model alone, which fills the window and is not shown.
+/// Clicks side by side picked in an image of the first model alone, which fills the window and is not shown.
 #[test]
 fn clicks_beside_another_model_picked_what_was_not_there() {
     with_pair([SQUARE, SQUARE], |window| {

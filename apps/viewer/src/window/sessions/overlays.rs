@@ -6,7 +6,7 @@ use trigon_window::{Chord, Key, Modifiers};
 
 use super::{SMALL, click, click_at, key, says, shift, with_window};
 
-/// A point of the picture that the model covers and no panel does.
+/// A point of the image that the model covers and no panel does.
 const ON_MODEL: DVec2 = DVec2::new(400.0, 300.0);
 
 fn named(scene: &Scene, name: &str) -> NodeId {
@@ -84,7 +84,7 @@ fn the_time_of_each_stage_is_shown() {
         for stage in ["vertices", "set-up", "visibility", "shading", "blending", "resolve", "interface"] {
             assert!(says(window, stage), "{stage}");
         }
-        assert!(!window.stage().report().stages.shading.is_zero(), "a picture was drawn for it");
+        assert!(!window.stage().report().stages.shading.is_zero(), "an image was drawn for it");
         shift(window, 'z');
         assert!(!says(window, "visibility"), "and hidden again");
     });
@@ -117,12 +117,12 @@ fn faces_show_what_keys_and_the_list_choose() {
     with_window("", SMALL, |window| {
         let shaded = window.pixels();
         key(window, 'v');
-        let mut pictures = vec![shaded.clone()];
+        let mut images = vec![shaded.clone()];
         for display in &Display::ALL[1..] {
             click(window, display.name());
             assert_eq!(window.stage().settings.display, *display, "chosen");
-            assert!(!pictures.contains(&window.pixels()), "{} looks like another", display.name());
-            pictures.push(window.pixels());
+            assert!(!images.contains(&window.pixels()), "{} looks like another", display.name());
+            images.push(window.pixels());
         }
         window.key(Key::Escape.into());
         key(window, 'c');

@@ -1,4 +1,4 @@
-//! The command line that draws the window's picture.
+//! The command line that draws the window's image.
 
 use trigon_window::egui;
 
@@ -22,8 +22,8 @@ impl CommandPanel {
             ui.ctx().copy_text(self.command.clone());
         }
         let said = match self.differs {
-            None => "On the clipboard. It writes this picture, with the same bytes.".to_owned(),
-            Some(why) => format!("On the clipboard. It writes nearly this picture: {why}."),
+            None => "On the clipboard. It writes this image, with the same bytes.".to_owned(),
+            Some(why) => format!("On the clipboard. It writes nearly this image: {why}."),
         };
         ui.add(egui::Label::new(said).wrap());
         ui.separator();

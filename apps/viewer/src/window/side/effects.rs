@@ -1,4 +1,4 @@
-//! Which effects the picture has, and why.
+//! Which effects the image has, and why.
 
 use trigon_camera::{Orbit, Viewport};
 use trigon_scene::{EffectPlan, RenderSettings};
@@ -7,7 +7,7 @@ use trigon_window::{Revision, Stage, egui};
 /// All that a plan depends on.
 type Subject = (Revision, Orbit, RenderSettings, Viewport);
 
-/// The plan of the picture in the window.
+/// The plan of the image in the window.
 #[derive(Default)]
 pub(super) struct EffectPanel {
     /// Planning visits the whole scene, so the plan is kept.
@@ -36,7 +36,7 @@ impl EffectPanel {
         let subject = (stage.scene.revision(), stage.orbit, stage.settings.clone(), stage.viewport());
         let kept = self.planned.take().filter(|(of, _)| *of == subject);
         let planned = kept.unwrap_or_else(|| {
-            let plan = EffectPlan::new(&stage.scene, &stage.camera(), &stage.picture_settings());
+            let plan = EffectPlan::new(&stage.scene, &stage.camera(), &stage.image_settings());
             (subject, plan)
         });
         &self.planned.insert(planned).1

@@ -1,4 +1,4 @@
-//! The panel at the right of the picture: the scene as a tree, a pixel explained, or the effect plan. One of
+//! The panel at the right of the image: the scene as a tree, a pixel explained, or the effect plan. One of
 //! them stands there at a time, so that none covers another.
 
 mod command;
@@ -30,7 +30,7 @@ pub(super) enum Content {
     Effects,
     /// What faces can show.
     Displays,
-    /// The command line that draws the picture.
+    /// The command line that draws the image.
     Command,
 }
 

@@ -1,4 +1,4 @@
-//! Why a pixel of the window's picture looks as it does.
+//! Why a pixel of the window's image looks as it does.
 
 use trigon_math::DVec2;
 use trigon_scene::Renderer;
@@ -27,7 +27,7 @@ impl PixelPanel {
         let size = stage.viewport().size();
         let at = at.filter(|at| at.cmpge(DVec2::ZERO).all() && at.cmplt(size).all());
         self.explained = at.map(|at| {
-            let mut renderer = Renderer::new(stage.picture_settings());
+            let mut renderer = Renderer::new(stage.image_settings());
             pixel::explained(&mut renderer, &stage.scene, &stage.camera(), [at.x as u32, at.y as u32])
                 .map_err(|failure| failure.to_string())
         });
@@ -36,7 +36,7 @@ impl PixelPanel {
     pub(super) fn show(&self, ui: &mut egui::Ui, stage: &Stage) {
         let wrapped = |ui: &mut egui::Ui, text: &str| ui.add(egui::Label::new(text).wrap());
         match &self.explained {
-            None => drop(wrapped(ui, "Click a pixel of the picture.")),
+            None => drop(wrapped(ui, "Click a pixel of the image.")),
             Some(Err(why)) => drop(wrapped(ui, why)),
             Some(Ok(explained)) => {
                 let lines = explained.lines(&stage.scene);

@@ -13,7 +13,7 @@ use crate::source::Source;
 use crate::state::State;
 use crate::window::side::Content;
 
-/// A command line that draws the window's picture.
+/// A command line that draws the window's image.
 pub(in crate::window) struct Copied {
     pub(in crate::window) state: State,
     /// What it does not set as it is.
@@ -28,7 +28,7 @@ impl Viewer {
         let mut flags = self.request.line.flags_but(&DECIDED, source.first_file()).map_err(mistake)?;
         // Those of configuration files are among them.
         flags.push("--no-config=true".to_owned());
-        let settings = stage.picture_settings();
+        let settings = stage.image_settings();
         flags.extend(of_settings(&settings));
         let exact = ExactCamera { camera: stage.camera(), distance: stage.orbit.distance() };
         flags.push(format!("--camera-exact={exact}"));

@@ -19,7 +19,7 @@ fn run(document: &mut Document, json: Value) {
     document.run(command).unwrap_or_else(|error| panic!("{json}: {error}"));
 }
 
-/// A document and a picture of it.
+/// A document and an image of it.
 struct View {
     document: Document,
     camera: Camera,
@@ -33,7 +33,7 @@ impl View {
             RenderSettings { outputs, samples_per_axis: 1, ..RenderSettings::new(SIZE.width, SIZE.height) };
         let scene = document.scene();
         let camera = scene.overview(settings.aspect());
-        let frame = render(scene, &camera, &settings).expect("a small picture");
+        let frame = render(scene, &camera, &settings).expect("a small image");
         Self { document, camera, frame }
     }
 
@@ -389,17 +389,17 @@ fn smooth_cube(kind: &str) -> (Document, Scene) {
     (document, copy)
 }
 
-/// What a click near the picture of a point selects.
+/// What a click near the image of a point selects.
 fn clicked(kind: &str, at: DVec3) -> Vec<u32> {
     let (mut document, copy) = smooth_cube(kind);
     let outputs = Outputs { ids: true, ..Outputs::NONE };
     let settings =
         RenderSettings { outputs, samples_per_axis: 1, ..RenderSettings::new(SIZE.width, SIZE.height) };
     let camera = copy.overview(settings.aspect());
-    let frame = render(&copy, &camera, &settings).expect("a small picture");
+    let frame = render(&copy, &camera, &settings).expect("a small image");
     let picker = Picker::new(&copy, &camera, &frame);
     let projector = Projector::new(&camera, SIZE);
-    let point = projector.to_screen(at).expect("it is in the picture") + DVec2::splat(0.25);
+    let point = projector.to_screen(at).expect("it is in the image") + DVec2::splat(0.25);
     let command =
         Picks::new(&document, &picker, projector, Reach::Visible).click(point, 5.0, SelectAction::Replace);
     run_picked(&mut document, command);

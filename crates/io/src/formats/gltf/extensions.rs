@@ -23,9 +23,9 @@ const READ: &[&str] = &[
     "KHR_texture_transform",
 ];
 
-/// Pictures in formats that are not read: the geometry is shown all the same,
+/// Images in formats that are not read: the geometry is shown all the same,
 /// with a fallback or a checkerboard on it.
-const PICTURES: &[&str] = &[
+const IMAGES: &[&str] = &[
     "KHR_texture_basisu",
     "KHR_texture_ktx",
     "EXT_texture_avif",
@@ -34,7 +34,7 @@ const PICTURES: &[&str] = &[
 ];
 
 /// Data about the file that does not show, and what says itself what of it is
-/// left out: a texture without a picture, a channel that moves no node.
+/// left out: a texture without an image, a channel that moves no node.
 const INVISIBLE: &[&str] =
     &["KHR_xmp", "KHR_xmp_json_ld", "EXT_texture_procedurals", "KHR_animation_pointer"];
 
@@ -53,7 +53,7 @@ pub(crate) fn check_extensions(
 ) -> Result<(), LoadError> {
     let unread: Vec<&str> =
         root.extensions_required.iter().map(String::as_str).filter(|name| !is_read(name)).collect();
-    let is_needless = |name: &&&str| PICTURES.contains(*name) || INVISIBLE.contains(*name);
+    let is_needless = |name: &&&str| IMAGES.contains(*name) || INVISIBLE.contains(*name);
     let missing: Vec<&str> = unread.iter().filter(|name| !is_needless(name)).copied().collect();
     if !missing.is_empty() {
         let what = format!("the file requires {}, which trigon does not read", missing.join(", "));
@@ -63,7 +63,7 @@ pub(crate) fn check_extensions(
     let declared: BTreeSet<&str> = root.extensions_used.iter().map(String::as_str).collect();
     let undeclared = found.iter().map(String::as_str).filter(|name| !declared.contains(name));
     for name in root.extensions_used.iter().map(String::as_str).chain(undeclared) {
-        if !is_read(name) && ![PICTURES, INVISIBLE].iter().any(|list| list.contains(&name)) {
+        if !is_read(name) && ![IMAGES, INVISIBLE].iter().any(|list| list.contains(&name)) {
             warnings.push(
                 Place::Whole,
                 format!("the extension {name} is not drawn"),
@@ -79,12 +79,12 @@ pub(crate) fn check_extensions(
 fn warn_of_required(root: &Root, unread: &[&str], warnings: &mut Warnings) {
     let of =
         |list: &[&str]| -> Vec<&str> { unread.iter().filter(|name| list.contains(name)).copied().collect() };
-    let (pictures, invisible) = (of(PICTURES), of(INVISIBLE));
-    if !pictures.is_empty() {
-        let names = pictures.join(", ");
+    let (images, invisible) = (of(IMAGES), of(INVISIBLE));
+    if !images.is_empty() {
+        let names = images.join(", ");
         let what =
-            format!("the file requires {names}, which trigon does not support; such pictures are not drawn");
-        warnings.push(Place::Whole, what, "export the model with PNG, JPEG or WebP pictures");
+            format!("the file requires {names}, which trigon does not support; such images are not drawn");
+        warnings.push(Place::Whole, what, "export the model with PNG, JPEG or WebP images");
     }
     if !invisible.is_empty() {
         let names = invisible.join(", ");

@@ -17,7 +17,7 @@ use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::folder::{Folder, Lookup};
 use crate::import::Import;
 use crate::layers::Role;
-use crate::texture_request::{PictureBytes, Purpose, Request};
+use crate::texture_request::{ImageBytes, Purpose, Request};
 use crate::textures::add_textures;
 
 /// The textures that images of the document became: one for colours, one for
@@ -42,7 +42,7 @@ impl Images {
     ) -> Result<Self, LoadError> {
         let wanted = wanted_images(import, root, textures);
         let (mut requests, mut indices) = (Vec::new(), BTreeMap::new());
-        // Many images may be one picture: it is read, decoded and kept once.
+        // Many images may be one image: it is read, decoded and kept once.
         let mut known = HashMap::new();
         for ((image, is_data), purpose) in wanted {
             let from = &root.images[image];
@@ -93,7 +93,7 @@ fn wanted_images(
 }
 
 /// The image that a texture shows: the plain one, else one in a format that an
-/// extension adds. The picture itself then says what it is.
+/// extension adds. The image itself then says what it is.
 pub(crate) fn image_of(root: &Root, texture: usize) -> Option<usize> {
     let texture = &root.textures[texture];
     if let Some(source) = source_of(texture) {
@@ -116,7 +116,7 @@ fn read_image(
     root: &Root,
     buffers: &mut Buffers<'_>,
     image: usize,
-) -> Option<PictureBytes> {
+) -> Option<ImageBytes> {
     let place = Place::Item("image", image);
     match fetch_image(root, buffers, &mut import.folder, image) {
         Ok((bytes, respelled)) => {
@@ -131,7 +131,7 @@ fn read_image(
             Some(bytes)
         }
         Err(Unread { what, remedy, .. }) => {
-            let said = (format!("the picture is not drawn: {what}"), remedy);
+            let said = (format!("the image is not drawn: {what}"), remedy);
             let tried = import.folder.tried(Path::new(""), &image_name(root, image));
             import.warnings.push_unusable(import.path, place, said, tried);
             None
@@ -145,16 +145,16 @@ pub(crate) fn fetch_image(
     buffers: &mut Buffers<'_>,
     folder: &mut Folder,
     image: usize,
-) -> Result<(PictureBytes, Option<String>), Unread> {
+) -> Result<(ImageBytes, Option<String>), Unread> {
     let from = &root.images[image];
     match (&from.uri, from.buffer_view) {
         (Some(uri), _) => {
             let (bytes, respelled) = read_reference(uri, folder, Lookup::Forgiving)?;
-            Ok((PictureBytes::Own(bytes), respelled))
+            Ok((ImageBytes::Own(bytes), respelled))
         }
         (None, Some(view)) => {
             let (buffer, range) = buffers.view(root, view.value(), folder).map_err(|unplaced| unplaced.1)?;
-            Ok((PictureBytes::Shared(buffer, range), None))
+            Ok((ImageBytes::Shared(buffer, range), None))
         }
         (None, None) => {
             let what = "it has neither a URI nor a bufferView".to_owned();

@@ -198,7 +198,7 @@ fn native_mesh(
 }
 
 /// Holds what the nodes place to the limit: many copies of one mesh take no
-/// memory here, but the picture needs every one.
+/// memory here, but the image needs every one.
 fn check_placed(
     import: &Import<'_>,
     root: &gltf::json::Root,

@@ -10,7 +10,7 @@ use trigon_scene::{MaterialTexture, TextureFormat};
 use super::material_extensions;
 use crate::texture_request::Purpose;
 
-/// What the pictures in a place of a material are for.
+/// What the images in a place of a material are for.
 pub(crate) fn purpose_of(place: MaterialTexture) -> Purpose {
     match (place, place.format()) {
         (MaterialTexture::BaseColor, _) => Purpose::BaseColor,

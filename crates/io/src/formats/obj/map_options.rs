@@ -14,14 +14,14 @@ pub(crate) struct MapStatement {
     pub(crate) clamp: bool,
     /// `-bm`: bumps are so much steeper.
     pub(crate) bump: f32,
-    /// Options that change the picture and that trigon does not follow.
+    /// Options that change the image and that trigon does not follow.
     pub(crate) ignored: Vec<String>,
     /// Options whose arguments are not what they should be.
     pub(crate) malformed: Vec<String>,
 }
 
 /// Takes the options off; what is left is the file name. `holds_colors` says how the
-/// picture is read.
+/// image is read.
 pub(crate) fn parse_map(rest: &str, holds_colors: bool) -> MapStatement {
     let mut map = MapStatement {
         file: String::new(),
@@ -95,7 +95,7 @@ impl MapStatement {
         let numbers: Option<Vec<f32>> = arguments.iter().map(|word| finite(word)).collect();
         let first = arguments.first().copied().unwrap_or_default();
         let is_followed = match (option, numbers.as_deref()) {
-            // Two of the three numbers may be missing, and the third is for pictures of
+            // Two of the three numbers may be missing, and the third is for images of
             // three dimensions.
             ("-s", Some(&[u, ref more @ ..])) => {
                 self.scale = Vec2::new(u, more.first().copied().unwrap_or(1.0));
@@ -112,7 +112,7 @@ impl MapStatement {
             ("-mm", Some(range)) => range == [0.0, 1.0],
             ("-t", Some(turbulence)) => turbulence.iter().all(|&value| value == 0.0),
             ("-boost", Some(&[boost])) => boost == 0.0,
-            // Pictures keep their own resolution.
+            // Images keep their own resolution.
             ("-texres", Some(_)) => true,
             ("-s" | "-o" | "-bm" | "-mm" | "-t" | "-boost" | "-texres", _) => {
                 return self.malformed.push(spelled);

@@ -3,7 +3,7 @@
 //! `lines` → `chunks` (pieces of the text) → `section` (one piece: `index`,
 //! `oddities`) → `parse` (all pieces, in parallel; `record` follows names and
 //! materials through them) → `build` (polygons, one node for each object or group).
-//! Materials come from `mtl` and `convert`, by way of `library`, their pictures by
+//! Materials come from `mtl` and `convert`, by way of `library`, their images by
 //! way of `textures`. `write` goes the other way.
 //!
 //! The `tobj` crate is the oracle of the tests, not the parser: it was that at first,

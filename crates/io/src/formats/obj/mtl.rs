@@ -43,7 +43,7 @@ impl MapKind {
         }
     }
 
-    /// Whether the picture holds colours rather than numbers.
+    /// Whether the image holds colours rather than numbers.
     pub(super) fn holds_colors(self) -> bool {
         matches!(self, Self::BaseColor | Self::Specular | Self::Emissive)
     }
@@ -114,7 +114,7 @@ pub(super) struct Fields {
     pub(super) metallic: Option<Stated<f32>>,
     /// `Ni`.
     pub(super) refraction: Option<Stated<f32>>,
-    /// The picture of `map_Ka`.
+    /// The image of `map_Ka`.
     pub(super) ambient_map: Option<Stated<String>>,
     pub(super) maps: Vec<Map>,
 }

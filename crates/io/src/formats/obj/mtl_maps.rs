@@ -1,4 +1,4 @@
-//! The statements of a material library that name pictures.
+//! The statements of a material library that name images.
 
 use super::lines::decode_name;
 use super::map_options::{MapStatement, parse_map};
@@ -31,7 +31,7 @@ impl Reader<'_> {
         if !ignored.is_empty() {
             let options = ignored.join(", ");
             let what = format!("the options {options} of texture \"{file}\" are not followed");
-            self.warn(line, &what, "apply them to the picture, and remove them here");
+            self.warn(line, &what, "apply them to the image, and remove them here");
         }
     }
 
@@ -43,11 +43,11 @@ impl Reader<'_> {
                 self.fields().ambient_map = Some(Stated { line, value });
                 return;
             }
-            "refl" | "map_refl" => "light the model with an environment picture instead",
+            "refl" | "map_refl" => "light the model with an environment image instead",
             "disp" | "map_disp" => "displace the mesh before exporting it",
-            "map_tr" => "write map_d, with the picture inverted if it shows transparency",
-            "map_ns" => "write Ns, or map_Pr with a picture of roughness",
-            "map_rma" | "map_orm" => "split the picture into map_Pr and map_Pm",
+            "map_tr" => "write map_d, with the image inverted if it shows transparency",
+            "map_ns" => "write Ns, or map_Pr with an image of roughness",
+            "map_rma" | "map_orm" => "split the image into map_Pr and map_Pm",
             _ if lower.starts_with("map_") || lower == "decal" => "bake the effect into map_Kd if it matters",
             _ => {
                 let what = format!("the statement \"{keyword}\" is unknown and is ignored");

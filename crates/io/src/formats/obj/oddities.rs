@@ -77,7 +77,7 @@ const WORDS: [(&str, &str); KINDS] = [
     ("curves and surfaces are not drawn", "convert them to polygons"),
     ("call names another file, which is not read", "copy its statements to this place"),
     ("csh asks to run a command, and trigon runs none", "run it yourself, and load what it writes"),
-    ("usemap names a texture map, which is not drawn", "name the picture with map_Kd in a material"),
+    ("usemap names a texture map, which is not drawn", "name the image with map_Kd in a material"),
     (
         "shadow_obj names a model to cast the shadow, which is not read; this one casts its own",
         "remove the line, or load the other model",

@@ -159,14 +159,14 @@ impl Reader {
         colors.push(Vec3::from(color.map(channel)));
     }
 
-    /// u and v; v may be missing, and a third number is for pictures of three dimensions.
+    /// u and v; v may be missing, and a third number is for images of three dimensions.
     fn coordinate(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
         self.seen.coordinates += 1;
         let Numbers { values: [u, v, _], count, surplus } = numbers::<3>(rest)?;
         if count == 0 {
             return Err(Fault::new("a vt line has 0 numbers and needs 2", EXPORT_AGAIN));
         }
-        // OBJ counts from the lower left of the picture.
+        // OBJ counts from the lower left of the image.
         let coordinate = Vec2::new(u as f32, (1.0 - v) as f32);
         if surplus {
             self.note(Oddity::SurplusInAttribute, line);

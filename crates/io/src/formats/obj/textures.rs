@@ -1,5 +1,5 @@
 //! The textures of MTL materials: found beside the library or the model, put
-//! together where two pictures make one, and bound to the material.
+//! together where two images make one, and bound to the material.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ use crate::folder::{Found, Lookup};
 use crate::import::Import;
 use crate::layers::Role;
 use crate::refusal::Refusal;
-use crate::texture_request::{PictureBytes, Purpose, Request};
+use crate::texture_request::{ImageBytes, Purpose, Request};
 use crate::textures::add_textures;
 
 /// The textures that a material of the scene can have from MTL.
@@ -67,7 +67,7 @@ impl Slot {
     }
 }
 
-/// The pictures of a texture with their roles, and what they are for.
+/// The images of a texture with their roles, and what they are for.
 type Recipe = (Vec<(Role, PathBuf)>, Purpose);
 
 /// The textures of all wanted materials, each read and decoded once.
@@ -85,15 +85,15 @@ impl Textures {
         import: &mut Import<'_>,
         materials: impl Iterator<Item = &'m MtlMaterial>,
     ) -> Result<Self, LoadError> {
-        let mut pictures = Pictures::default();
+        let mut images = Images::default();
         let (mut requests, mut known, mut users) = (Vec::new(), HashMap::<Recipe, usize>::new(), Vec::new());
         for (material, slot) in materials.flat_map(|material| SLOTS.map(|slot| (material, slot))) {
             let layers = slot.layers(material);
             let found =
-                layers.iter().filter_map(|&(role, map)| Some((role, pictures.find(import, material, map)?)));
+                layers.iter().filter_map(|&(role, map)| Some((role, images.find(import, material, map)?)));
             let recipe = (found.collect::<Vec<_>>(), slot.purpose());
             let (Some((_, first)), false) = (layers.first(), recipe.0.is_empty()) else { continue };
-            let layers = recipe.0.iter().map(|(role, path)| (*role, pictures.bytes(path))).collect();
+            let layers = recipe.0.iter().map(|(role, path)| (*role, images.bytes(path))).collect();
             let index = *known.entry(recipe).or_insert(requests.len());
             users.push((user(material, slot), index));
             if index == requests.len() {
@@ -140,21 +140,21 @@ fn placed(texture: TextureId, map: &MapStatement) -> TextureBinding {
     TextureBinding { transform, sampler, ..TextureBinding::new(texture) }
 }
 
-/// The picture files, each searched and read once.
+/// The image files, each searched and read once.
 #[derive(Default)]
-struct Pictures {
+struct Images {
     /// By library and by the name that is used there.
     searched: HashMap<(PathBuf, String), Option<PathBuf>>,
     bytes: HashMap<PathBuf, Arc<[u8]>>,
 }
 
-impl Pictures {
+impl Images {
     fn find(&mut self, import: &mut Import<'_>, material: &MtlMaterial, map: &Map) -> Option<PathBuf> {
         let name = (material.file.clone(), map.statement.file.clone());
         if let Some(known) = self.searched.get(&name) {
             return known.clone();
         }
-        let found = find_picture(import, material, map);
+        let found = find_image(import, material, map);
         let path = found.as_ref().map(|found| found.path.clone());
         if let Some(found) = found {
             self.bytes.entry(found.path).or_insert_with(|| found.bytes.into());
@@ -164,15 +164,15 @@ impl Pictures {
     }
 
     /// The bytes of a file that was found.
-    fn bytes(&self, path: &Path) -> PictureBytes {
+    fn bytes(&self, path: &Path) -> ImageBytes {
         let bytes = self.bytes[path].clone();
         let whole = 0..bytes.len();
-        PictureBytes::Shared(bytes, whole)
+        ImageBytes::Shared(bytes, whole)
     }
 }
 
 /// Looks beside the library, then beside the model.
-fn find_picture(import: &mut Import<'_>, material: &MtlMaterial, map: &Map) -> Option<Found> {
+fn find_image(import: &mut Import<'_>, material: &MtlMaterial, map: &Map) -> Option<Found> {
     let (name, place) = (&map.statement.file, Place::Line(map.line));
     let beside = import.folder.relative_folder(&material.file);
     let mut result = import.folder.read(&beside, name, Lookup::Forgiving);

@@ -1,4 +1,4 @@
-//! Statements of OBJ that are not read: which of them change the picture, and
+//! Statements of OBJ that are not read: which of them change the image, and
 //! which are no statements at all. `docs/obj-statements.md` lists them all.
 
 use super::oddities::{Oddity, Tally};
@@ -8,9 +8,9 @@ use crate::warning::Warnings;
 /// What leaving a statement out means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unread {
-    /// The picture stays the same, or what changes it is noted elsewhere.
+    /// The image stays the same, or what changes it is noted elsewhere.
     Harmless,
-    /// The picture is another than the file asks for.
+    /// The image is another than the file asks for.
     Noted(Oddity),
     /// No version of the format has it.
     Unknown,

@@ -130,14 +130,14 @@ fn unnamed(mut mesh: Mesh) -> Mesh {
 }
 
 #[test]
-fn a_picture_of_the_exported_showcase_is_that_of_the_scene() {
+fn an_image_of_the_exported_showcase_is_that_of_the_scene() {
     let scene = showcase();
     let again = loaded("showcase.glb", &glb(&scene));
     assert_eq!(warnings(&again), [""; 0], "nothing to warn of");
     let settings = RenderSettings::new(100, 60);
     let (_, camera) = scene.cameras()[0];
     let (before, after) = (render(&scene, &camera, &settings), render(&again.scene, &camera, &settings));
-    let (before, after) = (before.expect("a picture"), after.expect("a picture"));
+    let (before, after) = (before.expect("an image"), after.expect("an image"));
     let differ = before.color.iter().zip(&after.color).filter(|(a, b)| a.abs_diff(**b) > 1).count();
     // Flat normals were computed from polygons, and are now those of the file.
     assert!(differ * 1000 < before.color.len(), "{differ} of {} values", before.color.len());
@@ -277,7 +277,7 @@ fn skins_and_animations_move_as_before() {
 
 /// A texture as a file brings it, and one that was made.
 #[test]
-fn pictures_keep_their_bytes() {
+fn images_keep_their_bytes() {
     let source = crate::texture::textured_square();
     let options = LoadOptions { keep_source: true, ..LoadOptions::default() };
     let mut first = load_from_slice("a.glb", &source.glb(), &options).expect("it loads");
@@ -285,12 +285,12 @@ fn pictures_keep_their_bytes() {
     let texture = Texture::new(2, 1, texels.clone(), TextureFormat::Srgb).expect("two texels");
     let made = first.scene.add_texture("made", texture);
     first.scene.add_object("made", primitives::cube(1.0), Material::from_texture(made));
-    let pictures = first.source.as_ref();
+    let images = first.source.as_ref();
     let bytes =
-        encode_glb(&first.scene, &ExportOptions { pictures, ..ExportOptions::default() }).expect("small");
+        encode_glb(&first.scene, &ExportOptions { images, ..ExportOptions::default() }).expect("small");
     let again = load_from_slice("b.glb", &bytes, &options).expect("it loads");
     let kept = again.source.expect("it was asked for");
-    assert_eq!(kept.image(0), pictures.and_then(|source| source.image(0)), "as it was encoded");
+    assert_eq!(kept.image(0), images.and_then(|source| source.image(0)), "as it was encoded");
     let of = |scene: &Scene| -> Vec<Vec<[u8; 4]>> {
         scene.textures.iter().map(|(_, asset)| asset.texture.texels().collect()).collect()
     };

@@ -141,11 +141,11 @@ proptest! {
 }
 
 #[test]
-fn a_file_with_buffers_and_pictures_beside_it_becomes_one() {
+fn a_file_with_buffers_and_images_beside_it_becomes_one() {
     let dir = tempfile::tempdir().expect("a temporary folder");
     let mut doc = crate::texture::textured_square();
-    let picture = crate::texture::png();
-    std::fs::write(dir.path().join("p.png"), &picture).expect("a file");
+    let image = crate::texture::png();
+    std::fs::write(dir.path().join("p.png"), &image).expect("a file");
     std::fs::write(dir.path().join("a.bin"), &doc.bytes).expect("a file");
     doc.json["images"] = json!([{"uri": "p.png", "extras": 7}]);
     let unused = json!({"byteLength": 4, "uri": "data:,abcd"});
@@ -166,5 +166,5 @@ fn a_file_with_buffers_and_pictures_beside_it_becomes_one() {
     let (second, warned) = document("b.glb", &bytes);
     assert_eq!(warned, [], "nothing is missing");
     assert_eq!(triangles(&second.scene), triangles(&first.scene), "the same triangles");
-    assert_eq!(second.scene.textures.len(), 1, "and the picture");
+    assert_eq!(second.scene.textures.len(), 1, "and the image");
 }

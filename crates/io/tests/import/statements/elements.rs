@@ -67,8 +67,8 @@ fn faces() -> Vec<Row> {
         ),
         left(
             "f without texture coordinates, in a material with a texture",
-            File("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl picture\n> vt 0 0\nf 1 2 3"),
-            "there is no place in the picture for it",
+            File("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl image\n> vt 0 0\nf 1 2 3"),
+            "there is no place in the image for it",
         )
         .says(
             "a.obj, line 5: a material with textures is on faces without texture coordinates, which cannot show them; export the texture coordinates (vt), too",

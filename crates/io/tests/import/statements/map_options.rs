@@ -19,7 +19,7 @@ fn binding(loaded: &Loaded) -> TextureBinding {
     material(loaded).base_color_texture.expect("a texture")
 }
 
-/// Where the picture's coordinates (0.5, 0.25 upwards) end up, v upwards.
+/// Where the image's coordinates (0.5, 0.25 upwards) end up, v upwards.
 fn place(loaded: &Loaded) -> Vec2 {
     let down = binding(loaded).transform.transform_point2(Vec2::new(0.5, 0.75));
     Vec2::new(down.x, 1.0 - down.y)
@@ -27,7 +27,7 @@ fn place(loaded: &Loaded) -> Vec2 {
 
 fn placed() -> Vec<Row> {
     vec![
-        read("-s u v w", Lines("map_Kd -s 2 4 1 color.png"), "the texture is repeated so often; w is for pictures of three dimensions", |loaded| {
+        read("-s u v w", Lines("map_Kd -s 2 4 1 color.png"), "the texture is repeated so often; w is for images of three dimensions", |loaded| {
             place(loaded) == Vec2::new(1.0, 1.0)
         }),
         read("-s u", Lines("map_Kd -s 2 color.png"), "v keeps 1", |loaded| place(loaded) == Vec2::new(1.0, 0.25)),
@@ -48,10 +48,10 @@ fn placed() -> Vec<Row> {
         )
         .says("m.mtl, line 3: texture \"grey.png\" is placed as \"color.png\" is, whatever its options say; give both the same -s, -o and -clamp"),
         drawn("-t u v w", "map_Kd -t 0.1 0 0 color.png", "the texture without turbulence")
-            .says("m.mtl, line 2: the options -t 0.1 0 0 of texture \"color.png\" are not followed; apply them to the picture, and remove them here"),
+            .says("m.mtl, line 2: the options -t 0.1 0 0 of texture \"color.png\" are not followed; apply them to the image, and remove them here"),
         drawn("-t 0 0 0", "map_Kd -t 0 0 0 color.png", "there is no turbulence"),
         drawn("-type sphere", "map_Kd -type sphere color.png", "the texture by texture coordinates")
-            .says("m.mtl, line 2: the options -type sphere of texture \"color.png\" are not followed; apply them to the picture, and remove them here"),
+            .says("m.mtl, line 2: the options -type sphere of texture \"color.png\" are not followed; apply them to the image, and remove them here"),
     ]
 }
 
@@ -69,22 +69,22 @@ fn values() -> Vec<Row> {
         }),
         drawn("-bm on another map", "map_Kd -bm 0.5 color.png", "it is for bumps only"),
         drawn("-mm base gain", "map_Kd -mm 0.1 0.9 color.png", "the texture as it is")
-            .says("m.mtl, line 2: the options -mm 0.1 0.9 of texture \"color.png\" are not followed; apply them to the picture, and remove them here"),
+            .says("m.mtl, line 2: the options -mm 0.1 0.9 of texture \"color.png\" are not followed; apply them to the image, and remove them here"),
         drawn("-mm 0 1", "map_Kd -mm 0 1 color.png", "that is the texture as it is"),
         drawn("-cc on", "map_Kd -cc on color.png", "the texture without correction")
-            .says("m.mtl, line 2: the options -cc on of texture \"color.png\" are not followed; apply them to the picture, and remove them here"),
+            .says("m.mtl, line 2: the options -cc on of texture \"color.png\" are not followed; apply them to the image, and remove them here"),
         drawn("-cc off", "map_Kd -cc off color.png", "that is how textures are drawn"),
         drawn("-imfchan r | g | b | m | l | z", "map_d -imfchan g grey.png", "alpha, or red if there is none")
-            .says("m.mtl, line 2: the options -imfchan g of texture \"grey.png\" are not followed; apply them to the picture, and remove them here"),
+            .says("m.mtl, line 2: the options -imfchan g of texture \"grey.png\" are not followed; apply them to the image, and remove them here"),
         drawn("-blendu on, -blendv on", "map_Kd -blendu on -blendv on color.png", "that is how textures are drawn"),
         drawn("-blendu off, -blendv off", "map_Kd -blendu off -blendv off color.png", "the texture is filtered")
-            .says("m.mtl, line 2: the options -blendu off, -blendv off of texture \"color.png\" are not followed; apply them to the picture, and remove them here"),
+            .says("m.mtl, line 2: the options -blendu off, -blendv off of texture \"color.png\" are not followed; apply them to the image, and remove them here"),
         drawn("-boost value", "map_Kd -boost 5 color.png", "the texture is not sharpened")
-            .says("m.mtl, line 2: the options -boost 5 of texture \"color.png\" are not followed; apply them to the picture, and remove them here"),
-        drawn("-texres resolution", "map_Kd -texres 256 color.png", "a picture keeps its own resolution"),
+            .says("m.mtl, line 2: the options -boost 5 of texture \"color.png\" are not followed; apply them to the image, and remove them here"),
+        drawn("-texres resolution", "map_Kd -texres 256 color.png", "an image keeps its own resolution"),
         drawn("-colorspace sRGB", "map_Kd -colorspace sRGB color.png", "that is how colours are read (an option of tinyobjloader)"),
         drawn("-colorspace linear", "map_Kd -colorspace linear color.png", "colours are read as sRGB")
-            .says("m.mtl, line 2: the options -colorspace linear of texture \"color.png\" are not followed; apply them to the picture, and remove them here"),
+            .says("m.mtl, line 2: the options -colorspace linear of texture \"color.png\" are not followed; apply them to the image, and remove them here"),
     ]
 }
 

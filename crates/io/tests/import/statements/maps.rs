@@ -1,4 +1,4 @@
-//! Textures: what each is for, and pictures that are not there.
+//! Textures: what each is for, and images that are not there.
 
 use trigon_io::Loaded;
 use trigon_scene::{AlphaMode, Shading};
@@ -53,7 +53,7 @@ fn drawn() -> Vec<Row> {
         read(
             "map_d file",
             Lines("map_d grey.png"),
-            "holes where the picture's alpha is below a half, or its red if it has no alpha; with d below 1, opacity",
+            "holes where the image's alpha is below a half, or its red if it has no alpha; with d below 1, opacity",
             |loaded| has_base_color(loaded) && material(loaded).alpha_mode == AlphaMode::Mask { cutoff: 0.5 },
         ),
         read("map_Pr file", Lines("map_Pr grey.png"), "a texture of roughness", has_metallic_roughness),
@@ -61,7 +61,7 @@ fn drawn() -> Vec<Row> {
         left(
             "Ks 0 0 0 beside map_Ks",
             File("newmtl m\nmap_Ks color.png\n> Ks 0 0 0"),
-            "white: exporters write black where the picture is to be seen as it is",
+            "white: exporters write black where the image is to be seen as it is",
         ),
         left("Ke 0 0 0 beside map_Ke", File("newmtl m\nmap_Ke color.png\n> Ke 0 0 0"), "white, likewise"),
         left(
@@ -78,7 +78,7 @@ fn drawn() -> Vec<Row> {
 }
 
 fn bumps() -> Vec<Row> {
-    const HEIGHTS: &str = "m.mtl, line 2: picture \"heights.png\" is left out: it is a height map, which is not drawn; only normal maps are; bake it into a normal map, and name that with norm";
+    const HEIGHTS: &str = "m.mtl, line 2: image \"heights.png\" is left out: it is a height map, which is not drawn; only normal maps are; bake it into a normal map, and name that with norm";
     vec![
         read("norm file", Lines("norm normals.png"), "a normal map", has_normal_map),
         read(
@@ -123,12 +123,12 @@ fn not_drawn() -> Vec<Row> {
         bake(
             "map_Ns file",
             "map_Ns grey.png",
-            "m.mtl, line 2: map_Ns \"grey.png\" is not drawn; write Ns, or map_Pr with a picture of roughness",
+            "m.mtl, line 2: map_Ns \"grey.png\" is not drawn; write Ns, or map_Pr with an image of roughness",
         ),
         bake(
             "map_Tr file",
             "map_Tr grey.png",
-            "m.mtl, line 2: map_Tr \"grey.png\" is not drawn; write map_d, with the picture inverted if it shows transparency",
+            "m.mtl, line 2: map_Tr \"grey.png\" is not drawn; write map_d, with the image inverted if it shows transparency",
         ),
         bake(
             "map_Ps file",
@@ -138,12 +138,12 @@ fn not_drawn() -> Vec<Row> {
         bake(
             "map_RMA file",
             "map_RMA color.png",
-            "m.mtl, line 2: map_RMA \"color.png\" is not drawn; split the picture into map_Pr and map_Pm",
+            "m.mtl, line 2: map_RMA \"color.png\" is not drawn; split the image into map_Pr and map_Pm",
         ),
         bake(
             "map_ORM file",
             "map_ORM color.png",
-            "m.mtl, line 2: map_ORM \"color.png\" is not drawn; split the picture into map_Pr and map_Pm",
+            "m.mtl, line 2: map_ORM \"color.png\" is not drawn; split the image into map_Pr and map_Pm",
         ),
         bake(
             "map_ and anything else",
@@ -163,12 +163,12 @@ fn not_drawn() -> Vec<Row> {
         bake(
             "refl -type sphere file",
             "refl -type sphere color.png",
-            "m.mtl, line 2: refl \"color.png\" is not drawn; light the model with an environment picture instead",
+            "m.mtl, line 2: refl \"color.png\" is not drawn; light the model with an environment image instead",
         ),
         bake(
             "refl -type cube_top file",
             "refl -type cube_top color.png",
-            "m.mtl, line 2: refl \"color.png\" is not drawn; light the model with an environment picture instead",
+            "m.mtl, line 2: refl \"color.png\" is not drawn; light the model with an environment image instead",
         ),
         left("map_aat on", Lines("map_aat on"), "textures are always filtered"),
     ]
@@ -178,10 +178,10 @@ fn files() -> Vec<Row> {
     vec![
         left("map_Kd of a missing file", Lines("map_Kd gone.png"), "the colour alone is drawn")
             .says("m.mtl, line 2: texture \"gone.png\" is not drawn: there is no such file; put the file there, or export the model again with it"),
-        read("map_Kd of a file that is no picture", Lines("map_Kd a.obj"), "a checkerboard that nobody overlooks", has_base_color)
-            .says("m.mtl, line 2: picture \"a.obj\" is shown as a checkerboard: its first bytes match no known image format; save it as PNG, JPEG or WebP"),
-        left("map_Ks of a file that is no picture", File("newmtl m\nKs 1 1 1\n> map_Ks a.obj"), "the number alone is drawn")
-            .says("m.mtl, line 3: picture \"a.obj\" is left out: its first bytes match no known image format; save it as PNG, JPEG or WebP"),
+        read("map_Kd of a file that is no image", Lines("map_Kd a.obj"), "a checkerboard that nobody overlooks", has_base_color)
+            .says("m.mtl, line 2: image \"a.obj\" is shown as a checkerboard: its first bytes match no known image format; save it as PNG, JPEG or WebP"),
+        left("map_Ks of a file that is no image", File("newmtl m\nKs 1 1 1\n> map_Ks a.obj"), "the number alone is drawn")
+            .says("m.mtl, line 3: image \"a.obj\" is left out: its first bytes match no known image format; save it as PNG, JPEG or WebP"),
         read("map_Kd file of another case, or by another folder", Lines("map_Kd C:\\art\\COLOR.png"), "the file beside the model", has_base_color)
             .says("m.mtl, line 2: texture \"C:\\art\\COLOR.png\" was not found; \"color.png\" is used instead; correct the name there"),
         left("map_Kd without a file", Lines("map_Kd"), "it names nothing")

@@ -79,7 +79,7 @@ fn colors() -> Vec<Row> {
         left(
             "Kd 0 0 0 beside map_Kd",
             File("newmtl m\nmap_Kd color.png\n> Kd 0 0 0"),
-            "white: exporters write black where the picture is to be seen as it is",
+            "white: exporters write black where the image is to be seen as it is",
         ),
         left("Ka r g b", File("newmtl m\nKd 1 0 0\n> Ka 0.2 0 0"), "OBJ has no lights: ambient light is a choice of who looks at it, and Kd answers it; exporters write any number"),
         left("Ka without Kd", Lines("Ka 1 0 0"), "ambient light is answered by Kd")

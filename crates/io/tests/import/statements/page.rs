@@ -11,11 +11,11 @@ const HEAD: &str = "\
 
 What trigon does with each statement of Wavefront OBJ (version 3.0, appendix B1 of the Advanced Visualizer's manual), of MTL
 (version 4.2, chapter 5 of the File Formats manual), and of the extension for physically-based materials (Exocortex, 2014), and
-with the ways to get them wrong. Nothing that changes the picture is left out in silence: a warning names the file, the
+with the ways to get them wrong. Nothing that changes the image is left out in silence: a warning names the file, the
 line and the remedy. Warnings of the same wording are one, which says how many more there are.
 
 *Read* says what a statement becomes; with a message beside it, it is drawn, but not as it is written. *Not read* says why;
-without a message, because the picture is the same without it. *Refused* is a file that does not load.
+without a message, because the image is the same without it. *Refused* is a file that does not load.
 
 The cases stand in a small file. Of a model they begin at line 8, after a library, four vertices (`v`), a texture coordinate
 and a normal, and a face with all of them follows; of a library they begin at line 2, after `newmtl m`. Where a case is a

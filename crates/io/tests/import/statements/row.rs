@@ -88,7 +88,7 @@ const OBJ_HEAD: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0
 /// What stands after them.
 const OBJ_TAIL: &str = "f 1/1/1 2/1/1 3/1/1 4/1/1\n";
 /// The library of that file.
-const LIBRARY: &str = "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\nnewmtl picture\nmap_Kd color.png\n";
+const LIBRARY: &str = "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\nnewmtl image\nmap_Kd color.png\n";
 /// What stands before the lines of a library's case, which begin at line 2.
 const MTL_HEAD: &str = "newmtl m\n";
 /// The model that shows the library.
@@ -129,11 +129,11 @@ impl Sample {
         }
     }
 
-    /// Loads the files from a folder that has some pictures, too. The messages name
+    /// Loads the files from a folder that has some images, too. The messages name
     /// files without the folder.
     pub(super) fn load(&self) -> Result<(Loaded, Vec<String>), String> {
         let dir = tempfile::tempdir().expect("a folder");
-        write_pictures(dir.path());
+        write_images(dir.path());
         std::fs::write(dir.path().join("a.obj"), &self.model).expect("a model");
         std::fs::write(dir.path().join("m.mtl"), &self.library).expect("a library");
         std::fs::write(dir.path().join("more.mtl"), "newmtl red\nKd 0 1 0\n").expect("a library");
@@ -147,12 +147,12 @@ impl Sample {
 }
 
 /// Colours, directions, heights, and grey. Not by `write_png`, which waits for the disk.
-fn write_pictures(folder: &Path) {
+fn write_images(folder: &Path) {
     const COLORS: [u8; 12] = [255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255];
     let write = |name: &str, side: u32, pixels: &[u8]| {
         let mut bytes = Vec::new();
         encode_png(&mut bytes, side, side, Pixels::Rgb8(pixels)).expect("memory takes it");
-        std::fs::write(folder.join(name), bytes).expect("a picture");
+        std::fs::write(folder.join(name), bytes).expect("an image");
     };
     write("color.png", 2, &COLORS);
     write("normals.png", 1, &[128, 128, 255]);

@@ -132,7 +132,7 @@ fn display() -> Vec<Row> {
         ),
         left("lod 0", Lines("lod 0"), "it asks for all levels, which are drawn"),
         left("usemap name", Lines("usemap wood"), "texture maps beside materials are not drawn").says(
-            "a.obj, line 8: usemap names a texture map, which is not drawn; name the picture with map_Kd in a material",
+            "a.obj, line 8: usemap names a texture map, which is not drawn; name the image with map_Kd in a material",
         ),
         left("usemap off", Lines("usemap off"), "that is how faces are drawn"),
         left("maplib file1 …", Lines("maplib maps.map"), "only usemap shows what is in it, which says so"),

@@ -155,7 +155,7 @@ fn attributes() -> Vec<Row> {
         read(
             "vt u v w",
             Lines("vt 0.25 0.25 0.5\nf 1/2/1 2/2/1 3/2/1"),
-            "u and v; w is for pictures of three dimensions, of which there are none",
+            "u and v; w is for images of three dimensions, of which there are none",
             |loaded| has_coordinate(loaded, Vec2::new(0.25, 0.75)),
         ),
         read("vt u v w and more", Lines("vt 0.25 0.25 0 1\nf 1/2/1 2/2/1 3/2/1"), "u and v", |loaded| {

@@ -1,11 +1,11 @@
-//! The codes of the group DataError: numbers and pictures are not what they
+//! The codes of the group DataError: numbers and images are not what they
 //! are said to be.
 
 use serde_json::json;
 
 use super::files::*;
 use super::row::{Refused, Row, Silent, Warned, glb, json_file, raw};
-use super::schema::PICTURE;
+use super::schema::IMAGE;
 use super::semantic::BOUNDS;
 use crate::gltf::push;
 
@@ -196,7 +196,7 @@ fn buffers() -> Vec<Row> {
         ),
         glb(
             "DATA_URI_GLB",
-            "a picture in a data URI, in a GLB",
+            "an image in a data URI, in a GLB",
             Silent("the bytes are read from there"),
             |doc| {
                 textured(doc, &png(), "image/png");
@@ -214,22 +214,19 @@ fn images() -> Vec<Row> {
         glb(
             "IMAGE_FEATURES_UNSUPPORTED",
             "a PNG with a gamma of its own",
-            Silent("by the specification, colour space information in pictures is ignored"),
+            Silent("by the specification, colour space information in images is ignored"),
             |doc| textured(doc, &png_with_gamma(), "image/png"),
         ),
-        glb("IMAGE_MIME_TYPE_INVALID", "a PNG that is said to be a JPEG", Silent(PICTURE), |doc| {
+        glb("IMAGE_MIME_TYPE_INVALID", "a PNG that is said to be a JPEG", Silent(IMAGE), |doc| {
             textured(doc, &png(), "image/jpeg");
         }),
-        glb(
-            "IMAGE_NON_ENABLED_MIME_TYPE",
-            "a WebP picture without EXT_texture_webp",
-            Silent(PICTURE),
-            |doc| textured(doc, WEBP, "image/png"),
-        ),
+        glb("IMAGE_NON_ENABLED_MIME_TYPE", "a WebP image without EXT_texture_webp", Silent(IMAGE), |doc| {
+            textured(doc, WEBP, "image/png")
+        }),
         glb("IMAGE_UNEXPECTED_EOS", "a PNG that ends after its header", Warned, |doc| {
             textured(doc, &png_without_data(), "image/png");
         }),
-        glb("IMAGE_UNRECOGNIZED_FORMAT", "a text in place of a picture", Warned, |doc| {
+        glb("IMAGE_UNRECOGNIZED_FORMAT", "a text in place of an image", Warned, |doc| {
             textured(doc, b"This is no picture.", "image/png");
         }),
     ]

@@ -12,7 +12,7 @@ pub(super) const BIN_CHUNK: u32 = 0x004e_4942;
 
 const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 const IHDR: &[u8] = b"\0\0\0\x0dIHDR\0\0\0\x01\0\0\0\x01\x08\x02\0\0\0\x90\x77\x53\xde";
-/// A gamma of 1.8, as old Macintosh pictures have.
+/// A gamma of 1.8, as old Macintosh images have.
 const GAMMA: &[u8] = b"\0\0\0\x04gAMA\x00\x00\xd9\x04\xdc\xb2\xda\x02";
 const IDAT: &[u8] = b"\0\0\0\x0cIDAT\x78\xda\x63\xf8\xcf\xc0\0\0\x03\x01\x01\0\xf7\x03\x41\x43";
 const IEND: &[u8] = b"\0\0\0\0IEND\xae\x42\x60\x82";
@@ -138,17 +138,17 @@ pub(super) fn uses(doc: &mut Doc, names: &[&str]) {
     }
 }
 
-/// A texture of a picture in the buffer; returns its index.
-pub(super) fn texture(doc: &mut Doc, picture: &[u8], mime_type: &str) -> usize {
-    let view = doc.view(picture);
+/// A texture of a file in the buffer; returns its index.
+pub(super) fn texture(doc: &mut Doc, file: &[u8], mime_type: &str) -> usize {
+    let view = doc.view(file);
     let image = push(&mut doc.json["images"], json!({"bufferView": view, "mimeType": mime_type}));
     push(&mut doc.json["textures"], json!({"source": image}))
 }
 
 /// The square with a texture as its colour.
-pub(super) fn textured(doc: &mut Doc, picture: &[u8], mime_type: &str) {
+pub(super) fn textured(doc: &mut Doc, file: &[u8], mime_type: &str) {
     uv(doc);
-    let index = texture(doc, picture, mime_type);
+    let index = texture(doc, file, mime_type);
     material(doc, json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": index}}}));
 }
 

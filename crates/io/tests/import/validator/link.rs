@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::files::*;
 use super::row::{Refused, Row, Silent, Warned, glb, raw};
-use super::schema::PICTURE;
+use super::schema::IMAGE;
 use super::semantic::{ALIGNMENT, BOUNDS};
 use crate::gltf::push;
 
@@ -151,8 +151,8 @@ fn buffers() -> Vec<Row> {
         }),
         glb(
             "IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE",
-            "a picture in a bufferView with a byteStride",
-            Silent("a picture's bytes follow each other, whatever the stride says"),
+            "an image in a bufferView with a byteStride",
+            Silent("an image's bytes follow each other, whatever the stride says"),
             |doc| {
                 textured(doc, &png(), "image/png");
                 let view = doc.json["images"][0]["bufferView"].as_u64().expect("a number") as usize;
@@ -204,8 +204,8 @@ fn extensions() -> Vec<Row> {
         ),
         glb(
             "TEXTURE_INVALID_IMAGE_MIME_TYPE",
-            "a WebP picture where a PNG or JPEG belongs",
-            Silent(PICTURE),
+            "a WebP image where a PNG or JPEG belongs",
+            Silent(IMAGE),
             |doc| {
                 textured(doc, WEBP, "image/webp");
                 uses(doc, &["EXT_texture_webp"]);
@@ -223,7 +223,7 @@ fn extensions() -> Vec<Row> {
         glb(
             "UNEXPECTED_EXTENSION_OBJECT",
             "a node that is KHR_materials_unlit",
-            Silent("the extension means nothing there, so nothing is missing from the picture"),
+            Silent("the extension means nothing there, so nothing is missing from the image"),
             |doc| {
                 uses(doc, &["KHR_materials_unlit"]);
                 node(doc)["extensions"] = json!({"KHR_materials_unlit": {}});
@@ -450,7 +450,7 @@ fn references() -> Vec<Row> {
         glb(
             "UNRESOLVED_REFERENCE-skeleton",
             "a skin with a skeleton that does not exist",
-            Silent("the skeleton does not affect the picture"),
+            Silent("the skeleton does not affect the image"),
             |doc| {
                 skin(doc);
                 doc.json["skins"][0]["skeleton"] = json!(7);

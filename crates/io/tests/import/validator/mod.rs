@@ -43,7 +43,7 @@ struct Answer {
 fn ask(folder: &Path, name: &str, bytes: &[u8]) -> Answer {
     let path = folder.join(name);
     fs::write(&path, bytes).expect("the folder is writable");
-    // Messages start with the file, and that with the folder; a picture's file
+    // Messages start with the file, and that with the folder; an image's file
     // may be the one to blame.
     let plain = |message: String| {
         let folder = format!("{}/", folder.display());

@@ -16,7 +16,7 @@ fn io() -> Vec<Row> {
         json_file("IO_ERROR", "a buffer's file is missing", Refused, || {
             gltf_with_uri(&square(), "missing.bin")
         }),
-        json_file("IO_ERROR-image", "a picture's file is missing", Warned, || with_image_uri("missing.png")),
+        json_file("IO_ERROR-image", "an image's file is missing", Warned, || with_image_uri("missing.png")),
     ]
 }
 
@@ -73,10 +73,10 @@ fn forms() -> Vec<Row> {
         json_file("INVALID_URI", "a buffer with a malformed URI", Refused, || {
             gltf_with_uri(&square(), "http://[")
         }),
-        json_file("INVALID_URI-image", "a picture with a malformed URI", Warned, || {
+        json_file("INVALID_URI-image", "an image with a malformed URI", Warned, || {
             with_image_uri("http://[")
         }),
-        json_file("INVALID_URI-content", "a data URI says PNG and is WebP", Silent(PICTURE), || {
+        json_file("INVALID_URI-content", "a data URI says PNG and is WebP", Silent(IMAGE), || {
             with_image_uri(&data_uri("image/png", WEBP))
         }),
         glb("ONE_OF_MISMATCH", "an image with a URI and a bufferView", Warned, |doc| {
@@ -115,8 +115,8 @@ fn forms() -> Vec<Row> {
     ]
 }
 
-/// Why what is said about a picture does not matter.
-pub(super) const PICTURE: &str = "a picture's format is found from its first bytes";
+/// Why what is said about an image does not matter.
+pub(super) const IMAGE: &str = "an image's format is found from its first bytes";
 
 fn presence() -> Vec<Row> {
     vec![
@@ -135,7 +135,7 @@ fn presence() -> Vec<Row> {
         glb(
             "UNEXPECTED_PROPERTY",
             "a property that glTF does not know",
-            Silent("the property means nothing in glTF, so nothing is missing from the picture"),
+            Silent("the property means nothing in glTF, so nothing is missing from the image"),
             |doc| node(doc)["colour"] = json!("red"),
         ),
         glb(
@@ -164,8 +164,8 @@ fn presence() -> Vec<Row> {
         ),
         glb(
             "UNSATISFIED_DEPENDENCY-mime",
-            "a picture in a bufferView without mimeType",
-            Silent(PICTURE),
+            "an image in a bufferView without mimeType",
+            Silent(IMAGE),
             |doc| {
                 textured(doc, &png(), "image/png");
                 doc.json["images"][0].as_object_mut().expect("an object").remove("mimeType");
@@ -218,7 +218,7 @@ fn unknown_values() -> Vec<Row> {
             Silent("target is a hint for graphics cards and is not used"),
             |doc| doc.json["bufferViews"][0]["target"] = json!(1),
         ),
-        glb("VALUE_NOT_IN_LIST-mime", "a PNG with the mimeType image/gif", Silent(PICTURE), |doc| {
+        glb("VALUE_NOT_IN_LIST-mime", "a PNG with the mimeType image/gif", Silent(IMAGE), |doc| {
             textured(doc, &png(), "image/gif");
         }),
     ]
@@ -266,7 +266,7 @@ fn ranges() -> Vec<Row> {
         glb(
             "VALUE_NOT_IN_RANGE-aspect",
             "a camera with an aspectRatio of −1",
-            Silent("the aspect ratio is the picture's own"),
+            Silent("the aspect ratio is the image's own"),
             |doc| {
                 camera(
                     doc,

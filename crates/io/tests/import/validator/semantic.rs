@@ -93,7 +93,7 @@ fn assets() -> Vec<Row> {
         json_file("NON_RELATIVE_URI", "a buffer on the network", Refused, || {
             gltf_with_uri(&square(), "https://example.invalid/a.bin")
         }),
-        json_file("NON_RELATIVE_URI-image", "a picture on the network", Warned, || {
+        json_file("NON_RELATIVE_URI-image", "an image on the network", Warned, || {
             with_image_uri("https://example.invalid/a.png")
         }),
         glb("UNKNOWN_ASSET_MAJOR_VERSION", "version 3.0", Refused, |doc| {
@@ -367,7 +367,7 @@ fn skins() -> Vec<Row> {
         glb(
             "SKIN_SKELETON_INVALID",
             "a skeleton that is not above the joints",
-            Silent("the skeleton does not affect the picture"),
+            Silent("the skeleton does not affect the image"),
             |doc| {
                 skin(doc);
                 doc.json["skins"][0]["skeleton"] = json!(0);

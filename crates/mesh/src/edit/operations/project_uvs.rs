@@ -87,7 +87,7 @@ impl EditMesh {
             let reason = "normal and up are parallel, or one of them is zero";
             return Err(Refusal::NotPossible { operation: "projecting texture coordinates", reason });
         }
-        let size = check_picture(center, height, aspect)?;
+        let size = check_image(center, height, aspect)?;
         let up = unit_or_zero(normal).cross(right);
         let projector = Projector { center, right, up, size };
         self.write_uvs(faces, uv_set, |mesh, _, corner| projector.uv(mesh.point(mesh.corner_vertex(corner))))
@@ -108,7 +108,7 @@ impl EditMesh {
         projection: &BoxProjection,
     ) -> Result<(), Refusal> {
         let &BoxProjection { center, height, aspect } = projection;
-        let size = check_picture(center, height, aspect)?;
+        let size = check_image(center, height, aspect)?;
         self.write_uvs(faces, uv_set, |mesh, normal, corner| {
             let [right, up] = side_of_box(normal);
             Projector { center, right, up, size }.uv(mesh.point(mesh.corner_vertex(corner)))
@@ -149,7 +149,7 @@ impl EditMesh {
     }
 }
 
-/// Right and up in the picture on the side of a box that a face with this normal faces most.
+/// Right and up in the image on the side of a box that a face with this normal faces most.
 fn side_of_box(normal: DVec3) -> [DVec3; 2] {
     let size = normal.abs();
     if size.x >= size.y && size.x >= size.z {
@@ -162,7 +162,7 @@ fn side_of_box(normal: DVec3) -> [DVec3; 2] {
 }
 
 /// The size of an image, if all of it is in range.
-fn check_picture(center: DVec3, height: f64, aspect: f64) -> Result<DVec2, Refusal> {
+fn check_image(center: DVec3, height: f64, aspect: f64) -> Result<DVec2, Refusal> {
     let positive = |parameter, value: f64| {
         if value > 0.0 && value.is_finite() {
             return Ok(());
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn each_side_of_a_cube_shows_the_whole_picture_the_right_way_round() {
+    fn each_side_of_a_cube_shows_the_whole_image_the_right_way_round() {
         let (mut cube, faces) = bare_cube();
         let projection = BoxProjection { height: 2.0, ..BoxProjection::default() };
         cube.project_uvs_on_box(&faces, 0, &projection).expect("a set is added");
@@ -207,11 +207,11 @@ mod tests {
                 area += (a.x * b.y - a.y * b.x) / 2.0;
                 assert!(
                     [0.0, 1.0].contains(&a.x) && [0.0, 1.0].contains(&a.y),
-                    "{a} is a corner of the picture"
+                    "{a} is a corner of the image"
                 );
             }
             // v points down: what is counter-clockwise from outside has a negative area.
-            assert_eq!(area, -1.0, "all of the picture, not mirrored, on {face}");
+            assert_eq!(area, -1.0, "all of the image, not mirrored, on {face}");
         }
     }
 
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_picture_is_refused() {
+    fn what_makes_no_image_is_refused() {
         let (mut cube, faces) = bare_cube();
         let before = cube.clone();
         let square = PlanarProjection::default();

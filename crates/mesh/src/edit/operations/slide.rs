@@ -328,7 +328,7 @@ mod tests {
             let x: Vec<f32> = moved.iter().map(|&vertex| mesh.position(vertex).x + 1.0).collect();
             assert!(x.iter().all(|&at| at == x[0] && at.abs() == distance), "all by {distance}: {x:?}");
             assert!(mesh.first_position(moved[0]).x == -1.0, "where it was stays known");
-            keeps_affine_values(&mesh).expect("the picture stays in its place");
+            keeps_affine_values(&mesh).expect("the image stays in its place");
         }
         let mut there = whole.clone();
         let mut back = whole.clone();
@@ -365,9 +365,9 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_that_is_cut_at_the_loop_stays_in_its_place_on_both_sides() {
+    fn an_image_that_is_cut_at_the_loop_stays_in_its_place_on_both_sides() {
         let (mut mesh, line) = grid();
-        // Left of the line the picture is turned by a quarter and moved.
+        // Left of the line the image is turned by a quarter and moved.
         let turned = |uv: trigon_math::Vec2| trigon_math::Vec2::new(3.0 - uv.y, uv.x);
         let corners: Vec<CornerId> = mesh.corners().collect();
         let is_left = |mesh: &EditMesh, corner: CornerId| {

@@ -1,4 +1,4 @@
-//! Pictures that follow from the last one, beside those of another rasterizer that draws
+//! Images that follow from the last one, beside those of another rasterizer that draws
 //! everything.
 
 use crate::simd::SimdLevel;
@@ -218,7 +218,7 @@ fn delta() -> impl Strategy<Value = Delta> {
     )
 }
 
-/// How the pictures are drawn.
+/// How the images are drawn.
 #[derive(Clone, Debug)]
 struct View {
     size: [u32; 2],
@@ -333,7 +333,7 @@ impl View {
         target
     }
 
-    /// What a whole picture counts up to its tiles.
+    /// What a whole image counts up to its tiles.
     fn counts(&self, models: &[Model]) -> [u64; 8] {
         let mut rasterizer = Rasterizer::new(self.settings).expect("a level that there is");
         up_to_tiles(&rasterizer.draw(&self.pass(models), &mut self.target()))
@@ -372,7 +372,7 @@ fn check(view: &View, mut models: Vec<Model>, deltas: &[Delta]) -> Result<(), Te
         }
         let redraw = rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
         let counts = view.counts(&models);
-        prop_assert!(up_to_tiles(&redraw.stats) == counts, "the counts of a whole picture after {delta:?}");
+        prop_assert!(up_to_tiles(&redraw.stats) == counts, "the counts of a whole image after {delta:?}");
         let fresh = view.fresh(&models);
         prop_assert!(target.srgb8() == fresh.srgb8(), "bytes after {delta:?}");
         prop_assert!(target.unorm8() == fresh.unorm8(), "linear bytes after {delta:?}");
@@ -399,7 +399,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_picture_that_follows_is_a_fresh_one(
+    fn an_image_that_follows_is_a_fresh_one(
         view in view(),
         surfaces in [blend_mode(), blend_mode()],
         deltas in prop::collection::vec(delta(), 1..4),
@@ -457,7 +457,7 @@ fn only_tiles_around_what_moved_are_drawn() {
     let moved = rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
     let drawn = share(&view, &moved.parts);
     assert!(drawn > 0.0 && drawn < 0.3, "four quads of {}: {drawn}", QUADS * QUADS);
-    assert!(target.srgb8() == view.fresh(&models).srgb8(), "the bytes of a fresh picture");
+    assert!(target.srgb8() == view.fresh(&models).srgb8(), "the bytes of a fresh image");
 }
 
 #[test]
@@ -476,7 +476,7 @@ fn only_tiles_around_other_marks_are_drawn() {
     let drawn = share(&view, &redraw.parts);
     assert!(drawn > 0.0 && drawn < 0.3, "three quads of {}: {drawn}", QUADS * QUADS);
     assert!(target.srgb8() != before.as_deref(), "other marks look different");
-    assert!(target.srgb8() == view.fresh(&models).srgb8(), "the bytes of a fresh picture");
+    assert!(target.srgb8() == view.fresh(&models).srgb8(), "the bytes of a fresh image");
 }
 
 /// Ordinals of a draw without triangles begin where those of the next draw do: a redraw took

@@ -25,7 +25,7 @@ impl Marked {
     }
 
     /// On white, with plain edges of an opacity.
-    fn picture(
+    fn image(
         &self,
         (width, opacity): (f32, f32),
         colors: MarkColors,
@@ -68,7 +68,7 @@ fn the_edge_that_covers_most_of_a_pixel_gives_it_its_colour() {
     let marked = Marked { faces, sides, of_edges: marks.to_vec(), of_faces: Vec::new() };
     let colors = colors();
     for width in [1.0, 4.0_f32] {
-        let found = marked.picture((width, 0.25), colors, (PLAIN, ExecuteSettings::default()));
+        let found = marked.image((width, 0.25), colors, (PLAIN, ExecuteSettings::default()));
         for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
             let beside = |v: f32| (low - v).max(v - high).max(0.0);
             let [px, py] = [x, y].map(|v| v as f32 + 0.5);
@@ -104,7 +104,7 @@ fn marked_faces_are_tinted_below_their_edges_and_without_any() {
     let tint = colors().faces[2];
     let tinted = Vec4::ONE * (1.0 - tint.w) + premultiplied(tint);
     for width in [0.0, 2.0] {
-        let found = marked.picture((width, 1.0), colors(), (PLAIN, ExecuteSettings::default()));
+        let found = marked.image((width, 1.0), colors(), (PLAIN, ExecuteSettings::default()));
         let at = |x: u32, y: u32| found[(y * SIDE + x) as usize];
         assert!((at(12, 20) - tinted).abs().max_element() < ROUNDING, "{} in the first", at(12, 20));
         assert_eq!([at(28, 20), at(42, 20)], [Vec4::ONE; 2], "in the second, and beside");
@@ -132,7 +132,7 @@ proptest! {
         let glass = Faces { color: Vec4::splat(0.5), blend_mode: BlendMode::Translucent, ..marked.faces };
         let faces = if is_glass { glass } else { Faces { color: Vec4::ONE, blend_mode: BlendMode::Opaque, ..glass } };
         let marked = Marked { faces, ..marked };
-        let draw = |settings| marked.picture((width, 0.5), colors(), (grid, settings));
+        let draw = |settings| marked.image((width, 0.5), colors(), (grid, settings));
         let expected = draw(ExecuteSettings::default());
         for tile_size in [TileSize::Pixels8, TileSize::Pixels16, TileSize::Pixels32, TileSize::Pixels64] {
             let settings = ExecuteSettings { tile_size, threads: NonZeroUsize::new(2), ..Default::default() };
@@ -146,12 +146,12 @@ proptest! {
 
     /// Each sample shows one mark, so light adds up over marks even where samples are averaged.
     #[test]
-    fn a_picture_with_marks_is_composed_of_pictures_of_each_mark_alone(
+    fn an_image_with_marks_is_composed_of_images_of_each_mark_alone(
         marked in marked(), grid in grid(), width in width(),
     ) {
         let marked = Marked { of_faces: Vec::new(), ..marked };
         let draw = |opacity: f32, colors| {
-            marked.picture((width, opacity), colors, (grid, ExecuteSettings::default()))
+            marked.image((width, opacity), colors, (grid, ExecuteSettings::default()))
         };
         let found = draw(1.0, colors());
         let alone: Vec<_> = (0..4).map(|mark| {
@@ -163,7 +163,7 @@ proptest! {
         }).collect();
         // With all marks alike the marks change nothing.
         let alike = draw(1.0, MarkColors { edges: [BLACK; MarkColors::COUNT], ..MarkColors::NONE });
-        let plain = picture(&[&marked.faces], width, grid, ExecuteSettings::default());
+        let plain = image(&[&marked.faces], width, grid, ExecuteSettings::default());
         prop_assert_eq!(&alike, &plain);
         for (pixel, found) in found.iter().enumerate() {
             let shares = [0, 1, 2, 3].map(|mark| 1.0 - alone[mark][pixel].x);
@@ -178,7 +178,7 @@ proptest! {
 
     #[test]
     fn explained_pixels_show_their_marks(marked in marked(), grid in grid(), width in width(), x in 0..SIDE, y in 0..SIDE) {
-        let drawn = marked.picture((width, 0.5), colors(), (grid, ExecuteSettings::default()));
+        let drawn = marked.image((width, 0.5), colors(), (grid, ExecuteSettings::default()));
         let mut pass = pass(&[], width);
         pass.edges(FaceEdges { width, color: Vec3::ZERO, opacity: 0.5 }).marks(colors());
         marked.record(&mut pass);

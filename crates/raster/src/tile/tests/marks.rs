@@ -9,8 +9,8 @@ use crate::tile::{BEHIND_ALL, DepthPlane};
 use crate::vertex::{ScreenVertex, nearer};
 use crate::viewport::Viewport;
 use crate::{
-    BlendMode, ExecuteSettings, FixedBitSet, Fragment, Lines, MarkedPoints, Outline, Output, Pass, Pictures,
-    Pipeline, PointShape, Points, Target, VertexOutput,
+    BlendMode, ExecuteSettings, FixedBitSet, Fragment, Lines, MarkedPoints, Outline, Output, Pass, Pipeline,
+    PointShape, Points, Target, TargetImages, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -72,13 +72,18 @@ struct Sampling {
     per_axis: u32,
 }
 
-fn draw(draws: &[Marks], blend_mode: BlendMode, settings: ExecuteSettings, sampling: Sampling) -> Pictures {
+fn draw(
+    draws: &[Marks],
+    blend_mode: BlendMode,
+    settings: ExecuteSettings,
+    sampling: Sampling,
+) -> TargetImages {
     let draws: Vec<_> = draws.iter().map(|draw| (draw, blend_mode)).collect();
     draw_on(&draws, settings, sampling)
 }
 
 /// Each with a surface of its own.
-fn draw_on(draws: &[(&Marks, BlendMode)], settings: ExecuteSettings, sampling: Sampling) -> Pictures {
+fn draw_on(draws: &[(&Marks, BlendMode)], settings: ExecuteSettings, sampling: Sampling) -> TargetImages {
     let segments: Vec<Vec<[u32; 2]>> = draws
         .iter()
         .map(|(draw, _)| (0..draw.positions.len() as u32 / 2).map(|i| [2 * i, 2 * i + 1]).collect())
@@ -106,7 +111,7 @@ fn draw_on(draws: &[(&Marks, BlendMode)], settings: ExecuteSettings, sampling: S
     let target = target.with_samples(sampling.samples).unwrap();
     let mut target = target.with_samples_per_axis(sampling.per_axis).unwrap();
     Rasterizer::new(settings).unwrap().draw(&pass, &mut target);
-    target.into_pictures()
+    target.into_images()
 }
 
 /// A triangle of a line or a point by its definition.
@@ -405,7 +410,7 @@ fn marked_points_have_a_size_of_their_own() {
                 pass.points(Points { ids, marked, outline, ..Points::new(&marks, points, size) });
             }
             Rasterizer::default().draw(&pass, &mut target);
-            target.into_pictures()
+            target.into_images()
         };
         let together =
             Points { marked: Some(MarkedPoints { set: &set, size: 7.0 }), ..Points::new(&marks, &all, 3.0) };

@@ -4,7 +4,7 @@
 use super::{Rasterizer, settings};
 use crate::{
     BlendMode, Draw, EdgeFlags, ExecuteSettings, FaceEdges, FixedBitSet, Fragment, MarkedPoints, Output,
-    Pass, Pictures, Pipeline, PointShape, Points, Target, VertexOutput,
+    Pass, TargetImages, Pipeline, PointShape, Points, Target, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -57,7 +57,7 @@ impl Still {
         &self,
         (triangles, points): (&Cloud<false>, &P),
         settings: ExecuteSettings,
-    ) -> Pictures {
+    ) -> TargetImages {
         let corners: Vec<_> =
             (0..self.vertices.len() as u32 / 3).map(|i| [0, 1, 2].map(|c| 3 * i + c)).collect();
         let flags = vec![EdgeFlags::ALL; corners.len()];
@@ -77,7 +77,7 @@ impl Still {
         let target = target.with_samples_per_axis(self.samples[0]).unwrap();
         let mut target = target.with_samples(self.samples[1]).unwrap();
         Rasterizer::new(settings).unwrap().draw(&pass, &mut target);
-        target.into_pictures()
+        target.into_images()
     }
 }
 

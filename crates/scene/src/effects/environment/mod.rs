@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_of_the_picture_looks_along_minus_z() {
+    fn the_middle_of_the_image_looks_along_minus_z() {
         let (width, height) = (64, 32);
         let mut pixels = vec![[0.0; 3]; width * height];
         for y in 12..20 {
@@ -271,9 +271,9 @@ mod tests {
 
     #[test]
     fn an_environment_is_made_again_from_its_texels() {
-        let picture: Vec<[f32; 3]> = (0..64_u8).map(|i| [f32::from(i), 0.5, 0.0]).collect();
-        let picture = Environment::from_equirectangular(16, 4, &picture).expect("the size fits");
-        for environment in [Environment::uniform(Vec3::new(0.1, 0.2, 3.0)), picture] {
+        let image: Vec<[f32; 3]> = (0..64_u8).map(|i| [f32::from(i), 0.5, 0.0]).collect();
+        let image = Environment::from_equirectangular(16, 4, &image).expect("the size fits");
+        for environment in [Environment::uniform(Vec3::new(0.1, 0.2, 3.0)), image] {
             let (side, texels) = environment.texels();
             assert_eq!(Environment::from_texels(side, &texels), Ok(environment), "every bit, at {side}");
         }
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_without_pixels_is_refused() {
+    fn an_image_without_pixels_is_refused() {
         let error = Environment::from_equirectangular(2, 2, &[[0.0; 3]]).expect_err("too few");
         assert_eq!(error, EnvironmentError::Size { width: 2, height: 2, given: 1 }, "says what is there");
     }

@@ -38,7 +38,7 @@ fn each_pixel_shows_the_light_of_its_ray() {
         let projector = trigon_camera::Projector::new(&camera, viewport);
         for (x, y) in [(0, 0), (SIDE - 1, 3), (SIDE / 2, SIDE / 2), (17, SIDE - 1)] {
             let place = trigon_math::DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            let ray = projector.ray(place).expect("the picture has an area").direction;
+            let ray = projector.ray(place).expect("the image has an area").direction;
             let u = elementary::atan2_f32(ray.x as f32, -ray.z as f32) / std::f32::consts::TAU + 0.5;
             let v = elementary::acos_f32(ray.y as f32) / std::f32::consts::PI;
             let [red, green, ..] = frame.pixel(x, y).map(color::srgb8_to_linear);

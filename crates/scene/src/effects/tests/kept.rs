@@ -1,4 +1,4 @@
-//! What meshes and renderers keep from picture to picture changes no byte of a later one.
+//! What meshes and renderers keep from frame to frame changes no byte of a later one.
 
 use proptest::prelude::*;
 use trigon_mesh::{Deltas, Mesh, MorphTarget};
@@ -33,7 +33,7 @@ fn cold(scene: &Scene) -> Scene {
     cold
 }
 
-/// A picture of one texel.
+/// An image of one texel.
 fn texel(texel: [u8; 4]) -> Texture {
     Texture::new(1, 1, vec![texel], TextureFormat::Linear).expect("one texel")
 }
@@ -56,7 +56,7 @@ fn bumpy_square(weight: f32) -> (Scene, NodeId, [MaterialId; 2]) {
 }
 
 /// The first normal map that asked for tangents got those of its own UV set, and so did
-/// all others of the mesh, in this picture and in later ones.
+/// all others of the mesh, in this image and in later ones.
 #[test]
 fn normal_maps_on_two_uv_sets_each_have_their_own_tangents() {
     let settings = settings(EffectSettings::default());
@@ -124,7 +124,7 @@ fn a_texture_that_is_gone_is_not_taken_for_another() {
     }
 }
 
-/// What may happen to a scene and to settings between two pictures.
+/// What may happen to a scene and to settings between two images.
 #[derive(Clone, Debug)]
 enum Change {
     /// Of a slot of a node.
@@ -132,7 +132,7 @@ enum Change {
     Move(usize, f64),
     Hide(usize, bool),
     Morph(usize, f32),
-    /// Another picture under the same id.
+    /// Another image under the same id.
     Texture(usize, [u8; 4]),
     /// The mesh of all nodes.
     Mesh(bool),
@@ -304,7 +304,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
     #[test]
-    fn whatever_was_drawn_before_a_picture_is_that_of_a_new_renderer(changes in prop::collection::vec(change(), 1..12)) {
+    fn whatever_was_drawn_before_an_image_is_that_of_a_new_renderer(changes in prop::collection::vec(change(), 1..12)) {
         let mut changing = Changing::new();
         let mut warm = Renderer::new(changing.settings.clone());
         for change in &changes {

@@ -138,7 +138,7 @@ fn metals_are_the_same_at_every_level_and_with_any_threads() {
     };
     let expected = draw(None, 1);
     for level in SimdLevel::ALL.into_iter().filter(|level| level.is_supported()) {
-        assert!(draw(Some(level), 3) == expected, "{level:?} and three threads change the picture");
+        assert!(draw(Some(level), 3) == expected, "{level:?} and three threads change the image");
     }
 }
 

@@ -1,4 +1,4 @@
-//! Pictures of single effects against what geometry says.
+//! Images of single effects against what geometry says.
 
 mod ambient;
 mod backdrop;
@@ -28,7 +28,7 @@ use crate::{
 
 const SIDE: u32 = 128;
 
-/// Metres from the left edge of the picture to the right one.
+/// Metres from the left edge of the image to the right one.
 const WIDE: f64 = 4.0;
 
 fn settings(effects: EffectSettings) -> RenderSettings {

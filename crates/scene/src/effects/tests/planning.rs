@@ -107,7 +107,7 @@ fn off_means_zero() {
         for (scene, settings) in with(made_for) {
             let mut renderer = Renderer::new(settings.clone());
             renderer.render(&scene, &from_front()).expect("drawn");
-            let plan = renderer.plan().expect("there was a picture").clone();
+            let plan = renderer.plan().expect("there was an image").clone();
             assert_eq!(plan, EffectPlan::new(&scene, &from_front(), &settings), "the plan is a function");
             for effect in Effect::ALL {
                 let counts = renderer.effect_counts(effect);
@@ -158,7 +158,7 @@ fn reasons(work: Work) -> &'static [Effect] {
     }
 }
 
-/// What was done for a picture.
+/// What was done for an image.
 struct Done {
     plan: EffectPlan,
     work: Vec<Work>,
@@ -197,7 +197,7 @@ impl Done {
     }
 }
 
-/// The same by what is done while a picture is drawn, whatever the plan and the counts say.
+/// The same by what is done while an image is drawn, whatever the plan and the counts say.
 #[test]
 fn what_is_off_is_not_done() {
     for made_for in Effect::ALL {

@@ -35,7 +35,7 @@ fn a_shadow_lies_where_parallel_light_puts_it() {
             render(&scene, &from_above(), &settings(EffectSettings { shadows, ..Default::default() }));
         let [first, last] = dark_span(&frame.expect("drawn"), 0.5);
         // From 0.5 (where the square ends, as seen from above) to 1.5, within a pixel
-        // of the picture (31 mm) and 1.7 texels of the map (16 mm each).
+        // of the image (31 mm) and 1.7 texels of the map (16 mm each).
         assert!((first - 0.5).abs() < 0.06 && (last - 1.5).abs() < 0.06, "{shadows:?}: {first} to {last}");
     }
 }
@@ -168,7 +168,7 @@ fn a_warm_cache_gives_the_bytes_of_a_cold_one() {
     check(&scene, &from_above(), "the lamp moved", 6);
 }
 
-/// A picture can be exchanged under its id, and takes the holes of a shadow with it.
+/// An image can be exchanged under its id, and takes the holes of a shadow with it.
 #[test]
 fn a_mask_that_is_exchanged_changes_its_shadow() {
     let texture = |alpha| Texture::new(1, 1, vec![[255, 255, 255, alpha]], TextureFormat::Srgb);

@@ -56,7 +56,7 @@ fn a_white_ball_shows_the_sum_of_the_lamps_and_is_clipped_nowhere() {
         scene.add_object("ball", primitives::uv_sphere(1.9, 128, 64), white(shading));
         let frame = render(&scene, &from_front(), &in_the_studio()).expect("drawn");
         let (radiance, normals) = (frame.radiance.expect("asked for"), frame.normals.expect("asked for"));
-        // The picture's vertices are snapped to 1/256 pixel, those of the normals are not:
+        // The image's vertices are snapped to 1/256 pixel, those of the normals are not:
         // that is 3e-5 of the ball's radius, and near its rim up to ten times as much of a
         // normal. The table of what rough surfaces reflect of light from everywhere is
         // within 1 %.

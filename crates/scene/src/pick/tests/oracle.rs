@@ -331,9 +331,9 @@ pub(super) fn contains(region: &Region, size: DVec2, point: DVec2) -> Answer {
             }
         }
     };
-    inside.min(within_picture(size, point))
+    inside.min(within_image(size, point))
 }
 
-fn within_picture(size: DVec2, point: DVec2) -> Answer {
+fn within_image(size: DVec2, point: DVec2) -> Answer {
     Answer::of(point.min(size - point).min_element(), ROUNDING)
 }

@@ -1,4 +1,4 @@
-//! The lights of a picture, gathered once, and what they make of a surface.
+//! The lights of an image, gathered once, and what they make of a surface.
 
 mod brdf;
 mod lamp;
@@ -22,7 +22,7 @@ use crate::settings::{Lighting, RenderSettings};
 /// scene is, they decide: this is only enough to see shapes that they do not reach.
 const ADDED_AMBIENT: Vec3 = Vec3::splat(0.1);
 
-/// All lights of a picture.
+/// All lights of an image.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Lights {
     /// From everywhere alike, linear RGB.

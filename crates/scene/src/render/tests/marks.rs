@@ -274,7 +274,7 @@ fn an_x_ray_shows_the_wireframe_through_faces() {
     }
 }
 
-/// And the pictures of a renderer that saw others before are those of a new one.
+/// And the images of a renderer that saw others before are those of a new one.
 #[test]
 fn other_marks_make_no_geometry_anew() {
     let mut view = View::new(primitives::torus(1.0, 0.4, 14, 8));

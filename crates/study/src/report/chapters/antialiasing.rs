@@ -7,7 +7,7 @@ use crate::field::Field;
 const RMSE: &str = "RMSE at edges, linear light";
 const WORST: &str = "worst pixel";
 const DELTA_E: &str = "mean ΔE at edges";
-const TIME: &str = "ns per pixel of the picture";
+const TIME: &str = "ns per pixel of the image";
 
 const CASE: &str = "a star of needles";
 
@@ -27,15 +27,15 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         name: "antialiasing",
         title: "How many samples does an edge need?",
         text: "White needles on black with the engine's samples, on finer grids, and by the exact area in each pixel, in the pixels \
-               that are partly covered. The exact area is found triangle by triangle, for pictures in which none hides another.",
+               that are partly covered. The exact area is found triangle by triangle, for images in which none hides another.",
         findings: Vec::new(),
         plots: vec![Plot::trade("star", &rows, CASE, [TIME, RMSE])],
-        pictures: vec![picture()],
+        images: vec![image()],
         rows,
     }
 }
 
-fn picture() -> Picture {
+fn image() -> ImageRow {
     let star = Star::new(128);
     let right = exact(&star);
     let ways = [AntiAliasing::Samples(1), AntiAliasing::Samples(4), AntiAliasing::Samples(16)];
@@ -45,7 +45,7 @@ fn picture() -> Picture {
     };
     let panels = drawn.each_ref().map(|shares| shares.map(|&share| grey(share))).into_iter();
     let caption = "1, 4 and 16 samples, then their errors, twice as bright";
-    Picture::new("star", caption, panels.chain(drawn.each_ref().map(error)).collect())
+    ImageRow::new("star", caption, panels.chain(drawn.each_ref().map(error)).collect())
 }
 
 pub(super) fn headlines() -> Vec<Headline> {

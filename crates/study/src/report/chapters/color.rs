@@ -31,7 +31,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
             "The mean of the bytes of black and white is a grey with 22 % of the light of white instead of 50 %.".to_owned(),
         ],
         plots: vec![Plot::trade("mixing", &rows, CASE, [TIME, DELTA_E])],
-        pictures: Vec::new(),
+        images: Vec::new(),
         rows,
     }
 }

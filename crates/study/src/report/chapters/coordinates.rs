@@ -26,20 +26,16 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         (way.name().to_owned(), offsets.map(|offset| [offset, way.worst_error(offset)]).to_vec())
     };
     let axes = ["metres from the origin, on each axis", ERROR];
-    let plot = Plot::growth(
-        "distance",
-        "Where points land on the picture",
-        axes,
-        Coordinates::ALL.map(line).to_vec(),
-    );
+    let plot =
+        Plot::growth("distance", "Where points land on the image", axes, Coordinates::ALL.map(line).to_vec());
     Chapter {
         name: "coordinates",
         title: "How far from the origin may a model be?",
-        text: "Points three metres before a camera, in a picture with 1,000 pixels to the metre at one metre's distance. Times \
+        text: "Points three metres before a camera, in an image with 1,000 pixels to the metre at one metre's distance. Times \
                are of a node of 1,000 points, its matrix included, a kilometre away: they do not depend on the place.",
         findings: Vec::new(),
         plots: vec![plot],
-        pictures: Vec::new(),
+        images: Vec::new(),
         rows,
     }
 }

@@ -48,19 +48,19 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         name: "depth",
         title: "How near may two surfaces be?",
         text: "Pairs of surfaces at 10,000 distances about 1, 10, 100 and 1000 metres, between planes at 0.1 and 10,000 metres, \
-               through depths computed in `f32`. Misordered are pairs that come out as equal or the wrong way round. Then pictures by a z-buffer of each format: a road that leads to the horizon, and \
+               through depths computed in `f32`. Misordered are pairs that come out as equal or the wrong way round. Then images by a z-buffer of each format: a road that leads to the horizon, and \
                paint 0.1 mm above it, with depths that are linear on the screen.",
         findings: vec![
             "Surfaces that should be told apart at a distance need the near plane as far out as it may be, or reversed depth."
                 .to_owned(),
         ],
         plots: vec![plot],
-        pictures: vec![picture()],
+        images: vec![image()],
         rows,
     }
 }
 
-/// Pictures of a road with paint, in time and in wrong pixels.
+/// Images of a road with paint, in time and in wrong pixels.
 fn on_road(effort: Effort) -> Vec<Row> {
     let road = &Road::new(effort.pick(256, 512), PAINT);
     let [width, height] = road.size();
@@ -73,13 +73,13 @@ fn on_road(effort: Effort) -> Vec<Row> {
 }
 
 /// The paint in each format, and red where the road shows through.
-fn picture() -> Picture {
+fn image() -> ImageRow {
     let road = Road::new(256, PAINT);
     let panel = |format: DepthFormat| {
         road.draw(format).map(|&is_paint| if is_paint { [220; 3] } else { [200, 40, 30] })
     };
     let caption = "Paint 0.1 mm above a road, by z-buffers of 16 bits, 24 bits, f32 and reversed f32: red is road that shows through";
-    Picture::new("road", caption, DepthFormat::ALL.map(panel).to_vec())
+    ImageRow::new("road", caption, DepthFormat::ALL.map(panel).to_vec())
 }
 
 fn case(distance: f64) -> String {

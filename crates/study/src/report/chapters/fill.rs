@@ -30,12 +30,12 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     Chapter {
         name: "fill",
         title: "Which pixels does a triangle cover?",
-        text: "Triangles that tile a picture of 256 by 256 pixels, so that every pixel has one owner, decided exactly for \
+        text: "Triangles that tile an image of 256 by 256 pixels, so that every pixel has one owner, decided exactly for \
                the corners as they were given. An edge pixel has a neighbour with another owner; a wrong one was not painted \
                exactly once, by its owner. Sources A (strips), B (scanlines) and C (inclusive edges at the corners of pixels) \
                as they are.",
         findings: findings(&rows),
-        pictures: vec![picture()],
+        images: vec![image()],
         rows,
         plots,
     }
@@ -70,7 +70,7 @@ fn of_case(case: Case, effort: Effort) -> Vec<Row> {
     Fill::ALL.iter().zip(times).map(row).collect()
 }
 
-/// Nanoseconds for all triangles. The engine is asked for one picture, which it stores,
+/// Nanoseconds for all triangles. The engine is asked for one image, which it stores,
 /// as the others do.
 fn times_of(fills: &[Fill], triangles: &[Triangle], side: usize, effort: Effort) -> Vec<Spread> {
     nanoseconds(effort.rounds(), fills, |fill| -> Box<dyn FnMut()> {
@@ -101,7 +101,7 @@ fn growth(effort: Effort) -> Vec<(String, Vec<[f64; 2]>)> {
 }
 
 /// What was painted wrong: a gap white, a double red, a neighbour's pixel yellow.
-fn picture() -> Picture {
+fn image() -> ImageRow {
     const SIZE: [usize; 2] = [64; 2];
     let triangles = Case::Lattice.triangles(SIZE[0], 2);
     let owners = owners(&triangles, SIZE);
@@ -119,7 +119,7 @@ fn picture() -> Picture {
     let fills = [Fill::Strips, Fill::Scanlines, Fill::EdgesInBox, Fill::EdgesAtCenters, Fill::Engine];
     let caption = "Strips, scanlines, inclusive edges at corners and at centres of pixels, and the engine, on corners at half \
                    pixels: red was painted twice, yellow belongs to a neighbour, white was left out";
-    Picture::new("errors", caption, fills.map(panel).to_vec())
+    ImageRow::new("errors", caption, fills.map(panel).to_vec())
 }
 
 fn findings(rows: &[Row]) -> Vec<String> {

@@ -1,4 +1,4 @@
-//! What does a whole picture's accuracy cost?
+//! What does a whole image's accuracy cost?
 
 use super::*;
 use crate::field::Field;
@@ -40,21 +40,21 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     Chapter {
         name: "frames",
         title: "Which preset should one use?",
-        text: "Whole pictures of six scenes at 60 qualities, and at 20 more where there are shadows, on all threads. A name gives the \
+        text: "Whole images of six scenes at 60 qualities, and at 20 more where there are shadows, on all threads. A name gives the \
                shaded places along each side of a pixel, twice, and the samples in each of them. Shadows come from maps up to 2×2 places and from rays above, unless \
                the name says otherwise. The tables and plots list the presets and each quality that no other one beats in both time and error; \
                the file has them all. Errors are against 8×8 shaded places with 16 samples each, none of which coincides with a sample of any quality. \
                The teapot is Newell's, the chair and the mug were modelled with the editor. On the flights a budget of 16 ms chooses the most accurate \
                quality that fits each frame, and predicts its time and its error against `reference`. Every frame counts. The constants \
                behind the predictions were chosen on other flights. A frame's time includes choosing, drawing, and looking again at a part of the \
-               picture.",
+               image.",
         findings: findings(&rows),
         plots: ["showcase", "shadows", "dense", "teapot", "chair", "mug"]
             .into_iter()
             .zip(Case::ALL)
             .map(plot)
             .collect(),
-        pictures: vec![heat_picture()],
+        images: vec![heat_image()],
         rows,
     }
 }
@@ -89,7 +89,7 @@ fn leave_out_what_is_beaten(rows: &mut [Row], case: &str) {
     }
 }
 
-/// A row of pictures that all threads of the machine draw.
+/// A row of images that all threads of the machine draw.
 fn whole(case: &str, variant: impl Into<String>, size: [u32; 2]) -> Row {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     Row::new(case, variant).sized(size.map(|side| side as usize)).with_threads(threads)
@@ -127,7 +127,7 @@ fn flight(case: Case, size: [u32; 2], effort: Effort) -> Row {
         .with(WORST, kept.worst * 100.0)
 }
 
-/// The same picture at each level of vector instructions that is there.
+/// The same image at each level of vector instructions that is there.
 fn levels(size: [u32; 2], effort: Effort) -> Vec<Row> {
     let levels: Vec<SimdLevel> = SimdLevel::ALL.into_iter().filter(|level| level.is_supported()).collect();
     let at = |level| Repeated::new(Case::Showcase, size, Preset::Standard.quality()).at_level(level);
@@ -149,7 +149,7 @@ fn levels(size: [u32; 2], effort: Effort) -> Vec<Row> {
     levels.iter().zip(times).map(row).collect()
 }
 
-/// Pictures with and without a proof.
+/// Images with and without a proof.
 fn proofs(effort: Effort) -> Vec<Row> {
     let shrink = effort.pick(8, 1);
     let rows = [Workload::KnotPhong, Workload::Cubes].map(|workload| {
@@ -182,7 +182,7 @@ fn proofs(effort: Effort) -> Vec<Row> {
 }
 
 /// The presets on the scene with shadows, and where each is wrong.
-fn heat_picture() -> Picture {
+fn heat_image() -> ImageRow {
     const SIZE: [u32; 2] = [256, 160];
     let draw = |preset: Preset| {
         let mut repeated = Repeated::new(Case::Shadows, SIZE, preset.quality());
@@ -204,7 +204,7 @@ fn heat_picture() -> Picture {
         panels.push(field(&|at| heat(5.0 * (light(&color, at) - light(&best, at)).abs())));
     }
     let caption = "The reference, and five times the error of draft, standard and high";
-    Picture::new("presets", caption, panels)
+    ImageRow::new("presets", caption, panels)
 }
 
 fn findings(rows: &[Row]) -> Vec<String> {
@@ -217,7 +217,7 @@ fn findings(rows: &[Row]) -> Vec<String> {
         })
         .join(", ");
     vec![
-        "`standard` is for pictures that move, `high` for those that stay; `draft` to find a view, `reference` to measure against."
+        "`standard` is for images that move, `high` for those that stay; `draft` to find a view, `reference` to measure against."
             .to_owned(),
         format!(
             "Of the frames of the six flights, {} % keep a budget of 16 ms, {} % take the time that was predicted, within a fifth, and {} % have \

@@ -25,16 +25,16 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         title: "What does a division in each pixel buy?",
         text: "Texture coordinates on a wall that leads from 1.5 to 6 metres away, 256 texels to the metre, against exact areas and \
                a division in `f64` (`oracle::perspective`). Which pixels a row covers is known before for all but the engine, \
-               whose time is that of a whole picture.",
+               whose time is that of a whole image.",
         findings: Vec::new(),
         plots: vec![Plot::trade("wall", &rows, CASE, [TIME, RMS])],
-        pictures: vec![picture()],
+        images: vec![image()],
         rows,
     }
 }
 
 /// The wall with a checker of half metres.
-fn picture() -> Picture {
+fn image() -> ImageRow {
     let wall = Wall::new(256);
     let panel = |way: Interpolation| {
         way.draw(&wall).map(|texel| match texel {
@@ -46,7 +46,7 @@ fn picture() -> Picture {
         })
     };
     let ways = [Interpolation::Affine, Interpolation::Every16, Interpolation::Perspective];
-    Picture::new("wall", "Affine, perspective every 16 pixels, perspective", ways.map(panel).to_vec())
+    ImageRow::new("wall", "Affine, perspective every 16 pixels, perspective", ways.map(panel).to_vec())
 }
 
 pub(super) fn headlines() -> Vec<Headline> {

@@ -23,7 +23,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
                has in each pixel. Then outlines of filled triangles: how much of them lies beside the fill (source B accepts it).",
         findings: findings(&rows),
         plots: vec![Plot::trade("lines", &rows, CASE, [TIME, RMSE])],
-        pictures: vec![picture()],
+        images: vec![image()],
         rows,
     }
 }
@@ -58,7 +58,7 @@ fn of_outlines() -> Vec<Row> {
 }
 
 /// Lines in three ways, and an outline that leaves its fill.
-fn picture() -> Picture {
+fn image() -> ImageRow {
     const SIZE: [usize; 2] = [48; 2];
     let lines: Vec<_> = [[46, 3], [45, 20], [30, 46], [4, 44]].map(|end| [[2, 2], end]).to_vec();
     let mut panels = [Line::Naive, Line::Bresenham, Line::EngineSmooth]
@@ -76,7 +76,7 @@ fn picture() -> Picture {
         (false, false) => [0; 3],
     }));
     let caption = "Naive, Bresenham, anti-aliased; an outline (yellow) over its fill as source B draws them: red pixels are beside it";
-    Picture::new("lines", caption, panels)
+    ImageRow::new("lines", caption, panels)
 }
 
 pub(super) fn headlines() -> Vec<Headline> {

@@ -21,7 +21,7 @@ mod visibility;
 use super::chapter::{Chapter, Effort, Question};
 use super::figures::{Row, number, value};
 use super::headline::Headline;
-use super::picture::{Picture, grey, heat, tint, tinted};
+use super::image_row::{ImageRow, grey, heat, tint, tinted};
 use super::plot::Plot;
 use crate::measure::{Spread, interleaved, nanoseconds};
 

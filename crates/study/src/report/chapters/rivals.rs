@@ -1,4 +1,4 @@
-//! What do other renderers' pictures cost, and how right are they? Nothing is measured here: the rows are the two files in
+//! What do other renderers' images cost, and how right are they? Nothing is measured here: the rows are the two files in
 //! `crates/study/rivals`.
 
 use super::*;
@@ -6,7 +6,7 @@ use crate::rivals::{Measured, Timed, measured, timed};
 use crate::workloads::Workload;
 use trigon_math::elementary;
 
-const PICTURE: &str = "RMSE of the picture, of 255";
+const IMAGE: &str = "RMSE of the image, of 255";
 const OUTLINES: &str = "wrong at outlines, ‰";
 const HOLES: &str = "holes and wrong depth within, millionths";
 const WITHIN: &str = "RMSE within surfaces, of 255";
@@ -39,22 +39,22 @@ const WORKLOADS: [Workload; 4] =
 pub(super) fn measure(_: Effort) -> Chapter {
     let rows = rows();
     let is_timed = rows.iter().any(|row| row.value(ONE).is_some());
-    let plot = is_timed.then(|| Plot::trade("means", &rows, ALL, [ONE, PICTURE]));
+    let plot = is_timed.then(|| Plot::trade("means", &rows, ALL, [ONE, IMAGE]));
     Chapter {
         name: "rivals",
         title: "What do other renderers get for their time?",
         text: "Five workloads (`crates/study/README.md` defines them) at 1920×1080, drawn by other CPU renderers and by trigon at each preset. \
-               All are compared with one exact picture: the definition carried out in `f64` by rays, with its own camera, light and texture \
-               (`crates/study/src/rivals`). *Of the picture* compares with the mean of 256 rays through each pixel that shows a surface, in \
-               plain bytes. The other errors are those at the centres of pixels, for pictures with one sample per pixel. Pixels *at outlines* have another \
+               All are compared with one exact image: the definition carried out in `f64` by rays, with its own camera, light and texture \
+               (`crates/study/src/rivals`). *Of the image* compares with the mean of 256 rays through each pixel that shows a surface, in \
+               plain bytes. The other errors are those at the centres of pixels, for images with one sample per pixel. Pixels *at outlines* have another \
                surface beside them; those that show the wrong one are errors of coverage. All other pixels lie *within surfaces*. A hole there shows the background. \
                In W5, whose faces have one colour each, any other colour is a wrong depth. The RMSE of the rest is interpolation in W2, light from \
-               interpolated normals in W3, and texture filtering in W4. The first two rows are the exact picture rounded to bytes: no picture can be \
+               interpolated normals in W3, and texture filtering in W4. The first two rows are the exact image rounded to bytes: no image can be \
                closer. euc and retrofire have no derivatives, so their W4 reads one level of the texture, which is less work; they have one thread and \
-               no multisampling. `tests/peers/rivals.sh` repeats the pictures and the times.",
+               no multisampling. `tests/peers/rivals.sh` repeats the images and the times.",
         findings: findings(&rows),
         plots: plot.into_iter().collect(),
-        pictures: Vec::new(),
+        images: Vec::new(),
         rows,
     }
 }
@@ -77,7 +77,7 @@ fn row(measured: &Measured, timed: &[Timed]) -> Row {
     let mut row = Row::new(format!("{workload} as others draw it"), name(renderer))
         .of(workload.as_str())
         .sized([1920, 1080])
-        .with(PICTURE, errors.picture);
+        .with(IMAGE, errors.image);
     if let Some(centres) = errors.centres {
         row = row
             .with(OUTLINES, centres.wrong_at_outlines)
@@ -105,7 +105,7 @@ fn means(measured: &[Measured], timed: &[Timed]) -> Vec<Row> {
     let of = |renderer: &str| {
         let errors = measured.iter().filter(|one| one.renderer == renderer && is_meant(&one.workload));
         let mut row = Row::new(ALL, name(renderer)).sized([1920, 1080]);
-        row = row.with(PICTURE, mean(errors.map(|one| one.errors.picture).collect())?);
+        row = row.with(IMAGE, mean(errors.map(|one| one.errors.image).collect())?);
         for (threads, quantity) in [(1, ONE), (2, TWO)] {
             let times = timed
                 .iter()

@@ -11,11 +11,11 @@ const TIME: &str = "ns per pixel";
 const CASE: &str = "a lit triangle";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
-    /// Pictures in a run, so that it takes some milliseconds.
-    const PICTURES: usize = 16;
+    /// Images in a run, so that it takes some milliseconds.
+    const IMAGES: usize = 16;
     let times = nanoseconds(effort.rounds(), &Rules::ALL, |rules| -> Box<dyn FnMut()> {
         let mut draw = rules.repeated();
-        Box::new(move || (0..PICTURES).for_each(|_| draw()))
+        Box::new(move || (0..IMAGES).for_each(|_| draw()))
     });
     let row = |(rules, time): (Rules, Spread)| {
         let error = rules.error();
@@ -24,7 +24,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
             .with(RMSE, error.rmse())
             .with(WORST, error.worst)
             .with(OTHER, rules.other_bytes_per_mille())
-            .timed(TIME, time.scaled(1.0 / (PICTURES * PIXELS) as f64))
+            .timed(TIME, time.scaled(1.0 / (IMAGES * PIXELS) as f64))
     };
     Chapter {
         name: "same-bytes",
@@ -34,7 +34,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
                `f64`. What the last two give, errors included, depends on the processor.",
         findings: Vec::new(),
         plots: Vec::new(),
-        pictures: Vec::new(),
+        images: Vec::new(),
         rows: Rules::ALL.into_iter().zip(times).map(row).collect(),
     }
 }

@@ -33,12 +33,12 @@ pub(super) fn measure(effort: Effort) -> Chapter {
                CIE lightness: below about 1 hardly anybody sees it.",
         findings: Vec::new(),
         plots: vec![Plot::trade("ball", &rows, &cases[1].0, [TIME, RMSE])],
-        pictures: vec![picture()],
+        images: vec![image()],
         rows,
     }
 }
 
-fn picture() -> Picture {
+fn image() -> ImageRow {
     let ball = Ball::new(256, 2);
     let light = |shading: Shading| shading.draw(&ball).map(|light| light.map_or([0; 3], grey));
     let error = |shading: Shading| {
@@ -48,7 +48,7 @@ fn picture() -> Picture {
     let panels = Shading::ALL.map(light).into_iter().chain(Shading::ALL.map(error));
     let caption =
         "Flat, Gouraud and Phong on 320 triangles, then their errors in linear light, five times as bright";
-    Picture::new("balls", caption, panels.collect())
+    ImageRow::new("balls", caption, panels.collect())
 }
 
 fn case(subdivisions: u32) -> String {

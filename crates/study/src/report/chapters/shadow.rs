@@ -19,8 +19,8 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         Box::new(move || drop(shadow.ready()))
     });
     let times = nanoseconds(rounds, &Shadow::ALL, |shadow| -> Box<dyn FnMut()> {
-        let (light, mut picture) = (shadow.ready(), Field::new([side; 2], 0.0));
-        Box::new(move || draw_into(&mut picture, &*light))
+        let (light, mut image) = (shadow.ready(), Field::new([side; 2], 0.0));
+        Box::new(move || draw_into(&mut image, &*light))
     });
     let row = |(shadow, (ready, time)): (Shadow, (Spread, Spread))| {
         let row = Row::new(CASE, shadow.name()).sized([side; 2]);
@@ -34,12 +34,12 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         name: "shadow",
         title: "What does a shadow's edge cost?",
         text: "A ball of 5,120 triangles over a floor: maps that reach just round it, nearest texel or four of them weighted, and \
-               rays against a tree of the same triangles; then whole pictures of the floor by the engine, with its own maps and \
-               rays, which it keeps from picture to picture. Errors are against the shadow of these triangles, moved onto the \
+               rays against a tree of the same triangles; then whole images of the floor by the engine, with its own maps and \
+               rays, which it keeps from frame to frame. Errors are against the shadow of these triangles, moved onto the \
                floor in `f64`, in the pixels within two of its edge.",
         findings: Vec::new(),
         plots: vec![Plot::trade("ball", &rows, CASE, [TIME, RMSE])],
-        pictures: vec![picture()],
+        images: vec![image()],
         rows,
     }
 }
@@ -68,7 +68,7 @@ fn of_engine(side: usize, right: &Field<f64>, effort: Effort) -> Vec<Row> {
     ENGINE.into_iter().zip(times).map(row).collect()
 }
 
-fn picture() -> Picture {
+fn image() -> ImageRow {
     let shown = |light: Field<f64>| -> Field<[u8; 3]> { light.map(|&light| grey(0.05 + 0.6 * light)) };
     let shadows = [
         Shadow::Map(64, MapFilter::Nearest),
@@ -77,7 +77,7 @@ fn picture() -> Picture {
     ];
     let mut panels: Vec<_> = shadows.iter().map(|shadow| shown(draw(256, &*shadow.ready()))).collect();
     panels.push(shown(exact(256)));
-    Picture::new(
+    ImageRow::new(
         "edges",
         "A map of 64 texels a side, the same filtered, one of 1024, and the exact shadow",
         panels,
@@ -91,6 +91,6 @@ pub(super) fn headlines() -> Vec<Headline> {
     vec![
         of([Shadow::Rays.name(), map.name()]),
         of([Shadow::Map(1024, MapFilter::Linear).name(), map.name()]),
-        of([engine_rays, engine_map]).meaning("These are whole pictures."),
+        of([engine_rays, engine_map]).meaning("These are whole images."),
     ]
 }

@@ -31,7 +31,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
                at, counted where it is read, by a second copy that is not timed. All give the same answers.",
         findings: findings(),
         plots: Vec::new(),
-        pictures: Vec::new(),
+        images: Vec::new(),
         rows,
     }
 }

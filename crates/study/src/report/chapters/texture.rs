@@ -49,7 +49,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
                256 points in each pixel. What a look-up takes is the difference from a frame without one.",
         findings: Vec::new(),
         plots: vec![Plot::trade("floor", &rows, CASE, [TIME, RMSE])],
-        pictures: vec![Picture::new(
+        images: vec![ImageRow::new(
             "floor",
             "Nearest, trilinear, anisotropic 16, and what pixels see",
             panels,

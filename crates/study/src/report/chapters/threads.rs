@@ -1,4 +1,4 @@
-//! How many threads does a picture want?
+//! How many threads does an image want?
 
 use super::*;
 use crate::threads::{Shared, THREADS, TIMES_OF_THE_SOURCE, draw_by_face, square};
@@ -43,14 +43,14 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     let rows = their_rows.chain(our_rows).map(|row| row.sized(size)).chain(of_workload(effort)).collect();
     Chapter {
         name: "threads",
-        title: "How many threads does a picture want?",
-        text: "Source D's table 4.1 again: a square of two faces that fills most of the picture, new threads for each face with a \
+        title: "How many threads does an image want?",
+        text: "Source D's table 4.1 again: a square of two faces that fills most of the image, new threads for each face with a \
                share of its rows, compiled with optimisation; and the engine, whose threads last and take tiles in turn. The \
                square gives the engine so little to compute that writing memory is most of its work. So it also draws W3, a \
                knot with light in each pixel (docs/performance.md has all workloads with one thread and with two).",
         findings: findings(&theirs, &ours),
         plots: vec![Plot::growth("threads", "Frame time by threads", axes, lines)],
-        pictures: Vec::new(),
+        images: Vec::new(),
         rows,
     }
 }
@@ -68,7 +68,7 @@ fn our_row(case: &str, geometry: &str, threads: usize, time: Spread) -> Row {
     row.timed(TIME, time.scaled(1e-3))
 }
 
-/// A picture with work in it, with one thread and with two.
+/// An image with work in it, with one thread and with two.
 fn of_workload(effort: Effort) -> Vec<Row> {
     let scene = &Workload::KnotPhong.scene();
     let threads = [1, 2];

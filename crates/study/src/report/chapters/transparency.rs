@@ -31,16 +31,16 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         text: "Bodies whose faces let half of the light through, against fragments in the order of their exact depths (`oracle::nearness`).",
         findings: Vec::new(),
         plots: vec![Plot::trade("crossing", &rows, Case::Crossing.name(), [TIME, RMSE])],
-        pictures: vec![picture()],
+        images: vec![image()],
         rows,
     }
 }
 
-fn picture() -> Picture {
+fn image() -> ImageRow {
     let scene = Case::Crossing.scene(256);
     let ways = [Transparency::Unsorted, Transparency::ByBody, Transparency::ByFace, Transparency::Engine];
     let panel = |way: Transparency| way.draw(&scene).map(|&light| grey(light));
-    Picture::new("order", "Unsorted, sorted by body, sorted by face, the engine", ways.map(panel).to_vec())
+    ImageRow::new("order", "Unsorted, sorted by body, sorted by face, the engine", ways.map(panel).to_vec())
 }
 
 pub(super) fn headlines() -> Vec<Headline> {

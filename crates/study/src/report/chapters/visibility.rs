@@ -9,7 +9,7 @@ const WRONG: &str = "misordered pixels, ‰";
 const TIME: &str = "ms per frame";
 const TESTS: &str = "tests";
 
-/// Rays whose tree is built for each picture.
+/// Rays whose tree is built for each image.
 const ANEW: &str = "rays, tree built anew";
 
 const PARALLEL: &str = "16 parallel sheets";
@@ -46,10 +46,10 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         text: "The ways that source D weighs on paper, the painter's algorithm and a tree for rays, on the same bodies. A pixel is \
                misordered if it does not show one of the nearest faces, decided in integers. Each algorithm counts its own kind \
                of test: the painter comparisons, Roberts points against planes, Warnock faces against windows, the z-buffer \
-               pixels in bounding boxes, rays faces. All keep their memory from picture to picture but Roberts and Warnock; the tree \
-               for rays is kept in one row and built for each picture in another.",
+               pixels in bounding boxes, rays faces. All keep their memory from frame to frame but Roberts and Warnock; the tree \
+               for rays is kept in one row and built for each image in another.",
         findings,
-        pictures: vec![errors_picture(), lines_picture()],
+        images: vec![errors_image(), lines_image()],
         rows,
         plots,
     }
@@ -107,7 +107,7 @@ fn growth(side: usize, counts: &[usize], effort: Effort) -> (Lines, Lines) {
 }
 
 /// The ring as each algorithm shows it, then where the painter is wrong.
-fn errors_picture() -> Picture {
+fn errors_image() -> ImageRow {
     let scene = Case::Crossing.scene(256);
     let faces = |way: Visibility| {
         way.draw(&scene).map_or_else(|_| Field::new([256; 2], u32::MAX), |drawing| drawing.faces)
@@ -117,11 +117,11 @@ fn errors_picture() -> Picture {
         Field::from_fn([256; 2], |place| heat(if painter[place] == engine[place] { 0.0 } else { 0.5 }));
     let caption =
         "Balls that stick in each other: the painter's algorithm, the engine, and where they differ";
-    Picture::new("errors", caption, vec![tinted(&painter), tinted(&engine), wrong])
+    ImageRow::new("errors", caption, vec![tinted(&painter), tinted(&engine), wrong])
 }
 
 /// Hidden lines by Roberts.
-fn lines_picture() -> Picture {
+fn lines_image() -> ImageRow {
     let panel = |case: Case| {
         let mut ink = Field::new([256; 2], 0.0);
         let lines = visible_lines(&case.scene(256)).map(|lines| lines.lines).unwrap_or_default();
@@ -131,7 +131,7 @@ fn lines_picture() -> Picture {
         ink.map(|&ink| grey(1.0 - f64::from(ink).min(1.0)))
     };
     let caption = "Hidden lines by Roberts' algorithm: 40 balls, three bodies in a ring, balls that stick in each other";
-    Picture::new("lines", caption, [Case::Balls, Case::Ring, Case::Crossing].map(panel).to_vec())
+    ImageRow::new("lines", caption, [Case::Balls, Case::Ring, Case::Crossing].map(panel).to_vec())
 }
 
 fn findings(rows: &[Row], by_time: &Lines) -> Vec<String> {

@@ -1,20 +1,20 @@
 //! egui's triangles in f64, one pixel after the other, with no shortcut. What it
 //! shares with the painter is the definition only: positions on a grid of 1/256
-//! pixel, the top-left rule, places in images to 1/4096 texel, a picture of bytes.
+//! pixel, the top-left rule, places in images to 1/4096 texel, an image of bytes.
 
 use egui::epaint::{Mesh, Primitive, Vertex};
 use egui::{ClippedPrimitive, ColorImage, ImageData, TextureOptions, TexturesDelta};
 
-type Picture = Vec<[u8; 4]>;
+type Pixels = Vec<[u8; 4]>;
 
-/// Paints everything over `picture`.
+/// Paints everything over `image`.
 pub(super) fn paint(
     primitives: &[ClippedPrimitive],
     scale: f32,
     textures: &TexturesDelta,
     [width, height]: [i32; 2],
-    mut picture: Picture,
-) -> Picture {
+    mut pixels: Pixels,
+) -> Pixels {
     for primitive in primitives {
         let Primitive::Mesh(mesh) = &primitive.primitive else { continue };
         let delta = &textures.set[&mesh.texture_id][0];
@@ -32,12 +32,12 @@ pub(super) fn paint(
             {
                 let Some(weights) = triangle.weights(x, y) else { continue };
                 let source = triangle.color(weights, image, delta.options);
-                let pixel = &mut picture[(y * width + x) as usize];
+                let pixel = &mut pixels[(y * width + x) as usize];
                 *pixel = over(source, *pixel);
             }
         }
     }
-    picture
+    pixels
 }
 
 struct Triangle<'a> {

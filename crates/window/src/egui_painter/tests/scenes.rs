@@ -12,9 +12,9 @@ pub(super) const HEIGHT: u32 = 72;
 /// Texels along a side.
 const SIDE: usize = 16;
 const FONT: TextureId = TextureId::Managed(0);
-const PICTURE: TextureId = TextureId::User(7);
+const IMAGE: TextureId = TextureId::User(7);
 
-/// A font with a white corner and translucent ink, and a picture that is opaque
+/// A font with a white corner and translucent ink, and an image that is opaque
 /// enough for filtering, see the test.
 pub(super) fn textures() -> TexturesDelta {
     let image =
@@ -23,10 +23,10 @@ pub(super) fn textures() -> TexturesDelta {
         0..2 if i < 2 * SIDE => Color32::WHITE,
         _ => Color32::from_white_alpha((i * 37 % 256) as u8),
     });
-    let picture = image(|i| Color32::from_rgb((i * 91 % 256) as u8, (i * 13 % 256) as u8, (255 - i) as u8));
+    let pattern = image(|i| Color32::from_rgb((i * 91 % 256) as u8, (i * 13 % 256) as u8, (255 - i) as u8));
     let mut delta = TexturesDelta::default();
     delta.push(FONT, ImageDelta::full(font, TextureOptions::NEAREST));
-    delta.push(PICTURE, ImageDelta::full(picture, TextureOptions::LINEAR));
+    delta.push(IMAGE, ImageDelta::full(pattern, TextureOptions::LINEAR));
     delta
 }
 
@@ -74,11 +74,11 @@ fn shape() -> impl Strategy<Value = Mesh> {
         let uv = Rect::from_min_max(pos2(texels(1), texels(1)), pos2(texels(1 + side), texels(1 + side)));
         quad(Rect::from_min_size(pos2(x as f32, y as f32), vec2(side as f32, side as f32)), uv, color)
     });
-    let picture = (place(), place(), dense_color()).prop_map(|(a, b, color)| Mesh {
-        texture_id: PICTURE,
+    let textured = (place(), place(), dense_color()).prop_map(|(a, b, color)| Mesh {
+        texture_id: IMAGE,
         ..quad(Rect::from_two_pos(a, b), Rect::from_min_max(pos2(0.1, -0.2), pos2(0.9, 1.3)), color)
     });
-    prop_oneof![triangle, panel, glyph, picture]
+    prop_oneof![triangle, panel, glyph, textured]
 }
 
 fn clip() -> impl Strategy<Value = Rect> {

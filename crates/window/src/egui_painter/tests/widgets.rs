@@ -141,7 +141,7 @@ fn interface_tests_are_drawn_by_this_painter() {
 }
 
 /// egui's demo library, drawn whole and piece by piece: the same bytes. Set
-/// `TRIGON_PICTURES` to a folder to look at it.
+/// `TRIGON_IMAGES` to a folder to look at it.
 #[test]
 fn the_demo_library_is_drawn() {
     for scale in [1.0, 2.0] {
@@ -157,7 +157,7 @@ fn the_demo_library_is_drawn() {
         assert!(piecewise == screen.pixels, "what was left out had not changed");
         let colors: std::collections::HashSet<_> = piecewise.iter().collect();
         assert!(colors.len() > 100, "there is text, smoothed: {} colours", colors.len());
-        if let Some(folder) = std::env::var_os("TRIGON_PICTURES") {
+        if let Some(folder) = std::env::var_os("TRIGON_IMAGES") {
             let path = std::path::Path::new(&folder).join(format!("demo-{scale}.png"));
             let image = image::RgbaImage::from_raw(SCREEN[0], SCREEN[1], piecewise.into_flattened());
             image.expect("four bytes for each pixel").save(path).expect("the folder can be written to");

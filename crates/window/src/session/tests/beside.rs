@@ -1,4 +1,4 @@
-//! Pictures that are drawn beside the window's thread.
+//! Images that are drawn beside the window's thread.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::channel;
@@ -8,7 +8,7 @@ use crate::pacing::Quality;
 use crate::worker::Purpose;
 use trigon_scene::render;
 
-/// What a picture file would hold.
+/// What an image file would hold.
 fn file(stage: &Stage) -> Frame {
     let outputs = crate::shown::OUTPUTS;
     let settings =
@@ -17,8 +17,8 @@ fn file(stage: &Stage) -> Frame {
 }
 
 #[test]
-fn at_rest_the_window_holds_what_a_picture_file_would() {
-    // What pictures take by the worker's clock: drafts are small where they take long.
+fn at_rest_the_window_holds_what_an_image_file_would() {
+    // What images take by the worker's clock: drafts are small where they take long.
     for took in [ms(0), ms(500)] {
         let ((ring, rung), moments) = (channel(), Arc::new(AtomicU32::new(0)));
         let clock = move || took * moments.fetch_add(1, Ordering::Relaxed);
@@ -54,10 +54,10 @@ fn shows_a_key(session: &mut Session<'_>, press: u64, now: Duration) -> bool {
     session.canvas().pixels() != before
 }
 
-/// However long a picture takes: the one as the settings say is not finished before the
+/// However long an image takes: the one as the settings say is not finished before the
 /// test opens the gate.
 #[test]
-fn keys_show_while_a_picture_is_drawn() {
+fn keys_show_while_an_image_is_drawn() {
     let gate = Gate::default();
     let (worker, rung) = gate.worker(|purpose| purpose == Purpose::Window(Quality::Full(0)));
     let mut handler = Recorder::default();
@@ -66,7 +66,7 @@ fn keys_show_while_a_picture_is_drawn() {
     live_until(&mut session, &rung, ms(0), is_drawn_in_full);
     for press in 0..6 {
         assert!(shows_a_key(&mut session, press, ms(1000 * (press + 1))), "press {press}");
-        assert!(is_drawn_in_full(&session), "the picture is still under way after press {press}");
+        assert!(is_drawn_in_full(&session), "the image is still under way after press {press}");
     }
     session.event(key_down(7, Key::Character('7')), ms(8000));
     session.settle(ms(8000));

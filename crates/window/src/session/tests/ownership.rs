@@ -120,13 +120,13 @@ fn keys_go_to_a_text_field_that_is_typed_into() {
 fn what_a_widget_changes_is_drawn_and_what_it_does_not_is_not() {
     let mut handler = Panel { turns_edges_on: true, ..Panel::default() };
     let mut session = opened(&mut handler);
-    let (picture, subject) = (session.shown.clone(), session.subject.clone());
+    let (image, subject) = (session.shown.clone(), session.subject.clone());
     move_to(&mut session, BUTTON.0, BUTTON.1, ms(1000));
-    assert!(session.subject == subject, "passing over a widget draws no picture");
+    assert!(session.subject == subject, "passing over a widget draws no image");
     click(&mut session, BUTTON, ms(2000));
     run(&mut session, ms(2000));
     assert!(session.subject != subject, "the edges are on");
-    assert!(session.shown != picture, "and to be seen");
+    assert!(session.shown != image, "and to be seen");
     drop(session);
     assert_eq!(handler.clicks, 1, "one click");
 }
@@ -181,7 +181,7 @@ fn screen_readers_learn_names_and_press_buttons() {
     run(&mut session, ms(1000));
     let told = session.interface().take_output().accesskit_update.expect("now somebody has");
     let names = names(&told);
-    assert!(names.iter().any(|(name, _)| name == "3D view: test; selected: left"), "the picture: {names:?}");
+    assert!(names.iter().any(|(name, _)| name == "3D view: test; selected: left"), "the image: {names:?}");
     assert!(names.iter().any(|(name, _)| name == "test"), "and the window: {names:?}");
     let (_, button) = names.iter().find(|(name, _)| name == "press").expect("the button has a name");
     let request =

@@ -1,4 +1,4 @@
-//! What is under the pointer, in the picture that is in the window.
+//! What is under the pointer, in the image that is in the window.
 
 use std::sync::Arc;
 
@@ -21,14 +21,14 @@ fn picked(session: &Session<'_>, at: DVec2) -> Option<(String, DVec3)> {
 }
 
 #[test]
-fn before_there_is_a_picture_nothing_is_picked() {
+fn before_there_is_an_image_nothing_is_picked() {
     let mut handler = Recorder::default();
     let session = started(&mut handler);
     assert_eq!(session.stage.pick(AT), None, "nothing is seen yet");
 }
 
 #[test]
-fn a_pick_is_of_the_picture_that_is_seen() {
+fn a_pick_is_of_the_image_that_is_seen() {
     let mut handler = Recorder::default();
     let mut session = begun(&mut handler);
     let before = picked(&session, AT).expect("a cube");
@@ -47,7 +47,7 @@ fn a_pick_is_of_the_picture_that_is_seen() {
     assert!(point.z < before.1.z - 0.9, "and its back: {point}");
 }
 
-/// The node's place was taken by another one, which a picture from before cannot show.
+/// The node's place was taken by another one, which an image from before cannot show.
 #[test]
 fn a_node_that_is_gone_is_not_picked_nor_is_who_took_its_place() {
     let mut handler = Recorder::default();
@@ -57,7 +57,7 @@ fn a_node_that_is_gone_is_not_picked_nor_is_who_took_its_place() {
     assert_eq!(session.stage.pick(AT), None, "it is gone");
     let stranger = session.stage.scene.add_object("stranger", primitives::cube(9.0), Material::default());
     assert_eq!(stranger.index(), hit.node.index(), "its place is used again");
-    assert_eq!(session.stage.pick(AT), None, "the picture does not show that one");
+    assert_eq!(session.stage.pick(AT), None, "the image does not show that one");
 }
 
 /// The mesh is replaced by an empty one: what is picked has been drawn before, and nothing
@@ -76,7 +76,7 @@ fn faces_of_a_mesh_that_was_replaced_are_not_told() {
 
 #[test]
 fn drafts_are_picked_where_they_are_shown() {
-    // By this clock pictures take so long that drafts are small.
+    // By this clock images take so long that drafts are small.
     let ((ring, rung), moments) =
         (std::sync::mpsc::channel(), Arc::new(std::sync::atomic::AtomicU32::new(0)));
     let clock = move || ms(200) * moments.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
@@ -128,7 +128,7 @@ fn what_another_drawer_shows_is_picked_all_the_same() {
     session.stage.drawer = Some(Arc::new(Flat));
     session.note(ms(1000));
     run(&mut session, ms(1000));
-    assert!(session.shown.as_deref().is_some_and(|frame| frame.color[0] == 9), "its picture is shown");
+    assert!(session.shown.as_deref().is_some_and(|frame| frame.color[0] == 9), "its image is shown");
     assert!(before.is_some() && session.stage.pick(AT) == before, "the renderer tells what is where");
 }
 

@@ -1,4 +1,4 @@
-//! Better and better pictures at rest, and how far they are from the best.
+//! Better and better images at rest, and how far they are from the best.
 
 use std::sync::Mutex;
 
@@ -23,7 +23,7 @@ fn opened(stage: Stage, handler: &mut Recorder) -> Session<'_> {
     session_of(stage, handler, Worker::of_caller())
 }
 
-/// What a picture file would hold.
+/// What an image file would hold.
 fn file(stage: &Stage, preset: Option<Preset>) -> Frame {
     let outputs = crate::shown::OUTPUTS;
     let mut settings =
@@ -35,7 +35,7 @@ fn file(stage: &Stage, preset: Option<Preset>) -> Frame {
 }
 
 #[test]
-fn at_rest_the_picture_becomes_the_reference_and_then_nothing_runs() {
+fn at_rest_the_image_becomes_the_reference_and_then_nothing_runs() {
     let mut handler = Recorder::default();
     let mut session = opened(coarse_stage(Refinement::Reference), &mut handler);
     let (mut now, mut seen, mut notes) = (ms(0), Vec::new(), Vec::new());
@@ -44,7 +44,7 @@ fn at_rest_the_picture_becomes_the_reference_and_then_nothing_runs() {
             now = later;
         }
         draw(&mut session, now);
-        let shown = session.shown.clone().expect("a picture");
+        let shown = session.shown.clone().expect("an image");
         if seen.last() != Some(&shown) {
             seen.push(shown);
             notes.push(session.stage.progress());
@@ -54,7 +54,7 @@ fn at_rest_the_picture_becomes_the_reference_and_then_nothing_runs() {
     let expected = [None, Some(Preset::Standard), Some(Preset::High), Some(Preset::Reference)];
     assert_eq!(seen.len(), expected.len(), "{notes:?}");
     for (shown, preset) in seen.iter().zip(expected) {
-        assert!(**shown == file(&session.stage, preset), "the bytes of a picture file, {preset:?}");
+        assert!(**shown == file(&session.stage, preset), "the bytes of an image file, {preset:?}");
     }
     let refining = |step| Some(Progress::Refining { step, of: 4, seconds: 0 });
     assert_eq!(notes[1..], [refining(3), refining(4), None], "what is still to come");
@@ -111,7 +111,7 @@ fn the_difference_is_shown_with_its_figures_and_a_legend() {
     assert_eq!(session.stage.quality_report(), None, "until something else is seen");
 }
 
-/// A movement, or a picture that somebody waits for, comes before a better one.
+/// A movement, or an image that somebody waits for, comes before a better one.
 #[test]
 fn refining_keeps_nobody_waiting() {
     let mut handler = Recorder::default();
@@ -127,7 +127,7 @@ fn refining_keeps_nobody_waiting() {
     assert!(is_at_reference(&session), "the reference is under way");
     session.event(key_down(3, Key::Character('g')), now);
     while !session.is_over() {
-        rung.recv().expect("whoever asked for the picture has it in the end");
+        rung.recv().expect("whoever asked for the image has it in the end");
         session.collect(now);
     }
     draw(&mut session, now + ms(20));
@@ -163,7 +163,7 @@ fn another_drawer_is_used_at_rest_and_compared_with_the_renderer() {
     session.stage.comparison = Comparison::Measured;
     session.note(ms(0));
     run(&mut session, ms(0));
-    assert!(session.shown.as_deref().is_some_and(|frame| frame.color[0] == 255), "its picture stays");
+    assert!(session.shown.as_deref().is_some_and(|frame| frame.color[0] == 255), "its image stays");
     let report = session.stage.quality_report().expect("at rest");
     assert!(
         report.difference.is_some_and(|difference| difference.share > 0.5),

@@ -1,4 +1,4 @@
-//! Recorded sessions give the same pictures again.
+//! Recorded sessions give the same images again.
 
 use super::*;
 use crate::interaction::Interaction;
@@ -33,7 +33,7 @@ fn replay(mut interaction: Interaction) -> Vec<Vec<[u8; 4]>> {
 }
 
 #[test]
-fn a_recorded_session_gives_the_same_pictures() {
+fn a_recorded_session_gives_the_same_images() {
     let mut handler = Recorder::default();
     let mut session = Session::new(stage(), &mut handler, Worker::of_caller());
     session.record();

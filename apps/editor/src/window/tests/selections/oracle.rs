@@ -34,7 +34,7 @@ pub(super) enum Kind {
     Face,
 }
 
-/// All that may be asked of a picture.
+/// All that may be asked of an image.
 pub(super) struct Oracle {
     lens: Lens,
     triangles: Vec<Triangle>,
@@ -155,7 +155,7 @@ impl Oracle {
     pub(super) fn region(&self, kind: Kind, shape: &Shape, through: bool) -> BTreeMap<Key, Answer> {
         let mut answers: BTreeMap<Key, Answer> = BTreeMap::new();
         for (key, at, is_seen, is_there) in self.points(kind) {
-            let inside = shape.contains(at).min(self.is_in_picture(at));
+            let inside = shape.contains(at).min(self.is_in_image(at));
             let answer = inside.min(if through { is_there } else { is_seen });
             let known = answers.entry(key).or_insert(Answer::No);
             *known = answer.max(*known);
@@ -167,7 +167,7 @@ impl Oracle {
     /// The elements that may be nearest to a place within a radius: more than one where roundings decide.
     pub(super) fn nearest(&self, kind: Kind, place: DVec2, radius: f64, through: bool) -> Vec<Key> {
         let candidates = self.points(kind).filter_map(|(key, at, is_seen, is_there)| {
-            let answer = if through { is_there } else { is_seen }.min(self.is_in_picture(at));
+            let answer = if through { is_there } else { is_seen }.min(self.is_in_image(at));
             let distance = at.distance(place);
             (answer != Answer::No && distance <= radius + ROUNDING).then_some((key, distance, answer))
         });
@@ -198,7 +198,7 @@ impl Oracle {
         }
     }
 
-    fn is_in_picture(&self, at: DVec2) -> Answer {
+    fn is_in_image(&self, at: DVec2) -> Answer {
         Answer::of(at.min(self.lens.size - at).min_element(), ROUNDING)
     }
 }
@@ -210,7 +210,7 @@ fn columns(size: DVec2) -> usize {
     size.x as usize / CELL + 1
 }
 
-/// The squares that a box lies in; none beside the picture.
+/// The squares that a box lies in; none beside the image.
 fn cells_of([min, max]: [DVec2; 2], size: DVec2) -> impl Iterator<Item = usize> {
     let is_beside = max.cmplt(DVec2::ZERO).any() || min.cmpgt(size).any();
     let cell = |at: DVec2| at.clamp(DVec2::ZERO, size).to_array().map(|side| side as usize / CELL);

@@ -28,7 +28,7 @@ const KINDS: [(Kind, &str); 3] = [(Kind::Vertex, "1"), (Kind::Edge, "2"), (Kind:
 
 /// All selections on what the editor shows; an error says why the oracle knows nothing of it.
 pub(super) fn select_everywhere(user: &mut User<'_>) -> Result<Tally, String> {
-    // More of the picture, and less that has to be drawn.
+    // More of the image, and less that has to be drawn.
     user.play("keys T N Home A Tab");
     let oracle = Oracle::new(user.window.stage())?;
     let mut session = Session { user, oracle, tally: Tally::default(), kind: Kind::Vertex, through: false };

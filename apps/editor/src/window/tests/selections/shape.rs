@@ -1,4 +1,4 @@
-//! Regions of the picture as a user draws them.
+//! Regions of the image as a user draws them.
 
 use trigon_window::scene::math::DVec2;
 

@@ -58,8 +58,8 @@ impl Handler for Watched {
         self.0.borrow_mut().close_requested(stage);
     }
 
-    fn picture(&mut self, stage: &mut Stage, frame: Frame) {
-        self.0.borrow_mut().picture(stage, frame);
+    fn image(&mut self, stage: &mut Stage, frame: Frame) {
+        self.0.borrow_mut().image(stage, frame);
     }
 
     fn woken(&mut self, stage: &mut Stage) {
@@ -73,8 +73,8 @@ pub(super) struct User<'a> {
     pub(super) editor: Rc<RefCell<Editor>>,
     /// What `$FOLDER` in a script is.
     folder: &'a Path,
-    /// Where the pictures of a script go, if they are wanted.
-    pictures: Option<PathBuf>,
+    /// Where the images of a script go, if they are wanted.
+    images: Option<PathBuf>,
 }
 
 /// Opens the editor with these files in a window of a size, and lets somebody work.
@@ -86,13 +86,13 @@ pub(super) fn at_the_editor(
 ) {
     let mut stage = Stage::new("test");
     settings::prepare(&mut stage);
-    // The pictures' edges are not what is tested.
+    // The images' edges are not what is tested.
     stage.settings.samples_per_axis = 1;
     let editor = Editor::new(Keys::default(), Some(folder.join("state")), files.to_vec());
     let editor = Rc::new(RefCell::new(editor));
     let mut handler = Watched(Rc::clone(&editor));
     let window = HeadlessWindow::open(stage, &mut handler, size);
-    work(&mut User { window, editor, folder, pictures: None });
+    work(&mut User { window, editor, folder, images: None });
 }
 
 /// Does what a script says, which ends with the document saved as `$FOLDER/saved.glb`, and opens that in another

@@ -18,7 +18,7 @@
 //! | `title *untitled - trigon` | asserts what is written on the window, once other threads have ended |
 //! | `mesh Cube 8 12 6` | asserts vertices, edges and faces |
 //! | `objects 2` | asserts how many there are |
-//! | `picture start` | writes what the window shows to a file of this name, if pictures are wanted |
+//! | `image start` | writes what the window shows to a file of this name, if images are wanted |
 
 use std::path::Path;
 
@@ -38,20 +38,20 @@ impl User<'_> {
             if !action.is_empty() {
                 self.act(&action.replace("$FOLDER", &self.folder.display().to_string()))
                     .unwrap_or_else(|error| panic!("line {number}, `{action}`: {error}"));
-                self.picture_of_line(number);
+                self.image_of_line(number);
             }
         }
     }
 
-    /// `TRIGON_PICTURES=folder` writes what the window shows after each line, to be looked at.
-    fn picture_of_line(&self, line: usize) {
-        let Some(folder) = std::env::var_os("TRIGON_PICTURES") else { return };
+    /// `TRIGON_IMAGES=folder` writes what the window shows after each line, to be looked at.
+    fn image_of_line(&self, line: usize) {
+        let Some(folder) = std::env::var_os("TRIGON_IMAGES") else { return };
         let thread = std::thread::current();
         let test = thread.name().and_then(|name| name.rsplit("::").next()).unwrap_or("session");
-        self.write_picture(&Path::new(&folder).join(format!("{test}_{line:03}.png")));
+        self.write_image(&Path::new(&folder).join(format!("{test}_{line:03}.png")));
     }
 
-    fn write_picture(&self, path: &Path) {
+    fn write_image(&self, path: &Path) {
         let Viewport { width, height } = self.window.stage().viewport();
         let pixels: Vec<u8> =
             self.window.pixels().into_iter().flat_map(|[r, g, b, _]| [r, g, b, 255]).collect();
@@ -74,9 +74,9 @@ impl User<'_> {
             "wheel" => self.window.wheel(number(rest)?),
             "press" => self.press(rest)?,
             "enter" => self.enter(rest)?,
-            "picture" => {
-                if let Some(folder) = &self.pictures {
-                    self.write_picture(&folder.join(format!("{rest}.png")));
+            "image" => {
+                if let Some(folder) = &self.images {
+                    self.write_image(&folder.join(format!("{rest}.png")));
                 }
             }
             _ => self.look(verb, rest)?,

@@ -1,4 +1,4 @@
-//! The guided tour of `docs/editor.md`: what it describes is played here, and its pictures are made here:
+//! The guided tour of `docs/editor.md`: what it describes is played here, and its images are made here:
 //! `TRIGON_UPDATE_GOLDENS=1 cargo test -p trigon-editor --lib the_tour`, then for each `convert x.png -colors 96 PNG8:x.png`.
 
 use std::fs;
@@ -8,12 +8,12 @@ use super::*;
 /// A chair, as the tour makes it.
 const TOUR: &str = "
     hover 0 1 0
-    picture start
+    image start
     keys Tab A S Y . 1 Enter
     hover 0 0.1 0.98
     keys 2 Ctrl+R
     wheel 1
-    picture loop-cut
+    image loop-cut
     click
     right click
     keys S X 2 . 1 Enter
@@ -29,7 +29,7 @@ const TOUR: &str = "
     click 0.85 -0.1 0.85 with Shift
     click -0.85 -0.1 0.85 with Shift
     keys Numpad9 Numpad8 Numpad8 Numpad8 Numpad8 Numpad8
-    picture legs-selected
+    image legs-selected
     keys E 1 . 8 Enter
     keys Numpad7
     click 0 0.1 -0.85
@@ -37,9 +37,9 @@ const TOUR: &str = "
     click 0.85 0.1 -0.85 with Shift
     keys E 2 Enter
     keys Numpad2 Numpad2 Numpad2 Numpad2 Numpad4 Numpad4 Home
-    picture chair
+    image chair
     keys A Ctrl+2
-    picture cage
+    image cage
     mesh Cube 56 108 54
 ";
 
@@ -49,21 +49,21 @@ fn docs() -> PathBuf {
 }
 
 /// Where the guide's images are.
-fn pictures() -> PathBuf {
+fn images() -> PathBuf {
     docs().join("images/editor")
 }
 
 #[test]
-fn the_tour_of_the_guide_is_a_session_with_pictures() {
+fn the_tour_of_the_guide_is_a_session_with_images() {
     let folder = tempfile::tempdir().expect("a folder");
     at_the_editor(folder.path(), &[], Viewport { width: 960, height: 640 }, |user| {
-        user.pictures = std::env::var_os("TRIGON_UPDATE_GOLDENS").map(|_| pictures());
+        user.images = std::env::var_os("TRIGON_UPDATE_GOLDENS").map(|_| images());
         user.play(TOUR);
     });
     let guide = fs::read_to_string(docs().join("editor.md")).expect("the guide");
-    let names = TOUR.lines().filter_map(|line| line.trim().strip_prefix("picture "));
+    let names = TOUR.lines().filter_map(|line| line.trim().strip_prefix("image "));
     for name in names {
         assert!(guide.contains(&format!("(images/editor/{name}.png)")), "the guide shows {name}");
-        assert!(pictures().join(format!("{name}.png")).is_file(), "{name}: TRIGON_UPDATE_GOLDENS=1 makes it");
+        assert!(images().join(format!("{name}.png")).is_file(), "{name}: TRIGON_UPDATE_GOLDENS=1 makes it");
     }
 }

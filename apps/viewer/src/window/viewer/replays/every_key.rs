@@ -1,5 +1,5 @@
 //! Every key of the cheat sheet and every panel, in windows of three sizes: nothing ends the program, no
-//! panel covers another, and none leaves the window. With `TRIGON_REPLAY_PICTURES=FOLDER` a screenshot of each
+//! panel covers another, and none leaves the window. With `TRIGON_REPLAY_IMAGES=FOLDER` a screenshot of each
 //! is written, to be looked at.
 
 use trigon_io::{Pixels, write_png};
@@ -20,7 +20,7 @@ const OPENERS: [&str; 9] = ["H", "Ctrl+O", "Shift+D", "N", "M", "Z", "D", "X", "
 const TOGGLES: [&str; 7] =
     ["quality.difference", "axis", "grid", "file.name", "metadata", "frame_time", "frame_time.stages"];
 
-/// What undoes a key that changes the picture, so that the next one is seen alone.
+/// What undoes a key that changes the image, so that the next one is seen alone.
 const UNDONE_BY: [(&str, &str); 15] = [
     ("edges", "E"),
     ("wireframe", "Shift+E Shift+E"),
@@ -92,7 +92,7 @@ fn written_boxes(folder: &Path) -> PathBuf {
 
 /// Writes what is to be seen, if somebody wants to look at it.
 fn screenshot(window: &HeadlessWindow<'_>, name: &str) {
-    let Some(folder) = std::env::var_os("TRIGON_REPLAY_PICTURES") else { return };
+    let Some(folder) = std::env::var_os("TRIGON_REPLAY_IMAGES") else { return };
     let Viewport { width, height } = window.stage().viewport();
     let pixels: Vec<u8> = window.pixels().iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
     let name = name.replace(|c: char| !c.is_ascii_alphanumeric() && c != '+' && c != '-', "_");
@@ -138,7 +138,7 @@ fn with_window(test: impl Fn(&mut HeadlessWindow<'_>, &str)) {
     }
 }
 
-/// Undoes what a key did to the picture.
+/// Undoes what a key did to the image.
 fn restore(window: &mut HeadlessWindow<'_>, name: &str, home: Orbit) {
     let undone = UNDONE_BY.iter().filter(|(of, _)| *of == name).flat_map(|(_, by)| by.split(' '));
     undone.for_each(|chord| window.tap(chord.parse().expect("a chord")));

@@ -8,7 +8,7 @@ use trigon_scene::TextureId;
 use super::origins::Origins;
 use super::text::JsonText;
 use super::{GltfSource, SharedBytes};
-use crate::texture_request::{PictureBytes, Request};
+use crate::texture_request::{ImageBytes, Request};
 
 /// The data collected so far.
 #[derive(Default)]
@@ -52,9 +52,9 @@ impl SourceDraft {
     }
 }
 
-pub(in crate::formats::gltf) fn share(bytes: &PictureBytes) -> SharedBytes {
+pub(in crate::formats::gltf) fn share(bytes: &ImageBytes) -> SharedBytes {
     match bytes {
-        PictureBytes::Own(bytes) => SharedBytes { bytes: bytes.as_slice().into(), range: 0..bytes.len() },
-        PictureBytes::Shared(buffer, range) => SharedBytes { bytes: buffer.clone(), range: range.clone() },
+        ImageBytes::Own(bytes) => SharedBytes { bytes: bytes.as_slice().into(), range: 0..bytes.len() },
+        ImageBytes::Shared(buffer, range) => SharedBytes { bytes: buffer.clone(), range: range.clone() },
     }
 }

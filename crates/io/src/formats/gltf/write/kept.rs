@@ -28,7 +28,7 @@ pub(super) fn draft_of(source: &GltfSource) -> Draft<'_> {
     let views = std::mem::take(draft.list_mut("bufferViews"));
     let moved = views.into_iter().map(|view| moved_view(view, &places));
     *draft.list_mut("bufferViews") = moved.collect();
-    take_pictures_in(&mut draft, source);
+    take_images_in(&mut draft, source);
     draft
 }
 
@@ -90,7 +90,7 @@ fn move_within(object: &mut RawObject, places: &[Moved]) -> bool {
 }
 
 /// Moves images in files or URIs into the buffer.
-fn take_pictures_in<'a>(draft: &mut Draft<'a>, source: &'a GltfSource) {
+fn take_images_in<'a>(draft: &mut Draft<'a>, source: &'a GltfSource) {
     let mut views: HashMap<(usize, usize), usize> = HashMap::new();
     for index in 0..draft.list("images").len() {
         let mut image = draft.object("images", index);

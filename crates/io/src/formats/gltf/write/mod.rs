@@ -75,7 +75,7 @@ fn export<'a>(scene: &'a Scene, options: &'a ExportOptions<'a>) -> Input<'a> {
         scene,
         edited: None,
         kept: None,
-        pictures: options.pictures,
+        images: options.images,
         nodes: options.nodes.as_deref(),
         root: options.root(),
     }

@@ -127,7 +127,7 @@ impl NativeDocument {
             scene: &self.scene,
             edited: Some(&self.edited),
             kept: self.kept.as_deref(),
-            pictures: self.kept.as_ref().map(|kept| &kept.source),
+            images: self.kept.as_ref().map(|kept| &kept.source),
             nodes: None,
             root: None,
         })?;
@@ -155,8 +155,8 @@ impl NativeDocument {
                 scene.replace_mesh(id, mesh);
             }
         }
-        let pictures = options.pictures.or(self.kept.as_ref().map(|kept| &kept.source));
-        export(&scene, name, format, &ExportOptions { pictures, ..options.clone() })
+        let images = options.images.or(self.kept.as_ref().map(|kept| &kept.source));
+        export(&scene, name, format, &ExportOptions { images, ..options.clone() })
     }
 }
 

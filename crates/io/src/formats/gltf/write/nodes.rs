@@ -86,7 +86,7 @@ pub(super) fn camera(projection: &Projection) -> Option<serde_json::Value> {
             }
             Some(json!({"type": "perspective", "perspective": perspective}))
         }
-        // A window as wide as it is tall: glTF wants a width, and readers take the picture's.
+        // A window as wide as it is tall: glTF wants a width, and readers take the image's.
         Projection::Orthographic { height, near, far, .. } if near >= 0.0 => {
             let half = height / 2.0;
             let orthographic = json!({"xmag": half, "ymag": half, "znear": near, "zfar": far});

@@ -34,8 +34,8 @@ pub(super) struct Input<'a> {
     pub(super) edited: Option<&'a BTreeMap<MeshId, EditMesh>>,
     /// The file that the scene came from, if it is to be written back.
     pub(super) kept: Option<&'a KeptFile>,
-    /// Where encoded pictures are.
-    pub(super) pictures: Option<&'a GltfSource>,
+    /// Where encoded images are.
+    pub(super) images: Option<&'a GltfSource>,
     /// Those to write; all unless given.
     pub(super) nodes: Option<&'a [NodeId]>,
     /// A map of everything.
@@ -58,7 +58,7 @@ pub(super) fn write_scene<'a>(input: &Input<'a>) -> Result<WrittenScene<'a>, Wri
         scene: input.scene,
         edited: input.edited,
         kept: input.kept,
-        textures: Textures::new(input.scene, input.pictures, input.kept.is_some()),
+        textures: Textures::new(input.scene, input.images, input.kept.is_some()),
         draft,
         choice: Choice::new(input.scene, input.nodes),
         copies: input.kept.map_or_else(BTreeMap::new, |kept| unchanged_copies(input.scene, kept)),

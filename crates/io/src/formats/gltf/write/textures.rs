@@ -1,4 +1,4 @@
-//! Textures: the picture in its encoded form, the sampler, and where in a mesh it lies.
+//! Textures: the image in its encoded form, the sampler, and where in a mesh it lies.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
@@ -16,7 +16,7 @@ use crate::png::{Pixels, encode_png};
 /// What is known of textures while a document is written.
 pub(super) struct Textures<'a> {
     scene: &'a Scene,
-    /// Where the encoded pictures are.
+    /// Where the encoded images are.
     source: Option<&'a GltfSource>,
     /// Whether images of the source keep their index.
     is_kept: bool,
@@ -85,7 +85,7 @@ impl<'a> Textures<'a> {
         image
     }
 
-    /// Adds a picture: as it was encoded, or else as PNG.
+    /// Adds an image: as it was encoded, or else as PNG.
     fn add_image(&self, draft: &mut Draft<'a>, id: TextureId, origin: Option<usize>) -> Option<usize> {
         let asset = self.scene.textures.get(id)?;
         let encoded = origin.and_then(|image| self.source?.image(image));
@@ -95,7 +95,7 @@ impl<'a> Textures<'a> {
                 let texels: Vec<u8> = asset.texture.texels().flatten().collect();
                 let (width, height) = (asset.texture.width(), asset.texture.height());
                 let mut png = Vec::new();
-                encode_png(&mut png, width, height, Pixels::Rgba8(&texels)).expect("memory takes a picture");
+                encode_png(&mut png, width, height, Pixels::Rgba8(&texels)).expect("memory takes an image");
                 (Cow::Owned(png), "image/png")
             }
         };
@@ -109,7 +109,7 @@ impl<'a> Textures<'a> {
     }
 }
 
-/// What a picture is, by its first bytes, if glTF has a name for it.
+/// What an image is, by its first bytes, if glTF has a name for it.
 pub(crate) fn mime_type(bytes: &[u8]) -> Option<&'static str> {
     let is_webp = bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP");
     match bytes {

@@ -4,8 +4,8 @@ use trigon_math::Vec3;
 use trigon_math::color::linear_to_srgb;
 use trigon_scene::{AlphaMode, Material, MaterialTexture, Shading, TextureBinding, Wrap};
 
+use super::image_files::ImageFiles;
 use super::names::MaterialNames;
-use super::pictures::Pictures;
 use crate::error::Place;
 use crate::export::{Gathered, Precision, push_number};
 use crate::loss::Loss;
@@ -14,10 +14,10 @@ use crate::loss::Loss;
 pub(super) fn write(
     gathered: &mut Gathered<'_>,
     names: &MaterialNames,
-    pictures: &mut Pictures<'_>,
+    images: &mut ImageFiles<'_>,
 ) -> String {
     let mut library =
-        Library { text: "# written by trigon\n".to_owned(), pictures, losses: &mut gathered.losses };
+        Library { text: "# written by trigon\n".to_owned(), images, losses: &mut gathered.losses };
     for (id, name) in names {
         let material = id.and_then(|id| gathered.scene.materials.get(id));
         library.material(name, material.unwrap_or(&Material::default()));
@@ -27,7 +27,7 @@ pub(super) fn write(
 
 struct Library<'l, 'p> {
     text: String,
-    pictures: &'l mut Pictures<'p>,
+    images: &'l mut ImageFiles<'p>,
     losses: &'l mut Vec<Loss>,
 }
 
@@ -90,7 +90,7 @@ impl Library<'_, '_> {
 
     fn map(&mut self, keyword: &str, options: &str, binding: Option<&TextureBinding>) {
         let Some(binding) = binding else { return };
-        let Some(file) = self.pictures.file(binding.texture) else { return };
+        let Some(file) = self.images.file(binding.texture) else { return };
         let (scale, offset) = (binding.transform.matrix2, binding.transform.translation);
         let mut line = format!("{keyword}{options}");
         let (u, v) = (scale.x_axis.x, scale.y_axis.y);

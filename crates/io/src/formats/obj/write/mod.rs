@@ -1,23 +1,23 @@
 //! Scenes as OBJ: objects with their polygons, normals, texture coordinates and vertex colours, a
-//! material library and the pictures beside it.
+//! material library and the images beside it.
 //!
-//! `elements` writes the geometry, `materials` the library, `pictures` what it names.
+//! `elements` writes the geometry, `materials` the library, `images` what it names.
 
 mod elements;
+mod image_files;
 mod materials;
 mod names;
-mod pictures;
 
 use std::path::Path;
 
 use self::elements::Elements;
+use self::image_files::ImageFiles;
 use self::names::{Names, name_materials};
-use self::pictures::Pictures;
 use crate::export::{ExportOptions, ExportedFile, Gathered, plain_name};
 use crate::loss::Loss;
 use crate::write::WriteError;
 
-/// Writes an OBJ with its MTL and its pictures.
+/// Writes an OBJ with its MTL and its images.
 pub(crate) fn write_obj(
     name: &str,
     gathered: &mut Gathered<'_>,
@@ -37,12 +37,12 @@ pub(crate) fn write_obj(
     }
     let has_varying_colors = elements.has_varying_colors;
     let text = elements.text;
-    let mut pictures = Pictures::new(&stem, gathered.scene, options.pictures);
-    let mtl = materials::write(gathered, &materials, &mut pictures);
+    let mut images = ImageFiles::new(&stem, gathered.scene, options.images);
+    let mtl = materials::write(gathered, &materials, &mut images);
     if has_varying_colors {
         gathered.losses.push(Loss::of_scene("vertex colours that differ between the faces of a vertex"));
     }
-    let mut files = pictures.into_files();
+    let mut files = images.into_files();
     if !materials.is_empty() {
         files.push(ExportedFile { name: library, bytes: mtl.into_bytes() });
     }

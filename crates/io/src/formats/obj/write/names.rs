@@ -1,4 +1,4 @@
-//! Names of objects, materials and pictures.
+//! Names of objects, materials and images.
 
 use std::collections::{BTreeMap, BTreeSet};
 

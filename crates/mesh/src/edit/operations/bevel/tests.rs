@@ -363,8 +363,8 @@ fn materials_and_marks_go_to_the_sides_of_a_bevel() {
 }
 
 #[test]
-fn where_pictures_are_cut_each_side_continues_its_own() {
-    // Each face of the cube shows the whole picture.
+fn where_images_are_cut_each_side_continues_its_own() {
+    // Each face of the cube shows the whole image.
     for segments in 1..5 {
         let (mut mesh, _) = EditMesh::from_mesh(&primitives::cube(2.0));
         let made = mesh.bevel_edges(&all_edges(&mesh), &settings(0.25, segments, 0.5)).expect("twelve edges");
@@ -373,7 +373,7 @@ fn where_pictures_are_cut_each_side_continues_its_own() {
             let inside = uv.cmpge(Vec2::splat(-1e-6)).all() && uv.cmple(Vec2::splat(1.0 + 1e-6)).all();
             assert!(inside, "{corner} shows {uv}, which no face showed");
         }
-        // Along at least one rim, the strip's picture continues that of the face.
+        // Along at least one rim, the strip's image continues that of the face.
         for &face in &made.faces[..12 * segments] {
             let continues = |corner: CornerId| {
                 let other = mesh.radial_next(corner);

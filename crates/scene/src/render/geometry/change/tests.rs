@@ -1,4 +1,4 @@
-//! Geometry that follows changes, and pictures of it, beside those of a scene that was made
+//! Geometry that follows changes, and images of it, beside those of a scene that was made
 //! with the changed mesh.
 
 use proptest::prelude::*;
@@ -12,7 +12,7 @@ use crate::{
     RenderSettings, Renderer, Scene, Style, TextureBinding, render,
 };
 
-/// Everything that pictures are made of, triangle by triangle, as bits.
+/// Everything that images are made of, triangle by triangle, as bits.
 #[derive(Debug, PartialEq)]
 struct Contents {
     triangles: Vec<[Vec<u32>; 3]>,
@@ -262,7 +262,7 @@ proptest! {
     }
 
     #[test]
-    fn pictures_after_changes_are_those_of_the_changed_mesh(
+    fn images_after_changes_are_those_of_the_changed_mesh(
         mesh in bound(),
         steps in prop::collection::vec(edits(), 1..4),
         style in prop::sample::select(vec![Style::Surface, Style::SurfaceWithEdges, Style::HiddenLine]),

@@ -1,4 +1,4 @@
-//! Which pictures are drawn beside the window, and what becomes of them.
+//! Which images are drawn beside the window, and what becomes of them.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -14,7 +14,7 @@ use crate::shown::{DrawnNodes, Shown};
 use crate::stage::FrameReport;
 use crate::worker::{Finished, Job, Product, Purpose, Task, Unfinished};
 
-/// No picture is expected in less than this.
+/// No image is expected in less than this.
 const SHORTEST_BUDGET: Duration = Duration::from_millis(1);
 
 impl Session<'_> {
@@ -24,7 +24,7 @@ impl Session<'_> {
         self.pacing.occupy(None);
         match finished.purpose {
             Purpose::Window(quality) => self.window_finished(quality, finished),
-            Purpose::Picture => self.picture_finished(finished, now),
+            Purpose::Image => self.image_finished(finished, now),
         }
         self.begin_asked(now);
         self.plan(now);
@@ -33,11 +33,11 @@ impl Session<'_> {
     fn window_finished(&mut self, quality: Quality, finished: Finished) {
         let Finished { views, took, stages, product, .. } = finished;
         match product {
-            Ok(Product::Picture(frame)) => {
+            Ok(Product::Frame(frame)) => {
                 self.pacing.finished(took);
                 let nodes = self.nodes.as_ref().map_or_else(Arc::default, |(_, nodes)| Arc::clone(nodes));
                 self.gallery.add(quality, Shown { frame, views, nodes }, took);
-                self.pictured.clone_from(&self.subject);
+                self.drawn_subject.clone_from(&self.subject);
                 if matches!(quality, Quality::Draft { .. } | Quality::Full(0)) {
                     self.stage.set_report(FrameReport { render: took, stages, ..self.stage.report() });
                 }
@@ -54,14 +54,14 @@ impl Session<'_> {
         }
     }
 
-    fn picture_finished(&mut self, finished: Finished, now: Duration) {
+    fn image_finished(&mut self, finished: Finished, now: Duration) {
         match finished.product {
-            Ok(Product::Picture(frame)) => {
-                self.handler.picture(&mut self.stage, Arc::unwrap_or_clone(frame));
+            Ok(Product::Frame(frame)) => {
+                self.handler.image(&mut self.stage, Arc::unwrap_or_clone(frame));
                 self.after_handler(now);
             }
             Err(Unfinished::Impossible(reason)) => self.stage.overlay.notify(reason),
-            // Nobody cancels pictures that were asked for, and they are no comparisons.
+            // Nobody cancels images that were asked for, and they are no comparisons.
             Ok(Product::Comparison(_)) | Err(Unfinished::Cancelled) => {}
         }
     }
@@ -70,7 +70,7 @@ impl Session<'_> {
     pub(super) fn plan(&mut self, now: Duration) {
         self.pacing.want(self.stage.wanted_steps());
         self.pacing.allow(self.stage.frame_budget.max(SHORTEST_BUDGET));
-        let is_current = self.pictured.as_ref() == Some(&self.stage.subject());
+        let is_current = self.drawn_subject.as_ref() == Some(&self.stage.subject());
         let report = self.gallery.report().filter(|_| is_current);
         let progress = self.pacing.progress(now);
         let is_long = progress.is_some_and(|progress| progress.seconds() > 0);
@@ -81,7 +81,7 @@ impl Session<'_> {
             self.stage.set_progress(progress, percent);
             self.pacing.changed(Change::Overlay, now);
         }
-        let wanted = self.gallery.shown(self.stage.wanted_picture()).cloned();
+        let wanted = self.gallery.shown(self.stage.wanted_image()).cloned();
         let is_same = match (&wanted, &self.shown) {
             (Some(wanted), Some(shown)) => Arc::ptr_eq(wanted, shown),
             _ => wanted.is_none(),
@@ -89,12 +89,12 @@ impl Session<'_> {
         if !is_same {
             self.shown = wanted;
             self.stale = true;
-            self.stage.show(self.gallery.picked(self.stage.wanted_picture()));
+            self.stage.show(self.gallery.picked(self.stage.wanted_image()));
         }
     }
 
-    /// Brings the picture under the interface, at the window's size, unless it is there.
-    pub(super) fn show_picture(&mut self) {
+    /// Brings the image under the interface, at the window's size, unless it is there.
+    pub(super) fn show_image(&mut self) {
         if !std::mem::take(&mut self.stale) {
             return;
         }
@@ -103,10 +103,10 @@ impl Session<'_> {
         self.canvas.show(self.shown.as_deref(), [width, height], |changed| painter.invalidate_part(changed));
     }
 
-    /// Begins a picture that was asked for, if the worker has time. It need not wait for
+    /// Begins an image that was asked for, if the worker has time. It need not wait for
     /// one that is only better than what is shown.
     pub(super) fn begin_asked(&mut self, now: Duration) {
-        if self.pictures.is_empty() {
+        if self.images.is_empty() {
             return;
         }
         if self.worker.is_busy() {
@@ -116,15 +116,15 @@ impl Session<'_> {
             }
             return;
         }
-        let settings = self.pictures.remove(0);
+        let settings = self.images.remove(0);
         self.pacing.occupy(Some(now));
-        let task = self.drawing(Purpose::Picture, settings);
-        self.begin(Purpose::Picture, task);
+        let task = self.drawing(Purpose::Image, settings);
+        self.begin(Purpose::Image, task);
         self.collect(now);
     }
 
-    /// Begins the window's picture.
-    pub(super) fn begin_picture(&mut self, quality: Quality) {
+    /// Begins the window's image.
+    pub(super) fn begin_image(&mut self, quality: Quality) {
         self.subject = Some(self.stage.subject());
         let revision = self.stage.scene.revision();
         if self.nodes.as_ref().is_none_or(|(known, _)| *known != revision) {
@@ -160,7 +160,7 @@ impl Session<'_> {
         Some(task)
     }
 
-    /// A picture by the renderer.
+    /// An image by the renderer.
     fn drawing(&mut self, purpose: Purpose, settings: RenderSettings) -> Task {
         let scene = self.stage.scene.update(self.worker.held(purpose));
         Task::Draw { scene, settings: Box::new(settings), drawer: None }
@@ -172,14 +172,14 @@ impl Session<'_> {
         let (_, bounds) = *self.bounds.insert(known.unwrap_or_else(|| (revision, self.stage.scene.bounds())));
         let views = match purpose {
             Purpose::Window(_) => Views::new(&self.stage.panes(), self.stage.viewport(), &steady(&bounds)),
-            Purpose::Picture => self.stage.orbit.camera(&bounds).into(),
+            Purpose::Image => self.stage.orbit.camera(&bounds).into(),
         };
         self.worker.begin(Job { purpose, views, stage_times: self.stage.stage_times, task });
     }
 }
 
 /// A box around bounds that mostly stays while they change a little: the clip planes follow
-/// from it, and with other planes nothing of the last picture can be kept. Whoever drags the
+/// from it, and with other planes nothing of the last image can be kept. Whoever drags the
 /// outermost vertex changes the bounds with every movement.
 fn steady(bounds: &Bounds3) -> Bounds3 {
     /// Of the bounds' size, the part that the box is rounded to, up to a factor of two.

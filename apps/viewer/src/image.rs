@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use serde_json::json;
 use trigon_camera::Camera;
-use trigon_io::{Capture, Limits, Picture, Sequence, compare_pictures, load_image};
+use trigon_io::{Capture, Limits, RgbaImage, Sequence, compare_images, load_image};
 use trigon_scene::{Frame, RenderSettings, Renderer};
 
 use crate::args::{Destination, Limit, Mode, Reference, Request, Subject, Template};
@@ -22,7 +22,7 @@ use crate::scripted;
 use crate::series::Series;
 use crate::source::Source;
 
-/// Draws and writes a picture of every source. A source that fails does not
+/// Draws and writes an image of every source. A source that fails does not
 /// keep the others from being drawn; the worst exit code is returned.
 pub(crate) fn run(
     request: &Request,
@@ -83,12 +83,12 @@ pub(crate) fn draw_source(
 
 fn output_template(request: &Request) -> Option<&Template> {
     match &request.mode {
-        Mode::Picture { output: Some(Destination::File(template)), .. } => Some(template),
+        Mode::Image { output: Some(Destination::File(template)), .. } => Some(template),
         _ => None,
     }
 }
 
-/// A picture, and how it came about.
+/// An image, and how it came about.
 struct Drawn {
     frame: Frame,
     settings: RenderSettings,
@@ -96,7 +96,7 @@ struct Drawn {
     pixels_shaded: u64,
 }
 
-/// Writes what draws the picture again.
+/// Writes what draws the image again.
 fn keep(
     model: &Model,
     camera: Camera,
@@ -106,11 +106,11 @@ fn keep(
 ) -> Result<(), Failure> {
     let capture = Capture::new(model.scene.clone(), camera, drawn.settings.clone(), &drawn.frame);
     capture.write(path).map_err(Failure::work)?;
-    reporter.info(format_args!("captured {} ({:016x})", path.display(), capture.picture_hash()));
+    reporter.info(format_args!("captured {} ({:016x})", path.display(), capture.image_hash()));
     Ok(())
 }
 
-/// Writes a picture, if there is nothing to compare it with or it differs. Returns how far
+/// Writes an image, if there is nothing to compare it with or it differs. Returns how far
 /// it is from that.
 fn deliver(
     source: &Source,
@@ -119,7 +119,7 @@ fn deliver(
     outlet: &mut Outlet<'_>,
     reporter: Reporter,
 ) -> Result<Option<f64>, Failure> {
-    let subject = Subject { model: source.picture_subject(), frame: 0 };
+    let subject = Subject { model: source.image_subject(), frame: 0 };
     let Some(reference) = &request.reference else {
         outlet.put(subject, frame)?;
         return Ok(None);
@@ -131,12 +131,12 @@ fn deliver(
             Some(path) => format!("{} was written: rename it to that if it is right", path.display()),
             None => "write one with --output, look at it, and give it that name".to_owned(),
         };
-        return Err(Failure::Mismatch(format!("{name}: there is no picture to compare with; {remedy}")));
+        return Err(Failure::Mismatch(format!("{name}: there is no image to compare with; {remedy}")));
     }
     compare(reference, frame, &mut |frame| outlet.put(subject, frame), reporter).map(Some)
 }
 
-/// Compares a picture; one that differs is written, and where it differs beside it.
+/// Compares an image; one that differs is written, and where it differs beside it.
 fn compare(
     reference: &Reference,
     frame: &Frame,
@@ -145,8 +145,8 @@ fn compare(
 ) -> Result<f64, Failure> {
     let wanted = load_image(&reference.file, &Limits::default()).map_err(Failure::work)?;
     let (name, threshold) = (reference.file.display(), reference.threshold);
-    let drawn = Picture { width: frame.width, height: frame.height, rgba: frame.color.clone() };
-    let difference = match compare_pictures(&drawn, &wanted) {
+    let drawn = RgbaImage { width: frame.width, height: frame.height, rgba: frame.color.clone() };
+    let difference = match compare_images(&drawn, &wanted) {
         Ok(difference) => difference,
         Err(sizes) => {
             put(frame)?;
@@ -160,7 +160,7 @@ fn compare(
         ));
         return Ok(error);
     }
-    let Picture { width, height, rgba } = difference.picture;
+    let RgbaImage { width, height, rgba } = difference.image;
     if let Some(path) = put(frame)? {
         let path = path.with_extension("diff.png");
         write_file(&path, &Frame { width, height, color: rgba, ..Frame::default() })?;
@@ -172,13 +172,13 @@ fn compare(
     )))
 }
 
-/// Draws picture after picture, to as many files or to one.
+/// Draws image after image, to as many files or to one.
 fn draw_series(model: &mut Model, request: &Request, outlet: &mut Outlet<'_>) -> Result<(), Failure> {
     let series = Series::new(model, request)?;
     request.scenery.add_to(&mut model.scene);
     let mut renderer = Renderer::new(request.settings.clone());
     let subject = model.source.clone();
-    let subject = |frame| Subject { model: subject.picture_subject(), frame };
+    let subject = |frame| Subject { model: subject.image_subject(), frame };
     let mut draw = |number| -> Result<Frame, Failure> {
         let camera = series.set(&mut model.scene, number);
         let frame = renderer.render(&model.scene, &camera).map_err(Failure::work)?;
@@ -196,7 +196,7 @@ fn draw_series(model: &mut Model, request: &Request, outlet: &mut Outlet<'_>) ->
     (0..series.frames()).try_for_each(|number| outlet.put(subject(number), &draw(number)?).map(drop))
 }
 
-/// What is drawn and written over a picture.
+/// What is drawn and written over an image.
 pub(crate) fn finished(
     mut frame: Frame,
     model: &Model,
@@ -223,7 +223,7 @@ pub(crate) fn finished(
     Ok(frame)
 }
 
-/// A picture, and the settings that it was drawn with.
+/// An image, and the settings that it was drawn with.
 fn draw(model: &Model, camera: &Camera, request: &Request, reporter: Reporter) -> Result<Drawn, Failure> {
     let started = Instant::now();
     let mut renderer = Renderer::new(request.settings.clone());
@@ -242,7 +242,7 @@ fn draw(model: &Model, camera: &Camera, request: &Request, reporter: Reporter) -
     reporter.debug(format_args!("drew {title} ({faces} faces) in {:.1} ms", seconds * 1e3));
     Ok(Drawn { frame, settings: renderer.settings().clone(), seconds, pixels_shaded })
 }
-/// The most accurate picture that fits into a time; says what that gives up.
+/// The most accurate image that fits into a time; says what that gives up.
 fn draw_within(
     limit: &Limit,
     model: &Model,

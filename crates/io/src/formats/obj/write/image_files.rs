@@ -1,4 +1,4 @@
-//! The pictures beside a material library: as they were encoded, or as PNG.
+//! The images beside a material library: as they were encoded, or as PNG.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,8 +10,8 @@ use crate::export::{ExportedFile, plain_name};
 use crate::formats::gltf::{GltfSource, mime_type};
 use crate::png::{Pixels, encode_png};
 
-pub(super) struct Pictures<'a> {
-    /// What all names begin with, so that none is that of another model's picture.
+pub(super) struct ImageFiles<'a> {
+    /// What all names begin with, so that none is that of another model's image.
     stem: &'a str,
     scene: &'a Scene,
     source: Option<&'a GltfSource>,
@@ -20,7 +20,7 @@ pub(super) struct Pictures<'a> {
     files: Vec<ExportedFile>,
 }
 
-impl<'a> Pictures<'a> {
+impl<'a> ImageFiles<'a> {
     pub(super) fn new(stem: &'a str, scene: &'a Scene, source: Option<&'a GltfSource>) -> Self {
         let (names, known, files) = Default::default();
         Self { stem, scene, source, names, known, files }
@@ -42,7 +42,7 @@ impl<'a> Pictures<'a> {
             let texels: Vec<u8> = asset.texture.texels().flatten().collect();
             let mut png = Vec::new();
             let (width, height) = (asset.texture.width(), asset.texture.height());
-            encode_png(&mut png, width, height, Pixels::Rgba8(&texels)).expect("memory takes a picture");
+            encode_png(&mut png, width, height, Pixels::Rgba8(&texels)).expect("memory takes an image");
             (png, "png")
         });
         let own = asset.name.replace('\\', "/");
@@ -55,7 +55,7 @@ impl<'a> Pictures<'a> {
     }
 }
 
-/// The ending of a kind of picture that other programs read in an MTL.
+/// The ending of a kind of image that other programs read in an MTL.
 fn ending(mime_type: &str) -> Option<&'static str> {
     match mime_type {
         "image/png" => Some("png"),

@@ -1,4 +1,4 @@
-//! Pictures side by side.
+//! Images side by side.
 
 use crate::field::Field;
 use image::RgbImage;
@@ -7,15 +7,15 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::Path;
 
-/// Some pictures of the same size next to each other.
-pub(super) struct Picture {
+/// Some images of the same size next to each other.
+pub(super) struct ImageRow {
     name: &'static str,
     pub(super) caption: String,
     panels: Vec<Field<[u8; 3]>>,
 }
 
-impl Picture {
-    /// Pictures from left to right.
+impl ImageRow {
+    /// Images from left to right.
     pub(super) fn new(name: &'static str, caption: impl Into<String>, panels: Vec<Field<[u8; 3]>>) -> Self {
         Self { name, caption: caption.into(), panels }
     }
@@ -61,7 +61,7 @@ pub(super) fn tint(number: u32) -> [u8; 3] {
     [16, 32, 48].map(|shift| 64 + (bits >> shift & 0x7f) as u8)
 }
 
-/// The faces of a picture in colours; nothing is dark.
+/// The faces of an image in colours; nothing is dark.
 pub(super) fn tinted(faces: &Field<u32>) -> Field<[u8; 3]> {
     faces.map(|&face| if face == u32::MAX { [24; 3] } else { tint(face) })
 }

@@ -1,4 +1,4 @@
-//! Whole pictures of many triangles, in any order and with any settings, against a search through all triangles at
+//! Whole images of many triangles, in any order and with any settings, against a search through all triangles at
 //! every sample.
 //!
 //! Coverage is [`trigon_study::oracle::coverage`]'s, in whole numbers. A triangle's depth is the sum of its corners'
@@ -12,8 +12,8 @@ use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_math::Vec4;
 use trigon_raster::{
-    Background, BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures,
-    Pipeline, Rect, Target, TileSize, VertexOutput,
+    Background, BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rect,
+    Target, TargetImages, TileSize, VertexOutput,
 };
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::{covers, doubled_area, sample_points};
@@ -97,7 +97,7 @@ impl Case {
         part
     }
 
-    fn draw(&self) -> Pictures {
+    fn draw(&self) -> TargetImages {
         let parts: Vec<(usize, Part)> = self.order.iter().map(|&draw| (draw, self.part(draw))).collect();
         let outputs = [Output::Linear, Output::Depth, Output::Object, Output::Face];
         let target = Target::new(SIDE as u32, SIDE as u32, &outputs).expect("the size is in range");
@@ -117,7 +117,7 @@ impl Case {
             pass.scissor(Rect::new(min, max));
         }
         rasterizer.draw(&pass, &mut target);
-        target.into_pictures()
+        target.into_images()
     }
 
     /// What a sample shows: the triangle if one is surely the nearest, and the light; none where rounding decides.
@@ -249,8 +249,8 @@ proptest! {
     #![proptest_config(cases(64))]
 
     #[test]
-    fn every_setting_and_order_gives_the_picture_that_a_search_finds(case in case()) {
-        let Pictures { linear, depth: depths, objects, faces, .. } = case.draw();
+    fn every_setting_and_order_gives_the_image_that_a_search_finds(case in case()) {
+        let TargetImages { linear, depth: depths, objects, faces, .. } = case.draw();
         let (linear, depths) = (linear.expect("asked for"), depths.expect("asked for"));
         let (objects, faces) = (objects.expect("asked for"), faces.expect("asked for"));
         let boxes: Vec<_> = case.sheets.iter().map(|sheet| {

@@ -1,4 +1,4 @@
-//! Which pictures the manifest holds.
+//! Which images the manifest holds.
 
 use super::layouts::Layout;
 use crate::coverage_support::Samples;
@@ -6,12 +6,12 @@ use crate::programs::{Flat, Lanes, Scalar, Textured, Vertices};
 use trigon_math::{UVec2, Vec4};
 use trigon_raster::{
     Background, BlendMode, Culling, Draw, Filter, LanePipeline, Lines, MipFilter, Outline, Output, Pass,
-    Pictures, PointShape, Points, Rasterizer, Sampler, Texture, TextureFormat,
+    PointShape, Points, Rasterizer, Sampler, TargetImages, Texture, TextureFormat,
 };
 
 const SIZE: [u32; 2] = [96, 64];
 
-/// Triangles without area that come with each picture: a frame of so many is
+/// Triangles without area that come with each image: a frame of so many is
 /// shared among threads.
 const IDLE: usize = 7000;
 
@@ -42,9 +42,9 @@ const EVERYTHING: &[Output] = &[
     Output::Triangle,
 ];
 
-/// One picture of the manifest.
+/// One image of the manifest.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Picture {
+pub(super) struct Case {
     shape: Shape,
     layout: Layout,
     program: Program,
@@ -54,7 +54,7 @@ pub(super) struct Picture {
 }
 
 /// A ring in lanes, opaque, one sample, all outputs.
-const USUAL: Picture = Picture {
+const USUAL: Case = Case {
     shape: Shape::Triangles,
     layout: Layout::Ring,
     program: Program::Lanes,
@@ -69,43 +69,43 @@ fn multisampled(per_pixel: u32) -> Samples {
     Samples { per_axis: 1, per_pixel }
 }
 
-/// All pictures, each of another name.
-pub(super) fn all() -> Vec<Picture> {
+/// All images, each of another name.
+pub(super) fn all() -> Vec<Case> {
     [samples(), shapes(), programs(), layouts(), outputs()].concat()
 }
 
-fn samples() -> Vec<Picture> {
+fn samples() -> Vec<Case> {
     let supersampled = [2, 3].map(|per_axis| Samples { per_axis, per_pixel: 1 });
     let patterns = [1, 2, 4, 8, 16].map(multisampled).into_iter().chain(supersampled);
-    let pictures = patterns.flat_map(|samples| SURFACES.map(|surface| Picture { surface, samples, ..USUAL }));
-    let per_sample = [4, 8].map(|samples| Picture {
+    let images = patterns.flat_map(|samples| SURFACES.map(|surface| Case { surface, samples, ..USUAL }));
+    let per_sample = [4, 8].map(|samples| Case {
         surface: BlendMode::MaskedPerSample,
         samples: multisampled(samples),
         ..USUAL
     });
-    pictures.chain(per_sample).collect()
+    images.chain(per_sample).collect()
 }
 
-fn shapes() -> Vec<Picture> {
+fn shapes() -> Vec<Case> {
     let shapes = [Shape::Lines(Outline::Sharp), Shape::Points(PointShape::Round, Outline::Sharp)];
     let cases = shapes.into_iter().flat_map(|shape| SURFACES.map(|surface| (shape, surface)));
     let cases = cases.flat_map(|case| [1, 4].map(|samples| (case, multisampled(samples))));
-    let cases = cases.map(|((shape, surface), samples)| Picture { shape, surface, samples, ..USUAL });
-    let square = Picture { shape: Shape::Points(PointShape::Square, Outline::Sharp), ..USUAL };
+    let cases = cases.map(|((shape, surface), samples)| Case { shape, surface, samples, ..USUAL });
+    let square = Case { shape: Shape::Points(PointShape::Square, Outline::Sharp), ..USUAL };
     cases.chain([square]).chain(smooth_shapes()).collect()
 }
 
-fn smooth_shapes() -> impl Iterator<Item = Picture> {
+fn smooth_shapes() -> impl Iterator<Item = Case> {
     let points =
         [PointShape::Round, PointShape::Square].map(|shape| Shape::Points(shape, Outline::AntiAliased));
     let shapes = points.into_iter().chain([Shape::Lines(Outline::AntiAliased)]);
-    shapes.flat_map(|shape| [1, 4].map(|samples| Picture { shape, samples: multisampled(samples), ..USUAL }))
+    shapes.flat_map(|shape| [1, 4].map(|samples| Case { shape, samples: multisampled(samples), ..USUAL }))
 }
 
-fn programs() -> Vec<Picture> {
+fn programs() -> Vec<Case> {
     let plain = [Program::Scalar, Program::Flat].into_iter();
     let plain = plain.flat_map(|program| {
-        [(1, Layout::Scattered), (4, Layout::Ring)].map(|(samples, layout)| Picture {
+        [(1, Layout::Scattered), (4, Layout::Ring)].map(|(samples, layout)| Case {
             program,
             layout,
             samples: multisampled(samples),
@@ -122,7 +122,7 @@ fn programs() -> Vec<Picture> {
         (srgb, Filter::Linear, MipFilter::Linear),
         (srgb, Filter::Linear, MipFilter::Anisotropic(16)),
     ];
-    let textured = textured.map(|(format, filter, mip)| Picture {
+    let textured = textured.map(|(format, filter, mip)| Case {
         layout: Layout::Ground,
         program: Program::Textured(format, filter, mip),
         ..USUAL
@@ -130,13 +130,13 @@ fn programs() -> Vec<Picture> {
     plain.chain(textured).collect()
 }
 
-fn layouts() -> Vec<Picture> {
+fn layouts() -> Vec<Case> {
     let layouts = [Layout::Ground, Layout::Scattered, Layout::Huge, Layout::Needles];
     let cases = layouts.into_iter().flat_map(|layout| [1, 8].map(|samples| (layout, samples)));
-    cases.map(|(layout, samples)| Picture { layout, samples: multisampled(samples), ..USUAL }).collect()
+    cases.map(|(layout, samples)| Case { layout, samples: multisampled(samples), ..USUAL }).collect()
 }
 
-fn outputs() -> Vec<Picture> {
+fn outputs() -> Vec<Case> {
     let outputs: [&[Output]; 5] = [
         &[Output::Srgb8],
         &[Output::Unorm8],
@@ -144,11 +144,11 @@ fn outputs() -> Vec<Picture> {
         &[Output::Depth],
         &[Output::Object, Output::Face, Output::Triangle],
     ];
-    outputs.into_iter().map(|outputs| Picture { outputs, ..USUAL }).collect()
+    outputs.into_iter().map(|outputs| Case { outputs, ..USUAL }).collect()
 }
 
-impl Picture {
-    /// What it shows, in words that no other picture has.
+impl Case {
+    /// What it shows, in words that no other image has.
     pub(super) fn name(&self) -> String {
         let Self { shape, layout, program, surface, samples, outputs } = self;
         let outputs = if *outputs == EVERYTHING { "[Everything]".to_owned() } else { format!("{outputs:?}") };
@@ -162,7 +162,7 @@ impl Picture {
     }
 
     /// Draws it.
-    pub(super) fn draw(&self, rasterizer: &mut Rasterizer) -> Pictures {
+    pub(super) fn draw(&self, rasterizer: &mut Rasterizer) -> TargetImages {
         let (vertices, triangles) = self.layout.build();
         match self.program {
             Program::Scalar => self.run(rasterizer, &Scalar(&vertices), &triangles),
@@ -180,7 +180,7 @@ impl Picture {
         (format, filter, mip): (TextureFormat, Filter, MipFilter),
         vertices: &Vertices,
         triangles: &[[u32; 3]],
-    ) -> Pictures {
+    ) -> TargetImages {
         let texels = (0..48 * 32_u32).map(|i| i.wrapping_mul(2_654_435_761).to_be_bytes()).collect();
         let texture = Texture::new(48, 32, texels, format).expect("as many texels as it has");
         let sampler = Sampler { magnification: filter, minification: filter, mip, ..Sampler::default() };
@@ -192,7 +192,7 @@ impl Picture {
         rasterizer: &mut Rasterizer,
         pipeline: &P,
         triangles: &[[u32; 3]],
-    ) -> Pictures {
+    ) -> TargetImages {
         let surface = self.surface;
         let segments: Vec<[u32; 2]> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c]]).collect();
         let points: Vec<u32> = (0..pipeline.vertex_count() as u32).collect();
@@ -233,7 +233,7 @@ impl Picture {
         };
         let mut target = self.samples.target(SIZE, self.outputs);
         rasterizer.draw(&pass, &mut target);
-        target.into_pictures()
+        target.into_images()
     }
 
     /// Whether a good part of it is not background.

@@ -16,7 +16,7 @@ use crate::limits::Limits;
 
 /// An image in memory: sRGB colours with straight alpha.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
+pub struct RgbaImage {
     /// Pixels.
     pub width: u32,
     /// Pixels.
@@ -30,16 +30,16 @@ pub struct Picture {
 ///
 /// # Errors
 /// The file cannot be read, has another format, is broken, or is larger than the limits.
-pub fn load_image(path: impl AsRef<Path>, limits: &Limits) -> Result<Picture, LoadError> {
+pub fn load_image(path: impl AsRef<Path>, limits: &Limits) -> Result<RgbaImage, LoadError> {
     let path = path.as_ref();
     let bytes = Folder::none(limits).read_model(path, &to_the_end)?;
-    decode_picture(&bytes, limits)
+    decode_image(&bytes, limits)
         .map_err(|why| LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as PNG, JPEG or WebP"))
 }
 
 /// Width and height according to the image's header, if within the limits. Reads only the header.
-pub(crate) fn picture_size(bytes: &[u8], limits: &Limits) -> Result<(u32, u32), String> {
-    let format = picture_format(bytes)?;
+pub(crate) fn image_size(bytes: &[u8], limits: &Limits) -> Result<(u32, u32), String> {
+    let format = image_format(bytes)?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(decoder_limits(limits));
     let size = reader.into_dimensions().map_err(|error| reason(&error))?;
@@ -51,21 +51,21 @@ pub(crate) fn picture_size(bytes: &[u8], limits: &Limits) -> Result<(u32, u32), 
 pub(crate) fn check_claim((width, height): (u32, u32), limits: &Limits) -> Result<(), String> {
     let pixels = u64::from(width) * u64::from(height);
     if width == 0 || height == 0 {
-        return Err(format!("the picture has no pixels ({width}×{height})"));
+        return Err(format!("the image has no pixels ({width}×{height})"));
     }
     if width.max(height) > limits.image_side || pixels > limits.image_pixels {
         let (side, most) = (limits.image_side, limits.image_pixels);
         return Err(format!(
-            "the picture claims {width}×{height} pixels; the limit is {side} a side and {most} in all"
+            "the image claims {width}×{height} pixels; the limit is {side} a side and {most} in all"
         ));
     }
     Ok(())
 }
 
 /// Decodes an image, or returns why it cannot be decoded.
-pub(crate) fn decode_picture(bytes: &[u8], limits: &Limits) -> Result<Picture, String> {
-    let (width, height) = picture_size(bytes, limits)?;
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), picture_format(bytes)?);
+pub(crate) fn decode_image(bytes: &[u8], limits: &Limits) -> Result<RgbaImage, String> {
+    let (width, height) = image_size(bytes, limits)?;
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), image_format(bytes)?);
     reader.limits(decoder_limits(limits));
     let decoder = reader.into_decoder().map_err(|error| reason(&error))?;
     let color = decoder.color_type();
@@ -74,7 +74,7 @@ pub(crate) fn decode_picture(bytes: &[u8], limits: &Limits) -> Result<Picture, S
     decoder.read_image(&mut bytes).map_err(|error| reason(&error))?;
     let is_wide = color.bytes_per_pixel() == 2 * color.channel_count();
     let channels = if is_wide { rounded(&bytes) } else { bytes };
-    Ok(Picture { width, height, rgba: spread(channels, color.channel_count()) })
+    Ok(RgbaImage { width, height, rgba: spread(channels, color.channel_count()) })
 }
 
 /// 16-bit channels, in native byte order, rounded to 8.
@@ -97,29 +97,29 @@ fn spread(channels: Vec<u8>, count: u8) -> Vec<u8> {
 }
 
 /// A conspicuous placeholder for a missing image: magenta and grey squares.
-pub(crate) fn placeholder() -> Picture {
+pub(crate) fn placeholder() -> RgbaImage {
     const SIDE: u32 = 16;
     const SQUARE: u32 = 4;
     let pixel = |index: u32| {
         let (x, y) = (index % SIDE / SQUARE, index / SIDE / SQUARE);
         if (x + y) % 2 == 0 { [255, 0, 255, 255] } else { [96, 96, 96, 255] }
     };
-    Picture { width: SIDE, height: SIDE, rgba: (0..SIDE * SIDE).flat_map(pixel).collect() }
+    RgbaImage { width: SIDE, height: SIDE, rgba: (0..SIDE * SIDE).flat_map(pixel).collect() }
 }
 
 /// The format by the first bytes.
-fn picture_format(bytes: &[u8]) -> Result<ImageFormat, String> {
+fn image_format(bytes: &[u8]) -> Result<ImageFormat, String> {
     match image::guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => Ok(format),
         Ok(format) => {
-            Err(format!("pictures of the format {format:?} are not supported, only PNG, JPEG and WebP are"))
+            Err(format!("images of the format {format:?} are not supported, only PNG, JPEG and WebP are"))
         }
-        Err(_) if bytes.is_empty() => Err("the picture is an empty file".to_owned()),
+        Err(_) if bytes.is_empty() => Err("the image is an empty file".to_owned()),
         Err(_) if bytes.starts_with(b"\xabKTX 20\xbb\r\n\x1a\n") => {
-            Err("KTX2 pictures are not supported, only PNG, JPEG and WebP are".to_owned())
+            Err("KTX2 images are not supported, only PNG, JPEG and WebP are".to_owned())
         }
         Err(_) if bytes.starts_with(b"version https://git-lfs") => {
-            Err("the picture is a Git LFS pointer; run `git lfs pull`".to_owned())
+            Err("the image is a Git LFS pointer; run `git lfs pull`".to_owned())
         }
         Err(_) => Err("its first bytes match no known image format".to_owned()),
     }
@@ -137,11 +137,11 @@ pub(crate) fn decoder_limits(limits: &Limits) -> image::Limits {
 
 pub(crate) fn reason(error: &ImageError) -> String {
     match error {
-        ImageError::Limits(limit) => format!("the picture is too large ({limit})"),
+        ImageError::Limits(limit) => format!("the image is too large ({limit})"),
         ImageError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
-            "the picture ends too early".to_owned()
+            "the image ends too early".to_owned()
         }
-        other => format!("the picture is broken ({other})"),
+        other => format!("the image is broken ({other})"),
     }
 }
 
@@ -155,8 +155,8 @@ mod tests {
         let rgba: Vec<u8> = (0..4 * 6).collect();
         let mut bytes = Vec::new();
         encode_png(&mut bytes, 3, 2, Pixels::Rgba8(&rgba)).expect("memory takes it");
-        let picture = decode_picture(&bytes, &Limits::default()).expect("it is a PNG");
-        assert_eq!(picture, Picture { width: 3, height: 2, rgba }, "the same pixels");
+        let image = decode_image(&bytes, &Limits::default()).expect("it is a PNG");
+        assert_eq!(image, RgbaImage { width: 3, height: 2, rgba }, "the same pixels");
     }
 
     /// The `image` crate's own conversion is the oracle.
@@ -172,13 +172,13 @@ mod tests {
             let mut png = Vec::new();
             PngEncoder::new(&mut png).write_image(&bytes, 64, 64, color).expect("memory takes it");
             let theirs = image::load_from_memory(&png).map(DynamicImage::into_rgba8).expect("a PNG");
-            let ours = decode_picture(&png, &Limits::default()).expect("it is a PNG");
+            let ours = decode_image(&png, &Limits::default()).expect("it is a PNG");
             assert_eq!(ours.rgba, theirs.into_raw(), "{color:?}");
         }
     }
 
     #[test]
-    fn broken_and_foreign_pictures_say_why() {
+    fn broken_and_foreign_images_say_why() {
         let mut png = Vec::new();
         encode_png(&mut png, 64, 64, Pixels::Rgba8(&[7; 64 * 64 * 4])).expect("memory takes it");
         let half = &png[..png.len() / 2];
@@ -186,9 +186,9 @@ mod tests {
             (&b""[..], "empty"),
             (b"hello, world", "no known"),
             (b"GIF89a\x01\0\x01\0", "Gif"),
-            (half, "picture"),
+            (half, "image"),
         ] {
-            let why = decode_picture(bytes, &Limits::default()).expect_err("no picture");
+            let why = decode_image(bytes, &Limits::default()).expect_err("no image");
             assert!(why.contains(word), "{why:?} names {word:?}");
         }
     }
@@ -198,7 +198,7 @@ mod tests {
         let mut png = Vec::new();
         encode_png(&mut png, 64, 64, Pixels::Rgba8(&[7; 64 * 64 * 4])).expect("memory takes it");
         let limits = Limits { image_pixels: 64 * 63, ..Limits::default() };
-        let why = decode_picture(&png, &limits).expect_err("one row too many");
+        let why = decode_image(&png, &limits).expect_err("one row too many");
         assert!(why.contains("limit"), "{why}");
     }
 }
