@@ -112,6 +112,7 @@ impl Framing {
     }
 
     /// Whether the distance follows from the size of the model.
+    #[cfg(feature = "window")]
     pub(crate) fn is_fitted(&self) -> bool {
         matches!(self.eye, Eye::Default | Eye::Direction(_) | Eye::Side(_))
     }

@@ -1,5 +1,5 @@
-//! Cameras in double precision: position, projection, and interactive control. In the pipeline they
-//! stand between a scene in world coordinates and a rasterizer in clip coordinates.
+//! Cameras in double precision: position, projection, and interactive control. They map a scene in
+//! world coordinates to a rasterizer's clip coordinates.
 //!
 //! Conventions of every function:
 //! - World and camera space are right-handed. The camera looks along −Z, +Y is up.
@@ -9,7 +9,7 @@
 //!   centre at `(i + 0.5, j + 0.5)`.
 //! - Angles are radians, lengths are the world's (metres).
 //!
-//! This crate knows nothing about windows, input devices, meshes, or the contents of pixels.
+//! This crate does not depend on windows, input devices, meshes, or the contents of pixels.
 //!
 //! ```
 //! use trigon_camera::math::{DVec2, DVec3};

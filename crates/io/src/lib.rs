@@ -31,8 +31,8 @@
 //!
 //! # Conventions
 //! Right-handed, +Y up, metres, counter-clockwise faces, as in glTF and OBJ. PLY, STL and OFF
-//! define neither the up axis nor the unit: their numbers are used as they are. Texture coordinates
-//! count v downwards from the upper left. Colours are linear light. Positions far from the origin
+//! define neither the up axis nor the unit: their numbers are used as they are. In texture
+//! coordinates v = 0 is the top edge, and v grows downwards. Colours are linear light. Positions far from the origin
 //! are rebased, and the offset goes into the node. One node of the file is one node of the scene.
 
 mod capture;

@@ -96,7 +96,7 @@ fn spread(channels: Vec<u8>, count: u8) -> Vec<u8> {
     }
 }
 
-/// A conspicuous placeholder for a missing image: magenta and grey squares.
+/// A conspicuous placeholder for an image that cannot be decoded: magenta and grey squares.
 pub(crate) fn placeholder() -> RgbaImage {
     const SIDE: u32 = 16;
     const SQUARE: u32 = 4;

@@ -21,10 +21,11 @@ pub(crate) struct Request {
     pub(crate) purpose: Purpose,
 }
 
-/// The use of an image: how its bytes are interpreted, and whether its absence must be visible.
+/// The use of an image: how its bytes are interpreted, and whether a placeholder replaces it if it
+/// cannot be decoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Purpose {
-    /// The colour of a surface; its absence must be conspicuous.
+    /// The colour of a surface; a placeholder is shown if it cannot be decoded.
     BaseColor,
     /// Another colour.
     Color,

@@ -1,5 +1,8 @@
 //! Converts images of a model to textures of the scene: decoded in parallel, and only those that a
 //! material uses.
+//!
+//! Images whose files are missing or cannot be read never get here: the readers report them
+//! (`formats/gltf/images.rs`, `formats/obj/textures.rs`), and the material has no texture.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 

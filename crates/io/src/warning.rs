@@ -17,7 +17,7 @@ pub struct Warning {
     pub file: PathBuf,
     /// The first location.
     pub place: Place,
-    /// What was seen.
+    /// What is wrong with it.
     pub what: String,
     /// A remedy for people.
     pub remedy: String,
@@ -26,6 +26,19 @@ pub struct Warning {
     /// For a file that the model names and that could not be used: every path at which it was
     /// looked for. Empty otherwise.
     pub tried: Vec<PathBuf>,
+}
+
+impl Warning {
+    fn new(file: &Path, place: Place, what: String, remedy: String) -> Self {
+        Self {
+            file: file.to_owned(),
+            place,
+            what: printable(&what),
+            remedy: printable(&remedy),
+            more: 0,
+            tried: Vec::new(),
+        }
+    }
 }
 
 impl fmt::Display for Warning {
@@ -80,23 +93,7 @@ impl Warnings {
         what: impl Into<String>,
         remedy: impl Into<String>,
     ) {
-        let (what, remedy) = (printable(&what.into()), printable(&remedy.into()));
-        let key = (file.to_owned(), what.clone());
-        if let Some(&index) = self.known.get(&key) {
-            self.list[index].more += 1;
-        } else if self.list.len() < MOST_WARNINGS {
-            self.known.insert(key, self.list.len());
-            self.list.push(Warning {
-                file: file.to_owned(),
-                place,
-                what,
-                remedy,
-                more: 0,
-                tried: Vec::new(),
-            });
-        } else if let Some(last) = self.list.last_mut() {
-            last.more += 1;
-        }
+        self.add(Warning::new(file, place, what.into(), remedy.into()));
     }
 
     /// A warning about a file that could not be used; `tried` is where it was looked for.
@@ -107,11 +104,7 @@ impl Warnings {
         (what, remedy): (String, &str),
         tried: Vec<PathBuf>,
     ) {
-        let before = self.list.len();
-        self.push_about(file, place, what, remedy);
-        if let Some(new) = self.list.get_mut(before) {
-            new.tried = tried;
-        }
+        self.add(Warning { tried, ..Warning::new(file, place, what, remedy.to_owned()) });
     }
 
     /// A warning that occurred `count` times, first at `place`.
@@ -122,13 +115,21 @@ impl Warnings {
         what: impl Into<String>,
         remedy: impl Into<String>,
     ) {
-        if count == 0 {
-            return;
-        }
-        let before = self.list.len();
-        self.push(place, what, remedy);
-        if self.list.len() > before {
-            self.list[before].more += count - 1;
+        let Some(more) = count.checked_sub(1) else { return };
+        self.add(Warning { more, ..Warning::new(&self.file, place, what.into(), remedy.into()) });
+    }
+
+    /// Adds a warning, or its count to the one with the same file and text, or to the last one if
+    /// there are too many.
+    fn add(&mut self, warning: Warning) {
+        let key = (warning.file.clone(), warning.what.clone());
+        if let Some(&index) = self.known.get(&key) {
+            self.list[index].more += 1 + warning.more;
+        } else if self.list.len() < MOST_WARNINGS {
+            self.known.insert(key, self.list.len());
+            self.list.push(warning);
+        } else if let Some(last) = self.list.last_mut() {
+            last.more += 1 + warning.more;
         }
     }
 
@@ -162,6 +163,15 @@ mod tests {
     }
 
     #[test]
+    fn counts_of_a_known_warning_are_added() {
+        let mut warnings = Warnings::about(Path::new("a.obj"));
+        warnings.push_counted(3, Place::Line(5), "faces were dropped", "mend them");
+        warnings.push_counted(0, Place::Line(6), "faces were dropped", "mend them");
+        warnings.push_counted(40, Place::Line(7), "faces were dropped", "mend them");
+        assert_eq!(warnings.into_list()[0].more, 42, "43 in all");
+    }
+
+    #[test]
     fn what_was_looked_for_is_kept_and_not_shown() {
         let mut warnings = Warnings::about(Path::new("a.obj"));
         let tried = vec![PathBuf::from("maps/a.png"), PathBuf::from("a.png")];
@@ -179,6 +189,9 @@ mod tests {
         for line in 0..10_000 {
             warnings.push(Place::Whole, format!("warning {line}"), "mend it");
         }
-        assert_eq!(warnings.into_list().len(), MOST_WARNINGS, "bounded");
+        warnings.push_counted(7, Place::Whole, "one more", "mend it");
+        let list = warnings.into_list();
+        assert_eq!(list.len(), MOST_WARNINGS, "bounded");
+        assert_eq!(list.iter().map(|warning| 1 + warning.more).sum::<usize>(), 10_007, "none is lost");
     }
 }

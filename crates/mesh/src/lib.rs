@@ -3,9 +3,10 @@
 //!
 //! A [`Mesh`] keeps polygons and edges as they were modelled; triangles and welded vertices are
 //! derived from it when needed ([`Triangulation`], [`RenderMesh`]). So a cube shows its own 12
-//! edges as wires, a face id means the file's face, and saving a mesh writes what was loaded.
+//! edges as wires, a face id is the index of the polygon in the file, and saving a mesh writes what
+//! was loaded.
 //!
-//! This crate knows nothing about cameras, materials or pixels, reads no files, and gives the same
+//! This crate does not depend on cameras, materials or pixels, reads no files, and gives the same
 //! bits on every machine.
 //!
 //! # Conventions
@@ -13,8 +14,8 @@
 //! have (0, 0) in the upper left corner of the image.
 //!
 //! # Example
-//! A square with a square hole, as one face: the outline goes in along a bridge and out again. Its
-//! triangles leave the hole open, as the output shows:
+//! A square with a square hole, as one face: the outline is connected to the hole by one edge, which it
+//! follows in both directions. Its triangles leave the hole open, as the output shows:
 //!
 //! ```
 //! use trigon_mesh::MeshBuilder;

@@ -11,7 +11,7 @@ pub struct Fragment<V> {
     /// The interpolated varyings, perspective-correct, within the range of the
     /// vertices' values.
     pub varyings: V,
-    /// The analytic derivative of the varyings to the right, per sample step
+    /// The analytic derivative of the varyings to the right, for one internal pixel
     /// (one pixel when [`samples_per_axis`](crate::Target::samples_per_axis) is
     /// 1, half a pixel when it is 2): what a texture look-up needs.
     pub ddx: V,

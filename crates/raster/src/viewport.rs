@@ -1,19 +1,21 @@
-//! From clip space to the sample grid.
+//! From clip space to the grid of internal pixels.
 //!
-//! Inside the rasterizer a "pixel" is a sample: with several samples per axis
-//! everything happens on a finer grid, and only the resolve knows better.
+//! Inside the rasterizer a "pixel" is an *internal pixel*: with supersampling
+//! ([`Target::samples_per_axis`](crate::Target::samples_per_axis)) the stages draw a finer grid than
+//! the image's, and only the resolve combines its pixels into those of the image. Samples of
+//! multisampling lie within an internal pixel.
 
 use trigon_math::{Band, Fixed, FixedPoint, Vec4};
 
-/// How far from the viewport's centre, in samples, geometry goes unclipped.
+/// How far from the viewport's centre, in internal pixels, geometry goes unclipped.
 pub(crate) const GUARD_BAND: f64 = 32768.0;
 
-/// The sample grid of a frame.
+/// The grid of internal pixels of a frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Viewport {
-    /// Width in samples.
+    /// Width in internal pixels.
     pub(crate) width: u32,
-    /// Height in samples.
+    /// Height in internal pixels.
     pub(crate) height: u32,
 }
 
@@ -21,26 +23,27 @@ impl Viewport {
     /// The largest |x / w| and |y / w| within the guard band: the largest powers
     /// of two that keep to it.
     pub(crate) fn guard(self) -> [Band; 2] {
-        // At least 1, as no side has more than 65536 samples.
+        // At least 1, as no side has more than 65536 internal pixels.
         let widest = |side: u32| Band::at_most((2.0 * GUARD_BAND / f64::from(side)) as f32);
         [self.width, self.height].map(|side| widest(side).unwrap_or(Band::VIEW))
     }
 
-    /// The point on the sub-sample grid where a clip-space position with w > 0
-    /// lies; `None` if it is out of the grid's range.
+    /// Snaps a clip-space position with w > 0 to the sub-pixel grid (1/256 of an internal pixel);
+    /// `None` if it is out of the grid's range.
     ///
-    /// In f64, so that the only rounding that matters is the one to the grid.
+    /// In f64, so that the only rounding that matters is the one to the grid: to nearest, ties to
+    /// even, with the same bits as `snap` in `vertex/run.rs`, which snaps vertices that are not cut.
     #[inline]
     pub(crate) fn snap(self, position: Vec4) -> Option<FixedPoint> {
         let inverse_w = 1.0 / f64::from(position.w);
-        let [x, y] = self.place([position.x, position.y].map(f64::from), inverse_w);
+        let [x, y] = self.position([position.x, position.y].map(f64::from), inverse_w);
         Some(FixedPoint::new(Fixed::from_f64(x)?, Fixed::from_f64(y)?))
     }
 
-    /// Where a point in clip space lies, in pixels: within 2^-34 pixel of the
-    /// exact place as long as that is within the guard band.
+    /// The position of a point in clip space, in pixels: within 2^-34 pixel of the
+    /// exact one as long as that is within the guard band.
     #[inline(always)]
-    pub(crate) fn place(self, [x, y]: [f64; 2], inverse_w: f64) -> [f64; 2] {
+    pub(crate) fn position(self, [x, y]: [f64; 2], inverse_w: f64) -> [f64; 2] {
         [
             (x * inverse_w * 0.5 + 0.5) * f64::from(self.width),
             (0.5 - y * inverse_w * 0.5) * f64::from(self.height),

@@ -25,7 +25,7 @@
 //! # Ok::<(), trigon_scene::RenderError>(())
 //! ```
 //!
-//! One image is a call of [`render`]. For many, a [`Renderer`] holds the settings and
+//! [`render`] draws one image. For many, a [`Renderer`] holds the settings and
 //! keeps threads, memory and shadow maps from one to the next; the bytes are the same.
 
 mod animation;
@@ -64,7 +64,7 @@ pub use effects::{
     EnvironmentError, Fog, MetalReflection, Named, Outline, Shadows, Sky, ToneMapping,
 };
 pub use elements::ElementSet;
-/// Of [`ElementSet`].
+/// The bit set inside [`ElementSet`].
 pub use fixedbitset::FixedBitSet;
 pub use frame::{Frame, Hit};
 pub use light::{Light, LightKind};

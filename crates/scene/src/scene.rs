@@ -6,7 +6,6 @@ mod order;
 mod parts;
 mod placed;
 mod skin_pose;
-mod vertex_list;
 
 use std::sync::Arc;
 
@@ -26,7 +25,6 @@ pub use mesh_asset::{MeshAsset, MeshId};
 pub use parts::SceneParts;
 pub(crate) use placed::PlacedMesh;
 pub use skin_pose::SkinPose;
-pub(crate) use vertex_list::VertexList;
 
 /// The placement of a node in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -5,9 +5,8 @@
 //! [`Handler`], which can read and change everything on the [`Stage`]: scene, camera, settings,
 //! keys, texts.
 //!
-//! This is the last step of the pipeline: [`trigon_scene`] draws frames, and this crate decides
-//! when and in which quality, and presents them on the screen. It knows nothing about files or
-//! editing.
+//! [`trigon_scene`] draws frames; this crate decides when and in which quality, and presents them on
+//! the screen. It does not depend on files or editing.
 //!
 //! The path of an event: winit → `input` (translates it) → `session` (passes it to the interface, the
 //! application, or the camera) → `pacing` (decides when to draw, and in which quality) → `worker` (draws the

@@ -25,6 +25,13 @@ pub(crate) struct Selected {
 impl Selected {
     /// What is selected in a document; `None` where nothing is.
     pub(crate) fn of(document: &Document) -> Option<Self> {
+        let selected = Self::without_normal(document)?;
+        let normal = mean_normal_in_world(document).try_normalize();
+        Some(Self { normal: normal.map_or(selected.normal, axes_with_z), ..selected })
+    }
+
+    /// The same with the own axes instead of those along the normal, which takes a pass over all selected faces.
+    pub(crate) fn without_normal(document: &Document) -> Option<Self> {
         let selected =
             if document.selection().is_editing() { of_elements(document) } else { of_objects(document) };
         Some(selected).filter(|selected| !selected.points.is_empty())
@@ -64,27 +71,28 @@ fn of_objects(document: &Document) -> Selected {
 
 fn of_elements(document: &Document) -> Selected {
     let kind = document.selection().kind();
-    let (mut points, mut normal, mut active) = (Vec::new(), DVec3::ZERO, None);
-    let mut placement = None;
+    let (mut points, mut active, mut placement) = (Vec::new(), None, None);
     for (id, selection) in document.selection().meshes() {
         let Some(mesh) = document.mesh(id).filter(|_| !selection.is_empty()) else { continue };
         let to_world = document.mesh_transform(id);
         placement.get_or_insert(to_world);
         let vertices = selection.vertices(mesh, kind);
         points.extend(vertices.iter().map(|&vertex| placed(mesh, vertex, &to_world)));
-        normal += direction_in_world(mean_normal(mesh, selection, kind, &vertices), &to_world);
         active = active.or_else(|| last_element(document, id, mesh, selection));
     }
     let placement = placement.unwrap_or(DAffine3::IDENTITY);
     let local = unit_axes(&placement);
-    Selected {
-        points,
-        active,
-        origin: placement.translation,
-        local,
-        normal: normal.try_normalize().map_or(local, axes_with_z),
-        is_editing: true,
-    }
+    Selected { points, active, origin: placement.translation, local, normal: local, is_editing: true }
+}
+
+/// The mean normal of the selected elements, not of unit length; zero in object mode.
+fn mean_normal_in_world(document: &Document) -> DVec3 {
+    let kind = document.selection().kind();
+    let of_mesh = |(id, selection): (MeshId, &MeshSelection)| {
+        let mesh = document.mesh(id).filter(|_| !selection.is_empty())?;
+        Some(direction_in_world(mean_normal(mesh, selection, kind), &document.mesh_transform(id)))
+    };
+    document.selection().meshes().filter_map(of_mesh).sum()
 }
 
 pub(crate) fn placed(mesh: &EditMesh, vertex: VertexId, to_world: &DAffine3) -> DVec3 {
@@ -92,14 +100,10 @@ pub(crate) fn placed(mesh: &EditMesh, vertex: VertexId, to_world: &DAffine3) -> 
 }
 
 /// Not of unit length.
-fn mean_normal(
-    mesh: &EditMesh,
-    selection: &MeshSelection,
-    kind: ElementKind,
-    vertices: &[VertexId],
-) -> DVec3 {
+fn mean_normal(mesh: &EditMesh, selection: &MeshSelection, kind: ElementKind) -> DVec3 {
     let faces = selection.faces(mesh, kind);
     if faces.is_empty() {
+        let vertices = selection.vertices(mesh, kind);
         return vertices.iter().map(|&vertex| mesh.vertex_normal(vertex)).sum();
     }
     faces.iter().map(|&face| mesh.face_area_vector(face)).sum()

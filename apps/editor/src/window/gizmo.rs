@@ -19,11 +19,11 @@ impl Editor {
     /// The gizmo in a view, while something is selected that it could move.
     pub(crate) fn gizmo(&mut self, stage: &Stage, pane: &Pane) -> Option<Gizmo> {
         let kind = self.tools.gizmo.filter(|_| self.tool.is_none() && self.view.overlays)?;
-        let selected = self.place.of(&self.document)?;
-        let center = self.tools.pivot.point(selected, self.tools.cursor);
+        let (around, orientation) = ((self.tools.pivot, self.tools.cursor), self.tools.orientation);
+        let stand = self.place.of(&self.document, around, orientation)?;
         let view = tool_view(stage, pane);
-        let axes = Frames::new(self.tools.orientation, selected.local, selected.normal, &view).chosen;
-        Some(Gizmo { kind, center, axes })
+        let axes = Frames::new(orientation, stand.local, stand.normal, &view).chosen;
+        Some(Gizmo { kind, center: stand.center, axes })
     }
 
     /// Where the axes in the corner are; `None` where there is no room for them.

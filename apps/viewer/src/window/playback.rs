@@ -13,12 +13,6 @@ use crate::moment::{self, Clip};
 /// Speeds that can be chosen, forwards.
 const SPEEDS: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
 
-/// The least width of the slider, in points.
-const SLIDER: f32 = 100.0;
-
-/// About what is right of it before it is laid out, in points.
-const OTHERS: f32 = 320.0;
-
 /// Which animations move the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Playing {
@@ -46,8 +40,6 @@ pub(super) struct Playback {
     progress: AnimationProgress,
     /// Whether the model is in the pose of this time, and not as the file has it.
     is_posed: bool,
-    /// The width of all that is right of the slider, in points.
-    others: f32,
     /// The nodes as they are without animation.
     at_rest: Scene,
 }
@@ -79,7 +71,6 @@ impl Playback {
             duration: 0.0,
             is_posed: moment.is_some(),
             progress: request.sequence.progress.unwrap_or(AnimationProgress::Advanced),
-            others: OTHERS,
             at_rest: scene.clone(),
         };
         playback.duration = moment::duration(scene, &playback.clips());
@@ -211,10 +202,6 @@ impl Playback {
             self.toggle(stage);
         }
         let is_advanced = self.progress == AnimationProgress::Advanced;
-        // What the others leave: they are as wide as in the pass before.
-        let others = if is_advanced { self.others } else { 0.0 };
-        ui.spacing_mut().slider_width = (ui.available_width() - others).max(SLIDER);
-        let start = ui.cursor().min.x + ui.spacing().slider_width;
         let slider = egui::Slider::new(&mut self.seconds, 0.0..=self.duration.max(1e-3));
         let slider = slider.show_value(is_advanced).fixed_decimals(2).suffix(" s");
         if ui.add(slider).changed() {
@@ -222,12 +209,6 @@ impl Playback {
         }
         if is_advanced {
             self.choices(ui, stage);
-            let width = ui.cursor().min.x - start;
-            // On another line the width of the row says nothing.
-            if width > 0.0 && (width - self.others).abs() > 0.5 {
-                self.others = width;
-                ui.ctx().request_discard("the slider takes what the others leave");
-            }
         }
     }
 

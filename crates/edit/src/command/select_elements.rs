@@ -92,13 +92,12 @@ fn named(change: &mut Change<'_>, part: &ElementsOf) -> Result<(MeshId, FixedBit
     let Some(&id) = change.meshes_of([object]).first() else { return Err(refused) };
     let (selection, meshes) = change.selection_and_meshes();
     let (Some(mesh), Some(_)) = (meshes.get(&id), selection.of(id)) else { return Err(refused) };
-    let mut bits = FixedBitSet::new();
+    let mut bits = FixedBitSet::with_capacity(kind.capacity(mesh));
     for &[first, last] in &part.ranges {
         for element in first..=last {
             // A range may claim four thousand million elements: the first that does not exist ends
             // it.
             check_element(mesh, kind, element)?;
-            bits.grow(element as usize + 1);
             bits.insert(element as usize);
         }
     }

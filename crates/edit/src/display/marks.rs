@@ -145,24 +145,30 @@ impl Sets {
         let vertices = selected.vertices(mesh, kind);
         let edges = selected.edges(mesh, kind);
         let faces = selected.faces(mesh, kind);
-        self.selected[VERTICES].add(node, bits(vertices.iter().filter_map(|&id| numbers.vertex(id))));
-        self.selected[EDGES].add(node, bits(edges.iter().filter_map(|&id| numbers.edge(id))));
+        let [of_vertices, of_edges, of_faces] = [map.vertices.len(), numbers.edge_count(), map.faces.len()];
         let parts = |face: FaceId| parts(map, numbers, face);
-        self.selected[FACES].add(node, bits(faces.iter().copied().flat_map(parts)));
+        let vertices = bits(of_vertices, vertices.iter().filter_map(|&id| numbers.vertex(id)));
+        self.selected[VERTICES].add(node, vertices);
+        self.selected[EDGES].add(node, bits(of_edges, edges.iter().filter_map(|&id| numbers.edge(id))));
+        self.selected[FACES].add(node, bits(of_faces, faces.iter().copied().flat_map(parts)));
         self.show_cage(document, node, id, map);
         if let Some(active) = selected.order().last().copied() {
             match kind {
                 ElementKind::Vertex => {
-                    self.active[VERTICES].add(node, bits(numbers.vertex(VertexId::new(active)).into_iter()));
+                    let active = numbers.vertex(VertexId::new(active)).into_iter();
+                    self.active[VERTICES].add(node, bits(of_vertices, active));
                 }
                 ElementKind::Edge => {
-                    self.active[EDGES].add(node, bits(numbers.edge(EdgeId::new(active)).into_iter()));
+                    let active = numbers.edge(EdgeId::new(active)).into_iter();
+                    self.active[EDGES].add(node, bits(of_edges, active));
                 }
-                ElementKind::Face => self.active[FACES].add(node, bits(parts(FaceId::new(active)))),
+                ElementKind::Face => {
+                    self.active[FACES].add(node, bits(of_faces, parts(FaceId::new(active))));
+                }
             }
         }
         let Some(marked) = document.marked(id) else { return };
-        let numbered = |edges: &[EdgeId]| bits(edges.iter().filter_map(|&id| numbers.edge(id)));
+        let numbered = |edges: &[EdgeId]| bits(of_edges, edges.iter().filter_map(|&id| numbers.edge(id)));
         self.sharp.add(node, numbered(&marked.sharp));
         self.seams.add(node, numbered(&marked.seams));
         self.creases.add(node, numbered(&marked.creases));
@@ -238,8 +244,11 @@ fn all(count: usize) -> FixedBitSet {
     all
 }
 
-fn bits(numbers: impl Iterator<Item = u32>) -> FixedBitSet {
-    numbers.map(|number| number as usize).collect()
+/// So many bits, of which some are set.
+fn bits(count: usize, numbers: impl Iterator<Item = u32>) -> FixedBitSet {
+    let mut bits = FixedBitSet::with_capacity(count);
+    numbers.for_each(|number| bits.insert(number as usize));
+    bits
 }
 
 fn linear(srgb: [u8; 3]) -> Vec3 {

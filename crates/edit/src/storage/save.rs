@@ -1,5 +1,9 @@
 //! Saving a file so that at each moment either the old or the new version exists completely, with the
 //! previous one as a backup.
+//!
+//! `trigon_io::write_atomically` writes images and exported models in the same order of steps, but
+//! streams them and keeps no backup. It is not used here, because a document also needs the backup, the
+//! old permissions and links, and because all steps go through [`Storage`] for the tests of crashes.
 
 use std::ffi::OsString;
 use std::io;

@@ -60,6 +60,12 @@ impl ElementNumbers {
         number(&self.edges, edge.0)
     }
 
+    /// How many edges the displayed mesh has.
+    #[must_use]
+    pub fn edge_count(&self) -> usize {
+        self.edges_of_mesh.len()
+    }
+
     /// The edge with a number in [`Mesh::edges`].
     #[must_use]
     pub fn edge_of_mesh(&self, number: u32) -> Option<EdgeId> {

@@ -21,7 +21,7 @@ pub(super) struct Layer {
     pub(super) depth: f32,
     /// Index among the tile's triangles.
     pub(super) place: u32,
-    /// The share that it covers, 0 to 1.
+    /// The fraction of the sample that it covers, 0 to 1.
     pub(super) coverage: f32,
     /// Which colour it has, once that is known.
     pub(super) color: u32,
@@ -29,7 +29,7 @@ pub(super) struct Layer {
 
 /// An order of layers, from back to front.
 pub(super) trait Order: Copy {
-    /// Less if `a` lies behind `b`. Equal is a layer only to itself.
+    /// Less if `a` lies behind `b`. Only a layer and itself are equal.
     fn compare(&self, a: &Layer, b: &Layer) -> Ordering;
 
     /// Whether `a` lies behind `b`.
@@ -39,7 +39,7 @@ pub(super) trait Order: Copy {
     }
 }
 
-/// What is kept at one sample.
+/// The layers that are kept at one sample.
 #[derive(Clone, Copy, Default)]
 struct Run {
     len: u32,

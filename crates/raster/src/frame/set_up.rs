@@ -59,7 +59,7 @@ impl SetUp<'_> {
         }
         for (draw, range) in self.plan.parts(chunk.ordinals.clone()) {
             let mut setup = self.part(draw, chunk);
-            let place = setup.place(range.start);
+            let place = setup.index_in_chunk(range.start);
             let moved = &moved[place as usize..place as usize + range.len()];
             let marks = (moved, &mut *earlier);
             let (token, indices) = (self.token, range.start as usize..range.end as usize);
@@ -192,7 +192,7 @@ fn set_up_moved<T>(
     (moved, earlier): (&[bool], &mut EarlierEntries),
     mut set_up: impl FnMut(&mut Setup<'_>, u32, &[T]),
 ) {
-    let place = setup.place(first);
+    let place = setup.index_in_chunk(first);
     let mut kept = 0;
     let groups = primitives.chunks(LANES).zip(moved.chunks(LANES));
     for ((primitives, moved), at) in groups.zip((0..).step_by(LANES)) {

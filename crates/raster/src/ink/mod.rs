@@ -26,7 +26,7 @@ pub(crate) use line_width::{FaceLine, LineColumns};
 pub(crate) use marks::Overlap;
 pub use marks::{MarkColors, Marks};
 pub(crate) use outer::OuterInk;
-pub(crate) use visible_faces::{Footprint, VisibleFaces};
+pub(crate) use visible_faces::{DepthRange, VisibleFaces};
 
 use crate::simd::{Each, F32, LANES, Simd, U32, prelude::*};
 use trigon_math::{Vec3, Vec4};

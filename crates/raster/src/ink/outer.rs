@@ -168,13 +168,13 @@ impl OuterInk {
             let first = TileArea::index_of([x, y]);
             for lane in 0..4 {
                 let [near, far] = ends(buffer, first + lane);
-                let footprint = self.faces.footprints[(near as usize).min(triangle_count)];
-                rows.least[y][x + lane] = footprint.least;
+                let depths = self.faces.depths[(near as usize).min(triangle_count)];
+                rows.least[y][x + lane] = depths.least;
                 rows.nearest[y][x + lane] = near;
                 rows.farthest[y][x + lane] = far;
                 rows.greatest[y][x + lane] = match near == far {
-                    true => footprint.greatest,
-                    false => self.faces.footprints[(far as usize).min(triangle_count)].greatest,
+                    true => depths.greatest,
+                    false => self.faces.depths[(far as usize).min(triangle_count)].greatest,
                 };
                 if self.faces.has_large {
                     let is_large = self.faces.lines[(near as usize).min(triangle_count)].radius >= LARGE;
@@ -246,8 +246,8 @@ impl OuterInk {
     ) -> Overlap {
         let index = |place: u32| (place as usize).min(triangles.len());
         let [ours, theirs] = [own, other].map(|place| self.faces.lines[index(place)]);
-        let least = self.faces.footprints[index(other)].least;
-        let is_before = least > self.faces.footprints[index(own)].greatest;
+        let least = self.faces.depths[index(other)].least;
+        let is_before = least > self.faces.depths[index(own)].greatest;
         let is_large = ours.radius >= LARGE || theirs.radius >= LARGE;
         if !(is_before || (is_large && least > f32::NEG_INFINITY)) {
             return Overlap::default();

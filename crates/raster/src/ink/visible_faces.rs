@@ -7,14 +7,14 @@ pub(super) const LARGE: f32 = 3.0;
 
 /// The depths of a visible triangle.
 #[derive(Clone, Copy)]
-pub(crate) struct Footprint {
+pub(crate) struct DepthRange {
     /// The least, of a triangle with lines; below all depths for others.
     pub(crate) least: f32,
     /// The greatest.
     pub(crate) greatest: f32,
 }
 
-impl Footprint {
+impl DepthRange {
     pub(super) const NOBODY: Self = Self { least: f32::NEG_INFINITY, greatest: f32::NEG_INFINITY };
 }
 
@@ -22,7 +22,7 @@ impl Footprint {
 /// background.
 #[derive(Default)]
 pub(crate) struct VisibleFaces {
-    pub(super) footprints: Vec<Footprint>,
+    pub(super) depths: Vec<DepthRange>,
     pub(super) lines: Vec<FaceLine>,
     /// Whether any of them shows lines.
     pub(super) has_lines: bool,
@@ -35,20 +35,20 @@ impl VisibleFaces {
     pub(super) fn begin(&mut self, triangle_count: usize) {
         (self.has_lines, self.has_large) = (false, false);
         // Triangles that are not visible keep old values, which are not read.
-        if self.footprints.len() < triangle_count + 1 {
-            self.footprints.resize(triangle_count + 1, Footprint::NOBODY);
+        if self.depths.len() < triangle_count + 1 {
+            self.depths.resize(triangle_count + 1, DepthRange::NOBODY);
             self.lines.resize(triangle_count + 1, FaceLine::UNLINED);
         }
-        self.footprints[triangle_count] = Footprint::NOBODY;
+        self.depths[triangle_count] = DepthRange::NOBODY;
         self.lines[triangle_count] = FaceLine::UNLINED;
     }
 
     /// Takes a visible triangle of the tile.
     #[inline(always)]
-    pub(crate) fn note(&mut self, place: u32, footprint: Footprint, line: FaceLine) {
-        self.footprints[place as usize] = footprint;
+    pub(crate) fn note(&mut self, place: u32, depths: DepthRange, line: FaceLine) {
+        self.depths[place as usize] = depths;
         self.lines[place as usize] = line;
-        self.has_lines |= footprint.least > f32::NEG_INFINITY;
+        self.has_lines |= depths.least > f32::NEG_INFINITY;
         self.has_large |= line.radius >= LARGE;
     }
 }

@@ -3,8 +3,7 @@
 
 use super::PointStyle;
 use crate::bin::Entry;
-use crate::geometry::{PointSizes, Shape};
-use crate::pass::Recorded;
+use crate::geometry::{Geometry, PointSizes, Shape};
 use crate::setup::{Column, Kind, Quad, Setup};
 use crate::simd::{Each, I32, LANES, Mask, Simd, inlined, lane_numbers, lanes_of, prelude::*};
 use crate::vertex::ScreenVertex;
@@ -22,17 +21,17 @@ pub(crate) struct PlainPoints {
 const WIDE: i32 = 32 * 256;
 
 impl PlainPoints {
-    /// `None` if the draw has no such points.
-    pub(crate) fn of(recorded: &Recorded<'_>, supersampling: u32) -> Option<Self> {
-        let Shape::Points { sizes, shape, outline, depth_bias, .. } = recorded.geometry.shape else {
+    /// `None` if a draw, with a pipeline that may be flat, has no such points.
+    pub(crate) fn of(geometry: &Geometry<'_>, is_flat: bool, supersampling: u32) -> Option<Self> {
+        let Shape::Points { sizes, shape, outline, depth_bias, .. } = geometry.shape else {
             return None;
         };
-        let is_opaque = matches!(recorded.geometry.blend_mode, BlendMode::Opaque | BlendMode::Overlay);
+        let is_opaque = matches!(geometry.blend_mode, BlendMode::Opaque | BlendMode::Overlay);
         let marked = sizes.marked.map_or(sizes.size, |marked| marked.size);
         let styles = [sizes.size, marked]
             .map(|size| PointStyle::new((size, outline), shape, depth_bias, supersampling));
         let are_small = styles.iter().all(|style| 2 * style.half < WIDE);
-        let are_plain = outline == Outline::Sharp && is_opaque && recorded.pipeline.is_flat();
+        let are_plain = outline == Outline::Sharp && is_opaque && is_flat;
         (are_plain && are_small).then_some(Self { styles })
     }
 
@@ -159,7 +158,7 @@ impl Setup<'_> {
         let (columns, rows) = (tiles((0, grid.viewport.width)), tiles((1, grid.viewport.height)));
         let lanes = Mask::from_bitmask(simd, seen);
         let alone = columns[0].simd_eq(columns[1]) & rows[0].simd_eq(rows[1]);
-        let place = self.place(first);
+        let place = self.index_in_chunk(first);
         if !(lanes & !alone).any_true() {
             let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
             let places = (lane_numbers(simd) + place as i32).bitcast();

@@ -17,8 +17,8 @@ struct ScreenTriangles<S: Simd> {
     extent: [[I32<S>; 2]; 2],
     /// Twice the signed area, where small.
     area: I32<S>,
-    /// The lanes whose triangles can be handled here: all vertices have a place on the grid, and
-    /// both sides are small.
+    /// The lanes whose triangles can be handled here: all vertices are snapped, and both sides are
+    /// small.
     plain: Mask<S>,
 }
 
@@ -198,7 +198,7 @@ impl Setup<'_> {
             return false;
         }
         let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
-        let places = (lane_numbers(simd) + self.place(first) as i32).bitcast();
+        let places = (lane_numbers(simd) + self.index_in_chunk(first) as i32).bitcast();
         self.chunk.push_some(drawn, (tiles, places), Entry::primitive);
         true
     }
@@ -208,7 +208,7 @@ impl Setup<'_> {
     #[inline(always)]
     fn push_box(&mut self, primitive: u32, columns: [i32; 2], rows: [i32; 2]) {
         let tiles = self.grid.tiles_that_see(columns, rows);
-        let entry = Entry::primitive(self.place(primitive));
+        let entry = Entry::primitive(self.index_in_chunk(primitive));
         for row in tiles.rows {
             for column in tiles.columns.clone() {
                 self.chunk.push(row * self.grid.columns + column, entry);

@@ -1,8 +1,23 @@
-//! Set-up: primitives become triangles that are ready for the tiles. They are cut where needed,
-//! snapped to the sub-pixel grid, and culled.
+//! Set-up: primitives become triangles that are ready for the tiles. They are culled and entered in
+//! the bins of the tiles that they touch.
 //!
-//! Most triangles need no cutting and are culled and binned eight at a time (`eight`). The
-//! others go through [`Setup::triangle`] one by one. Vertices of a triangle are sorted by (y, x)
+//! Vertices come snapped from the vertex stage (`vertex/run.rs`). Only triangles with a vertex that
+//! could not be snapped are cut here, and the corners that this gives are snapped here
+//! (`Setup::snap`), with the same bits.
+//!
+//! In the order in which a triangle passes through:
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `eight` | culls and bins whole triangles, eight at a time; most triangles see nothing else |
+//! | `columns` | eight triangles in lanes, their vertices sorted; the limit of small triangles |
+//! | `mod` | one triangle at a time ([`Setup::triangle`]): cuts it, snaps the result, culls, bins |
+//! | `ears` | cuts the snapped polygon into triangles |
+//! | `triangle` | the record of a triangle for the tiles |
+//! | `quad` | the record of a line or a point |
+//!
+//! Triangles that need no cutting and are small are culled and binned by `eight`. The others go through
+//! [`Setup::triangle`] one by one. Vertices of a triangle are sorted by (y, x)
 //! before anything is computed from them, so that no result depends on the order in which
 //! corners are listed (`triangle`, and `columns` for eight at a time).
 
@@ -36,7 +51,7 @@ pub(crate) struct Setup<'a> {
     pub(crate) chunk: &'a mut Chunk,
 }
 
-/// Three vertices of a cut triangle on their way into a record.
+/// Three vertices of a cut triangle, to be made into a record.
 struct Candidate {
     vertices: [ScreenVertex; 3],
     primitive: u32,
@@ -46,9 +61,9 @@ struct Candidate {
 }
 
 impl Setup<'_> {
-    /// Where a primitive of the draw stands in the chunk.
+    /// The index of a primitive of the draw in the chunk.
     #[inline(always)]
-    pub(crate) fn place(&self, primitive: u32) -> u32 {
+    pub(crate) fn index_in_chunk(&self, primitive: u32) -> u32 {
         self.first + primitive - self.chunk.ordinals.start
     }
 
@@ -78,7 +93,7 @@ impl Setup<'_> {
             return;
         }
         self.chunk.stats.set_up += 1;
-        let entry = Entry::primitive(self.place(primitive));
+        let entry = Entry::primitive(self.index_in_chunk(primitive));
         self.chunk.push_all(self.grid, &triangle, entry);
     }
 
@@ -87,12 +102,12 @@ impl Setup<'_> {
         let cut = clip::cut_triangle(positions, &self.volume);
         let vertices = cut.polygon.vertices();
         self.chunk.stats.clipped += 1;
-        let mut places = [ScreenVertex::default(); clip::MOST_VERTICES];
-        let Some(screen) = self.snap(vertices, &mut places) else {
+        let mut snapped = [ScreenVertex::default(); clip::MOST_VERTICES];
+        let Some(screen) = self.snap(vertices, &mut snapped) else {
             self.chunk.stats.outside += 1;
             return;
         };
-        // Sorting the corners may have turned the triangle over.
+        // `clip::cut_triangle` sorts the corners, which may have reversed their winding.
         let area = doubled_area(screen) * cut.winding;
         if self.is_culled(area) {
             self.chunk.stats.culled += 1;
@@ -109,17 +124,20 @@ impl Setup<'_> {
         });
     }
 
-    /// `None` if nothing is left, or a vertex has no place on the grid.
+    /// Snaps the corners of a cut triangle to the sub-pixel grid, the original corners among them
+    /// too. Those get the same bits as in the vertex stage (`snap` in `vertex/run.rs` says why), so
+    /// that no gap opens to a neighbour that is not cut. `None` if nothing is left, or a corner lies
+    /// outside the grid.
     fn snap<'p>(
         &self,
         vertices: &[ClipVertex],
-        places: &'p mut [ScreenVertex],
+        snapped: &'p mut [ScreenVertex],
     ) -> Option<&'p [ScreenVertex]> {
-        let places = &mut places[..vertices.len()];
-        for (place, vertex) in places.iter_mut().zip(vertices) {
-            *place = ScreenVertex::of(vertex.position, self.grid.viewport)?;
+        let snapped = &mut snapped[..vertices.len()];
+        for (screen, vertex) in snapped.iter_mut().zip(vertices) {
+            *screen = ScreenVertex::of(vertex.position, self.grid.viewport)?;
         }
-        (places.len() >= 3).then_some(places)
+        (snapped.len() >= 3).then_some(snapped)
     }
 
     fn is_culled(&self, area: i64) -> bool {

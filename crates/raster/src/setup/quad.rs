@@ -2,7 +2,7 @@
 //! around it, of two triangles.
 //!
 //! One record and one entry in each tile stand for both triangles; they are made
-//! when they are looked at one by one.
+//! on demand, when a caller needs one of them.
 
 use super::{Corners, CutWeights, Kind, SetupTriangle, sorted};
 use crate::line::Stroke;
@@ -11,7 +11,7 @@ use crate::vertex::ScreenVertex;
 
 /// A quadrilateral around a segment or a point.
 ///
-/// Of what is sharp the two sides across it are parallel to an axis. Its corners wind the
+/// If its outline is sharp, the two sides across it are parallel to an axis. Its corners wind the
 /// same way whatever its triangles, which share the diagonal from the first corner of the
 /// first end to the second of the other.
 #[derive(Clone, Copy, Debug)]

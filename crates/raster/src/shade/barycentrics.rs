@@ -1,11 +1,12 @@
 //! Perspective-correct barycentric coordinates at eight points, one in each lane, and their
 //! derivatives.
 //!
-//! With `E_i` the edge functions (exact, not negative within the triangle) and
-//! `q_i` the vertices' 1/w, the corners' shares are `L_k = Σ_i m_ik q_i E_i`,
-//! where `m` says how vertices come from corners (the identity unless the
-//! triangle was cut). Each `L_k` is linear on the screen, the perspective weights
-//! are `L_k / Σ L`, and the quotient rule gives their derivatives. (J. Blinn,
+//! With `E_i` the edge functions (not negative within the triangle; exact as integers, then rounded
+//! once to f32) and `q_i` the vertices' 1/w (at least 2⁻⁶⁰ of the greatest: see `perspective`), the
+//! *raw weights* of the corners are `L_k = Σ_i m_ik q_i E_i`, where `m` says how vertices come from
+//! corners (the identity unless the triangle was cut). Each `L_k` is linear on the screen, the
+//! perspective-correct weights are `L_k / Σ L`, and the quotient rule gives their derivatives.
+//! [`FragmentLanes::varying`](super::FragmentLanes::varying) interpolates with these weights. (J. Blinn,
 //! "Hyperbolic Interpolation", 1992; P. Heckbert and H. Moreton, "Interpolation
 //! for Polygon Texture Mapping and Shading", 1991.)
 
@@ -14,17 +15,18 @@ use super::placed::Placed;
 use super::triangle_lanes::TriangleLanes;
 use crate::simd::{Each, F32, I32, Row, Simd, greater, inlined, lesser, prelude::*};
 
-/// Where eight points lie in their triangles.
+/// The weights of eight points in their triangles, and what follows from them.
 pub(crate) struct Barycentrics<S: Simd> {
     /// Perspective-correct weights of the corners.
     pub(crate) weights: [F32<S>; 3],
     /// Derivatives of the weights of corners 1 and 2, to the right and
     /// downwards, per pixel; that of corner 0 makes their sum 0.
     pub(crate) slopes: [[F32<S>; 2]; 2],
-    /// The edge functions opposite the vertices, twice the area, and the sum of the
-    /// corners' shares.
+    /// The edge functions opposite the vertices.
     edges: [F32<S>; 3],
+    /// Twice the area, the sum of the edge functions.
     area: F32<S>,
+    /// The sum of the raw weights.
     total: F32<S>,
     /// Distances in pixels to the edges opposite the corners.
     pub(crate) distances: [F32<S>; 3],
@@ -34,17 +36,17 @@ impl<S: Simd> TriangleLanes<'_, S> {
     /// The weights at points in 1/256 pixel from the tile's corner, computed ahead of shading
     /// because the division takes longest.
     #[inline(always)]
-    pub(super) fn place(&self, simd: S, point: [I32<S>; 2]) -> Placed {
+    pub(super) fn weigh(&self, simd: S, point: [I32<S>; 2]) -> Placed {
         let (edges, _) = self.edges(simd, point);
-        let shares = self.shares(edges);
+        let raw = self.raw_weights(edges);
         // One division for all three weights.
-        let inverse = F32::splat(simd, 1.0) / (shares[0] + shares[1] + shares[2]);
+        let inverse = F32::splat(simd, 1.0) / (raw[0] + raw[1] + raw[2]);
         let row = inlined(
             #[inline(always)]
             |value: F32<S>| value.bitcast::<I32<S>>().into(),
         );
         let [x, y] = point;
-        let [a, b, c] = shares;
+        let [a, b, c] = raw;
         Placed {
             point: [x.into(), y.into()],
             weights: [row(a * inverse), row(b * inverse), row(c * inverse)],
@@ -52,7 +54,7 @@ impl<S: Simd> TriangleLanes<'_, S> {
         }
     }
 
-    /// The weights at points, and all else that may be asked of them.
+    /// The weights at points, with their derivatives and the distances to edges.
     #[inline(always)]
     pub(super) fn at(&self, simd: S, placed: &Placed) -> Barycentrics<S> {
         let point = placed.point(simd);
@@ -63,16 +65,16 @@ impl<S: Simd> TriangleLanes<'_, S> {
         let [a, b, c] = &placed.weights;
         let (weights, inverse) = ([value(a), value(b), value(c)], value(&placed.inverse));
         let (edges, area) = self.edges(simd, point);
-        let shares = self.shares(edges);
-        // The shares are linear on the screen, so their steps are the same everywhere in the
+        let raw = self.raw_weights(edges);
+        // The raw weights are linear on the screen, so their steps are the same everywhere in the
         // triangle: those of the edge functions, each times its vertex's 1/w.
-        let [share_x, share_y] = [self.right, self.down].each(
+        let [steps_x, steps_y] = [self.right, self.down].each(
             #[inline(always)]
-            |step| self.share_steps(step),
+            |step| self.raw_weight_steps(step),
         );
         // From 1/256 pixel to pixels. Multiplying by a power of two rounds nothing.
         let pixel = F32::splat(simd, 256.0);
-        let [right, down] = [share_x, share_y].each(
+        let [right, down] = [steps_x, steps_y].each(
             #[inline(always)]
             |steps| slopes(steps, weights, inverse * pixel),
         );
@@ -81,14 +83,14 @@ impl<S: Simd> TriangleLanes<'_, S> {
             slopes: [[right[0], down[0]], [right[1], down[1]]],
             edges,
             area,
-            total: shares[0] + shares[1] + shares[2],
+            total: raw[0] + raw[1] + raw[2],
             distances: [0, 1, 2].each(
                 #[inline(always)]
-                // A share is zero on the edge opposite its corner and linear, so the share over the
-                // length of its gradient is the distance from that edge.
+                // A raw weight is zero on the edge opposite its corner and linear, so it is the
+                // distance from that edge times the length of its gradient.
                 |k| {
-                    let (dx, dy) = (share_x[k] * pixel, share_y[k] * pixel);
-                    shares[k] / (dx * dx + dy * dy).sqrt()
+                    let (dx, dy) = (steps_x[k] * pixel, steps_y[k] * pixel);
+                    raw[k] / (dx * dx + dy * dy).sqrt()
                 },
             ),
         }
@@ -98,6 +100,9 @@ impl<S: Simd> TriangleLanes<'_, S> {
 impl<S: Simd> Barycentrics<S> {
     /// The depth, within the range of the vertices' depths. Depth is linear on the screen, so it
     /// is weighted by the plain edge functions.
+    ///
+    /// Computed in f32, so it may differ from the depth that visibility has stored (a plane in f64,
+    /// `tile/depth.rs`) by roundings. Nothing compares the two.
     #[inline(always)]
     pub(super) fn depth(&self, simd: S, cold: &[Row; cold::COUNT]) -> F32<S> {
         let [a, b, c]: [F32<S>; 3] = [0, 1, 2].each(
@@ -117,7 +122,7 @@ impl<S: Simd> Barycentrics<S> {
 }
 
 /// Derivatives of the weights of corners 1 and 2 along one axis, by the quotient rule: with
-/// `L` a share, `T` the sum of all and `w = L / T`, `w' = (L' - w T') / T`. Corner 0 needs none, as
+/// `L` a raw weight, `T` the sum of all and `w = L / T`, `w' = (L' - w T') / T`. Corner 0 needs none, as
 /// the three weights add up to 1.
 #[inline(always)]
 fn slopes<S: Simd>(steps: [F32<S>; 3], weights: [F32<S>; 3], inverse: F32<S>) -> [F32<S>; 2] {

@@ -12,7 +12,7 @@ pub(super) mod hot {
     /// Steps of the edge functions opposite vertices 1 and 2: to the right in the
     /// low half, down in the high one. Nothing for triangles that are wide or cut.
     pub(crate) const STEPS: usize = 1;
-    /// The vertices' 1/w over a power of two near the largest.
+    /// The vertices' 1/w, divided by the largest power of two not above the greatest of them.
     pub(crate) const Q: usize = 3;
     /// How many there are.
     pub(crate) const COUNT: usize = 6;
@@ -36,8 +36,8 @@ pub(super) mod cold {
 
 /// Columns of the lines on triangles, behind the varyings, of draws whose edges are painted.
 pub(super) mod lined {
-    /// One over the slope of the corners' shares in pixels, times the weight: what turns a
-    /// share into the distance from the edge opposite the corner. Below 0 where that is no
+    /// One over the slope of the corners' raw weights in pixels, times the weight of the line: turns a
+    /// raw weight into the distance from the edge opposite the corner. Below 0 where that is no
     /// edge of the face.
     pub(crate) const INVERSE: usize = 0;
     /// The distance at which a line ends to cover anything, and the most that it covers.

@@ -1,4 +1,4 @@
-//! The lines on eight triangles, on their way into records.
+//! The lines on eight triangles, computed for their records.
 
 use super::ShadeContext;
 use super::layout::{RecordShape, lined};
@@ -6,7 +6,7 @@ use super::perspective::perspective;
 use super::sorted::Sorted;
 use crate::EdgeFlags;
 use crate::bin::TriangleRef;
-use crate::ink::{FaceLine, Footprint, Ink, LineColumns, VisibleFaces};
+use crate::ink::{DepthRange, FaceLine, Ink, LineColumns, VisibleFaces};
 use crate::setup::Corners;
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, inlined, lesser, prelude::*};
 
@@ -80,7 +80,7 @@ impl Lines {
     }
 
     /// Corrects the lane of a triangle that was cut: the edges are those of the whole one,
-    /// and corners' shares are sums over its vertices.
+    /// and corners' raw weights are sums over its vertices.
     #[cold]
     fn cut<S: Simd>(
         &mut self,
@@ -134,7 +134,7 @@ impl Lines {
         for (lane, &place) in seen.iter().enumerate() {
             let (half, weight, radius) = (self.half[lane], self.beyond[lane], self.radius[lane]);
             let line = if self.shows_edges { FaceLine { half, weight, radius } } else { FaceLine::UNLINED };
-            outer.note(place, Footprint { least: least[lane], greatest: greatest[lane] }, line);
+            outer.note(place, DepthRange { least: least[lane], greatest: greatest[lane] }, line);
         }
     }
 }
@@ -208,7 +208,7 @@ fn radius_of<S: Simd>(
     lesser(greater(doubled_area / greater(perimeter, least) * ratio, least), F32::splat(simd, HUGE))
 }
 
-/// What turns shares of corners into distances in pixels.
+/// The factors that turn raw weights of corners into distances in pixels.
 #[inline(always)]
 fn inverses<S: Simd>(simd: S, sorted: &Sorted<S>, lengths: [F32<S>; 3]) -> [F32<S>; 3] {
     let (q, _) = perspective(simd, sorted.inverse_w);

@@ -1,4 +1,4 @@
-//! Lays edges of faces over the colours of eight pixels, and colours of marked faces below
+//! Blends edges of faces over the colours of eight pixels, and colours of marked faces below
 //! them.
 
 use super::columns::Columns;
@@ -65,7 +65,7 @@ impl LinesOver<'_> {
     /// What edges of the triangles themselves cover.
     #[inline(always)]
     fn own<S: Simd>(&self, simd: S, lines: &[Row; lined::COUNT]) -> F32<S> {
-        let shares = self.corner_shares(simd);
+        let shares = self.raw_weights(simd);
         let column = |index: usize| I32::simd_from(simd, lines[index]).bitcast::<F32<S>>();
         let zero = F32::splat(simd, 0.0);
         let mut nearest = F32::splat(simd, f32::INFINITY);
@@ -78,10 +78,10 @@ impl LinesOver<'_> {
         greater(overlap, zero) + column(lined::FLOOR)
     }
 
-    /// The same, edge by edge: the shares have the same bits.
+    /// The same, edge by edge: the coverages have the same bits.
     #[inline(always)]
     fn own_marked<S: Simd>(&self, simd: S, lines: &[Row; lined::COUNT], packed: U32<S>) -> Overlaps<S> {
-        let shares = self.corner_shares(simd);
+        let shares = self.raw_weights(simd);
         let column = |index: usize| I32::simd_from(simd, lines[index]).bitcast::<F32<S>>();
         let (zero, none) = (F32::splat(simd, 0.0), U32::splat(simd, 0));
         let (mut most, mut greatest) = (Overlaps { shares: zero, marks: none }, none);
@@ -100,12 +100,12 @@ impl LinesOver<'_> {
         Overlaps { shares: most.shares + floor, marks }
     }
 
-    /// The corners' shares of the pixels.
+    /// The raw weights of the corners at the pixels.
     #[inline(always)]
-    fn corner_shares<S: Simd>(&self, simd: S) -> [F32<S>; 3] {
+    fn raw_weights<S: Simd>(&self, simd: S) -> [F32<S>; 3] {
         let triangle = TriangleLanes::load(simd, self.columns);
         let (edges, _) = triangle.edges(simd, self.columns.placed.point(simd));
-        triangle.shares(edges)
+        triangle.raw_weights(edges)
     }
 }
 

@@ -2,14 +2,15 @@
 
 use crate::simd::{Each, F32, Simd, U32, greater, prelude::*};
 
-/// The largest ratio of w within a triangle that is told apart; beyond, a
-/// vertex counts as this much further away. Keeps all quotients finite.
+/// The largest ratio of w within a triangle: the 1/w of a vertex is clamped to at least the greatest
+/// one divided by this. Keeps all quotients finite.
 const RATIO_MAX: f32 = (1_u64 << 60) as f32;
 
-/// The vertices' 1/w over a power of two near the largest, and that power of two.
+/// The vertices' 1/w divided by the largest power of two not above the greatest of them, and that power
+/// of two.
 ///
 /// Weights are quotients in which a common factor cancels. Scaling by a power of two rounds
-/// nothing, and keeps products and sums of shares away from overflow and underflow.
+/// nothing, and prevents overflow and underflow in products and sums.
 #[inline(always)]
 pub(super) fn perspective<S: Simd>(simd: S, inverse_w: [F32<S>; 3]) -> ([F32<S>; 3], F32<S>) {
     let scale = power_of_two(simd, greater(greater(inverse_w[0], inverse_w[1]), inverse_w[2]));

@@ -1,4 +1,4 @@
-//! Where eight pixels lie in their triangles, found ahead of shading them.
+//! The weights of eight pixels in their triangles, computed before the pixels are shaded.
 
 use crate::simd::{I32, Row, Simd, prelude::*};
 
@@ -9,8 +9,8 @@ use crate::simd::{I32, Row, Simd, prelude::*};
 pub(super) struct Placed {
     /// In 1/256 pixel from the tile's corner.
     pub(super) point: [Row; 2],
-    /// Perspective-correct weights of the corners, and one over the sum of the corners'
-    /// shares: bits of f32.
+    /// Perspective-correct weights of the corners, and one over the sum of the raw weights: bits of
+    /// f32.
     pub(super) weights: [Row; 3],
     pub(super) inverse: Row,
 }

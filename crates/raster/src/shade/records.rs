@@ -10,7 +10,7 @@ use super::layout::{RecordShape, cold, hot};
 use super::lines::Lines;
 use super::sorted::Sorted;
 use crate::bin::TriangleRef;
-use crate::ink::{FaceLine, Footprint, Marks, VisibleFaces};
+use crate::ink::{DepthRange, FaceLine, Marks, VisibleFaces};
 use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
 /// What few pipelines read of a triangle.
@@ -179,8 +179,8 @@ impl Records {
 fn note_flat(context: &ShadeContext<'_>, seen: &[u32], outer: &mut VisibleFaces) {
     for &number in seen {
         let greatest = context.draw.triangle(context.triangles[number as usize]).nearest();
-        let footprint = Footprint { least: f32::NEG_INFINITY, greatest };
-        outer.note(number, footprint, FaceLine::UNLINED);
+        let depths = DepthRange { least: f32::NEG_INFINITY, greatest };
+        outer.note(number, depths, FaceLine::UNLINED);
     }
 }
 

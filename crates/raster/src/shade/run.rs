@@ -89,7 +89,7 @@ fn prepare<S: Simd>(
     let vector = task.vector(simd, number);
     columns.load(simd, context, task.records, &vector);
     let point = points(simd, context, columns, vector.spots);
-    columns.placed = TriangleLanes::load(simd, columns).place(simd, point);
+    columns.placed = TriangleLanes::load(simd, columns).weigh(simd, point);
 }
 
 /// The fragments of a vector.

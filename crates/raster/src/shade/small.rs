@@ -1,7 +1,7 @@
 //! Edge functions of small triangles, from products of 16-bit numbers.
 //!
 //! A lane of 32 bits holds two numbers of 16, x in the low half and y in the high one. An edge
-//! function through the first vertex is the dot product of the steps (right, down) with the way
+//! function through the first vertex is the dot product of the steps (right, down) with the offset
 //! from that vertex, which is one instruction for eight lanes.
 
 use crate::simd::{Each, I32, Simd, U32, prelude::*};
@@ -21,13 +21,14 @@ impl<S: Simd> Small<S> {
     #[inline(always)]
     pub(super) fn edges(&self, [x, y]: [I32<S>; 2]) -> ([I32<S>; 3], I32<S>) {
         let [first, second] = self.steps;
-        let way = pairs(x | (y << 16)) - pairs(self.point);
+        let offset = pairs(x | (y << 16)) - pairs(self.point);
         let [b, c] = [first, second].each(
             #[inline(always)]
-            |steps| pairs(steps).pairwise_dot_product(way),
+            |steps| pairs(steps).pairwise_dot_product(offset),
         );
-        // The area is the edge function opposite vertex 1 at vertex 1, and the way from vertex 0
-        // to vertex 1 is perpendicular to the steps of the other edge: (down, -right).
+        // Twice the area is the edge function opposite vertex 1, evaluated at vertex 1. The offset from
+        // vertex 0 to vertex 1 is perpendicular to the steps of the other edge: (down, -right), or
+        // its negative if the steps were negated to make the triangle positive inside. Hence `abs`.
         let across = (second.bitcast::<U32<S>>() >> 16).bitcast::<I32<S>>() | (-second << 16);
         let area = pairs(first).pairwise_dot_product(pairs(across)).abs();
         // The three edge functions add up to twice the area everywhere.
@@ -64,10 +65,10 @@ mod tests {
         fn products_of_16_bits_are_exact(
             steps in [[side(), side()], [side(), side()]],
             reached in [within(), within()],
-            way in [side(), side()],
+            offset in [side(), side()],
             point in [within(), within()],
         ) {
-            let vertex = [reached[0] + way[0], reached[1] + way[1]];
+            let vertex = [reached[0] + offset[0], reached[1] + offset[1]];
             let product = |a: [i32; 2], b: [i32; 2]| {
                 i64::from(a[0]) * i64::from(b[0]) + i64::from(a[1]) * i64::from(b[1])
             };

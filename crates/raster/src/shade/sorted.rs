@@ -1,4 +1,4 @@
-//! Eight triangles side by side on their way into records.
+//! Eight triangles in lanes, sorted, from which records are made.
 
 use super::ShadeContext;
 use super::layout::flag;

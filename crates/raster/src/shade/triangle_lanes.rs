@@ -1,26 +1,30 @@
-//! The triangles of eight pixels: their edge functions at any points, exact, and the
-//! corners' shares.
+//! The triangles of eight pixels: their edge functions at any points, and the raw weights of their
+//! corners.
+//!
+//! These edge functions have no bias and are not divided by 256, unlike those of the same name in
+//! `tile`: they are zero on the edge. They are exact as integers, and then rounded once to f32.
 
 use super::columns::Columns;
 use super::layout::{CutColumns, cold, hot};
 use super::small::Small;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, inlined, prelude::*};
+use crate::tile::owns_boundary;
 
-/// What the points of a lane's triangle have in common, as its record has it.
+/// The triangle of each lane, from its record: what all its points have in common.
 pub(crate) struct TriangleLanes<'c, S: Simd> {
     small: Small<S>,
     /// Steps of the edge functions opposite vertices 1 and 2, both through
     /// vertex 0.
     pub(super) right: [I32<S>; 2],
     pub(super) down: [I32<S>; 2],
-    /// Instead of what is small where a triangle is wide or cut.
+    /// Replaces `small` if one of the triangles is wide or cut.
     wide: Option<Wide<'c, S>>,
-    /// 1/w of the vertices over a power of two near the largest.
+    /// 1/w of the vertices, divided by the largest power of two not above the greatest of them.
     q: [F32<S>; 3],
     cut: Option<&'c CutColumns>,
 }
 
-/// What of wide triangles need not fit 16 bits, or 32.
+/// The numbers that for wide triangles may not fit 16 bits, or 32.
 struct Wide<'c, S: Simd> {
     /// The first of the sorted vertices, from the tile's corner.
     point: [I32<S>; 2],
@@ -29,8 +33,8 @@ struct Wide<'c, S: Simd> {
 }
 
 impl<'c, S: Simd> TriangleLanes<'c, S> {
-    /// From the columns of records. That a lane is wide or cut never changes
-    /// another's result.
+    /// Loads the columns of records. A lane's result does not depend on whether others are wide or
+    /// cut.
     #[inline(always)]
     pub(super) fn load(simd: S, columns: &'c Columns) -> Self {
         let column = inlined(
@@ -74,7 +78,7 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
         let (b, c) = ([self.right[0], self.down[0]], [self.right[1], self.down[1]]);
         let owned = [[-(b[0] + c[0]), -(b[1] + c[1])], b, c].each(
             #[inline(always)]
-            |steps| inclusive(steps),
+            |[right, down]: [I32<S>; 2]| owns_boundary(right, down),
         );
         if self.wide.is_some() {
             let (edges, _) = self.edges(simd, point);
@@ -91,7 +95,7 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
         ((a + i) | (b + j) | (c + k)).simd_ge(I32::splat(simd, 0))
     }
 
-    /// The edge functions and the area, each rounded once.
+    /// The edge functions and twice the area, each exact up to one rounding to f32.
     #[inline(always)]
     pub(super) fn edges(&self, simd: S, point: [I32<S>; 2]) -> ([F32<S>; 3], F32<S>) {
         let Some(Wide { point: vertex, areas }) = self.wide else {
@@ -122,9 +126,10 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
         (edges, F32::simd_from(simd, area))
     }
 
-    /// The corners' shares for values of the edge functions.
+    /// The raw weights of the corners for values of the edge functions: perspective-correct weights
+    /// before they are divided by their sum.
     #[inline(always)]
-    pub(super) fn shares(&self, edges: [F32<S>; 3]) -> [F32<S>; 3] {
+    pub(super) fn raw_weights(&self, edges: [F32<S>; 3]) -> [F32<S>; 3] {
         let [a, b, c] = [edges[0] * self.q[0], edges[1] * self.q[1], edges[2] * self.q[2]];
         match &self.cut {
             None => [a, b, c],
@@ -141,24 +146,16 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
         }
     }
 
-    /// What the shares change by in 1/256 pixel.
+    /// The steps of the raw weights for 1/256 pixel.
     #[inline(always)]
-    pub(super) fn share_steps(&self, steps: [I32<S>; 2]) -> [F32<S>; 3] {
+    pub(super) fn raw_weight_steps(&self, steps: [I32<S>; 2]) -> [F32<S>; 3] {
         let [b, c] = steps;
-        self.shares([-(b + c), b, c].each(SimdCvt::to_f32))
+        self.raw_weights([-(b + c), b, c].each(SimdCvt::to_f32))
     }
 }
 
-/// Which points on an edge with these steps belong to the triangle: those on
-/// left edges and on top edges.
-#[inline(always)]
-fn inclusive<S: Simd>([right, down]: [I32<S>; 2]) -> Mask<S> {
-    let zero = I32::splat(right.token(), 0);
-    right.simd_gt(zero) | (right.simd_eq(zero) & down.simd_gt(zero))
-}
-
-/// Where an edge function is inside of its edge, which belongs to the triangle where it
-/// is owned. Rounding keeps the sign, and whether it is zero.
+/// In which lanes a point is inside an edge, given the edge function there and whether points on the
+/// edge belong to the triangle. Rounding keeps the sign, and whether it is zero.
 #[inline(always)]
 fn is_inside<S: Simd>(edge: F32<S>, owned: Mask<S>) -> Mask<S> {
     let zero = F32::splat(edge.token(), 0.0);

@@ -1,5 +1,5 @@
-//! One axis of a look-up: from a coordinate to a texel and the share of the
-//! next one, for one sample and for lanes.
+//! One axis of a look-up: from a coordinate to a texel and the weight of the
+//! next one, for one point and for lanes.
 //!
 //! A coordinate is first reduced to its period while it is still precise, and
 //! only then multiplied by the size of a level. From the coordinate given to

@@ -1,10 +1,14 @@
-//! The footprint of a sample on a texture: which mip level it needs and, with anisotropic
-//! filtering, how many probes along its longer side. Each is written twice, for one sample and
-//! for eight lanes, with the same operations in the same order.
+//! The footprint of a fragment on a texture: which mip level it needs and, with anisotropic
+//! filtering, how many probes along its longer side. Each is written twice, for one fragment and
+//! for eight lanes. The results that are used have the same bits.
 //!
-//! The gradients of the texture coordinates span a parallelogram in texels. Its longer side
-//! decides the level: at level `log2(side)` a texel is as large as the side. Squares of sides are
-//! compared, and the logarithm takes half of the exponent, so that the level needs no root.
+//! The gradients of the texture coordinates span a parallelogram in texels. With one probe its longer
+//! side decides the level: at level `log2(side)` a texel is as large as the side. With several
+//! probes, the longer side divided by their number decides. Squares of sides are compared, and the
+//! logarithm takes half of the exponent, so that the level needs no root.
+//!
+//! The sides are the gradients themselves, not the axes of the ellipse that a round pixel covers: for
+//! a sheared footprint that is an approximation, the usual one.
 
 use super::{Sampler, Texture};
 use crate::simd::prelude::*;
@@ -15,10 +19,10 @@ use trigon_math::Vec2;
 /// the last level of any texture.
 const COARSEST: f32 = (1_u64 << 60) as f32;
 
-/// What one sample covers of a texture.
+/// What one fragment covers of a texture.
 pub(super) struct Footprint {
     /// The square of the side that one look-up covers, in texels of the base level:
-    /// below 1 where a texel is larger than a sample step; finite.
+    /// below 1 where a texel is larger than an internal pixel; finite.
     pub(super) square: f32,
     /// How many probes, an integer from 1.
     pub(super) probes: f32,
@@ -28,11 +32,11 @@ pub(super) struct Footprint {
 
 impl Footprint {
     /// The footprint spanned by `ddx` and `ddy`, with at most the sampler's number
-    /// of probes; a point for a sampler that does not care.
+    /// of probes; a point if the sampler does not need it.
     ///
-    /// With a single probe, the look-up covers the longer side. With more, it covers
-    /// the longer side over the number of probes, which is the ratio of the sides,
-    /// rounded up: the formula of EXT_texture_filter_anisotropic (Khronos, 1999).
+    /// The number of probes is the ratio of the sides, rounded up, at most that of the sampler. Each
+    /// look-up covers the longer side divided by the number of probes: the formula of
+    /// EXT_texture_filter_anisotropic (Khronos, 1999).
     #[inline]
     pub(super) fn new(texture: &Texture, ddx: Vec2, ddy: Vec2, sampler: &Sampler) -> Self {
         if !sampler.needs_detail() {
@@ -125,25 +129,26 @@ fn squared_lanes<S: Simd>([width, height]: [F32<S>; 2], [u, v]: [F32<S>; 2]) -> 
     u * u + v * v
 }
 
-/// The lowest bit of an exponent: not set if the exponent is odd without its bias.
-const ODD: u32 = 1 << 23;
+/// The lowest bit of a biased exponent. The bias is odd, so where the bit is set the exponent
+/// itself is even.
+const LOWEST_EXPONENT_BIT: u32 = 1 << 23;
 
 /// The binary logarithm of the root of a finite `square` >= 0, as a whole number and a
-/// rest from 0 to 1 that is exact within 0.000025: the mip level of a look-up and the share
+/// rest from 0 to 1 that is exact within 0.000025: the mip level of a look-up and the weight
 /// of the next one. Below -50 for 0 and for numbers too small to matter.
 ///
 /// The whole number is half of the exponent, so that the level is known long before the
-/// share is; all that follows waits for it. The rest is a polynomial in the mantissa: only
+/// weight is; all that follows waits for the level. The rest is a polynomial in the mantissa: only
 /// additions and multiplications, so the same on every machine. It interpolates log2(1 + t)
 /// at both ends; the inner coefficients are a least-squares fit, and their terms are added
 /// up by twos (G. Estrin, 1960).
 pub(super) fn log2_of_root(square: f32) -> (i32, f32) {
     let bits = square.to_bits();
     // Half of the exponent, rounded down: its bias is odd.
-    let whole = ((bits + ODD) >> 24) as i32 - 64;
+    let whole = ((bits + LOWEST_EXPONENT_BIT) >> 24) as i32 - 64;
     let mantissa = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000);
     let t = mantissa - 1.0;
-    let straight = if bits & ODD == 0 { mantissa } else { t };
+    let straight = if bits & LOWEST_EXPONENT_BIT == 0 { mantissa } else { t };
     let inner = (0.220_87 - t * 0.133_015) + t * t * (0.073_155 - t * 0.022);
     (whole, straight * 0.5 + t * (1.0 - t) * inner)
 }
@@ -152,11 +157,12 @@ pub(super) fn log2_of_root(square: f32) -> (i32, f32) {
 #[inline(always)]
 pub(super) fn log2_of_root_lanes<S: Simd>(square: F32<S>) -> (I32<S>, F32<S>) {
     let bits = square.to_bits().bitcast::<I32<S>>();
-    let whole = ((bits + ODD as i32) >> 24) - 64;
+    let whole = ((bits + LOWEST_EXPONENT_BIT as i32) >> 24) - 64;
     let mantissa = (bits & 0x007f_ffff | 0x3f80_0000).bitcast::<F32<S>>();
     let t = mantissa - 1.0;
-    let odd = (bits & ODD as i32).simd_eq(I32::splat(square.token(), 0));
-    let straight = odd.select(mantissa, t);
+    // Set where the exponent is odd, that is where the bit is not set.
+    let is_odd = (bits & LOWEST_EXPONENT_BIT as i32).simd_eq(I32::splat(square.token(), 0));
+    let straight = is_odd.select(mantissa, t);
     let inner = (0.220_87 - t * 0.133_015) + t * t * (0.073_155 - t * 0.022);
     (whole, straight * 0.5 + t * (1.0 - t) * inner)
 }

@@ -1,12 +1,11 @@
-//! Numbers that know their own change from sample to sample, for texture
-//! coordinates that are computed.
+//! Numbers with their derivatives (dual numbers), for texture coordinates that are computed.
 
 use crate::simd::prelude::*;
 use crate::simd::{F32, Simd};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use trigon_math::Vec2;
 
-/// A value and its two derivatives, per sample step to the right and down.
+/// A value and its two derivatives, for one internal pixel to the right and down.
 ///
 /// A texture look-up needs the gradients of its coordinates. Those of a varying are
 /// given. Coordinates that are computed from varyings get their gradients when the
@@ -43,9 +42,9 @@ use trigon_math::Vec2;
 pub struct Dual<T> {
     /// The value.
     pub value: T,
-    /// Its change per sample step to the right.
+    /// Its change for one internal pixel to the right.
     pub dx: T,
-    /// Its change per sample step down.
+    /// Its change for one internal pixel down.
     pub dy: T,
 }
 

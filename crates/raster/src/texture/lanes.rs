@@ -1,22 +1,21 @@
-//! The look-up for eight samples at once: the same bits in every lane as for
-//! one sample.
+//! The look-up for eight points at once: the same bits in every lane as `sample` gives for one point.
 //!
 //! Levels, addresses and weights are computed in lanes, each lane with a mip
 //! level of its own. Only the texels are read lane by lane, two at a time. Then
-//! each of the four texels of a footprint is a vector of eight, and so is each
+//! each of the four texels of a bilinear look-up is a vector of eight, and so is each
 //! channel after it: the filter's arithmetic needs no shuffle.
 
 use super::axis::{Filters, reduced_lanes, texel_lanes};
 use super::channels::{ALPHA, Channels, Color, Data, Texels, mix};
 use super::detail::{FootprintLanes, log2_of_root_lanes};
-use super::strips::{COLUMNS, Footprint, PITCH, Strips};
+use super::strips::{COLUMNS, PITCH, Strips, TexelQuad};
 use super::{MipFilter, Sampler, Texture, TextureFormat};
 use crate::simd::prelude::*;
 use crate::simd::{Each, F32, I32, LANES, Simd, U32, lanes_of, transposed, unzipped};
 
 impl Texture {
-    /// [`Self::sample`] for eight samples: red, green, blue and alpha, in each
-    /// lane the same bits as for that sample alone.
+    /// [`Self::sample`] for eight points: red, green, blue and alpha, in each
+    /// lane the same bits as for that point alone.
     ///
     /// Fastest where neighbouring lanes look up neighbouring texels.
     #[inline(always)]
@@ -63,7 +62,7 @@ fn reduced<S: Simd>([u, v]: [F32<S>; 2], sampler: &Sampler) -> [F32<S>; 2] {
     [reduced_lanes(u, sampler.wrap_u), reduced_lanes(v, sampler.wrap_v)]
 }
 
-/// The look-ups of a footprint.
+/// The look-ups of eight footprints.
 #[derive(Clone, Copy)]
 struct Probes<'a, S: Simd> {
     simd: S,
@@ -83,8 +82,7 @@ impl<S: Simd> Probes<'_, S> {
         }
     }
 
-    /// The value at one point, in a function of its own: it is long, and there
-    /// are many callers.
+    /// The value at one point. A separate function, because it is long and has many callers.
     #[inline(always)]
     fn at<T: Texels>(&self, [u, v]: [F32<S>; 2], square: F32<S>) -> Channels<S> {
         // Two vectors, not one array of them: AVX-512 would copy that as one, and wait for
@@ -128,8 +126,8 @@ struct Lookup<'a, S: Simd> {
     uv: [F32<S>; 2],
     filters: Filters<S>,
     finer: Levels<S>,
-    /// Of the next level.
-    share: F32<S>,
+    /// The weight of the next level.
+    next_weight: F32<S>,
 }
 
 impl<'a, S: Simd> Lookup<'a, S> {
@@ -137,14 +135,14 @@ impl<'a, S: Simd> Lookup<'a, S> {
     fn new(of: &Probes<'a, S>, uv: [F32<S>; 2], square: F32<S>) -> Self {
         let Probes { simd, texture, sampler, .. } = *of;
         let (zero, nought) = (F32::splat(simd, 0.0), I32::splat(simd, 0));
-        // Lanes in which a texel is smaller than a sample step.
+        // Lanes in which a texel is smaller than an internal pixel.
         let minified = square.simd_gt(1.0);
         let (whole, rest) = log2_of_root_lanes(square);
         let last = I32::splat(simd, texture.strips.last_level as i32);
-        // Where the level was held to the range, it is exact and has no share of the next one.
+        // Where the level was clamped to the range, the next level has no weight.
         let level = whole.min(last).max(nought);
         let rest = (whole.simd_eq(level) & level.simd_lt(last)).select(rest, zero);
-        let (finer, share) = match sampler.mip {
+        let (finer, next_weight) = match sampler.mip {
             MipFilter::None => (nought, zero),
             MipFilter::Nearest => (level + rest.simd_ge(0.5).select(I32::splat(simd, 1), nought), zero),
             MipFilter::Linear | MipFilter::Anisotropic(_) => (level, rest),
@@ -155,13 +153,13 @@ impl<'a, S: Simd> Lookup<'a, S> {
             (super::Filter::Linear, _) => Filters::Linear(minified),
             _ => Filters::Linear(!minified),
         };
-        Self { simd, texture, sampler, uv, filters, finer, share }
+        Self { simd, texture, sampler, uv, filters, finer, next_weight }
     }
 
     #[inline(always)]
     fn value<T: Texels>(&self) -> Channels<S> {
-        let finer = self.place(&self.finer);
-        if !self.share.simd_gt(0.0).any_true() {
+        let finer = self.address(&self.finer);
+        if !self.next_weight.simd_gt(0.0).any_true() {
             let texels = self.texels(&finer);
             return self.channels(
                 #[inline(always)]
@@ -170,14 +168,14 @@ impl<'a, S: Simd> Lookup<'a, S> {
         }
         // Each step waits for the one before. So every step is taken for both
         // levels before the next one: the processor has twice as much to do.
-        // Where there is no next level its share is 0.
-        let next = self.place(&self.finer.next(self.texture.strips.last_level));
+        // Where there is no next level its weight is 0.
+        let next = self.address(&self.finer.next(self.texture.strips.last_level));
         let (finer_texels, next_texels) = (self.texels(&finer), self.texels(&next));
         self.channels(
             #[inline(always)]
             |channel| {
                 let value = finer.filtered::<T>(finer_texels, channel);
-                mix(value, next.filtered::<T>(next_texels, channel), self.share)
+                mix(value, next.filtered::<T>(next_texels, channel), self.next_weight)
             },
         )
     }
@@ -190,23 +188,23 @@ impl<'a, S: Simd> Lookup<'a, S> {
         [channel(0), channel(1), channel(2), alpha]
     }
 
-    /// Where in its level each lane's look-up goes.
+    /// Where the texels of each lane's look-up lie in its level.
     #[inline(always)]
-    fn place(&self, levels: &Levels<S>) -> Place<S> {
+    fn address(&self, levels: &Levels<S>) -> Address<S> {
         let [start, width, height, strip] = levels.of(self.simd, &self.texture.strips);
         let (x, s) = texel_lanes(self.uv[0], width, self.sampler.wrap_u, self.filters);
         let (y, t) = texel_lanes(self.uv[1], height, self.sampler.wrap_v, self.filters);
-        Place { index: index([start, strip], [x, y]), s, t }
+        Address { index: index([start, strip], [x, y]), s, t }
     }
 
     /// Top left and right, bottom left and right.
     #[inline(always)]
-    fn texels(&self, place: &Place<S>) -> [[U32<S>; 2]; 2] {
-        let index: [u32; LANES] = place.index.bitcast::<U32<S>>().into();
-        let footprints = self.texture.strips.footprints();
+    fn texels(&self, address: &Address<S>) -> [[U32<S>; 2]; 2] {
+        let index: [u32; LANES] = address.index.bitcast::<U32<S>>().into();
+        let quads = self.texture.strips.quads();
         let rows = lanes_of(
             #[inline(always)]
-            |lane| footprints.at(index[lane]),
+            |lane| quads.at(index[lane]),
         );
         [neighbours(self.simd, &rows, 0), neighbours(self.simd, &rows, 1)]
     }
@@ -239,7 +237,7 @@ impl<S: Simd> Levels<S> {
         Self { each, shared: self.shared.map(|level| (level + 1).min(last)) }
     }
 
-    /// What there is to know of each.
+    /// Start, width, height and strip length of each level.
     #[inline(always)]
     fn of(&self, simd: S, strips: &Strips) -> [I32<S>; 4] {
         if let Some(level) = self.shared {
@@ -257,16 +255,16 @@ impl<S: Simd> Levels<S> {
     }
 }
 
-/// Where look-ups go.
-struct Place<S: Simd> {
+/// The texels of eight look-ups in one level.
+struct Address<S: Simd> {
     /// The first texel's, counted from the start of the base level.
     index: I32<S>,
-    /// The share of the right texels, and of the lower ones.
+    /// The weight of the right texels, and of the lower ones.
     s: F32<S>,
     t: F32<S>,
 }
 
-impl<S: Simd> Place<S> {
+impl<S: Simd> Address<S> {
     /// The bilinear filter, of one channel.
     #[inline(always)]
     fn filtered<T: Texels>(&self, texels: [[U32<S>; 2]; 2], channel: u32) -> F32<S> {
@@ -283,14 +281,14 @@ impl<S: Simd> Place<S> {
 #[inline(always)]
 fn index<S: Simd>([start, texels]: [I32<S>; 2], [x, y]: [I32<S>; 2]) -> I32<S> {
     let strip = x >> COLUMNS.trailing_zeros();
-    // The border makes a strip one row longer; eight columns less for each strip are
-    // one more than that takes.
+    // A strip has 9 · (height + 1) texels, of which `texels` counts 9 · height. The column within the
+    // strip is x - 8 · strip, so 9 · strip - 8 · strip = strip is left to add to x.
     strip * texels + (start + (x + strip) + y * PITCH as i32)
 }
 
-/// The first and the second texels of one row of all footprints.
+/// The left and the right texels of one row of all quads.
 #[inline(always)]
-fn neighbours<S: Simd>(simd: S, rows: &[Footprint; LANES], row: usize) -> [U32<S>; 2] {
+fn neighbours<S: Simd>(simd: S, rows: &[TexelQuad; LANES], row: usize) -> [U32<S>; 2] {
     unzipped(
         simd,
         rows.each(

@@ -18,29 +18,29 @@ impl Rows {
     }
 }
 
-/// The texels of one axis that a texel of the next level covers, and the share
+/// The texels of one axis that a texel of the next level covers, and the weight
 /// of each. An odd number of texels is not halved evenly: then a texel covers
 /// parts of three.
 #[derive(Clone, Copy)]
-struct Footprint {
+struct CoveredTexels {
     first: u32,
-    shares: [f32; 3],
+    weights: [f32; 3],
 }
 
-impl Footprint {
+impl CoveredTexels {
     fn new(index: u32, from: u32, to: u32) -> Self {
         if from == to {
-            return Self { first: index, shares: [1.0, 0.0, 0.0] };
+            return Self { first: index, weights: [1.0, 0.0, 0.0] };
         }
         if from == 2 * to {
-            return Self { first: 2 * index, shares: [0.5, 0.5, 0.0] };
+            return Self { first: 2 * index, weights: [0.5, 0.5, 0.0] };
         }
         // from = 2 to + 1: in units of 1/to of a texel, texel `index` covers
         // [index * from, (index + 1) * from), texel k of the finer level
         // [k * to, (k + 1) * to).
         let whole = 1.0 / from as f32;
-        let shares = [(to - index) as f32 * whole, to as f32 * whole, (index + 1) as f32 * whole];
-        Self { first: 2 * index, shares }
+        let weights = [(to - index) as f32 * whole, to as f32 * whole, (index + 1) as f32 * whole];
+        Self { first: 2 * index, weights }
     }
 }
 
@@ -50,10 +50,10 @@ pub(super) fn halved(from: &Rows, format: TextureFormat) -> Option<Rows> {
         return None;
     }
     let (width, height) = ((from.width / 2).max(1), (from.height / 2).max(1));
-    let columns: Vec<_> = (0..width).map(|x| Footprint::new(x, from.width, width)).collect();
+    let columns: Vec<_> = (0..width).map(|x| CoveredTexels::new(x, from.width, width)).collect();
     let mut texels = Vec::with_capacity(width as usize * height as usize);
     for y in 0..height {
-        let rows = Footprint::new(y, from.height, height);
+        let rows = CoveredTexels::new(y, from.height, height);
         for column in &columns {
             texels.push(mean(from, *column, rows, format));
         }
@@ -61,15 +61,15 @@ pub(super) fn halved(from: &Rows, format: TextureFormat) -> Option<Rows> {
     Some(Rows { width, height, texels })
 }
 
-fn mean(from: &Rows, columns: Footprint, rows: Footprint, format: TextureFormat) -> [u8; 4] {
+fn mean(from: &Rows, columns: CoveredTexels, rows: CoveredTexels, format: TextureFormat) -> [u8; 4] {
     let mut plain = Vec4::ZERO;
     let mut weighted = Vec4::ZERO;
-    for (j, &row_share) in (rows.first..from.height).zip(&rows.shares) {
-        for (i, &column_share) in (columns.first..from.width).zip(&columns.shares) {
+    for (j, &row_weight) in (rows.first..from.height).zip(&rows.weights) {
+        for (i, &column_weight) in (columns.first..from.width).zip(&columns.weights) {
             let texel = decode(from.texels[(j * from.width + i) as usize], format) / full_scale(format);
-            let share = row_share * column_share;
-            plain += texel * share;
-            weighted += texel * (share * texel.w);
+            let weight = row_weight * column_weight;
+            plain += texel * weight;
+            weighted += texel * (weight * texel.w);
         }
     }
     let alpha = plain.w;
@@ -117,9 +117,9 @@ mod tests {
             let from = 2 * to + 1;
             let mut total = vec![0.0_f32; from as usize];
             for index in 0..to {
-                let footprint = Footprint::new(index, from, to);
-                for (k, share) in footprint.shares.iter().enumerate() {
-                    total[footprint.first as usize + k] += share;
+                let covered = CoveredTexels::new(index, from, to);
+                for (k, weight) in covered.weights.iter().enumerate() {
+                    total[covered.first as usize + k] += weight;
                 }
             }
             let expected = to as f32 / from as f32;

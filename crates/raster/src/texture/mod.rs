@@ -1,4 +1,18 @@
-//! Images on surfaces: texels, mip levels and the ways to look them up.
+//! Textures: images on surfaces, their mip levels, and looking them up with filters.
+//!
+//! In the order of a look-up:
+//!
+//! | file | what it does |
+//! |---|---|
+//! | `sampler` | the settings of a look-up: wrap modes, filters |
+//! | `dual` | computed texture coordinates with their derivatives |
+//! | `detail` | the footprint of a fragment: **which mip level**, how many anisotropic probes |
+//! | `axis` | wraps a coordinate and finds the texel and the weight of the next one, on one axis |
+//! | `strips` | where texels lie in memory: **the address** of a texel |
+//! | `format`, `channels` | what the bytes of texels mean; bytes to channels in lanes |
+//! | `sample` | **the look-up for one point**, filter included: the definition |
+//! | `lanes` | the same for eight points, bit for bit |
+//! | `mips` | makes the mip levels |
 
 mod axis;
 mod channels;

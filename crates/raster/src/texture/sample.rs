@@ -1,4 +1,4 @@
-//! The look-up itself, for one sample: level, texels, weights.
+//! The look-up itself, for one point: level, texels, weights.
 //!
 //! Every step is total: any coordinate and any gradient, finite or not, gives
 //! an index in range and a finite value. This is the definition that the look-up
@@ -14,7 +14,7 @@ use trigon_math::{Vec2, Vec4};
 impl Texture {
     /// The value at `uv` in linear light, alpha straight, filtered as the
     /// `sampler` says for a footprint spanned by `ddx` and `ddy`, the change of
-    /// `uv` per sample step.
+    /// `uv` for one internal pixel (half a pixel with two samples per axis).
     ///
     /// Any coordinate is safe: one that is not finite counts as 0, a gradient
     /// that is not finite selects the last level.
@@ -58,9 +58,9 @@ struct Lookup<'a> {
     /// Reduced to the first period.
     uv: Vec2,
     filter: Filter,
-    /// The finer level, and the share of the next one.
+    /// The finer level, and the weight of the next one.
     finer: u32,
-    share: f32,
+    next_weight: f32,
 }
 
 impl<'a> Lookup<'a> {
@@ -73,22 +73,22 @@ impl<'a> Lookup<'a> {
             Ok(_) => (last, 0.0),
             Err(_) => (0, 0.0),
         };
-        let (finer, share) = match sampler.mip {
+        let (finer, next_weight) = match sampler.mip {
             MipFilter::None => (0, 0.0),
             MipFilter::Nearest => (level + u32::from(rest >= 0.5), 0.0),
             MipFilter::Linear | MipFilter::Anisotropic(_) => (level, rest),
         };
         let filter = if square > 1.0 { sampler.minification } else { sampler.magnification };
-        Self { texture, sampler, uv, filter, finer, share }
+        Self { texture, sampler, uv, filter, finer, next_weight }
     }
 
     #[inline]
     fn value(&self) -> Vec4 {
         let value = self.level(self.finer);
-        if self.share == 0.0 {
+        if self.next_weight == 0.0 {
             return value;
         }
-        mix(value, self.level(self.finer + 1), self.share)
+        mix(value, self.level(self.finer + 1), self.next_weight)
     }
 
     #[inline]
@@ -98,21 +98,21 @@ impl<'a> Lookup<'a> {
         let (x, s) = texel(self.uv.x, width as f32, self.sampler.wrap_u, self.filter);
         let (y, t) = texel(self.uv.y, height as f32, self.sampler.wrap_v, self.filter);
         let index = start + Strips::index(height, [x, y]);
-        let [top, bottom] = strips.footprints().at(index);
+        let [top, bottom] = strips.quads().at(index);
         mix(self.row(top, s), self.row(bottom, s), t)
     }
 
     /// Mixes neighbours.
     #[inline]
-    fn row(&self, pair: u64, share: f32) -> Vec4 {
+    fn row(&self, pair: u64, weight: f32) -> Vec4 {
         let texel = |bits: u32| decode(bits.to_le_bytes(), self.texture.format);
-        mix(texel(pair as u32), texel((pair >> 32) as u32), share)
+        mix(texel(pair as u32), texel((pair >> 32) as u32), weight)
     }
 }
 
 #[inline]
-fn mix(a: Vec4, b: Vec4, share: f32) -> Vec4 {
-    a + (b - a) * share
+fn mix(a: Vec4, b: Vec4, weight: f32) -> Vec4 {
+    a + (b - a) * weight
 }
 
 #[cfg(test)]

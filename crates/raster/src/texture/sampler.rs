@@ -49,7 +49,7 @@ pub struct Sampler {
     pub wrap_u: Wrap,
     /// Beyond the top and bottom edge.
     pub wrap_v: Wrap,
-    /// Filter where a texel is larger than a sample step.
+    /// Filter where a texel is larger than an internal pixel.
     pub magnification: Filter,
     /// Filter within a level where it is smaller.
     pub minification: Filter,

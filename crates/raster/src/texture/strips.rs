@@ -8,7 +8,7 @@
 //! lines in both directions. The border costs an eighth of memory and a row.
 //!
 //! What follows the last column or row is the first, as [`Wrap::Repeat`] needs.
-//! The other modes never see that: they hold the position to the centres of the
+//! The other modes never use it: they clamp the position to the centres of the
 //! outermost texels, where the weight of what follows is 0.
 //!
 //! [`Wrap::Repeat`]: super::Wrap::Repeat
@@ -19,7 +19,7 @@ use super::mips::Rows;
 pub(super) const COLUMNS: u32 = 8;
 /// Texels from a row of a strip to the next.
 pub(super) const PITCH: u32 = COLUMNS + 1;
-/// Texels from the first to the last of a footprint, in memory, both counted.
+/// Texels in memory from the first to the last of a [`TexelQuad`], both counted.
 const SPAN: usize = PITCH as usize + 2;
 /// More than the 15 levels of the largest texture, and a power of two: a number
 /// below it needs no check.
@@ -43,7 +43,7 @@ pub(super) struct Strips {
 
 /// The texel of a look-up and its right neighbour, then the two below, each as
 /// bytes red, green, blue, alpha, red … from the lowest on.
-pub(super) type Footprint = [u64; 2];
+pub(super) type TexelQuad = [u64; 2];
 
 impl Strips {
     /// The base level first; each next half as wide and high.
@@ -79,8 +79,8 @@ impl Strips {
     }
 
     /// A texel of the base level.
-    pub(super) fn base_texel(&self, place: [u32; 2]) -> [u8; 4] {
-        self.texels[Self::index(self.height, place) as usize]
+    pub(super) fn base_texel(&self, at: [u32; 2]) -> [u8; 4] {
+        self.texels[Self::index(self.height, at) as usize]
     }
 
     /// A level by its number.
@@ -89,28 +89,27 @@ impl Strips {
         &self.levels[number as usize % MAX_LEVELS]
     }
 
-    /// What there is to look up.
+    /// The texels of bilinear look-ups.
     #[inline(always)]
-    pub(super) fn footprints(&self) -> Footprints<'_> {
+    pub(super) fn quads(&self) -> TexelQuads<'_> {
         let last = self.texels.len().checked_sub(SPAN).expect("the smallest texture has a border");
-        Footprints { texels: &self.texels, last }
+        TexelQuads { texels: &self.texels, last }
     }
 }
 
-/// The footprints of all levels.
+/// The 2×2 texels of bilinear look-ups, in all levels.
 #[derive(Clone, Copy)]
-pub(super) struct Footprints<'t> {
+pub(super) struct TexelQuads<'t> {
     texels: &'t [[u8; 4]],
-    /// The index of the last: so that a single comparison holds one to those that there
-    /// are.
+    /// The last index that may be looked up: one comparison checks all four texels.
     last: usize,
 }
 
-impl Footprints<'_> {
+impl TexelQuads<'_> {
     /// The texel at an index counted from the start of the base level, its right
     /// neighbour and the two below.
     #[inline(always)]
-    pub(super) fn at(&self, index: u32) -> Footprint {
+    pub(super) fn at(&self, index: u32) -> TexelQuad {
         let first = index as usize;
         assert!(first <= self.last, "a look-up beyond the last texel");
         let texels = &self.texels[first..first + SPAN];
@@ -162,7 +161,7 @@ mod tests {
                 let (right, below) = ((x + 1) % width, (y + 1) % height);
                 let expected = [pair(at(x, y), at(right, y)), pair(at(x, below), at(right, below))];
                 assert_eq!(strips.base_texel([x, y]), at(x, y), "the texel ({x}, {y}) of {width}x{height}");
-                let got = strips.footprints().at(Strips::index(height, [x, y]));
+                let got = strips.quads().at(Strips::index(height, [x, y]));
                 assert_eq!(got, expected, "at ({x}, {y}) of {width}x{height}");
             }
         }

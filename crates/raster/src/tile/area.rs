@@ -19,7 +19,7 @@ pub(crate) struct TileArea {
     pub(crate) origin: [i32; 2],
     /// Pixels in a row and in a column, at most [`MAX_SIDE`].
     pub(crate) size: [usize; 2],
-    /// How many pixels on the left and at the top belong to its neighbours.
+    /// The margin: how many pixels on the left and at the top belong to neighbouring tiles.
     pub(crate) margin: [usize; 2],
 }
 
@@ -30,20 +30,20 @@ pub(crate) const BLOCKS: usize = MAX_SIDE / 8;
 pub(crate) const GROUPS: usize = 8;
 
 impl TileArea {
-    /// The number of the pixel in this column and row of the tile.
+    /// The index of the pixel in this column and row of the tile.
     #[inline(always)]
     pub(crate) fn index_of([x, y]: [usize; 2]) -> usize {
         Self::group_of([x / 4, y / 2]) * 8 + (y & 1) * 4 + (x & 3)
     }
 
-    /// The number of a group by its column and row.
+    /// The index of a group by its column and row.
     #[inline(always)]
     pub(crate) fn group_of([x, y]: [usize; 2]) -> usize {
-        // Two parts that a loop over columns or rows can take apart.
+        // Two terms, of which the compiler can move one out of a loop over columns or rows.
         ((x / 2) * GROUPS + (x & 1)) + ((y / 4) * (BLOCKS * GROUPS) + (y & 3) * 2)
     }
 
-    /// The column and row of a pixel by its number.
+    /// The column and row of a pixel by its index.
     #[inline(always)]
     pub(crate) fn pixel_at(index: usize) -> [usize; 2] {
         let x = (index & 3) | (index >> 1 & 4) | (index >> 3 & 0x38);
@@ -51,7 +51,7 @@ impl TileArea {
         [x, y]
     }
 
-    /// The columns and rows of eight pixels by their numbers.
+    /// The columns and rows of eight pixels by their indices.
     #[inline(always)]
     pub(crate) fn pixels_at<S: Simd>(index: I32<S>) -> [I32<S>; 2] {
         let x = (index & 3) | ((index >> 1) & 4) | ((index >> 3) & 0x38);
@@ -59,7 +59,7 @@ impl TileArea {
         [x, y]
     }
 
-    /// The place in 1/256 pixel of a pixel's sample at an offset.
+    /// The position in 1/256 pixel of a pixel's sample at an offset.
     #[inline(always)]
     pub(crate) fn point(&self, pixel: [i32; 2], offset: [i32; 2]) -> [i32; 2] {
         [0, 1].each(
@@ -73,20 +73,20 @@ impl TileArea {
         [0, 1].map(|axis| self.origin[axis] + self.margin[axis] as i32)
     }
 
-    /// Whether a pixel of the tile lies in the picture.
+    /// Whether a pixel of the tile lies in the image.
     #[inline(always)]
     pub(crate) fn contains(&self, [x, y]: [usize; 2]) -> bool {
         x < self.size[0] && y < self.size[1]
     }
 
-    /// The size in whole blocks: what is drawn in scratch, so that bounds of
-    /// blocks at the picture's rim mean something.
+    /// The size in whole blocks, all of which are drawn: otherwise blocks at the image's edge would
+    /// hold samples that were never drawn, and their bounds would be useless.
     #[inline(always)]
     pub(crate) fn padded(&self) -> [usize; 2] {
         self.size.map(|side| side.next_multiple_of(8))
     }
 
-    /// How many numbers its pixels take; the tile need not use all.
+    /// The number of pixel indices that the tile needs; some of them may be unused.
     pub(crate) fn span(&self) -> usize {
         let [width, height] = self.size.map(|side| side.div_ceil(8));
         ((height - 1) * BLOCKS + width) * GROUPS * 8

@@ -1,5 +1,5 @@
-//! A tile's visibility buffer: depth and winner of each sample, with bounds of
-//! the depths over blocks and over the whole tile.
+//! A tile's visibility buffer: depth and visible triangle of each sample, with bounds of
+//! the depths over blocks and over the whole tile. A greater depth is nearer.
 
 use super::area::{BLOCKS, GROUPS, TileArea};
 use crate::simd::{F32, LANES, Simd, lesser, prelude::*};
@@ -7,11 +7,11 @@ use crate::simd::{F32, LANES, Simd, lesser, prelude::*};
 /// No triangle: the background.
 pub(crate) const NOBODY: u32 = u32::MAX;
 
-/// The depth of the background: behind the far plane, at 0, by less than any
-/// depth that matters, so that what lies in the far plane is seen.
+/// The depth of the background: slightly below 0, the depth of the far plane, so that a
+/// triangle in the far plane is visible.
 pub(crate) const BEHIND_ALL: f32 = -f32::MIN_POSITIVE;
 
-/// Bounds of the depths in a block. They may be wider than need be, never
+/// Bounds of the depths in a block. They may be wider than necessary, never
 /// narrower.
 #[derive(Clone, Copy)]
 pub(crate) struct BlockBounds {
@@ -21,17 +21,17 @@ pub(crate) struct BlockBounds {
     pub(crate) writes: u32,
 }
 
-/// Depth and winner of each sample of a tile: group by group, sample by sample,
+/// Depth and visible triangle of each sample of a tile: group by group, sample by sample,
 /// eight lanes.
 pub(crate) struct VisibilityBuffer {
     pub(crate) depth: Vec<f32>,
-    /// The place of what is seen among the tile's triangles, or [`NOBODY`].
+    /// The index of the visible triangle among the tile's triangles, or [`NOBODY`].
     pub(crate) winner: Vec<u32>,
     pub(crate) blocks: [BlockBounds; BLOCKS * BLOCKS],
     /// No sample lies further away.
     pub(crate) farthest: f32,
     stale: bool,
-    /// All samples hold this, and the arrays do not know yet.
+    /// All samples hold this depth and triangle, but the arrays are not filled yet.
     fill: Option<(f32, u32)>,
     pub(crate) samples: usize,
     span: usize,
@@ -68,22 +68,22 @@ impl VisibilityBuffer {
         self.fill_with(BEHIND_ALL, NOBODY);
     }
 
-    /// Gives all samples one depth and winner. Only a note is made; the arrays are filled when they
-    /// are needed.
+    /// Gives all samples one depth and triangle. Only a note is made; the arrays are filled when they
+    /// are needed (`settle`).
     pub(crate) fn fill_with(&mut self, depth: f32, winner: u32) {
         self.fill = Some((depth, winner));
         (self.farthest, self.stale) = (depth, false);
     }
 
-    /// No sample lies nearer, if that is known without a look.
+    /// The depth of all samples while a fill is pending.
     pub(crate) fn nearest(&self) -> Option<f32> {
         self.fill.map(|(depth, _)| depth)
     }
 
-    /// Writes a pending fill to the arrays. Samples beside the tile's blocks get no winner.
+    /// Writes a pending fill to the arrays. Samples beside the tile's blocks get no triangle.
     #[inline(always)]
     pub(crate) fn settle(&mut self) {
-        // Asked for each triangle.
+        // Called for each triangle, so this part is inlined.
         if let Some(fill) = self.fill.take() {
             self.settle_fill(fill);
         }
@@ -109,7 +109,7 @@ impl VisibilityBuffer {
         }
     }
 
-    /// Removes the winners of samples outside the image.
+    /// Removes the triangles of samples outside the image.
     pub(crate) fn blank_outside(&mut self, area: &TileArea) {
         if area.size == area.padded() {
             return;
@@ -122,13 +122,13 @@ impl VisibilityBuffer {
         }
     }
 
-    /// The place in the arrays of a pixel's sample.
+    /// The index in the arrays of a pixel's sample.
     #[inline(always)]
     pub(crate) fn index(&self, pixel: usize, sample: usize) -> usize {
         (pixel / LANES * self.samples + sample) * LANES + pixel % LANES
     }
 
-    /// What is seen: group by group, sample by sample, eight lanes.
+    /// The visible triangles: group by group, sample by sample, eight lanes.
     pub(crate) fn winners(&self) -> &[u32] {
         &self.winner[..self.span * self.samples]
     }
@@ -137,7 +137,7 @@ impl VisibilityBuffer {
         &mut self.winner[..self.span * self.samples]
     }
 
-    /// How many samples see a triangle.
+    /// The number of samples at which a triangle is visible.
     pub(crate) fn seen(&self) -> usize {
         self.winners().iter().filter(|&&winner| winner != NOBODY).count()
     }
@@ -165,7 +165,7 @@ impl VisibilityBuffer {
         }
     }
 
-    /// The farthest depth of a block, found anew if that may help.
+    /// The farthest depth of a block, recomputed if something was written since.
     #[inline(always)]
     pub(crate) fn farthest_in<S: Simd>(&mut self, simd: S, block: usize) -> f32 {
         if self.blocks[block].writes > 0 {
@@ -189,7 +189,7 @@ impl VisibilityBuffer {
     fn refresh<S: Simd>(&mut self, simd: S, block: usize) {
         let length = GROUPS * self.samples;
         let depths = &self.depth.as_chunks::<LANES>().0[block * length..(block + 1) * length];
-        // Several at once: hardly a comparison waits for the one before.
+        // Four independent chains, so that few comparisons wait for the one before.
         let mut least = [F32::splat(simd, f32::INFINITY); GROUPS / 2];
         for groups in depths.as_chunks::<{ GROUPS / 2 }>().0 {
             for (least, group) in least.iter_mut().zip(groups) {
@@ -202,8 +202,8 @@ impl VisibilityBuffer {
         self.blocks[block] = BlockBounds { farthest, writes: 0, ..self.blocks[block] };
     }
 
-    /// The farthest depth of the tile, found anew from the blocks' if one of
-    /// them has changed. Blocks outside of the picture count like all others.
+    /// The farthest depth of the tile, recomputed from the blocks' if one of
+    /// them has changed. Blocks outside the image count like all others.
     #[inline(always)]
     pub(crate) fn farthest_of_all(&mut self, area: &TileArea) -> f32 {
         if self.stale {
@@ -219,7 +219,7 @@ impl VisibilityBuffer {
     }
 }
 
-/// The least of eight: three comparisons one after the other.
+/// The least of eight, in a tree of three levels of comparisons.
 #[inline(always)]
 fn least_of([a, b, c, d, e, f, g, h]: [f32; LANES]) -> f32 {
     let lesser = |a: f32, b: f32| if a < b { a } else { b };

@@ -1,4 +1,4 @@
-//! What deciding about a tile's opaque triangles took, in counts.
+//! Counts of the work on a tile's opaque triangles, for [`Stats`](crate::Stats).
 
 /// Counts of blocks and samples.
 #[derive(Clone, Copy, Default)]

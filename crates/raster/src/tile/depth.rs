@@ -5,21 +5,21 @@ use crate::simd::{Each, F32, Simd, greater, lesser, prelude::*};
 use crate::vertex::ScreenVertex;
 use fearless_simd::f64x4;
 
-/// A plane through the vertices, anchored at the first of them and held to the
-/// range of their depths.
+/// A plane through the vertices, anchored at the first of them and clamped to the
+/// range of their depths. A greater depth is nearer.
 ///
-/// In f64, so that what is rounded on the way does not show: with Δz the range
+/// In f64, so that rounding before the conversion to f32 hardly matters: with Δz the range
 /// of the depths, X and Y the triangle's extents and A its area, a value lies
 /// within `2^-50 · Δz · XY/A` of the exact plane, and an eighth of that and two
 /// roundings of f64 for the sums, before it is rounded to f32.
-/// The range is never left, so even a needle whose XY/A is beyond that does no
-/// harm, and equal depths are exactly constant. With reversed depth and an
+/// Depths never leave the range, which also bounds the error of very thin triangles with a greater
+/// XY/A, and equal depths are exactly constant. With reversed depth and an
 /// infinite far plane the relative precision of f32 is kept at all distances.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DepthPlane {
     pub(crate) anchor: [i32; 2],
     pub(crate) value: f64,
-    /// Steps of 1/256 pixel.
+    /// Steps for 1/256 pixel.
     pub(crate) right: f64,
     pub(crate) down: f64,
     /// The least and the greatest depth of the vertices.

@@ -1,6 +1,6 @@
-//! Depth queries: where a masked or translucent triangle lies in front of what a tile holds, eight
-//! samples at a time. A lane is one pixel of a group of 4×2. Nothing is stored: the caller gets the
-//! visible lanes and their depths.
+//! Depth queries: where a masked or translucent triangle is in front of the visible triangles of a
+//! tile, eight samples at a time. A lane is one pixel of a group of 4×2. Nothing is stored: the caller
+//! gets the visible lanes and their depths. The depth test is that of `TileRasterizer::visible_lanes`.
 
 use super::blocks::Blocks;
 use super::buffer::{NOBODY, VisibilityBuffer};
@@ -9,7 +9,7 @@ use crate::bin::TriangleRef;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
 use crate::view::FrameView;
 
-/// A tile whose opaque triangles are settled.
+/// A tile whose opaque triangles are drawn.
 #[derive(Clone, Copy)]
 pub(crate) struct TileView<'t> {
     pub(crate) frame: &'t FrameView<'t>,
@@ -30,17 +30,17 @@ pub(crate) struct Candidate<'c> {
 /// The samples of one number in a group of pixels: four columns, two rows.
 #[derive(Clone, Copy)]
 pub(crate) struct SampleGroup {
-    /// The number of the group in the tile.
+    /// The index of the group in the tile.
     pub(crate) group: usize,
     pub(crate) sample: usize,
     /// Column and row of its first pixel in the tile.
     first: [i32; 2],
-    /// The place in 1/256 pixel of its first sample.
+    /// The position of its first sample in 1/256 pixel.
     pub(crate) point: [i32; 2],
 }
 
 impl SampleGroup {
-    /// The number of a lane's pixel in the tile.
+    /// The index of a lane's pixel in the tile.
     #[inline(always)]
     pub(crate) fn pixel(&self, lane: usize) -> usize {
         self.group * LANES + lane
@@ -48,9 +48,8 @@ impl SampleGroup {
 }
 
 impl TileView<'_> {
-    /// Calls `visit` for all samples of some blocks at which a triangle is seen:
-    /// group by group, sample by sample, with the lanes where it is and the
-    /// depths.
+    /// Calls `visit` for all samples of some blocks at which a triangle would be visible:
+    /// group by group, sample by sample, with those lanes and the depths.
     #[inline(always)]
     pub(crate) fn for_each_seen<S: Simd>(
         &self,
@@ -75,7 +74,7 @@ impl TileView<'_> {
                         true => self.within_image(simd, first),
                         false => self.covered(simd, covering, group),
                     };
-                    if let Some((seen, depth)) = self.seen(simd, candidate, covered, group) {
+                    if let Some((seen, depth)) = self.visible_lanes(simd, candidate, covered, group) {
                         visit(group, seen, depth);
                     }
                 }
@@ -83,7 +82,7 @@ impl TileView<'_> {
         }
     }
 
-    /// The lanes of a group at which a triangle is seen, with its depths; `None`
+    /// The lanes of a group in which a triangle would be visible, with its depths; `None`
     /// if there are none.
     #[inline(always)]
     pub(crate) fn look<S: Simd>(
@@ -93,11 +92,10 @@ impl TileView<'_> {
         group: SampleGroup,
     ) -> Option<(Mask<S>, F32<S>)> {
         let covered = self.covered(simd, candidate.covering, group);
-        self.seen(simd, candidate, covered, group)
+        self.visible_lanes(simd, candidate, covered, group)
     }
 
-    /// Whether a triangle at this depth is seen in front of a sample of the
-    /// buffer.
+    /// Whether a triangle at this depth would be visible at a sample of the buffer.
     #[inline]
     pub(super) fn is_seen(&self, index: usize, depth: f32, place: u32) -> bool {
         let there = self.buffer.depth[index];
@@ -113,7 +111,7 @@ impl TileView<'_> {
         self.frame.hierarchical && self.buffer.blocks[block].farthest > covering.depth.high
     }
 
-    /// The lanes of a group that lie in the picture.
+    /// The lanes of a group that lie in the image.
     #[inline(always)]
     fn within_image<S: Simd>(&self, simd: S, [x, y]: [i32; 2]) -> Mask<S> {
         let [width, height] = self.area.size.each(
@@ -127,7 +125,7 @@ impl TileView<'_> {
         columns.simd_lt(I32::splat(simd, width - x)) & rows.simd_lt(I32::splat(simd, height - y))
     }
 
-    /// The lanes of a group that a triangle covers, in the picture.
+    /// The lanes of a group that a triangle covers, in the image.
     #[inline(always)]
     fn covered<S: Simd>(&self, simd: S, covering: &TileTriangle, group: SampleGroup) -> Mask<S> {
         let covered = match &covering.special {
@@ -150,9 +148,9 @@ impl TileView<'_> {
         covered & self.within_image(simd, group.first)
     }
 
-    /// The covered lanes that are nearer than what is there.
+    /// The covered lanes in which a triangle would be visible.
     #[inline(always)]
-    fn seen<S: Simd>(
+    fn visible_lanes<S: Simd>(
         &self,
         simd: S,
         candidate: Candidate<'_>,
@@ -174,7 +172,7 @@ impl TileView<'_> {
         seen.any_true().then_some((seen, depth))
     }
 
-    /// Which of the lanes of equal depth have the smaller key.
+    /// In which of the lanes of equal depth the triangle has the smaller key.
     #[cold]
     fn won_ties(&self, place: u32, ties: u64, index: usize) -> u64 {
         let wins =

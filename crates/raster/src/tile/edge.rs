@@ -4,6 +4,7 @@
 //! integers on the sub-pixel grid.
 
 use crate::setup::{Quad, SetupTriangle};
+use crate::simd::{I32, Mask, Simd, prelude::*};
 use crate::vertex::ScreenVertex;
 
 /// The edge opposite one vertex as a linear function of a point in 1/256 pixel:
@@ -79,6 +80,8 @@ impl Edge {
     /// They belong to it on a left edge (the value grows to the right) and on a top edge
     /// (horizontal, the triangle below). The triangle on the other side of the same edge has
     /// both steps negated, so exactly one of the two owns the edge.
+    ///
+    /// [`owns_boundary`] is the same rule in lanes.
     #[inline]
     pub(crate) fn bias(&self) -> i64 {
         let inclusive = self.right > 0 || (self.right == 0 && self.down > 0);
@@ -96,6 +99,14 @@ impl Edge {
         let value = self.at(low);
         [value + x[0] + y[0], value + x[1] + y[1]]
     }
+}
+
+/// The top-left rule of [`Edge::bias`] in lanes: whether points exactly on an edge with these steps to
+/// the right and downwards belong to the triangle.
+#[inline(always)]
+pub(crate) fn owns_boundary<S: Simd>(right: I32<S>, down: I32<S>) -> Mask<S> {
+    let zero = I32::splat(right.token(), 0);
+    right.simd_gt(zero) | (right.simd_eq(zero) & down.simd_gt(zero))
 }
 
 #[cfg(test)]

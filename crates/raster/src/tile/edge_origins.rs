@@ -1,5 +1,6 @@
-//! The edge functions and depth planes of eight small triangles, evaluated once where each
-//! triangle's first group of pixels begins. The kernels step from there from group to group.
+//! The edge functions of eight small triangles, evaluated once where each triangle's first group of
+//! pixels begins, and the offset of that group from the triangle's first vertex, from which depths are
+//! computed. The kernels step from there from group to group.
 //!
 //! Arrays hold one number for each of the eight triangles. The kernels copy one triangle's
 //! number to all lanes.
@@ -11,15 +12,16 @@ use crate::samples::MAX_SAMPLES;
 use crate::simd::{Each, F32, I32, LANES, Simd, inlined, prelude::*, widened};
 use fearless_simd::f64x4;
 
-/// All of these are whole numbers, so stepping along from there rounds nothing.
+/// Edge functions and offsets are whole numbers, so adding steps to them rounds nothing. Depths are
+/// evaluated from the offset at each group, never added up.
 pub(super) struct EdgeOrigins {
     /// The edge functions at each sample of the first group's first pixel, divided by 256. With
     /// several samples, less the greatest of all samples.
     pub(super) edges: [[[i32; LANES]; 3]; MAX_SAMPLES],
     /// The greatest edge functions of any sample, where there are several.
     pub(super) greatest: [[i32; LANES]; 3],
-    /// From the triangles' first vertices to the corner of that pixel, in 1/256 pixel.
-    pub(super) way: [[f64; LANES]; 2],
+    /// The offset of that pixel's corner from the triangle's first vertex, in 1/256 pixel.
+    pub(super) vertex_offset: [[f64; LANES]; 2],
     /// Depths of the first vertices.
     pub(super) value: [f64; LANES],
     /// Room for one of the triangles, where pixels have several samples.
@@ -31,7 +33,7 @@ impl EdgeOrigins {
         Self {
             edges: [[[0; LANES]; 3]; MAX_SAMPLES],
             greatest: [[0; LANES]; 3],
-            way: [[0.0; LANES]; 2],
+            vertex_offset: [[0.0; LANES]; 2],
             value: [0.0; LANES],
             multisample: MultisampleOrigins::new(offsets),
         }
@@ -72,10 +74,10 @@ impl EdgeOrigins {
             }
         }
         let axes = pixel.into_iter().zip(rasterizer.area.origin).zip(&eight.anchor);
-        for (way, ((pixel, origin), anchor)) in self.way.iter_mut().zip(axes) {
+        for (distance, ((pixel, origin), anchor)) in self.vertex_offset.iter_mut().zip(axes) {
             let corner = (pixel + origin) << 8;
             // A small triangle's box lies near the tile, so these are below 2^24 and exact in f32.
-            store((corner - column(anchor)).to_float::<F32<S>>(), way);
+            store((corner - column(anchor)).to_float::<F32<S>>(), distance);
         }
         store(F32::simd_from(simd, eight.value), &mut self.value);
     }
@@ -89,13 +91,13 @@ impl EdgeOrigins {
         )
     }
 
-    /// From the triangle's first vertex to where an offset from the first pixel's
-    /// corner is.
+    /// The offset from the triangle's first vertex of the point that lies at `offset` from the first
+    /// pixel's corner.
     #[inline(always)]
-    pub(super) fn way<S: Simd>(&self, simd: S, lane: usize, offset: [i32; 2]) -> [f64x4<S>; 2] {
+    pub(super) fn vertex_offset<S: Simd>(&self, simd: S, lane: usize, offset: [i32; 2]) -> [f64x4<S>; 2] {
         [0, 1].each(
             #[inline(always)]
-            |axis| f64x4::splat(simd, self.way[axis][lane]) + f64::from(offset[axis]),
+            |axis| f64x4::splat(simd, self.vertex_offset[axis][lane]) + f64::from(offset[axis]),
         )
     }
 }

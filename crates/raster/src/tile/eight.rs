@@ -1,44 +1,52 @@
-//! EightTriangles small triangles of a tile made ready at once.
+//! Up to eight small triangles of a tile, prepared at once: one triangle in each lane.
+//!
+//! A triangle is small if its sides are below 64 pixels ([`small_lanes`]): then its edge functions
+//! fit in 32 bits anywhere in the tile.
 
-use super::{DepthPlane, TileArea, TileTriangle};
+use super::{DepthPlane, TileArea, TileTriangle, owns_boundary};
 use crate::samples::{MAX_SAMPLES, SamplePattern};
 use crate::setup::{Column, small_lanes, sorted_columns};
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lesser, prelude::*, widened};
 use crate::vertex::ScreenVertex;
 use fearless_simd::f64x4;
 
-/// What [`TileTriangle`] needs of eight small triangles.
+/// What [`TileTriangle`] needs, for eight small triangles.
 pub(super) struct EightTriangles {
     /// Edge functions at the tile's corner, with the bias of the top-left rule.
     pub(super) corner: [[i32; LANES]; 3],
-    /// The same at the first sample of the first pixel, over 256.
+    /// The same at the first sample of the tile's first pixel, divided by 256 and rounded down.
     pub(super) first: [[i32; LANES]; 3],
+    /// Steps of `corner` for 1/256 pixel; also those of `first` for a whole pixel.
     pub(super) right: [[i32; LANES]; 3],
     pub(super) down: [[i32; LANES]; 3],
-    /// First and last columns and rows.
+    /// First and last columns and rows of pixels in the tile that may have a sample in the triangle.
     pub(super) pixels: [[[i32; LANES]; 2]; 2],
+    /// The first vertices in 1/256 pixel, and their depths.
     pub(super) anchor: [[i32; LANES]; 2],
     pub(super) value: [f32; LANES],
+    /// Steps of depth for 1/256 pixel to the right and downwards.
     pub(super) slopes: [[f64; LANES]; 2],
+    /// The depths of the farthest vertices.
     pub(super) low: [f32; LANES],
-    /// The greatest depths.
+    /// The depths of the nearest vertices: a greater depth is nearer.
     pub(super) high: [f32; LANES],
     /// The lanes whose triangles are small.
     pub(super) small: u64,
     /// Those of them that may have samples in the tile.
     pub(super) live: u64,
-    /// The lanes whose triangles reach over a few blocks only.
+    /// The lanes whose triangles have at most [`TINY`] pixels each way in the tile.
     tiny: u64,
-    /// Whether all that are live reach over a few pixels only.
+    /// Whether all triangles are small, and those that are live have at most [`MICRO`] pixels each
+    /// way in the tile.
     pub(super) micro: bool,
 }
 
-/// Triangles of at most this many pixels each way go through the kernel `tiny`: testing whole
-/// blocks against their edges costs more than it saves.
+/// Small triangles whose bounding box has at most this many pixels each way in the tile go through the
+/// kernel `tiny`: testing whole blocks against their edges costs more than it saves.
 const TINY: i32 = 24;
 
-/// Triangles of at most this many pixels each way go through the kernel `micro`, if all of the
-/// eight are that small.
+/// Small triangles whose bounding box has at most this many pixels each way in the tile go through the
+/// kernel `micro`, if that holds for all triangles that were prepared together.
 pub(super) const MICRO: i32 = 4;
 
 impl EightTriangles {
@@ -84,8 +92,9 @@ impl EightTriangles {
             first: edges.each(
                 #[inline(always)]
                 |[corner, right, down]| {
-                    // Dividing by 256 rounds down, which keeps the sign at every sample: the values
-                    // at samples of one offset differ by multiples of 256.
+                    // Dividing by 256 and rounding down keeps every sign. The values of one sample
+                    // in different pixels differ by multiples of 256 (a pixel is 256 steps), so the
+                    // divided ones differ exactly by `right` and `down` for a pixel.
                     let [x, y] = pattern.offsets()[0];
                     ((corner + right * x + down * y) >> 8).into()
                 },
@@ -111,7 +120,7 @@ impl EightTriangles {
         }
     }
 
-    /// Whether the triangle of a lane is live and reaches over a few blocks only.
+    /// Whether the triangle of a lane is for the kernels `tiny` and `multisample`.
     #[inline(always)]
     pub(super) fn is_tiny(&self, lane: usize) -> bool {
         self.live & self.tiny & 1 << lane != 0
@@ -194,9 +203,8 @@ fn edge<S: Simd>(
         right * (I32::splat(simd, origin[0]) - from.x) + down * (I32::splat(simd, origin[1]) - from.y);
     // Samples exactly on a left or top edge belong to the triangle. For all other edges the value
     // is made one less, so that "not negative" means inside for every edge.
-    let zero = I32::splat(simd, 0);
-    let inclusive = right.simd_gt(zero) | (right.simd_eq(zero) & down.simd_gt(zero));
-    [value - inclusive.select(zero, I32::splat(simd, 1)), right, down]
+    let bias = owns_boundary(right, down).select(I32::splat(simd, 0), I32::splat(simd, 1));
+    [value - bias, right, down]
 }
 
 /// Pixels of the tile that may have a sample in the triangles.
@@ -205,7 +213,7 @@ struct Pixels<S: Simd> {
     ranges: [[[i32; LANES]; 2]; 2],
     /// Where there are any.
     live: Mask<S>,
-    /// Where they are fewer than [`TINY`] and than [`MICRO`] each way.
+    /// Where they are at most [`TINY`], and at most [`MICRO`], each way.
     tiny: Mask<S>,
     micro: Mask<S>,
 }
@@ -248,7 +256,7 @@ fn range<S: Simd>(
 
 /// The steps of the planes of depth, by the formula of
 /// [`slopes`](super::depth::slopes). The sides of small triangles are exact in
-/// f32, and so their way to f64 is.
+/// f32, so converting them to f64 by way of f32 is exact.
 #[inline(always)]
 fn depth_slopes<S: Simd>(simd: S, [a, b, c]: [Column<S>; 3]) -> [[f64; LANES]; 2] {
     let [ux, uy, vx, vy] = [b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y].each(
@@ -283,7 +291,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Against the single way, value by value; also where corners lie above each other or side by side.
+        /// Against triangles prepared one by one, value by value; also where corners lie above each other or side by side.
         #[test]
         fn eight_at_once_are_as_one_by_one(
             points: [[[u16; 2]; 3]; 8],

@@ -1,4 +1,4 @@
-//! A tile's triangles in the order of their keys.
+//! A tile's triangles in the order of their keys, which [`FrameView::compare`] defines.
 
 use super::buffer::{NOBODY, VisibilityBuffer};
 use crate::bin::TriangleRef;
@@ -25,16 +25,15 @@ impl Keyed {
     }
 }
 
-/// Some of a tile's triangles in the order of their keys: of equally deep ones the first is
-/// seen.
+/// Some of a tile's triangles in the order of their keys: at equal depth the first is
+/// visible.
 #[derive(Default)]
 pub(crate) struct KeyOrder {
     sorted: Vec<Keyed>,
 }
 
 impl KeyOrder {
-    /// Sorts triangles as [`FrameView::compare`] has them. Parts of one primitive stay as
-    /// they are.
+    /// Sorts triangles by [`FrameView::compare`]. Parts of one primitive keep their order.
     pub(super) fn sort(&mut self, frame: &FrameView<'_>, triangles: &[TriangleRef]) {
         self.sorted.clear();
         // Neighbours mostly belong to the same draw.
@@ -75,7 +74,7 @@ impl KeyOrder {
         }
     }
 
-    /// Puts the numbers of triangles among the tile's in place of those in this order.
+    /// Replaces the indices in this order by those among the tile's triangles.
     pub(super) fn name_winners(&self, buffer: &mut VisibilityBuffer) {
         for winner in buffer.winners_mut().iter_mut().filter(|winner| **winner != NOBODY) {
             *winner = self.sorted[*winner as usize].number() as u32;

@@ -15,24 +15,24 @@ use std::ops::Range;
 /// Masks are evaluated for portions of about this many fragments, to bound memory.
 const PORTION: usize = 4096;
 
-/// A masked fragment at a sample, which waits for the answer of its mask.
+/// A masked fragment at a sample, whose mask is not evaluated yet.
 #[derive(Clone, Copy)]
 struct Waiting {
     /// Index of the sample in the buffer.
     index: u32,
     depth: f32,
     place: u32,
-    /// Which answer is its own.
-    answer: u32,
+    /// The index of its mask evaluation.
+    evaluation: u32,
 }
 
 /// Masked fragments of one draw that wait for their masks.
 #[derive(Default)]
-pub(crate) struct Questions {
+pub(crate) struct MaskQueue {
     waiting: Vec<Waiting>,
     jobs: Vec<Job>,
     points: Vec<ShadePoint>,
-    answers: Vec<u8>,
+    kept: Vec<u8>,
 }
 
 /// Draws the masked triangles of a tile: a range of those that are listed.
@@ -43,22 +43,22 @@ pub(super) fn cover_masked(
     range: Range<usize>,
     (shading, stats): (&mut Shading, &mut Stats),
 ) {
-    let mut questions = std::mem::take(&mut state.questions);
+    let mut queue = std::mem::take(&mut state.mask_queue);
     for place in range.clone() {
         let draw = |place: usize| frame.draw_of(state.triangles[place]);
         let turns = place > range.start && draw(place) != draw(place - 1);
-        if turns || questions.waiting.len() > PORTION {
-            stats.samples_masked += questions.settle(frame, area, state, shading);
+        if turns || queue.waiting.len() > PORTION {
+            stats.samples_masked += queue.evaluate(frame, area, state, shading);
         }
         let view = state.view(frame, area);
-        at_level!(frame.token, simd => questions.collect(simd, view, place));
+        at_level!(frame.token, simd => queue.collect(simd, view, place));
     }
-    stats.samples_masked += questions.settle(frame, area, state, shading);
-    state.questions = questions;
+    stats.samples_masked += queue.evaluate(frame, area, state, shading);
+    state.mask_queue = queue;
 }
 
-impl Questions {
-    /// Asks about a triangle wherever nothing hides it.
+impl MaskQueue {
+    /// Adds the fragments of a triangle at all samples where nothing hides it.
     #[inline(always)]
     fn collect<S: Simd>(&mut self, simd: S, view: TileView<'_>, place: usize) {
         let Some(covering) = single(view.frame, view.area, view.triangles[place]) else {
@@ -70,7 +70,7 @@ impl Questions {
         let Self { waiting, jobs, points, .. } = self;
         let start = points.len();
         let candidate = Candidate { covering: &covering, place: place as u32 };
-        let (mut group, mut answers) = (usize::MAX, [NOBODY; LANES]);
+        let (mut group, mut kept) = (usize::MAX, [NOBODY; LANES]);
         view.for_each_seen(
             simd,
             candidate,
@@ -78,21 +78,21 @@ impl Questions {
             #[inline(always)]
             |samples, seen, depth| {
                 if samples.group != group {
-                    (group, answers) = (samples.group, [NOBODY; LANES]);
+                    (group, kept) = (samples.group, [NOBODY; LANES]);
                 }
                 let (seen, depth): (_, [f32; LANES]) = (seen.to_bitmask(), depth.into());
                 for lane in (0..LANES).filter(|lane| seen >> lane & 1 != 0) {
                     let pixel = samples.pixel(lane);
-                    if per_sample || answers[lane] == NOBODY {
-                        answers[lane] = points.len() as u32;
+                    if per_sample || kept[lane] == NOBODY {
+                        kept[lane] = points.len() as u32;
                         points.push(match per_sample {
                             true => ShadePoint::at_sample(pixel, samples.sample, points.len()),
                             false => ShadePoint::anywhere(pixel, multisampled, points.len()),
                         });
                     }
                     let index = view.buffer.index(pixel, samples.sample) as u32;
-                    let (place, answer) = (place as u32, answers[lane]);
-                    waiting.push(Waiting { index, depth: depth[lane], place, answer });
+                    let (place, evaluation) = (place as u32, kept[lane]);
+                    waiting.push(Waiting { index, depth: depth[lane], place, evaluation });
                 }
             },
         );
@@ -101,21 +101,21 @@ impl Questions {
         }
     }
 
-    /// Asks the mask about the waiting fragments and lets those that exist
-    /// compete; how often it was asked.
-    fn settle(
+    /// Evaluates the masks of the waiting fragments and tests the depth of those that the masks keep.
+    /// Returns the number of evaluations.
+    fn evaluate(
         &mut self,
         frame: &FrameView<'_>,
         area: &TileArea,
         state: &mut TileState,
         shading: &mut Shading,
     ) -> u64 {
-        let Self { waiting, jobs, points, answers } = self;
-        let asked = points.len();
-        answers.clear();
-        answers.resize(asked, 0);
-        mask_jobs(frame, area, shading, JobList { triangles: &state.triangles, jobs, points }, answers);
-        for fragment in waiting.drain(..).filter(|fragment| answers[fragment.answer as usize] != 0) {
+        let Self { waiting, jobs, points, kept } = self;
+        let evaluations = points.len();
+        kept.clear();
+        kept.resize(evaluations, 0);
+        mask_jobs(frame, area, shading, JobList { triangles: &state.triangles, jobs, points }, kept);
+        for fragment in waiting.drain(..).filter(|fragment| kept[fragment.evaluation as usize] != 0) {
             let (index, depth) = (fragment.index as usize, fragment.depth);
             if state.view(frame, area).is_seen(index, depth, fragment.place) {
                 state.buffer.depth[index] = depth;
@@ -124,6 +124,6 @@ impl Questions {
         }
         jobs.clear();
         points.clear();
-        asked as u64
+        evaluations as u64
     }
 }

@@ -1,11 +1,14 @@
-//! The micro kernel: eight triangles of at most 4×4 pixels at a time, one triangle in each
-//! lane. Most triangles of a fine mesh are drawn here.
+//! The micro kernel: up to eight small triangles of at most 4×4 pixels each in the tile at a time, one
+//! triangle in each lane. Most triangles of a fine mesh are drawn here.
 //!
-//! The kernel has two passes. The first visits pixel 0, 1, 2, … of all eight bounding boxes
-//! in step, tests the edges of all eight triangles at once, and appends the covered pixels to
-//! a list. The second walks that list and tests depth pixel by pixel: the lanes' pixels lie
-//! anywhere in the tile, and two triangles may cover the same one, so lanes cannot be written
-//! together.
+//! First, triangles are dropped that lie behind the farthest depth visible in the tile; the bounds of
+//! blocks are not tested. Then the kernel has two passes. The first visits the same row and column of
+//! all eight bounding boxes at once, row by row. It tests the edges of all eight triangles, computes
+//! their depths, and appends the covered pixels with their depths to a list. The second goes through
+//! that list and tests depth pixel by pixel: the lanes' pixels lie anywhere in the tile, and two
+//! triangles may cover the same one, so lanes cannot be written together.
+//!
+//! The depth test is that of `TileRasterizer::visible_lanes`, for one pixel.
 
 use super::area::{BLOCKS, GROUPS};
 use super::buffer::{NOBODY, VisibilityBuffer};
@@ -27,14 +30,14 @@ struct Depths<S: Simd> {
     high: F32<S>,
 }
 
-/// Most pixels that eight triangles reach over.
+/// The maximum number of pixels in the boxes of eight triangles.
 const PIXELS: usize = (MICRO * MICRO) as usize * LANES;
 
 /// The pixels that eight triangles cover.
 pub(super) struct Covered {
     count: usize,
-    /// Their numbers in the tile, times eight, plus the lanes of their triangles; and room
-    /// for what is written eight at a time.
+    /// The index of each pixel in the tile, times eight, plus the lane of its triangle; and seven more
+    /// entries, because eight are written at a time.
     places: [u32; PIXELS + LANES],
     depths: [f32; PIXELS + LANES],
 }
@@ -60,7 +63,7 @@ impl Covered {
 }
 
 impl TileRasterizer<'_> {
-    /// Triangles with one sample to a pixel; the first of them has number `first`.
+    /// Draws triangles with one sample per pixel; `first` is the index of the first of them.
     #[inline(always)]
     pub(super) fn micro<S: Simd>(
         &self,
@@ -119,7 +122,7 @@ impl TileRasterizer<'_> {
         self.scatter(eight, first, pixels, buffer);
     }
 
-    /// The lanes that may be seen in the tile.
+    /// The lanes whose triangles the tile does not hide.
     #[inline(always)]
     fn not_hidden<S: Simd>(
         &self,
@@ -184,7 +187,7 @@ impl TileRasterizer<'_> {
 
     /// Tests the depths of the covered pixels and stores those that are visible.
     ///
-    /// A function of its own, so that the first pass has all registers to itself.
+    /// Not inlined, so that the first pass can use all registers.
     #[inline(never)]
     fn scatter(
         &self,
@@ -195,8 +198,8 @@ impl TileRasterizer<'_> {
     ) {
         let count = std::mem::take(&mut pixels.count);
         for (&place, &depth) in pixels.places[..count].iter().zip(&pixels.depths) {
-            // The list packs a pixel's number and its lane into one value. With one sample per
-            // pixel the pixel's number is also its index in the buffer.
+            // The list packs a pixel's index and its lane into one value. With one sample per
+            // pixel the index is also that of the sample in the buffer.
             let (at, lane) = (place as usize / LANES, place as usize % LANES);
             let (there, place) = (buffer.depth[at], first + lane as u32);
             if depth > there || (depth == there && self.wins_tie(place, buffer.winner[at])) {
@@ -222,7 +225,7 @@ impl TileRasterizer<'_> {
     }
 }
 
-/// The numbers of pixels in the tile: see
+/// The indices of pixels in the tile: see
 /// [`TileArea::index_of`](super::TileArea::index_of).
 #[inline(always)]
 fn index_of<S: Simd>(x: I32<S>, y: I32<S>) -> I32<S> {

@@ -1,4 +1,39 @@
-//! The visibility of a tile: which triangle is seen at each of its samples.
+//! The visibility stage: which triangle is visible at each sample of a tile.
+//!
+//! A triangle covers a sample if no edge function is negative there. Of the triangles that cover a
+//! sample the nearest is visible. Depth is reversed: **a greater depth is nearer**, so `high` is the
+//! depth of a triangle's nearest vertex, and the farthest of several depths is the least. At
+//! equal depth the triangle with the smaller key is visible:
+//! [`FrameView::compare`](crate::view::FrameView::compare) is that rule.
+//!
+//! Values are kept for pixels in the order of [`TileArea`]: groups of 4×2 pixels, one pixel in each
+//! lane, in blocks of 8×8.
+//!
+//! In the order in which a triangle passes through:
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `surfaces` | lists the tile's triangles: opaque, masked, overlay, translucent |
+//! | `state` | what a worker keeps from tile to tile |
+//! | `area`, `blocks` | where a tile and its pixels lie; sets of its blocks |
+//! | `visibility` | **the order of the kinds of surface, and which kernel draws a triangle** |
+//! | `eight` | eight small triangles prepared together, and the limits of the kernels |
+//! | `edge_origins` | their edge functions at the first group of each, for `tiny` and `multisample` |
+//! | `triangle`, `single` | one triangle prepared for the tile, whatever its size |
+//! | `edge` | edge functions in i64, and **the top-left rule** (`Edge::bias`, `owns_boundary`) |
+//! | `depth` | the plane of a triangle's depths |
+//! | `micro` | kernel: up to eight small triangles of at most 4×4 pixels each, one sample per pixel |
+//! | `tiny` | kernel: one small triangle of at most 24×24 pixels, one sample per pixel |
+//! | `multisample` | the same with several samples per pixel |
+//! | `rasterizer` | kernel: any other triangle (the *general* kernel); also **the depth test** that others repeat |
+//! | `quad` | kernel: lines and points |
+//! | `masked`, `depth_query` | masked triangles; where a masked or translucent triangle would be visible |
+//! | `buffer`, `store` | depth and visible triangle of each sample, with the depth bounds of blocks; writing to it |
+//! | `ties`, `key_order` | the tile's budget for equal depths; its triangles sorted by key |
+//! | `counts` | statistics |
+//!
+//! The sizes in pixels count the part of a triangle's bounding box that lies in the tile.
+//! `docs/architecture.md`, "Coverage kernels", compares the kernels.
 
 mod area;
 mod blocks;
@@ -33,7 +68,7 @@ pub(crate) use buffer::{BEHIND_ALL, NOBODY, VisibilityBuffer};
 pub(crate) use counts::Counts;
 pub(crate) use depth::DepthPlane;
 pub(crate) use depth_query::{Candidate, SampleGroup, TileView};
-pub(crate) use edge::Edge;
+pub(crate) use edge::{Edge, owns_boundary};
 pub(crate) use single::single;
 pub(crate) use state::TileState;
 pub(crate) use surfaces::Surfaces;

@@ -1,13 +1,14 @@
-//! The tiny kernel for pixels with several samples.
+//! The multisample kernel: the tiny kernel's loops for pixels with several samples.
 //!
 //! A vector holds one sample of each pixel in a group of 4×2. Sample `s` of all eight pixels
 //! lies at the same offset from its pixel, so its edge functions differ from those of sample 0 by
 //! one constant. All samples of a group are processed before the next group, so that the group's
 //! address is computed once.
 //!
-//! The edge functions are kept as the greatest value of any sample plus a difference (zero or
-//! negative) for each sample. If even the greatest values are outside, no sample of the group is
-//! covered and the group is skipped. That branch pays here, unlike in the kernel for one sample,
+//! Each edge function is kept as its greatest value at any sample plus a difference (zero or
+//! negative) for each sample. The greatest values of the three edges may belong to different samples,
+//! so they are a bound: if even they are outside, no sample of the group is covered and the group is
+//! skipped. That branch pays here, unlike in the kernel for one sample,
 //! because it saves up to sixteen samples.
 
 use super::area::TileArea;
@@ -19,7 +20,7 @@ use crate::samples::MAX_SAMPLES;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lesser, prelude::*};
 use fearless_simd::{f64x4, f64x8};
 
-/// Where the samples of one triangle's pixels start, copied to all lanes.
+/// What each sample of one triangle's pixels adds, copied to all lanes.
 pub(super) struct MultisampleOrigins {
     /// For each sample the edge functions less the greatest of all samples.
     edges: [[[i32; LANES]; 3]; MAX_SAMPLES],
@@ -45,7 +46,7 @@ struct RowStart<S: Simd> {
     row: usize,
     /// The greatest edge functions of any sample at the first group.
     edges: [I32<S>; 3],
-    /// From the triangle's first vertex to the right, in 1/256 pixel.
+    /// The horizontal offset of its lanes from the triangle's first vertex, in 1/256 pixel.
     dx: f64x4<S>,
 }
 
@@ -69,7 +70,7 @@ pub(super) fn rows<S: Simd, const TIES: bool>(
         #[inline(always)]
         |k| tiny.lanes[k] + greatest[k][lane],
     );
-    let [dx, mut dy] = starts.way(simd, lane, [0, 0]);
+    let [dx, mut dy] = starts.vertex_offset(simd, lane, [0, 0]);
     let dx = dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]);
     let mut ties = Mask::splat(simd, false);
     for row in tiny.rows[0]..tiny.rows[1] + 1 {
@@ -131,7 +132,8 @@ fn columns<S: Simd, const TIES: bool>(
                     |k| here[k] + I32::simd_from(simd, starts[k]),
                 ),
             );
-            // Uncovered lanes lie behind everything, so the comparison below rejects them.
+            // Uncovered lanes lie behind everything, so the depth test below, which is that of
+            // `tiny`, rejects them.
             let depth = covered.select(depth, F32::splat(simd, f32::NEG_INFINITY));
             let before = F32::simd_from(simd, *there);
             if TIES {

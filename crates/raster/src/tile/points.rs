@@ -32,6 +32,13 @@ pub(super) struct EightPoints {
     are_round: bool,
 }
 
+/// Eight points of which the first `count` are drawn.
+struct Squares<S: Simd> {
+    vertices: Column<S>,
+    half: I32<S>,
+    count: usize,
+}
+
 /// A point on its way through a tile.
 struct Walk {
     centre: [i32; 2],
@@ -64,16 +71,17 @@ impl EightPoints {
             |primitive| draw.vertices.get(indices[primitive as usize]),
         );
         let half = plain.half_sizes(simd, sizes, primitives);
-        Some(Self::at(simd, (area, pattern), plain, (&Column::new(simd, vertices, 0), half, points.len())))
+        let squares = Squares { vertices: Column::new(simd, vertices, 0), half, count: points.len() };
+        Some(Self::at(simd, (area, pattern), plain, &squares))
     }
 
-    /// Of the first `count` of eight vertices.
+    /// Of the squares that are drawn.
     #[inline(always)]
     fn at<S: Simd>(
         simd: S,
         (area, pattern): (&TileArea, SamplePattern),
         plain: &PlainPoints,
-        (vertices, half, count): (&Column<S>, I32<S>, usize),
+        &Squares { ref vertices, half, count }: &Squares<S>,
     ) -> Self {
         let [least, greatest] = pattern.reach();
         let mut live = Mask::from_bitmask(simd, (1 << count) - 1);
@@ -172,9 +180,9 @@ impl TileRasterizer<'_> {
         for (sample, offset) in self.offsets[..samples].iter().enumerate() {
             let covered = walk.covers(simd, [column * 4, row * 2], *offset);
             let at = (group * samples + sample) * LANES;
-            let seen = self.seen(simd, walk.place, (covered, depth), buffer, at);
-            if seen.any_true() {
-                store_where(simd, seen, (walk.place, depth), buffer, at);
+            let visible = self.visible_lanes(simd, walk.place, (covered, depth), buffer, at);
+            if visible.any_true() {
+                store_where(simd, visible, (walk.place, depth), buffer, at);
                 wrote = true;
             }
         }

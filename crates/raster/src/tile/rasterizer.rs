@@ -1,9 +1,20 @@
 //! The general kernel: one triangle of any size in one tile.
 //!
-//! The triangle's bounding box is walked in blocks of 8×8 pixels. A block is skipped if it lies
+//! The triangle's bounding box is processed in blocks of 8×8 pixels. A block is skipped if it lies
 //! outside an edge or if its farthest depth hides the triangle. If it lies inside all edges, only
-//! depths are tested. Otherwise its groups of 4×2 pixels are tested, one pixel in each lane: lanes
-//! 0 to 3 are the upper row, lanes 4 to 7 the lower one.
+//! depths are tested, and not even these if the triangle lies in front of everything in the block.
+//! Otherwise its groups of 4×2 pixels are tested, one pixel in each lane: lanes 0 to 3 are the upper
+//! row, lanes 4 to 7 the lower one.
+//!
+//! Three cases differ. A triangle of one depth that covers the whole tile, in front of everything
+//! there, is only noted ([`VisibilityBuffer::fill_with`]). For a box of less than 8 pixels each way,
+//! blocks are not tested against edges. Triangles with [`Special`](super::triangle::Special) coverage
+//! are decided lane by lane in i64.
+//!
+//! `TileRasterizer::visible_lanes` is **the depth test**: a covered sample shows the triangle if
+//! its depth is greater (nearer) than the stored one, or equal and the triangle has the smaller
+//! key ([`FrameView::precedes`](crate::view::FrameView::precedes)). The kernels `tiny`, `multisample`
+//! and `micro` and the queries of `depth_query` repeat it in the form that suits them.
 
 use super::area::{BLOCKS, TileArea};
 use super::buffer::{NOBODY, VisibilityBuffer};
@@ -18,8 +29,8 @@ use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
 pub(crate) struct TileRasterizer<'f> {
     pub(crate) area: TileArea,
     pub(crate) offsets: &'f [[i32; 2]],
-    /// Whether a later triangle never wins at equal depth; else `precedes`
-    /// decides, as long as `ties` are not too many.
+    /// Whether triangles come in the order of their keys, so that a later one is never visible at
+    /// equal depth. Otherwise `precedes` decides, as long as `ties` are not too many.
     pub(crate) in_order: bool,
     /// Whether the triangles of a draw come one after the other.
     pub(crate) by_draws: bool,
@@ -28,11 +39,12 @@ pub(crate) struct TileRasterizer<'f> {
     pub(crate) may_give_up: bool,
     /// Whether bounds of depths are tested before samples.
     pub(crate) hierarchical: bool,
-    /// Whether the first place is seen before the second at equal depth.
+    /// Whether the first triangle is visible and not the second at equal depth, by their indices among
+    /// the tile's triangles.
     pub(crate) precedes: &'f dyn Fn(u32, u32) -> bool,
 }
 
-/// A triangle on its way through a tile.
+/// A triangle that is being drawn, with what its blocks and groups have in common.
 struct Walk<'c, S: Simd> {
     covering: &'c TileTriangle,
     /// What each lane adds to the edge functions at the group's first pixel.
@@ -41,7 +53,8 @@ struct Walk<'c, S: Simd> {
 }
 
 impl<S: Simd> Walk<'_, S> {
-    /// The edge functions at the pixels of a group, without what a sample's offset adds.
+    /// The edge functions at the pixels of a group, less their values at the tile's first pixel
+    /// (`starts`).
     ///
     /// The products may wrap around. The sum does not: where an edge crosses the tile, its values
     /// in the tile fit 32 bits, and additions that wrap give the right sum if that fits.
@@ -71,14 +84,14 @@ impl<S: Simd> Walk<'_, S> {
 }
 
 impl TileRasterizer<'_> {
-    /// Whether something at `depth` cannot be seen before something at
-    /// `farthest`.
+    /// Whether samples that are all at `farthest` or nearer hide a triangle at `depth`: a greater depth
+    /// is nearer.
     #[inline(always)]
     pub(super) fn hides(&self, farthest: f32, depth: f32) -> bool {
         if self.in_order { depth <= farthest } else { depth < farthest }
     }
 
-    /// Whether the whole tile hides a triangle no nearer than `depth`.
+    /// Whether all samples of the tile hide a triangle whose nearest depth is `depth`.
     #[inline(always)]
     pub(crate) fn tile_hides(&self, buffer: &mut VisibilityBuffer, depth: f32) -> bool {
         self.hierarchical && self.hides(buffer.farthest_of_all(&self.area), depth)
@@ -107,7 +120,7 @@ impl TileRasterizer<'_> {
         );
         let walk = Walk { covering, lanes, place };
         let [columns, rows] = [covering.columns, covering.rows];
-        // For a box smaller than a block it costs more to test blocks against edges than it saves.
+        // For a box smaller than a block, testing blocks against edges costs more than it saves.
         let small = columns[1] - columns[0] < 8 && rows[1] - rows[0] < 8;
         for block_y in rows[0] >> 3..(rows[1] >> 3) + 1 {
             for block_x in columns[0] >> 3..(columns[1] >> 3) + 1 {
@@ -156,7 +169,7 @@ impl TileRasterizer<'_> {
             && covering.rows == [0, self.area.padded()[1] as i32 - 1]
     }
 
-    /// Whether what is in a block hides all of the triangle.
+    /// Whether the samples of a block hide all of the triangle.
     #[inline(always)]
     fn block_hides<S: Simd>(
         &self,
@@ -194,7 +207,7 @@ impl TileRasterizer<'_> {
         )
     }
 
-    /// A block that the triangle covers all of.
+    /// Draws the triangle in a block that it covers completely.
     #[inline(always)]
     fn whole_block<S: Simd, const MULTI: bool>(
         &self,
@@ -217,7 +230,7 @@ impl TileRasterizer<'_> {
                 if overwrites {
                     store(simd, walk.place, depth, buffer, at);
                 } else {
-                    self.compete(simd, walk.place, (Mask::splat(simd, true), depth), buffer, at);
+                    self.test_and_store(simd, walk.place, (Mask::splat(simd, true), depth), buffer, at);
                 }
             }
         }
@@ -225,8 +238,8 @@ impl TileRasterizer<'_> {
         buffer.note_cover(block, least);
     }
 
-    /// The groups of a block within the triangle's bounding box. Tells how many
-    /// were looked at.
+    /// Draws the triangle in the groups of a block within its bounding box. Returns how many groups
+    /// were tested.
     #[inline(always)]
     fn part_of_block<S: Simd, const MULTI: bool>(
         &self,
@@ -258,7 +271,7 @@ impl TileRasterizer<'_> {
                     }
                     let depth = self.depth(simd, walk, first, sample);
                     let at = (group * samples + sample) * LANES;
-                    wrote |= self.compete(simd, walk.place, (covered, depth), buffer, at);
+                    wrote |= self.test_and_store(simd, walk.place, (covered, depth), buffer, at);
                 }
             }
         }
@@ -294,10 +307,9 @@ impl TileRasterizer<'_> {
         self.area.point(pixel, self.offsets[sample])
     }
 
-    /// Stores the covered lanes that are nearer than what is there. Returns whether there
-    /// were any.
+    /// Stores the triangle in the covered lanes in which it is visible. Returns whether there are any.
     #[inline(always)]
-    fn compete<S: Simd>(
+    fn test_and_store<S: Simd>(
         &self,
         simd: S,
         place: u32,
@@ -305,7 +317,7 @@ impl TileRasterizer<'_> {
         buffer: &mut VisibilityBuffer,
         at: usize,
     ) -> bool {
-        let seen = self.seen(simd, place, (covered, depth), buffer, at);
+        let seen = self.visible_lanes(simd, place, (covered, depth), buffer, at);
         let any = seen.any_true();
         if any {
             store_where(simd, seen, (place, depth), buffer, at);
@@ -313,9 +325,11 @@ impl TileRasterizer<'_> {
         any
     }
 
-    /// The covered lanes that are nearer than what is there.
+    /// The depth test: the covered lanes in which the triangle is visible.
+    ///
+    /// `tiny` and `multisample` (`rows`), `micro` (`scatter`) and `TileView::visible_lanes` repeat it.
     #[inline(always)]
-    pub(super) fn seen<S: Simd>(
+    pub(super) fn visible_lanes<S: Simd>(
         &self,
         simd: S,
         place: u32,
@@ -335,14 +349,14 @@ impl TileRasterizer<'_> {
         seen
     }
 
-    /// Counts work spent on ties. Returns whether they are to be decided: not if the tile has too
+    /// Counts work spent on ties. Returns whether they are to be resolved: not if the tile has too
     /// many and is drawn again.
     #[inline(always)]
     pub(super) fn may_decide(&self, units: u32) -> bool {
         self.ties.spend(units) || !self.may_give_up
     }
 
-    /// Which of the lanes of equal depth have the smaller key.
+    /// In which of the lanes of equal depth the new triangle has the smaller key.
     #[cold]
     fn won_ties(&self, place: u32, ties: u64, winners: &[u32]) -> u64 {
         if !self.may_decide(ties.count_ones()) {

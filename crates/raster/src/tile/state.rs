@@ -1,25 +1,25 @@
-//! What the visibility of a tile is found in, kept from tile to tile.
+//! What a worker keeps from tile to tile for the visibility stage.
 
 use super::area::TileArea;
 use super::buffer::VisibilityBuffer;
 use super::depth_query::TileView;
 use super::key_order::KeyOrder;
-use super::masked::Questions;
+use super::masked::MaskQueue;
 use super::surfaces::Surfaces;
 use super::ties::Ties;
 use crate::bin::TriangleRef;
 use crate::view::FrameView;
 
-/// The triangles of a tile, and what is seen of them.
+/// The triangles of a tile, and which of them is visible at each sample.
 pub(crate) struct TileState {
-    /// The tile's triangles: opaque, masked, shown over surfaces, translucent.
+    /// The tile's triangles: opaque, masked, overlay, translucent.
     pub(crate) triangles: Vec<TriangleRef>,
     pub(crate) buffer: VisibilityBuffer,
     pub(crate) ties: Ties,
     pub(super) key_order: KeyOrder,
     /// The opaque triangles in the order of their keys, where that is needed.
     pub(super) reordered: Vec<TriangleRef>,
-    pub(super) questions: Questions,
+    pub(super) mask_queue: MaskQueue,
 }
 
 impl TileState {
@@ -30,7 +30,7 @@ impl TileState {
             ties: Ties::default(),
             key_order: KeyOrder::default(),
             reordered: Vec::new(),
-            questions: Questions::default(),
+            mask_queue: MaskQueue::default(),
         }
     }
 
@@ -45,7 +45,7 @@ impl TileState {
         self.ties.reset(self.triangles.len());
     }
 
-    /// The tile as masked and translucent triangles meet it.
+    /// The tile for queries of masked and translucent triangles.
     #[inline(always)]
     pub(crate) fn view<'t>(&'t self, frame: &'t FrameView<'t>, area: &'t TileArea) -> TileView<'t> {
         let Self { buffer, triangles, ties, .. } = self;

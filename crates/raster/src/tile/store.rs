@@ -3,14 +3,14 @@
 use super::buffer::VisibilityBuffer;
 use crate::simd::{F32, LANES, Mask, Simd, U32, blended, prelude::*};
 
-/// Writes all lanes.
+/// Writes one triangle to all lanes.
 #[inline(always)]
 pub(super) fn store<S: Simd>(simd: S, place: u32, depth: F32<S>, buffer: &mut VisibilityBuffer, at: usize) {
     depth.store_slice(&mut buffer.depth[at..at + LANES]);
     U32::splat(simd, place).store_slice(&mut buffer.winner[at..at + LANES]);
 }
 
-/// Writes some lanes.
+/// Writes one triangle to some lanes.
 #[inline(always)]
 pub(super) fn store_where<S: Simd>(
     simd: S,
@@ -39,7 +39,7 @@ pub(super) fn store_places_where<S: Simd>(
     *winners = blended(bits, U32::simd_from(simd, *winners), places).into();
 }
 
-/// Makes a triangle the winner in some lanes.
+/// Makes a triangle the visible one in some lanes, without writing its depth.
 #[inline(always)]
 pub(super) fn name_where<S: Simd>(simd: S, mask: Mask<S>, place: u32, winners: &mut [u32; LANES]) {
     let bits = mask.select(U32::splat(simd, u32::MAX), U32::splat(simd, 0));

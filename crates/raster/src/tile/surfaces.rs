@@ -5,7 +5,7 @@ use crate::bin::TriangleRef;
 use crate::view::FrameView;
 use std::ops::Range;
 
-/// The tile's triangles by kind of surface: ranges of its places.
+/// The tile's triangles by kind of surface: ranges of its list.
 pub(crate) struct Surfaces {
     pub(crate) opaque: Range<usize>,
     pub(crate) masked: Range<usize>,

@@ -1,10 +1,11 @@
-//! Which of a tile's triangles is seen where several are equally deep.
+//! The budget for ties: samples at which several triangles have the same depth.
 //!
-//! Most tiles have few such samples, and the keys of two triangles are compared at each of
-//! them. With many, that would take far longer than everything else in the tile. So every tile
-//! has a budget for it: about what it takes to sort its triangles by their keys. Once that is spent, the opaque triangles are drawn again in the order of their keys,
-//! in which a later one never wins at equal depth (`visibility`); masked and translucent ones
-//! are compared by their ranks in that order.
+//! The rule is [`FrameView::compare`]: the triangle with the smaller (object, face) is visible. Most
+//! tiles have few ties, and the keys of two triangles are compared at each of them. With many, that
+//! would take far longer than everything else in the tile. So every tile has a budget for it: about
+//! what it takes to sort its triangles by their keys. Once that is spent, the opaque triangles are
+//! drawn again in the order of their keys, in which a later one is never visible at equal depth
+//! (`visibility`); masked and translucent ones are compared by their ranks in that order.
 
 use super::key_order::KeyOrder;
 use crate::bin::TriangleRef;
@@ -13,22 +14,21 @@ use std::cmp::Ordering;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use std::sync::{Mutex, OnceLock};
 
-/// What it takes to compare two keys. The unit is what it takes to look at one sample by
-/// itself, a few nanoseconds.
+/// The cost of comparing two keys. The unit is the cost of testing one sample by itself, a few
+/// nanoseconds.
 pub(super) const COMPARISON: u32 = 8;
 
 /// The budget of a tile: a number of units for each of its triangles, plus a constant. Sorting
-/// takes about twice as many for each triangle, and what was drawn before is lost.
+/// takes about twice as many units for each triangle, and what was drawn before is lost.
 const UNITS_PER_TRIANGLE: usize = 4;
 const BASE_UNITS: usize = 256;
 
 const NOT_POISONED: &str = "sorting by keys does not panic";
 
-/// What deciding ties may still take in a tile, and the ranks of its triangles if that is
-/// spent.
+/// What is left of a tile's budget, and the ranks of its triangles if the budget is spent.
 ///
-/// Comparisons change it behind a shared reference. One thread at a time draws with it; that
-/// it could be shared lets a [`Rasterizer`](crate::Rasterizer) be.
+/// Comparisons change it behind a shared reference. Only one thread at a time draws with it; it is
+/// `Sync` so that [`Rasterizer`](crate::Rasterizer) is.
 #[derive(Default)]
 pub(crate) struct Ties {
     left: AtomicU32,
@@ -47,10 +47,10 @@ impl Ties {
         }
     }
 
-    /// Spends some of the budget; whether any is left.
+    /// Spends some of the budget. Returns whether any is left.
     #[inline]
     pub(super) fn spend(&self, units: u32) -> bool {
-        // Not one atomic operation, which would take longer: no other thread is here.
+        // Not one atomic operation, which would take longer: no other thread uses it.
         self.left.store(self.left.load(Relaxed).saturating_sub(units), Relaxed);
         !self.are_many()
     }

@@ -1,5 +1,8 @@
-//! The tiny kernel: one triangle of at most 24×24 pixels at a time. Most triangles of most
-//! frames are drawn here.
+//! The tiny kernel: one small triangle of at most 24×24 pixels in the tile at a time. Most triangles
+//! of most frames are drawn here.
+//!
+//! First the triangle is compared with the depth bounds of the blocks that its box touches
+//! (`hides_tiny`).
 //!
 //! A vector holds a group of 4×2 pixels: lanes 0 to 3 are the upper row, lanes 4 to 7 the lower
 //! one. The kernel visits every group of the triangle's bounding box, row by row, without a
@@ -7,7 +10,11 @@
 //! but which groups of a small box are empty is hard to predict.
 //!
 //! Lanes that are not covered get the depth minus infinity. Then one comparison with the
-//! stored depth decides coverage and visibility together.
+//! stored depth decides coverage and visibility together: a greater depth is nearer. This is the depth
+//! test of `TileRasterizer::visible_lanes`, except that samples of equal depth are only noted; they
+//! are resolved after the triangle (`resolve_ties`).
+//!
+//! With several samples per pixel, the same steps use the loops of `multisample`.
 
 use super::area::{BLOCKS, TileArea};
 use super::buffer::{NOBODY, VisibilityBuffer};
@@ -28,7 +35,7 @@ const WRITES: u32 = 4;
 /// [`Ties`](super::Ties).
 const COVERING: u32 = 16;
 
-/// A triangle on its way through a tile.
+/// The triangle of one lane, copied to all lanes.
 pub(super) struct Tiny<S: Simd> {
     pub(super) place: u32,
     /// First and last columns and rows of groups.
@@ -54,25 +61,25 @@ pub(super) struct PreparedTriangle<'e> {
     pub(super) lane: usize,
 }
 
-/// Where the one sample of a triangle's pixels begins.
+/// The first group of a triangle whose pixels have one sample.
 struct Start<S: Simd> {
     /// The edge functions at the first group.
     edges: [I32<S>; 3],
-    /// From the triangle's first vertex to the first group, in 1/256 pixel.
-    way: [f64x4<S>; 2],
+    /// The offset of its lanes from the triangle's first vertex, in 1/256 pixel.
+    vertex_offset: [f64x4<S>; 2],
 }
 
 impl<S: Simd> Start<S> {
     #[inline(always)]
     fn new(simd: S, tiny: &Tiny<S>, (origins, lane): (&EdgeOrigins, usize), offset: [i32; 2]) -> Self {
-        let [dx, dy] = origins.way(simd, lane, offset);
+        let [dx, dy] = origins.vertex_offset(simd, lane, offset);
         let edges = origins.edges(simd, 0, lane);
         Self {
             edges: [0, 1, 2].each(
                 #[inline(always)]
                 |k| tiny.lanes[k] + edges[k],
             ),
-            way: [dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]), dy],
+            vertex_offset: [dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]), dy],
         }
     }
 }
@@ -88,15 +95,15 @@ impl TileRasterizer<'_> {
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) {
-        // In a function of its own, so that what larger triangles need takes no registers.
+        // A separate function, so that values which only larger triangles need take no registers.
         simd.vectorize(
             #[inline(always)]
-            || self.tiny_apart::<S, MULTI>(simd, of, place, buffer, counts),
+            || self.tiny_or_multisample::<S, MULTI>(simd, of, place, buffer, counts),
         );
     }
 
     #[inline(always)]
-    fn tiny_apart<S: Simd, const MULTI: bool>(
+    fn tiny_or_multisample<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
         of: PreparedTriangle<'_>,
@@ -120,7 +127,7 @@ impl TileRasterizer<'_> {
             }
         } else {
             let start = Start::new(simd, &tiny, (origins, lane), self.offsets[0]);
-            // As many columns as most have without a loop, where ties need not be known.
+            // The usual numbers of columns need no loop. Only without ties: other combinations are rare.
             match (self.in_order, tiny.columns[1] - tiny.columns[0]) {
                 (true, 0) => rows::<S, 1, false>(simd, &tiny, &start, buffer),
                 (true, 1) => rows::<S, 2, false>(simd, &tiny, &start, buffer),
@@ -130,14 +137,19 @@ impl TileRasterizer<'_> {
             }
         };
         if !self.in_order && ties.any_true() {
-            self.win_ties((eight, lane), place, buffer);
+            self.resolve_ties((eight, lane), place, buffer);
         }
     }
 
-    /// Gives a triangle those of its samples that others hold at the same depth
-    /// with a larger key.
+    /// Makes the triangle visible at its samples where the visible triangle has the same depth and a
+    /// larger key.
     #[cold]
-    fn win_ties(&self, (eight, lane): (&EightTriangles, usize), place: u32, buffer: &mut VisibilityBuffer) {
+    fn resolve_ties(
+        &self,
+        (eight, lane): (&EightTriangles, usize),
+        place: u32,
+        buffer: &mut VisibilityBuffer,
+    ) {
         let Some(covering) = eight.covering(lane, self.offsets) else { return };
         let [columns, rows] = [covering.columns, covering.rows];
         let pixels = (columns[1] + 1 - columns[0]) * (rows[1] + 1 - rows[0]);
@@ -161,7 +173,7 @@ impl TileRasterizer<'_> {
         }
     }
 
-    /// Whether all blocks that the triangle's box touches hide it. The bounds of all others are
+    /// Whether all blocks that the triangle's box touches hide it. The bounds of those that do not are
     /// widened as if the triangle were visible there, so that they need no second visit.
     #[inline(always)]
     fn hides_tiny<S: Simd>(
@@ -171,8 +183,9 @@ impl TileRasterizer<'_> {
         buffer: &mut VisibilityBuffer,
     ) -> bool {
         let high = eight.high[lane];
-        // A farthest depth from here on hides the triangle: in the order of keys an equal depth
-        // is enough, otherwise the block must be strictly nearer.
+        // A block hides the triangle if its farthest depth is at least this (a greater depth is
+        // nearer): in the order of keys an equal depth is enough, otherwise the block must be
+        // strictly nearer.
         let limit = if self.in_order { high } else { high.next_up() };
         let [[left, width], [top, height]] = eight.pixels.each_ref().each(
             #[inline(always)]
@@ -184,8 +197,8 @@ impl TileRasterizer<'_> {
         for _ in 0..width * height {
             block %= BLOCKS * BLOCKS;
             let bounds = buffer.blocks[block];
-            // A triangle in front of everything in the block cannot be hidden by it, so a fresh
-            // bound would not help.
+            // The farthest depth is recomputed only if the nearest one in the block lies in front of
+            // the triangle. Otherwise the block cannot hide it, whatever its farthest depth is.
             let farthest = if (bounds.writes >= WRITES) & (high < bounds.nearest) {
                 buffer.farthest_in(simd, block)
             } else {
@@ -219,9 +232,9 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
     let width = if WIDTH > 0 { WIDTH } else { tiny.columns[1] - tiny.columns[0] + 1 };
     let (depths, winners) =
         (buffer.depth.as_chunks_mut::<LANES>().0, buffer.winner.as_chunks_mut::<LANES>().0);
-    // As many: what one comparison finds in the one is in the other, too.
+    // Equal lengths, so that one bounds check serves both.
     let winners = &mut winners[..depths.len()];
-    let Start { mut edges, way: [first, mut dy] } = *start;
+    let Start { mut edges, vertex_offset: [first, mut dy] } = *start;
     let [right, down] = tiny.slopes;
     let mut ties = Mask::splat(simd, false);
     for row in tiny.rows[0]..tiny.rows[1] + 1 {
@@ -231,7 +244,7 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
         let [mut a, mut b, mut c] = edges;
         let mut dx = first;
         for column in 0..width {
-            // The way to the right is the same in both rows, so it is computed once.
+            // The depth's change to the right is the same in both rows, so it is computed once.
             let across = right * dx;
             let (upper, lower) = (plane + across.combine(across)).split();
             let depth = simd.narrow_f64x4(upper, lower);
@@ -245,7 +258,7 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
             if TIES {
                 ties |= depth.simd_eq(there);
             }
-            // The nearer depth stays, and wherever that is the new one the winner is replaced.
+            // The nearer depth stays. Where that is the new one, the visible triangle is replaced.
             depths[at] = greater(depth, there).into();
             name_where(simd, depth.simd_gt(there), tiny.place, &mut winners[at]);
             // Four pixels to the right.
@@ -311,7 +324,7 @@ impl EightTriangles {
 }
 
 impl<S: Simd> Tiny<S> {
-    /// How many groups of pixels it reaches over.
+    /// The number of groups in its bounding box.
     #[inline(always)]
     fn groups(&self) -> u64 {
         let [columns, rows] = [self.columns, self.rows].each(

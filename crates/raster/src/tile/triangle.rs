@@ -8,23 +8,24 @@ use crate::simd::{I32, LANES, Mask, Simd, lanes_of, prelude::*};
 
 /// What coverage needs of a triangle in one tile.
 ///
-/// Edge functions are divided by 256 and rounded down. That keeps the sign at all samples
-/// with the same offset in their pixels, because their values differ by multiples of 256.
-/// Where an edge crosses the tile, its values in the tile then fit 32 bits. An edge with the
+/// Edge functions, with the bias of the top-left rule ([`Edge::bias`]), are divided by 256 and
+/// rounded down, which keeps every sign. The values of one sample in different pixels differ by
+/// multiples of 256 (a pixel is 256 steps), so the divided ones differ exactly by the steps for
+/// 1/256 pixel. Where an edge crosses the tile, its values in the tile then fit 32 bits. An edge with the
 /// whole tile on its inner side is dropped: its values and steps stay zero, which is inside.
 pub(crate) struct TileTriangle {
     /// For each sample of a pixel the edge functions at the tile's first pixel.
     pub(crate) starts: [[i32; 3]; MAX_SAMPLES],
     /// The least and the greatest of those of all samples.
     pub(crate) range: [[i32; 3]; 2],
-    /// Steps of a pixel.
+    /// Steps of the divided values for a pixel to the right and downwards.
     pub(crate) right: [i32; 3],
     pub(crate) down: [i32; 3],
-    /// First and last column and row that may have a sample, in the tile.
+    /// First and last column and row of the tile that may have a sample in the triangle.
     pub(crate) columns: [i32; 2],
     pub(crate) rows: [i32; 2],
     pub(crate) depth: DepthPlane,
-    /// What cannot be decided that way.
+    /// What the values above cannot decide.
     pub(crate) special: Option<Special>,
 }
 
@@ -103,8 +104,8 @@ impl TileTriangle {
         Some(covering)
     }
 
-    /// Whether a block, whose first pixel is given, lies outside of an edge, and
-    /// whether inside of all.
+    /// Whether a block, whose first pixel is given, lies outside one of the edges, and
+    /// whether inside all of them.
     #[inline(always)]
     pub(crate) fn block_sides(&self, [x, y]: [i32; 2]) -> [bool; 2] {
         if self.special.is_some() {

@@ -1,6 +1,8 @@
 //! Which triangle is visible at each sample of a tile: opaque triangles first, then masked ones, then
-//! overlays. The coverage kernel of each opaque triangle is chosen here: see [`cover_triangles`]
-//! and [`cover_one`].
+//! overlays. The coverage kernel of each opaque or overlay triangle is chosen here:
+//! [`cover_triangles`] chooses `micro` and `quad`, [`cover_one`] chooses `tiny` and the general kernel.
+//! (`tiny` uses the loops of `multisample` if pixels have several samples.) Masked triangles go
+//! through `masked` and `depth_query`.
 
 use super::edge_origins::EdgeOrigins;
 use super::eight::EightTriangles;
@@ -43,8 +45,8 @@ pub(crate) fn resolve_visibility(
 
 /// Draws overlays over what opaque and masked triangles have left.
 ///
-/// The tile cannot be started again as in [`cover_opaque`], because the buffer holds masked
-/// triangles. So ties are decided one by one, however many there are.
+/// The tile cannot be drawn again as in [`cover_opaque`], because the buffer holds masked
+/// triangles. So ties are resolved one by one, however many there are.
 pub(crate) fn cover_overlay(
     frame: &FrameView<'_>,
     area: &TileArea,
@@ -84,7 +86,8 @@ pub(crate) fn cover_overlay(
     stats.add_counts(&counts);
 }
 
-/// Draws the opaque triangles, which are the first of the tile's.
+/// Draws the opaque triangles, which come first in the tile's list. If there are too many ties, draws
+/// them again in the order of their keys.
 fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, opaque: usize) -> Counts {
     let TileState { triangles, buffer, ties, key_order, reordered, .. } = state;
     let triangles = &triangles[..opaque];
@@ -126,7 +129,7 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
     counts
 }
 
-/// Draws triangles from number `first` on. Returns false if there are too many ties.
+/// Draws triangles from index `first` on. Returns false if there are too many ties.
 fn cover_all(
     frame: &FrameView<'_>,
     rasterizer: &TileRasterizer<'_>,
@@ -257,8 +260,9 @@ fn cover_quad<S: Simd, const MULTI: bool>(
     rasterizer.quad::<S, MULTI>(simd, (quad, edges), number as u32, buffer, counts)
 }
 
-/// Draws one triangle, possibly one of eight that are prepared. Small ones are tiny or general by
-/// [`EightTriangles::is_tiny`]; all others go through the general kernel.
+/// Draws one triangle, possibly one of eight that are prepared. A prepared triangle that
+/// [`EightTriangles::is_tiny`] goes through `tiny`, which with several samples per pixel uses
+/// `multisample`; all others go through the general kernel.
 #[inline(always)]
 fn cover_one<S: Simd, const MULTI: bool>(
     simd: S,
@@ -300,8 +304,9 @@ fn cover_one<S: Simd, const MULTI: bool>(
     }
 }
 
-/// How many of the next triangles, up to eight, can be prepared together: whole primitives, of one
-/// draw if triangles are in the order of draws.
+/// How many of the next triangles, up to eight, can be prepared together: uncut ones, of one
+/// draw if triangles are in the order of draws. Triangles that are drawn again in the order of their
+/// keys may belong to several draws.
 #[inline(always)]
 fn side_by_side(frame: &FrameView<'_>, rasterizer: &TileRasterizer<'_>, triangles: &[TriangleRef]) -> usize {
     let first = triangles[0];
@@ -322,7 +327,7 @@ fn eight<S: Simd>(
     rasterizer: &TileRasterizer<'_>,
     triangles: &[TriangleRef],
 ) -> EightTriangles {
-    // In a function of its own, so that each is compiled once.
+    // Each branch is a separate function, so that it is compiled once.
     let (area, pattern) = (&rasterizer.area, frame.grid.pattern);
     if rasterizer.by_draws {
         simd.vectorize(

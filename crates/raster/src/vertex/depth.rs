@@ -1,4 +1,6 @@
-//! Depths of vertices on the screen.
+//! One vertex on the screen, position and depth, and the range of depths.
+//!
+//! `run` does the same for eight vertices at once, with the same bits.
 
 use super::ScreenVertex;
 use crate::simd::{F32, Simd, prelude::*};
@@ -6,8 +8,8 @@ use crate::viewport::Viewport;
 use trigon_math::Vec4;
 
 impl ScreenVertex {
-    /// Where a position with w >= [`W_MIN`](crate::clip::W_MIN) lies; `None` if
-    /// it has no place on the grid.
+    /// Snaps a clip-space position with w >= [`W_MIN`](crate::clip::W_MIN); `None` if
+    /// it lies outside the grid.
     #[inline]
     pub(crate) fn of(position: Vec4, viewport: Viewport) -> Option<Self> {
         let point = viewport.snap(position)?;
@@ -15,8 +17,8 @@ impl ScreenVertex {
     }
 }
 
-/// Depths behind the far plane are not told apart further than this, so that
-/// arithmetic with them cannot overflow.
+/// Depths behind the far plane are clamped to this, so that arithmetic with them cannot
+/// overflow.
 pub(super) const DEPTH_LEAST: f32 = -1e30;
 
 /// z / w, at most 1 (cutting rounds) and at least [`DEPTH_LEAST`]. Zero is
@@ -33,12 +35,12 @@ fn depth(position: Vec4) -> f32 {
     }
 }
 
-/// A depth moved towards the eye by a share of its distance, at most to the near
-/// plane. A share that is not a number moves nothing.
+/// A depth moved towards the eye by a fraction of its distance, at most to the near
+/// plane. A fraction that is not a number moves nothing.
 #[inline]
-pub(crate) fn nearer(depth: f32, share: f32) -> f32 {
-    if share > 0.0 {
-        let moved = depth * (1.0 + if share < 1.0 { share } else { 1.0 });
+pub(crate) fn nearer(depth: f32, fraction: f32) -> f32 {
+    if fraction > 0.0 {
+        let moved = depth * (1.0 + if fraction < 1.0 { fraction } else { 1.0 });
         if moved < 1.0 { moved } else { 1.0 }
     } else {
         depth

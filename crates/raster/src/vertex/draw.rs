@@ -16,19 +16,19 @@ pub(crate) struct DrawVertices<'a> {
 }
 
 impl<'a> DrawVertices<'a> {
-    /// The vertex of an index; one without a place and invalid if there is none.
+    /// The vertex of an index; one that is not snapped and invalid if there is none.
     #[inline(always)]
     pub(crate) fn get(&self, index: u32) -> &'a ScreenVertex {
         let missing = self.places.len().checked_sub(1).expect("there is one place more than vertices");
         &self.places[self.slots.of(index).min(missing)]
     }
 
-    /// The planes that a vertex lies beyond; none for one that needs no cutting.
+    /// The planes beyond which a vertex lies; none for one that needs no cutting.
     pub(crate) fn outcode(&self, index: u32) -> Outcode {
         self.get(index).outcode()
     }
 
-    /// Where a vertex lies in clip space: asked again of the pipeline, as few
+    /// The position of a vertex in clip space. The pipeline computes it again, because few
     /// triangles are cut.
     pub(crate) fn position(&self, index: u32) -> Vec4 {
         self.pipeline.position(self.token, index as usize)

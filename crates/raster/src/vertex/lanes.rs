@@ -1,4 +1,4 @@
-//! Up to eight vertices on their way through a pipeline's vertex stage.
+//! The input of a pipeline's vertex stage: up to eight vertices.
 
 use crate::simd::{F32, LANES, Simd, prelude::*};
 
@@ -13,7 +13,7 @@ pub struct VertexLanes<'a> {
 }
 
 impl<'a> VertexLanes<'a> {
-    /// `varyings` has `stride` places for each of the `count` vertices.
+    /// `varyings` has `stride` values for each of the `count` vertices.
     #[inline(always)]
     pub(crate) fn new(first: usize, count: usize, varyings: &'a mut [f32], stride: usize) -> Self {
         Self { first, count, varyings, stride }

@@ -1,4 +1,18 @@
-//! The vertex stage: each vertex once, then its place on the grid.
+//! The vertex stage: runs the pipeline once for each vertex in use, and snaps the vertex to the
+//! sub-pixel grid.
+//!
+//! In the order in which a vertex passes through:
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `used` | which vertices of a draw are run, and their slots |
+//! | `program`, `lanes` | a pipeline without its type; the vertices that it runs at once |
+//! | `run` | runs the pipeline, eight vertices at a time, and **snaps** them (`snap`) |
+//! | `screen` | the result: [`ScreenVertex`], a position on the grid with depth and 1/w, or an outcode |
+//! | `depth` | the same for a single vertex ([`ScreenVertex::of`]), which set-up needs for corners of cut triangles; the range of depths |
+//! | `draw` | looks up the vertices of a draw |
+//!
+//! Vertices that must be cut are not snapped here: see [`Setup::snap`](crate::setup::Setup).
 
 mod depth;
 mod draw;

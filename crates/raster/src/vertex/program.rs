@@ -6,12 +6,12 @@ use crate::viewport::Viewport;
 use std::ops::Range;
 use trigon_math::Vec4;
 
-/// What the stages before shading ask of a pipeline. The type is forgotten once per draw.
+/// What the stages before shading need of a pipeline. The type is erased once per draw.
 pub(crate) trait VertexProgram: Sync {
     fn vertex_count(&self) -> usize;
 
-    /// From how many f32 on the next vertex's varyings start: whole fours, so that
-    /// they are copied by four; fewer where there are fewer.
+    /// The distance in f32 from one vertex's varyings to the next one's: a multiple of 4, so that
+    /// four are copied at a time; fewer than 4 if there are fewer than 3.
     fn stride(&self) -> usize;
 
     /// How many f32 are interpolated.

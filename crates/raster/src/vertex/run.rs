@@ -10,7 +10,7 @@ use crate::{LanePipeline, MAX_VARYINGS};
 use std::ops::Range;
 use trigon_math::{Band, Vec4};
 
-/// From how many f32 on the next vertex's varyings start: see [`VertexProgram::stride`].
+/// The distance in f32 from one vertex's varyings to the next one's: see [`VertexProgram::stride`].
 const fn stride(varyings: usize) -> usize {
     if varyings < 3 { varyings } else { varyings.next_multiple_of(4) }
 }
@@ -58,25 +58,25 @@ impl<P: LanePipeline> VertexProgram for P {
     }
 }
 
-/// Runs some of the vertices that a draw uses: their places and varyings.
+/// Runs some of the vertices that a draw uses: computes their screen vertices and varyings.
 #[inline(always)]
 fn run<S: Simd, P: LanePipeline>(
     simd: S,
     pipeline: &P,
     (used, slots): (Slots<'_>, Range<usize>),
     viewport: Viewport,
-    (places, mut varyings): (&mut [ScreenVertex], &mut [f32]),
+    (vertices, mut varyings): (&mut [ScreenVertex], &mut [f32]),
 ) {
     let (guard, stride) = (viewport.guard(), stride(pipeline.varyings()));
     // Listed vertices do not lie side by side.
     let together = if used.are_consecutive() { LANES } else { 1 };
-    for (group, places) in places.chunks_mut(together).enumerate() {
+    for (group, vertices) in vertices.chunks_mut(together).enumerate() {
         let first = used.index(slots.start + group * together);
-        let (rows, rest) = std::mem::take(&mut varyings).split_at_mut(places.len() * stride);
+        let (rows, rest) = std::mem::take(&mut varyings).split_at_mut(vertices.len() * stride);
         varyings = rest;
-        let mut lanes = VertexLanes::new(first, places.len(), rows, stride);
+        let mut lanes = VertexLanes::new(first, vertices.len(), rows, stride);
         let position = pipeline.vertices(simd, &mut lanes);
-        place(simd, position, viewport, guard, places);
+        to_screen(simd, position, viewport, guard, vertices);
     }
 }
 
@@ -86,12 +86,12 @@ fn run_scalar(
     (pipeline, stride): (&dyn ScalarPipeline, usize),
     (used, slots): (Slots<'_>, Range<usize>),
     viewport: Viewport,
-    (places, mut varyings): (&mut [ScreenVertex], &mut [f32]),
+    (vertices, mut varyings): (&mut [ScreenVertex], &mut [f32]),
 ) {
     let guard = viewport.guard();
-    for (group, places) in places.chunks_mut(LANES).enumerate() {
+    for (group, vertices) in vertices.chunks_mut(LANES).enumerate() {
         let mut columns = [[0.0; LANES]; 4];
-        for lane in 0..places.len() {
+        for lane in 0..vertices.len() {
             let (row, rest) = std::mem::take(&mut varyings).split_at_mut(stride);
             varyings = rest;
             let position = pipeline.run_vertex(used.index(slots.start + group * LANES + lane), row);
@@ -100,7 +100,7 @@ fn run_scalar(
             }
         }
         at_level!(token, simd => {
-            place(simd, columns.each(#[inline(always)] |column| F32::simd_from(simd, column)), viewport, guard, places);
+            to_screen(simd, columns.each(#[inline(always)] |column| F32::simd_from(simd, column)), viewport, guard, vertices);
         });
     }
 }
@@ -116,21 +116,21 @@ fn position<S: Simd, P: LanePipeline>(simd: S, pipeline: &P, vertex: usize, vary
 /// Snaps up to eight vertices to the sub-pixel grid, one in each lane.
 ///
 /// Each vertex becomes a [`ScreenVertex`] of four numbers: x and y in 1/256 pixel, depth and
-/// 1/w. A vertex that must be cut or dropped has no place on the grid and keeps its outcode
-/// instead.
+/// 1/w. A vertex that must be cut or dropped is not snapped and holds its outcode instead. Set-up
+/// snaps it with [`ScreenVertex::of`] if its triangle is cut.
 #[inline(always)]
-fn place<S: Simd>(
+fn to_screen<S: Simd>(
     simd: S,
     position: [F32<S>; 4],
     viewport: Viewport,
     guard: [Band; 2],
-    places: &mut [ScreenVertex],
+    vertices: &mut [ScreenVertex],
 ) {
     let [x, y, z, w] = position;
     let whole = is_whole(simd, position, guard).to_bitmask();
     let one = F32::splat(simd, 1.0);
-    // Held to the range from DEPTH_LEAST to 1, with the same comparisons as for single vertices.
-    // Adding 0 turns -0 into 0. Lanes without a place may hold NaN here; it is not used.
+    // Clamped to the range from DEPTH_LEAST to 1, with the same comparisons as for single vertices.
+    // Adding 0 turns -0 into 0. Lanes that are not snapped may hold NaN here; it is not used.
     let depth = z / w;
     let depth = depth.simd_gt(one).select(one, depth + F32::splat(simd, 0.0));
     let least = F32::splat(simd, DEPTH_LEAST);
@@ -138,8 +138,8 @@ fn place<S: Simd>(
     let inverse_w: [f32; LANES] = (one / w).into();
     let [x, y, z, w]: [[f32; LANES]; 4] = [x.into(), y.into(), z.into(), w.into()];
     let [column, row] = snap(viewport, x, y, w);
-    for (lane, place) in places.iter_mut().enumerate() {
-        *place = if whole >> lane & 1 != 0 {
+    for (lane, vertex) in vertices.iter_mut().enumerate() {
+        *vertex = if whole >> lane & 1 != 0 {
             ScreenVertex([
                 column[lane],
                 row[lane],
@@ -175,18 +175,25 @@ fn is_whole<S: Simd>(simd: S, [x, y, z, w]: [F32<S>; 4], guard: [Band; 2]) -> Ma
 /// to the grid. Two triangles that share a vertex get the same grid point, and all decisions
 /// about coverage follow from grid points, so no gap can open between them. Lanes that are not
 /// whole get arbitrary numbers.
+///
+/// When a triangle is cut, set-up snaps its corners by `Viewport::snap` instead, also those that the
+/// cut has left unchanged. These must get the same grid points as here, because a neighbour that is
+/// not cut has the same vertex. They do, bit for bit: both use `Viewport::position` in f64 and
+/// round to nearest, ties to even. The test below compares the two.
 #[inline(always)]
 fn snap(viewport: Viewport, x: [f32; LANES], y: [f32; LANES], w: [f32; LANES]) -> [[i32; LANES]; 2] {
     // Adding this rounds to a whole number, ties to even: in the sum the last bit of the
     // mantissa is worth 1. The number is then in the low bits, also if it is negative. That
-    // works up to 2^31, and the guard band ends at 2^24.
+    // works up to 2^31. Vertices in the guard band lie within ±2^24: at most 32768 pixels from the
+    // middle of a viewport of at most 65536 pixels, so at most 65536 pixels from its corner, in
+    // units of 1/256 pixel.
     const ROUND: f64 = 1.5 * (1_u64 << 52) as f64;
     let mut snapped = [[0; LANES]; 2];
     for lane in 0..LANES {
         let inverse_w = 1.0 / f64::from(w[lane]);
-        let place = viewport.place([f64::from(x[lane]), f64::from(y[lane])], inverse_w);
-        for (axis, place) in place.into_iter().enumerate() {
-            snapped[axis][lane] = (place * 256.0 + ROUND).to_bits() as i32;
+        let position = viewport.position([f64::from(x[lane]), f64::from(y[lane])], inverse_w);
+        for (axis, pixels) in position.into_iter().enumerate() {
+            snapped[axis][lane] = (pixels * 256.0 + ROUND).to_bits() as i32;
         }
     }
     snapped
@@ -203,19 +210,19 @@ mod tests {
     }
 
     proptest! {
-        /// Against the outcode and the scalar way.
+        /// Against the outcode and `ScreenVertex::of`, which snaps one vertex at a time.
         #[test]
         fn lanes_agree_with_single_vertices(positions: [[f32; 4]; 8], near in [number(), number(), number(), number()]) {
             let viewport = Viewport { width: 1920, height: 1080 };
             let mut positions = positions;
             positions[3] = near;
             for level in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
-                let mut places = [ScreenVertex::default(); 8];
+                let mut vertices = [ScreenVertex::default(); 8];
                 at_level!(level, simd => {
                     let columns = [0, 1, 2, 3].map(|i| F32::simd_from(simd, positions.map(|p| p[i])));
-                    place(simd, columns, viewport, viewport.guard(), &mut places);
+                    to_screen(simd, columns, viewport, viewport.guard(), &mut vertices);
                 });
-                for (place, position) in places.iter().zip(positions) {
+                for (vertex, position) in vertices.iter().zip(positions) {
                     let position = Vec4::from_array(position);
                     let outcode = Outcode::new(position, viewport.guard());
                     let expected = if outcode.is_invalid() || outcode.cuts() {
@@ -223,7 +230,7 @@ mod tests {
                     } else {
                         ScreenVertex::of(position, viewport).expect("within the guard band")
                     };
-                    prop_assert_eq!(place.0, expected.0, "{}", position);
+                    prop_assert_eq!(vertex.0, expected.0, "{}", position);
                 }
             }
         }

@@ -1,10 +1,10 @@
-//! What is left of a vertex for set-up: 16 bytes that one load fetches.
+//! What set-up reads of a vertex: 16 bytes that one load fetches.
 
 use crate::clip::Outcode;
 use trigon_math::{Fixed, FixedPoint};
 
 /// A vertex on the sub-pixel grid: x, y in 1/256 pixel, reversed depth and 1/w
-/// as bits. A vertex without a place, because it must be cut or dropped, holds
+/// as bits. A vertex that is not snapped, because it must be cut or dropped, holds
 /// its outcode instead.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ScreenVertex(pub(crate) [i32; 4]);
@@ -21,7 +21,7 @@ impl ScreenVertex {
         Self([point.x.raw(), point.y.raw(), depth.to_bits() as i32, inverse_w.to_bits() as i32])
     }
 
-    /// A vertex that has no place.
+    /// A vertex that is not snapped.
     #[inline(always)]
     pub(crate) fn nowhere(outcode: Outcode) -> Self {
         Self([Self::NOWHERE, i32::from(outcode.bits()), 0, 0])
@@ -32,8 +32,7 @@ impl ScreenVertex {
         self.0[0] != Self::NOWHERE
     }
 
-    /// The outcode of a vertex without a place; that of one in full view for
-    /// all others.
+    /// The outcode of a vertex that is not snapped; for all others that of a vertex in full view.
     #[inline]
     pub(crate) fn outcode(self) -> Outcode {
         if self.has_place() { Outcode::from_bits(0) } else { Outcode::from_bits(self.0[1] as u16) }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// The vertices that a draw uses, each with a slot: its place among them.
+/// The vertices that a draw uses, each with a slot: its index among them.
 #[derive(Debug, PartialEq)]
 pub(crate) enum UsedVertices {
     /// All from the least to the greatest index.

@@ -156,8 +156,8 @@ impl<'f> FrameView<'f> {
         Chunk::of(self.chunks, place)
     }
 
-    /// What decides first between triangles at equal depth, from the index among the plans
-    /// of the triangle's draw: the smaller one is seen.
+    /// The (object, face) of a triangle as one number, given the index of its draw among the plans: the
+    /// first part of the key by which [`Self::compare`] orders triangles.
     #[inline]
     pub(crate) fn object_and_face(&self, draw: usize, place: TriangleRef) -> u64 {
         let plan = &self.plan.draws[draw];
@@ -166,9 +166,9 @@ impl<'f> FrameView<'f> {
         u64::from(geometry.object) << 32 | u64::from(face)
     }
 
-    /// The order of two triangles at equal depth: the smaller (object, face) is
-    /// seen. Within a face, and only there, the smaller index, then the earlier
-    /// draw.
+    /// The rule for ties: the order of two triangles at equal depth, of which the first is visible. The
+    /// smaller (object, face) comes first; within a face, and only there, the smaller index, then the
+    /// earlier draw.
     pub(crate) fn compare(&self, a: TriangleRef, b: TriangleRef) -> Ordering {
         let key = |place: TriangleRef| {
             let draw = self.draw_of(place);
@@ -178,7 +178,7 @@ impl<'f> FrameView<'f> {
         key(a).cmp(&key(b))
     }
 
-    /// Whether `a` is seen before `b` at equal depth.
+    /// Whether `a` is visible and not `b` at equal depth.
     pub(crate) fn precedes(&self, a: TriangleRef, b: TriangleRef) -> bool {
         self.compare(a, b).is_lt()
     }

@@ -69,7 +69,7 @@ impl Plan {
         self.draws.extend((0..recorded.len()).map(|draw| {
             let Recorded { geometry, pipeline } = &recorded[draw];
             let used = UsedVertices::new(geometry.indices(), pipeline.vertex_count(), &mut self.listed);
-            let points = PlainPoints::of(&recorded[draw], supersampling);
+            let points = plain_points(&recorded[draw], supersampling);
             DrawPlan { draw, ordinals: 0..0, used, places: 0..0, varyings: 0, points }
         }));
         // Equal keys stay in the order of the pass.
@@ -99,15 +99,15 @@ impl Plan {
     /// holds.
     pub(crate) fn update_points(&mut self, recorded: &[Recorded<'_>], supersampling: u32) {
         for plan in &mut self.draws {
-            plan.points = PlainPoints::of(&recorded[plan.draw], supersampling);
+            plan.points = plain_points(&recorded[plan.draw], supersampling);
         }
     }
 
     /// Whether the same draws of a pass have points that are drawn from their vertices.
     pub(crate) fn has_points_of(&self, recorded: &[Recorded<'_>], supersampling: u32) -> bool {
-        self.draws.iter().all(|plan| {
-            plan.points.is_some() == PlainPoints::of(&recorded[plan.draw], supersampling).is_some()
-        })
+        self.draws
+            .iter()
+            .all(|plan| plan.points.is_some() == plain_points(&recorded[plan.draw], supersampling).is_some())
     }
 
     /// Whether equal depths can be decided by the ordinal among opaque draws.
@@ -182,4 +182,8 @@ impl Plan {
         }
         self.draws.partition_point(|plan| plan.ordinals.end <= ordinal)
     }
+}
+
+fn plain_points(recorded: &Recorded<'_>, supersampling: u32) -> Option<PlainPoints> {
+    PlainPoints::of(&recorded.geometry, recorded.pipeline.is_flat(), supersampling)
 }

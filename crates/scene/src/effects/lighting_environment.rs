@@ -38,7 +38,7 @@ impl LightingEnvironment {
         shadows || self.bounces > 0 || self.ambient_rays.is_some() || self.lights.need_position()
     }
 
-    /// Whether reflected light depends on the view direction even without highlights.
+    /// Whether all light is grey, so that a white surface is grey everywhere.
     pub(crate) fn are_grey(&self) -> bool {
         self.lights.are_grey() && self.surroundings.is_none()
     }

@@ -17,6 +17,7 @@ use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles}
 use super::shapes::{Shape, Shapes};
 use super::stage::Stage;
 use super::surface::{BoundMaterial, MaterialContext, Surface};
+use super::vertex_list::VertexList;
 use super::wire::{HiddenLine, Wire, WireMarks};
 use crate::display::Display;
 use crate::effect::Effect;
@@ -25,7 +26,7 @@ use crate::marks;
 use crate::material::{AlphaMode, Material, Shading};
 use crate::node::Node;
 use crate::node::NodeId;
-use crate::scene::{MeshAsset, Scene, VertexList};
+use crate::scene::{MeshAsset, Scene};
 use crate::settings::{RenderSettings, Style};
 
 /// The size of loose points, in line widths.
@@ -367,20 +368,20 @@ impl<'s> Composer<'s> {
     fn vertices<'c>(&'c self, object: &Object<'s>) -> Option<Box<dyn Record + 'c>> {
         let shown = self.settings.vertices.filter(|_| self.purpose == Purpose::Colors)?;
         let listed = &self.settings.marks.vertices;
-        let list = object.asset.vertex_list(object.id, listed);
+        let list = VertexList::new(object.id, object.asset.used_vertices(), listed);
         if list.points.is_empty() {
             return None;
         }
-        let VertexList { points, numbers, marked, no_face, .. } = &*list;
-        let marks = WireMarks { numbers: Arc::clone(numbers), colors: marks::colors(listed) };
+        let VertexList { points, numbers, marked, no_face } = list;
+        let marks = WireMarks { numbers, colors: marks::colors(listed) };
         Some(Box::new(Dots {
             pipeline: self.wire(object, shown.color, marks),
             geometry: object.geometry,
-            no_face: Arc::clone(no_face),
-            points: Arc::clone(points),
+            no_face,
+            points,
             object: object.index,
             size: shown.size,
-            marked: Some((Arc::clone(marked), shown.marked_size)),
+            marked: Some((marked, shown.marked_size)),
             blend_mode: trigon_raster::BlendMode::Overlay,
             depth_bias: VERTEX_DEPTH_BIAS,
         }))

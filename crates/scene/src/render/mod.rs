@@ -22,6 +22,7 @@ mod stage;
 pub(crate) mod surface;
 #[cfg(test)]
 mod tests;
+mod vertex_list;
 mod wire;
 
 pub use builder::RendererBuilder;

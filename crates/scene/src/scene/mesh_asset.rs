@@ -5,10 +5,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use trigon_math::{Bounds3, Vec3};
 use trigon_mesh::{ChangeError, ChangedElements, Mesh, MeshChange};
 
-use super::vertex_list::VertexList;
 use crate::arena::Id;
-use crate::marks::Mark;
-use crate::node::NodeId;
 use crate::render::{Geometry, box_around};
 
 /// Names a mesh.
@@ -32,8 +29,6 @@ struct Derived {
     geometry: OnceLock<Arc<Geometry>>,
     /// What `geometry` is made of after a change. The lock is held only to take it out.
     outdated: Mutex<Option<Outdated>>,
-    /// The last list of vertices that a frame has shown.
-    vertices: Mutex<Option<Arc<VertexList>>>,
 }
 
 /// What was known before one or several changes.
@@ -95,17 +90,6 @@ impl MeshAsset {
         self.derived.used.get_or_init(|| Arc::new(self.mesh.used_vertices()))
     }
 
-    /// The vertices to be shown as points at a node, with these marks.
-    pub(crate) fn vertex_list(&self, node: NodeId, marks: &[Mark]) -> Arc<VertexList> {
-        let used = self.used_vertices();
-        let last = self.derived.last_vertices().filter(|list| list.is_of(node, used, marks));
-        last.unwrap_or_else(|| {
-            let made = Arc::new(VertexList::new(node, used, marks));
-            *self.derived.vertices.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(&made));
-            made
-        })
-    }
-
     /// What is drawn of it; made, or brought up to date, at the first use.
     pub(crate) fn geometry(&self) -> &Arc<Geometry> {
         self.derived.geometry.get_or_init(|| {
@@ -157,10 +141,6 @@ impl MeshAsset {
 }
 
 impl Derived {
-    fn last_vertices(&self) -> Option<Arc<VertexList>> {
-        self.vertices.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
     fn take_outdated(&self) -> Option<Outdated> {
         self.outdated.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
@@ -174,7 +154,6 @@ impl Clone for Derived {
             bounds: self.bounds.clone(),
             geometry: self.geometry.clone(),
             outdated: Mutex::new(outdated),
-            vertices: Mutex::new(self.last_vertices()),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Paints egui's triangles, repainting only what has changed.
 //!
-//! ! egui produces a list of clipped meshes for each pass. The painter compares it with the last
+//! egui produces a list of clipped meshes for each pass. The painter compares it with the last
 //! one ([`changes`]), marks the cells of the screen that differ ([`damage`]), and repaints these:
 //! first what lies beneath the interface, then every triangle that touches them, clipped to them.
 //! [`trigon_raster::paint2d`] guarantees that a scissor does not change anything inside it, so the

@@ -1,4 +1,4 @@
-//! ! egui's textures as images for painting triangles.
+//! egui's textures as images for painting triangles.
 
 use std::collections::HashMap;
 

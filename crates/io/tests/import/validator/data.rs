@@ -221,7 +221,7 @@ fn images() -> Vec<Row> {
             textured(doc, &png(), "image/jpeg");
         }),
         glb("IMAGE_NON_ENABLED_MIME_TYPE", "a WebP image without EXT_texture_webp", Silent(IMAGE), |doc| {
-            textured(doc, WEBP, "image/png")
+            textured(doc, WEBP, "image/png");
         }),
         glb("IMAGE_UNEXPECTED_EOS", "a PNG that ends after its header", Warned, |doc| {
             textured(doc, &png_without_data(), "image/png");

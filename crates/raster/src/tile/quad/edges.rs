@@ -3,7 +3,7 @@
 use crate::samples::{MAX_SAMPLES, SamplePattern};
 use crate::setup::{Quad, SMALL};
 use crate::simd::{Each, I32, LANES, Row, Simd, lane_numbers, prelude::*};
-use crate::tile::{Edge, TileArea};
+use crate::tile::{Edge, TileArea, owns_boundary};
 
 /// The last of the edges: not one of the outline.
 pub(super) const DIAGONAL: usize = 4;
@@ -71,11 +71,10 @@ impl QuadEdges {
         let is_clockwise = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0;
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let (right, down) = if is_clockwise { (-dy, dx) } else { (dy, -dx) };
-        let zero = I32::splat(simd, 0);
-        let inclusive = right.simd_gt(zero) | (right.simd_eq(zero) & down.simd_gt(zero));
+        let bias = owns_boundary(right, down).select(I32::splat(simd, 0), I32::splat(simd, 1));
         let [x, y] = [area.origin[0] * 256, area.origin[1] * 256];
         let value = right * (I32::splat(simd, x) - from[0]) + down * (I32::splat(simd, y) - from[1]);
-        let value = value - inclusive.select(zero, I32::splat(simd, 1));
+        let value = value - bias;
         let mut greatest = I32::splat(simd, i32::MIN);
         for (starts, &[x, y]) in self.starts.iter_mut().zip(self.pattern.offsets()) {
             let start = (value + right * x + down * y) >> 8;

@@ -1,13 +1,13 @@
-//! The quad kernel: opaque lines and points, both triangles at once, only in groups that the
-//! outline crosses. A lane is one pixel of a group of 4×2.
+//! The quad kernel: lines and points, both triangles at once, only in groups that the outline
+//! crosses. A lane is one pixel of a group of 4×2.
 //!
 //! A line's outline has two ends along an axis and two sides that climb by no more than a
 //! pixel in each pixel of the other, the major axis (see [`line`](crate::line)). So the groups
-//! are gone through along the major axis, four columns or two rows at a time, and across it only
-//! from where the one side may pass to where the other may: four or five groups for twelve
-//! pixels of a thin line, whatever its length. Where in a group the outline lies, its edge
-//! functions say exactly, as for triangles; the diagonal tells which of the two triangles has a
-//! sample, as its depth and colour are found from that.
+//! are visited along the major axis, four columns or two rows at a time, and across it only
+//! from one side to the other: four or five groups for twelve pixels of a thin line, whatever its
+//! length. As for triangles, edge functions decide exactly which samples of a group the outline
+//! contains. The diagonal decides which of the two triangles a sample belongs to, because that
+//! triangle gives its depth and colour.
 
 mod edges;
 mod strip;
@@ -58,7 +58,7 @@ impl Disc {
     }
 }
 
-/// A line or a point on its way through a tile.
+/// A line or a point that is being drawn, with what its groups have in common.
 struct Walk<'q, S: Simd> {
     quad: &'q Quad,
     edges: &'q QuadEdges,
@@ -82,15 +82,15 @@ impl TileRasterizer<'_> {
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) -> bool {
-        // In a function of its own, so that it takes no registers from the kernels of triangles.
+        // A separate function, so that it takes no registers from the kernels of triangles.
         simd.vectorize(
             #[inline(always)]
-            || self.quad_apart::<S, MULTI>(simd, (quad, edges), place, buffer, counts),
+            || self.quad_edge_groups::<S, MULTI>(simd, (quad, edges), place, buffer, counts),
         )
     }
 
     #[inline(always)]
-    fn quad_apart<S: Simd, const MULTI: bool>(
+    fn quad_edge_groups<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
         (quad, edges): (&Quad, &mut QuadEdges),
@@ -175,7 +175,7 @@ impl TileRasterizer<'_> {
             let is_first = (walk.lanes[DIAGONAL] + here[DIAGONAL]).simd_ge(I32::splat(simd, 0));
             let depth = walk.depth(simd, is_first, self.area.point(first, self.offsets[sample]));
             let at = (group * samples + sample) * LANES;
-            let seen = self.seen(simd, walk.place, (covered, depth), buffer, at);
+            let seen = self.visible_lanes(simd, walk.place, (covered, depth), buffer, at);
             if seen.any_true() {
                 let places = is_first.select(U32::splat(simd, walk.place), U32::splat(simd, walk.place + 1));
                 store_places_where(simd, seen, (places, depth), buffer, at);

@@ -4,7 +4,7 @@
 use super::{Rasterizer, settings};
 use crate::{
     BlendMode, Draw, EdgeFlags, ExecuteSettings, FaceEdges, FixedBitSet, Fragment, MarkedPoints, Output,
-    Pass, TargetImages, Pipeline, PointShape, Points, Target, VertexOutput,
+    Pass, Pipeline, PointShape, Points, Target, TargetImages, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;

@@ -1,11 +1,11 @@
 //! Shadow maps: depth images seen from each lamp (L. Williams, "Casting Curved Shadows on Curved
 //! Surfaces", 1978).
 //!
-//! ! **View.** A map depends on its lamp, all casters and its size, never on the camera: parallel
+//! **View.** A map depends on its lamp, all casters and its size, never on the camera: parallel
 //! light is fitted to the box of the casters, a cone is one view, and a point light six. So a map
 //! is drawn again only if one of the three changes.
 //!
-//! ! **Bias.** A map holds the depth at the centres of its texels; a point on the same plane lies
+//! **Bias.** A map holds the depth at the centres of its texels; a point on the same plane lies
 //! up to √2 texels away, and would shadow itself. So points are moved along the normal of the
 //! surface, by √2 · sin θ texels where θ is the angle between the normal and the axis of the map,
 //! which is exactly what a plane needs, and by a quarter of a texel for curvature and rounding. (In a

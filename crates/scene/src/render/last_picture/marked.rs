@@ -59,33 +59,20 @@ impl MarkOrigin {
             (
                 Self::Wires { numbers, points, large },
                 Self::Wires { numbers: now, points: points_now, large: large_now },
-            ) if are_equal(points.as_ref(), points_now.as_ref()) => Some(MarkedPrimitives {
-                recolored: if Arc::ptr_eq(numbers, now) { Vec::new() } else { differing(numbers, now) },
-                resized: differing_bits(large.as_ref(), large_now.as_ref()),
+            ) if points == points_now => Some(MarkedPrimitives {
+                recolored: differing(numbers, now),
+                resized: differing_bits(large.as_deref(), large_now.as_deref()),
             }),
             _ => None,
         }
     }
 }
 
-/// Whether two lists are equal. Most often they are one.
-fn are_equal(before: Option<&Arc<Vec<u32>>>, now: Option<&Arc<Vec<u32>>>) -> bool {
-    match (before, now) {
-        (Some(before), Some(now)) => Arc::ptr_eq(before, now) || before == now,
-        (before, now) => before == now,
-    }
-}
-
 /// Where two sets differ.
-fn differing_bits(before: Option<&Arc<FixedBitSet>>, now: Option<&Arc<FixedBitSet>>) -> Vec<u32> {
-    match (before, now) {
-        (Some(before), Some(now)) if Arc::ptr_eq(before, now) => Vec::new(),
-        (before, now) => {
-            let none = FixedBitSet::new();
-            let [before, now] = [before, now].map(|set| set.map_or(&none, |set| &**set));
-            before.symmetric_difference(now).map(|bit| bit as u32).collect()
-        }
-    }
+fn differing_bits(before: Option<&FixedBitSet>, now: Option<&FixedBitSet>) -> Vec<u32> {
+    let none = FixedBitSet::new();
+    let [before, now] = [before, now].map(|set| set.unwrap_or(&none));
+    before.symmetric_difference(now).map(|bit| bit as u32).collect()
 }
 
 /// The triangles of a draw whose faces, or sides, have other marks.

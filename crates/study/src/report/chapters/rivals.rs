@@ -17,8 +17,8 @@ const ALL: &str = "W2 to W5, geometric means";
 
 /// Each renderer as the files and as readers call it.
 const RENDERERS: [(&str, &str); 13] = [
-    ("exact-centres", "exact at the centres, in bytes"),
-    ("exact-means", "exact, in bytes"),
+    ("exact-centres", "exact colour at pixel centres, rounded to bytes"),
+    ("exact-means", "exact mean of each pixel, rounded to bytes"),
     ("llvmpipe-debian", "llvmpipe, Mesa 22.3.6"),
     ("llvmpipe-new", "llvmpipe, Mesa 26.2.6"),
     ("lavapipe-new", "lavapipe, Mesa 26.2.6"),
@@ -119,15 +119,17 @@ fn means(measured: &[Measured], timed: &[Timed]) -> Vec<Row> {
     RENDERERS.iter().filter_map(|(key, _)| of(key)).collect()
 }
 
-/// Where trigon stands: also where it loses.
+/// The quantities by which trigon is compared with the best of the others, as table headings.
+const COMPARED: [(&str, &str); 4] = [
+    (OUTLINES, "wrong pixels per thousand outline pixels"),
+    (WITHIN, "RMSE within surfaces, of 255"),
+    (ONE, "ms on one thread, one sample per pixel"),
+    (TWO, "ms on two threads, one sample per pixel"),
+];
+
+/// For each quantity where trigon is better and where it loses.
 fn findings(rows: &[Row]) -> Vec<String> {
-    let asked = [
-        (OUTLINES, "Wrong pixels at outlines, of a thousand there"),
-        (WITHIN, "RMSE within surfaces, of 255"),
-        (ONE, "Milliseconds on one thread, with one sample per pixel"),
-        (TWO, "Milliseconds on two threads, with one sample per pixel"),
-    ];
-    asked.into_iter().filter_map(|(quantity, what)| standing(rows, quantity, what)).collect()
+    COMPARED.into_iter().filter_map(|(quantity, what)| verdict(rows, quantity, what)).collect()
 }
 
 /// trigon's value in a workload, with one sample a pixel, and the least of the others with its renderer.
@@ -143,19 +145,17 @@ fn duel<'a>(rows: &'a [Row], workload: Workload, quantity: &str) -> Option<(f64,
     Some((own.first()?.value(quantity)?, least, name))
 }
 
-/// All workloads of one quantity, and who is better; nothing while it was not measured.
-fn standing(rows: &[Row], quantity: &str, what: &str) -> Option<String> {
-    let (mut told, mut won, mut lost, mut level) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+/// Where trigon is better and where it loses by one quantity; nothing while it was not measured.
+fn verdict(rows: &[Row], quantity: &str, what: &str) -> Option<String> {
+    let (mut won, mut lost, mut level) = (Vec::new(), Vec::new(), Vec::new());
     for workload in WORKLOADS {
-        let (own, least, name) = duel(rows, workload, quantity)?;
-        let short = &workload.name()[..2];
-        told.push(format!("{short} {} (the best of the others, {name}: {})", number(own), number(least)));
-        let verdict = match own {
+        let (own, least, _) = duel(rows, workload, quantity)?;
+        let workloads = match own {
             own if own < 0.85 * least => &mut won,
             own if own > 1.15 * least => &mut lost,
             _ => &mut level,
         };
-        verdict.push(short);
+        workloads.push(short(workload));
     }
     let all = [
         ("trigon is better in", won),
@@ -165,17 +165,37 @@ fn standing(rows: &[Row], quantity: &str, what: &str) -> Option<String> {
     let verdicts = all.into_iter().filter(|(_, list)| !list.is_empty());
     let verdicts: Vec<String> =
         verdicts.map(|(verdict, list)| format!("{verdict} {}", list.join(", "))).collect();
-    Some(format!("{what}: {}. Of these, {}.", told.join(", "), verdicts.join("; ")))
+    Some(format!("Compared with the best of the others, by {what}: {}.", verdicts.join("; ")))
 }
 
-/// The table, the sentences and the plot for the README, which a test holds to them.
+fn short(workload: Workload) -> &'static str {
+    &workload.name()[..2]
+}
+
+/// A line for each quantity and workload: trigon and the best of the others.
+#[cfg(test)]
+fn duels(rows: &[Row]) -> String {
+    let mut text =
+        String::from("| | workload | trigon | best of the others | which |\n|---|---|--:|--:|---|\n");
+    for (quantity, what) in COMPARED {
+        for workload in WORKLOADS {
+            if let Some((own, least, name)) = duel(rows, workload, quantity) {
+                let (own, least) = (number(own), number(least));
+                text.push_str(&format!("| {what} | {} | {own} | {least} | {name} |\n", short(workload)));
+            }
+        }
+    }
+    text
+}
+
+/// The tables, the sentences and the plot for the README, which a test holds to them.
 #[cfg(test)]
 pub(in crate::report) fn summary() -> String {
     let chapter = measure(Effort::Once);
     let means: Vec<&Row> = chapter.rows.iter().filter(|row| row.case == ALL).collect();
     let mut text = String::new();
     crate::report::markdown::write_table(ALL, &means, &mut text);
-    text.push('\n');
+    text.push_str(&format!("\n{}\n", duels(&chapter.rows)));
     chapter.findings.iter().for_each(|finding| text.push_str(&format!("- {finding}\n")));
     for plot in &chapter.plots {
         text.push_str(&format!("\n![{}](docs/images/{})\n", plot.title, plot.file(chapter.name)));
