@@ -60,6 +60,54 @@ impl Pipeline for Values {
     }
 }
 
+/// The triangles of one draw, whose colours are numbers. Translucent ones have an alpha of 1/2.
+pub(crate) struct NumberedTriangles {
+    values: Values,
+    triangles: Vec<[u32; 3]>,
+    faces: Vec<u32>,
+    object: u32,
+    blend_mode: BlendMode,
+}
+
+impl NumberedTriangles {
+    pub(crate) fn new(object: u32, blend_mode: BlendMode) -> Self {
+        let values = Values { vertices: Vec::new() };
+        Self { values, triangles: Vec::new(), faces: Vec::new(), object, blend_mode }
+    }
+
+    /// Adds a triangle of a face, with its number.
+    pub(crate) fn push(&mut self, positions: [Vec4; 3], face: u32, number: usize) {
+        let first = self.values.vertices.len() as u32;
+        self.values.vertices.extend(positions.map(|position| (position, number as f32)));
+        self.triangles.push([first, first + 1, first + 2]);
+        self.faces.push(face);
+    }
+
+    /// Both sides of all of them.
+    pub(crate) fn draw(&self) -> Draw<'_, Self> {
+        let Self { object, blend_mode, .. } = *self;
+        let draw = Draw { object, blend_mode, ..Draw::new(self, &self.triangles) };
+        Draw { faces: Some(&self.faces), culling: Culling::None, ..draw }
+    }
+}
+
+impl Pipeline for NumberedTriangles {
+    type Varyings = f32;
+
+    fn vertex_count(&self) -> usize {
+        self.values.vertex_count()
+    }
+
+    fn vertex(&self, index: usize) -> VertexOutput<f32> {
+        self.values.vertex(index)
+    }
+
+    fn fragment(&self, fragment: &Fragment<f32>) -> Vec4 {
+        let alpha = if self.blend_mode == BlendMode::Translucent { 0.5 } else { 1.0 };
+        Vec4::new(fragment.varyings * alpha, 0.0, 0.0, alpha)
+    }
+}
+
 /// How many samples a target has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Samples {

@@ -6,14 +6,13 @@
 //! sample stays open, but for depths that are the same at all corners, which are compared exactly. Colours are whole
 //! numbers or their halves, so that every sum and mean of them is exact in f32.
 
-use crate::coverage_support::{clip_position_on, levels, rasterizer};
+use crate::coverage_support::{NumberedTriangles, clip_position_on, levels, rasterizer};
 use crate::effort::cases;
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_math::Vec4;
 use trigon_raster::{
-    Background, BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rect,
-    Target, TargetImages, TileSize, VertexOutput,
+    Background, BlendMode, DepthTest, ExecuteSettings, Output, Pass, Rect, Target, TargetImages, TileSize,
 };
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::{covers, doubled_area, sample_points};
@@ -34,7 +33,7 @@ struct Sheet {
     depths: [f32; 3],
     face: u32,
     draw: usize,
-    /// A corner that is no place, which drops the triangle.
+    /// A corner, its axis and a coordinate that is no position, which drops the triangle.
     broken: Option<(usize, usize, f32)>,
 }
 
@@ -50,55 +49,22 @@ struct Case {
     settings: ExecuteSettings,
 }
 
-/// The triangles of a draw; their numbers in the case are their colours.
-struct Part {
-    vertices: Vec<(Vec4, f32)>,
-    triangles: Vec<[u32; 3]>,
-    faces: Vec<u32>,
-    mode: BlendMode,
-}
-
-impl Pipeline for Part {
-    type Varyings = f32;
-
-    fn vertex_count(&self) -> usize {
-        self.vertices.len()
-    }
-
-    fn vertex(&self, index: usize) -> VertexOutput<f32> {
-        let (position, varyings) = self.vertices[index];
-        VertexOutput { position, varyings }
-    }
-
-    fn fragment(&self, fragment: &Fragment<f32>) -> Vec4 {
-        let alpha = if self.mode == BlendMode::Translucent { 0.5 } else { 1.0 };
-        Vec4::new(fragment.varyings * alpha, 0.0, 0.0, alpha)
-    }
-}
-
 impl Case {
-    fn part(&self, draw: usize) -> Part {
-        let mode = self.modes[draw];
-        let mut part = Part { vertices: Vec::new(), triangles: Vec::new(), faces: Vec::new(), mode };
+    fn triangles(&self, draw: usize) -> NumberedTriangles {
+        let mut triangles = NumberedTriangles::new(draw as u32, self.modes[draw]);
         for (number, sheet) in self.sheets.iter().enumerate().filter(|(_, sheet)| sheet.draw == draw) {
-            let first = part.vertices.len() as u32;
-            for corner in 0..3 {
-                let mut position = clip_position_on(SIDE, sheet.corners[corner], sheet.depths[corner]);
-                if let Some((broken, axis, value)) = sheet.broken
-                    && broken == corner
-                {
-                    position[axis] = value;
-                }
-                part.vertices.push((position, number as f32));
+            let position = |corner| clip_position_on(SIDE, sheet.corners[corner], sheet.depths[corner]);
+            let mut positions = [0, 1, 2].map(position);
+            if let Some((corner, axis, value)) = sheet.broken {
+                positions[corner][axis] = value;
             }
-            part.triangles.push([first, first + 1, first + 2]);
-            part.faces.push(sheet.face);
+            triangles.push(positions, sheet.face, number);
         }
-        part
+        triangles
     }
 
     fn draw(&self) -> TargetImages {
-        let parts: Vec<(usize, Part)> = self.order.iter().map(|&draw| (draw, self.part(draw))).collect();
+        let draws: Vec<NumberedTriangles> = self.order.iter().map(|&draw| self.triangles(draw)).collect();
         let outputs = [Output::Linear, Output::Depth, Output::Object, Output::Face];
         let target = Target::new(SIDE as u32, SIDE as u32, &outputs).expect("the size is in range");
         let mut target = target.with_samples(self.samples).expect("a standard pattern");
@@ -108,10 +74,8 @@ impl Case {
         before.background(Background::Color(Vec4::new(EMPTY, 0.0, 0.0, 1.0)));
         rasterizer.draw(&before, &mut target);
         let mut pass = Pass::new();
-        for (draw, part) in &parts {
-            let of_part =
-                Draw { object: *draw as u32, blend_mode: part.mode, ..Draw::new(part, &part.triangles) };
-            pass.triangles(Draw { faces: Some(&part.faces), culling: Culling::None, ..of_part });
+        for triangles in &draws {
+            pass.triangles(triangles.draw());
         }
         if let Some([min, max]) = self.scissor {
             pass.scissor(Rect::new(min, max));

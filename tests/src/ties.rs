@@ -8,15 +8,13 @@
 //! computed to know which are equal.
 
 use crate::coverage::Random;
-use crate::coverage_support::{clip_position_on, levels, rasterizer};
+use crate::coverage_support::{NumberedTriangles, clip_position_on, levels, rasterizer};
 use crate::effort::cases;
 use proptest::prelude::*;
 use std::cmp::Reverse;
 use std::num::NonZeroUsize;
-use trigon_math::Vec4;
 use trigon_raster::{
-    BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Stats, Target,
-    TargetImages, TileSize, VertexOutput,
+    BlendMode, DepthTest, ExecuteSettings, Output, Pass, Stats, Target, TargetImages, TileSize,
 };
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::{covers, sample_points};
@@ -60,33 +58,6 @@ struct Heap {
     descends: bool,
 }
 
-/// One draw: its triangles' numbers are their colours.
-struct Part {
-    vertices: Vec<(Vec4, f32)>,
-    triangles: Vec<[u32; 3]>,
-    faces: Vec<u32>,
-    object: u32,
-    surface: BlendMode,
-}
-
-impl Pipeline for Part {
-    type Varyings = f32;
-
-    fn vertex_count(&self) -> usize {
-        self.vertices.len()
-    }
-
-    fn vertex(&self, index: usize) -> VertexOutput<f32> {
-        let (position, varyings) = self.vertices[index];
-        VertexOutput { position, varyings }
-    }
-
-    fn fragment(&self, fragment: &Fragment<f32>) -> Vec4 {
-        let alpha = if self.surface == BlendMode::Translucent { 0.5 } else { 1.0 };
-        Vec4::new(fragment.varyings * alpha, 0.0, 0.0, alpha)
-    }
-}
-
 impl Heap {
     /// The same with the triangles' indices in their draws.
     fn numbered(mut self) -> Self {
@@ -98,42 +69,33 @@ impl Heap {
         self
     }
 
-    fn parts(&self) -> Vec<Part> {
-        let part = |(draw, &surface): (usize, &BlendMode)| {
-            let mut part =
-                Part { vertices: Vec::new(), triangles: Vec::new(), faces: Vec::new(), object: 0, surface };
-            for (number, copy) in self.copies.iter().enumerate().filter(|(_, copy)| copy.draw == draw) {
-                let first = part.vertices.len() as u32;
+    fn draws(&self) -> Vec<NumberedTriangles> {
+        let draw = |(draw, &surface): (usize, &BlendMode)| {
+            let copies = || self.copies.iter().enumerate().filter(|(_, copy)| copy.draw == draw);
+            let object = copies().next_back().map_or(0, |(_, copy)| copy.object);
+            let mut triangles = NumberedTriangles::new(object, surface);
+            for (number, copy) in copies() {
                 let depths = FLAT.get(copy.level).map_or(SLOPE, |&depth| [depth; 3]);
                 let position = |corner| clip_position_on(self.side, copy.corners[corner], depths[corner]);
-                part.vertices.extend([0, 1, 2].map(|corner| (position(corner), number as f32)));
-                part.triangles.push([first, first + 1, first + 2]);
-                part.faces.push(copy.face);
-                part.object = copy.object;
+                triangles.push([0, 1, 2].map(position), copy.face, number);
             }
-            part
+            triangles
         };
-        self.surfaces.iter().enumerate().map(part).collect()
+        self.surfaces.iter().enumerate().map(draw).collect()
     }
 
     fn draw(&self, samples: u32, settings: &ExecuteSettings) -> (TargetImages, Stats) {
-        let mut parts = self.parts();
+        let mut draws = self.draws();
         if self.descends {
-            let position = clip_position_on(self.side, [-4096, -4096], 0.5);
-            let (vertices, triangles) = (vec![(position, 0.0)], vec![[0; 3]; 2]);
-            parts.push(Part {
-                vertices,
-                triangles,
-                faces: vec![1, 0],
-                object: 9,
-                surface: BlendMode::Opaque,
-            });
+            let mut beside = NumberedTriangles::new(9, BlendMode::Opaque);
+            for face in [1, 0] {
+                beside.push([clip_position_on(self.side, [-4096, -4096], 0.5); 3], face, 0);
+            }
+            draws.push(beside);
         }
         let mut pass = Pass::new();
-        for part in &parts {
-            let Part { triangles, faces, object, surface, .. } = part;
-            let draw = Draw { object: *object, blend_mode: *surface, ..Draw::new(part, triangles) };
-            pass.triangles(Draw { faces: Some(faces), culling: Culling::None, ..draw });
+        for triangles in &draws {
+            pass.triangles(triangles.draw());
         }
         let side = self.side as u32;
         let outputs = [Output::Linear, Output::Object, Output::Face];
