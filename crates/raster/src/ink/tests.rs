@@ -4,8 +4,8 @@ mod marks;
 
 use crate::simd::SimdLevel;
 use crate::{
-    Background, BlendMode, Certainty, Culling, Draw, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Output,
-    Pass, Pipeline, Rasterizer, Rect, Target, TileSize, Tolerance, VertexOutput,
+    Background, BlendMode, Certainty, Culling, Draw, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Lines,
+    Output, Pass, Pipeline, Points, Rasterizer, Rect, Target, TileSize, Tolerance, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -61,6 +61,26 @@ impl Faces {
             faces.flags.extend([[true, true, false], [false, true, true]].map(EdgeFlags::new));
         }
         faces
+    }
+}
+
+/// The corners of faces, for lines and points of one colour each.
+struct FlatMarks<'f>(&'f Faces);
+
+impl Pipeline for FlatMarks<'_> {
+    type Varyings = ();
+    const FLAT: bool = true;
+
+    fn vertex_count(&self) -> usize {
+        self.0.vertex_count()
+    }
+
+    fn vertex(&self, index: usize) -> VertexOutput<()> {
+        self.0.vertex(index)
+    }
+
+    fn fragment(&self, fragment: &Fragment<()>) -> Vec4 {
+        self.0.fragment(fragment)
     }
 }
 
@@ -265,6 +285,30 @@ proptest! {
         for level in SimdLevel::ALL.into_iter().filter(|level| level.token().is_some()) {
             let settings = ExecuteSettings { simd: Some(level), ..Default::default() };
             prop_assert!(image(list, width, grid, settings) == expected, "{:?}", level);
+        }
+    }
+
+    /// A tile did not list the lines and points that only its neighbours show, so it painted edges of faces
+    /// that these hide.
+    #[test]
+    fn edges_under_lines_and_points_of_a_neighbouring_tile_were_painted(
+        opaque in faces(), beside in faces(), grid in grid(), width in width(), size in 1.0..40.0_f32,
+    ) {
+        let segments: Vec<[u32; 2]> = beside.triangles.iter().map(|&[a, b, _]| [a, b]).collect();
+        let points: Vec<u32> = beside.triangles.iter().map(|&[.., c]| c).collect();
+        let (list, marks) = ([&opaque], FlatMarks(&beside));
+        let draw = |tile_size| {
+            let mut pass = pass(&list, width);
+            pass.lines(Lines { width: size, ..Lines::new(&marks, &segments) });
+            pass.points(Points::new(&marks, &points, size));
+            let mut target = target(grid);
+            let settings = ExecuteSettings { tile_size, ..Default::default() };
+            Rasterizer::new(settings).unwrap().draw(&pass, &mut target);
+            target.linear().unwrap().to_vec()
+        };
+        let expected = draw(TileSize::Pixels64);
+        for tile_size in [TileSize::Pixels8, TileSize::Pixels16, TileSize::Pixels32] {
+            prop_assert!(draw(tile_size) == expected, "{:?}", tile_size);
         }
     }
 
