@@ -13,12 +13,12 @@ use trigon_window::scene::math::DVec2;
 use super::actions;
 use super::click::Click;
 use super::dialog::{FileWindow, Purpose};
+use super::gizmo_cache::GizmoCache;
 use super::interface::{Panels, Popup, Rename, Search};
 use super::keys::Keys;
 use super::loading::Loading;
 use super::look::Look;
 use super::open_file::{Next, OpenFile, Question};
-use super::place::Place;
 use super::pointing::Pointing;
 use super::recent::Recent;
 use super::recovery::Recovery;
@@ -71,7 +71,7 @@ pub(crate) struct Editor {
     /// The tool that follows the pointer.
     pub(crate) tool: Option<Running>,
     pub(crate) look: Look,
-    pub(crate) place: Place,
+    pub(crate) gizmo_cache: GizmoCache,
     /// What no panel covers of the window, in points, once that is known.
     pub(crate) free: Option<Rect>,
     pub(crate) pointing: Pointing,
@@ -113,7 +113,7 @@ impl Editor {
             panels: Panels::default(),
             tool: None,
             look: Look::default(),
-            place: Place::default(),
+            gizmo_cache: GizmoCache::default(),
             free: None,
             pointing: Pointing::default(),
             click: None,

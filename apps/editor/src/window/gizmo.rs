@@ -20,10 +20,10 @@ impl Editor {
     pub(crate) fn gizmo(&mut self, stage: &Stage, pane: &Pane) -> Option<Gizmo> {
         let kind = self.tools.gizmo.filter(|_| self.tool.is_none() && self.view.overlays)?;
         let (around, orientation) = ((self.tools.pivot, self.tools.cursor), self.tools.orientation);
-        let stand = self.place.of(&self.document, around, orientation)?;
+        let basis = self.gizmo_cache.basis(&self.document, around, orientation)?;
         let view = tool_view(stage, pane);
-        let axes = Frames::new(orientation, stand.local, stand.normal, &view).chosen;
-        Some(Gizmo { kind, center: stand.center, axes })
+        let axes = Frames::new(orientation, basis.local, basis.normal, &view).chosen;
+        Some(Gizmo { kind, center: basis.center, axes })
     }
 
     /// Where the axes in the corner are; `None` where there is no room for them.

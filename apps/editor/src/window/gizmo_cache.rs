@@ -1,28 +1,28 @@
-//! Where the gizmo stands, found again only after the document or what decides about it has changed.
+//! Position and axes of the gizmo, computed again only when something that they depend on has changed.
 
 use trigon_edit::Document;
 use trigon_edit::mesh::math::{DMat3, DVec3};
 
 use crate::tool::{Orientation, Pivot, Selected};
 
-/// Where the gizmo stands, and for what that was found.
+/// The last result, with the inputs that gave it.
 #[derive(Debug, Default)]
-pub(crate) struct Place {
-    known: Option<(Question, Option<Stand>)>,
+pub(crate) struct GizmoCache {
+    last: Option<(GizmoInputs, Option<GizmoBasis>)>,
 }
 
-/// What decides where the gizmo stands.
+/// Everything that position and axes of the gizmo depend on, but for the view.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Question {
+struct GizmoInputs {
     revision: u64,
     pivot: Pivot,
     cursor: DVec3,
     orientation: Orientation,
 }
 
-/// The place of a gizmo, and the axes that it may have.
+/// The position of a gizmo, and the axes that it may have.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stand {
+pub(super) struct GizmoBasis {
     pub(super) center: DVec3,
     /// See [`Selected::local`].
     pub(super) local: DMat3,
@@ -30,33 +30,33 @@ pub(super) struct Stand {
     pub(super) normal: DMat3,
 }
 
-impl Place {
-    /// For a document as it is now; `None` where nothing is selected.
-    pub(super) fn of(
+impl GizmoCache {
+    /// For a document as it is now; `None` if nothing is selected.
+    pub(super) fn basis(
         &mut self,
         document: &Document,
         (pivot, cursor): (Pivot, DVec3),
         orientation: Orientation,
-    ) -> Option<Stand> {
-        let question = Question { revision: document.revision(), pivot, cursor, orientation };
-        match self.known {
-            Some((known, stand)) if known == question => stand,
+    ) -> Option<GizmoBasis> {
+        let inputs = GizmoInputs { revision: document.revision(), pivot, cursor, orientation };
+        match self.last {
+            Some((last, basis)) if last == inputs => basis,
             _ => {
-                let stand = question.answer(document);
-                self.known = Some((question, stand));
-                stand
+                let basis = inputs.basis(document);
+                self.last = Some((inputs, basis));
+                basis
             }
         }
     }
 }
 
-impl Question {
-    fn answer(&self, document: &Document) -> Option<Stand> {
+impl GizmoInputs {
+    fn basis(&self, document: &Document) -> Option<GizmoBasis> {
         let selected = match self.orientation {
             Orientation::Normal => Selected::of(document),
             _ => Selected::without_normal(document),
         }?;
         let center = self.pivot.point(&selected, self.cursor);
-        Some(Stand { center, local: selected.local, normal: selected.normal })
+        Some(GizmoBasis { center, local: selected.local, normal: selected.normal })
     }
 }

@@ -27,7 +27,7 @@ pub(crate) struct Running {
 /// What runs.
 pub(super) enum What {
     Tool(Box<dyn Tool>),
-    /// Which is told of faces under the pointer.
+    /// It gets the face under the pointer, too.
     LoopCut(Box<LoopCutTool>),
     Gesture(Gesture),
 }

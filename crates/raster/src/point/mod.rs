@@ -4,7 +4,7 @@
 
 mod plain;
 
-pub(crate) use plain::PlainPoints;
+pub(crate) use plain::{PlainPoints, sampled_pixels};
 
 use crate::line::{Form, Stroke, half_size, smooth_size};
 use crate::setup::{DetailIndex, Ends, Kind, Quad, QuadDetail, Setup};

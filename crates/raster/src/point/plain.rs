@@ -10,7 +10,7 @@ use crate::vertex::ScreenVertex;
 use crate::{BlendMode, Outline};
 
 /// How the points of a draw look if they are drawn from their vertices: sharp, opaque, and of one
-/// colour each, so that the halves of their squares need not be told apart.
+/// colour each, so that it does not matter in which half of its square a sample lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlainPoints {
     /// Of usual ones, and of those of the other size.
@@ -41,7 +41,7 @@ impl PlainPoints {
         self.styles[0].kind == Kind::RoundPoint
     }
 
-    /// By what share of their distance points are moved towards the eye.
+    /// By what fraction of their distance points are moved towards the eye.
     #[inline(always)]
     pub(crate) fn depth_bias(&self) -> f32 {
         self.styles[0].depth_bias
@@ -79,6 +79,18 @@ impl PlainPoints {
         let style = if is_marked { marked } else { usual };
         style.square(ordinal, centre, None)
     }
+}
+
+/// The first and last columns, or rows, in which squares may contain a sample; none if the first is after
+/// the last. `reach` is from where to where samples lie in a pixel. A sample on the left or upper side of
+/// a square belongs to it.
+#[inline(always)]
+pub(crate) fn sampled_pixels<S: Simd>(
+    centres: I32<S>,
+    half: I32<S>,
+    [least, greatest]: [i32; 2],
+) -> [I32<S>; 2] {
+    [(centres - half + (255 - greatest)) >> 8, (centres + half - (least + 1)) >> 8]
 }
 
 impl Setup<'_> {
@@ -124,14 +136,12 @@ impl Setup<'_> {
         placed: u64,
     ) -> (u64, [[I32<S>; 2]; 2]) {
         let grid = self.grid;
-        let [least, greatest] = grid.pattern.reach();
+        let reach = grid.pattern.reach();
         let mut seen = Mask::from_bitmask(simd, placed);
         let pixels = [(0, grid.viewport.width), (1, grid.viewport.height)].each(
             #[inline(always)]
             |(axis, side)| {
-                // What lies on the left or upper side belongs to the square.
-                let begin = (centres[axis] - half + (255 - greatest)) >> 8;
-                let end = (centres[axis] + half - (least + 1)) >> 8;
+                let [begin, end] = sampled_pixels(centres[axis], half, reach);
                 seen = seen & begin.simd_le(end) & end.simd_ge(I32::splat(simd, 0));
                 seen &= begin.simd_lt(I32::splat(simd, side as i32));
                 [begin, end]

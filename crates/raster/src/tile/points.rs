@@ -12,7 +12,7 @@ use super::rasterizer::TileRasterizer;
 use super::store::store_where;
 use crate::bin::TriangleRef;
 use crate::geometry::Shape;
-use crate::point::PlainPoints;
+use crate::point::{PlainPoints, sampled_pixels};
 use crate::samples::SamplePattern;
 use crate::setup::Column;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
@@ -39,7 +39,7 @@ struct Squares<S: Simd> {
     count: usize,
 }
 
-/// A point on its way through a tile.
+/// A point that is being drawn.
 struct Walk {
     centre: [i32; 2],
     half: i32,
@@ -83,15 +83,12 @@ impl EightPoints {
         plain: &PlainPoints,
         &Squares { ref vertices, half, count }: &Squares<S>,
     ) -> Self {
-        let [least, greatest] = pattern.reach();
         let mut live = Mask::from_bitmask(simd, (1 << count) - 1);
         let centre = [vertices.x - area.origin[0] * 256, vertices.y - area.origin[1] * 256];
         let pixels = [0, 1].each(
             #[inline(always)]
             |axis| {
-                // What lies on the left or upper side belongs to the square.
-                let first = (centre[axis] - half + (255 - greatest)) >> 8;
-                let last = (centre[axis] + half - (least + 1)) >> 8;
+                let [first, last] = sampled_pixels(centre[axis], half, pattern.reach());
                 let end = I32::splat(simd, area.padded()[axis] as i32 - 1);
                 let [first, last] = [first.max(I32::splat(simd, 0)), last.min(end)];
                 live &= first.simd_le(last);

@@ -232,7 +232,7 @@ fn cover_points<S: Simd, const MULTI: bool>(
     (points, first): (&[TriangleRef], usize),
     (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
 ) {
-    // In a function of its own, so that it takes no registers from the kernels of triangles.
+    // A separate function, so that it takes no registers from the kernels of triangles.
     simd.vectorize(
         #[inline(always)]
         || {
