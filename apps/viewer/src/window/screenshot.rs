@@ -1,4 +1,4 @@
-//! The folder of screenshots: one in the user's images folder, or the working folder if there is
+//! The folder of screenshots: one in the user's Pictures folder, or the working folder if there is
 //! none.
 
 use std::fs;

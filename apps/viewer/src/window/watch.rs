@@ -97,7 +97,7 @@ fn is_followed(happened: &Receiver<()>) -> bool {
     happened.recv_timeout(QUIET).is_ok()
 }
 
-/// As the system tells of it: without links in its folder's path.
+/// The path that the system reports: without links in its folder's path.
 fn real(file: &Path) -> PathBuf {
     let file = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
     match (file.parent().and_then(|folder| folder.canonicalize().ok()), file.file_name()) {
@@ -155,7 +155,7 @@ mod tests {
         assert_eq!(rests.into_inner(), 2, "each time that nothing followed");
     }
 
-    /// What the system tells of a folder, up to the sign that the test makes in it.
+    /// The changes that the system reports in a folder, up to a file that the test makes there to end them.
     fn told(events: &Receiver<notify::Result<Event>>, sign: &Path) -> Vec<Event> {
         fs::write(sign, "").expect("written");
         let events = events.iter().map(|event| event.expect("the system can watch"));
@@ -164,7 +164,7 @@ mod tests {
         before
     }
 
-    /// The system tells of changes in their order, so that a sign ends those before it.
+    /// The system reports changes in their order, so that file comes after all earlier ones.
     #[cfg(target_os = "linux")]
     #[test]
     fn the_system_tells_of_writing_renaming_and_making_anew() {

@@ -377,7 +377,7 @@ fn a_small_limit_is_named_in_readable_numbers() {
     assert!(said.contains("--max-size=9.995e-4"), "the limit, in whole bytes: {said}");
 }
 
-/// The exit code was all that told of it.
+/// Only the exit code showed it.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_list_that_cannot_be_written_says_so() {

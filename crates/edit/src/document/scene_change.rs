@@ -26,9 +26,9 @@ impl SceneChange {
         match self {
             Self::Whole => *copy = from.clone(),
             Self::Mesh(id) => {
-                copy.adopt_mesh(from, id).expect("meshes are told of in the order of their ids");
+                copy.adopt_mesh(from, id).expect("meshes come in the order of their ids");
             }
-            Self::Visible(id, mesh) => copy.replace_mesh(id, *mesh).expect("it was told of before"),
+            Self::Visible(id, mesh) => copy.replace_mesh(id, *mesh).expect("an earlier change added it"),
             Self::Parts => copy.swap_parts(&mut from.parts()),
             Self::Values(id, change) => copy.change_mesh(id, &change).expect("the original was changed so"),
         }

@@ -50,14 +50,14 @@ impl Records {
         self.seen.clear();
     }
 
-    /// Appends records of triangles of the context's draw and selects them. `outer` is told about
-    /// the lines on them, if there is one.
+    /// Appends records of triangles of the context's draw and selects them. `outer`
+    /// gets the lines on them, if there is one.
     pub(super) fn append(
         &mut self,
         token: Token,
         context: &ShadeContext<'_>,
         seen: &[u32],
-        outer: Option<&mut VisibleFaces>,
+        mut outer: Option<&mut VisibleFaces>,
     ) -> RecordShape {
         let shape = RecordShape { first: self.used, ..RecordShape::new(context) };
         let [row, record] = shape.first;
@@ -72,12 +72,11 @@ impl Records {
         (self.used, self.shape) = (used, shape);
         if context.has_flat_marks() {
             self.fill_flat(context, seen, shape);
-            if let Some(outer) = outer {
+            if let Some(outer) = outer.as_deref_mut() {
                 note_flat(context, seen, outer);
             }
             return shape;
         }
-        let mut outer = outer;
         at_level!(token, simd => {
             let rows = self.rows[row..used[0]].chunks_mut(LANES * shape.size);
             let tags = self.tags[record..used[1]].chunks_mut(LANES);

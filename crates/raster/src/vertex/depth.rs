@@ -49,10 +49,10 @@ pub(crate) fn nearer(depth: f32, fraction: f32) -> f32 {
 
 /// [`nearer`], for lanes.
 #[inline(always)]
-pub(crate) fn nearer_lanes<S: Simd>(simd: S, depth: F32<S>, share: f32) -> F32<S> {
-    if share > 0.0 {
+pub(crate) fn nearer_lanes<S: Simd>(simd: S, depth: F32<S>, fraction: f32) -> F32<S> {
+    if fraction > 0.0 {
         let one = F32::splat(simd, 1.0);
-        let moved = depth * (1.0 + if share < 1.0 { share } else { 1.0 });
+        let moved = depth * (1.0 + if fraction < 1.0 { fraction } else { 1.0 });
         moved.simd_lt(one).select(moved, one)
     } else {
         depth
@@ -69,14 +69,14 @@ mod tests {
         #[test]
         fn lanes_move_as_single_depths_do(
             depths: [f32; 8],
-            share in prop_oneof![Just(0.0), 0.0_f32..2.0, Just(f32::NAN), Just(-1.0)],
+            fraction in prop_oneof![Just(0.0), 0.0_f32..2.0, Just(f32::NAN), Just(-1.0)],
         ) {
             let depths = depths.map(|depth| if depth.is_nan() { 0.5 } else { depth });
             for token in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
                 let moved: [f32; LANES] = at_level!(token, simd => {
-                    nearer_lanes(simd, F32::simd_from(simd, depths), share).into()
+                    nearer_lanes(simd, F32::simd_from(simd, depths), fraction).into()
                 });
-                prop_assert_eq!(moved.map(f32::to_bits), depths.map(|depth| nearer(depth, share).to_bits()));
+                prop_assert_eq!(moved.map(f32::to_bits), depths.map(|depth| nearer(depth, fraction).to_bits()));
             }
         }
     }

@@ -82,10 +82,10 @@ impl LightingEnvironment {
         }
     }
 
-    /// Light that is the same from everywhere.
+    /// Light that is the same from all directions.
     #[inline(always)]
     fn ambient<S: Simd>(&self, simd: S) -> V3<S> {
-        // What a mirror shows is added to it, be there any or not.
+        // Reflections are added to it, so this is evaluated without ambient light, too.
         if self.lights.ambient != Vec3::ZERO {
             note(Work::AmbientLight);
         }
@@ -104,7 +104,7 @@ impl LightingEnvironment {
         Some(sky.light(simd, points, facets.roughness))
     }
 
-    /// Whether no light at all reaches a surface, but for what rays of sight find.
+    /// Whether no light reaches any surface, except what reflected and refracted rays bring.
     pub(crate) fn is_dark(&self) -> bool {
         self.lights.lamps.is_empty() && !self.has_ambient()
     }

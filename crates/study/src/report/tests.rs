@@ -19,7 +19,7 @@ fn everything_that_the_report_names_is_written() {
     let mut told = Vec::new();
     let chapters = [CHAPTERS[2], CHAPTERS[5]];
     let report = Report::of(&chapters, Effort::Quick, |progress| told.push(progress.chapter));
-    assert_eq!(told, ["line", "depth"], "progress is told of each chapter");
+    assert_eq!(told, ["line", "depth"], "each chapter reports progress");
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     report.write(folder).unwrap();

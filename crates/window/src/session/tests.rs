@@ -120,8 +120,8 @@ fn run(session: &mut Session<'_>, start: Duration) -> Vec<Duration> {
 
 /// Lives with a worker on other threads until something is so, or it rests; returns that
 /// moment. Time stands still while an image is drawn, and goes on to whatever is next.
-/// An image that is finished as soon as it is begun is taken over without `rung`, which
-/// then tells of it later: whoever waits looks whether what he waits for is there.
+/// An image that is finished as soon as it is begun is taken over before `rung` reports it, so the
+/// condition is checked first.
 fn live_until(
     session: &mut Session<'_>,
     rung: &Receiver<()>,

@@ -27,7 +27,7 @@ struct Elsewhere {
 }
 
 impl Elsewhere {
-    /// Whether meshes were all that it was told of.
+    /// Whether only meshes were reported to it.
     fn update(&mut self, from: &mut SharedScene) -> bool {
         let update = from.update(&mut self.held);
         let of_meshes = matches!(update, SceneUpdate::Meshes(_));

@@ -8,7 +8,7 @@ pub(super) fn warnings(raw: &RawArgs, mode: &Mode) -> Vec<String> {
     let (window, scenery, animation) = (&raw.window, &raw.scenery, &raw.animation);
     let in_window = [
         ("--display-depth", raw.display_depth == Some(true), "it is of images; add --output image.png"),
-        ("--json", raw.json == Some(true), "it tells of images; add --output or --no-render"),
+        ("--json", raw.json == Some(true), "it describes images; add --output or --no-render"),
     ];
     let in_image = [
         ("--watch", window.watch == Some(true), "an image is drawn once; leave out --output"),

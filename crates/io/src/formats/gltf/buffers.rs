@@ -129,7 +129,7 @@ impl Unplaced {
     }
 }
 
-/// Reads what a URI leads to; the second value tells of another spelling that
+/// Reads what a URI leads to; the second value is another spelling that
 /// was used for a file.
 pub(crate) fn read_reference(
     uri: &str,

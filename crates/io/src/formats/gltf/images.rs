@@ -139,7 +139,7 @@ fn read_image(
     }
 }
 
-/// The bytes of an image; the second value tells of another spelling that was used for a file.
+/// The bytes of an image; the second value is another spelling that was used for a file.
 pub(crate) fn fetch_image(
     root: &Root,
     buffers: &mut Buffers<'_>,

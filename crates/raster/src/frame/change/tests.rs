@@ -143,7 +143,7 @@ struct Delta {
     resized: Vec<u32>,
 }
 
-/// What is to be told of a model that has changed.
+/// The changes of a model that are passed to `redraw`.
 struct Told {
     vertices: Vec<u32>,
     reshaped: Vec<u32>,
@@ -152,7 +152,7 @@ struct Told {
 }
 
 impl Delta {
-    /// Changes the model; what is to be told of it.
+    /// Changes the model; returns what is passed to `redraw`.
     fn apply(&self, model: &mut Model) -> Told {
         for &(vertex, way) in &self.moved {
             model.vertices[vertex as usize].0 += Vec4::from_array(way);

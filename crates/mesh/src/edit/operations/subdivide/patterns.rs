@@ -61,7 +61,7 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
-    /// Divides a face. `is_convex` tells of a corner whether the face turns left there.
+    /// Divides a face. `is_convex` says whether the face turns left at a corner.
     pub(super) fn choose(&mut self, outline: &Outline<'_>, is_convex: impl Fn(usize) -> bool) {
         self.parts.clear();
         self.interior.clear();
