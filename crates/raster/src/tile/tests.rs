@@ -24,7 +24,7 @@ use trigon_math::{Fixed, FixedPoint, Vec4};
 /// No whole number of tiles, of blocks or of groups.
 const SIZE: [i32; 2] = [75, 45];
 
-/// A triangle over all of the picture.
+/// A triangle over all of the image.
 const ALL: [[i32; 2]; 3] = [[-100_000, -100_000], [200_000, -100_000], [-100_000, 200_000]];
 
 /// Corners in 1/256 pixel, and their depths.
@@ -179,7 +179,7 @@ fn search(known: &[Known], point: [i32; 2]) -> (Option<f32>, f32) {
     (seen.0.map(|_| seen.1), light + seen.0.map_or(0.0, |triangle| triangle.light))
 }
 
-/// All corners within some distance from a place in the picture or beside it; on whole
+/// All corners within some distance from a place in the image or beside it; on whole
 /// multiples of some steps.
 fn flat(reach: [i32; 2], steps: i32) -> impl Strategy<Value = Flat> {
     let middle = SIZE.map(|side| -2000..side * 256 + 2000);
@@ -195,7 +195,7 @@ fn flat(reach: [i32; 2], steps: i32) -> impl Strategy<Value = Flat> {
     })
 }
 
-/// Runs of triangles from less than a pixel to far more than the picture, half of them with
+/// Runs of triangles from less than a pixel to far more than the image, half of them with
 /// corners on samples.
 fn flats() -> impl Strategy<Value = Vec<Flat>> {
     let reach = || prop::sample::select(vec![300, 600, 2500, 7000, 30_000, 1 << 18]);
@@ -285,7 +285,7 @@ fn check(heaps: &[Heap], settings: ExecuteSettings, samples: u32) {
         assert_eq!(*depth, found[0].0.unwrap_or(0.0), "the depth of pixel {pixel:?}");
         seen += found.iter().filter(|(depth, _)| depth.is_some()).count() as u64;
     }
-    assert_eq!(stats.samples_seen, seen, "samples of the picture that see a triangle");
+    assert_eq!(stats.samples_seen, seen, "samples of the image that see a triangle");
 }
 
 proptest! {

@@ -99,7 +99,7 @@ impl<'p> Hiding<'p> {
         points.filter(|(_, hidden)| !hidden.load(Ordering::Relaxed)).map(|(point, _)| point)
     }
 
-    /// Whether the picture shows a face in the pixel of a point.
+    /// Whether the image shows a face in the pixel of a point.
     fn wins(&self, object: &Object<'_>, face: u32, at: DVec2) -> bool {
         let pixel = at.y as usize * self.frame.width as usize + at.x as usize;
         let id = |ids: &Option<Vec<u32>>| ids.as_ref().and_then(|ids| ids.get(pixel).copied());

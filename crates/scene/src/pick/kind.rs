@@ -77,7 +77,7 @@ fn own_points([start, end]: &[Spot; 2], area: &Area<'_>, mut visit: impl FnMut(S
     }
 }
 
-/// The largest whole number up to one; near those numbers whose size no picture has.
+/// The largest whole number up to one; near those numbers whose size no image has.
 /// Where the processor has no instruction for it, this takes less than a call.
 #[inline]
 fn floor(number: f64) -> f64 {

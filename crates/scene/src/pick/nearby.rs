@@ -16,7 +16,7 @@ use super::object::{Drawn, Object, POINTS};
 use super::region::Area;
 use super::screen::{Screen, Spot};
 
-/// Of a picture, the part from which on an area is large.
+/// Of an image, the part from which on an area is large.
 const LARGE: usize = 16;
 
 /// On which sides of an area a point lies, of the box of pixels around it.

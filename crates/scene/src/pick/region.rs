@@ -39,7 +39,7 @@ pub enum Region {
 /// A region prepared for an image.
 pub(super) struct Area<'r> {
     shape: Shape<'r>,
-    /// The pixels around it, all of them in the picture.
+    /// The pixels around it, all of them in the image.
     pub(super) columns: Range<u32>,
     /// As the columns.
     pub(super) rows: Range<u32>,
@@ -56,7 +56,7 @@ impl<'r> Area<'r> {
         let (min, max) = bounds(region);
         let is_usable = min.is_finite() && max.is_finite();
         let pixels = |min: f64, max: f64, size: u32| {
-            // The casts saturate: beyond the picture all is one.
+            // The casts saturate: beyond the image all is one.
             let end = if is_usable { (max.floor() as u32).saturating_add(1).min(size) } else { 0 };
             if max < 0.0 { 0..0 } else { (min.floor() as u32).min(end)..end }
         };
@@ -71,12 +71,12 @@ impl<'r> Area<'r> {
         Self { shape, columns, rows }
     }
 
-    /// Whether no pixel of the picture is near it.
+    /// Whether no pixel of the image is near it.
     pub(super) fn is_empty(&self) -> bool {
         self.columns.is_empty() || self.rows.is_empty()
     }
 
-    /// Whether a point of the picture lies in the region. One that is no number does not.
+    /// Whether a point of the image lies in the region. One that is no number does not.
     pub(super) fn contains(&self, point: DVec2) -> bool {
         let within = |at: f64, pixels: &Range<u32>| at >= pixels.start.into() && at < pixels.end.into();
         within(point.x, &self.columns) && within(point.y, &self.rows) && self.shape.contains(point)

@@ -14,7 +14,7 @@ use crate::render::placement::Eye;
 /// in front or behind at random.
 const TOUCHING: f64 = 1e-3;
 
-/// A camera and a picture's size.
+/// A camera and an image's size.
 pub(super) struct Screen {
     pub(super) eye: Eye,
     projection: DMat4,
@@ -76,13 +76,13 @@ impl Screen {
         }
     }
 
-    /// How many pixels the picture has.
+    /// How many pixels the image has.
     pub(super) fn pixel_count(&self) -> usize {
         let size = self.half_size * 2.0;
         size.x as usize * size.y as usize
     }
 
-    /// Half of the picture's size, in pixels.
+    /// Half of the image's size, in pixels.
     pub(super) fn half_size(&self) -> DVec2 {
         self.half_size
     }

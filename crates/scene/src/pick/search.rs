@@ -27,7 +27,7 @@ const SHARE: usize = 1 << 13;
 const SHARES: usize = 64;
 
 /// Points after which a thread leaves the rest of its share for later: an edge may have
-/// as many as the picture has columns.
+/// as many as the image has columns.
 const SHARE_POINTS: usize = 1 << 14;
 
 /// Once there are so many points, it is decided which of them are hidden: with those of a last

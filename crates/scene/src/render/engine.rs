@@ -12,7 +12,7 @@ use super::backdrop::Backdrop;
 use super::compose::Composer;
 use super::depth_image::paint_depth;
 use super::kept::{Destination, Kept};
-use super::last_picture::{LastFrame, Step};
+use super::last_frame::{LastFrame, Step};
 use super::placement::DepthToDistance;
 use super::record::Record;
 use super::stage::Stage;

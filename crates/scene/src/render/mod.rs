@@ -12,7 +12,7 @@ mod engine;
 mod geometry;
 mod kept;
 pub(crate) mod lanes;
-mod last_picture;
+mod last_frame;
 pub(crate) mod lighting;
 pub(crate) mod placement;
 mod record;

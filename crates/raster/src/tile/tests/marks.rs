@@ -65,7 +65,7 @@ impl Marks {
     }
 }
 
-/// How a picture is sampled.
+/// How an image is sampled.
 #[derive(Clone, Copy, Debug)]
 struct Sampling {
     samples: u32,
@@ -249,7 +249,7 @@ fn check(draws: &[Marks], settings: ExecuteSettings, sampling: Sampling) {
             marks
         })
         .collect();
-    let pictures = draw(&draws, BlendMode::Opaque, settings, sampling);
+    let images = draw(&draws, BlendMode::Opaque, settings, sampling);
     let known: Vec<_> =
         draws.iter().zip(0..).flat_map(|(marks, draw)| known(marks, draw, sampling)).collect();
     let search = |point: [i32; 2]| {
@@ -272,20 +272,20 @@ fn check(draws: &[Marks], settings: ExecuteSettings, sampling: Sampling) {
             }
         }
         let count = (axis * axis) as f32 * offsets.len() as f32;
-        assert_eq!(pictures.linear.as_ref().unwrap()[index].x, light / count, "the light of {pixel:?}");
+        assert_eq!(images.linear.as_ref().unwrap()[index].x, light / count, "the light of {pixel:?}");
         let middle = [0, 1].map(|i| (pixel[i] * axis + axis / 2) * 256 + offsets[0][i]);
         let (depth, seen) = search(middle);
         assert_eq!(
-            pictures.depth.as_ref().unwrap()[index],
+            images.depth.as_ref().unwrap()[index],
             seen.map_or(0.0, |_| depth),
             "the depth of {pixel:?}"
         );
         let face = seen.map_or(u32::MAX, |known| known.key[1]);
-        assert_eq!(pictures.faces.as_ref().unwrap()[index], face, "the id of {pixel:?}");
+        assert_eq!(images.faces.as_ref().unwrap()[index], face, "the id of {pixel:?}");
     }
 }
 
-/// In the picture, beside it, on samples, far away and behind the eye.
+/// In the image, beside it, on samples, far away and behind the eye.
 fn position() -> impl Strategy<Value = Vec4> {
     let near = (0..2_usize).prop_flat_map(|steps| {
         let steps = [1, 128][steps];
@@ -359,8 +359,8 @@ proptest! {
 }
 
 proptest! {
-    /// Whatever lies below: colours are those of opaque draws, depth and ids those of a
-    /// picture without the overlay.
+    /// Whatever lies below: colours are those of opaque draws, depth and ids those of an
+    /// image without the overlay.
     #[test]
     fn an_overlay_hides_as_opaque_draws_do_and_writes_no_depth_and_no_ids(
         mut draws in draws(),
@@ -402,7 +402,7 @@ fn marked_points_have_a_size_of_their_own() {
     let all: Vec<u32> = (0..40).collect();
     let (marked, usual): (Vec<u32>, Vec<u32>) = all.iter().partition(|&&i| set.contains(i as usize));
     for outline in [Outline::Sharp, Outline::AntiAliased] {
-        let picture = |draws: &[Points<'_, Marks>]| {
+        let image = |draws: &[Points<'_, Marks>]| {
             let [width, height] = SIZE.map(|side| side as u32);
             let mut target = Target::new(width, height, &[Output::Linear, Output::Depth]).unwrap();
             let mut pass = Pass::new();
@@ -418,7 +418,7 @@ fn marked_points_have_a_size_of_their_own() {
             Points { ids: Some(&usual), ..Points::new(&marks, &usual, 3.0) },
             Points { ids: Some(&marked), ..Points::new(&marks, &marked, 7.0) },
         ];
-        assert!(picture(&[together]) == picture(&apart), "{outline:?}");
-        assert!(picture(&apart) != picture(&[Points::new(&marks, &all, 3.0)]), "the mark is seen");
+        assert!(image(&[together]) == image(&apart), "{outline:?}");
+        assert!(image(&apart) != image(&[Points::new(&marks, &all, 3.0)]), "the mark is seen");
     }
 }

@@ -81,7 +81,7 @@ impl Still {
     }
 }
 
-/// In the picture, often on samples and at depths of others, beside it, and behind the eye.
+/// In the image, often on samples and at depths of others, beside it, and behind the eye.
 fn vertex() -> impl Strategy<Value = Vec4> {
     let place = [-1.2_f32..1.2, -1.2_f32..1.2];
     let on_samples = [0..SIZE[0] * 2, 0..SIZE[1] * 2]

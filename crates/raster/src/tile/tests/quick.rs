@@ -1,9 +1,9 @@
-//! The quick ways through a tile: that they are taken, which no picture tells.
+//! The quick ways through a tile: that they are taken, which no image tells.
 
 use super::{ALL, Heap, SIZE, draw, heap, timed};
 use crate::{BlendMode, DepthTest, ExecuteSettings, Stats, TileSize};
 
-/// In the picture: of 48 and of 12 blocks.
+/// In the image: of 48 and of 12 blocks.
 const TILES: u64 = 2;
 const BLOCKS: u64 = 60;
 
@@ -57,7 +57,7 @@ fn late_tests_ask_no_bounds() {
 
 #[test]
 fn whole_blocks_make_a_tile_hide() {
-    // From 0.67 to 0.61 in the picture.
+    // From 0.67 to 0.61 in the image.
     let slope = wall(ALL, [1.0, 0.5, 0.5]);
     let stats = stats(&[slope, wall(ALL, [0.6; 3])]);
     assert_eq!((stats.blocks_accepted, stats.tiles_rejected), (BLOCKS, TILES), "the slope, the wall");
@@ -66,7 +66,7 @@ fn whole_blocks_make_a_tile_hide() {
 #[test]
 fn a_slope_is_hidden_block_by_block() {
     let stats = stats(&[wall(ALL, [0.75; 3]), wall(ALL, [1.0, 0.5, 0.5])]);
-    assert_eq!((stats.blocks_rejected, stats.blocks_accepted), (BLOCKS, 0), "behind the wall in the picture");
+    assert_eq!((stats.blocks_rejected, stats.blocks_accepted), (BLOCKS, 0), "behind the wall in the image");
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn blocks_beside_a_needle_are_left_out() {
 }
 
 #[test]
-fn masks_are_asked_once_a_pixel_and_not_beside_the_picture() {
+fn masks_are_asked_once_a_pixel_and_not_beside_the_image() {
     let masked = |heap: Heap| Heap { blend_mode: BlendMode::Masked, ..heap };
     let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| f64::from(x + y + 1)));
     for sum in [40.5, 60.5, 100.5, 200.0] {

@@ -102,7 +102,7 @@ fn triangles_of_a_speck_cover_the_sample_that_they_hold() {
 fn depths_of_slivers_keep_to_those_of_their_corners() {
     for samples in [1, 4] {
         let [x, y] = first_sample(samples).map(|v| v + 256 * 20);
-        // In the far plane rounding would leave the picture, too.
+        // In the far plane rounding would leave the image, too.
         let depths = [[0.7, 0.0], [0.7, 1.0], [0.0, 1.0]];
         for (reach, [ends_depth, third]) in [1, 3, 9].into_iter().flat_map(|reach| depths.map(|d| (reach, d)))
         {

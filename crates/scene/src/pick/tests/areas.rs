@@ -49,7 +49,7 @@ fn check_runs(area: &Area<'_>, is_inside: impl Fn(DVec2) -> bool) {
     }
 }
 
-/// Coordinates on and off pixels' borders and centres, in and beside the picture.
+/// Coordinates on and off pixels' borders and centres, in and beside the image.
 fn coordinate() -> impl Strategy<Value = f64> {
     prop_oneof![-10.0..40.0, (-20..80_i32).prop_map(|half| f64::from(half) * 0.5)]
 }
@@ -66,11 +66,11 @@ proptest! {
     ) {
         let region = Region::Lasso(corners.clone());
         let area = Area::new(&region, VIEWPORT);
-        let in_picture = |point: DVec2| point.cmpge(DVec2::ZERO).all() && point.cmplt(VIEWPORT.size()).all();
+        let in_image = |point: DVec2| point.cmpge(DVec2::ZERO).all() && point.cmplt(VIEWPORT.size()).all();
         // Corners, too, and what lies on the sides.
         let middles = corners.windows(2).map(|side| (side[0] + side[1]) * 0.5);
         for point in points.into_iter().chain(corners.iter().copied()).chain(middles) {
-            let expected = in_picture(point) && is_inside(&corners, point);
+            let expected = in_image(point) && is_inside(&corners, point);
             prop_assert_eq!(area.contains(point), expected, "{}", point);
         }
         check_runs(&area, |point| area.contains(point));
@@ -88,10 +88,10 @@ proptest! {
         // The squares are rounded: by less than this share of them.
         let slack = exact(1e-15) * &limit;
         for point in points {
-            let in_picture = point.cmpge(DVec2::ZERO).all() && point.cmplt(VIEWPORT.size()).all();
+            let in_image = point.cmpge(DVec2::ZERO).all() && point.cmplt(VIEWPORT.size()).all();
             let by = squared(point) - &limit;
-            if by > slack || by < -slack.clone() || !in_picture {
-                prop_assert_eq!(area.contains(point), in_picture && by <= -slack.clone(), "{}", point);
+            if by > slack || by < -slack.clone() || !in_image {
+                prop_assert_eq!(area.contains(point), in_image && by <= -slack.clone(), "{}", point);
             }
         }
         check_runs(&area, |point| area.contains(point));
@@ -143,7 +143,7 @@ fn a_point_is_its_pixel_and_rectangles_leave_out_their_end() {
         pixels(&Region::Rectangle { min: DVec2::new(2.5, 7.0), max: DVec2::new(4.5, 8.0) });
     assert_eq!(found, [[2, 7], [3, 7]], "the centre at 4.5 is the next rectangle's");
     let found: Vec<[u32; 2]> = pixels(&Region::Point(DVec2::new(-0.5, 3.0)));
-    assert!(found.is_empty(), "beside the picture");
+    assert!(found.is_empty(), "beside the image");
 }
 
 #[test]

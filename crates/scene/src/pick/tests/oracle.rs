@@ -75,7 +75,7 @@ impl Lens {
         Self { eye: camera.position, axes, size, scale: size.y / 2.0 / half, parallel, near, far }
     }
 
-    /// Where the ray through a point of the picture of a perspective begins, and a vector along it.
+    /// Where the ray through a point of the image of a perspective begins, and a vector along it.
     pub(super) fn ray(&self, at: DVec2) -> (DVec3, DVec3) {
         let [right, up, ahead] = self.axes;
         let (across, down) = (at.x - self.size.x / 2.0, at.y - self.size.y / 2.0);
@@ -300,7 +300,7 @@ fn has_side(mesh: &Mesh, face: u32, ends: [u32; 2]) -> bool {
     })
 }
 
-/// Whether a point of the picture lies in a region.
+/// Whether a point of the image lies in a region.
 pub(super) fn contains(region: &Region, size: DVec2, point: DVec2) -> Answer {
     let within = |low: DVec2, high: DVec2| {
         let inside = (point - low).min(high - point).min_element();

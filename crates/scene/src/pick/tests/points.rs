@@ -156,8 +156,8 @@ fn a_rectangle_finds_what_is_seen_in_it_and_nothing_behind() {
     let left = rectangle([0.0, 0.0], [width / 2.0, height]);
     assert_eq!(counts(&picker, &left, Reach::Visible), [1, 2, 3], "its left half");
     let corner = rectangle([0.0, 0.0], [3.0, 3.0]);
-    assert_eq!(counts(&picker, &corner, Reach::Through), [0; 3], "a corner of the picture is empty");
-    assert_eq!(picker.at(SIZE[0], 0), None, "outside the picture");
+    assert_eq!(counts(&picker, &corner, Reach::Through), [0; 3], "a corner of the image is empty");
+    assert_eq!(picker.at(SIZE[0], 0), None, "outside the image");
 }
 
 #[test]

@@ -106,7 +106,7 @@ pub(super) fn camera(random: &mut Random) -> Camera {
     }
 }
 
-/// One of each kind, on and around a picture.
+/// One of each kind, on and around an image.
 pub(super) fn regions(random: &mut Random, size: DVec2) -> [Region; 4] {
     let mut point = |beside: f64| {
         DVec2::new(random.within(-beside, size.x + beside), random.within(-beside, size.y + beside))

@@ -1,4 +1,4 @@
-//! Which primitives have other marks than in the last picture.
+//! Which primitives have other marks than in the last image.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Pictures that follow from the last one beside fresh ones, whatever changes in between.
+//! Images that follow from the last one beside fresh ones, whatever changes in between.
 
 use std::num::NonZeroUsize;
 use std::sync::Arc;
@@ -75,7 +75,7 @@ impl Model {
     }
 }
 
-/// What happens between two pictures.
+/// What happens between two images.
 #[derive(Clone, Debug)]
 enum Event {
     /// Vertices of a mesh are moved.
@@ -277,7 +277,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
 
     #[test]
-    fn whatever_changes_pictures_are_fresh_ones(
+    fn whatever_changes_images_are_fresh_ones(
         settings in settings(),
         pane in prop::sample::select(vec![AlphaMode::Opaque, AlphaMode::Mask { cutoff: 0.3 }, AlphaMode::Blend]),
         events in prop::collection::vec(event(), 4..12),
@@ -292,7 +292,7 @@ proptest! {
     }
 }
 
-/// How many tiles the last picture has drawn.
+/// How many tiles the last image has drawn.
 fn tiles(sequence: &Sequence) -> u64 {
     sequence.renderer.stats().tiles
 }
@@ -302,7 +302,7 @@ fn moved(vertex: u32) -> Event {
 }
 
 #[test]
-fn from_the_third_picture_on_only_what_changes_is_drawn() {
+fn from_the_third_image_on_only_what_changes_is_drawn() {
     let settings = RenderSettings { samples_per_axis: 1, ..RenderSettings::new(640, 480) };
     let mut sequence = Sequence::new(model(AlphaMode::Opaque), settings);
     sequence.draw();
@@ -314,7 +314,7 @@ fn from_the_third_picture_on_only_what_changes_is_drawn() {
         sequence.apply(&moved(vertex));
         sequence.draw();
         assert!((1..all / 2).contains(&tiles(&sequence)), "{} of {all} tiles", tiles(&sequence));
-        assert!(sequence.frame == sequence.fresh(), "the bytes of a fresh picture");
+        assert!(sequence.frame == sequence.fresh(), "the bytes of a fresh image");
     }
     sequence.draw();
     assert_eq!(tiles(&sequence), 0, "nothing has changed");
@@ -342,7 +342,7 @@ fn points_and_lines_follow_moved_vertices() {
             sequence.apply(&moved(vertex));
             sequence.draw();
             assert!((1..all / 2).contains(&tiles(&sequence)), "{style:?}: {} of {all}", tiles(&sequence));
-            assert!(sequence.frame == sequence.fresh(), "{style:?}: the bytes of a fresh picture");
+            assert!(sequence.frame == sequence.fresh(), "{style:?}: the bytes of a fresh image");
         }
     }
 }
@@ -381,7 +381,7 @@ fn what_is_marked_follows_and_other_colours_draw_everything() {
         sequence.apply(&moved(vertex));
         sequence.draw();
         assert!((1..all / 2).contains(&tiles(&sequence)), "{} of {all} tiles", tiles(&sequence));
-        assert!(sequence.frame == sequence.fresh(), "the bytes of a fresh picture");
+        assert!(sequence.frame == sequence.fresh(), "the bytes of a fresh image");
     }
     let others: [fn(&mut RenderSettings); 2] = [
         |settings| settings.marks.edges[0].color = Vec3::Z,
@@ -393,7 +393,7 @@ fn what_is_marked_follows_and_other_colours_draw_everything() {
         sequence.draw();
         assert!(tiles(&sequence) > all / 2, "change {number}: {} of {all} tiles", tiles(&sequence));
         assert!(sequence.frame.color != before, "change {number} is seen");
-        assert!(sequence.frame == sequence.fresh(), "change {number}: the bytes of a fresh picture");
+        assert!(sequence.frame == sequence.fresh(), "change {number}: the bytes of a fresh image");
     }
 }
 
@@ -423,7 +423,7 @@ fn where_other_elements_are_marked_alone_is_drawn() {
             sequence.draw();
             seen[kind] += usize::from(sequence.frame.color != before);
             assert!(tiles(&sequence) < all / 2, "{style:?}, {kind}: {} of {all}", tiles(&sequence));
-            assert!(sequence.frame == sequence.fresh(), "{style:?}, {kind}: the bytes of a fresh picture");
+            assert!(sequence.frame == sequence.fresh(), "{style:?}, {kind}: the bytes of a fresh image");
         }
         let faces_show = usize::from(style == Style::SurfaceWithEdges);
         let least = [2, 2 * faces_show, 2];
@@ -432,7 +432,7 @@ fn where_other_elements_are_marked_alone_is_drawn() {
             sequence.apply(&Event::Selected(kind, 0, Vec::new()));
             sequence.draw();
             assert!(tiles(&sequence) < all / 2, "{style:?}, no {kind}: {} of {all}", tiles(&sequence));
-            assert!(sequence.frame == sequence.fresh(), "{style:?}, no {kind}: the bytes of a fresh picture");
+            assert!(sequence.frame == sequence.fresh(), "{style:?}, no {kind}: the bytes of a fresh image");
         }
     }
 }

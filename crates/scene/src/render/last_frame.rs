@@ -41,7 +41,7 @@ const COUPLING: [Effect; 8] = [
     Effect::Outline,
 ];
 
-/// Rows of a picture that a thread copies at a time.
+/// Rows of an image that a thread copies at a time.
 const ROWS: usize = 32;
 
 /// The last image, and what it was made from.
@@ -135,7 +135,7 @@ impl LastFrame {
         }
     }
 
-    /// Draws a picture that is kept, and copies it to the frame.
+    /// Draws an image that is kept, and copies it to the frame.
     pub(super) fn draw(
         &mut self,
         pass: &Pass<'_>,
@@ -249,7 +249,7 @@ impl Origin {
         }
     }
 
-    /// Becomes that of another picture, but for its draws; whether it stays the same.
+    /// Becomes that of another image, but for its draws; whether it stays the same.
     fn update(&mut self, stage: &Stage<'_>, camera: &Camera, plan: &EffectPlan) -> bool {
         // Each of them is brought up to date.
         let are_same = [
@@ -265,7 +265,7 @@ impl Origin {
         !are_same.contains(&false)
     }
 
-    /// Takes the draws of another picture; how they differ, if that is known.
+    /// Takes the draws of another image; how they differ, if that is known.
     fn replace_draws(&mut self, sources: &[Source<'_>]) -> Option<Vec<ChangedDraw>> {
         let before = std::mem::replace(&mut self.draws, sources.iter().map(DrawOrigin::new).collect());
         if before.len() != sources.len() {
