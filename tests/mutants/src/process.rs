@@ -1,0 +1,116 @@
+//! Programs that are run: cargo, and one test at a time.
+
+use crate::error::{Error, Result, at};
+use crate::tests_of::Test;
+use crate::{CRATES, Folder};
+use std::fs::File;
+use std::os::unix::process::CommandExt;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// Progress, for the person who waits.
+#[expect(clippy::print_stderr, reason = "a program that says what it is doing")]
+pub(crate) fn say(text: &str) {
+    eprintln!("{text}");
+}
+
+/// A cargo command in the copy. Warnings of all mutants are in its output, so it is not shown.
+fn cargo(folder: &Folder, command: &str) -> Command {
+    let mut cargo = Command::new("cargo");
+    cargo.args([command, "--message-format=json", "--quiet", "--lib"]);
+    for krate in CRATES {
+        cargo.args(["-p", &format!("trigon-{krate}")]);
+    }
+    cargo.current_dir(folder.tree()).env("CARGO_TARGET_DIR", folder.target()).env("CARGO_INCREMENTAL", "0");
+    cargo
+}
+
+fn output(mut cargo: Command, errors: &Path) -> Result<(String, bool)> {
+    let log = at(errors, File::create(errors))?;
+    let output = cargo.stderr(log).output();
+    let failed =
+        |error: std::io::Error| Error::Program { program: "cargo".into(), message: error.to_string() };
+    let output = output.map_err(failed)?;
+    Ok((String::from_utf8_lossy(&output.stdout).into_owned(), output.status.success()))
+}
+
+/// The compiler's messages about the mutated crates.
+pub(crate) fn check(folder: &Folder) -> Result<String> {
+    let mut command = cargo(folder, "check");
+    command.args(["--keep-going", "--features", "trigon-window/kittest"]);
+    Ok(output(command, &folder.state("cargo.log"))?.0)
+}
+
+/// Builds all test programs, and keeps cargo's list of them.
+pub(crate) fn build_tests(folder: &Folder) -> Result<()> {
+    let mut command = cargo(folder, "test");
+    command.args(["--no-run", "--bins", "--tests", "-p", "trigon-tests"]);
+    command.args(["--features", "trigon-window/kittest"]);
+    let log = folder.state("cargo.log");
+    let (messages, succeeds) = output(command, &log)?;
+    if !succeeds {
+        return Err(Error::Compile(format!("see {}, or run cargo test in the copy", log.display())));
+    }
+    let path = folder.state("artifacts.jsonl");
+    let artifacts = messages.lines().filter(|line| line.contains("\"reason\":\"compiler-artifact\""));
+    at(&path, std::fs::write(&path, artifacts.collect::<Vec<_>>().join("\n")))
+}
+
+/// How a test ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum End {
+    Passed,
+    Failed,
+    TimedOut,
+}
+
+/// Runs one test alone, with a variable that says what the switches do.
+pub(crate) fn run_test(test: &Test, variable: (&str, &str), limit: Duration) -> Result<(End, Duration)> {
+    let start = Instant::now();
+    let failed = |error: std::io::Error| Error::File { path: test.program.clone(), error };
+    // Mutants that allocate without end must not take the machine with them.
+    let mut child = Command::new("sh")
+        .args(["-c", "ulimit -v 16000000; exec \"$0\" \"$@\""])
+        .arg(&test.program)
+        .args(["--exact", &test.name, "--test-threads=1"])
+        .current_dir(&test.home)
+        .env("CARGO_MANIFEST_DIR", &test.home)
+        // Every process draws the same cases and leaves none behind; the first failure is enough.
+        .env("PROPTEST_RNG_SEED", crate::draw::SEED.to_string())
+        .env("PROPTEST_DISABLE_FAILURE_PERSISTENCE", "1")
+        .env("PROPTEST_MAX_SHRINK_ITERS", "0")
+        .env(variable.0, variable.1)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .process_group(0)
+        .spawn()
+        .map_err(failed)?;
+    let status = wait(&mut child, start + limit).map_err(failed)?;
+    let end = match status {
+        Some(status) if status.success() => End::Passed,
+        Some(_) => End::Failed,
+        None => End::TimedOut,
+    };
+    Ok((end, start.elapsed()))
+}
+
+/// `None` after the limit; then the test and all that it started are ended.
+fn wait(child: &mut Child, limit: Instant) -> std::io::Result<Option<ExitStatus>> {
+    let mut pause = Duration::from_millis(1);
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(Some(status));
+        }
+        if Instant::now() > limit {
+            let group = format!("-{}", child.id());
+            Command::new("kill").args(["-KILL", "--", &group]).status()?;
+            child.wait()?;
+            return Ok(None);
+        }
+        thread::sleep(pause);
+        pause = (pause * 2).min(Duration::from_millis(20));
+    }
+}
