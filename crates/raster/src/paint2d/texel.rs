@@ -8,7 +8,7 @@
 use super::Image;
 use super::blend::{Channels, unpack};
 use crate::simd::prelude::*;
-use crate::simd::{F32, I32, LANES, U32};
+use crate::simd::{Each, F32, I32, LANES, U32};
 use crate::texture::Filter;
 use std::ops::Range;
 
@@ -92,12 +92,15 @@ impl Image {
             texels[2][lane] = self.texel(x, y + 1);
             texels[3][lane] = self.texel(x + 1, y + 1);
         }
-        let weight = |axis: usize| F32::float_from(I32::simd_from(simd, weights[axis])) * (1.0 / ONE as f32);
-        let [x, y] = [weight(0), weight(1)];
-        let corner = |corner: usize| unpack(U32::simd_from(simd, texels[corner]));
-        let upper = mix(corner(0), corner(1), x);
-        let lower = mix(corner(2), corner(3), x);
-        mix(upper, lower, y)
+        let [x, y] = weights.each(
+            #[inline(always)]
+            |weights| F32::float_from(I32::simd_from(simd, weights)) * (1.0 / ONE as f32),
+        );
+        let [a, b, c, d] = texels.each(
+            #[inline(always)]
+            |texels| unpack(U32::simd_from(simd, texels)),
+        );
+        mix(mix(a, b, x), mix(c, d, x), y)
     }
 }
 

@@ -93,7 +93,15 @@ impl Lines {
         let Some((weights, order)) = corners_of(context, triangle) else { return };
         let weights = context.draw.chunk_of(triangle).weights[weights as usize];
         let [x, y]: [[Row; 3]; 2] = [sorted.x, sorted.y].map(|axis| axis.map(Into::into));
-        let q = perspective(sorted.inverse_w[0].token(), sorted.inverse_w).0.map(<[f32; LANES]>::from);
+        let q: [[f32; LANES]; 3] = sorted.inverse_w[0].token().vectorize(
+            #[inline(always)]
+            || {
+                perspective(sorted.inverse_w[0].token(), sorted.inverse_w).0.each(
+                    #[inline(always)]
+                    |q| q.into(),
+                )
+            },
+        );
         let way = |from: usize, to: usize| {
             [f64::from(y[to][lane] - y[from][lane]), f64::from(x[from][lane] - x[to][lane])]
         };

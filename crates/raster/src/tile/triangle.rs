@@ -47,7 +47,10 @@ impl Special {
     #[cold]
     pub(crate) fn covers_group<S: Simd>(&self, simd: S, point: [i32; 2]) -> Mask<S> {
         let lanes: [i32; LANES] = lanes_of(|lane| i32::from(self.covers(lane_point(point, lane))));
-        I32::simd_from(simd, lanes).simd_gt(I32::splat(simd, 0))
+        simd.vectorize(
+            #[inline(always)]
+            || I32::simd_from(simd, lanes).simd_gt(I32::splat(simd, 0)),
+        )
     }
 }
 

@@ -82,7 +82,10 @@ impl LanePipeline for HiddenLine<'_> {
 
     #[inline(always)]
     fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
-        let [columns, rows] = [0, 1].map(|axis| <[f32; LANES]>::from(fragments.position()[axis]));
+        let [columns, rows]: [[f32; LANES]; 2] = fragments.position().each(
+            #[inline(always)]
+            |axis| axis.into(),
+        );
         let papers =
             lanes_of(|lane| self.backdrop.at(UVec2::new(columns[lane] as u32, rows[lane] as u32)).to_array());
         [0, 1, 2, 3].each(

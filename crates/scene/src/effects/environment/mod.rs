@@ -19,7 +19,7 @@ use harmonics::Harmonics;
 use octahedral::Octahedral;
 use thiserror::Error;
 use trigon_math::{Mat3, Vec3, elementary};
-use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
+use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
 
 use crate::render::lanes::{V3, turned};
 
@@ -197,7 +197,16 @@ impl Surroundings {
     /// What surfaces mirror, for directions in camera space.
     pub(crate) fn mirrored<S: Simd>(&self, simd: S, direction: V3<S>, roughness: F32<S>) -> V3<S> {
         note(Work::EnvironmentLight);
-        let [x, y, z] = turned(&self.to_world, direction).map(<[f32; LANES]>::from);
+        let [x, y, z] = simd.vectorize(
+            #[inline(always)]
+            || {
+                let axes: [[f32; LANES]; 3] = turned(&self.to_world, direction).each(
+                    #[inline(always)]
+                    |axis| axis.into(),
+                );
+                axes
+            },
+        );
         let roughness: [f32; LANES] = roughness.into();
         let found = lanes_of(|lane| {
             let direction = Vec3::new(x[lane], y[lane], z[lane]);

@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use surface_hit::{CasterSurfaces, SurfaceHit};
 use trigon_math::{Bvh, DAffine3, DMat4, DVec3, Mat4, Ray, Vec3};
-use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
+use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
 
 use crate::effects::casters::Casters;
 use crate::render::lanes::{V3, moved, turned};
@@ -111,7 +111,7 @@ impl RayScene {
         arriving: &Arriving<S>,
     ) -> F32<S> {
         let origins = self.origins(simd, points);
-        let [x, y, z] = rows(turned(&self.turn(), arriving.towards));
+        let [x, y, z] = self.turned_rows(simd, arriving.towards);
         let wanted: [f32; LANES] = arriving.share.into();
         let reach: [f32; LANES] = match lamp.source {
             Source::Directional(_) => [f32::INFINITY; LANES],
@@ -140,11 +140,21 @@ impl RayScene {
         trigon_math::Mat3::from_mat4(self.to_scene)
     }
 
+    /// Camera directions as the triangles have them.
+    fn turned_rows<S: Simd>(&self, simd: S, directions: V3<S>) -> [[f32; LANES]; 3] {
+        simd.vectorize(
+            #[inline(always)]
+            || rows(turned(&self.turn(), directions)),
+        )
+    }
+
     /// The start of rays: off the surface by the possible rounding error.
     fn origins<S: Simd>(&self, simd: S, points: &LitPoints<S>) -> [Vec3; LANES] {
-        let [x, y, z] = rows(moved(&self.to_scene, points.position));
-        let [nx, ny, nz] = rows(turned(&self.turn(), points.facing));
-        let _ = simd;
+        let [x, y, z] = simd.vectorize(
+            #[inline(always)]
+            || rows(moved(&self.to_scene, points.position)),
+        );
+        let [nx, ny, nz] = self.turned_rows(simd, points.facing);
         lanes_of(|lane| {
             let side = Vec3::new(nx[lane], ny[lane], nz[lane]);
             self.off(Vec3::new(x[lane], y[lane], z[lane]), side)
@@ -161,6 +171,10 @@ impl RayScene {
     }
 }
 
+#[inline(always)]
 fn rows<S: Simd>(vector: V3<S>) -> [[f32; LANES]; 3] {
-    vector.map(Into::into)
+    vector.each(
+        #[inline(always)]
+        |axis| axis.into(),
+    )
 }

@@ -11,9 +11,8 @@ use std::sync::atomic::Ordering;
 use trigon_math::{Ray, Vec2, Vec3, elementary};
 use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
 
-use super::{RayScene, rows};
+use super::RayScene;
 use crate::effects::AmbientOcclusion;
-use crate::render::lanes::turned;
 use crate::render::lighting::LitPoints;
 
 /// The maximum number of rays per pixel.
@@ -64,7 +63,7 @@ impl AmbientRays {
         active: u64,
     ) -> F32<S> {
         let origins = scene.origins(simd, points);
-        let [nx, ny, nz] = rows(turned(&scene.turn(), points.facing));
+        let [nx, ny, nz] = scene.turned_rows(simd, points.facing);
         let [x, y]: [[f32; LANES]; 2] = [x.into(), y.into()];
         let mut cast = 0;
         let open = lanes_of(|lane| {

@@ -42,8 +42,17 @@ impl LightingEnvironment {
         directions: V3<S>,
         active: u64,
     ) -> V3<S> {
-        let Some(rays) = &self.rays else { return [F32::splat(simd, 0.0); 3] };
-        let [x, y, z] = rows(turned(&rays.turn(), normalized(directions)));
+        let Some(rays) = &self.rays else {
+            return simd.vectorize(
+                #[inline(always)]
+                || [F32::splat(simd, 0.0); 3],
+            );
+        };
+        let directions = simd.vectorize(
+            #[inline(always)]
+            || normalized(directions),
+        );
+        let [x, y, z] = rays.turned_rows(simd, directions);
         let mut walk = Walk {
             origins: rays.origins(simd, points),
             directions: lanes_of(|lane| Vec3::new(x[lane], y[lane], z[lane])),

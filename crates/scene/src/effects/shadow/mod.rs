@@ -26,7 +26,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use std::sync::Arc;
 
 use trigon_math::{DAffine3, DMat4, DVec3, DVec4, Mat4, Vec3};
-use trigon_raster::simd::{F32, I32, LANES, Simd, greater, lanes_of, lesser, prelude::*};
+use trigon_raster::simd::{F32, I32, LANES, Simd, greater, inlined, lanes_of, lesser, prelude::*};
 
 use crate::render::lanes::{V3, dot, mapped, mix, positive, scaled, splat, sum};
 use crate::render::lighting::LitPoints;
@@ -96,7 +96,11 @@ impl PlacedMap {
     ) -> (F32<S>, trigon_raster::simd::Mask<S>) {
         const ASIDE: f32 = std::f32::consts::SQRT_2;
         const CURVATURE: f32 = 0.25;
-        let cosine = dot(points.facing, self.axis.map_or(towards, |axis| splat(simd, axis)));
+        let along = match self.axis {
+            Some(axis) => splat(simd, axis),
+            None => towards,
+        };
+        let cosine = dot(points.facing, along);
         let sine = positive(1.0 - cosine * cosine).sqrt();
         let w = mapped(&self.to_texels, points.position)[3];
         let offset = (sine * ASIDE + CURVATURE) * w * self.texel;
@@ -116,28 +120,31 @@ impl ShadowMap {
     #[inline(always)]
     fn compared<S: Simd>(&self, simd: S, place: [F32<S>; 2], depth: F32<S>) -> F32<S> {
         let (zero, last) = (F32::splat(simd, 0.0), F32::splat(simd, self.resolution as f32));
-        let axis = |value: F32<S>| {
-            let held = lesser(greater(value, zero), last) - 0.5;
-            let first = held.floor();
-            (first.to_int::<I32<S>>(), held - first)
-        };
+        let axis = inlined(
+            #[inline(always)]
+            |value: F32<S>| {
+                let held = lesser(greater(value, zero), last) - 0.5;
+                let first = held.floor();
+                (first.to_int::<I32<S>>(), held - first)
+            },
+        );
         let ((x, across), (y, down)) = (axis(place[0]), axis(place[1]));
         let (x, y): ([i32; LANES], [i32; LANES]) = (x.into(), y.into());
-        let stored = |right: i32, below: i32| {
-            F32::simd_from(
-                simd,
-                lanes_of(
-                    #[inline(always)]
-                    |lane| self.depth(x[lane] + right, y[lane] + below),
-                ),
-            )
-        };
-        let lit = |right, below| {
-            let one = F32::splat(simd, 1.0);
-            let stored = stored(right, below);
-            (stored.simd_le(depth) | stored.simd_eq(zero)).select(one, zero)
-        };
-        mix(mix(lit(0, 0), lit(1, 0), across), mix(lit(0, 1), lit(1, 1), across), down)
+        let lit = inlined(
+            #[inline(always)]
+            |[right, below]: [i32; 2]| {
+                let stored = F32::simd_from(
+                    simd,
+                    lanes_of(
+                        #[inline(always)]
+                        |lane| self.depth(x[lane] + right, y[lane] + below),
+                    ),
+                );
+                (stored.simd_le(depth) | stored.simd_eq(zero)).select(F32::splat(simd, 1.0), zero)
+            },
+        );
+        let above = mix(lit([0, 0]), lit([1, 0]), across);
+        mix(above, mix(lit([0, 1]), lit([1, 1]), across), down)
     }
 
     /// The depth of a texel; beyond the edge that of the nearest texel.

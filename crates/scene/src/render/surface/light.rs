@@ -125,7 +125,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         if let Some(map) = self.params.maps.get(MaterialTexture::Occlusion) {
             let red = map.look_up_apart(simd, values)[0];
             let mapped = (red - 1.0) * strength + 1.0;
-            open = Some(open.map_or(mapped, |open| open * mapped));
+            open = match open {
+                Some(open) => Some(open * mapped),
+                None => Some(mapped),
+            };
         }
         match (&self.params.optics, &brdf) {
             (Some(optics), Brdf::Microfacets(facets)) => {

@@ -3,7 +3,7 @@
 
 use crate::effects::{Work, note};
 use trigon_math::{Vec3, Vec4};
-use trigon_raster::simd::{F32, Simd, prelude::*};
+use trigon_raster::simd::{Each, F32, Simd, prelude::*};
 use trigon_raster::{Sampler, Texture};
 
 use super::values::Values;
@@ -171,8 +171,11 @@ impl MicrofacetModel {
         [r, g, b]: V3<S>,
         (maps, values): (&Maps<'_>, Option<&impl Values<S>>),
     ) -> (Brdf<S>, F32<S>) {
-        let [mut roughness, mut metallic, mut specular] =
-            [self.roughness, self.metallic, self.specular].map(|factor| F32::splat(simd, factor));
+        let [mut roughness, mut metallic, mut specular] = [self.roughness, self.metallic, self.specular]
+            .each(
+                #[inline(always)]
+                |factor| F32::splat(simd, factor),
+            );
         let mut dielectric = splat(simd, self.f0);
         if let Some(values) = values {
             if let Some(map) = maps.get(MaterialTexture::MetallicRoughness) {

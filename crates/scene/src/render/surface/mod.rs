@@ -26,7 +26,7 @@ pub(crate) use values::{Values, three};
 
 use crate::effects::{Work, note};
 use trigon_math::{Mat3, Vec3};
-use trigon_raster::simd::{F32, Mask, Simd, prelude::*};
+use trigon_raster::simd::{Each, F32, Mask, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
 
 use super::columns::Columns;
@@ -121,7 +121,10 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
         }
         if let (Some(at), Some([x, y, z, sign])) = (layout.tangent, &columns.tangents) {
             note(Work::Tangents);
-            let tangent = [x, y, z].map(|column| vertices.load(simd, column));
+            let tangent = [x, y, z].each(
+                #[inline(always)]
+                |column| vertices.load(simd, column),
+            );
             set(vertices, at, normalized(turned(&place.tangent_to_camera(), tangent)));
             vertices.set(at + 3, vertices.load(simd, sign) * place.handedness());
         }

@@ -2,7 +2,7 @@
 
 use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;
-use trigon_raster::simd::{F32, Mask, Simd, prelude::*};
+use trigon_raster::simd::{F32, Mask, Simd, inlined, prelude::*};
 
 use super::{Map, Surface, three};
 use crate::material::MaterialTexture;
@@ -15,16 +15,15 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
     #[inline(always)]
     pub(super) fn points<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> LitPoints<S> {
         let zero = [F32::splat(simd, 0.0); 3];
-        let position = self.layout.position.map_or(
-            zero,
+        // `Option::map_or` is not always inlined, and would lose the level's instructions.
+        let or_zero = inlined(
             #[inline(always)]
-            |at| three(fragments, at),
+            |at: Option<usize>| match at {
+                Some(at) => three(fragments, at),
+                None => zero,
+            },
         );
-        let normal = self.layout.normal.map_or(
-            zero,
-            #[inline(always)]
-            |at| three(fragments, at),
-        );
+        let (position, normal) = (or_zero(self.layout.position), or_zero(self.layout.normal));
         let facing = normalized(normal);
         let normal = match (self.params.maps.get(MaterialTexture::Normal), self.layout.tangent) {
             (Some(map), Some(at)) => {

@@ -44,7 +44,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                 let Optics::Glass { transmission: factor, ior } = *optics else {
                     return shown(&reflected, scaled(albedo, diffuse_share));
                 };
-                let transmission = transmission.map_or(F32::splat(simd, factor), |part| part * factor);
+                let transmission = match transmission {
+                    Some(part) => part * factor,
+                    None => F32::splat(simd, factor),
+                };
                 let matt = shown(&reflected, scaled(albedo, diffuse_share * (1.0 - transmission)));
                 // Snell's law, into what is denser: no light is reflected as a whole.
                 let ratio = 1.0 / ior;

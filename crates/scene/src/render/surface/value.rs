@@ -1,7 +1,7 @@
 //! Surfaces that show one of their values in place of light.
 
 use trigon_raster::FragmentLanes;
-use trigon_raster::simd::{F32, Simd, prelude::*};
+use trigon_raster::simd::{Each, F32, Simd, prelude::*};
 
 use super::{Model, Surface};
 use crate::display::Display;
@@ -42,7 +42,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                         return [r, g, b];
                     }
                 };
-                stored.map(decoded)
+                stored.each(
+                    #[inline(always)]
+                    |channel| decoded(channel),
+                )
             },
         )
     }
@@ -56,9 +59,12 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
 
     #[inline(always)]
     fn metallic_and_roughness<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 2] {
-        let [zero, one] = [0.0, 1.0].map(|value| F32::splat(simd, value));
+        let (zero, one) = (F32::splat(simd, 0.0), F32::splat(simd, 1.0));
         let Model::Microfacets(model) = &self.params.model else { return [zero, one] };
-        let [metallic, roughness] = [model.metallic, model.roughness].map(|value| F32::splat(simd, value));
+        let [metallic, roughness] = [model.metallic, model.roughness].each(
+            #[inline(always)]
+            |value| F32::splat(simd, value),
+        );
         match self.params.maps.get(MaterialTexture::MetallicRoughness) {
             Some(map) => {
                 let [_, green, blue, _] = map.look_up_apart(simd, fragments);
