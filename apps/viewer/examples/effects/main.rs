@@ -47,23 +47,41 @@ fn write(folder: &Path, is_counted: bool) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(folder.join("effects"))?;
     let mut text = INTRODUCTION.to_owned();
     let mut missing = Effect::ALL.to_vec();
-    for (name, made) in SUBJECTS {
-        let subject = made();
+    // Everything is timed first: counting takes longer, and does not need a quiet machine.
+    let timed: Result<Vec<Timed>, _> =
+        SUBJECTS.into_iter().map(|(name, made)| Timed::new(name, made())).collect();
+    for subject in timed? {
+        let Timed { name, camera, shots, pairs, rounds } = subject;
         write!(text, "\n## {name}\n\n{}", page::head(is_counted))?;
-        let (shots, pairs) = collect(&subject);
         missing.retain(|effect| pairs.iter().all(|pair| pair.effect != *effect));
-        let rounds = shots.rounds(&subject.camera)?;
         let counted = if is_counted { shots.count() } else { 0 };
         let counts: Result<Vec<f64>, _> = (0..counted).map(|shot| instructions(name, shot)).collect();
         let counts = counts?;
         for pair in &pairs {
-            let names = images(name, &subject.camera, pair, folder)?;
+            let names = images(name, &camera, pair, folder)?;
             text.push_str(&page::row(pair.effect, &names, &pair.reason, &cost(pair, &rounds, &counts)));
         }
     }
     text.push_str(OTHERS);
     fs::write(folder.join("effects.md"), text)?;
     if missing.is_empty() { Ok(()) } else { Err(format!("no scene shows {missing:?}").into()) }
+}
+
+/// A subject whose shots have been timed.
+struct Timed {
+    name: &'static str,
+    camera: Camera,
+    shots: Shots,
+    pairs: Vec<Pair>,
+    rounds: Vec<Vec<f64>>,
+}
+
+impl Timed {
+    fn new(name: &'static str, subject: Subject) -> Result<Self, Box<dyn Error>> {
+        let (shots, pairs) = collect(&subject);
+        let rounds = shots.rounds(&subject.camera)?;
+        Ok(Self { name, camera: subject.camera, shots, pairs, rounds })
+    }
 }
 
 /// An effect of a subject, and the numbers of the shots without and with it.

@@ -19,7 +19,7 @@ pub(super) fn report(effort: Effort, answers: &[Answer]) -> String {
     let command = effort.pick("trigon-viewer study --quick", "trigon-viewer study");
     let _ = writeln!(
         text,
-        "Made by `{command}`. Errors are the same on every machine (but those of fused operations and estimated reciprocals, which are the processor's) and held by tests; times were measured by that \
+        "Made by `{command}`. Errors are the same on every machine (but those of fused operations and estimated reciprocals, which are the processor's, and how well times and errors are foreseen, which follows from measured times) and held by tests; times were measured by that \
          command on {}: medians of runs in turn, one thread unless told otherwise. The algorithms and their sources \
          are in `crates/study/src`, a folder for each question.\n",
         processor()

@@ -22,7 +22,7 @@ const RENDERERS: [(&str, &str); 13] = [
     ("llvmpipe-debian", "llvmpipe, Mesa 22.3.6"),
     ("llvmpipe-new", "llvmpipe, Mesa 26.2.6"),
     ("lavapipe-new", "lavapipe, Mesa 26.2.6"),
-    ("swiftshader", "SwiftShader, Chromium 148"),
+    ("swiftshader", "SwiftShader, Chromium 156"),
     ("euc-0.5.3", "euc 0.5.3"),
     ("retrofire-0.4.0", "retrofire 0.4.0"),
     ("trigon", "trigon"),
