@@ -2,7 +2,7 @@
 
 use crate::programs::{Flat, Lanes, Scalar, ScalarFlat, ScalarTextured, Textured, Vertices};
 use std::ops::Range;
-use trigon_math::Vec4;
+use trigon_math::{SplitMix64, Vec4};
 use trigon_raster::{
     BlendMode, Culling, Draw, LanePipeline, Lines, MipFilter, Outline, Pass, PointShape, Points, Sampler,
     Texture, TextureFormat,
@@ -26,11 +26,8 @@ fn forever<T>(value: T) -> &'static T {
 
 /// Small triangles and large ones all over the view, with `w` in a range.
 fn vertices(w: Range<f32>) -> Vertices {
-    let mut seed = 1_u32;
-    let mut unit = || {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (seed >> 8) as f32 / (1 << 24) as f32
-    };
+    let mut random = SplitMix64::new(1);
+    let mut unit = || random.unit() as f32;
     let (mut vertices, mut middle) = (Vertices::default(), [0.0; 2]);
     for index in 0..COUNT {
         if index % 3 == 0 {

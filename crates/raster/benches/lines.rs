@@ -147,7 +147,7 @@ impl Plain {
     }
 }
 
-/// Numbers that look random, within 0 and 1.
+/// Numbers that look random, within 0 and 1: Knuth's generator, kept because published times are of its segments.
 fn numbers() -> impl FnMut() -> f32 {
     let mut seed = 12_345_u64;
     move || {

@@ -57,13 +57,11 @@ mod engine;
 mod field;
 mod measure;
 mod metric;
-mod random;
 
 pub use engine::Engine;
 pub use field::Field;
 pub use measure::{Spread, interleaved};
 pub use metric::{Difference, lightness};
-pub use random::Random;
 
 /// Runs the README's example as a test.
 #[cfg(doctest)]

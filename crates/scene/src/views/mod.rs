@@ -4,7 +4,6 @@
 //! the middle of what they look at; [`Scene::surround`] makes cameras of them, all at
 //! the same distance.
 
-mod random;
 mod viewpoints;
 
 use trigon_camera::{Camera, DEFAULT_MARGIN, Extent};

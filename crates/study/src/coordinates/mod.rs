@@ -4,9 +4,8 @@
 #[cfg(test)]
 mod tests;
 
-use crate::random::Random;
 use std::hint::black_box;
-use trigon_math::{DMat3, DMat4, DVec3, Mat4, Vec3, elementary};
+use trigon_math::{DMat3, DMat4, DVec3, Mat4, SplitMix64, Vec3, elementary};
 
 /// A way to hold places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -79,7 +78,7 @@ struct View {
 
 impl View {
     fn new(way: Coordinates, offset: f64) -> Self {
-        let mut random = Random::new(11);
+        let mut random = SplitMix64::new(11);
         // On a grid that any of the offsets leaves exact in f64.
         let mut local = |low, high| (random.between(low, high) * 1024.0).round() / 1024.0;
         let eye = DVec3::new(local(-0.1, 0.1), local(-0.1, 0.1), local(-0.1, 0.1));

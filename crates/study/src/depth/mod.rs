@@ -10,8 +10,7 @@ mod tests;
 pub use formats::DepthFormat;
 pub use road::Road;
 
-use crate::random::Random;
-use trigon_math::elementary;
+use trigon_math::{SplitMix64, elementary};
 
 /// The planes of the perspective, in metres.
 pub const NEAR: f32 = 0.1;
@@ -24,7 +23,7 @@ pub const FAR: f32 = 10_000.0;
 #[must_use]
 pub fn misordered_per_mille(format: DepthFormat, distance: f64, separation: f64) -> f64 {
     const PAIRS: usize = 10_000;
-    let mut random = Random::new(7);
+    let mut random = SplitMix64::new(7);
     let is_wrong = |_: &usize| {
         let near = distance * random.between(0.9, 1.1);
         let far = near * (1.0 + separation);
