@@ -6,7 +6,7 @@
 //! keys, texts.
 //!
 //! [`trigon_scene`] draws frames; this crate decides when and in which quality, and presents them on
-//! the screen. It does not depend on files or editing.
+//! the screen. It knows no file formats and no editing.
 //!
 //! The path of an event: winit → `input` (translates it) → `session` (passes it to the interface, the
 //! application, or the camera) → `pacing` (decides when to draw, and in which quality) → `worker` (draws the
@@ -53,6 +53,7 @@ mod pacing;
 mod panes;
 mod popup;
 mod present;
+mod recent;
 mod refinement;
 mod session;
 mod shared_scene;
@@ -82,6 +83,7 @@ pub use keymap::{
 pub use overlay::{Corner, Overlay};
 pub use panes::{Area, Pane};
 pub use popup::{PopupEnd, popup_entry, popup_menu};
+pub use recent::{RecentFiles, state_folder};
 pub use refinement::{Comparison, Difference, QualityReport, Refinement};
 pub use shared_scene::{Revision, SharedScene};
 pub use stage::{FrameReport, Stage, Visibility};

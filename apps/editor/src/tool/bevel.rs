@@ -2,13 +2,14 @@
 //! centre; the wheel changes the number of segments, and keys change everything else.
 
 use trigon_edit::mesh::math::{DVec2, DVec3};
-use trigon_edit::{Bevel, BevelWidth, Document, InnerMiter, OuterMiter};
+use trigon_edit::{Bevel, BevelWidth, Command, Document, InnerMiter, OuterMiter};
 use trigon_window::{Hands, Input};
 
 use super::expression::Quantity;
 use super::extrude::on;
 use super::modal::{Modal, Step};
 use super::numeric::NumericEntry;
+use super::preview::PreviewTool;
 use super::selected::Selected;
 use super::view::ToolView;
 use super::{Tool, ToolState};
@@ -58,13 +59,6 @@ impl BevelTool {
         let mut tool = Self { modal, middle, command, adjusting, from, before };
         tool.update(document, view);
         Some(tool)
-    }
-
-    fn update(&mut self, document: &mut Document, view: &ToolView) -> ToolState {
-        if let Err(why) = self.follow(view) {
-            return self.modal.refuse(why);
-        }
-        self.modal.show(document, self.command.clone().into())
     }
 
     fn follow(&mut self, view: &ToolView) -> Result<(), String> {
@@ -123,6 +117,13 @@ impl BevelTool {
         self.from = self.modal.pointer.place();
         self.before = self.command.clone();
     }
+}
+
+impl PreviewTool for BevelTool {
+    fn command(&mut self, view: &ToolView) -> Result<Command, String> {
+        self.follow(view)?;
+        Ok(self.command.clone().into())
+    }
 
     fn key(&mut self, key: char, document: &mut Document, view: &ToolView) -> ToolState {
         let command = &mut self.command;
@@ -158,16 +159,12 @@ impl BevelTool {
 impl Tool for BevelTool {
     fn input(&mut self, input: &Input, hands: Hands, view: &ToolView, document: &mut Document) -> ToolState {
         match self.modal.step(input, hands) {
-            Step::Update => self.update(document, view),
-            Step::Confirm => Modal::confirm(document),
-            Step::Cancel => Modal::cancel(document),
-            Step::Key(key) => self.key(key, document, view),
             Step::Wheel(lines) => {
                 self.set_segments(f64::from(self.command.segments) + lines);
                 self.before.segments = self.command.segments;
                 self.update(document, view)
             }
-            _ => ToolState::Running,
+            step => self.step(step, document, view),
         }
     }
 
@@ -195,8 +192,8 @@ impl Tool for BevelTool {
         ))
     }
 
-    fn pointer_jumped(&mut self, to: DVec2) {
-        self.modal.pointer.jumped(to);
+    fn modal(&mut self) -> &mut Modal {
+        &mut self.modal
     }
 }
 

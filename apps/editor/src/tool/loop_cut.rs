@@ -228,8 +228,8 @@ impl Tool for LoopCutTool {
         })
     }
 
-    fn pointer_jumped(&mut self, to: DVec2) {
-        self.modal.pointer.jumped(to);
+    fn modal(&mut self) -> &mut Modal {
+        &mut self.modal
     }
 
     fn marks(&self) -> ToolMarks {

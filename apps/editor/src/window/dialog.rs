@@ -5,9 +5,9 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 
 use trigon_edit::{MaterialName, TextureSlot};
+use trigon_window::RecentFiles;
 use trigon_window::egui::{self, Key};
 
-use super::recent::Recent;
 use crate::request::{FileAction, FileRequest};
 
 /// What a file is chosen for.
@@ -127,7 +127,7 @@ impl FileWindow {
     pub(crate) fn show(
         &mut self,
         context: &egui::Context,
-        recent: &Recent,
+        recent: &RecentFiles,
         wake: impl FnOnce() + Send + 'static,
     ) -> Option<FileRequest> {
         let purpose = self.purpose.clone()?;

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use trigon_edit::{
     Command, Disk, Document, EditError, EditObjects, LeaveEditMode, Outcome, SetElementKind, Storage,
 };
-use trigon_window::Stage;
 use trigon_window::egui::Rect;
 use trigon_window::scene::math::DVec2;
+use trigon_window::{RecentFiles, Stage};
 
 use super::actions;
 use super::click::Click;
@@ -20,7 +20,6 @@ use super::loading::Loading;
 use super::look::Look;
 use super::open_file::{Next, OpenFile, Question};
 use super::pointing::Pointing;
-use super::recent::Recent;
 use super::recovery::Recovery;
 use super::running::Running;
 use super::saving::{SaveOrder, Saving};
@@ -65,7 +64,7 @@ pub(crate) struct Editor {
     pub(crate) storage: Box<dyn Fn() -> Box<dyn Storage + Send>>,
     /// What follows when a document without a file has got one.
     pub(crate) after_save: Option<Next>,
-    pub(crate) recent: Recent,
+    pub(crate) recent: RecentFiles,
     pub(crate) recovery: Option<Recovery>,
     pub(crate) panels: Panels,
     /// The tool that follows the pointer.
@@ -108,7 +107,7 @@ impl Editor {
             to_save: None,
             storage: Box::new(|| Box::new(Disk)),
             after_save: None,
-            recent: Recent::load(folder.as_deref()),
+            recent: RecentFiles::load(folder.as_ref().map(|folder| folder.join("edited"))),
             recovery: None,
             panels: Panels::default(),
             tool: None,

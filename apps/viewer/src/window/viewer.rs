@@ -10,7 +10,8 @@ use std::path::PathBuf;
 use trigon_math::DVec3;
 use trigon_scene::{Background, Frame, NodeId, RenderSettings, Scene};
 use trigon_window::{
-    Animation, Corner, Handler, Hands, Input, Key, Modifiers, Stage, Taken, Tick, Visibility, egui,
+    Animation, Corner, Handler, Hands, Input, Key, Modifiers, RecentFiles, Stage, Taken, Tick, Visibility,
+    egui, state_folder,
 };
 
 use super::axes::AxesOverlay;
@@ -24,7 +25,6 @@ use super::notices::{Answer, Notices};
 use super::open::{OpenWindow, SystemDialog};
 use super::playback::Playback;
 use super::quality::QualityPanel;
-use super::recent::Recent;
 use super::screenshot;
 use super::side::SidePanel;
 use super::watch::Watch;
@@ -92,7 +92,7 @@ pub(super) struct Viewer {
     axes: AxesOverlay,
     #[cfg(feature = "study")]
     classics: Classics,
-    recent: Recent,
+    recent: RecentFiles,
     /// If the model that is shown has animations.
     playback: Option<Playback>,
     /// What went wrong last, until it is dismissed or put right.
@@ -127,7 +127,7 @@ impl Viewer {
             axes: AxesOverlay::default(),
             #[cfg(feature = "study")]
             classics: Classics::default(),
-            recent: Recent::load(),
+            recent: RecentFiles::load(state_folder().map(|folder| folder.join("recent"))),
             playback: None,
             failure: None,
             asks_to_load_again: false,

@@ -202,8 +202,8 @@ impl Tool for TransformTool {
         self.modal.status(text.trim_end().to_owned() + keys)
     }
 
-    fn pointer_jumped(&mut self, to: DVec2) {
-        self.modal.pointer.jumped(to);
+    fn modal(&mut self) -> &mut Modal {
+        &mut self.modal
     }
 
     fn marks(&self) -> ToolMarks {
