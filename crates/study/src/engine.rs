@@ -1,4 +1,4 @@
-//! The engine behind the same inputs as the other algorithms.
+//! Runs the engine on the same input as the other algorithms.
 
 use crate::field::Field;
 use std::num::NonZeroUsize;

@@ -1,4 +1,4 @@
-//! An image of values of any kind: what every algorithm of the study draws into.
+//! An image of values of any type, into which every algorithm of the study draws.
 
 use std::ops::{Index, IndexMut};
 

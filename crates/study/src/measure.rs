@@ -1,4 +1,4 @@
-//! How long things take that are compared with each other.
+//! Measures the times of programs that are compared with each other, in turns.
 
 use std::time::Instant;
 

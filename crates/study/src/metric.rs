@@ -1,4 +1,4 @@
-//! How far images are apart, in light and in what a person sees.
+//! The difference between images, in linear light and in perceived lightness.
 
 use trigon_math::elementary;
 

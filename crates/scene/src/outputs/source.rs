@@ -1,4 +1,4 @@
-//! What outputs read of an object: its mesh, its transform, and its materials.
+//! The parts of an object that outputs read: its mesh, its transform, and its materials.
 
 use trigon_math::{DAffine3, DVec2, DVec3, Mat3, Vec2, Vec3};
 use trigon_mesh::Mesh;

@@ -1,4 +1,4 @@
-//! Which boxes lie beside an area of the screen, or before the near plane, as a whole.
+//! Tests whether a whole box lies outside an area of the screen, or in front of the near plane.
 
 use trigon_math::{DMat4, DVec2, DVec4};
 

@@ -1,4 +1,4 @@
-//! What of an object may lie in a small area: all else is passed over in whole boxes.
+//! Finds the parts of an object that may lie in a small area, and skips all others box by box.
 
 use super::beyond::Beyond;
 use super::nearby::Sides;

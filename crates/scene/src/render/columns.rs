@@ -1,4 +1,4 @@
-//! The vertex values of a mesh, column by column, for the vectorized vertex stage.
+//! The vertex attributes of a mesh as columns (structure of arrays), for the vectorized vertex stage.
 
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Deformed, Mesh, RenderMesh, UpdatedVertex};

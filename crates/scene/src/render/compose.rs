@@ -1,5 +1,5 @@
-//! Composes the draws of a frame, each with the pipeline that its material and mesh need and no
-//! more.
+//! Composes the draws of a frame: each gets a pipeline of the parts that its material and mesh need, and no
+//! others.
 
 use std::borrow::Cow;
 use std::ops::Range;

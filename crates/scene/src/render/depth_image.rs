@@ -1,4 +1,4 @@
-//! Depths as greys: what [`Display::Depth`](crate::Display::Depth) shows.
+//! Depths as greys, for [`Display::Depth`](crate::Display::Depth).
 
 use crate::frame::Frame;
 

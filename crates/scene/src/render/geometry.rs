@@ -1,4 +1,4 @@
-//! A mesh as drawn: triangles grouped by material slot.
+//! The triangles of a mesh as they are drawn, grouped by material slot.
 //!
 //! Created once per mesh, at its first frame, and shared by all nodes that draw the mesh. After a
 //! change of few of the mesh's values it is updated: see `change`.

@@ -1,9 +1,8 @@
 //! The last image, kept so that the next frame can reuse it: if few vertices of a mesh have moved
 //! since, and everything else is unchanged, most of the image is the same.
 //!
-//! A kept image is drawn here and copied to the frame, because a frame belongs to its user, who may
-//! change it. So it takes its memory twice. Images of meshes that were never changed and have no
-//! marks are not kept.
+//! The kept image is drawn here and copied to the caller's frame, which the caller may change. So its memory
+//! is needed twice. Images of meshes that were never changed and have no marks are not kept.
 
 mod marked;
 

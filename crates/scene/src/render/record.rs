@@ -1,4 +1,4 @@
-//! Draws that own their pipelines, until they are recorded in a pass.
+//! Draws that own their pipelines, kept until they are recorded in a pass.
 
 use std::ops::Range;
 use std::sync::Arc;

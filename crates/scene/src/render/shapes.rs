@@ -1,8 +1,7 @@
-//! The shape of every visible node at this moment: its mesh, in the pose that its
-//! joints and morph weights give it.
+//! The current shape of every visible node: its mesh in the pose that its joints and morph weights give it.
 //!
-//! Only what is in a pose is deformed, and of that only what somebody looks at: the
-//! camera, or a lamp that casts shadows.
+//! Only meshes with a pose are deformed, and of these only what is in the view of the camera or of a lamp
+//! that casts shadows.
 
 use std::sync::Arc;
 

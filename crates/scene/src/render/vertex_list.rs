@@ -1,4 +1,4 @@
-//! The vertices of a mesh that are shown as points.
+//! The vertices of a mesh that are drawn as points.
 
 use std::sync::Arc;
 

@@ -1,5 +1,4 @@
-//! The pipelines that draw edges, loose lines and points, and the faces that
-//! do nothing but hide what is behind them.
+//! The pipelines of edges, loose lines and points, and of faces that only hide what is behind them.
 
 use std::sync::Arc;
 

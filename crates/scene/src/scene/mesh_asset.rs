@@ -1,4 +1,4 @@
-//! A mesh of a scene, and what has been found out about it.
+//! A mesh of a scene, with data derived from it.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 

@@ -1,4 +1,4 @@
-//! Meshes where their nodes put them, bent as joints and morph weights say.
+//! Meshes in the world: placed by their nodes, and deformed by their joints and morph weights.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Directions in which eyes lie, as unit vectors from what they look at. +Y is up.
+//! Directions from the middle of a scene to cameras around it, as unit vectors. +Y is up.
 //!
 //! The same arguments give the same bits on every machine.
 

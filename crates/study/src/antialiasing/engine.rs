@@ -1,4 +1,4 @@
-//! The renderer with several samples in a pixel.
+//! The engine with several samples per pixel.
 
 use super::Star;
 use crate::engine::{Corners, Engine, clip_position, field, target};

@@ -1,5 +1,4 @@
-//! How many samples does an edge need? A star of needles against the exact area in each
-//! pixel.
+//! How many samples does an edge need? A star of needles, compared with the exact area in each pixel.
 
 mod analytic;
 mod engine;

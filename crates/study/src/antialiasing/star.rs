@@ -1,4 +1,4 @@
-//! Needles round a point, with black between them.
+//! Needles around a point, with black between them.
 
 use crate::oracle::{GridPoint, STEPS};
 use std::f64::consts::TAU;

@@ -1,5 +1,5 @@
-//! What does it cost to mix light as the bytes of a file? Two greys, half of each: bytes
-//! averaged as they are, in linear light with 8 bits between, and in linear light.
+//! What does it cost to mix colours as bytes of a file? Half of each of two greys: averaged as sRGB bytes, in
+//! linear light stored in 8 bits, and in linear light in floating point.
 
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,5 @@
-//! How far from the origin may a model be? Positions and camera in `f32` in world space,
-//! against positions relative to the camera, subtracted in `f64` before they are rounded.
+//! How far from the origin may a model be? Positions and camera in `f32` in world space, compared with
+//! positions relative to the camera that are subtracted in `f64` before rounding.
 
 #[cfg(test)]
 mod tests;

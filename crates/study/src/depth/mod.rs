@@ -1,5 +1,5 @@
-//! How near may two surfaces be before a z-buffer confuses them? Formats of depth, for a
-//! perspective with a near and a far plane.
+//! How close may two surfaces be before a z-buffer confuses them? Depth formats for a perspective with a near
+//! and a far plane.
 
 mod formats;
 mod road;

@@ -1,5 +1,5 @@
-//! An image by a z-buffer of each format: a road that leads to the horizon, and a layer of paint
-//! above it, drawn after it.
+//! An image drawn with a z-buffer of each format: a road that leads to the horizon, and a layer of paint just
+//! above it that is drawn later.
 
 use super::DepthFormat;
 use crate::field::Field;

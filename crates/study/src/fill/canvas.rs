@@ -1,4 +1,4 @@
-//! What triangles are painted into: an image that counts.
+//! The image into which triangles are painted. It counts how often each pixel is painted.
 
 use super::Triangle;
 use crate::field::Field;

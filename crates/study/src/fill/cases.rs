@@ -1,4 +1,4 @@
-//! Triangles that tile the whole image, so that each pixel has one owner.
+//! Triangles that tile the whole image, so that each pixel belongs to exactly one.
 
 use super::Triangle;
 use trigon_math::{DVec2, SplitMix64, Vec2, elementary};

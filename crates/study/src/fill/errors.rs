@@ -1,4 +1,4 @@
-//! How far an image of a tiling is from the exact one.
+//! The difference between an image of a tiling and the exact one.
 
 use super::{Canvas, Painted, Triangle, edges::bounding_box};
 use crate::field::Field;

@@ -1,4 +1,4 @@
-//! Corners on a sub-pixel grid, and from there on exact integers with the top-left rule.
+//! Corners are snapped to a sub-pixel grid; from there on, exact integers with the top-left rule.
 
 use super::{Canvas, Triangle, range};
 use std::ops::RangeInclusive;

@@ -1,5 +1,5 @@
-//! Eight pixels of a row at a time: the same edges, boxes and pixels as [`float`](super::float)
-//! and [`fixed`](super::fixed) have one by one.
+//! Eight pixels of a row at a time: the same edges, boxes and pixels as [`float`](super::float) and
+//! [`fixed`](super::fixed), which take one pixel at a time.
 
 use super::{Canvas, Triangle, fixed, float};
 use fearless_simd::{Level, Simd, dispatch};

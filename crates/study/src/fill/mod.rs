@@ -1,8 +1,8 @@
 //! Which pixels does a triangle cover, and what does it cost to know exactly?
 //!
-//! All algorithms take triangles in pixels and paint into a [`Canvas`] that counts. A
-//! pixel belongs to a triangle if its centre does; where triangles share an edge, each
-//! pixel on it should be painted once.
+//! All algorithms take triangles in pixel coordinates and paint into a [`Canvas`] that counts. A pixel
+//! belongs to a triangle if its centre lies inside; every pixel on an edge that two triangles share should be
+//! painted once.
 
 mod canvas;
 mod cases;

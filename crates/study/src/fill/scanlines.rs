@@ -1,6 +1,5 @@
-//! Horizontal lines between interpolated sides (source row B2). Corners are pixels, as
-//! in the source: those that hold the triangle's corners. The long side runs from the
-//! topmost to the lowest corner, the two short ones beside it.
+//! Horizontal lines between interpolated sides (source row B2). As in the source, corners are rounded to
+//! pixels. The long side runs from the topmost to the lowest corner, with the two short ones opposite.
 
 use super::{Canvas, Triangle};
 

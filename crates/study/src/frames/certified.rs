@@ -1,4 +1,4 @@
-//! Which share of an image is proven, and what proving it takes.
+//! How much of an image can be proven correct, and what the proof costs.
 
 use crate::workloads::{Canvas, Scene, Workload};
 use std::num::NonZeroUsize;

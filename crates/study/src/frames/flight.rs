@@ -1,5 +1,4 @@
-//! A time budget on a flight: whether frames keep it, and whether errors are what was
-//! foreseen.
+//! A time budget during a flight: whether frames keep within it, and whether the predicted errors are right.
 
 use super::Case;
 use std::time::Duration;

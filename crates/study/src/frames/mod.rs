@@ -1,5 +1,5 @@
-//! What does a whole image's accuracy cost? Six scenes at all combinations of samples and shading, against a
-//! [`Truth`]; and a time budget on flights past them.
+//! What does a whole image's accuracy cost? Six scenes with all combinations of samples and shading, compared
+//! with a [`Truth`]; and a time budget on flights past them.
 
 mod cases;
 mod certified;

@@ -1,5 +1,4 @@
-//! What images are held against: more samples than any quality has, at places where none of
-//! them has one.
+//! The reference image: more samples than any quality has, at positions that none of them uses.
 
 use super::{Case, Repeated};
 use trigon_math::color::srgb8_to_linear;

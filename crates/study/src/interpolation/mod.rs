@@ -1,5 +1,5 @@
-//! What does a division in each pixel buy? Texture coordinates over a wall seen in
-//! perspective: linear on the screen, linear between divisions, divided in each pixel.
+//! What does a division in each pixel buy? Texture coordinates on a wall in perspective: linear on the
+//! screen, linear between divisions, divided in each pixel.
 
 mod affine;
 mod engine;

@@ -1,4 +1,4 @@
-//! A wall of two triangles that leads away, seen in perspective.
+//! A receding wall of two triangles.
 
 use crate::field::Field;
 use crate::fill::fixed::Edges;

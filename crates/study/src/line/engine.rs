@@ -1,4 +1,4 @@
-//! The renderer's lines: exact, the same from either end.
+//! The engine's lines: exact, and the same from either end.
 
 use super::Segment;
 use crate::engine::{Corners, Engine, clip_position, field, target};

@@ -1,4 +1,4 @@
-//! How far lines are from the ideal one.
+//! The distance of drawn lines from the ideal one.
 
 use super::{Line, Segment};
 use crate::field::Field;

@@ -1,7 +1,7 @@
-//! Which pixels make a straight line one pixel wide (source row B1), and whether the
-//! outline of a triangle keeps to its fill (B3)?
+//! Which pixels make a straight line one pixel wide (source row B1)? And does the outline of a triangle match
+//! its fill (B3)?
 //!
-//! Ends are the centres of pixels, as the classical algorithms have them.
+//! Lines end at pixel centres, as in the classical algorithms.
 
 mod bresenham;
 mod dda;

@@ -1,4 +1,4 @@
-//! Whether the outline of a triangle keeps to its fill (source row B3).
+//! Whether the outline of a triangle matches its fill (source row B3).
 
 use super::{Line, Segment, dda};
 use crate::engine::{Corners, Engine};

@@ -1,5 +1,4 @@
-//! The exact depth of a triangle: the plane through its snapped corners, in
-//! rational numbers.
+//! The exact depth of a triangle: the plane through its snapped corners, in rational numbers.
 
 use super::GridPoint;
 use super::area::{integer, rational};

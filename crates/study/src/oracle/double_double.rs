@@ -1,4 +1,4 @@
-//! Numbers of 106 bits: the unevaluated sum of two `f64`.
+//! Numbers of 106 bits: unevaluated sums of two `f64`.
 //!
 //! T. J. Dekker, *A floating-point technique for extending the available
 //! precision*, Numerische Mathematik 18 (1971); sums by D. E. Knuth's exact

@@ -1,14 +1,12 @@
-//! What the edges of faces cover of an image's pixels, by area.
+//! The area of each pixel that the painted edges of faces cover.
 //!
-//! Many points in each pixel are asked for what an eye sees there; an edge covers those
-//! that lie within half its width of a part of it that is seen. Projection, visibility and
-//! distances are found here in f64 and share nothing with the rasterizer, not even a
-//! triangulation: faces are polygons, and a point lies in one if a ray from it crosses the
-//! outline an odd number of times.
+//! Many points in each pixel are tested. An edge covers a point if a visible part of the edge lies within
+//! half its width. Projection, visibility and distances are computed in f64 and share nothing with the
+//! rasterizer, not even a triangulation: faces are polygons, and a point lies inside one if a ray from it
+//! crosses the outline an odd number of times.
 //!
-//! An edge is as wide as the rule of `trigon_raster::FaceEdges` says. It covers a point of
-//! another face if the nearest point of the edge is not hidden, and the other face does not
-//! lie before it.
+//! An edge is as wide as the rule of `trigon_raster::FaceEdges` says. It covers a point of another face if
+//! the nearest point of the edge is visible, and the other face does not lie in front of it.
 
 use std::ops::Range;
 use trigon_math::{DVec2, DVec3};

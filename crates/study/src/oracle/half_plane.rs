@@ -1,4 +1,4 @@
-//! How much of a pixel lies on one side of a line, in closed form.
+//! The area of a pixel on one side of a line, in closed form.
 
 use trigon_math::DVec2;
 

@@ -1,4 +1,4 @@
-//! Which of several triangles lies nearer in a pixel, by fractions of integers.
+//! Which of several triangles is nearest in a pixel, by integer fractions.
 
 use super::coverage::{centre, covers, doubled_area};
 use super::{GridPoint, STEPS};

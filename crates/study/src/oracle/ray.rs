@@ -1,12 +1,11 @@
-//! What an eye sees, by rays and brute force: no edge functions, no projection of
-//! corners, no snapping, no cutting.
+//! Visibility by rays and brute force: corners are not projected, snapped or clipped, and there are no edge
+//! functions.
 //!
-//! A ray through the image at (X, Y) meets a triangle where (X, Y, 1) is a sum of
-//! its corners' (x, y, w); the shares tell inside from outside, and they tell the
-//! depth. All of that is linear in X and Y (M. Olano and T. Greer, *Triangle scan
-//! conversion using 2D homogeneous coordinates*, Graphics Hardware 1997), so that
-//! corners at the eye and behind it are nothing special. Computed in numbers of 106
-//! bits, as corners a million pixels away leave too few of `f64`.
+//! The ray through the image at (X, Y) hits a triangle where (X, Y, 1) is a weighted sum of its corners' (x,
+//! y, w). The weights decide whether the hit is inside, and give the depth. All of them are linear in X and Y
+//! (M. Olano and T. Greer, *Triangle scan conversion using 2D homogeneous coordinates*, Graphics Hardware
+//! 1997), so corners at the eye or behind it are not special cases. The arithmetic has 106 bits, because
+//! `f64` leaves too few for corners a million pixels away.
 
 use super::DoubleDouble;
 use trigon_math::{DVec2, UVec2, Vec4};

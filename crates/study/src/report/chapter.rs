@@ -1,4 +1,4 @@
-//! A question, and what a chapter of the report says about it.
+//! A chapter of the report: a question, and its text, tables and plots.
 
 use super::figures::Row;
 use super::headline::Headline;

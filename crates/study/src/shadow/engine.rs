@@ -1,4 +1,4 @@
-//! The renderer's own shadows, of the same ball on the same floor.
+//! The engine's shadows of the same ball on the same floor.
 
 use super::stage::{self, BALL, FLOOR, LIGHT};
 use crate::field::Field;

@@ -1,6 +1,6 @@
-//! What does a shadow's edge cost? A ball of triangles above a floor, lit from one direction:
-//! maps of several sizes and filters, and rays, and the renderer's own of both, against the
-//! shadow of the same triangles.
+//! What does a shadow's edge cost? A ball of triangles above a floor, lit from one direction: shadow maps of
+//! several sizes and filters, rays, and the engine's own of both kinds, compared with the exact shadow of the
+//! same triangles.
 
 mod engine;
 mod map;

@@ -1,5 +1,5 @@
-//! A ray from each point to the light (T. Whitted, "An improved illumination model for
-//! shaded display", CACM 23(6), 1980), against triangles in a tree.
+//! A ray from each point to the light (T. Whitted, "An improved illumination model for shaded display", CACM
+//! 23(6), 1980), tested against a tree of triangles.
 
 use super::stage::{LIGHT, on_floor, triangles};
 use trigon_math::{Bvh, Ray, Vec3};

@@ -1,5 +1,5 @@
-//! In which order are translucent faces laid over each other? By faces as they come, by
-//! bodies, by faces, and by fragments in each pixel.
+//! In which order are translucent faces blended? In submission order, sorted by body, sorted by face, and
+//! sorted by fragment in each pixel.
 
 mod engine;
 mod faces;

@@ -1,4 +1,4 @@
-//! What is drawn to compare the algorithms.
+//! The scenes in which the algorithms are compared.
 
 use super::scene::{Pose, STEPS};
 use super::{Body, Scene};

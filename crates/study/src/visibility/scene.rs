@@ -1,4 +1,4 @@
-//! Bodies as the screen shows them, for all algorithms alike.
+//! Bodies projected to the screen, for all algorithms alike.
 
 use thiserror::Error;
 use trigon_math::{DMat3, DVec3, elementary};

@@ -1,5 +1,5 @@
-//! Boxes around triangles that follow each other in a mesh, and so mostly lie side by side: a
-//! question about a small part of space passes over 64 triangles at a time.
+//! Bounding boxes of 64 consecutive triangles each. Consecutive triangles are mostly neighbours, so a query
+//! about a small part of space skips most of them 64 at a time.
 
 use std::ops::Range;
 

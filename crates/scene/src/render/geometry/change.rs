@@ -1,11 +1,10 @@
-//! Geometry that follows changes of its mesh instead of being made anew.
+//! Updates geometry after a change of its mesh, instead of rebuilding it.
 //!
-//! Whatever it holds afterwards draws the bytes of geometry made from the changed mesh:
-//! each triangle shows the same values. Only the numbers of vertices may differ. What is
-//! made anew as a whole: tangents that were generated, when a normal map asks for them;
-//! the geometry of a mesh that a pose can bend. Each polygon has places for two triangles less
-//! than it has corners; one that folds, and has fewer, fills them with triangles whose corners
-//! are one.
+//! Updated geometry draws the same bytes as geometry rebuilt from the changed mesh: each triangle shows the
+//! same values, only the number of vertices may differ. Two things are rebuilt as a whole: tangents that were
+//! generated for a normal map, and the geometry of a mesh that a pose can deform. Each polygon has slots for
+//! two triangles fewer than it has corners. A folded polygon has fewer triangles; degenerate ones, whose
+//! three corners are the same vertex, fill the rest of its slots.
 
 use std::mem::{replace, take};
 use std::ops::Range;

@@ -1,5 +1,5 @@
-//! Which edges of triangles are edges of their polygons, and how much larger a polygon is
-//! than its triangles show.
+//! Which sides of triangles are edges of their polygons, and how much larger a polygon is than each of its
+//! triangles.
 
 use trigon_mesh::Mesh;
 use trigon_raster::EdgeFlags;

@@ -1,4 +1,4 @@
-//! Which edges of a mesh the sides of triangles are.
+//! The edge of the mesh to which each side of a triangle belongs.
 
 use trigon_mesh::Mesh;
 

@@ -1,7 +1,6 @@
-//! Vectors of space and elementary functions for eight points at once.
+//! Vectors and elementary functions for eight points at once, one in each lane.
 //!
-//! Each lane is computed by itself, by operations that round the same on every
-//! machine.
+//! Each lane is independent of the others, and every operation rounds the same way on every machine.
 
 mod power;
 

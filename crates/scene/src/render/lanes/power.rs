@@ -1,8 +1,8 @@
-//! Powers in lanes: logarithm and exponential to base 2 by polynomials of the
-//! mantissa, which need neither a table nor the machine's own functions.
+//! Powers in lanes: base-2 logarithm and exponential, by polynomials of the mantissa. They need neither a
+//! table nor the machine's own functions.
 //!
-//! The logarithm is the series of the area tangent, whose relative error stays
-//! small near 1: there a power with a large exponent has its highlights.
+//! The logarithm is computed from the series of the inverse hyperbolic tangent, whose relative error stays
+//! small near 1, where powers with large exponents have their highlights.
 
 use trigon_raster::simd::{F32, I32, Simd, greater, lesser, prelude::*};
 

@@ -1,4 +1,4 @@
-//! Which primitives have other marks than in the last image.
+//! Finds the primitives whose marks differ from those of the last image.
 
 use std::sync::Arc;
 

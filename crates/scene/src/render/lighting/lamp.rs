@@ -1,4 +1,4 @@
-//! Lamps in camera space, and what of their light arrives at a point.
+//! Lamps in camera space, and how much of their light arrives at a point.
 
 use trigon_math::{DAffine3, DVec3, Vec3};
 use trigon_raster::simd::{F32, Simd, prelude::*};

@@ -1,4 +1,4 @@
-//! The lights of an image, gathered once, and what they make of a surface.
+//! The lights of an image, gathered once per frame, and the shading of surfaces by them.
 
 mod brdf;
 mod lamp;

@@ -1,4 +1,4 @@
-//! Points of a surface, what it makes of light, and the light that it sends on.
+//! Eight points of a surface with their reflectance, and the light that they reflect.
 
 use trigon_raster::simd::{F32, Simd, prelude::*};
 

@@ -1,9 +1,9 @@
-//! How much light a microfacet surface reflects in all directions together, as a
-//! table: the integral has no closed form.
+//! The fraction of light that a microfacet surface reflects in all directions together, as a table, because
+//! the integral has no closed form.
 //!
-//! Made at the first use, by 256 directions of the distribution for each entry (B.
-//! Karis, "Real Shading in Unreal Engine 4", 2013, section "Environment BRDF"), with
-//! the shadowing of the surface itself.
+//! The table is made on first use. Each entry is the mean over 256 directions of the distribution (B. Karis,
+//! "Real Shading in Unreal Engine 4", 2013, section "Environment BRDF"), with the shadowing term of the
+//! surface itself.
 
 use std::sync::OnceLock;
 

@@ -1,4 +1,4 @@
-//! The light of scenes that have none.
+//! The default lights, for scenes without any.
 
 use trigon_math::Vec3;
 

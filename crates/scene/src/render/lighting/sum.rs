@@ -1,4 +1,4 @@
-//! The sum over lamps: what reaches the eye from eight points of a surface.
+//! Sums the light of all lamps at eight points of a surface.
 
 use trigon_raster::simd::{Each, F32, Simd, prelude::*};
 

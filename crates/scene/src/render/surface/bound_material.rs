@@ -1,6 +1,6 @@
-//! From a material to its parameters on a mesh: which values are interpolated, which
-//! textures are read, where light is found. What the material does not have, and
-//! what the mesh cannot show, is left out.
+//! Binds a material to a mesh: decides which values are interpolated, which textures are read, and whether
+//! light is computed per pixel or per vertex. Parts that the material lacks, or that the mesh has no data
+//! for, are left out.
 
 use trigon_math::glam::Affine2;
 use trigon_math::{Mat3, Vec3, Vec4};

@@ -1,4 +1,4 @@
-//! Faces of one colour: the light on a triangle as a whole.
+//! Flat faces: one colour per triangle, lit once.
 
 use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;

@@ -1,4 +1,4 @@
-//! Where light is found, or what is shown in its place.
+//! Whether a surface is lit per face, per vertex or per pixel, or shows a value instead.
 
 use crate::display::Display;
 

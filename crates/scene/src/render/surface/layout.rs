@@ -1,5 +1,4 @@
-//! Which values of a draw are interpolated, and where they lie: only those that
-//! its look and its light ask for.
+//! The layout of a draw's varyings: only values that its material and its lighting need are interpolated.
 
 use trigon_math::glam::Affine2;
 

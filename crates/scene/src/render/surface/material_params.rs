@@ -1,5 +1,5 @@
-//! A material made ready for its draw: factors, textures with the places of
-//! their coordinates, and what they make of a surface at eight points.
+//! A material's parameters, ready to be evaluated in lanes: factors, and textures with the varyings of their
+//! coordinates.
 
 use crate::effects::{Work, note};
 use trigon_math::{Vec3, Vec4};

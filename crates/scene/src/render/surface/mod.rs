@@ -1,9 +1,8 @@
-//! The pipeline that draws faces, in vectors of eight.
+//! The pipeline that draws faces, eight pixels at a time.
 //!
-//! One pipeline serves all looks: what a material or its light does not ask for
-//! costs a branch for each group of eight pixels, and is neither fetched nor
-//! interpolated. A second form of it, `FLAT`, is asked once for each visible
-//! triangle: for faces of one colour.
+//! One pipeline serves all materials. A part that a material or its lighting does not need costs one branch
+//! for each group of eight pixels; its values are neither fetched nor interpolated. A second variant of the
+//! pipeline, `FLAT`, is evaluated once for each visible triangle, for faces of one colour.
 
 mod bound_material;
 mod facet;

@@ -1,4 +1,4 @@
-//! Where eight pixels of a surface lie, and how it is turned there.
+//! Positions and normals of eight pixels of a surface.
 
 use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;

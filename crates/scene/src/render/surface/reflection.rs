@@ -1,4 +1,4 @@
-//! Laws of reflection: the material's own, or another one for comparison.
+//! Reflection models: the material's own, or another one for comparison.
 
 use crate::material::{Material, MetallicRoughness, Shading};
 use crate::settings::Reflection;

@@ -1,4 +1,4 @@
-//! What a draw hands on and looks up, counted for the effects that ask for it.
+//! Counts the varyings and texture look-ups of a draw, for the effects that need them.
 
 use super::{BoundMaterial, Coverage, Illumination, Model};
 use crate::effect::Effect;

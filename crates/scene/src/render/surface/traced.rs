@@ -1,4 +1,4 @@
-//! Surfaces from which rays of sight go on: mirrors and glass.
+//! Surfaces from which sight rays continue: mirrors and glass.
 
 use trigon_raster::simd::{F32, Simd, prelude::*};
 

@@ -1,4 +1,4 @@
-//! Surfaces that show one of their values in place of light.
+//! Surfaces that show one of their values as a colour, instead of light.
 
 use trigon_raster::FragmentLanes;
 use trigon_raster::simd::{F32, Simd, prelude::*};

@@ -1,4 +1,4 @@
-//! Where the values of eight points come from.
+//! The varyings and their gradients at eight points.
 
 use trigon_raster::FragmentLanes;
 use trigon_raster::simd::{F32, Simd};
