@@ -1,4 +1,4 @@
-//! The simple way to open a window: add objects, run.
+//! `Application`: add objects and run it.
 
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;

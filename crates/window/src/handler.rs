@@ -1,4 +1,4 @@
-//! The application's callbacks: every method has a default that does nothing.
+//! The callbacks of an application. Every method has a default that does nothing.
 
 use std::path::PathBuf;
 use std::time::Duration;

@@ -1,7 +1,7 @@
-//! What files without nodes and materials hold (PLY, STL, OFF), as meshes on nodes.
+//! Meshes and nodes for formats that have no nodes and materials (PLY, STL, OFF).
 //!
-//! Vertices keep their numbers, also those that nothing uses, so that what is written back has
-//! the same. Values of vertices go to the corners there.
+//! Vertices keep their numbers, unused ones included, so that a file written back has the same. Vertex values
+//! are copied to the corners at each vertex.
 
 mod build;
 

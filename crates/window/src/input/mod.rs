@@ -1,5 +1,5 @@
-//! User input in terms that know no window system: keys, pointer, wheel. `translate` is the only
-//! file here that knows winit.
+//! User input (keys, pointer, wheel), independent of the window system. `translate` is the only file here
+//! that knows winit.
 
 mod event;
 mod held;

@@ -1,5 +1,4 @@
-//! What keys and buttons do, as data: a name, what is pressed, what it does,
-//! and what the cheat sheet says about it.
+//! Key bindings as data: a name, the chord, the action, and the description in the list of keys.
 
 mod action;
 mod binding;

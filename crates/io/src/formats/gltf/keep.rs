@@ -1,4 +1,4 @@
-//! Keeps what a load comes by of the file itself, where somebody asked for it.
+//! Keeps the parts of the file itself that a load reads, on request.
 
 use std::collections::{BTreeMap, HashMap};
 

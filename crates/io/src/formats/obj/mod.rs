@@ -1,17 +1,15 @@
 //! Wavefront OBJ and MTL.
 //!
-//! `lines` → `chunks` (pieces of the text) → `section` (one piece: `index`,
-//! `oddities`) → `parse` (all pieces, in parallel; `record` follows names and
-//! materials through them) → `build` (polygons, one node for each object or group).
-//! Materials come from `mtl` and `convert`, by way of `library`, their images by
-//! way of `textures`. `write` goes the other way.
+//! `lines` → `chunks` (pieces of the text) → `section` (one piece: `index`, `oddities`) → `parse` (all pieces
+//! in parallel; `record` carries names and materials from one to the next) → `build` (polygons, one node for
+//! each object or group). Materials come from `mtl` and `convert` through `library`, their images through
+//! `textures`. `write` is the other direction.
 //!
-//! The `tobj` crate is the oracle of the tests, not the parser: it was that at first,
-//! behind a layer that wrote every line anew, because it stops at the first odd byte
-//! without saying where, takes polylines for polygons, repeats the last texture
-//! coordinate where a corner has none, and shifts vertex colours when some vertices
-//! have none (`tests/import/tobj_crate.rs` has all cases). `docs/architecture.md` compares the
-//! instructions and memory of both.
+//! The tests use the `tobj` crate as an oracle. The first reader was built on it and rewrote every line
+//! before, because it stops at the first invalid byte without saying where, takes polylines for polygons,
+//! repeats the last texture coordinate where a corner has none, and shifts vertex colours when some vertices
+//! have none (`tests/import/tobj_crate.rs` has all cases). `docs/architecture.md` compares the instructions
+//! and memory of both.
 
 mod build;
 mod chunks;

@@ -1,9 +1,9 @@
-//! OBJ text to flat lists, piece by piece in parallel.
+//! Parses OBJ text to flat lists, one piece per task in parallel.
 //!
-//! The text is cut at ends of lines. A first look at every piece counts lines and
-//! vertices, so that a second one can read it as if it had read all before:
-//! messages name lines of the file, and every index is checked where it stands.
-//! What comes out depends neither on how the text was cut nor on the threads.
+//! The text is split at ends of lines. A first pass over all pieces counts lines and vertices, so that the
+//! second pass can read each piece as if it had read everything before: messages name lines of the file, and
+//! every index is checked on the spot. The result depends neither on how the text was split nor on the number
+//! of threads.
 
 use std::path::Path;
 

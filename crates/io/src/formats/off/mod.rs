@@ -1,8 +1,9 @@
 //! OFF, the object file format of Geomview (University of Minnesota, 1991), as text: with normals (NOFF),
 //! colours (COFF) and texture coordinates (STOFF) of vertices, and colours of faces.
 //!
-//! The crate `off-rs` 2.0 has limits and names lines, but reads neither normals nor texture coordinates,
-//! colours only of the kind that the caller knows before, and no file with a face of two vertices.
+//! The crate `off-rs` 2.0 has limits and names lines in errors, but it reads neither normals nor texture
+//! coordinates, reads colours only of a kind that the caller knows beforehand, and no file with a face of two
+//! vertices.
 
 mod header;
 mod rows;

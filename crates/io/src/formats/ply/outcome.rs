@@ -1,4 +1,4 @@
-//! How reading an element ends, and what follows along.
+//! How reading an element ends, and its progress and cancellation.
 
 use super::header::Element;
 use super::values::{Ended, Fault, Values};

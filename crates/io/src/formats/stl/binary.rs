@@ -1,4 +1,4 @@
-//! STL as bytes: a header of 80, the number of triangles, and 50 for each.
+//! Binary STL: a header of 80 bytes, the number of triangles, and 50 bytes for each.
 
 use trigon_math::color::srgb_to_linear;
 use trigon_math::{DVec3, Vec3, Vec4};

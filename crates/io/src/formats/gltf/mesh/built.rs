@@ -1,4 +1,4 @@
-//! A converted mesh, and what its materials need of it.
+//! A converted mesh, and what its materials need to know about it.
 
 use trigon_mesh::Mesh;
 use trigon_mesh::edit::Marks;

@@ -1,4 +1,4 @@
-//! The images beside a material library: as they were encoded, or as PNG.
+//! The images of a material library, in their original encoding or as PNG.
 
 use std::collections::BTreeMap;
 use std::path::Path;
