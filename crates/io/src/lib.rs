@@ -77,7 +77,7 @@ pub use limits::Limits;
 pub use load::{Loaded, load, load_from_slice};
 pub use loss::Loss;
 pub use lossy::{encode_jpeg, encode_webp, write_jpeg, write_webp};
-pub use options::{LoadOptions, Progress, ProgressHook, SceneChoice, Stage};
+pub use options::{LoadOptions, LoadStage, Progress, ProgressHook, SceneChoice};
 pub use outputs::{
     Output, UnknownOutput, encode_exr, encode_npy, encode_png16, write_exr, write_npy, write_png16,
 };

@@ -16,7 +16,7 @@
 //!
 //! ```no_run
 //! use trigon_window::scene::{Material, math::DVec3, mesh::primitives};
-//! use trigon_window::{Animation, Application};
+//! use trigon_window::{AnimationState, Application};
 //!
 //! # fn main() -> Result<(), trigon_window::WindowError> {
 //! let mut application = Application::new("A turning cube");
@@ -25,7 +25,7 @@
 //!     if let Some(node) = stage.scene.node_mut(cube) {
 //!         node.transform.rotate(DVec3::Y, tick.delta.as_secs_f64());
 //!     }
-//!     Animation::Running
+//!     AnimationState::Running
 //! });
 //! application.run()
 //! # }
@@ -71,7 +71,7 @@ pub use drawer::Drawer;
 pub use egui_painter::EguiTestRenderer;
 pub use egui_painter::{ChannelOrder, EguiPainter, MAX_TEXTURE_SIDE};
 pub use error::WindowError;
-pub use handler::{Animation, Handler, Tick};
+pub use handler::{AnimationState, Handler, Tick};
 #[cfg(any(test, feature = "kittest"))]
 pub use headless::{DrawnFrame, HeadlessWindow, Widget};
 pub use input::{Chord, ChordError, Hands, Input, InputOwner, Key, Modifiers, PointerButton, Taken};

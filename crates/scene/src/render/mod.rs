@@ -15,10 +15,10 @@ pub(crate) mod lanes;
 mod last_frame;
 pub(crate) mod lighting;
 pub(crate) mod placement;
+mod prepared_scene;
 mod record;
 mod renderer;
 mod shapes;
-mod stage;
 pub(crate) mod surface;
 #[cfg(test)]
 mod tests;
@@ -27,9 +27,9 @@ mod wire;
 
 pub use builder::RendererBuilder;
 pub(crate) use geometry::{BlockBox, Blocks, Geometry, GeometryState, Run, box_around};
+pub(crate) use prepared_scene::PreparedScene;
 pub use renderer::Renderer;
 pub(crate) use shapes::{Onlookers, Shape, Shapes};
-pub(crate) use stage::Stage;
 
 use thiserror::Error;
 use trigon_camera::Camera;

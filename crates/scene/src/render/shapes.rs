@@ -14,7 +14,7 @@ use crate::node::Node;
 use crate::node::NodeId;
 use crate::scene::{MeshAsset, Place, Scene};
 
-/// A mesh at a place.
+/// A placed mesh.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     pub(crate) geometry: Arc<Geometry>,
@@ -27,7 +27,7 @@ pub(crate) struct Shape {
 #[derive(Debug, Default)]
 pub(crate) struct Shapes(Vec<Option<Shape>>);
 
-/// Who looks at shapes.
+/// From where shapes are seen.
 #[derive(Clone, Copy)]
 pub(crate) enum Onlookers<'a> {
     /// The camera alone: poses beyond its view are not computed.
@@ -53,12 +53,12 @@ impl Shapes {
         self.0.get(index)?.as_ref()
     }
 
-    /// Takes the shape of a node out.
+    /// Removes and returns the shape of a node.
     pub(crate) fn take(&mut self, index: usize) -> Option<Shape> {
         self.0.get_mut(index)?.take()
     }
 
-    /// Bytes of the vertices that were put into a pose.
+    /// The bytes of deformed vertices.
     pub(crate) fn posed_bytes(&self) -> usize {
         let posed = self.0.iter().flatten().filter(|shape| shape.is_posed);
         posed.map(|shape| shape.geometry.columns.byte_count()).sum()
@@ -74,7 +74,7 @@ fn shape(
 ) -> Option<Shape> {
     let rest = Shape { geometry: Arc::clone(asset.geometry()), place, is_posed: false };
     let Some(bend) = scene.bend(id, asset) else { return Some(rest) };
-    // Joints may have taken the mesh to another space.
+    // Joints may have moved the mesh elsewhere.
     let place = bend
         .joints
         .as_ref()
@@ -89,7 +89,7 @@ fn shape(
     Some(posed.unwrap_or(rest))
 }
 
-/// A box around all that joints can make of a box: weights only mix their maps.
+/// A box around everything that joints can make of a box: weights only blend their maps.
 fn reach(rest: &Bounds3, palette: &[Affine3]) -> Bounds3 {
     palette.iter().fold(*rest, |reach, joint| {
         let matrix = joint.matrix3;

@@ -16,7 +16,7 @@ pub(super) struct VertexList {
     pub(super) numbers: Arc<Vec<u8>>,
     /// The points that have a mark.
     pub(super) marked: Arc<FixedBitSet>,
-    /// For each point that it belongs to no face.
+    /// Whether each point belongs to no face.
     pub(super) no_face: Arc<Vec<u32>>,
 }
 

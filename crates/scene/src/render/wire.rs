@@ -57,8 +57,8 @@ impl Pipeline for Wire<'_> {
     }
 }
 
-/// Faces painted like the background: with the edges that the pass paints on them, a
-/// drawing without its hidden lines.
+/// Faces painted in the background's colour. With the edges that the pass paints on them, they make a
+/// hidden-line image.
 pub(super) struct HiddenLine<'a> {
     pub(super) columns: &'a Columns,
     pub(super) place: Placement,

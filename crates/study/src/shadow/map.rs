@@ -4,7 +4,7 @@
 //! depths.
 
 use super::MapFilter;
-use super::stage::{BALL, LIGHT, across, on_floor, triangles};
+use super::ball_on_floor::{BALL, LIGHT, across, on_floor, triangles};
 use crate::field::Field;
 use crate::fill::fixed::{Edges, weighted};
 use trigon_math::DVec3;

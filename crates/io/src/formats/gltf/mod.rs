@@ -59,7 +59,7 @@ pub use write::{NativeDocument, NativeFile, encode_glb, write_glb};
 
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::import::Import;
-use crate::options::Stage;
+use crate::options::LoadStage;
 use crate::warning::Warnings;
 
 /// Reads a binary glTF into the scene.
@@ -121,7 +121,7 @@ fn build_meshes(
     let limits = &import.options.limits;
     let mut drawable = false;
     for (done, &index) in used.iter().enumerate() {
-        import.options.report(import.path, Stage::Geometry, done as f32 / used.len() as f32)?;
+        import.options.report(import.path, LoadStage::Geometry, done as f32 / used.len() as f32)?;
         let most = limits.vertices.max(limits.corners);
         let mut accessors = Accessors {
             root,

@@ -46,7 +46,7 @@ use self::library::Added;
 use self::record::Record;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
-use crate::options::Stage;
+use crate::options::LoadStage;
 
 pub(crate) use write::write_obj;
 
@@ -63,10 +63,10 @@ pub(crate) fn import_obj(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
         ));
     }
     let follow = |share| {
-        import.options.report(import.path, Stage::Geometry, parse::READ + (1.0 - parse::READ) * share)
+        import.options.report(import.path, LoadStage::Geometry, parse::READ + (1.0 - parse::READ) * share)
     };
     let (parts, offset) = build::build_parts(&parsed, &mut import.warnings, &follow)?;
-    import.options.report(import.path, Stage::Geometry, 1.0)?;
+    import.options.report(import.path, LoadStage::Geometry, 1.0)?;
     let has_colors = !parsed.content.colors.is_empty();
     let record = parsed.record;
     let materials = library::add_materials(import, &record)?;

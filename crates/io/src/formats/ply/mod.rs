@@ -27,7 +27,7 @@ use self::values::{Binary, Ended, Text, Values};
 use self::vertices::read_vertices;
 use crate::error::LoadError;
 use crate::import::Import;
-use crate::options::Stage;
+use crate::options::LoadStage;
 use crate::polygons::{Polygons, add_polygons};
 
 pub(crate) use write::write_ply;
@@ -39,7 +39,7 @@ pub(crate) fn is_ply(bytes: &[u8]) -> bool {
 
 /// Reads a PLY into the scene.
 pub(crate) fn import_ply(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Result<(), LoadError> {
-    import.options.report(import.path, Stage::Geometry, 0.0)?;
+    import.options.report(import.path, LoadStage::Geometry, 0.0)?;
     let header = read_header(import, &bytes)?;
     let data = &bytes[header.data..];
     let mut polygons = Polygons::default();

@@ -17,7 +17,7 @@ use std::borrow::Cow;
 
 use crate::error::LoadError;
 use crate::import::Import;
-use crate::options::Stage;
+use crate::options::LoadStage;
 use crate::polygons::add_polygons;
 
 pub(crate) use write::write_stl;
@@ -44,7 +44,7 @@ fn is_text(bytes: &[u8]) -> bool {
 
 /// Reads an STL into the scene.
 pub(crate) fn import_stl(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Result<(), LoadError> {
-    import.options.report(import.path, Stage::Geometry, 0.0)?;
+    import.options.report(import.path, LoadStage::Geometry, 0.0)?;
     let solids =
         if is_text(&bytes) { text::read(import, &bytes)? } else { vec![binary::read(import, &bytes)?] };
     drop(bytes);

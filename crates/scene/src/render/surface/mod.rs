@@ -38,13 +38,13 @@ use crate::material::MaterialTexture;
 /// Faces of one mesh in one material.
 pub(crate) struct Surface<'a, const FLAT: bool> {
     pub(crate) columns: &'a Columns,
-    /// All of the draw, for facets.
+    /// The whole draw, for flat faces.
     pub(crate) triangles: &'a [[u32; 3]],
     pub(crate) place: Placement,
     pub(crate) layout: Layout,
     pub(crate) params: MaterialParams<'a>,
     pub(crate) illumination: Illumination,
-    /// Whether rays of view meet in the camera, or run parallel.
+    /// Whether the projection is perspective or orthographic.
     pub(crate) rays: Rays,
     pub(crate) lighting: &'a LightingEnvironment,
     /// From camera space.
@@ -52,7 +52,7 @@ pub(crate) struct Surface<'a, const FLAT: bool> {
 }
 
 impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
-    /// Laid out when the draw is made.
+    /// The layout, made with the draw.
     const VARYINGS: usize = 0;
     const FLAT: bool = FLAT;
     const MASKED: bool = !FLAT;
@@ -69,7 +69,7 @@ impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
     #[inline(always)]
     fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
         let position = load(simd, vertices, &self.columns.positions);
-        // A flat one interpolates nothing: the rest is not even compiled.
+        // Flat faces interpolate nothing: the rest is not even compiled.
         if !FLAT && self.layout.count > 0 {
             self.set_varyings(simd, vertices, position);
         }
@@ -90,7 +90,7 @@ impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
 }
 
 impl<'a, const FLAT: bool> Surface<'a, FLAT> {
-    /// Triangles of a mesh at a place, in a look.
+    /// Triangles of a placed mesh in one material.
     pub(crate) fn new(
         (columns, triangles): (&'a Columns, &'a [[u32; 3]]),
         place: Placement,
@@ -183,7 +183,7 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
     }
 }
 
-/// Sums of light and colours.
+/// Sums of linear light.
 #[inline(always)]
 fn shown<S: Simd>(reflected: &Reflected<S>, [r, g, b]: V3<S>) -> V3<S> {
     let [[dr, dg, db], [sr, sg, sb]] = [reflected.diffuse, reflected.specular];
