@@ -27,8 +27,8 @@ pub(crate) struct Recorded<'a> {
 
 /// A recorded frame: draws, each with its own pipeline, in any order.
 ///
-/// The order in which draws are recorded does not matter: the nearest sample
-/// wins, and of equally near ones that with the smaller (object, face).
+/// The order in which draws are recorded does not matter: the nearest sample is visible, and of equally near
+/// ones that with the smaller (object, face).
 pub struct Pass<'a> {
     pub(crate) background: Background<'a>,
     pub(crate) draws: Vec<Recorded<'a>>,

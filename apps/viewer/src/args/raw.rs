@@ -164,7 +164,7 @@ pub(crate) struct RawArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, conflicts_with_all = ["output", "capture", "replay"], help_heading = "Files")]
     pub(crate) check: Option<bool>,
 
-    /// Say why this pixel looks as it does: all triangles that touch it, and which of them is seen; columns and rows count from 0
+    /// Say why this pixel looks as it does: all triangles that touch it, and which of them is visible; columns and rows count from 0
     ///
     /// For each sample of the pixel: the triangles whose bounding box holds it, the exact values of their edge
     /// functions (in 1/65536 square pixels, twice the area), their depths, and which of them is seen and why.

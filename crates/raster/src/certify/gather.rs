@@ -13,7 +13,7 @@ use crate::view::{DrawPlan, FrameView};
 use crate::{BlendMode, Culling, Outline, PointShape};
 use trigon_math::{ClipVolume, Fixed, FixedPoint, clip_segment};
 
-/// Everything that may be seen.
+/// Everything that may be visible.
 pub(super) fn contenders(frame: &FrameView<'_>, tolerance: Tolerance) -> Contenders {
     let volume = clip::volume(frame.grid.viewport);
     let mut contenders = Contenders::default();
@@ -107,7 +107,7 @@ impl Gather<'_> {
         (places.map(|vertex| self.corner(vertex, 0.0)).collect(), cut.winding)
     }
 
-    /// A line lies around its segment: where exactly is not looked at.
+    /// A line lies around its segment; its exact shape is not examined.
     fn segment(&mut self, indices: [u32; 2], half_width: f64, depth_bias: f32) {
         let outcodes = indices.map(|index| self.vertices.outcode(index));
         if outcodes.iter().any(|outcode| outcode.is_invalid()) {

@@ -43,9 +43,9 @@ pub(crate) fn smooth_size(size: f32) -> f32 {
     }
 }
 
-/// How far a line or point reaches from its middle, along an axis of its own, in
-/// units of the grid: half its size, and for an anti-aliased one as far as it covers
-/// a part of a pixel, and a unit more, so that snapping cuts nothing off.
+/// How far a line or point extends from its middle along an axis of its own, in units of the grid: half its
+/// size, or, if anti-aliased, as far as it covers any part of a pixel; and one unit more, so that snapping
+/// cuts nothing off.
 pub(crate) fn half_size((size, outline): (f32, Outline), supersampling: u32) -> f64 {
     match outline {
         Outline::Sharp => f64::from(drawable_size(size)) * f64::from(supersampling) * 128.0,

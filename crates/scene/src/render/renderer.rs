@@ -147,8 +147,8 @@ impl Renderer {
     /// let mut renderer = Renderer::builder().size(40, 30).build();
     /// let camera = scene.overview(renderer.settings().aspect());
     /// let pixel = renderer.explain_pixel(&scene, &camera, 20, 15)?.expect("inside the image");
-    /// let winner = pixel.reported().winner().expect("the cube is in the middle");
-    /// assert_eq!(scene.nodes().id_at(winner.object as usize), Some(cube));
+    /// let visible = pixel.reported().visible().expect("the cube is in the middle");
+    /// assert_eq!(scene.nodes().id_at(visible.object as usize), Some(cube));
     /// # Ok::<(), trigon_scene::RenderError>(())
     /// ```
     ///
@@ -246,8 +246,8 @@ mod tests {
         let ids = frame.object_ids.clone().expect("asked for");
         for [x, y] in [[18, 12], [3, 20], [30, 16], [0, 0]] {
             let explained = renderer.explain_pixel(&scene, &camera, x, y).expect("drawn").expect("inside");
-            let winner = explained.reported().winner().map_or(u32::MAX, |winner| winner.object);
-            assert_eq!(winner, ids[(y * 36 + x) as usize], "pixel {x}, {y}");
+            let visible = explained.reported().visible().map_or(u32::MAX, |visible| visible.object);
+            assert_eq!(visible, ids[(y * 36 + x) as usize], "pixel {x}, {y}");
         }
         assert_eq!(renderer.explain_pixel(&scene, &camera, 36, 0), Ok(None), "outside");
         assert!(renderer.render(&scene, &camera).expect("drawn") == frame, "no trace is left");
