@@ -16,9 +16,10 @@ use trigon_scene::{Frame, RenderSettings};
 
 use crate::canvas::Canvas;
 use crate::handler::{AnimationState, Handler, Tick};
-use crate::input::{HeldKeys, InputEvent, Modifiers, Pointer};
+use crate::input::{InputEvent, Modifiers, Pointer};
 use crate::interaction::Interaction;
 use crate::interface::{Interface, Moment};
+use crate::keymap::HeldKeys;
 use crate::pacing::{Change, Frames, Pacing, Wake};
 use crate::refinement::Gallery;
 use crate::shared_scene::Revision;

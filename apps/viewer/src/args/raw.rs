@@ -15,7 +15,6 @@ use trigon_scene::{Display, SimdLevel};
 
 use super::animation::AnimationArgs;
 use super::beside::Beside;
-use super::camera::ExactCamera;
 use super::effects::EffectArgs;
 use super::gpu::GpuOnly;
 use super::material::MaterialArgs;
@@ -25,6 +24,7 @@ use super::quality::QualityArgs;
 use super::scenery::SceneryArgs;
 use super::values;
 use super::window::WindowArgs;
+use crate::exact_camera::ExactCamera;
 use crate::framing::Turn;
 use crate::report::Level;
 use crate::study::StudyArgs;

@@ -4,27 +4,14 @@
 //! checksum (eight bytes), the payload. The payload of the first record is the document as
 //! it was opened; those of the others are events as JSON.
 
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use trigon_mesh::math::SplitMix64;
 
-use crate::command::Command;
+use crate::document::Event;
 
 const MAGIC: &[u8; 8] = b"TRGNREC1";
 /// Length and checksum.
 const HEADER: usize = 16;
-
-/// A user's action.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Event {
-    /// A command was run successfully.
-    Run(Box<Command>),
-    /// The last command was undone.
-    Undo,
-    /// An undone command was redone.
-    Redo,
-}
 
 /// The contents of a recovery file.
 #[derive(Debug, Clone, PartialEq)]

@@ -15,11 +15,12 @@
 //! greatest of the depths around each; only those look at their neighbours one by one. All
 //! of it depends on what is visible around a pixel, and not on tiles.
 
+use super::Ink;
 use super::edged_face::EdgedFace;
 use super::visible_faces::{LARGE, VisibleFaces};
 use super::visible_rows::{VisibleRows, beside_large, in_front};
-use super::{Ink, Overlap};
 use crate::bin::TriangleRef;
+use crate::marks::Overlap;
 use crate::simd::{LANES, Simd, at_level};
 use crate::tile::{MAX_SIDE, NO_TRIANGLE, PIXELS, TileArea, VisibilityBuffer};
 use crate::view::FrameView;

@@ -6,7 +6,8 @@ use super::layout::lined;
 use super::records::Records;
 use super::triangle_lanes::TriangleLanes;
 use super::{ShadeContext, ShadePoint};
-use crate::ink::{Ink, Overlap};
+use crate::ink::Ink;
+use crate::marks::Overlap;
 use crate::simd::{Each, F32, I32, LANES, Row, Simd, U32, greater, lesser, prelude::*};
 
 /// The inputs. Nothing that shading has computed is among them: its results stay in registers, and

@@ -10,7 +10,8 @@ use super::layout::{RecordShape, cold, hot};
 use super::lines::Lines;
 use super::sorted::Sorted;
 use crate::bin::TriangleRef;
-use crate::ink::{DepthRange, FaceLine, Marks, VisibleFaces};
+use crate::ink::{DepthRange, FaceLine, VisibleFaces};
+use crate::marks::Marks;
 use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
 /// What few pipelines read of a triangle.

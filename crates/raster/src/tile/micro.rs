@@ -12,9 +12,9 @@
 
 use super::area::{BLOCKS, GROUPS};
 use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
-use super::counts::Counts;
 use super::eight::{EightTriangles, MICRO};
 use super::rasterizer::TileRasterizer;
+use crate::counts::Counts;
 use crate::simd::{
     Each, F32, I32, LANES, Mask, Simd, U32, greater, lane_numbers, lesser, prelude::*, widened,
 };

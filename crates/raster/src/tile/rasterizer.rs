@@ -18,10 +18,10 @@
 
 use super::area::{BLOCKS, TileArea};
 use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
-use super::counts::Counts;
 use super::store::{store, store_where};
 use super::ties::Ties;
 use super::triangle::TileTriangle;
+use crate::counts::Counts;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
 
 /// What all triangles of a tile have in common, for all coverage kernels.

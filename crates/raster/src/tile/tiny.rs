@@ -18,12 +18,12 @@
 
 use super::area::{BLOCKS, TileArea};
 use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
-use super::counts::Counts;
 use super::edge_origins::EdgeOrigins;
 use super::eight::EightTriangles;
 use super::multisample;
 use super::rasterizer::TileRasterizer;
 use super::store::name_where;
+use crate::counts::Counts;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser, prelude::*};
 use fearless_simd::f64x4;
 

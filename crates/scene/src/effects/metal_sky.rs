@@ -8,7 +8,7 @@
 //!
 //! The sky is fixed to the world, as environments are, while the studio's lamps move with the camera.
 
-use super::work::{Work, note};
+use crate::work::{Work, note};
 use std::sync::LazyLock;
 
 use trigon_math::{Mat3, Vec3, elementary};

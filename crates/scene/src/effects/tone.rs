@@ -4,7 +4,7 @@
 //! A background colour is a colour of the display, so it stays as it is behind the mapped image. An
 //! environment is light, and part of the image that is mapped.
 
-use super::work::{Work, note};
+use crate::work::{Work, note};
 use trigon_math::{Vec3, Vec4, color};
 use trigon_raster::Rasterizer;
 

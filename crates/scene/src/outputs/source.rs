@@ -5,10 +5,11 @@ use trigon_mesh::Mesh;
 use trigon_raster::Texture;
 
 use super::facet::{Beam, Facet, mixed, mixed2, vertex};
+use crate::geometry::Geometry;
 use crate::material::{Material, Shading, TextureBinding};
 use crate::node::Node;
 use crate::render::placement::normal_matrix;
-use crate::render::{Geometry, PreparedScene, Shape};
+use crate::render::{PreparedScene, Shape};
 use crate::scene::Scene;
 use crate::settings::{Outputs, Style};
 

@@ -3,7 +3,7 @@
 use trigon_math::{DMat4, DVec2, DVec4};
 
 use super::region::Area;
-use crate::render::BlockBox;
+use crate::geometry::BlockBox;
 
 /// By how much the area is enlarged, in pixels: points between others are rounded, too.
 const MARGIN: f64 = 1.0;

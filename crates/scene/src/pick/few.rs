@@ -5,7 +5,7 @@ use super::nearby::Sides;
 use super::object::{Drawn, Object};
 use super::region::Area;
 use super::screen::Screen;
-use crate::render::Blocks;
+use crate::geometry::Blocks;
 
 /// The elements of an object that may lie in an area, each list increasing.
 #[derive(Default)]

@@ -10,7 +10,6 @@ use trigon_math::{Mat3, Vec3};
 use trigon_raster::{Culling, EdgeFlags};
 
 use super::backdrop::Backdrop;
-use super::geometry::{Geometry, Run};
 use super::placement::Rays;
 use super::placement::{Eye, Placement};
 use super::prepared_scene::PreparedScene;
@@ -22,11 +21,13 @@ use super::wire::{HiddenLine, Wire, WireMarks};
 use crate::display::Display;
 use crate::effect::Effect;
 use crate::effects::{Counts, LightingEnvironment};
+use crate::geometry::{Geometry, Run};
 use crate::marks;
 use crate::material::{AlphaMode, Material, Shading};
+use crate::mesh_asset::MeshAsset;
 use crate::node::Node;
 use crate::node::NodeId;
-use crate::scene::{MeshAsset, Scene};
+use crate::scene::Scene;
 use crate::settings::{RenderSettings, Style};
 
 /// The size of loose points, in line widths.

@@ -12,7 +12,6 @@ use trigon_camera::Camera;
 use trigon_raster::{DrawChange, Pass, Rasterizer, Rect, Stats, Target, TargetError, Texture};
 
 use self::marked::{MarkOrigin, MarkPalette, MarkedPrimitives};
-use super::geometry::GeometryState;
 use super::placement::{DepthToDistance, Placement};
 use super::prepared_scene::PreparedScene;
 use super::record::{Record, Source};
@@ -20,6 +19,7 @@ use crate::arena::Arena;
 use crate::effect::Effect;
 use crate::effects::{EffectPlan, Environment};
 use crate::frame::{Frame, resize};
+use crate::geometry::GeometryState;
 use crate::marks::Marks;
 use crate::material::Material;
 use crate::node::Node;

@@ -5,11 +5,9 @@
 
 mod backdrop;
 mod builder;
-mod columns;
 mod compose;
 mod depth_image;
 mod engine;
-mod geometry;
 mod kept;
 pub(crate) mod lanes;
 mod last_frame;
@@ -26,7 +24,6 @@ mod vertex_list;
 mod wire;
 
 pub use builder::RendererBuilder;
-pub(crate) use geometry::{BlockBox, Blocks, Geometry, GeometryState, Run, box_around};
 pub(crate) use prepared_scene::PreparedScene;
 pub use renderer::Renderer;
 pub(crate) use shapes::{Onlookers, Shape, Shapes};

@@ -8,11 +8,12 @@ use std::sync::Arc;
 use trigon_math::glam::Affine3;
 use trigon_math::{Bounds3, DAffine3, is_mirroring};
 
-use super::geometry::Geometry;
 use super::placement::Eye;
+use crate::geometry::Geometry;
+use crate::mesh_asset::MeshAsset;
 use crate::node::Node;
 use crate::node::NodeId;
-use crate::scene::{MeshAsset, Place, Scene};
+use crate::scene::{Place, Scene};
 
 /// A placed mesh.
 #[derive(Clone, Debug)]

@@ -7,8 +7,8 @@ use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
 use trigon_raster::{Fragment, FragmentLanes, LanePipeline, MarkColors, Pipeline, VertexLanes, VertexOutput};
 
 use super::backdrop::Backdrop;
-use super::columns::Columns;
 use super::placement::Placement;
+use crate::geometry::Columns;
 
 /// Vertices of a mesh in one colour, unlit.
 pub(super) struct Wire<'a> {

@@ -6,8 +6,9 @@ use trigon_math::glam::Affine3;
 use trigon_math::{Bounds3, DAffine3, DVec3, Vec3};
 use trigon_mesh::Mesh;
 
+use super::Scene;
 use super::skin_pose::SkinPose;
-use super::{MeshAsset, Scene};
+use crate::mesh_asset::MeshAsset;
 use crate::node::NodeId;
 
 /// What bends a mesh.

@@ -3,11 +3,13 @@
 mod action;
 mod binding;
 mod defaults;
+mod held;
 mod sheet;
 mod synonyms;
 
 pub use action::{Action, CameraMotion, ClickAction, DragAction, Motion, ObjectMotion};
 pub use binding::{Binding, ClickBinding, DragBinding, Keymap, MenuEntry};
+pub(crate) use held::{HeldKeys, STEP};
 pub use sheet::SheetRow;
 pub(crate) use sheet::sheet;
 pub use synonyms::matches_search;

@@ -10,8 +10,8 @@ use super::images::fetch_image;
 use super::lights::light_index;
 use super::mesh::BuiltMesh;
 use super::nodes::Placed;
-use super::source::{JsonText, MeshOrigin, PrimitiveFaces, SharedBytes, SourceDraft, share};
 use crate::error::Place;
+use crate::gltf_source::{JsonText, MeshOrigin, PrimitiveFaces, SharedBytes, SourceDraft, share};
 use crate::import::Import;
 use crate::warning::Warnings;
 

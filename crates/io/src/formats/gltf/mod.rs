@@ -3,7 +3,7 @@
 //! `container` (the GLB) → `preview`, `document` (JSON) → `extensions`, `references`,
 //! `hierarchy` (all checks), `contradictions` → `mesh` with `accessor`, `buffers` and `meshopt` →
 //! `materials` with `slots` and `images` → `nodes` with `instances` → `skins`
-//! and `animations`; `source` keeps the file itself for those who ask. Nothing is followed that was not checked, and nothing is
+//! and `animations`; [`gltf_source`](crate::gltf_source) keeps the file itself on request. Everything is checked before it is followed, and nothing is
 //! recursive.
 
 mod accessor;
@@ -36,7 +36,6 @@ mod reader;
 mod references;
 mod skins;
 mod slots;
-mod source;
 mod triangle_hash;
 mod write;
 
@@ -52,8 +51,6 @@ use mesh::{BuiltMesh, Needs};
 use native::Extras;
 use reader::Reader;
 
-pub use source::GltfSource;
-pub(crate) use source::SourceDraft;
 pub(crate) use write::mime_type;
 pub use write::{NativeDocument, NativeFile, encode_glb, write_glb};
 

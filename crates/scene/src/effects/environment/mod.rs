@@ -11,7 +11,7 @@ mod sky;
 
 pub use sky::Sky;
 
-use super::work::{Work, note};
+use crate::work::{Work, note};
 use std::sync::Arc;
 
 use harmonics::Harmonics;

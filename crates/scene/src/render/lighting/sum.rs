@@ -4,8 +4,9 @@ use trigon_raster::simd::{Each, F32, Simd, prelude::*};
 
 use super::lamp::BRIGHTEST;
 use super::points::{Brdf, LitPoints, Reflected};
-use crate::effects::{LightingEnvironment, Work, note};
+use crate::effects::LightingEnvironment;
 use crate::render::lanes::{V3, dot, lesser_of, normalized, positive, pow, scaled, sum, tinted};
+use crate::work::{Work, note};
 
 impl LightingEnvironment {
     /// Sums the light of all lamps that a surface reflects to the eye.

@@ -5,9 +5,9 @@ use trigon_raster::FragmentLanes;
 use trigon_raster::simd::{Each, F32, LANES, Simd, prelude::*};
 
 use super::{Coverage, Illumination, Surface, shown};
-use crate::effects::{Work, note};
 use crate::render::lanes::{V3, cross, difference, dot, negated, normalized, scaled, select, splat, sum};
 use crate::render::lighting::LitPoints;
+use crate::work::{Work, note};
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
     /// One colour for each triangle.

@@ -5,10 +5,10 @@ use trigon_raster::{FragmentLanes, VertexLanes};
 
 use super::traced::TracedSurface;
 use super::{LightSlots, Surface, Values, load, shown};
-use crate::effects::{Work, note};
 use crate::material::MaterialTexture;
 use crate::render::lanes::{V3, dot, mixed, negated, normalized, product, scaled, splat, sum, turned};
 use crate::render::lighting::{Brdf, LitPoints, Reflected};
+use crate::work::{Work, note};
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
     /// The light at eight vertices. Only the texture of the base colour is applied later; all others are

@@ -1,7 +1,7 @@
 //! A material's parameters, ready to be evaluated in lanes: factors, and textures with the varyings of their
 //! coordinates.
 
-use crate::effects::{Work, note};
+use crate::work::{Work, note};
 use trigon_math::{Vec3, Vec4};
 use trigon_raster::simd::{F32, Simd, prelude::*};
 use trigon_raster::{Sampler, Texture};

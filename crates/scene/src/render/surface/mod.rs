@@ -23,16 +23,16 @@ pub(crate) use layout::{Layout, LightSlots};
 pub(crate) use material_params::{Coverage, Map, Maps, MaterialParams, MicrofacetModel, Model};
 pub(crate) use values::{Values, three};
 
-use crate::effects::{Work, note};
+use crate::work::{Work, note};
 use trigon_math::{Mat3, Vec3};
 use trigon_raster::simd::{F32, Mask, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
 
-use super::columns::Columns;
 use super::lanes::{V3, normalized, saturated, splat, sum, turned};
 use super::lighting::Reflected;
 use super::placement::{Placement, Rays};
 use crate::effects::LightingEnvironment;
+use crate::geometry::Columns;
 use crate::material::MaterialTexture;
 
 /// Faces of one mesh in one material.

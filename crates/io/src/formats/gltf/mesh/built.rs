@@ -5,7 +5,7 @@ use trigon_mesh::edit::Marks;
 use trigon_scene::MaterialTexture;
 
 use crate::formats::gltf::slots::SlotTexture;
-use crate::formats::gltf::source::PrimitiveFaces;
+use crate::gltf_source::PrimitiveFaces;
 
 /// A mesh, and the contents of its slots.
 pub(crate) struct BuiltMesh {

@@ -5,10 +5,10 @@
 
 mod blocks;
 mod change;
+mod columns;
 mod edge_flags;
 mod side_edges;
 
-use crate::effects::{Work, note};
 use std::mem::take;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -18,8 +18,10 @@ use trigon_math::{Bounds3, Vec3};
 use trigon_mesh::{Attributes, Deformed, Mesh, RenderLinks, RenderMesh};
 use trigon_raster::EdgeFlags;
 
-use super::columns::Columns;
+use crate::work::{Work, note};
+
 pub(crate) use blocks::{BlockBox, Blocks};
+pub(crate) use columns::Columns;
 use edge_flags::flags_of_mesh;
 use side_edges::{NO_EDGE, sides_of_mesh};
 
