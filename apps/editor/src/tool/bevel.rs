@@ -91,7 +91,7 @@ impl BevelTool {
         view.metres_per_pixel(self.middle)
     }
 
-    /// Lets the width measure something else: the whole way of the pointer counts anew.
+    /// Changes what the width measures; the drag so far then starts from zero.
     fn next_width_type(&mut self) {
         self.command.width_type = match self.command.width_type {
             BevelWidth::Offset => BevelWidth::Width,

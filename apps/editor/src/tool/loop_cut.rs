@@ -138,7 +138,7 @@ impl LoopCutTool {
     }
 }
 
-/// The side of a face that is drawn nearest to a place.
+/// The side of a face that is drawn nearest to a position in the image.
 fn nearest_side(
     document: &Document,
     view: &ToolView,

@@ -22,7 +22,7 @@ pub(super) trait PreviewTool: Tool {
         }
     }
 
-    /// Takes a step that the tool does not treat in a way of its own.
+    /// Handles a step for which the tool has no behaviour of its own.
     fn step(&mut self, step: Step, document: &mut Document, view: &ToolView) -> ToolState {
         match step {
             Step::Update => self.update(document, view),

@@ -31,10 +31,10 @@ pub(crate) trait Tool {
     }
 }
 
-/// Whether a tool goes on.
+/// Whether a tool continues.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ToolState {
-    /// It wants more input.
+    /// It waits for more input.
     Running,
     /// It is over: what it showed is done.
     Confirmed,

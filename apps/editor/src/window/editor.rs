@@ -34,7 +34,7 @@ pub(crate) enum Message {
     Refusal(String),
 }
 
-/// Says at a first start what nobody can guess.
+/// The hint of a first start.
 pub(crate) const WELCOME: &str =
     "Middle drag or Alt+left drag orbits, the wheel zooms; click selects, Tab edits; F3 finds every command";
 
@@ -122,7 +122,7 @@ impl Editor {
         }
     }
 
-    /// Carries out what was asked for, and shows what has become of the document.
+    /// Carries out the requests, and shows the resulting document.
     pub(crate) fn perform(&mut self, stage: &mut Stage, request: Request) {
         let is_shown = !matches!(request, Request::Ui(request) if request.is_about_window());
         match request {
