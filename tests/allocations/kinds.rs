@@ -4,7 +4,7 @@ use crate::programs::{Flat, Lanes, Scalar, ScalarFlat, ScalarTextured, Textured,
 use std::ops::Range;
 use trigon_math::{SplitMix64, Vec4};
 use trigon_raster::{
-    BlendMode, Culling, Draw, LanePipeline, Lines, MipFilter, Outline, Pass, PointShape, Points, Sampler,
+    BlendMode, Culling, Draw, LanePipeline, Lines, MipFilter, Pass, PointShape, Points, Sampler, Smoothing,
     Texture, TextureFormat,
 };
 
@@ -93,14 +93,14 @@ fn lines_and_points(seen: &'static Vertices) -> [Kind; 2] {
     let pipeline = forever(Lanes(seen));
     let segments = forever((0..COUNT - 1).map(|i| [i, i + 1]).collect::<Vec<_>>());
     let points = forever((0..COUNT).collect::<Vec<_>>());
-    let both = |outline, shape| {
+    let both = |smoothing, shape| {
         let mut pass = Pass::new();
-        pass.lines(Lines { outline, width: 2.5, ..Lines::new(pipeline, segments) });
-        pass.points(Points { outline, shape, object: 1, ..Points::new(pipeline, points, 7.0) });
+        pass.lines(Lines { smoothing, width: 2.5, ..Lines::new(pipeline, segments) });
+        pass.points(Points { smoothing, shape, object: 1, ..Points::new(pipeline, points, 7.0) });
         pass
     };
     [
-        ("sharp lines and points", both(Outline::Sharp, PointShape::Round)),
-        ("anti-aliased lines and points", both(Outline::AntiAliased, PointShape::Square)),
+        ("sharp lines and points", both(Smoothing::Sharp, PointShape::Round)),
+        ("anti-aliased lines and points", both(Smoothing::AntiAliased, PointShape::Square)),
     ]
 }

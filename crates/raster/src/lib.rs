@@ -126,7 +126,7 @@ mod viewport;
 
 pub use cancel::Cancel;
 pub use certify::{Certainty, Certificate, Tolerance};
-pub use draw::{BlendMode, Culling, Draw, Lines, MarkedPoints, Outline, PointShape, Points};
+pub use draw::{BlendMode, Culling, Draw, Lines, MarkedPoints, PointShape, Points, Smoothing};
 pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
 };

@@ -5,8 +5,8 @@ use std::num::NonZeroUsize;
 use trigon_math::{DVec2, Vec2, Vec4};
 use trigon_raster::simd::{F32, Simd, prelude::*};
 use trigon_raster::{
-    BlendMode, Culling, Draw, ExecuteSettings, Fragment, FragmentLanes, LanePipeline, Lines, Outline, Output,
-    Pass, Pipeline, Rasterizer, Target, VertexLanes, VertexOutput,
+    BlendMode, Culling, Draw, ExecuteSettings, Fragment, FragmentLanes, LanePipeline, Lines, Output, Pass,
+    Pipeline, Rasterizer, Smoothing, Target, VertexLanes, VertexOutput,
 };
 
 /// The engine's rasterizer, kept from frame to frame.
@@ -54,11 +54,11 @@ impl Engine {
     }
 
     /// Draws lines into a target; pairs of corners are their ends.
-    pub(crate) fn draw_lines(&mut self, ends: &Corners, outline: Outline, target: &mut Target<'_>) {
+    pub(crate) fn draw_lines(&mut self, ends: &Corners, smoothing: Smoothing, target: &mut Target<'_>) {
         let segments: Vec<[u32; 2]> =
             (0..ends.positions.len() as u32 / 2).map(|i| [2 * i, 2 * i + 1]).collect();
         let mut pass = Pass::new();
-        pass.lines(Lines { outline, ..Lines::new(ends, &segments) });
+        pass.lines(Lines { smoothing, ..Lines::new(ends, &segments) });
         self.rasterizer.draw(&pass, target);
     }
 

@@ -58,8 +58,8 @@ impl Line {
 
     /// Draws segments; each adds how much of a pixel it covers.
     pub fn paint(self, segments: &[Segment], coverage: &mut Field<f32>) {
-        if let Some(outline) = self.outline() {
-            let mut drawer = engine::Drawer::new(segments, outline, coverage.size());
+        if let Some(smoothing) = self.smoothing() {
+            let mut drawer = engine::Drawer::new(segments, smoothing, coverage.size());
             drawer.draw();
             *coverage = drawer.coverage();
         } else if let Some(draw) = self.classical() {
@@ -70,8 +70,8 @@ impl Line {
     /// What draws segments again and again, with all kept that can be kept.
     #[must_use]
     pub fn repeated<'a>(self, segments: &'a [Segment], size: [usize; 2]) -> Box<dyn FnMut() + 'a> {
-        if let Some(outline) = self.outline() {
-            let mut drawer = engine::Drawer::new(segments, outline, size);
+        if let Some(smoothing) = self.smoothing() {
+            let mut drawer = engine::Drawer::new(segments, smoothing, size);
             return Box::new(move || drawer.draw());
         }
         let mut coverage = Field::new(size, 0.0);
@@ -89,11 +89,11 @@ impl Line {
         }
     }
 
-    /// The outline of the renderer's lines.
-    fn outline(self) -> Option<trigon_raster::Outline> {
+    /// How the renderer smooths the lines.
+    fn smoothing(self) -> Option<trigon_raster::Smoothing> {
         match self {
-            Self::Engine => Some(trigon_raster::Outline::Sharp),
-            Self::EngineSmooth => Some(trigon_raster::Outline::AntiAliased),
+            Self::Engine => Some(trigon_raster::Smoothing::Sharp),
+            Self::EngineSmooth => Some(trigon_raster::Smoothing::AntiAliased),
             _ => None,
         }
     }
