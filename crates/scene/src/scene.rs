@@ -18,6 +18,7 @@ use trigon_raster::Texture;
 use crate::animation::Animation;
 use crate::arena::Arena;
 use crate::material::{Material, MaterialId};
+use crate::mesh_asset::{MeshAsset, MeshId};
 use crate::node::{Node, NodeId};
 use crate::skin::Skin;
 use crate::texture_asset::{TextureAsset, TextureId};

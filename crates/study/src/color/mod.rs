@@ -7,12 +7,12 @@ mod tests;
 use crate::metric::Difference;
 use trigon_math::color::{linear_to_srgb8, srgb8_to_linear};
 
-/// Where light is mixed.
+/// The form in which light is mixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mixing {
-    /// The bytes of sRGB.
+    /// sRGB bytes.
     GammaBytes,
-    /// Linear light, kept in bytes.
+    /// Linear light, stored in bytes.
     LinearBytes,
     /// Linear light in `f32`.
     Linear,
@@ -32,7 +32,7 @@ impl Mixing {
         }
     }
 
-    /// The sRGB byte of half of one grey and half of another.
+    /// The sRGB byte of a mixture of two greys, half of each.
     #[must_use]
     pub fn mix(self, one: u8, other: u8) -> u8 {
         match self {
@@ -45,7 +45,7 @@ impl Mixing {
         }
     }
 
-    /// How far the mixtures of all pairs of bytes are from right.
+    /// The errors of the mixtures of all pairs of bytes.
     #[must_use]
     pub fn error(self) -> Difference {
         let light = |byte: u8| f64::from(srgb8_to_linear(byte));

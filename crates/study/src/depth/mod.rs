@@ -17,9 +17,8 @@ pub const NEAR: f32 = 0.1;
 /// As [`NEAR`].
 pub const FAR: f32 = 10_000.0;
 
-/// How many of a thousand pairs of surfaces come out in the wrong order or as equal:
-/// one lies at chance distances about `distance`, the other farther away by a share
-/// `separation` of it.
+/// Of a thousand pairs of surfaces, how many get the wrong order or equal depths. One surface lies at a
+/// random distance near `distance`, the other farther by the fraction `separation` of it.
 #[must_use]
 pub fn misordered_per_mille(format: DepthFormat, distance: f64, separation: f64) -> f64 {
     const PAIRS: usize = 10_000;
@@ -33,8 +32,8 @@ pub fn misordered_per_mille(format: DepthFormat, distance: f64, separation: f64)
     1e3 * wrong as f64 / PAIRS as f64
 }
 
-/// The least separation, as a share of the distance and a power of the square root of
-/// ten, at which no pair of surfaces is confused; 1 if there is none below.
+/// The smallest separation, as a fraction of the distance and a power of the square root of ten, at which no
+/// pair of surfaces is confused; 1 if there is none below.
 #[must_use]
 pub fn resolved_separation(format: DepthFormat, distance: f64) -> f64 {
     let separations = (-16..=0).map(|power| elementary::pow(10.0, f64::from(power) / 2.0));

@@ -56,7 +56,8 @@ pub(super) struct Edges {
     /// The value at the first pixel's centre, and its steps from column to column and from
     /// row to row.
     pub(super) values: [[f32; 3]; 3],
-    /// What a value has to reach: 0, or for an edge without its border the least number above.
+    /// The smallest value that is inside: 0, or for an edge that does not own its samples the smallest number
+    /// above.
     pub(super) least: [f32; 3],
 }
 

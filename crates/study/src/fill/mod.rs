@@ -26,14 +26,14 @@ pub(crate) use scanlines::interpolate;
 pub use triangle::Triangle;
 pub(crate) use triangle::range;
 
-/// A way to fill triangles.
+/// A method of filling triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fill {
     /// Vertical strips between two sides (source row A9).
     Strips,
     /// Horizontal lines between interpolated sides (B2).
     Scanlines,
-    /// Inclusive edge functions, asked at every pixel of the screen (C1).
+    /// Inclusive edge functions, evaluated at every pixel of the screen (C1).
     EdgesOnScreen,
     /// The same within the bounding box (C3).
     EdgesInBox,
@@ -41,7 +41,7 @@ pub enum Fill {
     EdgesAtCenters,
     /// Edge functions in `f32` with the top-left rule, from their corners in each pixel.
     FloatFromCorners,
-    /// The same as linear functions, made once for a triangle.
+    /// The same as linear functions, set up once per triangle.
     FloatHoisted,
     /// The same for eight pixels at a time.
     FloatLanes,

@@ -35,13 +35,12 @@ pub(crate) fn interpolate(from: i32, first: f32, to: i32, last: f32) -> Vec<f32>
     values
 }
 
-/// Whole steps from the left side on, as far as the right side reaches. What lies
-/// outside the image is not walked.
+/// Whole steps from the left side to the right side. Pixels outside the image are skipped.
 fn line(left: f32, right: f32, y: i32, canvas: &mut Canvas) {
     let width = canvas.limits()[0] as f32;
     let mut x = if left < -1.0 { left + (-1.0 - left).floor() } else { left };
     while x <= right && x < width {
-        // Halves go one way, or every other pixel would be left out.
+        // Halves are rounded in one direction, or every other pixel would be left out.
         canvas.paint((x + 0.5).floor() as i32, y);
         x += 1.0;
     }

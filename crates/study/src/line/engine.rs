@@ -28,7 +28,7 @@ impl Drawer {
         self.engine.draw_lines(&self.ends, self.smoothing, &mut self.target);
     }
 
-    /// How much of each pixel was covered.
+    /// The covered fraction of each pixel.
     pub(super) fn coverage(&self) -> Field<f32> {
         let size = [self.target.width(), self.target.height()].map(|side| side as usize);
         field(size, self.target.linear()).map(|color| color.x)

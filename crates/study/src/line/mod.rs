@@ -21,7 +21,7 @@ pub use segment::Segment;
 
 use crate::field::Field;
 
-/// A way to draw lines.
+/// A method of drawing lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Line {
     /// y = a x + b for each column, whatever the slope.
@@ -67,7 +67,7 @@ impl Line {
         }
     }
 
-    /// What draws segments again and again, with all kept that can be kept.
+    /// Returns a closure that draws segments repeatedly and keeps everything that can be kept.
     #[must_use]
     pub fn repeated<'a>(self, segments: &'a [Segment], size: [usize; 2]) -> Box<dyn FnMut() + 'a> {
         if let Some(smoothing) = self.smoothing() {
@@ -99,8 +99,7 @@ impl Line {
     }
 }
 
-/// Segments of `radius` pixels and the same back, from the middle of a square image to
-/// all sides.
+/// Segments of `radius` pixels, and their reverse, from the middle of a square image in all directions.
 #[must_use]
 pub fn star(side: usize, radius: i32) -> Vec<Segment> {
     let middle = side as i32 / 2;

@@ -8,7 +8,7 @@ use std::ops::Range;
 /// A corner on the sub-pixel grid, with its nearness to the eye in steps of any length.
 pub type Corner = [i32; 3];
 
-/// How near a triangle lies at a point: a fraction with a positive denominator.
+/// The nearness of a triangle at a point: a fraction with a positive denominator.
 #[derive(Clone, Copy, Debug)]
 pub struct Nearness {
     numerator: i128,

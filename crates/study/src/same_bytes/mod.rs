@@ -46,7 +46,7 @@ impl Rules {
         light
     }
 
-    /// What draws the image again and again into the same memory.
+    /// Returns a closure that draws the image repeatedly.
     #[must_use]
     pub fn repeated(self) -> Box<dyn FnMut()> {
         let mut light = Field::new([kernel::SIDE; 2], 0.0);

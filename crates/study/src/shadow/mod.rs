@@ -36,7 +36,7 @@ pub enum Shadow {
 }
 
 impl Shadow {
-    /// All that are compared.
+    /// All methods that are compared.
     pub const ALL: [Self; 9] = [
         Self::Map(64, MapFilter::Nearest),
         Self::Map(64, MapFilter::Linear),

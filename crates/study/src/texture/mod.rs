@@ -28,7 +28,7 @@ pub enum TextureFilter {
 }
 
 impl TextureFilter {
-    /// All that are compared.
+    /// All methods that are compared.
     pub const ALL: [Self; 6] = [
         Self::Nearest,
         Self::Bilinear,
