@@ -151,7 +151,7 @@ fn moved(scene: &Scene, tolerance: Tolerance, noise: &mut Noise) -> Scene {
         let most = 0.9 * tolerance.color() / (1 + 2 * layers) as f32;
         *color += most * Vec4::from_array([(); 4].map(|()| noise.next()));
     }
-    moved.shapes.masks = (noise.state >> 33) as u32 | 1;
+    moved.shapes.masks = (noise.random.next_u64() >> 33) as u32 | 1;
     moved
 }
 
