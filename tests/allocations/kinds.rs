@@ -2,9 +2,9 @@
 
 use crate::programs::{Flat, Lanes, Scalar, ScalarFlat, ScalarTextured, Textured, Vertices};
 use std::ops::Range;
-use trigon_math::Vec4;
+use trigon_math::{SplitMix64, Vec4};
 use trigon_raster::{
-    BlendMode, Culling, Draw, LanePipeline, Lines, MipFilter, Outline, Pass, PointShape, Points, Sampler,
+    BlendMode, Culling, Draw, LanePipeline, Lines, MipFilter, Pass, PointShape, Points, Sampler, Smoothing,
     Texture, TextureFormat,
 };
 
@@ -26,11 +26,8 @@ fn forever<T>(value: T) -> &'static T {
 
 /// Small triangles and large ones all over the view, with `w` in a range.
 fn vertices(w: Range<f32>) -> Vertices {
-    let mut seed = 1_u32;
-    let mut unit = || {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (seed >> 8) as f32 / (1 << 24) as f32
-    };
+    let mut random = SplitMix64::new(1);
+    let mut unit = || random.unit() as f32;
     let (mut vertices, mut middle) = (Vertices::default(), [0.0; 2]);
     for index in 0..COUNT {
         if index % 3 == 0 {
@@ -96,14 +93,14 @@ fn lines_and_points(seen: &'static Vertices) -> [Kind; 2] {
     let pipeline = forever(Lanes(seen));
     let segments = forever((0..COUNT - 1).map(|i| [i, i + 1]).collect::<Vec<_>>());
     let points = forever((0..COUNT).collect::<Vec<_>>());
-    let both = |outline, shape| {
+    let both = |smoothing, shape| {
         let mut pass = Pass::new();
-        pass.lines(Lines { outline, width: 2.5, ..Lines::new(pipeline, segments) });
-        pass.points(Points { outline, shape, object: 1, ..Points::new(pipeline, points, 7.0) });
+        pass.lines(Lines { smoothing, width: 2.5, ..Lines::new(pipeline, segments) });
+        pass.points(Points { smoothing, shape, object: 1, ..Points::new(pipeline, points, 7.0) });
         pass
     };
     [
-        ("sharp lines and points", both(Outline::Sharp, PointShape::Round)),
-        ("anti-aliased lines and points", both(Outline::AntiAliased, PointShape::Square)),
+        ("sharp lines and points", both(Smoothing::Sharp, PointShape::Round)),
+        ("anti-aliased lines and points", both(Smoothing::AntiAliased, PointShape::Square)),
     ]
 }

@@ -5,7 +5,7 @@ use crate::coverage_support::{Samples, rasterizer};
 use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_at_mat4};
-use trigon_math::{Vec2, Vec3, Vec4, elementary};
+use trigon_math::{SplitMix64, Vec2, Vec3, Vec4, elementary};
 use trigon_raster::{
     Background, BlendMode, Certainty, Certificate, Culling, Draw, ExecuteSettings, Fragment, Lines, Output,
     Pass, Pipeline, PointShape, Points, TargetImages, Tolerance, VertexOutput,
@@ -116,15 +116,13 @@ fn scene() -> impl Strategy<Value = Scene> {
 
 /// Numbers from -1 to 1, or only those two.
 struct Noise {
-    state: u64,
+    random: SplitMix64,
     extreme: bool,
 }
 
 impl Noise {
     fn next(&mut self) -> f32 {
-        self.state =
-            self.state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        let number = (self.state >> 40) as f32 / (1 << 23) as f32 - 1.0;
+        let number = self.random.between(-1.0, 1.0) as f32;
         if self.extreme { number.signum() } else { number }
     }
 }
@@ -153,7 +151,7 @@ fn moved(scene: &Scene, tolerance: Tolerance, noise: &mut Noise) -> Scene {
         let most = 0.9 * tolerance.color() / (1 + 2 * layers) as f32;
         *color += most * Vec4::from_array([(); 4].map(|()| noise.next()));
     }
-    moved.shapes.masks = (noise.state >> 33) as u32 | 1;
+    moved.shapes.masks = (noise.random.next_u64() >> 33) as u32 | 1;
     moved
 }
 
@@ -234,7 +232,7 @@ proptest! {
         let certificate = with_pass(&scene, |pass| certify(pass, samples, SIZE, tolerance));
         let drawn = draw(&scene, samples);
         for attempt in 0..6 {
-            let mut noise = Noise { state: seed.wrapping_add(attempt), extreme: attempt % 2 == 0 };
+            let mut noise = Noise { random: SplitMix64::new(seed.wrapping_add(attempt)), extreme: attempt % 2 == 0 };
             let other = draw(&moved(&scene, tolerance, &mut noise), samples);
             for (index, &certainty) in certificate.pixels().iter().enumerate() {
                 if certainty == Certainty::Visibility {

@@ -282,8 +282,8 @@ pub(crate) fn grid_triangles(cells: u32, random: &mut Random) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// A small generator (Knuth's linear congruential one), so that a failing case
-/// is small to print.
+/// D. Knuth's generator for 64 bits (The Art of Computer Programming, 3.3.4). It is not `trigon_math::SplitMix64`, because these
+/// tests judge the engine and use nothing of it but what they judge; the manifest's hashes follow from its numbers.
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {

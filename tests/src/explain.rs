@@ -98,9 +98,9 @@ fn check_edges(fragment: &FragmentExplanation, position: [i32; 2]) {
 fn check_verdict(fragment: &FragmentExplanation) {
     let margin = fragment.margin;
     let agrees = match fragment.verdict {
-        Verdict::Won => margin.is_none_or(|margin| margin >= 0) && fragment.color.is_some(),
+        Verdict::Visible => margin.is_none_or(|margin| margin >= 0) && fragment.color.is_some(),
         Verdict::Hidden => margin.is_some_and(|margin| margin < 0),
-        Verdict::LostTie => margin == Some(0),
+        Verdict::EqualDepth => margin == Some(0),
         Verdict::Layer(_) => margin.is_none_or(|margin| margin >= 0) && fragment.color.is_some(),
         Verdict::LeftToJoint => fragment.kind == PrimitiveKind::Line,
         Verdict::MaskedAway => fragment.blend_mode == BlendMode::Masked,
@@ -140,12 +140,12 @@ proptest! {
                 let [x, y] = [index as u32 % SIZE[0], index as u32 / SIZE[0]];
                 let pixel = rasterizer.explain_pixel(pass, &target, x, y).expect("inside of the target");
                 check_pixel(&pixel);
-                let winner = pixel.reported().winner();
-                let told = winner.map_or([u32::MAX; 3], |w| [w.object, w.face, w.primitive]);
+                let visible = pixel.reported().visible();
+                let told = visible.map_or([u32::MAX; 3], |w| [w.object, w.face, w.primitive]);
                 let planes = [target.objects(), target.faces(), target.triangles()];
                 let drawn = planes.map(|plane| plane.expect("asked for")[index]);
                 assert_eq!(told, drawn, "{pixel}");
-                let depth = winner.and_then(|winner| winner.depth).unwrap_or(0.0);
+                let depth = visible.and_then(|visible| visible.depth).unwrap_or(0.0);
                 let drawn = target.depth().expect("asked for")[index];
                 assert_eq!(depth.max(0.0).to_bits(), drawn.to_bits(), "{pixel}");
                 let drawn = target.linear().expect("asked for")[index];
@@ -174,7 +174,7 @@ fn an_explanation_can_be_read() {
     let expected = "\
 pixel (4, 6): linear colour [1, 1, 1, 1]
  sample 0 at (4.5, 6.5): object 0, face 0
-  triangle 0 of draw 0 (object 0, face 0): seen; nearer than the next by 1655306 ulp
+  triangle 0 of draw 0 (object 0, face 0): visible; nearer than the next by 1655306 ulp
     edges 786432 (> 0), 1835008 (> 0), 1572864 (≥ 0); depth 0.5
   triangle 0 of draw 1 (object 1, face 0): hidden by 1655306 ulp
     edges 786432 (> 0), 1350400 (> 0), 1848576 (≥ 0); depth 0.45066804

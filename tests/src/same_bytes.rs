@@ -9,8 +9,8 @@ use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_math::{UVec2, Vec3, Vec4};
 use trigon_raster::{
-    Background, BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Lines, Outline, Output, Pass,
-    Pipeline, PointShape, Points, Rasterizer, Target, TargetImages, TileSize, VertexOutput,
+    Background, BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Lines, Output, Pass,
+    Pipeline, PointShape, Points, Rasterizer, Smoothing, Target, TargetImages, TileSize, VertexOutput,
 };
 
 /// Coloured vertices; a fragment shows the colour, by its alpha, with dark
@@ -49,7 +49,7 @@ impl Pipeline for Coloured {
 struct Soup {
     object: u32,
     surface: BlendMode,
-    outline: Outline,
+    smoothing: Smoothing,
     pipeline: Coloured,
     triangles: Vec<[u32; 3]>,
     segments: Vec<[u32; 2]>,
@@ -71,15 +71,15 @@ fn soup() -> impl Strategy<Value = Soup> {
         Just(BlendMode::MaskedPerSample),
         Just(BlendMode::Translucent)
     ];
-    let outline = prop_oneof![Just(Outline::Sharp), Just(Outline::AntiAliased)];
+    let smoothing = prop_oneof![Just(Smoothing::Sharp), Just(Smoothing::AntiAliased)];
     let vertices = proptest::collection::vec(vertex(), 3..30);
-    (vertices, surface, outline).prop_map(|(vertices, surface, outline)| {
+    (vertices, surface, smoothing).prop_map(|(vertices, surface, smoothing)| {
         let count = vertices.len() as u32;
         let triangles: Vec<_> = (0..count).map(|i| [i, (i + 1) % count, (i + 7) % count]).collect();
         Soup {
             object: 0,
             surface,
-            outline,
+            smoothing,
             pipeline: Coloured { vertices },
             faces: (0..count).collect(),
             triangles,
@@ -100,7 +100,7 @@ fn soups() -> impl Strategy<Value = Vec<Soup>> {
 
 fn record<'a>(pass: &mut Pass<'a>, soup: &'a Soup) {
     let Soup { object, surface, pipeline, faces, .. } = soup;
-    let (object, surface, outline) = (*object, *surface, soup.outline);
+    let (object, surface, smoothing) = (*object, *surface, soup.smoothing);
     pass.triangles(Draw {
         object,
         blend_mode: surface,
@@ -109,10 +109,10 @@ fn record<'a>(pass: &mut Pass<'a>, soup: &'a Soup) {
         ..Draw::new(pipeline, &soup.triangles)
     });
     let lines = Lines::new(pipeline, &soup.segments);
-    pass.lines(Lines { object: object + 1, blend_mode: surface, width: 2.5, outline, ..lines });
+    pass.lines(Lines { object: object + 1, blend_mode: surface, width: 2.5, smoothing, ..lines });
     let shape = if object == 0 { PointShape::Round } else { PointShape::Square };
     let points = Points::new(pipeline, &soup.points, 9.0);
-    pass.points(Points { object: object + 2, blend_mode: surface, shape, outline, ..points });
+    pass.points(Points { object: object + 2, blend_mode: surface, shape, smoothing, ..points });
 }
 
 fn image(
@@ -215,7 +215,7 @@ proptest! {
         let hostile = Soup {
             object: 500,
             surface: BlendMode::Translucent,
-            outline: Outline::Sharp,
+            smoothing: Smoothing::Sharp,
             pipeline: Coloured { vertices: hostile },
             triangles: (0..count).map(|i| [i, (i + 1) % count, (i + 2) % count]).chain([[0, 1, 4_000_000_000]]).collect(),
             segments: (0..count).map(|i| [i, (i + 1) % count]).chain([[0, u32::MAX]]).collect(),

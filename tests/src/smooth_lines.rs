@@ -6,7 +6,7 @@ use crate::effort::cases;
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_raster::{
-    ExecuteSettings, Lines, Outline, Output, Pass, PointShape, Points, TargetImages, TileSize,
+    ExecuteSettings, Lines, Output, Pass, PointShape, Points, Smoothing, TargetImages, TileSize,
 };
 use trigon_study::oracle::GridPoint;
 
@@ -17,7 +17,7 @@ fn inside() -> impl Strategy<Value = GridPoint> {
 
 fn lines<'a>(pipeline: &'a Values, segments: &'a [[u32; 2]], width: f32) -> Pass<'a> {
     let mut pass = Pass::new();
-    pass.lines(Lines { width, outline: Outline::AntiAliased, ..Lines::new(pipeline, segments) });
+    pass.lines(Lines { width, smoothing: Smoothing::AntiAliased, ..Lines::new(pipeline, segments) });
     pass
 }
 
@@ -53,7 +53,7 @@ fn distance([from, to]: [GridPoint; 2], pixel: GridPoint) -> f64 {
 /// is rounded in f64, a millionth of that.
 const ROUNDED: f64 = 1.0 / (1 << 24) as f64;
 
-/// What [`Outline::AntiAliased`] says of a line.
+/// What [`Smoothing::AntiAliased`] says of a line.
 fn expected(distance: f64, width: f64) -> f64 {
     (width / 2.0 + 0.5 - distance).min(width).clamp(0.0, 1.0)
 }
@@ -149,8 +149,8 @@ proptest! {
         let dots: Vec<u32> = (0..points.len() as u32).collect();
         let mut pass = lines(&pipeline, &segments, width);
         for (object, shape) in (1..).zip([PointShape::Round, PointShape::Square]) {
-            let outline = Outline::AntiAliased;
-            pass.points(Points { outline, shape, object, ..Points::new(&pipeline, &dots, width) });
+            let smoothing = Smoothing::AntiAliased;
+            pass.points(Points { smoothing, shape, object, ..Points::new(&pipeline, &dots, width) });
         }
         let reference = draw(&pass, samples, &ExecuteSettings::default());
         let tiles = [TileSize::Pixels8, TileSize::Pixels16, TileSize::Pixels32, TileSize::Pixels64];
@@ -170,8 +170,8 @@ fn points_have_their_area() {
     let covered = |shape: PointShape, size: f32| {
         let pipeline = Values::on_grid(&[centre]);
         let mut pass = Pass::new();
-        let outline = Outline::AntiAliased;
-        pass.points(Points { outline, shape, ..Points::new(&pipeline, &[0], size) });
+        let smoothing = Smoothing::AntiAliased;
+        pass.points(Points { smoothing, shape, ..Points::new(&pipeline, &[0], size) });
         draw(&pass, Samples::ONE, &ExecuteSettings::default()).linear.expect("asked for")
     };
     for size in [0.0_f32, 0.5, 3.25] {

@@ -64,7 +64,7 @@ fn edit(_: &Arguments) -> Result<(), String> {
     Err("this trigon-editor was built without its window; run a script with --run script.json --output FILE, or build it with the feature `window`".into())
 }
 
-/// A text on standard output. A reader that went away wants no more.
+/// Text on standard output. A reader that closed the pipe is no error.
 fn print_line(text: &str) {
     use std::io::Write;
     drop(writeln!(std::io::stdout().lock(), "{text}"));

@@ -15,7 +15,7 @@ pub(crate) use crate::tool::{Orientation, Pivot, SnapSource, SnapTarget};
 pub(crate) enum Request {
     /// Runs a command: one entry in the history.
     Run(Command),
-    /// Runs a command in place of the last one.
+    /// Runs a command instead of the last one.
     Adjust(Command),
     Undo,
     Redo,
@@ -30,11 +30,11 @@ pub(crate) enum Request {
     },
     /// Compares the image at rest with the reference, or stops it.
     Compare(Comparison),
-    /// Refines the image at rest so far.
+    /// Refines the image at rest up to this level.
     Refine(Refinement),
     /// Starts a tool that follows the pointer.
     StartTool(ToolKind),
-    /// Changes how the document is seen.
+    /// Changes the view of the document.
     View(ViewRequest),
     /// Opens, saves, closes.
     File(FileRequest),
@@ -64,7 +64,7 @@ pub(crate) enum ToolKind {
     SelectLasso,
 }
 
-/// How the document is seen.
+/// The view of the document.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum ViewRequest {
     Axis(AxisView),

@@ -10,7 +10,7 @@ use crate::arguments::Arguments;
 use crate::export;
 use crate::report;
 
-/// Runs what the command line asks for.
+/// Runs the command line.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let (Some(script), Some(output)) = (&arguments.run, &arguments.output) else {
         return Err("write both a script and an output: --run SCRIPT --output FILE".into());
@@ -56,7 +56,7 @@ fn open(arguments: &Arguments) -> Result<Document, String> {
 
 fn run_script(script: &Script, document: &mut Document, quiet: bool) -> Result<(), String> {
     let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(script.commands.len() as u64) };
-    // Drawn at most some times a second, and only where somebody looks.
+    // Drawn a few times per second at most, and only if standard error is a terminal.
     let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} {msg}").expect("a valid template");
     bar.set_style(style);
     let result = script.run(document, |progress| {
@@ -71,7 +71,7 @@ fn run_script(script: &Script, document: &mut Document, quiet: bool) -> Result<(
     Ok(())
 }
 
-/// What the commands told, each with its place in the script.
+/// The messages of the commands, each with its position in the script.
 fn tell(script: &Script, outcomes: &[Outcome]) {
     for (index, (command, outcome)) in script.commands.iter().zip(outcomes).enumerate() {
         let place = format!("command {} ({})", index + 1, command.name());

@@ -12,10 +12,10 @@ pub(crate) struct Changed {
     pub(crate) nodes: bool,
 }
 
-/// Makes a window's scene show the document as it is now. In time proportional to what changed:
-/// vertices that were moved are told to the threads that draw, and nothing is copied for them.
+/// Updates a window's scene to the document. This takes time proportional to what changed: moved vertices are
+/// sent to the drawing threads, and nothing is copied for them.
 ///
-/// The scene has to be the same at each call, and nobody else may change its meshes.
+/// The scene has to be the same at each call, and nothing else may change its meshes.
 pub(crate) fn show(document: &mut Document, scene: &mut SharedScene) -> Changed {
     let mut changed = Changed::default();
     for change in document.take_scene_changes() {

@@ -9,7 +9,7 @@ use trigon_camera::{AxisView, Camera, Extent, Orbit, Projection};
 use trigon_math::{Bounds3, DQuat, DVec3};
 use trigon_scene::{OVERVIEW_DIRECTION, Scene};
 
-use crate::args::ExactCamera;
+use crate::exact_camera::ExactCamera;
 use crate::failure::Failure;
 
 /// The camera flags.

@@ -8,6 +8,7 @@ mod args;
 mod axes;
 mod check;
 mod compare;
+mod exact_camera;
 mod explain;
 mod failure;
 mod folders;

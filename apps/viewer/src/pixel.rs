@@ -147,7 +147,7 @@ fn fragment_json(fragment: &FragmentExplanation, scene: &Scene) -> Value {
         "depth": fragment.depth,
         "margin": fragment.margin,
         "color": fragment.color.map(|color| color.to_array()),
-        "won": fragment.verdict == Verdict::Won,
+        "visible": fragment.verdict == Verdict::Visible,
         "verdict": verdict(fragment),
     })
 }
@@ -159,7 +159,7 @@ fn place(sample: &SampleExplanation) -> String {
 }
 
 fn seen(sample: &SampleExplanation, scene: &Scene) -> String {
-    let below = sample.winner().map_or("the background".to_owned(), |winner| node_name(winner, scene));
+    let below = sample.visible().map_or("the background".to_owned(), |visible| node_name(visible, scene));
     match sample.layers().count() {
         0 => below,
         1 => format!("{below} under 1 layer"),
@@ -194,17 +194,19 @@ fn kind(kind: PrimitiveKind) -> &'static str {
 
 fn verdict(fragment: &FragmentExplanation) -> String {
     match fragment.verdict {
-        Verdict::Won => match fragment.margin {
-            None => "seen; nothing else is here".to_owned(),
-            Some(0) => "seen; as near as the next, with the smaller (object, face)".to_owned(),
-            Some(_) => "seen, because it is the nearest".to_owned(),
+        Verdict::Visible => match fragment.margin {
+            None => "visible; nothing else is here".to_owned(),
+            Some(0) => "visible; as near as the next, with the smaller (object, face)".to_owned(),
+            Some(_) => "visible, because it is the nearest".to_owned(),
         },
-        Verdict::Hidden => "hidden by what is seen, which is nearer".to_owned(),
-        Verdict::LostTie => "as near as what is seen, which has the smaller (object, face)".to_owned(),
+        Verdict::Hidden => "hidden by the visible triangle, which is nearer".to_owned(),
+        Verdict::EqualDepth => {
+            "as near as the visible triangle, which has the smaller (object, face)".to_owned()
+        }
         Verdict::BehindFarPlane => "behind the far plane".to_owned(),
         Verdict::MaskedAway => "its alpha mask has a hole here".to_owned(),
         Verdict::Layer(number) => format!("translucent: layer {} from the back", number + 1),
-        Verdict::LeftToJoint => "left to the next segment of the line".to_owned(),
+        Verdict::LeftToJoint => "drawn by the next segment of the line".to_owned(),
         Verdict::OutsideEdge(edge) => {
             let distance = -fragment.edges[edge].distance;
             format!("misses the sample by {distance:.4} pixel, outside of edge {}", edge + 1)
@@ -224,7 +226,7 @@ fn edges(fragment: &FragmentExplanation) -> String {
 fn margin(fragment: &FragmentExplanation) -> String {
     match fragment.margin {
         None | Some(0) => String::new(),
-        Some(margin) if fragment.verdict == Verdict::Won => format!(", {margin} ulp before the next"),
+        Some(margin) if fragment.verdict == Verdict::Visible => format!(", {margin} ulp before the next"),
         Some(margin) if margin > 0 => format!(", {margin} ulp before what is seen"),
         Some(margin) => format!(", {} ulp behind what is seen", -margin),
     }

@@ -8,7 +8,6 @@ mod command;
 mod display;
 mod document;
 mod error;
-mod history;
 mod recovery;
 mod script;
 mod selection;
@@ -18,10 +17,9 @@ mod tests;
 
 pub use command::*;
 pub use display::{DisplayMarks, PICK_RADIUS, Picks, X_RAY};
-pub use document::{Document, SceneChange};
+pub use document::{Document, Entry, Event, History, SceneChange};
 pub use error::EditError;
-pub use history::{Entry, History};
-pub use recovery::{Event, RecoveryLog, RecoveryStatus, RecoveryWriter, UnreadableRecovery};
+pub use recovery::{RecoveryLog, RecoveryStatus, RecoveryWriter, UnreadableRecovery};
 pub use script::{Script, ScriptProgress};
 pub use selection::{
     ElementKind, ElementKinds, Elements, MeshSelection, Selection, Similarity, border_edges, edge_loop,

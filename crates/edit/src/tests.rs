@@ -1,5 +1,6 @@
 //! Random commands on documents: what is undone is undone to the same bytes.
 
+pub(crate) mod commands;
 mod parts;
 
 use proptest::prelude::*;
@@ -9,22 +10,13 @@ use trigon_mesh::primitives;
 use trigon_scene::{Material, Scene};
 
 use crate::*;
+use commands::{command, edit_faces, run_all};
 
 fn document() -> Document {
     let mut scene = Scene::new();
     scene.add_object("torus", primitives::torus(2.0, 0.5, 6, 5), Material::default());
     scene.add_object("grid", primitives::grid(2.0, 3.0, 4, 3), Material::default());
     Document::new(scene)
-}
-
-fn command(json: serde_json::Value) -> Command {
-    serde_json::from_value(json).expect("a command")
-}
-
-fn run_all(document: &mut Document, commands: &[serde_json::Value]) {
-    for json in commands {
-        document.run(command(json.clone())).unwrap_or_else(|error| panic!("{json}: {error}"));
-    }
 }
 
 /// All that a user could tell apart.
@@ -221,14 +213,10 @@ fn what_changes_a_document_confirms_its_preview_first() {
 #[test]
 fn the_last_command_is_adjusted_in_place() {
     let mut document = document();
+    edit_faces(&mut document, &["grid"]);
     run_all(
         &mut document,
-        &[
-            json!({ "op": "edit_objects", "objects": ["grid"] }),
-            json!({ "op": "set_element_kind", "kind": "face" }),
-            json!({ "op": "select", "elements": [0, 1] }),
-            json!({ "op": "delete", "what": "only_faces" }),
-        ],
+        &[json!({ "op": "select", "elements": [0, 1] }), json!({ "op": "delete", "what": "only_faces" })],
     );
     let entries = document.history().done().len();
     document.adjust_last(command(json!({ "op": "delete", "what": "faces" }))).expect("other parameters");
@@ -248,13 +236,7 @@ fn the_last_command_is_adjusted_in_place() {
 #[test]
 fn the_history_stays_within_its_budget() {
     let mut document = document();
-    run_all(
-        &mut document,
-        &[
-            json!({ "op": "edit_objects", "objects": ["torus"] }),
-            json!({ "op": "set_element_kind", "kind": "face" }),
-        ],
-    );
+    edit_faces(&mut document, &["torus"]);
     document.set_history_budget(2000);
     for face in 0..30 {
         let select = json!({ "op": "select", "elements": [face] });
@@ -413,14 +395,8 @@ fn an_object_is_scaled_along_its_own_axes_by_what_they_get_in_the_world() {
 #[test]
 fn parts_turn_about_their_own_middles() {
     let mut document = document();
-    run_all(
-        &mut document,
-        &[
-            json!({ "op": "edit_objects", "objects": ["grid"] }),
-            json!({ "op": "set_element_kind", "kind": "face" }),
-            json!({ "op": "select", "elements": [0, 11] }),
-        ],
-    );
+    edit_faces(&mut document, &["grid"]);
+    run_all(&mut document, &[json!({ "op": "select", "elements": [0, 11] })]);
     let middles = |document: &Document| {
         let (id, _) = document.selection().meshes().next().expect("it is edited");
         let mesh = document.mesh(id).expect("it is edited");

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 use trigon_edit::mesh::edit::{EdgeId, EditMesh, FaceId};
-use trigon_edit::mesh::math::Vec3;
+use trigon_edit::mesh::math::{SplitMix64, Vec3};
 use trigon_edit::mesh::{Attributes, Mesh, MeshBuilder, primitives};
 use trigon_edit::scene::{Material, MeshId, Scene};
 use trigon_edit::{Command, Document, Selection};
@@ -19,37 +19,21 @@ const RUNS_OF_EACH: usize = 100;
 /// A mesh that has grown beyond this is put away: the operations on it would take the time of many.
 const MOST_FACES: usize = 1500;
 
-/// Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014.
-struct Random(u64);
+/// −1 to 1.
+fn signed(random: &mut SplitMix64) -> f64 {
+    random.between(-1.0, 1.0)
+}
 
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^ (mixed >> 31)
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        (self.next() % count.max(1) as u64) as usize
-    }
-
-    /// −1 to 1.
-    fn share(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn vector(&mut self) -> [f64; 3] {
-        [self.share(), self.share(), self.share()]
-    }
+fn vector(random: &mut SplitMix64) -> [f64; 3] {
+    [(); 3].map(|()| signed(random))
 }
 
 /// Polygons over random vertices: anything may touch anything.
-fn soup(random: &mut Random) -> Mesh {
+fn soup(random: &mut SplitMix64) -> Mesh {
     let mut builder = MeshBuilder::new();
     let count = 8 + random.below(20);
     for _ in 0..count {
-        builder.push_vertex(Vec3::from_array(random.vector().map(|x| x as f32 * 2.0)));
+        builder.push_vertex(Vec3::from_array(vector(random).map(|x| x as f32 * 2.0)));
     }
     for _ in 0..12 + random.below(12) {
         let face: Vec<u32> = (0..3 + random.below(4)).map(|_| random.below(count) as u32).collect();
@@ -59,7 +43,7 @@ fn soup(random: &mut Random) -> Mesh {
     builder.build()
 }
 
-fn mesh(random: &mut Random) -> Mesh {
+fn mesh(random: &mut SplitMix64) -> Mesh {
     let mut mesh = match random.below(9) {
         0 | 1 => soup(random),
         2 => primitives::grid(2.0, 2.0, 2 + random.below(4) as u32, 2 + random.below(4) as u32),
@@ -90,7 +74,7 @@ enum Needs {
 struct Operation {
     name: &'static str,
     needs: Needs,
-    parameters: fn(&mut Random, &Chosen<'_>) -> Value,
+    parameters: fn(&mut SplitMix64, &Chosen<'_>) -> Value,
 }
 
 /// What is selected.
@@ -124,29 +108,29 @@ fn operations() -> Vec<Operation> {
     use Needs::Some;
     let operation = |name, needs, parameters| Operation { name, needs, parameters };
     vec![
-        operation("translate", Some("vertex", 5), |r, _| json!({ "offset": r.vector() })),
+        operation("translate", Some("vertex", 5), |r, _| json!({ "offset": vector(r) })),
         operation(
             "rotate",
             Some("face", 3),
-            |r, _| json!({ "angle": r.share() * 90.0, "axis": r.vector(), "individual": r.below(3) == 0 }),
+            |r, _| json!({ "angle": signed(r) * 90.0, "axis": vector(r), "individual": r.below(3) == 0 }),
         ),
-        operation("scale", Some("edge", 4), |r, _| json!({ "factors": r.vector().map(|x| 1.0 + 0.5 * x) })),
-        operation("shear", Some("vertex", 5), |r, _| json!({ "factor": r.share() })),
-        operation("to_sphere", Some("face", 4), |r, _| json!({ "factor": r.share() })),
-        operation("shrink_fatten", Some("face", 4), |r, _| json!({ "distance": 0.2 * r.share() })),
-        operation("push_pull", Some("vertex", 4), |r, _| json!({ "distance": 0.2 * r.share() })),
+        operation("scale", Some("edge", 4), |r, _| json!({ "factors": vector(r).map(|x| 1.0 + 0.5 * x) })),
+        operation("shear", Some("vertex", 5), |r, _| json!({ "factor": signed(r) })),
+        operation("to_sphere", Some("face", 4), |r, _| json!({ "factor": signed(r) })),
+        operation("shrink_fatten", Some("face", 4), |r, _| json!({ "distance": 0.2 * signed(r) })),
+        operation("push_pull", Some("vertex", 4), |r, _| json!({ "distance": 0.2 * signed(r) })),
         operation("reset_vertices", Some("vertex", 1000), |_, _| json!({})),
         operation("subdivide", Some("edge", 6), |r, _| json!({ "cuts": 1 + r.below(3) })),
         operation(
             "loop_cut",
             Some("edge", 1),
-            |r, _| json!({ "cuts": 1 + r.below(2), "position": r.share() * 0.5 }),
+            |r, _| json!({ "cuts": 1 + r.below(2), "position": signed(r) * 0.5 }),
         ),
-        operation("slide_edges", Some("edge", 1), |r, _| json!({ "factor": 0.5 * r.share() })),
+        operation("slide_edges", Some("edge", 1), |r, _| json!({ "factor": 0.5 * signed(r) })),
         operation(
             "slide_vertices",
             Some("vertex", 3),
-            |r, _| json!({ "factor": 0.5 * r.share(), "direction": r.vector() }),
+            |r, _| json!({ "factor": 0.5 * signed(r), "direction": vector(r) }),
         ),
         operation("merge", Some("vertex", 3), |r, _| {
             let at = ["center", "first", "last", "collapse", "distance"][r.below(5)];
@@ -154,7 +138,7 @@ fn operations() -> Vec<Operation> {
         }),
         operation("mark_sharp", Some("edge", 4), |_, at| json!({ "sharp": (!at.edge(EditMesh::is_sharp)) })),
         operation("mark_seam", Some("edge", 4), |_, at| json!({ "seam": (!at.edge(EditMesh::is_seam)) })),
-        operation("crease", Some("edge", 4), |r, _| json!({ "crease": (r.share() + 1.0) / 2.0 })),
+        operation("crease", Some("edge", 4), |r, _| json!({ "crease": (signed(r) + 1.0) / 2.0 })),
         operation("shade", Some("face", 4), |_, at| json!({ "smooth": (!at.face(EditMesh::is_smooth)) })),
         operation("assign_material", Some("face", 4), |r, _| json!({ "material": r.below(50) })),
         operation("hide", Some("face", 2), |_, _| json!({})),
@@ -164,17 +148,17 @@ fn operations() -> Vec<Operation> {
         operation(
             "mirror",
             Some("face", 4),
-            |r, _| json!({ "plane": { "normal": r.vector() }, "copy": r.below(2) == 0, "merge_distance": 0.01 }),
+            |r, _| json!({ "plane": { "normal": vector(r) }, "copy": r.below(2) == 0, "merge_distance": 0.01 }),
         ),
-        operation("symmetrize", Some("face", 1000), |r, _| json!({ "plane": { "normal": r.vector() } })),
+        operation("symmetrize", Some("face", 1000), |r, _| json!({ "plane": { "normal": vector(r) } })),
         operation(
             "extrude",
             Some("face", 3),
-            |r, _| json!({ "distance": (0.3 * r.share()), "individual": (r.below(3) == 0) }),
+            |r, _| json!({ "distance": (0.3 * signed(r)), "individual": (r.below(3) == 0) }),
         ),
         operation("inset", Some("face", 3), |r, _| {
             let mode = ["region", "individual", "outset"][r.below(3)];
-            json!({ "thickness": 0.05, "depth": (0.1 * r.share()), "mode": mode })
+            json!({ "thickness": 0.05, "depth": (0.1 * signed(r)), "mode": mode })
         }),
         operation(
             "bevel",
@@ -193,9 +177,9 @@ fn operations() -> Vec<Operation> {
         operation(
             "rip",
             Some("edge", 2),
-            |r, _| json!({ "direction": (r.vector()), "fill": (r.below(2) == 0) }),
+            |r, _| json!({ "direction": (vector(r)), "fill": (r.below(2) == 0) }),
         ),
-        operation("duplicate", Some("face", 3), |r, _| json!({ "offset": (r.vector()) })),
+        operation("duplicate", Some("face", 3), |r, _| json!({ "offset": (vector(r)) })),
         operation("split_off", Some("face", 2), |_, _| json!({})),
         operation("dissolve", Some("edge", 1), |_, _| json!({})),
         operation("dissolve_flat", Some("face", 1000), |_, _| json!({ "angle": 40 })),
@@ -211,8 +195,8 @@ fn operations() -> Vec<Operation> {
         operation("grid_fill", Needs::Outline, |r, _| json!({ "offset": r.below(4) })),
         operation("knife", Some("face", 1), |_, at| json!({ "path": at.across() })),
         operation("bridge", Some("edge", 2), |_, _| json!({})),
-        operation("project_uvs", Some("face", 3), |r, _| json!({ "normal": (r.vector()) })),
-        operation("project_uvs_on_box", Some("face", 3), |r, _| json!({ "center": (r.vector()) })),
+        operation("project_uvs", Some("face", 3), |r, _| json!({ "normal": (vector(r)) })),
+        operation("project_uvs_on_box", Some("face", 3), |r, _| json!({ "center": (vector(r)) })),
         operation("repair", Some("face", 1), |_, _| json!({ "zero_length": 0.3, "zero_area": 0.05 })),
         operation(
             "delete",
@@ -253,7 +237,7 @@ impl Session {
     }
 
     /// Selects about as many elements as are needed, one beside the other.
-    fn select(&mut self, needs: Needs, random: &mut Random) {
+    fn select(&mut self, needs: Needs, random: &mut SplitMix64) {
         let (kind, count) = match needs {
             Needs::Some(kind, count) => (kind, count),
             Needs::Outline => ("edge", 0),
@@ -325,7 +309,7 @@ struct Count {
 
 #[test]
 fn ten_thousand_random_operations_keep_meshes_whole() {
-    let mut random = Random(22);
+    let mut random = SplitMix64::new(22);
     let operations = operations();
     let mut counts: BTreeMap<&str, Count> = BTreeMap::new();
     let mut total = 0;

@@ -7,7 +7,7 @@ use trigon_mesh::edit::Marks;
 use trigon_scene::{MeshId, Scene};
 
 use crate::folder::Folder;
-use crate::formats::gltf::SourceDraft;
+use crate::gltf_source::SourceDraft;
 use crate::options::LoadOptions;
 use crate::warning::Warnings;
 

@@ -43,6 +43,7 @@ mod export;
 mod folder;
 mod format;
 mod formats;
+mod gltf_source;
 mod import;
 mod layers;
 mod limits;
@@ -71,13 +72,14 @@ pub use environment::load_environment;
 pub use error::{LoadError, LoadErrorKind, Place};
 pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport, UpAxis, export};
 pub use format::{Format, Reader, Writer};
-pub use formats::gltf::{GltfSource, NativeDocument, NativeFile, encode_glb, write_glb};
+pub use formats::gltf::{NativeDocument, NativeFile, encode_glb, write_glb};
 pub use formats::{readers, writers};
+pub use gltf_source::GltfSource;
 pub use limits::Limits;
 pub use load::{Loaded, load, load_from_slice};
 pub use loss::Loss;
 pub use lossy::{encode_jpeg, encode_webp, write_jpeg, write_webp};
-pub use options::{LoadOptions, Progress, ProgressHook, SceneChoice, Stage};
+pub use options::{LoadOptions, LoadStage, Progress, ProgressHook, SceneChoice};
 pub use outputs::{
     Output, UnknownOutput, encode_exr, encode_npy, encode_png16, write_exr, write_npy, write_png16,
 };

@@ -11,10 +11,10 @@ use trigon_scene::{MeshId, Scene};
 use crate::error::{LoadError, LoadErrorKind};
 use crate::folder::Folder;
 use crate::format::Format;
-use crate::formats::gltf::{GltfSource, SourceDraft};
 use crate::formats::{detect_format, supported};
+use crate::gltf_source::{GltfSource, SourceDraft};
 use crate::import::Import;
-use crate::options::{LoadOptions, Stage};
+use crate::options::{LoadOptions, LoadStage};
 use crate::refusal::Refusal;
 use crate::warning::{Warning, Warnings};
 
@@ -51,14 +51,14 @@ pub struct Loaded {
 /// contains nothing to draw.
 pub fn load(path: impl AsRef<Path>, options: &LoadOptions<'_>) -> Result<Loaded, LoadError> {
     let path = path.as_ref();
-    options.report(path, Stage::Reading, 0.0)?;
+    options.report(path, LoadStage::Reading, 0.0)?;
     if path.is_dir() {
         return Err(LoadError::new(LoadErrorKind::Read, path, "it is a folder", "name a file in it"));
     }
     let mut folder = Folder::of(path, &options.limits).map_err(|error| LoadError::read(path, &error))?;
-    let follow = |share| options.report(path, Stage::Reading, share).map_err(|_| Refusal::Cancelled);
+    let follow = |share| options.report(path, LoadStage::Reading, share).map_err(|_| Refusal::Cancelled);
     let bytes = folder.read_model(path, &follow)?;
-    options.report(path, Stage::Reading, 1.0)?;
+    options.report(path, LoadStage::Reading, 1.0)?;
     import_on(path, Cow::Owned(bytes), folder, options)
 }
 
@@ -78,7 +78,7 @@ pub fn load_from_slice(
     if length > limit {
         return Err(Refusal::TooLarge(length, limit).of_model(name));
     }
-    options.report(name, Stage::Reading, 1.0)?;
+    options.report(name, LoadStage::Reading, 1.0)?;
     import_on(name, Cow::Borrowed(bytes), Folder::none(&options.limits), options)
 }
 
@@ -122,7 +122,7 @@ fn import(
         marks: BTreeMap::new(),
     };
     (format.row().import)(&mut import, bytes)?;
-    options.report(path, Stage::Textures, 1.0)?;
+    options.report(path, LoadStage::Textures, 1.0)?;
     let Import { folder, warnings, scene, scene_names, source, marks, .. } = import;
     let (warnings, files) = (warnings.into_list(), folder.into_files());
     let source = source.and_then(SourceDraft::finish);

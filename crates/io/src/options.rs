@@ -11,7 +11,7 @@ use crate::limits::Limits;
 
 /// The stage of a load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
+pub enum LoadStage {
     /// Reading bytes from the disk.
     Reading,
     /// Parsing vertices and faces.
@@ -25,7 +25,7 @@ pub enum Stage {
 #[non_exhaustive]
 pub struct Progress {
     /// The stage.
-    pub stage: Stage,
+    pub stage: LoadStage,
     /// The fraction of the whole load, 0 to 1; an estimate that never decreases.
     pub fraction: f32,
 }
@@ -81,7 +81,7 @@ impl fmt::Debug for LoadOptions<'_> {
 
 impl LoadOptions<'_> {
     /// Calls the callback; an error if it cancels. `within` is the fraction of the stage, 0 to 1.
-    pub(crate) fn report(&self, file: &Path, stage: Stage, within: f32) -> Result<(), LoadError> {
+    pub(crate) fn report(&self, file: &Path, stage: LoadStage, within: f32) -> Result<(), LoadError> {
         let Some(hook) = self.progress else { return Ok(()) };
         let (start, share) = share_of(stage);
         let fraction = start + share * within.clamp(0.0, 1.0);
@@ -94,10 +94,10 @@ impl LoadOptions<'_> {
 
 /// The start of a stage and its share of the whole. Measured on a large OBJ and a textured GLB:
 /// reading is fast, the rest about even.
-fn share_of(stage: Stage) -> (f32, f32) {
+fn share_of(stage: LoadStage) -> (f32, f32) {
     match stage {
-        Stage::Reading => (0.0, 0.1),
-        Stage::Geometry => (0.1, 0.6),
-        Stage::Textures => (0.7, 0.3),
+        LoadStage::Reading => (0.0, 0.1),
+        LoadStage::Geometry => (0.1, 0.6),
+        LoadStage::Textures => (0.7, 0.3),
     }
 }

@@ -14,7 +14,7 @@ use crate::error::LoadError;
 use crate::import::Import;
 use crate::layers::{HeightMap, Role, merge};
 use crate::limits::Limits;
-use crate::options::Stage;
+use crate::options::LoadStage;
 use crate::rgba_image::{RgbaImage, decode_image, image_size, placeholder};
 use crate::texture_request::{ImageBytes, Purpose, Request};
 
@@ -30,7 +30,7 @@ pub(crate) fn add_textures(
     let make = |(request, fits): (&Request, Result<(), Fault>)| {
         options.report(
             path,
-            Stage::Textures,
+            LoadStage::Textures,
             done.fetch_add(1, Ordering::Relaxed) as f32 / requests.len() as f32,
         )?;
         let image = fits.and_then(|()| decode(request, &options.limits));

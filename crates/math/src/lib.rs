@@ -39,6 +39,7 @@ mod homogeneous;
 mod matrix;
 mod plane;
 mod predicates;
+mod random;
 
 pub use glam;
 pub use glam::{
@@ -57,6 +58,8 @@ pub use plane::Plane;
 
 pub use homogeneous::HomogeneousPoint;
 pub use matrix::Matrix;
+
+pub use random::SplitMix64;
 
 /// Runs the README's example as a test.
 #[cfg(doctest)]

@@ -4,9 +4,16 @@
 //! stored on corners, so that the shape itself never has to be cut along a seam. Everything is
 //! optional: what a mesh does not have costs nothing.
 
+mod deltas;
+mod skin_weights;
+
 use trigon_math::{Vec2, Vec3, Vec4};
 
-use crate::{MeshError, MorphTarget, SkinWeights};
+use crate::MeshError;
+
+pub(crate) use deltas::classes;
+pub use deltas::{Deltas, MorphTarget};
+pub use skin_weights::SkinWeights;
 
 /// Optional values on the corners, faces and vertices of a [`Mesh`](crate::Mesh).
 ///

@@ -190,3 +190,10 @@ pub(crate) fn distinct_up_to_3(vertices: &[u32]) -> usize {
         false => 2,
     }
 }
+
+impl Default for Mesh {
+    /// An empty mesh.
+    fn default() -> Self {
+        MeshBuilder::new().build()
+    }
+}

@@ -48,10 +48,11 @@ mod attributes;
 mod builder;
 mod change;
 mod columns;
-mod deform;
+mod deformed;
 mod edges;
 pub mod edit;
 mod error;
+mod flat_faces;
 mod groups;
 mod mesh;
 mod normals;
@@ -65,12 +66,13 @@ mod triangulate;
 mod triangulation;
 mod weld;
 
-pub use attributes::Attributes;
+pub use attributes::{Attributes, Deltas, MorphTarget, SkinWeights};
 pub use builder::MeshBuilder;
 pub use change::{ChangeError, ChangedElements, MeshChange, RenderLinks, RenderUpdate, UpdatedVertex};
 pub use columns::MeshColumns;
-pub use deform::{Deformed, Deltas, FlatFaces, MorphTarget, SkinWeights};
+pub use deformed::Deformed;
 pub use error::MeshError;
+pub use flat_faces::FlatFaces;
 pub use mesh::Mesh;
 
 pub use render_mesh::RenderMesh;

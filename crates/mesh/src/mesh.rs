@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 use trigon_math::{Bounds3, Vec3, Vec4};
 
 use crate::edges::{Edges, NO_EDGE, find_edges};
-use crate::{Attributes, MeshBuilder, MeshError};
+use crate::{Attributes, MeshError};
 
 /// A polygon mesh with explicit vertices, edges and faces.
 ///
@@ -24,7 +24,7 @@ use crate::{Attributes, MeshBuilder, MeshError};
 /// (which add faces): a surface can always be shown as its wires, and those are the solid's own
 /// edges, never the diagonals of a triangulation.
 ///
-/// Built by [`MeshBuilder`]; see there for an example.
+/// Built by [`MeshBuilder`](crate::MeshBuilder); see there for an example.
 #[derive(Debug, Clone)]
 pub struct Mesh {
     positions: Vec<Vec3>,
@@ -57,13 +57,6 @@ impl PartialEq for Mesh {
             && self.attributes == other.attributes
             // All others follow from the faces.
             && self.loose_edges() == other.loose_edges()
-    }
-}
-
-impl Default for Mesh {
-    /// An empty mesh.
-    fn default() -> Self {
-        MeshBuilder::new().build()
     }
 }
 

@@ -5,7 +5,8 @@ use std::cmp::Ordering;
 use trigon_math::{Vec2, Vec3, Vec4};
 
 use crate::Mesh;
-use crate::deform::{classes, flat_classes};
+use crate::attributes::classes;
+use crate::flat_faces::flat_classes;
 use crate::groups::Groups;
 
 /// Groups of up to this many corners are compared pairwise; larger ones (the centre of a large fan,

@@ -48,7 +48,7 @@ impl LanePipeline for Sheets {
     }
 }
 
-/// The same numbers every time, 0 to 1 (a linear congruential generator).
+/// The same numbers every time, 0 to 1: a linear congruential generator, kept because published times are of its quads.
 struct Random(u32);
 
 impl Random {

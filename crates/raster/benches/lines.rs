@@ -15,8 +15,8 @@ use std::time::{Duration, Instant};
 use trigon_math::Vec4;
 use trigon_raster::simd::{F32, Simd, SimdLevel, prelude::*};
 use trigon_raster::{
-    ExecuteSettings, FragmentLanes, LanePipeline, Lines, Outline, Output, Pass, PointShape, Points,
-    Rasterizer, Target, VertexLanes,
+    ExecuteSettings, FragmentLanes, LanePipeline, Lines, Output, Pass, PointShape, Points, Rasterizer,
+    Smoothing, Target, VertexLanes,
 };
 
 const SIZE: [usize; 2] = [1920, 1080];
@@ -147,7 +147,7 @@ impl Plain {
     }
 }
 
-/// Numbers that look random, within 0 and 1.
+/// Numbers that look random, within 0 and 1: Knuth's generator, kept because published times are of its segments.
 fn numbers() -> impl FnMut() -> f32 {
     let mut seed = 12_345_u64;
     move || {
@@ -206,10 +206,10 @@ fn measure(row: Row<'_>, rasterizer: &mut Rasterizer, turns: usize) {
     }
 }
 
-fn prefix(outline: Outline) -> &'static str {
-    match outline {
-        Outline::Sharp => "",
-        Outline::AntiAliased => "smooth ",
+fn prefix(smoothing: Smoothing) -> &'static str {
+    match smoothing {
+        Smoothing::Sharp => "",
+        Smoothing::AntiAliased => "smooth ",
     }
 }
 
@@ -229,15 +229,15 @@ fn main() {
         let segments = segments(&lengths);
         let wire = Wire::new(segments.as_flattened());
         let indices: Vec<_> = (0..COUNT as u32).map(|i| [2 * i, 2 * i + 1]).collect();
-        for (outline, width) in
-            [Outline::Sharp, Outline::AntiAliased].into_iter().flat_map(|o| [(o, 1), (o, 3)])
+        for (smoothing, width) in
+            [Smoothing::Sharp, Smoothing::AntiAliased].into_iter().flat_map(|o| [(o, 1), (o, 3)])
         {
-            let name = format!("{}lines of {what} px, width {width}", prefix(outline));
+            let name = format!("{}lines of {what} px, width {width}", prefix(smoothing));
             if !is_picked(&name) {
                 continue;
             }
             let mut pass = Pass::new();
-            pass.lines(Lines { width: width as f32, outline, ..Lines::new(&wire, &indices) });
+            pass.lines(Lines { width: width as f32, smoothing, ..Lines::new(&wire, &indices) });
             let plain = Box::new(|plain: &mut Plain| {
                 segments.iter().zip(0..).for_each(|(&ends, id)| plain.line(ends, width, id));
             });
@@ -248,18 +248,18 @@ fn main() {
     let vertices: Vec<_> = segments.iter().map(|[vertex, _]| *vertex).collect();
     let (wire, indices) = (Wire::new(&vertices), (0..COUNT as u32).collect::<Vec<_>>());
     let shapes = [
-        (PointShape::Square, Outline::Sharp, "square"),
-        (PointShape::Round, Outline::Sharp, "round"),
-        (PointShape::Round, Outline::AntiAliased, "round"),
+        (PointShape::Square, Smoothing::Sharp, "square"),
+        (PointShape::Round, Smoothing::Sharp, "round"),
+        (PointShape::Round, Smoothing::AntiAliased, "round"),
     ];
-    for (shape, outline, what) in shapes {
+    for (shape, smoothing, what) in shapes {
         for size in [1.0, 3.0, 5.0] {
-            let name = format!("{}{what} points of {size} px", prefix(outline));
+            let name = format!("{}{what} points of {size} px", prefix(smoothing));
             if !is_picked(&name) {
                 continue;
             }
             let mut pass = Pass::new();
-            pass.points(Points { shape, outline, ..Points::new(&wire, &indices, size) });
+            pass.points(Points { shape, smoothing, ..Points::new(&wire, &indices, size) });
             let plain = Box::new(|plain: &mut Plain| {
                 vertices.iter().zip(0..).for_each(|(&vertex, id)| plain.point(vertex, size, shape, id));
             });

@@ -88,7 +88,7 @@ impl<'a, P> Draw<'a, P> {
 
 /// Whether a line or a point is anti-aliased.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Outline {
+pub enum Smoothing {
     /// Each sample is covered or not.
     #[default]
     Sharp,
@@ -112,7 +112,7 @@ pub enum Outline {
     AntiAliased,
 }
 
-impl Outline {
+impl Smoothing {
     /// The blend mode of a draw with this outline.
     pub(crate) fn blend_mode(self, blend_mode: BlendMode) -> BlendMode {
         match self {
@@ -127,7 +127,7 @@ impl Outline {
 /// A segment is x-major if it is at least as wide as high on the screen, else
 /// y-major. It covers the parallelogram that its width spans across the minor
 /// direction, extended at both ends by half the width. That is exact, and
-/// independent of the segment's direction. ([`Outline::AntiAliased`] describes
+/// independent of the segment's direction. ([`Smoothing::AntiAliased`] describes
 /// anti-aliased lines.) Without supersampling, a width of 1 pixel or less draws
 /// exactly one pixel per step of the major direction, both ends included.
 /// Where segments that share a vertex overlap, only one of them paints a
@@ -148,7 +148,7 @@ pub struct Lines<'a, P> {
     /// unless it is anti-aliased, above 4096 as 4096.
     pub width: f32,
     /// Sharp or anti-aliased.
-    pub outline: Outline,
+    pub smoothing: Smoothing,
     /// How much nearer to the eye the line is drawn, as a fraction of its distance,
     /// so that it is visible on a surface that it lies in. 0 tests the line at its
     /// own depth. The depth is multiplied by one plus this and clamped to 1: with
@@ -168,7 +168,7 @@ impl<'a, P> Lines<'a, P> {
             ids: None,
             object: 0,
             width: 1.0,
-            outline: Outline::default(),
+            smoothing: Smoothing::default(),
             depth_bias: 0.0,
             blend_mode: BlendMode::default(),
         }
@@ -217,7 +217,7 @@ pub struct Points<'a, P> {
     /// [`Fragment::triangle`](crate::Fragment::triangle).)
     pub marked: Option<MarkedPoints<'a>>,
     /// Sharp or anti-aliased.
-    pub outline: Outline,
+    pub smoothing: Smoothing,
     /// Round or square.
     pub shape: PointShape,
     /// See [`Lines::depth_bias`].
@@ -236,7 +236,7 @@ impl<'a, P> Points<'a, P> {
             object: 0,
             size,
             marked: None,
-            outline: Outline::default(),
+            smoothing: Smoothing::default(),
             shape: PointShape::default(),
             depth_bias: 0.0,
             blend_mode: BlendMode::default(),

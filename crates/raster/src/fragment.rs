@@ -98,10 +98,9 @@ impl EdgeFlags {
     /// The same flags with the size of the face relative to this triangle: how many times the
     /// triangle's own inner radius the face's inner radius is.
     ///
-    /// An inner radius is twice an area over a perimeter; for the triangle, the perimeter counts
-    /// its flagged sides only, or all if none is flagged. [`FaceEdges`](crate::FaceEdges) makes
-    /// lines narrower on small faces, and the ratio tells slivers of a large polygon from faces
-    /// that are really small.
+    /// An inner radius is twice an area over a perimeter; for the triangle, the perimeter counts its flagged
+    /// sides only, or all if none is flagged. [`FaceEdges`](crate::FaceEdges) makes lines narrower on small
+    /// faces, and the ratio distinguishes slivers of a large polygon from faces that are really small.
     ///
     /// Rounded down to half a power of two, from 1 to 2^15.5; 1 by default.
     #[must_use]

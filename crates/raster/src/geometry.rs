@@ -1,7 +1,7 @@
 //! What was recorded, without the pipeline: indices and ids.
 
 use crate::simd::{Each, LANES};
-use crate::{BlendMode, Culling, EdgeFlags, MarkedPoints, Marks, Outline, PointShape};
+use crate::{BlendMode, Culling, EdgeFlags, MarkedPoints, Marks, PointShape, Smoothing};
 
 /// The primitives of one draw.
 pub(crate) enum Shape<'a> {
@@ -14,14 +14,14 @@ pub(crate) enum Shape<'a> {
     Lines {
         segments: &'a [[u32; 2]],
         width: f32,
-        outline: Outline,
+        smoothing: Smoothing,
         depth_bias: f32,
     },
     Points {
         points: &'a [u32],
         sizes: PointSizes<'a>,
         shape: PointShape,
-        outline: Outline,
+        smoothing: Smoothing,
         depth_bias: f32,
     },
 }

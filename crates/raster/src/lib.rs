@@ -93,6 +93,7 @@ mod cancel;
 mod certify;
 mod clip;
 mod clock;
+mod counts;
 mod draw;
 mod explain;
 mod fragment;
@@ -100,6 +101,7 @@ mod frame;
 mod geometry;
 mod ink;
 mod line;
+mod marks;
 pub mod paint2d;
 mod pass;
 mod pipeline;
@@ -124,13 +126,14 @@ mod viewport;
 
 pub use cancel::Cancel;
 pub use certify::{Certainty, Certificate, Tolerance};
-pub use draw::{BlendMode, Culling, Draw, Lines, MarkedPoints, Outline, PointShape, Points};
+pub use draw::{BlendMode, Culling, Draw, Lines, MarkedPoints, PointShape, Points, Smoothing};
 pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
 };
 pub use fragment::{EdgeFlags, Fragment};
 pub use frame::{DrawChange, Redraw};
-pub use ink::{FaceEdges, MarkColors, Marks};
+pub use ink::FaceEdges;
+pub use marks::{MarkColors, Marks};
 pub use paint2d::Rect;
 pub use pass::{Background, Pass};
 pub use pipeline::{LanePipeline, Pipeline, VertexOutput};

@@ -27,8 +27,8 @@ pub(crate) struct Recorded<'a> {
 
 /// A recorded frame: draws, each with its own pipeline, in any order.
 ///
-/// The order in which draws are recorded does not matter: the nearest sample
-/// wins, and of equally near ones that with the smaller (object, face).
+/// The order in which draws are recorded does not matter: the nearest sample is visible, and of equally near
+/// ones that with the smaller (object, face).
 pub struct Pass<'a> {
     pub(crate) background: Background<'a>,
     pub(crate) draws: Vec<Recorded<'a>>,
@@ -110,19 +110,19 @@ impl<'a> Pass<'a> {
 
     /// Records lines.
     pub fn lines<P: LanePipeline>(&mut self, lines: Lines<'a, P>) -> &mut Self {
-        let Lines { pipeline, segments, ids, object, width, outline, depth_bias, blend_mode } = lines;
-        let shape = Shape::Lines { segments, width, outline, depth_bias };
-        let blend_mode = outline.blend_mode(blend_mode);
+        let Lines { pipeline, segments, ids, object, width, smoothing, depth_bias, blend_mode } = lines;
+        let shape = Shape::Lines { segments, width, smoothing, depth_bias };
+        let blend_mode = smoothing.blend_mode(blend_mode);
         self.record(pipeline, Geometry { shape, faces: ids, object, blend_mode })
     }
 
     /// Records points.
     pub fn points<P: LanePipeline>(&mut self, points: Points<'a, P>) -> &mut Self {
-        let Points { pipeline, points, ids, object, size, marked, shape, outline, depth_bias, blend_mode } =
+        let Points { pipeline, points, ids, object, size, marked, shape, smoothing, depth_bias, blend_mode } =
             points;
         let sizes = PointSizes { size, marked };
-        let shape = Shape::Points { points, sizes, shape, outline, depth_bias };
-        let blend_mode = outline.blend_mode(blend_mode);
+        let shape = Shape::Points { points, sizes, shape, smoothing, depth_bias };
+        let blend_mode = smoothing.blend_mode(blend_mode);
         self.record(pipeline, Geometry { shape, faces: ids, object, blend_mode })
     }
 

@@ -17,8 +17,7 @@ impl Workers {
     /// The calling thread.
     pub(crate) const ALONE: Self = Self { others: None, count: 1 };
 
-    /// As many threads as asked for, or as the machine runs at once; fewer if
-    /// no more can be had.
+    /// As many threads as requested, or as the machine runs at once; fewer if the system refuses more.
     pub(crate) fn new(threads: Option<NonZeroUsize>) -> Self {
         let available = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         let count = threads.unwrap_or_else(available).get().min(MOST);
@@ -56,7 +55,7 @@ impl Workers {
     {
         let items = Mutex::new(items);
         self.run(true, |_| {
-            // An item that somebody panicked over is gone; the others are still there.
+            // An item whose processing panicked is lost; the others remain.
             while let Some(item) = take(&items) {
                 work(item);
             }

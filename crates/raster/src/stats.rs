@@ -1,6 +1,6 @@
 //! Counts and times of a frame.
 
-use crate::tile::Counts;
+use crate::counts::Counts;
 use std::ops::AddAssign;
 use std::time::Duration;
 

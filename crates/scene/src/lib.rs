@@ -37,9 +37,11 @@ mod effect;
 mod effects;
 mod elements;
 mod frame;
+mod geometry;
 mod light;
 mod marks;
 mod material;
+mod mesh_asset;
 mod node;
 mod outputs;
 mod pick;
@@ -52,8 +54,9 @@ mod skin;
 mod texture_asset;
 mod transform;
 pub mod views;
+mod work;
 
-pub use animation::{Animation, Channel, Curve, Interpolation, NodePose, Pose, Property};
+pub use animation::{Animation, Channel, Curve, Interpolation, Property};
 pub use arena::{Arena, Id};
 pub use background::Background;
 pub use check::{Finding, Severity};
@@ -73,10 +76,11 @@ pub use material::{
     AlphaMode, ExtensionParameter, Material, MaterialId, MaterialTexture, MetallicRoughness, NormalMap,
     Occlusion, ParameterField, Shading, TextureBinding,
 };
+pub use mesh_asset::{MeshAsset, MeshId};
 pub use node::{Node, NodeId};
 pub use pick::{Nearest, Pick, Picker, Reach, Region, Snap, SnapElement};
 pub use render::{RenderError, Renderer, RendererBuilder, render};
-pub use scene::{MeshAsset, MeshId, Scene, SceneError, SceneParts, SkinPose};
+pub use scene::{NodePose, Pose, Scene, SceneError, SceneParts, SkinPose};
 pub use settings::{Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style};
 pub use showcase::showcase;
 pub use skin::{Skin, SkinId};

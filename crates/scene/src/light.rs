@@ -1,4 +1,4 @@
-//! Lights: what they send out, in which unit.
+//! Lights: their kinds, colours and intensities.
 //!
 //! A light's `intensity` is the brightness of a perfectly white, perfectly diffuse surface that it
 //! hits head-on (for a point or spot light: from one metre away). 1 is the white of the display.

@@ -6,7 +6,7 @@ use trigon_math::DVec3;
 use crate::arena::Id;
 use crate::light::Light;
 use crate::material::MaterialId;
-use crate::scene::MeshId;
+use crate::mesh_asset::MeshId;
 use crate::skin::SkinId;
 use crate::transform::Transform;
 

@@ -1,10 +1,10 @@
 //! The scene: a forest of nodes that share meshes, materials and textures.
 
 mod append;
-mod mesh_asset;
 mod order;
 mod parts;
 mod placed;
+mod pose;
 mod skin_pose;
 
 use std::sync::Arc;
@@ -18,12 +18,13 @@ use trigon_raster::Texture;
 use crate::animation::Animation;
 use crate::arena::Arena;
 use crate::material::{Material, MaterialId};
+use crate::mesh_asset::{MeshAsset, MeshId};
 use crate::node::{Node, NodeId};
 use crate::skin::Skin;
 use crate::texture_asset::{TextureAsset, TextureId};
-pub use mesh_asset::{MeshAsset, MeshId};
 pub use parts::SceneParts;
 pub(crate) use placed::PlacedMesh;
+pub use pose::{NodePose, Pose};
 pub use skin_pose::SkinPose;
 
 /// The placement of a node in the world.

@@ -1,8 +1,8 @@
 //! The placement of a node relative to its parent.
 //!
-//! Everything is f64: a frame of a model ten million metres from the origin must not depend on the
-//! origin's position. The rotation is a unit quaternion, renormalised at every step, so that a
-//! million small rotations do not shear the object.
+//! Everything is f64, because a model ten million metres from the origin must look the same as one at the
+//! origin. The rotation is a unit quaternion, renormalised at every step, so that a million small rotations
+//! do not shear the object.
 
 use trigon_math::{DAffine3, DMat3, DQuat, DVec3, is_mirroring};
 

@@ -1,12 +1,12 @@
-//! The engine behind the same inputs as the other algorithms.
+//! Runs the engine on the same input as the other algorithms.
 
 use crate::field::Field;
 use std::num::NonZeroUsize;
 use trigon_math::{DVec2, Vec2, Vec4};
 use trigon_raster::simd::{F32, Simd, prelude::*};
 use trigon_raster::{
-    BlendMode, Culling, Draw, ExecuteSettings, Fragment, FragmentLanes, LanePipeline, Lines, Outline, Output,
-    Pass, Pipeline, Rasterizer, Target, VertexLanes, VertexOutput,
+    BlendMode, Culling, Draw, ExecuteSettings, Fragment, FragmentLanes, LanePipeline, Lines, Output, Pass,
+    Pipeline, Rasterizer, Smoothing, Target, VertexLanes, VertexOutput,
 };
 
 /// The engine's rasterizer, kept from frame to frame.
@@ -15,7 +15,7 @@ pub struct Engine {
 }
 
 impl Default for Engine {
-    /// With one thread, like the algorithms that it is compared with.
+    /// With one thread, as the algorithms that it is compared with.
     fn default() -> Self {
         Self::with_threads(NonZeroUsize::MIN)
     }
@@ -29,14 +29,14 @@ impl Engine {
         Self { rasterizer: Rasterizer::new(settings).expect("no SIMD level was asked for") }
     }
 
-    /// Draws triangles, each with three corners of its own, into a target.
+    /// Draws triangles with separate corners into a target.
     pub(crate) fn draw(&mut self, shape: &Corners, target: &mut Target<'_>) {
         let mut pass = Pass::new();
         pass.triangles(shape.draw(BlendMode::Opaque));
         self.rasterizer.draw(&pass, target);
     }
 
-    /// How often each pixel is covered.
+    /// How many triangles cover each pixel.
     pub(crate) fn counts(&mut self, shape: &Corners, size: [usize; 2]) -> Field<u32> {
         let mut target = target(size, &[Output::Linear]);
         let mut pass = Pass::new();
@@ -46,7 +46,7 @@ impl Engine {
         field(size, target.linear()).map(|color| color.x as u32)
     }
 
-    /// Which triangle each pixel shows, `u32::MAX` for none.
+    /// The triangle visible in each pixel, `u32::MAX` for none.
     pub(crate) fn seen(&mut self, shape: &Corners, size: [usize; 2]) -> Field<u32> {
         let mut target = target(size, &[Output::Triangle]);
         self.draw(shape, &mut target);
@@ -54,15 +54,15 @@ impl Engine {
     }
 
     /// Draws lines into a target; pairs of corners are their ends.
-    pub(crate) fn draw_lines(&mut self, ends: &Corners, outline: Outline, target: &mut Target<'_>) {
+    pub(crate) fn draw_lines(&mut self, ends: &Corners, smoothing: Smoothing, target: &mut Target<'_>) {
         let segments: Vec<[u32; 2]> =
             (0..ends.positions.len() as u32 / 2).map(|i| [2 * i, 2 * i + 1]).collect();
         let mut pass = Pass::new();
-        pass.lines(Lines { outline, ..Lines::new(ends, &segments) });
+        pass.lines(Lines { smoothing, ..Lines::new(ends, &segments) });
         self.rasterizer.draw(&pass, target);
     }
 
-    /// Faces in red, those pixels within one of an edge also in green.
+    /// Faces in red, with pixels within one pixel of an edge also in green.
     pub(crate) fn edges(&mut self, shape: &Corners, size: [usize; 2]) -> Field<Vec4> {
         let mut target = target(size, &[Output::Linear]);
         let edged = Edged(shape);
@@ -134,7 +134,7 @@ impl LanePipeline for Corners {
     }
 }
 
-/// Positions in clip space, for a vertex stage that has nothing to do.
+/// Positions in clip space, so that the vertex stage has nothing to do.
 #[inline(always)]
 pub(crate) fn positions<S: Simd>(simd: S, vertices: &VertexLanes<'_>, positions: &[Vec4]) -> [F32<S>; 4] {
     let mut columns = [[0.0; 8]; 4];

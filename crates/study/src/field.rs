@@ -1,4 +1,4 @@
-//! An image of values of any kind: what every algorithm of the study draws into.
+//! An image of values of any type, into which every algorithm of the study draws.
 
 use std::ops::{Index, IndexMut};
 
@@ -23,7 +23,7 @@ impl<T: Clone> Field<T> {
 }
 
 impl<T> Field<T> {
-    /// What a function says of each pixel, in rows from the top.
+    /// The value of a function for each pixel, in rows from the top.
     pub fn from_fn([width, height]: [usize; 2], value: impl Fn([usize; 2]) -> T) -> Self {
         let places = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
         Self { width: width.max(1), values: places.map(value).collect() }
@@ -46,7 +46,7 @@ impl<T> Field<T> {
         &mut self.values
     }
 
-    /// The value at a place, if that is in the image.
+    /// The value at a position, if it is in the image.
     #[must_use]
     pub fn get(&self, place: [i32; 2]) -> Option<&T> {
         self.index(place).map(|index| &self.values[index])
@@ -76,7 +76,7 @@ impl<T> Field<T> {
         self.values.chunks_mut(self.width)
     }
 
-    /// An image of the same size with what a function makes of each value.
+    /// An image of the same size, with a function applied to each value.
     pub fn map<U>(&self, value: impl FnMut(&T) -> U) -> Field<U> {
         Field { width: self.width, values: self.values.iter().map(value).collect() }
     }

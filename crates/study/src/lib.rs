@@ -1,17 +1,16 @@
-//! What the trigon renderer costs and how right it is, measured.
+//! Measures what the trigon renderer costs and how accurate it is.
 //!
-//! - A module for each question, in which the classical algorithms stand beside the
-//!   engine, each in a file of its own with its source: [`fill`], [`visibility`],
-//!   [`mod@line`], [`shading`], [`interpolation`], [`depth`], [`antialiasing`], [`texture`],
-//!   [`transparency`], [`shadow`], [`color`], [`coordinates`], [`same_bytes`], [`storage`], [`threads`];
-//!   [`frames`] for whole images; [`rivals`] for those of other renderers.
-//! - Exact answers to hold them against: [`oracle`].
-//! - What all that costs: [`report`].
-//! - [`workloads`] that other renderers draw too, and the harness that times them. The
-//!   bench `limits` measures what the processor allows under the renderer's rules.
+//! - A module for each question, in which classical algorithms are compared with the engine; each has a file of its
+//!   own that cites its source: [`fill`], [`visibility`], [`mod@line`], [`shading`], [`interpolation`], [`depth`],
+//!   [`antialiasing`], [`texture`], [`transparency`], [`shadow`], [`color`], [`coordinates`], [`same_bytes`],
+//!   [`storage`], [`threads`]; [`frames`] for whole images; [`rivals`] for those of other renderers.
+//! - Exact results to compare with: [`oracle`].
+//! - The report: [`report`].
+//! - [`workloads`] that other renderers draw, too, and the code that times them. The bench `limits` measures what
+//!   the processor can do under the renderer's rules.
 //!
-//! Everything is closed form, or chance from a fixed seed: the same images are made
-//! anywhere. The library never prints, and the renderer never needs it.
+//! All input is in closed form, or pseudorandom from a fixed seed, so the same images are made on every machine. The
+//! library never prints, and the renderer does not depend on it.
 //!
 //! ```
 //! use trigon_raster::Rasterizer;
@@ -57,13 +56,11 @@ mod engine;
 mod field;
 mod measure;
 mod metric;
-mod random;
 
 pub use engine::Engine;
 pub use field::Field;
 pub use measure::{Spread, interleaved};
 pub use metric::{Difference, lightness};
-pub use random::Random;
 
 /// Runs the README's example as a test.
 #[cfg(doctest)]

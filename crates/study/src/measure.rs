@@ -1,8 +1,8 @@
-//! How long things take that are compared with each other.
+//! Measures the times of programs that are compared with each other, in turns.
 
 use std::time::Instant;
 
-/// What repeated runs took, in the unit of whoever measured.
+/// The results of repeated runs, in the caller's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
     /// A quarter of the runs was shorter.
@@ -30,9 +30,8 @@ impl Spread {
     }
 }
 
-/// The nanoseconds of each candidate, all run once in each round, so that whatever
-/// else the machine does meets all of them alike. A round before the first one,
-/// which is not counted, fills caches.
+/// The nanoseconds of each candidate. All run once in each round, so that other load on the machine affects
+/// all of them alike. An uncounted first round fills caches.
 pub fn interleaved(rounds: usize, candidates: &mut [Box<dyn FnMut() + '_>]) -> Vec<Spread> {
     let mut times = vec![Vec::new(); candidates.len()];
     for round in 0..=rounds.max(1) {

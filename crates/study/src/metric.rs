@@ -1,4 +1,4 @@
-//! How far images are apart, in light and in what a person sees.
+//! The difference between images, in linear light and in perceived lightness.
 
 use trigon_math::elementary;
 
@@ -13,7 +13,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Of pairs of what was found and what is right, in linear light, white being 1.
+    /// Of pairs of found and correct values, in linear light, with white at 1.
     pub fn of(pairs: impl IntoIterator<Item = [f64; 2]>) -> Self {
         let mut difference = Self::default();
         for [found, right] in pairs {
@@ -32,8 +32,7 @@ impl Difference {
         (self.squares / self.count.max(1) as f64).sqrt()
     }
 
-    /// The mean difference in lightness: ΔE of CIE 1976 for greys. Below about 1 hardly
-    /// anybody sees it.
+    /// The mean difference in lightness: ΔE of CIE 1976 for greys. Below about 1, few people can see it.
     #[must_use]
     pub fn delta_e(&self) -> f64 {
         self.lightness / self.count.max(1) as f64

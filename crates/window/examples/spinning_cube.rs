@@ -3,7 +3,7 @@
 
 use trigon_window::scene::math::{DVec3, Vec3};
 use trigon_window::scene::{Material, Node, mesh::primitives};
-use trigon_window::{Animation, Application, WindowError};
+use trigon_window::{AnimationState, Application, WindowError};
 
 fn main() -> Result<(), WindowError> {
     let mut application = Application::new("Spinning cube");
@@ -30,7 +30,7 @@ fn main() -> Result<(), WindowError> {
             }
             _ => {}
         }
-        Animation::Running
+        AnimationState::Running
     });
     application.run()
 }

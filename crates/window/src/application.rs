@@ -1,9 +1,9 @@
-//! The simple way to open a window: add objects, run.
+//! `Application`: add objects and run it.
 
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
-use crate::handler::{Animation, Closures, Handler, Tick};
+use crate::handler::{AnimationState, Closures, Handler, Tick};
 use crate::shell::{Shell, UserEvent};
 use crate::{Interaction, Stage, WindowError};
 
@@ -46,8 +46,8 @@ impl<'a> Application<'a> {
     }
 
     /// Calls this before each frame, at about 60 frames a second, for as long as it returns
-    /// [`Animation::Running`]. It may add, remove, move and rotate anything in the scene.
-    pub fn animate(&mut self, frame: impl FnMut(&mut Stage, Tick) -> Animation + 'a) {
+    /// [`AnimationState::Running`]. It may add, remove, move and rotate anything in the scene.
+    pub fn animate(&mut self, frame: impl FnMut(&mut Stage, Tick) -> AnimationState + 'a) {
         self.closures.frame = Some(Box::new(frame));
     }
 

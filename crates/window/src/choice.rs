@@ -1,4 +1,4 @@
-//! Lists to choose one thing from, worked by the mouse and by arrow keys.
+//! Lists from which one entry is chosen, with the mouse or the arrow keys.
 
 use egui::{ComboBox, EventFilter, Key, Modifiers, Response, Ui};
 

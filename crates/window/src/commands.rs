@@ -1,4 +1,4 @@
-//! What the window's own keys do, apart from those that are held.
+//! What the window's own keys do, except keys that act while they are held.
 
 use trigon_camera::OrbitStyle;
 use trigon_scene::{NodeId, Style};

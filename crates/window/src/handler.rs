@@ -1,4 +1,4 @@
-//! The application's callbacks: every method has a default that does nothing.
+//! The callbacks of an application. Every method has a default that does nothing.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -21,7 +21,7 @@ pub struct Tick {
 
 /// Whether more frames are wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Animation {
+pub enum AnimationState {
     /// Go on, at about 60 frames a second.
     Running,
     /// Nothing is moving any more. [`Stage::animate`] starts it again.
@@ -38,10 +38,10 @@ pub trait Handler {
     }
 
     /// A frame is about to be drawn. Called once at the beginning, and then as long as it returns
-    /// [`Animation::Running`].
-    fn frame(&mut self, stage: &mut Stage, tick: Tick) -> Animation {
+    /// [`AnimationState::Running`].
+    fn frame(&mut self, stage: &mut Stage, tick: Tick) -> AnimationState {
         let _ = (stage, tick);
-        Animation::Resting
+        AnimationState::Resting
     }
 
     /// Input that no widget took: the application may take it before the camera, the keymap and clicks do.
@@ -91,7 +91,7 @@ pub trait Handler {
 }
 
 /// The frame callback.
-type Frames<'a> = Box<dyn FnMut(&mut Stage, Tick) -> Animation + 'a>;
+type Frames<'a> = Box<dyn FnMut(&mut Stage, Tick) -> AnimationState + 'a>;
 
 /// The interface callback.
 type Interface<'a> = Box<dyn FnMut(&mut Stage, &mut egui::Ui) + 'a>;
@@ -104,8 +104,8 @@ pub(crate) struct Closures<'a> {
 }
 
 impl Handler for Closures<'_> {
-    fn frame(&mut self, stage: &mut Stage, tick: Tick) -> Animation {
-        self.frame.as_mut().map_or(Animation::Resting, |frame| frame(stage, tick))
+    fn frame(&mut self, stage: &mut Stage, tick: Tick) -> AnimationState {
+        self.frame.as_mut().map_or(AnimationState::Resting, |frame| frame(stage, tick))
     }
 
     fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {

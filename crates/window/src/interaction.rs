@@ -1,5 +1,5 @@
-//! Recordings of a window's input as text, for replaying in a test or showing an error to somebody
-//! else.
+//! Recordings of a window's input as text, to be replayed in a test or sent to somebody else with a bug
+//! report.
 
 use std::collections::VecDeque;
 use std::time::Duration;

@@ -6,7 +6,7 @@
 //! keys, texts.
 //!
 //! [`trigon_scene`] draws frames; this crate decides when and in which quality, and presents them on
-//! the screen. It does not depend on files or editing.
+//! the screen. It knows no file formats and no editing.
 //!
 //! The path of an event: winit → `input` (translates it) → `session` (passes it to the interface, the
 //! application, or the camera) → `pacing` (decides when to draw, and in which quality) → `worker` (draws the
@@ -16,7 +16,7 @@
 //!
 //! ```no_run
 //! use trigon_window::scene::{Material, math::DVec3, mesh::primitives};
-//! use trigon_window::{Animation, Application};
+//! use trigon_window::{AnimationState, Application};
 //!
 //! # fn main() -> Result<(), trigon_window::WindowError> {
 //! let mut application = Application::new("A turning cube");
@@ -25,7 +25,7 @@
 //!     if let Some(node) = stage.scene.node_mut(cube) {
 //!         node.transform.rotate(DVec3::Y, tick.delta.as_secs_f64());
 //!     }
-//!     Animation::Running
+//!     AnimationState::Running
 //! });
 //! application.run()
 //! # }
@@ -53,6 +53,7 @@ mod pacing;
 mod panes;
 mod popup;
 mod present;
+mod recent;
 mod refinement;
 mod session;
 mod shared_scene;
@@ -70,7 +71,7 @@ pub use drawer::Drawer;
 pub use egui_painter::EguiTestRenderer;
 pub use egui_painter::{ChannelOrder, EguiPainter, MAX_TEXTURE_SIDE};
 pub use error::WindowError;
-pub use handler::{Animation, Handler, Tick};
+pub use handler::{AnimationState, Handler, Tick};
 #[cfg(any(test, feature = "kittest"))]
 pub use headless::{DrawnFrame, HeadlessWindow, Widget};
 pub use input::{Chord, ChordError, Hands, Input, InputOwner, Key, Modifiers, PointerButton, Taken};
@@ -82,6 +83,7 @@ pub use keymap::{
 pub use overlay::{Corner, Overlay};
 pub use panes::{Area, Pane};
 pub use popup::{PopupEnd, popup_entry, popup_menu};
+pub use recent::{RecentFiles, state_folder};
 pub use refinement::{Comparison, Difference, QualityReport, Refinement};
 pub use shared_scene::{Revision, SharedScene};
 pub use stage::{FrameReport, Stage, Visibility};

@@ -1,4 +1,4 @@
-//! How objects were moved by hand, to be undone and redone.
+//! Records how objects were moved by hand, for undo and redo.
 
 use std::collections::BTreeMap;
 

@@ -1,10 +1,10 @@
-//! Four views of the scene in one window: three along its axes with parallel lines of sight, and the camera's
-//! own at the upper right.
+//! Four views of the scene in one window: three orthographic ones along the axes, and the camera's own at the
+//! upper right.
 //!
-//! There is still one camera, [`Stage::orbit`](crate::Stage::orbit). The three others look at the same target from
-//! as far, so whatever moves or zooms one view does so to all, and there is no second state to keep. Each
-//! view is drawn by itself into its part of one [`Frame`], with its ids and depths. So all that follows, from
-//! refinement to picking, goes on to have one image.
+//! There is still one camera, [`Stage::orbit`](crate::Stage::orbit). The other three look at the same target
+//! from the same distance, so moving or zooming one view changes all, and no second state is needed. Each
+//! view is drawn separately into its part of one [`Frame`], with its ids and depths, so refinement, picking
+//! and everything else still work on a single image.
 
 use trigon_camera::{AxisView, Camera, Orbit, Projector, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};

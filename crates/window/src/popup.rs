@@ -1,4 +1,4 @@
-//! Menus at the pointer: one frame for all of them, worked by mouse and by keys.
+//! Menus at the pointer, all with the same frame, used with the mouse or with keys.
 
 use egui::containers::menu::menu_style;
 use egui::{

@@ -1,4 +1,4 @@
-//! Presents pixels in a window. The only file that knows softbuffer.
+//! Shows pixels in a window. The only file that knows softbuffer.
 
 use std::num::NonZeroU32;
 use std::sync::Arc;

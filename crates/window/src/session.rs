@@ -15,10 +15,11 @@ use trigon_math::{Bounds3, DVec2, DVec3};
 use trigon_scene::{Frame, RenderSettings};
 
 use crate::canvas::Canvas;
-use crate::handler::{Animation, Handler, Tick};
-use crate::input::{HeldKeys, InputEvent, Modifiers, Pointer};
+use crate::handler::{AnimationState, Handler, Tick};
+use crate::input::{InputEvent, Modifiers, Pointer};
 use crate::interaction::Interaction;
 use crate::interface::{Interface, Moment};
+use crate::keymap::HeldKeys;
 use crate::pacing::{Change, Frames, Pacing, Wake};
 use crate::refinement::Gallery;
 use crate::shared_scene::Revision;
@@ -44,7 +45,7 @@ pub(crate) struct Session<'a> {
     taken: TakenInput,
     wrapping: Wrapping,
     pacing: Pacing,
-    animation: Animation,
+    animation: AnimationState,
     /// When frames were last stepped; `None` if nothing moves by itself.
     stepped: Option<Duration>,
     dropped: Vec<PathBuf>,
@@ -86,7 +87,7 @@ impl<'a> Session<'a> {
             taken: TakenInput::default(),
             wrapping: Wrapping::default(),
             pacing: Pacing::new(),
-            animation: Animation::Resting,
+            animation: AnimationState::Resting,
             stepped: None,
             dropped: Vec::new(),
             anchor: None,
@@ -252,7 +253,7 @@ impl<'a> Session<'a> {
     }
 
     fn frames(&self) -> Frames {
-        if self.animation == Animation::Running || !self.held.is_empty() {
+        if self.animation == AnimationState::Running || !self.held.is_empty() {
             Frames::Wanted
         } else {
             Frames::None
@@ -293,7 +294,7 @@ impl<'a> Session<'a> {
         self.images.append(&mut self.stage.wishes().images);
         self.begin_asked(now);
         if std::mem::take(&mut self.stage.wishes().animate) {
-            self.animation = Animation::Running;
+            self.animation = AnimationState::Running;
         }
     }
 
@@ -306,7 +307,7 @@ impl<'a> Session<'a> {
         let delta = self.stepped.map_or(FIRST_STEP, |last| now.saturating_sub(last));
         self.stepped = Some(now);
         self.move_held(now);
-        if self.animation == Animation::Running {
+        if self.animation == AnimationState::Running {
             self.animation = self.handler.frame(&mut self.stage, Tick { time: now, delta });
             self.after_handler(now);
         }
@@ -330,7 +331,7 @@ impl<'a> Session<'a> {
             self.after_handler(now);
         }
         if std::mem::take(&mut self.stage.wishes().animate) {
-            self.animation = Animation::Running;
+            self.animation = AnimationState::Running;
         }
         self.plan(now);
     }

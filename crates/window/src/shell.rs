@@ -1,5 +1,5 @@
-//! The window itself: winit's event loop around a [`Session`], which makes all decisions. Events go
-//! in, images come out, and the loop sleeps as long as the session says.
+//! The window: winit's event loop around a [`Session`], which makes all decisions. The loop passes events in,
+//! shows the images that come out, and sleeps as long as the session says.
 
 #[cfg(feature = "accesskit")]
 mod accessibility;

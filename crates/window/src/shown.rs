@@ -1,8 +1,8 @@
-//! What the image in the window shows, pixel by pixel: a user points at that image, which may be
-//! older than the scene.
+//! What each pixel of the image in the window shows. Users point at that image, which may be older than the
+//! scene.
 //!
-//! An image's ids and depths come with its colours, so picking is a look-up of one pixel. Nothing
-//! is drawn for it, and no vertex is visited.
+//! The ids and depths of an image arrive with its colours, so picking looks up one pixel. Nothing is drawn
+//! for it, and no vertex is visited.
 
 use std::sync::{Arc, Weak};
 

@@ -1,4 +1,4 @@
-//! Waking a window from other threads: a file was loaded or has changed, or a computation is done.
+//! Wakes a window from other threads, for example when a file was loaded or has changed.
 
 use std::sync::{Arc, Mutex, PoisonError};
 

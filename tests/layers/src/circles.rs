@@ -5,7 +5,7 @@ use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Files each of which needs all others, if by way of others.
 #[derive(Debug)]
@@ -40,6 +40,33 @@ pub fn circles(of: &Crate) -> Vec<Circle> {
         .map(|circle| of_files(of, &needs, circle.into_iter().map(NodeIndex::index).collect()))
         .collect();
     circles.sort_by(|a, b| b.files.len().cmp(&a.files.len()).then_with(|| a.files.cmp(&b.files)));
+    circles
+}
+
+/// The circles of a crate's top-level modules, each with all that lies in it: their names, the largest circle first. The
+/// crate's root is left out.
+#[must_use]
+pub fn module_circles(of: &Crate) -> Vec<Vec<String>> {
+    let name = |file: usize| {
+        let first = of.files[file].components().next()?;
+        let name = Path::new(first.as_os_str()).file_stem()?.to_string_lossy().into_owned();
+        (file != 0).then_some(name)
+    };
+    let mut graph = DiGraph::<String, ()>::new();
+    let mut nodes = BTreeMap::new();
+    for (from, to) in needs(of).into_keys() {
+        let (Some(from), Some(to)) = (name(from), name(to)) else { continue };
+        let [from, to] =
+            [from, to].map(|name| *nodes.entry(name.clone()).or_insert_with(|| graph.add_node(name)));
+        graph.update_edge(from, to, ());
+    }
+    let mut circles: Vec<Vec<String>> = tarjan_scc(&graph)
+        .into_iter()
+        .filter(|circle| circle.len() > 1)
+        .map(|circle| circle.into_iter().map(|node| graph[node].clone()).collect())
+        .collect();
+    circles.iter_mut().for_each(|circle| circle.sort());
+    circles.sort_by(|a, b| b.len().cmp(&a.len()).then_with(|| a.cmp(b)));
     circles
 }
 

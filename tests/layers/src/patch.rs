@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(sound.description, ["What it does.", ""], "before the first file");
         assert_eq!(sound.files[0].path, "Cargo.toml", "the file");
         assert_eq!(sound.files[0].fault(folder), None, "its line is there");
-        let fault = patch("[pakcage]").files[0].fault(folder);
+        let fault = patch("[another]").files[0].fault(folder);
         assert_eq!(fault.as_deref(), Some("Cargo.toml: hunk 1 does not apply"), "a line that is not there");
     }
 }

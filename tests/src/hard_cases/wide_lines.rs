@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use trigon_math::Vec4;
-use trigon_raster::{BlendMode, Lines, Outline, Pass};
+use trigon_raster::{BlendMode, Lines, Pass, Smoothing};
 
 use super::huge::far_corner;
 use crate::coverage_support::{SIDE, Values, draw, pixel};
@@ -185,7 +185,7 @@ proptest! {
         let width = if width.is_nan() { 1.0 } else { width.clamp(0.0, 4096.0) };
         let pipeline = Values::ones(ends);
         let mut pass = Pass::new();
-        pass.lines(Lines { width, outline: Outline::AntiAliased, ..Lines::new(&pipeline, &[[0, 1]]) });
+        pass.lines(Lines { width, smoothing: Smoothing::AntiAliased, ..Lines::new(&pipeline, &[[0, 1]]) });
         for (index, color) in draw(&pass).linear.expect("asked for").iter().enumerate() {
             let expected = line.smooth(centre(index), f64::from(width));
             let error = (f64::from(color.x) - expected).abs();

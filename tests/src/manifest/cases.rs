@@ -5,8 +5,8 @@ use crate::coverage_support::Samples;
 use crate::programs::{Flat, Lanes, Scalar, Textured, Vertices};
 use trigon_math::{UVec2, Vec4};
 use trigon_raster::{
-    Background, BlendMode, Culling, Draw, Filter, LanePipeline, Lines, MipFilter, Outline, Output, Pass,
-    PointShape, Points, Rasterizer, Sampler, TargetImages, Texture, TextureFormat,
+    Background, BlendMode, Culling, Draw, Filter, LanePipeline, Lines, MipFilter, Output, Pass, PointShape,
+    Points, Rasterizer, Sampler, Smoothing, TargetImages, Texture, TextureFormat,
 };
 
 const SIZE: [u32; 2] = [96, 64];
@@ -28,8 +28,8 @@ enum Program {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Shape {
     Triangles,
-    Lines(Outline),
-    Points(PointShape, Outline),
+    Lines(Smoothing),
+    Points(PointShape, Smoothing),
 }
 
 const EVERYTHING: &[Output] = &[
@@ -87,18 +87,18 @@ fn samples() -> Vec<Case> {
 }
 
 fn shapes() -> Vec<Case> {
-    let shapes = [Shape::Lines(Outline::Sharp), Shape::Points(PointShape::Round, Outline::Sharp)];
+    let shapes = [Shape::Lines(Smoothing::Sharp), Shape::Points(PointShape::Round, Smoothing::Sharp)];
     let cases = shapes.into_iter().flat_map(|shape| SURFACES.map(|surface| (shape, surface)));
     let cases = cases.flat_map(|case| [1, 4].map(|samples| (case, multisampled(samples))));
     let cases = cases.map(|((shape, surface), samples)| Case { shape, surface, samples, ..USUAL });
-    let square = Case { shape: Shape::Points(PointShape::Square, Outline::Sharp), ..USUAL };
+    let square = Case { shape: Shape::Points(PointShape::Square, Smoothing::Sharp), ..USUAL };
     cases.chain([square]).chain(smooth_shapes()).collect()
 }
 
 fn smooth_shapes() -> impl Iterator<Item = Case> {
     let points =
-        [PointShape::Round, PointShape::Square].map(|shape| Shape::Points(shape, Outline::AntiAliased));
-    let shapes = points.into_iter().chain([Shape::Lines(Outline::AntiAliased)]);
+        [PointShape::Round, PointShape::Square].map(|shape| Shape::Points(shape, Smoothing::AntiAliased));
+    let shapes = points.into_iter().chain([Shape::Lines(Smoothing::AntiAliased)]);
     shapes.flat_map(|shape| [1, 4].map(|samples| Case { shape, samples: multisampled(samples), ..USUAL }))
 }
 
@@ -210,23 +210,23 @@ impl Case {
                     ..Draw::new(pipeline, triangles)
                 })
             }
-            Shape::Lines(outline) => {
+            Shape::Lines(smoothing) => {
                 let (object, width) = (8, 2.5);
                 pass.lines(Lines {
                     object,
                     blend_mode: surface,
                     width,
-                    outline,
+                    smoothing,
                     ..Lines::new(pipeline, &segments)
                 })
             }
-            Shape::Points(shape, outline) => {
+            Shape::Points(shape, smoothing) => {
                 let object = 9;
                 pass.points(Points {
                     object,
                     blend_mode: surface,
                     shape,
-                    outline,
+                    smoothing,
                     ..Points::new(pipeline, &points, 7.0)
                 })
             }
@@ -242,8 +242,8 @@ impl Case {
         let surface = if self.surface == BlendMode::Translucent { BlendMode::Opaque } else { self.surface };
         let shape = match self.shape {
             Shape::Triangles => Shape::Triangles,
-            Shape::Lines(_) => Shape::Lines(Outline::Sharp),
-            Shape::Points(shape, _) => Shape::Points(shape, Outline::Sharp),
+            Shape::Lines(_) => Shape::Lines(Smoothing::Sharp),
+            Shape::Points(shape, _) => Shape::Points(shape, Smoothing::Sharp),
         };
         let seen = Self { outputs: &[Output::Object], surface, shape, ..*self }.draw(rasterizer);
         let objects = seen.objects.expect("asked for");

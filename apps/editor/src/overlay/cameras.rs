@@ -64,7 +64,7 @@ fn pyramid(camera: &Camera) -> Vec<[DVec3; 2]> {
     lines
 }
 
-/// An image of the shape that the projection tells.
+/// An image with the aspect ratio of the projection.
 fn frame(camera: &Camera) -> Viewport {
     match camera.projection.own_aspect() {
         Some(aspect) if aspect > 0.0 => Viewport { width: (aspect * 1000.0) as u32, height: 1000 },

@@ -9,7 +9,7 @@ pub(crate) enum Gesture {
     Box([Pos2; 2]),
     /// A brush around the pointer.
     Circle { center: Pos2, radius: f32 },
-    /// The way of the pointer so far; its end is joined to its start.
+    /// The path of the pointer so far; its end is joined to its start.
     Lasso(Vec<Pos2>),
 }
 

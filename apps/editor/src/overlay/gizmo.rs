@@ -8,7 +8,7 @@ use super::view::{OverlayView, distance_to_line};
 
 /// From the middle to the tips, in logical pixels.
 const ARM: f64 = 80.0;
-/// Where arms begin, as a share of their length: the middle is a handle of its own.
+/// The start of the arms, as a fraction of their length: the middle is a separate handle.
 const START: f64 = 0.2;
 /// Where squares of planes lie, as shares of the arms.
 const PLANE: [f64; 2] = [0.3, 0.5];
@@ -42,7 +42,7 @@ pub(crate) enum Handle {
     View,
 }
 
-/// The gizmo at a place.
+/// The gizmo at a position.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Gizmo {
     pub(crate) kind: GizmoKind,
@@ -148,7 +148,7 @@ impl Gizmo {
             right * cos + up * sin
         };
         let forward = view.camera().forward();
-        // Rings that face the eye are seen whole.
+        // Rings that face the eye are drawn completely.
         let slack = right.length() * 0.05;
         let is_near = |offset: DVec3| offset.dot(forward) <= slack;
         (0..PIECES)
@@ -158,7 +158,7 @@ impl Gizmo {
             .collect()
     }
 
-    /// The square of a plane; none where it is seen from its edge.
+    /// The square of a plane; none if it is seen edge-on.
     fn area(&self, view: &OverlayView, handle: Handle) -> Option<Vec<Pos2>> {
         let Handle::Plane(axis) = handle else { return None };
         let size = self.size(view);
@@ -167,7 +167,7 @@ impl Gizmo {
         let corners = [(low, low), (high, low), (high, high), (low, high)];
         let places = corners.map(|(x, y)| view.point(self.center + right * x + up * y));
         let places: Vec<Pos2> = places.into_iter().collect::<Option<_>>()?;
-        // Its outline has no direction where it is seen from its edge, and would be drawn at no number.
+        // Seen edge-on, its outline has no direction, and its corners would be NaN.
         let (one, other) = (places[2] - places[0], places[3] - places[1]);
         let area = 0.5 * (one.x * other.y - one.y * other.x).abs();
         (area >= LEAST_AREA).then_some(places)
@@ -184,7 +184,7 @@ impl Gizmo {
     }
 }
 
-/// Whether a point lies in a convex polygon, whichever way that winds.
+/// Whether a point lies in a convex polygon of either winding.
 fn contains(polygon: &[Pos2], point: Pos2) -> bool {
     let side = |index: usize| {
         let (a, b) = (polygon[index], polygon[(index + 1) % polygon.len()]);

@@ -14,7 +14,7 @@ use super::view::OverlayView;
 const LINES: i64 = 30;
 /// Lines that are nearer to each other are left out, in logical pixels.
 const LEAST_GAP: f64 = 8.0;
-/// Of the pieces whose depth is looked at, in logical pixels.
+/// The length of the pieces whose depth is tested, in logical pixels.
 const PIECE: f32 = 12.0;
 /// What a line has to lie behind the image to be hidden, as a share of its distance: faces on the floor do not
 /// flicker.
@@ -42,12 +42,12 @@ struct Grid {
     gap: f64,
     /// The line in the middle, by number.
     middle: [i64; 2],
-    /// How well the lines between every tenth are seen: 0 to 1.
+    /// The opacity of the lines between every tenth: 0 to 1.
     share: f64,
 }
 
 impl Grid {
-    /// `None` where the floor is seen from its edge, or is too far away for numbers.
+    /// `None` where the floor is seen edge-on, or is too far away.
     fn of(view: &OverlayView) -> Option<Self> {
         let camera = view.camera();
         let (eye, forward) = (camera.position, camera.forward());
@@ -165,8 +165,8 @@ impl FloorDepth {
         Self { corner, growth, is_parallel }
     }
 
-    /// Whether the image shows something before the floor at a pixel. Where the floor is no number,
-    /// such as seen from its edge, nothing hides it.
+    /// Whether the image shows something in front of the floor at a pixel. Where the floor's depth is NaN, as
+    /// seen edge-on, nothing hides it.
     fn is_hidden(&self, pixel: DVec2, depth: Depth<'_>) -> bool {
         let floor = self.corner + self.growth.dot(pixel);
         depth(pixel).is_some_and(|seen| {

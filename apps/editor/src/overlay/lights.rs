@@ -16,7 +16,7 @@ const RAY: f64 = 60.0;
 /// Lines that draw a spot light's cone.
 const CONE_LINES: usize = 8;
 
-/// Draws all lights that have a place or a direction.
+/// Draws all lights that have a position or a direction.
 pub(crate) fn draw_lights(painter: &Painter, document: &Document, view: &OverlayView) {
     for (id, light, world) in lights(document) {
         let color = if document.selection().objects.contains(&id) { SELECTED } else { PLAIN };

@@ -29,7 +29,7 @@ use trigon_window::egui::Color32;
 const AXIS_COLORS: [Color32; 3] =
     [Color32::from_rgb(255, 51, 82), Color32::from_rgb(139, 220, 0), Color32::from_rgb(40, 144, 255)];
 
-/// Letters, so that nobody has to tell the colours apart.
+/// Letters, for users who cannot tell the colours apart.
 const AXIS_NAMES: [&str; 3] = ["X", "Y", "Z"];
 
 /// Of what is selected.

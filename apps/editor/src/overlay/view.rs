@@ -21,7 +21,7 @@ impl OverlayView {
         Self { projector: Projector::new(camera, viewport), scale, origin: DVec2::ZERO }
     }
 
-    /// The same image at another place of the window, in physical pixels.
+    /// The same image at another position in the window, in physical pixels.
     pub(crate) fn placed_at(self, origin: DVec2) -> Self {
         Self { origin, ..self }
     }
@@ -69,8 +69,9 @@ impl OverlayView {
         }
     }
 
-    /// Where lines are cut, in metres before the eye: much nearer than the near plane, which a view has right
-    /// before its scene, where the floor goes on. A parallel projection sees behind the eye, too.
+    /// The distance in front of the eye at which lines are clipped, in metres: much nearer than the near
+    /// plane, which lies right in front of the scene, while the floor continues. A parallel projection also
+    /// shows what is behind the eye.
     fn nearest(&self) -> f64 {
         const SHARE: f64 = 1e-3;
         let projection = &self.camera().projection;

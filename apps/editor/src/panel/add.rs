@@ -7,11 +7,11 @@ use super::adjust::changed;
 use super::form;
 use crate::request::Request;
 
-/// What the tab remembers: what would be added.
+/// The state of the tab: the requested image.
 #[derive(Debug)]
 pub(crate) struct AddState {
     command: Command,
-    /// Whether its place was typed: otherwise it is that of the cursor.
+    /// Whether its position was typed; otherwise it is that of the cursor.
     is_placed: bool,
 }
 
@@ -21,7 +21,7 @@ impl Default for AddState {
     }
 }
 
-/// Everything that can be added, with its name, at a place in the world in metres.
+/// Everything that can be added, with its name, at a position in the world in metres.
 fn offers(position: [f64; 3]) -> impl Iterator<Item = (String, Command)> {
     let shapes = Shape::USUAL.map(|shape| (shape.name().to_owned(), object(shape, position)));
     let lights = [LightShape::Point, LightShape::Directional, LightShape::Spot].map(|light| {
@@ -37,7 +37,8 @@ fn object(object: Shape, position: [f64; 3]) -> Command {
     AddObject { object, name: None, position }.into()
 }
 
-/// Shows it. What is added stands at `cursor`, in metres in the world, unless another place is typed.
+/// Shows the tab. New objects are placed at `cursor`, in metres in the world, unless another position is
+/// typed.
 pub(crate) fn add(
     ui: &mut Ui,
     document: &Document,

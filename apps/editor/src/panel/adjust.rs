@@ -8,8 +8,8 @@ use super::key_order::KeyOrder;
 use super::parameters;
 use crate::request::Request;
 
-/// Shows the last command with its parameters. A change asks for the same command with other
-/// parameters in its place.
+/// Shows the last command with its parameters. A change requests the same command with other parameters
+/// instead.
 pub(crate) fn adjust(ui: &mut Ui, document: &Document, requests: &mut Vec<Request>) {
     let Some(entry) = document.history().done().last() else {
         ui.add(egui::Label::new("Nothing was done yet.").wrap());

@@ -20,7 +20,7 @@ pub(super) enum Form<'s> {
     Choice(Vec<(&'s str, &'s str)>),
     /// So many numbers.
     Vector(usize, NumberForm),
-    /// One of some groups of parameters; the key tells which.
+    /// One of several groups of parameters; the key decides which.
     Variants(&'s str, Vec<Variant<'s>>),
     /// Parameters of its own.
     Group(&'s Value),
@@ -44,7 +44,7 @@ pub(super) struct NumberForm {
 pub(super) struct Variant<'s> {
     pub(super) name: &'s str,
     pub(super) description: &'s str,
-    /// Its parameters, and the key that tells which it is.
+    /// Its parameters, and the key that decides which they are.
     pub(super) schema: &'s Value,
     /// What it is at first.
     pub(super) example: Option<&'s Value>,
@@ -76,7 +76,7 @@ pub(super) fn description(property: &'static Value) -> &'static str {
     own.or_else(|| resolve(property)["description"].as_str()).unwrap_or_default()
 }
 
-/// The unit that the comment on a parameter tells, or that on its type.
+/// The unit stated in the comment on a parameter, or on its type.
 pub(super) fn unit(property: &'static Value) -> Unit {
     let told = |value: &Value| Unit::of_comment(value["description"].as_str().unwrap_or_default());
     match told(property) {

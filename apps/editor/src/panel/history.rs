@@ -5,10 +5,10 @@ use trigon_window::egui::{self, Ui};
 
 use crate::request::Request;
 
-/// Of so many entries the list consists at most, on each side of now: nobody reads more.
+/// The maximum number of entries listed on each side of the current one.
 const MOST: usize = 50;
 
-/// Shows it. Each click asks for as many undos or redos as lead there.
+/// Shows the list. A click requests as many undos or redos as lead to that entry.
 pub(crate) fn history(ui: &mut Ui, document: &Document, requests: &mut Vec<Request>) {
     let history = document.history();
     let (done, undone) = (history.done(), history.undone());

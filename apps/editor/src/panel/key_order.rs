@@ -18,7 +18,7 @@ impl KeyOrder {
         serde_json::from_str(&text).expect("it was just written")
     }
 
-    /// The place of a key; one that is not there comes last.
+    /// The position of a key; missing keys come last.
     pub(super) fn place(&self, key: &str) -> usize {
         self.0.iter().position(|(name, _)| name == key).unwrap_or(usize::MAX)
     }

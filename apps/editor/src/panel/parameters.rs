@@ -72,9 +72,9 @@ impl Parameter<'_> {
         }
     }
 
-    /// A check box that tells whether there is a value, and the value.
+    /// A check box for whether there is a value, and the value.
     fn show_optional(&self, ui: &mut Ui, label: &str, inner: &Form<'static>, value: &mut Value) -> bool {
-        // A name or a list that nobody gave cannot be given here.
+        // Names and lists that were not given cannot be given here.
         if *inner == Form::ReadOnly {
             return self.show(ui, inner, value);
         }

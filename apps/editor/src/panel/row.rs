@@ -108,8 +108,8 @@ pub(super) fn positive(most: f64, unit: Unit) -> NumberForm {
     NumberForm { least: 0.0, most, is_integer: false, unit }
 }
 
-/// Three or more numbers under one label, each on a line of its own. Returns which one was changed, and
-/// its response.
+/// Three or more numbers under one label, each on its own line. Returns which one was changed, and its
+/// response.
 pub(super) fn vector(
     ui: &mut Ui,
     label: &str,

@@ -5,8 +5,8 @@ use trigon_window::egui::{Response, Ui};
 
 use crate::request::Request;
 
-/// Asks for a command. While a value is dragged, each command takes the place of the one
-/// before, so that the whole drag is undone as one.
+/// Requests a command. While a value is dragged, each command replaces the one before, so that the whole drag
+/// is undone as one.
 pub(super) fn submit(
     ui: &Ui,
     document: &Document,

@@ -83,12 +83,12 @@ impl<S> Case<S> {
         self.click(choice);
     }
 
-    /// Whether all text is to be seen as a whole.
+    /// Whether all text has to be visible.
     pub(super) fn assert_nothing_is_clipped(&self) {
         let width = self.harness.ctx.content_rect().width();
         for clipped in &self.harness.output().shapes {
             let Shape::Text(text) = &clipped.shape else { continue };
-            // Nothing has no place.
+            // Nothing has no position.
             if text.galley.text().trim().is_empty() {
                 continue;
             }

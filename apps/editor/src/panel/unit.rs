@@ -17,7 +17,7 @@ pub(super) enum Unit {
 }
 
 impl Unit {
-    /// The unit that a comment tells, as "How far, in metres."
+    /// The unit stated in a comment, such as "How far, in metres."
     pub(super) fn of_comment(comment: &str) -> Self {
         let words = [
             ("square metres", Self::SquareMetres),
@@ -29,7 +29,7 @@ impl Unit {
         words.into_iter().find(|(word, _)| lower.contains(word)).map_or(Self::None, |(_, unit)| unit)
     }
 
-    /// What stands behind the number.
+    /// The suffix of the number.
     pub(super) fn suffix(self) -> &'static str {
         match self {
             Self::None => "",

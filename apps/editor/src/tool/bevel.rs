@@ -2,13 +2,14 @@
 //! centre; the wheel changes the number of segments, and keys change everything else.
 
 use trigon_edit::mesh::math::{DVec2, DVec3};
-use trigon_edit::{Bevel, BevelWidth, Document, InnerMiter, OuterMiter};
+use trigon_edit::{Bevel, BevelWidth, Command, Document, InnerMiter, OuterMiter};
 use trigon_window::{Hands, Input};
 
 use super::expression::Quantity;
 use super::extrude::on;
 use super::modal::{Modal, Step};
 use super::numeric::NumericEntry;
+use super::preview::PreviewTool;
 use super::selected::Selected;
 use super::view::ToolView;
 use super::{Tool, ToolState};
@@ -60,13 +61,6 @@ impl BevelTool {
         Some(tool)
     }
 
-    fn update(&mut self, document: &mut Document, view: &ToolView) -> ToolState {
-        if let Err(why) = self.follow(view) {
-            return self.modal.refuse(why);
-        }
-        self.modal.show(document, self.command.clone().into())
-    }
-
     fn follow(&mut self, view: &ToolView) -> Result<(), String> {
         let place = self.modal.pointer.place();
         let center = view.screen(self.middle).unwrap_or(DVec2::ZERO);
@@ -97,7 +91,7 @@ impl BevelTool {
         view.metres_per_pixel(self.middle)
     }
 
-    /// Lets the width measure something else: the whole way of the pointer counts anew.
+    /// Changes what the width measures; the drag so far then starts from zero.
     fn next_width_type(&mut self) {
         self.command.width_type = match self.command.width_type {
             BevelWidth::Offset => BevelWidth::Width,
@@ -122,6 +116,13 @@ impl BevelTool {
         self.adjusting = adjusting;
         self.from = self.modal.pointer.place();
         self.before = self.command.clone();
+    }
+}
+
+impl PreviewTool for BevelTool {
+    fn command(&mut self, view: &ToolView) -> Result<Command, String> {
+        self.follow(view)?;
+        Ok(self.command.clone().into())
     }
 
     fn key(&mut self, key: char, document: &mut Document, view: &ToolView) -> ToolState {
@@ -158,16 +159,12 @@ impl BevelTool {
 impl Tool for BevelTool {
     fn input(&mut self, input: &Input, hands: Hands, view: &ToolView, document: &mut Document) -> ToolState {
         match self.modal.step(input, hands) {
-            Step::Update => self.update(document, view),
-            Step::Confirm => Modal::confirm(document),
-            Step::Cancel => Modal::cancel(document),
-            Step::Key(key) => self.key(key, document, view),
             Step::Wheel(lines) => {
                 self.set_segments(f64::from(self.command.segments) + lines);
                 self.before.segments = self.command.segments;
                 self.update(document, view)
             }
-            _ => ToolState::Running,
+            step => self.step(step, document, view),
         }
     }
 
@@ -195,8 +192,8 @@ impl Tool for BevelTool {
         ))
     }
 
-    fn pointer_jumped(&mut self, to: DVec2) {
-        self.modal.pointer.jumped(to);
+    fn modal(&mut self) -> &mut Modal {
+        &mut self.modal
     }
 }
 

@@ -161,7 +161,7 @@ pub(crate) fn nearest_axis(view: &ToolView, point: DVec3, axes: &DMat3, way: DVe
     let step = view.metres_per_pixel(point);
     let alike = |axis: &Axis| {
         let end = view.screen(point + axes.col(axis.index()) * step);
-        // Axes towards the viewer have hardly a direction in the image; their length tells.
+        // Axes towards the viewer have hardly any direction in the image; their length shows it.
         end.map_or(0.0, |end| (end - center).dot(way).abs())
     };
     Axis::ALL.into_iter().max_by(|a, b| alike(a).total_cmp(&alike(b)))

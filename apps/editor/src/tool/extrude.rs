@@ -1,7 +1,7 @@
 //! E: extrudes, then moves the result: along the mean normal, or locked like a move. Cancelling also removes
 //! the new geometry.
 
-use trigon_edit::mesh::math::{DMat3, DVec2, DVec3};
+use trigon_edit::mesh::math::{DMat3, DVec3};
 use trigon_edit::{Command, Document, ElementKind, Extrude, TransformSpace};
 use trigon_window::{Hands, Input, Modifiers};
 
@@ -9,6 +9,7 @@ use super::constraint::{Axis, Constraint, Frames, Freedom, Orientation};
 use super::expression::Quantity;
 use super::modal::{Modal, Step};
 use super::numeric::NumericEntry;
+use super::preview::PreviewTool;
 use super::selected::Selected;
 use super::snap::{SnapSettings, rounded, rounded_along};
 use super::translate::typed_offset;
@@ -51,26 +52,8 @@ impl ExtrudeTool {
         Some(tool)
     }
 
-    fn update(&mut self, document: &mut Document, view: &ToolView) -> ToolState {
-        match self.command(view) {
-            Ok(command) => self.modal.show(document, command),
-            Err(why) => self.modal.refuse(why),
-        }
-    }
-
     fn snaps(&self) -> bool {
         self.snap.is_on != self.modal.inverts_snapping()
-    }
-
-    fn command(&mut self, view: &ToolView) -> Result<Command, String> {
-        if self.has_faces && self.constraint.freedom().is_none() {
-            let distance = self.distance(view)?;
-            self.text = format!("Extrude {distance:.4} m along normals");
-            return Ok(self.extrusion(distance, DVec3::ZERO));
-        }
-        let offset = self.offset(view)?;
-        self.text = format!("Extrude {:.4} m{}", offset.length(), self.constraint.status(&self.frames));
-        Ok(self.extrusion(0.0, offset))
     }
 
     fn extrusion(&self, distance: f64, offset: DVec3) -> Command {
@@ -109,6 +92,29 @@ impl ExtrudeTool {
         document.confirm();
         ToolState::ConfirmedThen(if key == 's' { TransformKind::Scale } else { TransformKind::Rotate })
     }
+}
+
+fn has_faces(document: &Document) -> bool {
+    let kind = document.selection().kind();
+    if kind == ElementKind::Face {
+        return true;
+    }
+    let mut meshes = document.selection().meshes();
+    meshes
+        .any(|(id, selection)| document.mesh(id).is_some_and(|mesh| !selection.faces(mesh, kind).is_empty()))
+}
+
+impl PreviewTool for ExtrudeTool {
+    fn command(&mut self, view: &ToolView) -> Result<Command, String> {
+        if self.has_faces && self.constraint.freedom().is_none() {
+            let distance = self.distance(view)?;
+            self.text = format!("Extrude {distance:.4} m along normals");
+            return Ok(self.extrusion(distance, DVec3::ZERO));
+        }
+        let offset = self.offset(view)?;
+        self.text = format!("Extrude {:.4} m{}", offset.length(), self.constraint.status(&self.frames));
+        Ok(self.extrusion(0.0, offset))
+    }
 
     fn key(&mut self, key: char, document: &mut Document, view: &ToolView) -> ToolState {
         let across = self.modal.modifiers().contains(Modifiers::SHIFT);
@@ -134,28 +140,14 @@ impl ExtrudeTool {
     }
 }
 
-fn has_faces(document: &Document) -> bool {
-    let kind = document.selection().kind();
-    if kind == ElementKind::Face {
-        return true;
-    }
-    let mut meshes = document.selection().meshes();
-    meshes
-        .any(|(id, selection)| document.mesh(id).is_some_and(|mesh| !selection.faces(mesh, kind).is_empty()))
-}
-
 impl Tool for ExtrudeTool {
     fn input(&mut self, input: &Input, hands: Hands, view: &ToolView, document: &mut Document) -> ToolState {
         match self.modal.step(input, hands) {
-            Step::Update => self.update(document, view),
-            Step::Confirm => Modal::confirm(document),
-            Step::Cancel => Modal::cancel(document),
-            Step::Key(key) => self.key(key, document, view),
             Step::ToggleSnapping => {
                 self.snap.is_on ^= true;
                 self.update(document, view)
             }
-            _ => ToolState::Running,
+            step => self.step(step, document, view),
         }
     }
 
@@ -165,8 +157,8 @@ impl Tool for ExtrudeTool {
         self.modal.status(format!("{text} X/Y/Z: lock, C: clear, I: individual ({})", on(self.individual)))
     }
 
-    fn pointer_jumped(&mut self, to: DVec2) {
-        self.modal.pointer.jumped(to);
+    fn modal(&mut self) -> &mut Modal {
+        &mut self.modal
     }
 }
 

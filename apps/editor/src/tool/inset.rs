@@ -1,13 +1,14 @@
 //! I: insets the selected faces. The thickness grows as the pointer approaches their centre.
 
 use trigon_edit::mesh::math::{DVec2, DVec3};
-use trigon_edit::{Document, Inset, InsetMode};
+use trigon_edit::{Command, Document, Inset, InsetMode};
 use trigon_window::{Hands, Input};
 
 use super::expression::Quantity;
 use super::extrude::on;
-use super::modal::{Modal, Step};
+use super::modal::Modal;
 use super::numeric::NumericEntry;
+use super::preview::PreviewTool;
 use super::selected::Selected;
 use super::view::ToolView;
 use super::{Tool, ToolState};
@@ -38,13 +39,6 @@ impl InsetTool {
         Some(tool)
     }
 
-    fn update(&mut self, document: &mut Document, view: &ToolView) -> ToolState {
-        if let Err(why) = self.follow(view) {
-            return self.modal.refuse(why);
-        }
-        self.modal.show(document, self.command.clone().into())
-    }
-
     fn follow(&mut self, view: &ToolView) -> Result<(), String> {
         let (place, size) = (self.modal.pointer.place(), view.metres_per_pixel(self.middle));
         match (self.modal.inverts_snapping(), self.deepening) {
@@ -68,6 +62,13 @@ impl InsetTool {
         }
         Ok(())
     }
+}
+
+impl PreviewTool for InsetTool {
+    fn command(&mut self, view: &ToolView) -> Result<Command, String> {
+        self.follow(view)?;
+        Ok(self.command.clone().into())
+    }
 
     fn key(&mut self, key: char, document: &mut Document, view: &ToolView) -> ToolState {
         let toggled = |mode| if self.command.mode == mode { InsetMode::Region } else { mode };
@@ -83,13 +84,8 @@ impl InsetTool {
 
 impl Tool for InsetTool {
     fn input(&mut self, input: &Input, hands: Hands, view: &ToolView, document: &mut Document) -> ToolState {
-        match self.modal.step(input, hands) {
-            Step::Update => self.update(document, view),
-            Step::Confirm => Modal::confirm(document),
-            Step::Cancel => Modal::cancel(document),
-            Step::Key(key) => self.key(key, document, view),
-            _ => ToolState::Running,
-        }
+        let step = self.modal.step(input, hands);
+        self.step(step, document, view)
     }
 
     fn status(&self) -> String {
@@ -105,7 +101,7 @@ impl Tool for InsetTool {
         ))
     }
 
-    fn pointer_jumped(&mut self, to: DVec2) {
-        self.modal.pointer.jumped(to);
+    fn modal(&mut self) -> &mut Modal {
+        &mut self.modal
     }
 }

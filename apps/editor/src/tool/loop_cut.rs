@@ -138,7 +138,7 @@ impl LoopCutTool {
     }
 }
 
-/// The side of a face that is drawn nearest to a place.
+/// The side of a face that is drawn nearest to a position in the image.
 fn nearest_side(
     document: &Document,
     view: &ToolView,
@@ -228,8 +228,8 @@ impl Tool for LoopCutTool {
         })
     }
 
-    fn pointer_jumped(&mut self, to: DVec2) {
-        self.modal.pointer.jumped(to);
+    fn modal(&mut self) -> &mut Modal {
+        &mut self.modal
     }
 
     fn marks(&self) -> ToolMarks {

@@ -17,6 +17,7 @@ mod modal;
 mod numeric;
 mod pivot;
 mod pointer;
+mod preview;
 mod rotate;
 mod scale;
 mod selected;

@@ -150,7 +150,7 @@ impl Modal {
         }
     }
 
-    /// The distance of the pointer from a place in the image, now and in the beginning.
+    /// The distance of the pointer from a position in the image, now and at the start.
     pub(crate) fn distances(&self, from: DVec2) -> [f64; 2] {
         [self.pointer.place().distance(from), self.pointer.start().distance(from)]
     }

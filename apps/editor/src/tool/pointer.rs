@@ -39,7 +39,7 @@ impl VirtualPointer {
         self.way
     }
 
-    /// Where it was first; the origin before it was seen.
+    /// Where it was first; the origin until it was seen.
     pub(crate) fn start(&self) -> DVec2 {
         self.start.unwrap_or(DVec2::ZERO)
     }

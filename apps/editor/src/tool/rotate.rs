@@ -15,7 +15,7 @@ impl TransformTool {
     pub(super) fn rotate(&mut self, view: &ToolView) -> Result<Command, String> {
         let towards_viewer = view.towards_viewer();
         let axis = self.constraint.axis(&self.frames).unwrap_or(towards_viewer);
-        // Seen from behind, an axis turns the other way round.
+        // Seen from behind, a rotation about an axis is reversed.
         let dragged = if axis.dot(towards_viewer) < 0.0 { -self.turn } else { self.turn };
         let step = self.settings.snap.angle_step(self.modal.is_precise());
         let dragged = if self.snaps() { rounded(dragged, step) } else { dragged };

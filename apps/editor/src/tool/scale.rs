@@ -31,7 +31,8 @@ impl TransformTool {
 
     /// How much farther from the pivot the pointer is than it was; negative on the other side.
     fn dragged_factor(&self, view: &ToolView) -> f64 {
-        /// Nearer to the pivot than this, in logical pixels, a pointer starts as if it were so far.
+        /// A pointer that starts nearer to the pivot than this, in logical pixels, counts as if it started at
+        /// this distance.
         const LEAST: f64 = 1.0;
         let Some(center) = view.screen(self.pivot()) else { return 1.0 };
         let arm = self.modal.pointer.start() - center;

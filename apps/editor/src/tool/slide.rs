@@ -8,7 +8,7 @@ use trigon_edit::{Document, ElementKind, SlideEdges};
 use super::selected::placed;
 use super::view::ToolView;
 
-/// What the pointer's way is compared with.
+/// The vectors with which the pointer's movement is compared.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Slide {
     /// Whether whole loops of edges slide, rather than vertices each along an edge.
@@ -34,7 +34,7 @@ impl Slide {
         Self { directions: directions.unwrap_or_default(), ..none }
     }
 
-    /// The factor that a way of the pointer means and, of vertices, the direction in the world.
+    /// The factor for a movement of the pointer and, for vertices, the direction in the world.
     pub(super) fn follow(&self, way: DVec2) -> (f64, DVec3) {
         if self.edges {
             let [left, right] = self.ways.map(|end| part(way, end));
@@ -50,7 +50,7 @@ impl Slide {
     }
 }
 
-/// How much of a way to an end was gone; 0 for an end that is drawn in the same place.
+/// The fraction of the way to an end; 0 for an end that is drawn at the same position.
 fn part(way: DVec2, end: DVec2) -> f64 {
     let part = way.dot(end) / end.length_squared();
     if part.is_finite() { part.max(0.0) } else { 0.0 }

@@ -21,7 +21,7 @@ pub(crate) enum SnapTarget {
     Face,
 }
 
-/// Which point of the selection comes to lie on the target.
+/// The point of the selection that is moved onto the target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum SnapSource {
     /// The one nearest to the target.
@@ -109,7 +109,7 @@ impl SnapSource {
     }
 }
 
-/// The selected point that is drawn nearest to a place, if one is within a distance in pixels.
+/// The selected point that is drawn nearest to a position, if one is within a distance in pixels.
 pub(crate) fn nearest_on_screen(
     points: &[DVec3],
     screen: impl Fn(DVec3) -> Option<DVec2>,

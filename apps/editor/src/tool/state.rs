@@ -4,6 +4,7 @@ use trigon_edit::Document;
 use trigon_edit::mesh::math::{DVec2, DVec3};
 use trigon_window::{Hands, Input};
 
+use super::modal::Modal;
 use super::transform::TransformKind;
 use super::view::ToolView;
 
@@ -15,9 +16,14 @@ pub(crate) trait Tool {
     /// Keys and numbers for the status line.
     fn status(&self) -> String;
 
+    /// The state that it shares with all modal tools.
+    fn modal(&mut self) -> &mut Modal;
+
     /// The window put its pointer somewhere else, as at the borders of endless drags: that was no
     /// movement.
-    fn pointer_jumped(&mut self, to: DVec2);
+    fn pointer_jumped(&mut self, to: DVec2) {
+        self.modal().pointer.jumped(to);
+    }
 
     /// What is to be drawn over the image.
     fn marks(&self) -> ToolMarks {
@@ -25,10 +31,10 @@ pub(crate) trait Tool {
     }
 }
 
-/// Whether a tool goes on.
+/// Whether a tool continues.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ToolState {
-    /// It wants more input.
+    /// It waits for more input.
     Running,
     /// It is over: what it showed is done.
     Confirmed,

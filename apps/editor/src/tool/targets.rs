@@ -25,7 +25,7 @@ struct Candidate {
     ends: [DVec3; 2],
 }
 
-/// So many of the nearest elements are asked whether faces hide them, which takes a look at each face.
+/// For this many of the nearest elements, hidden ones are excluded, which tests every face.
 const MOST_TRIED: usize = 8;
 
 /// An element is found when it is drawn within so many logical pixels of the pointer.
@@ -90,8 +90,8 @@ impl SnapTargets {
         self.faces.extend(faces.map(|face| mesh.face_vertices(face).iter().map(place).collect::<Vec<_>>()));
     }
 
-    /// The point of a target that is nearest to a place in the image; `None` where none is near. What faces
-    /// hide is left out unless `through` says that it is seen.
+    /// The point of a target that is nearest to a position in the image; `None` if none is near. Points that
+    /// faces hide are excluded unless `through` is set.
     pub(crate) fn find(
         &self,
         target: SnapTarget,
@@ -140,7 +140,7 @@ impl SnapTargets {
     }
 }
 
-/// How far along the ray through a place of the image a face lies that is drawn there.
+/// The distance along the ray through a position in the image to the face that is visible there.
 fn distance_to_face(view: &ToolView, place: DVec2, ray: &Ray, face: &[DVec3]) -> Option<f64> {
     let outline: Option<Vec<DVec2>> = face.iter().map(|&corner| view.screen(corner)).collect();
     if !contains(&outline?, place) {
@@ -158,7 +158,7 @@ fn in_world(position: Vec3, placement: &DAffine3) -> DVec3 {
     placement.transform_point3(position.as_dvec3())
 }
 
-/// The point of an edge that is drawn nearest to a place: where the pointer's ray passes it.
+/// The point of an edge that is drawn nearest to a position: where the pointer's ray passes it.
 fn nearest_on_edge(view: &ToolView, [start, end]: [DVec3; 2], place: DVec2) -> Option<DVec3> {
     let (from, to) = (view.screen(start)?, view.screen(end)?);
     let (length, way) = (from.distance(to), end - start);

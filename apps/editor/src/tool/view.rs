@@ -57,7 +57,7 @@ impl ToolView {
         self.dragged(point, DVec2::X).length()
     }
 
-    /// How far along an axis of unit length a point goes that is dragged by some pixels: to the place on
+    /// How far a point moves along an axis of unit length when it is dragged by some pixels: to the point of
     /// the axis that is nearest to the pointer's ray.
     pub(crate) fn dragged_along(&self, point: DVec3, axis: DVec3, pixels: DVec2) -> f64 {
         if pixels == DVec2::ZERO {
@@ -75,8 +75,8 @@ impl ToolView {
         }
         let from_point = ray.origin - point;
         let (along_ray, along_axis) = (from_point.dot(ray.direction), from_point.dot(axis));
-        // The nearest place on the ray has to be in front of the eye: beyond the axis' vanishing point
-        // it is not.
+        // The nearest point of the ray has to be in front of the eye; beyond the axis' vanishing point it is
+        // not.
         let on_ray = (across * along_axis - along_ray) / sine_squared;
         (on_ray > 0.0).then_some((along_axis - across * along_ray) / sine_squared)
     }

@@ -44,7 +44,7 @@ impl ButtonStart {
         if matches!(self, Self::Waits) { "Press in the view and drag, or type a number. " } else { "" }
     }
 
-    /// What an input means, and what comes next. `scale` is physical pixels for each logical one.
+    /// Handles an input. `scale` is the number of physical pixels per logical one.
     pub(super) fn pass(&mut self, is_in_view: bool, scale: f64, input: &Input, hands: Hands) -> Passed {
         match (*self, input) {
             (Self::Waits, Input::PointerMoved) => Passed::No,

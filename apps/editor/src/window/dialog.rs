@@ -5,9 +5,9 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 
 use trigon_edit::{MaterialName, TextureSlot};
+use trigon_window::RecentFiles;
 use trigon_window::egui::{self, Key};
 
-use super::recent::Recent;
 use crate::request::{FileAction, FileRequest};
 
 /// What a file is chosen for.
@@ -88,12 +88,12 @@ impl FileWindow {
         self.purpose.is_some()
     }
 
-    /// Hides itself; tells whether it was shown.
+    /// Hides it, and returns whether it was shown.
     pub(crate) fn close(&mut self) -> bool {
         self.purpose.take().is_some()
     }
 
-    /// Asks by a dialog on a thread of its own; `wake` is called when it is closed.
+    /// Opens a dialog on its own thread; `wake` is called when it is closed.
     fn browse(
         &mut self,
         purpose: Purpose,
@@ -123,11 +123,11 @@ impl FileWindow {
         Some(purpose.request(path))
     }
 
-    /// Shows it, if it is to be seen. Returns what was chosen; `wake` is called when a dialog is closed.
+    /// Shows it if it is open. Returns what was chosen; `wake` is called when a dialog is closed.
     pub(crate) fn show(
         &mut self,
         context: &egui::Context,
-        recent: &Recent,
+        recent: &RecentFiles,
         wake: impl FnOnce() + Send + 'static,
     ) -> Option<FileRequest> {
         let purpose = self.purpose.clone()?;
@@ -158,7 +158,7 @@ impl FileWindow {
         chosen.map(|path| purpose.request(path))
     }
 
-    /// The path that is typed, and the way to the dialog. Returns what was entered, and whether to browse.
+    /// The typed path, and the button that opens the dialog. Returns the entered path, and whether to browse.
     fn fields(&mut self, ui: &mut egui::Ui, purpose: &Purpose) -> (Option<PathBuf>, bool) {
         ui.horizontal(|ui| {
             let field = egui::TextEdit::singleline(&mut self.path).hint_text("path of a file");

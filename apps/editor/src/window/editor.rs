@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use trigon_edit::{
     Command, Disk, Document, EditError, EditObjects, LeaveEditMode, Outcome, SetElementKind, Storage,
 };
-use trigon_window::Stage;
 use trigon_window::egui::Rect;
 use trigon_window::scene::math::DVec2;
+use trigon_window::{RecentFiles, Stage};
 
 use super::actions;
 use super::click::Click;
@@ -20,7 +20,6 @@ use super::loading::Loading;
 use super::look::Look;
 use super::open_file::{Next, OpenFile, Question};
 use super::pointing::Pointing;
-use super::recent::Recent;
 use super::recovery::Recovery;
 use super::running::Running;
 use super::saving::{SaveOrder, Saving};
@@ -35,7 +34,7 @@ pub(crate) enum Message {
     Refusal(String),
 }
 
-/// Says at a first start what nobody can guess.
+/// The hint of a first start.
 pub(crate) const WELCOME: &str =
     "Middle drag or Alt+left drag orbits, the wheel zooms; click selects, Tab edits; F3 finds every command";
 
@@ -65,7 +64,7 @@ pub(crate) struct Editor {
     pub(crate) storage: Box<dyn Fn() -> Box<dyn Storage + Send>>,
     /// What follows when a document without a file has got one.
     pub(crate) after_save: Option<Next>,
-    pub(crate) recent: Recent,
+    pub(crate) recent: RecentFiles,
     pub(crate) recovery: Option<Recovery>,
     pub(crate) panels: Panels,
     /// The tool that follows the pointer.
@@ -108,7 +107,7 @@ impl Editor {
             to_save: None,
             storage: Box::new(|| Box::new(Disk)),
             after_save: None,
-            recent: Recent::load(folder.as_deref()),
+            recent: RecentFiles::load(folder.as_ref().map(|folder| folder.join("edited"))),
             recovery: None,
             panels: Panels::default(),
             tool: None,
@@ -123,7 +122,7 @@ impl Editor {
         }
     }
 
-    /// Carries out what was asked for, and shows what has become of the document.
+    /// Carries out the requests, and shows the resulting document.
     pub(crate) fn perform(&mut self, stage: &mut Stage, request: Request) {
         let is_shown = !matches!(request, Request::Ui(request) if request.is_about_window());
         match request {

@@ -50,7 +50,7 @@ impl Editor {
         self.message = Message::Info(WELCOME.into());
     }
 
-    /// Another document takes the place of the one that is open.
+    /// Another document replaces the open one.
     pub(crate) fn take_document(&mut self, document: Document, path: Option<PathBuf>) {
         self.replace_document(document);
         let folder = self.recovery_folder.as_deref();
@@ -69,7 +69,7 @@ impl Editor {
         (self.view.local, self.view.before_camera) = (None, None);
     }
 
-    /// Does what was asked about files.
+    /// Carries out a request about files.
     pub(crate) fn file_request(&mut self, stage: &mut Stage, request: FileRequest) {
         self.cancel_tool(stage);
         match request {
@@ -122,7 +122,7 @@ impl Editor {
         }
     }
 
-    /// Replaces the document, or closes the window; once it is saved, if that is under way.
+    /// Replaces the document, or closes the window; after the current save, if there is one.
     pub(crate) fn go_on(&mut self, stage: &mut Stage, next: Next) {
         if let Some(saving) = &mut self.saving {
             saving.order.next = Some(next);
@@ -192,12 +192,12 @@ impl Editor {
         self.message = message;
     }
 
-    /// Saves, unless something would be lost that nobody was asked about.
+    /// Saves, unless something would be lost that the user has not confirmed.
     fn save_to(&mut self, stage: &Stage, path: PathBuf, next: Option<Next>) {
         self.save(stage, SaveOrder { path, accepts_losses: false, next });
     }
 
-    /// Starts to save the document as it is now, or once the save that is under way has ended.
+    /// Starts to save the document as it is now, or as soon as the current save has ended.
     fn save(&mut self, stage: &Stage, order: SaveOrder) {
         if self.saving.is_some() {
             self.to_save = Some(order);

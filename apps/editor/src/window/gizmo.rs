@@ -33,7 +33,7 @@ impl Editor {
         has_room.then(|| free.right_top() + vec2(-AXES, AXES))
     }
 
-    /// A press on one of them; tells whether it was.
+    /// A press on one of them; returns whether it was.
     pub(crate) fn press_gizmo(&mut self, stage: &mut Stage, hands: Hands) -> bool {
         let Some(press) = Click::new(hands) else { return false };
         let pane = stage.pane_at(press.at);

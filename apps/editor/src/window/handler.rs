@@ -151,7 +151,7 @@ impl Editor {
         self.search.is_some() || self.dialog.is_open()
     }
 
-    /// Closes what lies over the view; tells whether anything did.
+    /// Closes what is open over the view; returns whether anything was.
     fn dismiss(&mut self) -> bool {
         let was_open = self.popup.is_some() || self.search.is_some() || self.layout.help;
         (self.popup, self.search, self.layout.help) = (None, None, false);
@@ -163,7 +163,7 @@ impl Editor {
             return Taken::Yes;
         }
         if self.layout.emulates_mouse && hands.modifiers.contains(Modifiers::ALT) {
-            // A drag is the camera's, and a click comes back as such.
+            // A drag moves the camera, and a click is reported as such.
             return Taken::No;
         }
         if !self.press_gizmo(stage, hands) {
@@ -172,7 +172,7 @@ impl Editor {
         Taken::Yes
     }
 
-    /// A press that goes on as a drag draws a box, or with Ctrl a lasso.
+    /// A press that becomes a drag draws a box, or with Ctrl a lasso.
     fn pointer_moved(&mut self, stage: &mut Stage, hands: Hands) -> Taken {
         let Some(click) = self.click else { return Taken::No };
         if click.is_drag(hands, stage.scale()) {

@@ -25,7 +25,6 @@ mod panes;
 mod pick;
 mod placing;
 mod pointing;
-mod recent;
 mod recovery;
 mod rip;
 mod running;
@@ -38,7 +37,7 @@ mod tests;
 use std::path::PathBuf;
 
 use trigon_edit::Document;
-use trigon_window::{Application, Handler, Stage, WindowError};
+use trigon_window::{Application, Handler, Stage, WindowError, state_folder};
 
 use crate::arguments::Arguments;
 use editor::Editor;
@@ -60,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let (keys, notes) = keys_of_user()?;
     notes.iter().for_each(|note| crate::report("warning", note));
     let mut application = Application::new("trigon");
-    let mut editor = Editor::new(keys, recent::state_folder(), arguments.files.clone());
+    let mut editor = Editor::new(keys, state_folder(), arguments.files.clone());
     settings::prepare(&mut application.stage);
     application.run_with(&mut editor).map_err(|error| match error {
         WindowError::NoDisplay { .. } => format!("{error}; run a script instead: --run script.json"),

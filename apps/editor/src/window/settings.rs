@@ -62,7 +62,7 @@ impl ToolSettings {
     }
 }
 
-/// How the document is seen, apart from the camera.
+/// The view of the document.
 #[derive(Debug, Clone)]
 pub(crate) struct ViewState {
     pub(crate) display: DisplayMode,

@@ -3,7 +3,6 @@
 
 mod animation;
 mod beside;
-mod camera;
 mod config;
 mod effects;
 #[cfg(feature = "window")]
@@ -27,7 +26,6 @@ mod words;
 #[cfg(feature = "window")]
 pub(crate) use animation::AnimationProgress;
 pub(crate) use beside::{Beside, Format};
-pub(crate) use camera::ExactCamera;
 pub(crate) use effects::Explanation;
 #[cfg(feature = "window")]
 pub(crate) use flags::{DECIDED, of_settings};

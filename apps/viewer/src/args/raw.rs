@@ -15,7 +15,6 @@ use trigon_scene::{Display, SimdLevel};
 
 use super::animation::AnimationArgs;
 use super::beside::Beside;
-use super::camera::ExactCamera;
 use super::effects::EffectArgs;
 use super::gpu::GpuOnly;
 use super::material::MaterialArgs;
@@ -25,6 +24,7 @@ use super::quality::QualityArgs;
 use super::scenery::SceneryArgs;
 use super::values;
 use super::window::WindowArgs;
+use crate::exact_camera::ExactCamera;
 use crate::framing::Turn;
 use crate::report::Level;
 use crate::study::StudyArgs;
@@ -164,10 +164,10 @@ pub(crate) struct RawArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, conflicts_with_all = ["output", "capture", "replay"], help_heading = "Files")]
     pub(crate) check: Option<bool>,
 
-    /// Say why this pixel looks as it does: all triangles that touch it, and which of them is seen; columns and rows count from 0
+    /// Say why this pixel looks as it does: all triangles that touch it, and which of them is visible; columns and rows count from 0
     ///
     /// For each sample of the pixel: the triangles whose bounding box holds it, the exact values of their edge
-    /// functions (in 1/65536 square pixels, twice the area), their depths, and which of them is seen and why.
+    /// functions (in 1/65536 square pixels, twice the area), their depths, and which of them is visible and why.
     #[arg(long, value_name = "X,Y", value_parser = values::pixel, conflicts_with_all = ["output", "capture", "replay", "check", "explain"], help_heading = "Files")]
     pub(crate) explain_pixel: Option<[u32; 2]>,
 
@@ -233,7 +233,7 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Camera", conflicts_with_all = ["view", "camera_direction", "camera_position", "camera_focal_point", "camera_view_up"])]
     pub(crate) camera_index: Option<i64>,
 
-    /// Exactly this camera, as the window copies it (Ctrl+C) and keeps it in state files; overrides all others
+    /// Exactly this camera, as the window writes it into copied commands (Ctrl+C) and state files; overrides all others
     #[arg(long, value_name = "CAMERA", allow_hyphen_values = true, help_heading = "Camera")]
     pub(crate) camera_exact: Option<ExactCamera>,
 
@@ -246,11 +246,11 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "PLACE", help_heading = "Scenery")]
     pub(crate) place_node: Vec<PlacedNode>,
 
-    /// Show what the window kept in this file (Ctrl+S): its files, camera and settings; flags that are typed win
+    /// Show what the window saved to this file (Ctrl+S): files, camera and settings; other flags take precedence
     #[arg(long, alias = "load-statefile", value_name = "FILE.json", help_heading = "Files")]
     pub(crate) statefile: Option<PathBuf>,
 
-    /// Where the window keeps its state with Ctrl+S, and loads it from with Ctrl+L; as for --output
+    /// The file to which Ctrl+S saves the window's state, and from which Ctrl+L loads it; with the variables of --output
     #[arg(long, value_name = "FILE.json", default_value = "{model}.state.json", value_parser = Template::parse, help_heading = "Window")]
     pub(crate) statefile_filename: Template,
 

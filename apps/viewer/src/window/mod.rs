@@ -13,7 +13,6 @@ mod open;
 mod path_text;
 mod playback;
 mod quality;
-mod recent;
 mod screenshot;
 #[cfg(test)]
 mod sessions;

@@ -4,10 +4,9 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 
-use trigon_window::egui;
+use trigon_window::{RecentFiles, egui};
 
 use super::path_text::{complete, path_of};
-use super::recent::Recent;
 
 /// So many names that Tab has found are listed.
 const MOST_NAMES: usize = 6;
@@ -87,7 +86,7 @@ impl OpenWindow {
     pub(super) fn show(
         &mut self,
         ui: &egui::Ui,
-        recent: &Recent,
+        recent: &RecentFiles,
         browse: impl FnOnce(&mut Self),
     ) -> Vec<PathBuf> {
         let (context, free) = (ui.ctx(), ui.available_rect_before_wrap());

@@ -10,7 +10,8 @@ use std::path::PathBuf;
 use trigon_math::DVec3;
 use trigon_scene::{Background, Frame, NodeId, RenderSettings, Scene};
 use trigon_window::{
-    Animation, Corner, Handler, Hands, Input, Key, Modifiers, Stage, Taken, Tick, Visibility, egui,
+    AnimationState, Corner, Handler, Hands, Input, Key, Modifiers, RecentFiles, Stage, Taken, Tick,
+    Visibility, egui, state_folder,
 };
 
 use super::axes::AxesOverlay;
@@ -24,7 +25,6 @@ use super::notices::{Answer, Notices};
 use super::open::{OpenWindow, SystemDialog};
 use super::playback::Playback;
 use super::quality::QualityPanel;
-use super::recent::Recent;
 use super::screenshot;
 use super::side::SidePanel;
 use super::watch::Watch;
@@ -92,7 +92,7 @@ pub(super) struct Viewer {
     axes: AxesOverlay,
     #[cfg(feature = "study")]
     classics: Classics,
-    recent: Recent,
+    recent: RecentFiles,
     /// If the model that is shown has animations.
     playback: Option<Playback>,
     /// What went wrong last, until it is dismissed or put right.
@@ -127,7 +127,7 @@ impl Viewer {
             axes: AxesOverlay::default(),
             #[cfg(feature = "study")]
             classics: Classics::default(),
-            recent: Recent::load(),
+            recent: RecentFiles::load(state_folder().map(|folder| folder.join("recent"))),
             playback: None,
             failure: None,
             asks_to_load_again: false,
@@ -285,9 +285,9 @@ impl Handler for Viewer {
         self.write_overlay(stage);
     }
 
-    fn frame(&mut self, stage: &mut Stage, tick: Tick) -> Animation {
+    fn frame(&mut self, stage: &mut Stage, tick: Tick) -> AnimationState {
         let plays = self.playback.as_mut().is_some_and(|playback| playback.advance(stage, tick.delta));
-        if plays { Animation::Running } else { Animation::Resting }
+        if plays { AnimationState::Running } else { AnimationState::Resting }
     }
 
     fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
@@ -460,6 +460,6 @@ mod tests {
         viewer.run(&mut stage, Command::PlayOrPause);
         assert!(viewer.playback.is_none(), "no animation");
         let tick = Tick { time: Duration::ZERO, delta: Duration::from_millis(16) };
-        assert_eq!(viewer.frame(&mut stage, tick), Animation::Resting, "nothing moves");
+        assert_eq!(viewer.frame(&mut stage, tick), AnimationState::Resting, "nothing moves");
     }
 }

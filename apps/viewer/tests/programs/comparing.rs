@@ -12,14 +12,15 @@ fn a_pixel_is_explained() {
     folder.write("two.obj", BEHIND);
     let flags = "two.obj --view=front --resolution=60,40 --samples=1 --explain-pixel";
     let text = String::from_utf8(folder.run(&format!("{flags} 31,20")).stdout).expect("text");
-    for part in ["pixel 31, 20", "front", "seen, because it is the nearest", "back", "hidden", "edge values"]
+    for part in
+        ["pixel 31, 20", "front", "visible, because it is the nearest", "back", "hidden", "edge values"]
     {
         assert!(text.contains(part), "{part}: {text}");
     }
     let json = folder.run(&format!("{flags} 31,20 --json")).stdout;
     let json: serde_json::Value = serde_json::from_slice(&json).expect("JSON");
     let fragments = json["samples"][0]["fragments"].as_array().expect("a list");
-    assert_eq!((&fragments[0]["node"], &fragments[0]["won"]), (&"front".into(), &true.into()), "{json}");
+    assert_eq!((&fragments[0]["node"], &fragments[0]["visible"]), (&"front".into(), &true.into()), "{json}");
     let hidden = fragments.iter().find(|fragment| fragment["node"] == "back" && fragment["covered"] == true);
     let hidden = hidden.expect("it is there, too");
     assert!(hidden["margin"].as_i64().is_some_and(|margin| margin < 0), "behind: {hidden}");

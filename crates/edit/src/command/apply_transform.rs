@@ -112,17 +112,14 @@ fn move_all(mesh: &mut EditMesh, map: DAffine3) -> Result<(), EditError> {
 
 #[cfg(test)]
 mod tests {
-    use serde_json::{Value, json};
+    use serde_json::json;
     use trigon_mesh::math::{DQuat, Vec3};
     use trigon_mesh::primitives;
     use trigon_scene::{Material, Node, Scene, Transform};
 
     use super::*;
     use crate::document::Document;
-
-    fn run(document: &mut Document, json: Value) -> Result<Outcome, EditError> {
-        document.run(serde_json::from_value(json).expect("a command"))
-    }
+    use crate::tests::commands::try_run as run;
 
     /// Where all vertices and the child are in the world.
     fn places(document: &mut Document) -> Vec<DVec3> {

@@ -71,10 +71,7 @@ mod tests {
     use trigon_scene::{Node, NodeId, Scene, Transform};
 
     use crate::document::Document;
-
-    fn run(document: &mut Document, json: serde_json::Value) {
-        document.run(serde_json::from_value(json.clone()).expect("a command")).expect("it can be done");
-    }
+    use crate::tests::commands::run;
 
     fn document() -> (Document, [NodeId; 3]) {
         let mut scene = Scene::new();

@@ -120,10 +120,7 @@ mod tests {
 
     use super::*;
     use crate::document::Document;
-
-    fn run(document: &mut Document, json: serde_json::Value) {
-        document.run(serde_json::from_value(json.clone()).expect("a command")).expect("it can be done");
-    }
+    use crate::tests::commands::run;
 
     #[test]
     fn a_typed_placement_is_the_placement() {

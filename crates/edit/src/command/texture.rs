@@ -97,6 +97,7 @@ mod tests {
 
     use super::*;
     use crate::document::Document;
+    use crate::tests::commands::try_run as run;
 
     fn document() -> Document {
         let mut scene = Scene::new();
@@ -105,10 +106,6 @@ mod tests {
         scene.add_texture("colours", texture(TextureFormat::Srgb));
         scene.add_texture("bumps", texture(TextureFormat::Linear));
         Document::new(scene)
-    }
-
-    fn run(document: &mut Document, json: serde_json::Value) -> Result<Outcome, EditError> {
-        document.run(serde_json::from_value(json).expect("a command"))
     }
 
     fn material(document: &Document, name: &str) -> Material {

@@ -65,11 +65,8 @@ mod tests {
     use trigon_mesh::primitives;
     use trigon_scene::{Material, Node, Scene};
 
+    use crate::tests::commands::run;
     use crate::{Command, Document};
-
-    fn run(document: &mut Document, json: serde_json::Value) {
-        document.run(serde_json::from_value(json.clone()).expect("a command")).expect("it can be done");
-    }
 
     #[test]
     fn others_are_hidden_and_all_shown_again() {

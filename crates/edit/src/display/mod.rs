@@ -6,10 +6,8 @@
 //! the scene's meshes, and only a [`Document`](crate::Document) knows both.
 
 mod element;
-mod marked;
 mod marks;
 mod pick;
 
-pub(crate) use marked::MarkedElements;
 pub use marks::{DisplayMarks, X_RAY};
 pub use pick::{PICK_RADIUS, Picks};

@@ -1,6 +1,9 @@
 //! An open document: a scene, its edited meshes, the selection, the history.
 
 mod change;
+mod event;
+mod history;
+mod marked;
 mod preview;
 mod scene;
 mod scene_change;
@@ -21,11 +24,12 @@ use trigon_scene::{MeshId, Scene};
 
 use crate::command::{Command, ImportFile, Outcome};
 use crate::error::EditError;
-use crate::history::{Entry, History};
-use crate::recovery::Event;
 use crate::selection::Selection;
 
 pub(crate) use change::{AfterEdit, Change};
+pub use event::Event;
+pub use history::{Entry, History};
+pub(crate) use marked::MarkedElements;
 pub use scene_change::SceneChange;
 use state::State;
 pub(crate) use visible::shown_levels;

@@ -3,10 +3,9 @@
 //! Each preview starts from the document as it was before the first one, so a drag of a thousand steps ends
 //! where one step would. History and recovery file do not see it until it is confirmed.
 
-use super::Document;
+use super::{Document, Entry};
 use crate::command::{Command, Outcome};
 use crate::error::EditError;
-use crate::history::Entry;
 
 impl Document {
     /// Shows the effect of a command in place of the previous preview, which is undone first. There

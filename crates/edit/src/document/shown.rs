@@ -11,9 +11,9 @@ use trigon_mesh::edit::{ChangedValues, Difference, EditMesh, ElementMap, Element
 use trigon_mesh::{ChangedElements, Mesh};
 use trigon_scene::{MeshId, Scene};
 
+use super::MarkedElements;
 use super::scene_change::SceneChange;
 use super::visible::{Sight, VisibleMesh};
-use crate::display::MarkedElements;
 use crate::selection::Selection;
 
 /// How the scene shows an edited mesh.

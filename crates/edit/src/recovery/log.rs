@@ -4,26 +4,14 @@
 //! checksum (eight bytes), the payload. The payload of the first record is the document as
 //! it was opened; those of the others are events as JSON.
 
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
+use trigon_mesh::math::SplitMix64;
 
-use crate::command::Command;
+use crate::document::Event;
 
 const MAGIC: &[u8; 8] = b"TRGNREC1";
 /// Length and checksum.
 const HEADER: usize = 16;
-
-/// A user's action.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Event {
-    /// A command was run successfully.
-    Run(Box<Command>),
-    /// The last command was undone.
-    Undo,
-    /// An undone command was redone.
-    Redo,
-}
 
 /// The contents of a recovery file.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,19 +81,13 @@ fn split_record(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     (checksum(payload) == u64::from_le_bytes(*sum)).then_some((payload, rest))
 }
 
-/// Eight bytes at a time through the mixer of SplitMix64 (Steele, Lea and Flood, "Fast splittable
-/// pseudorandom number generators", 2014). It detects damage, but does not prevent forgery.
+/// Eight bytes at a time through the mixing function of SplitMix64. It detects damage, but does not prevent forgery.
 fn checksum(bytes: &[u8]) -> u64 {
-    let mix = |word: u64| {
-        let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        word ^ (word >> 31)
-    };
-    let mut sum = mix(bytes.len() as u64 ^ 0x9e37_79b9_7f4a_7c15);
+    let mut sum = SplitMix64::mix(bytes.len() as u64 ^ SplitMix64::INCREMENT);
     for chunk in bytes.chunks(8) {
         let mut word = [0; 8];
         word[..chunk.len()].copy_from_slice(chunk);
-        sum = mix(sum.wrapping_add(0x9e37_79b9_7f4a_7c15) ^ u64::from_le_bytes(word));
+        sum = SplitMix64::mix(sum.wrapping_add(SplitMix64::INCREMENT) ^ u64::from_le_bytes(word));
     }
     sum
 }

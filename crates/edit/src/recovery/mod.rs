@@ -9,10 +9,10 @@
 mod log;
 mod writer;
 
-pub use log::{Event, RecoveryLog, UnreadableRecovery};
+pub use log::{RecoveryLog, UnreadableRecovery};
 pub use writer::{RecoveryStatus, RecoveryWriter};
 
-use crate::document::Document;
+use crate::document::{Document, Event};
 use crate::error::EditError;
 
 impl Document {

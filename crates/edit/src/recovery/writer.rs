@@ -5,7 +5,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 
-use super::log::{self, Event};
+use super::log;
+use crate::document::Event;
 use crate::storage::Storage;
 
 /// The state of the recovery file.

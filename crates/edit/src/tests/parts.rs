@@ -21,11 +21,10 @@ fn cubes<const COUNT: usize>(names: [&str; COUNT]) -> (Scene, [trigon_scene::Nod
 #[test]
 fn numbers_of_removed_elements_are_not_selected_when_they_are_given_again() {
     let mut document = document();
+    edit_faces(&mut document, &["grid"]);
     run_all(
         &mut document,
         &[
-            json!({ "op": "edit_objects", "objects": ["grid"] }),
-            json!({ "op": "set_element_kind", "kind": "face" }),
             json!({ "op": "select", "elements": [2, 3] }),
             json!({ "op": "delete", "what": "faces" }),
             json!({ "op": "select_less" }),
@@ -45,11 +44,10 @@ fn numbers_of_removed_elements_are_not_selected_when_they_are_given_again() {
 #[test]
 fn what_is_hidden_is_never_selected() {
     let mut document = document();
+    edit_faces(&mut document, &["grid"]);
     run_all(
         &mut document,
         &[
-            json!({ "op": "edit_objects", "objects": ["grid"] }),
-            json!({ "op": "set_element_kind", "kind": "face" }),
             json!({ "op": "select", "elements": [0, 1] }),
             json!({ "op": "hide" }),
             json!({ "op": "select_within" }),
@@ -68,14 +66,10 @@ fn parts_are_separated_from_the_objects_that_they_come_from() {
     let (parent, _) = scene.nodes().iter().next().expect("two");
     scene.add_child(parent, trigon_scene::Node::default());
     let mut document = Document::new(scene);
+    edit_faces(&mut document, &["left", "middle"]);
     run_all(
         &mut document,
-        &[
-            json!({ "op": "edit_objects", "objects": ["left", "middle"] }),
-            json!({ "op": "set_element_kind", "kind": "face" }),
-            json!({ "op": "select", "objects": ["middle"], "elements": [0] }),
-            json!({ "op": "separate" }),
-        ],
+        &[json!({ "op": "select", "objects": ["middle"], "elements": [0] }), json!({ "op": "separate" })],
     );
     let scene = document.scene();
     let (part, node) = scene.nodes().iter().last().expect("a new one");

@@ -3,7 +3,7 @@
 use trigon_math::{DAffine3, DMat3, DVec3};
 use trigon_scene::NodeId;
 
-use crate::formats::gltf::GltfSource;
+use crate::gltf_source::GltfSource;
 
 /// The up axis of a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

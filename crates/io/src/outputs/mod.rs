@@ -1,5 +1,4 @@
-//! What a frame holds beside an image, in files for other programs: NumPy's `.npy`,
-//! OpenEXR, and PNG of 16 bits.
+//! Files for the outputs of a frame other than its image: NumPy's `.npy`, OpenEXR, and PNG of 16 bits.
 
 mod npy;
 mod openexr;

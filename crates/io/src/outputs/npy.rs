@@ -1,5 +1,5 @@
-//! NumPy's format, version 1.0: a header that says type and shape, then the numbers.
-//! See `numpy.lib.format` in NumPy's documentation.
+//! NumPy's format, version 1.0: a header with type and shape, then the numbers. See `numpy.lib.format` in
+//! NumPy's documentation.
 
 use std::io::{self, BufWriter, Write};
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! OpenEXR: all that a frame holds in one file, one channel for each number.
+//! OpenEXR: all outputs of a frame in one file, one channel per number.
 
 use std::io::{Cursor, Write};
 use std::path::Path;

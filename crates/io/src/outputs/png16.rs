@@ -1,5 +1,5 @@
-//! PNG of 16 bits a number, for programs that read nothing else: depth, ids and
-//! directions, as far as they fit.
+//! PNG with 16 bits per channel, for programs that read nothing else: depth, ids and directions, as far as
+//! they fit.
 
 use std::io::Write;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! An output of a frame as numbers, whatever it means.
+//! An output of a frame as plain numbers.
 
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_scene::Frame;

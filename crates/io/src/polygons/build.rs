@@ -1,4 +1,4 @@
-//! Lists to a mesh: faces that cannot be shown are left out, and values of vertices go to corners.
+//! Builds a mesh from lists: invalid faces are left out, and vertex values are copied to corners.
 
 use trigon_math::{DVec3, Vec2, Vec4};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder};

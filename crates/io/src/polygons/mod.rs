@@ -1,7 +1,7 @@
-//! What files without nodes and materials hold (PLY, STL, OFF), as meshes on nodes.
+//! Meshes and nodes for formats that have no nodes and materials (PLY, STL, OFF).
 //!
-//! Vertices keep their numbers, also those that nothing uses, so that what is written back has
-//! the same. Values of vertices go to the corners there.
+//! Vertices keep their numbers, unused ones included, so that a file written back has the same. Vertex values
+//! are copied to the corners at each vertex.
 
 mod build;
 
@@ -12,7 +12,7 @@ use trigon_scene::{AlphaMode, Material, Node, Transform};
 use self::build::build;
 use crate::error::{LoadError, LoadErrorKind};
 use crate::import::Import;
-use crate::options::Stage;
+use crate::options::LoadStage;
 use crate::rebase::offset_for;
 
 /// One mesh as a reader found it. Every index leads to a vertex.
@@ -89,7 +89,7 @@ pub(crate) fn add_polygons(import: &mut Import<'_>, list: Vec<Polygons>) -> Resu
     let stem = import.path.file_stem();
     let stem = stem.map_or_else(|| "object".to_owned(), |stem| stem.to_string_lossy().into_owned());
     for polygons in list {
-        import.options.report(import.path, Stage::Geometry, 0.9)?;
+        import.options.report(import.path, LoadStage::Geometry, 0.9)?;
         let name = if polygons.name.is_empty() { stem.clone() } else { polygons.name.clone() };
         let material = import.scene.add_material(material_for(&polygons));
         let mesh = build(import, polygons, offset)?;
@@ -98,7 +98,7 @@ pub(crate) fn add_polygons(import: &mut Import<'_>, list: Vec<Polygons>) -> Resu
         (node.mesh, node.materials) = (Some(mesh), vec![material]);
         import.scene.add(node);
     }
-    import.options.report(import.path, Stage::Geometry, 1.0)
+    import.options.report(import.path, LoadStage::Geometry, 1.0)
 }
 
 /// Colours of vertices are to be seen as they are. An alpha of 0 everywhere is what programs

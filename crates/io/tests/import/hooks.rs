@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-use trigon_io::{Format, Limits, LoadErrorKind, LoadOptions, Stage, load, load_from_slice, readers};
+use trigon_io::{Format, Limits, LoadErrorKind, LoadOptions, LoadStage, load, load_from_slice, readers};
 
 fn grid(side: usize) -> String {
     let vertices = (0..side * side).map(|index| format!("v {} {} 0\n", index % side, index / side));
@@ -27,13 +27,13 @@ fn progress_goes_forward_to_the_end() {
     let seen = seen.into_inner().expect("no panic");
     assert!(seen.len() > 3, "called now and then: {seen:?}");
     assert!(seen.windows(2).all(|pair| pair[0].1 <= pair[1].1), "never back: {seen:?}");
-    assert_eq!(seen.last(), Some(&(Stage::Textures, 1.0)), "to the end");
+    assert_eq!(seen.last(), Some(&(LoadStage::Textures, 1.0)), "to the end");
 }
 
 #[test]
 fn a_load_can_be_cancelled() {
     let hook = |progress: trigon_io::Progress| {
-        if progress.stage == Stage::Geometry { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if progress.stage == LoadStage::Geometry { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
     let options = LoadOptions { progress: Some(&hook), ..LoadOptions::default() };
     let error = load_from_slice("a.obj", grid(10).as_bytes(), &options).map(|_| ()).expect_err("cancelled");

@@ -289,8 +289,8 @@ impl Chunk {
         self.stats.culled += places.len() as u64 - set_up;
     }
 
-    /// Visits the tiles that list primitives of some kind, told by the place in the chunk;
-    /// some tiles more than once.
+    /// Visits the tiles that list primitives for which a test of their index in the chunk holds; some tiles
+    /// more than once.
     pub(crate) fn for_each_tile_of(
         &self,
         grid: &Grid,

@@ -7,8 +7,8 @@ use crate::tile::Edge;
 use crate::viewport::Viewport;
 use std::ops::Range;
 
-/// `columns * rows` squares of `size` pixels, numbered row by row. Each sees `apron` pixels
-/// more on all sides, as far as the image goes.
+/// `columns * rows` squares of `size` pixels, numbered row by row. Each also reads a margin of `apron` pixels
+/// on all sides, as far as the image extends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
     pub(crate) viewport: Viewport,
@@ -104,7 +104,7 @@ impl Grid {
         (meets(columns, self.viewport.width) && meets(rows, self.viewport.height)).then_some([columns, rows])
     }
 
-    /// The smallest rectangle around all samples that a tile sees, in 1/256 pixel.
+    /// The smallest rectangle around all samples that a tile reads, in 1/256 pixel.
     pub(crate) fn reach_of_tile(&self, tile: [u32; 2]) -> [[i32; 2]; 2] {
         let [least, greatest] = self.pattern.reach();
         let apron = self.apron as i32 * 256;

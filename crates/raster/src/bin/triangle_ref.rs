@@ -5,7 +5,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Entry(pub(super) u32);
 
-/// What an [`Entry`] stands for.
+/// The primitive to which an [`Entry`] refers.
 pub(super) enum Listed {
     /// The triangle or the point at this place in the chunk.
     Primitive(u32),

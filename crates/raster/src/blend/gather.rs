@@ -66,7 +66,7 @@ impl Layers {
         self.beside = beside;
     }
 
-    /// One triangle; the blocks of the round in which it is seen.
+    /// One triangle, and the blocks of this round in which it may be visible.
     #[inline(always)]
     fn gather_one<S: Simd>(
         &mut self,

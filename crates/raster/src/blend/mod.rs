@@ -55,9 +55,9 @@ pub(crate) struct Layers {
     /// Colours of samples, where something translucent is laid over them.
     samples: Vec<Vec4>,
     joints: Joints,
-    /// The segments joined to the one that is looked at.
+    /// The segments joined to the current one.
     beside: Vec<Beside>,
-    /// For each triangle the blocks that it may be seen in.
+    /// For each triangle, the blocks in which it may be visible.
     blocks: Vec<Blocks>,
     /// For each sample the last layer that was laid; of blocks that have had a
     /// round.

@@ -4,11 +4,11 @@
 use crate::resolve::mean;
 use crate::shade::{BEHIND, Shading};
 use crate::simd::LANES;
-use crate::tile::{NOBODY, TileArea, VisibilityBuffer};
+use crate::tile::{NO_TRIANGLE, TileArea, VisibilityBuffer};
 use crate::view::FrameView;
 use trigon_math::Vec4;
 
-/// Gives every sample the colour of what it sees.
+/// Gives every sample the colour of its visible triangle.
 pub(super) fn expand(
     frame: &FrameView<'_>,
     area: &TileArea,
@@ -26,8 +26,8 @@ pub(super) fn expand(
         let background = || frame.lined_background_at(area, place, &shading.outer);
         for sample in 0..count {
             let index = buffer.index(pixel, sample);
-            samples[index] = match buffer.winner[index] {
-                NOBODY => background(),
+            samples[index] = match buffer.visible[index] {
+                NO_TRIANGLE => background(),
                 _ => Vec4::from_array(*color),
             };
         }

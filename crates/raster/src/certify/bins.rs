@@ -11,7 +11,7 @@ pub(super) struct Bins {
 }
 
 impl Bins {
-    /// Lists each contender in the tiles that its rectangle meets.
+    /// Lists each contender in the tiles that its rectangle overlaps.
     pub(super) fn new(frame: &FrameView<'_>, contenders: &Contenders) -> Self {
         let grid = &frame.grid;
         let sides = [grid.viewport.width, grid.viewport.height].map(|side| side as i32);

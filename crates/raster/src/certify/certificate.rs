@@ -9,11 +9,11 @@ use trigon_math::Vec4;
 /// What is proven of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Certainty {
-    /// Winner, coverage and bytes stay.
+    /// The visible triangle, coverage and bytes stay the same.
     Certified,
     /// It may come to see something else, or in another order.
     Visibility,
-    /// It sees the same, but one of its bytes may change.
+    /// The visible triangle stays the same, but one of the bytes may change.
     Color,
 }
 
@@ -23,7 +23,7 @@ pub enum Certainty {
 pub struct Certificate {
     size: [u32; 2],
     pixels: Vec<Certainty>,
-    /// Whether anything but the background is seen.
+    /// Whether anything but the background is visible.
     drawn: Vec<bool>,
 }
 

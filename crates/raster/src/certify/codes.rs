@@ -30,7 +30,7 @@ impl Codes {
     }
 }
 
-/// Each component by itself, and none falls as its colour rises.
+/// Each component separately; none decreases as its colour increases.
 fn unorm8_agrees(low: [f32; 4], high: [f32; 4]) -> bool {
     let encode = |color| Encoding::Unorm8.encode(Vec4::from_array(color));
     encode(low) == encode(high)

@@ -13,7 +13,7 @@ pub(super) struct Corner {
     pub(super) high: f32,
 }
 
-/// A primitive that may be seen: a closed outline, whose corners may each be off.
+/// A primitive that may be visible: a closed outline, each corner of which may be displaced.
 #[derive(Clone, Copy)]
 pub(super) struct Contender {
     /// Its corners among those of all.
@@ -22,8 +22,7 @@ pub(super) struct Contender {
     /// How far the corners may be off on each axis, in units of the grid.
     pub(super) drift: i32,
     pub(super) blend_mode: BlendMode,
-    /// Whether it is drawn at all, as far as can be told; else it can hide
-    /// something but is never certain itself.
+    /// Whether it is certainly drawn. If not, it may hide something, but is never itself certain.
     pub(super) is_sure: bool,
     /// Whether only the disc in its square is drawn.
     pub(super) is_disc: bool,

@@ -10,10 +10,10 @@ use crate::line::half_size;
 use crate::ulps;
 use crate::vertex::{DrawVertices, ScreenVertex, nearer};
 use crate::view::{DrawPlan, FrameView};
-use crate::{BlendMode, Culling, Outline, PointShape};
+use crate::{BlendMode, Culling, PointShape, Smoothing};
 use trigon_math::{ClipVolume, Fixed, FixedPoint, clip_segment};
 
-/// Everything that may be seen.
+/// Everything that may be visible.
 pub(super) fn contenders(frame: &FrameView<'_>, tolerance: Tolerance) -> Contenders {
     let volume = clip::volume(frame.grid.viewport);
     let mut contenders = Contenders::default();
@@ -55,14 +55,14 @@ impl Gather<'_> {
             Shape::Triangles { triangles, culling, .. } => {
                 triangles.iter().for_each(|&indices| self.triangle(indices, culling));
             }
-            Shape::Lines { segments, width, outline, depth_bias } => {
-                let half_width = half_size((width, outline), supersampling);
+            Shape::Lines { segments, width, smoothing, depth_bias } => {
+                let half_width = half_size((width, smoothing), supersampling);
                 segments.iter().for_each(|&indices| self.segment(indices, half_width, depth_bias));
             }
-            Shape::Points { points, sizes, shape, outline, depth_bias } => {
-                let half_of = sizes.each(|size| half_size((size, outline), supersampling).round() as i32);
+            Shape::Points { points, sizes, shape, smoothing, depth_bias } => {
+                let half_of = sizes.each(|size| half_size((size, smoothing), supersampling).round() as i32);
                 // What covers a share of a sample is never certain.
-                let form = (outline == Outline::Sharp).then_some(shape);
+                let form = (smoothing == Smoothing::Sharp).then_some(shape);
                 for (number, &index) in (0..).zip(points) {
                     self.point(index, (half_of(number), form), depth_bias);
                 }
@@ -107,7 +107,7 @@ impl Gather<'_> {
         (places.map(|vertex| self.corner(vertex, 0.0)).collect(), cut.winding)
     }
 
-    /// A line lies around its segment: where exactly is not looked at.
+    /// A line lies around its segment; its exact shape is not examined.
     fn segment(&mut self, indices: [u32; 2], half_width: f64, depth_bias: f32) {
         let outcodes = indices.map(|index| self.vertices.outcode(index));
         if outcodes.iter().any(|outcode| outcode.is_invalid()) {

@@ -125,7 +125,7 @@ impl Builder<'_> {
         });
     }
 
-    /// Doubts the pixels in which a primitive may be seen without being certain.
+    /// Marks as uncertain the pixels in which a primitive may be visible without being certain.
     fn challenge(&mut self, number: usize, outline: &Outline) {
         self.for_each_pixel(outline, |builder, pixel, corner| {
             let mut is_seen = false;

@@ -24,7 +24,7 @@ impl Outcode {
     pub(crate) const GUARD: [Self; 4] = [Self(1 << 7), Self(1 << 8), Self(1 << 9), Self(1 << 10)];
     pub(crate) const INVALID: Self = Self(1 << 11);
 
-    /// Beyond one of these, a triangle is cut.
+    /// A triangle with all its vertices beyond one of these planes is invisible.
     const CUTTING: u16 = 0b0111_1000_0011;
     /// Beyond one of these with all its vertices, a triangle is not seen.
     const HIDING: u16 = 0b0111_1111_1111;

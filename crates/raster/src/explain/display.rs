@@ -21,8 +21,8 @@ impl Display for SampleExplanation {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let [x, y] = self.position.map(|v| f64::from(v) / 256.0);
         write!(f, " sample {} at ({x}, {y}): ", self.number)?;
-        match self.winner() {
-            Some(winner) => write!(f, "object {}, face {}", winner.object, winner.face)?,
+        match self.visible() {
+            Some(visible) => write!(f, "object {}, face {}", visible.object, visible.face)?,
             None => write!(f, "the background")?,
         }
         match self.layers().count() {
@@ -61,13 +61,15 @@ impl Display for FragmentExplanation {
 fn write_verdict(fragment: &FragmentExplanation, f: &mut Formatter<'_>) -> Result {
     let margin = fragment.margin.unwrap_or(0);
     match fragment.verdict {
-        Verdict::Won if fragment.margin.is_none() => writeln!(f, "seen; nothing competes with it"),
-        Verdict::Won if margin == 0 => {
-            writeln!(f, "seen; as near as the next, by the smaller (object, face)")
+        Verdict::Visible if fragment.margin.is_none() => writeln!(f, "visible; the only one here"),
+        Verdict::Visible if margin == 0 => {
+            writeln!(f, "visible; as near as the next, and its (object, face) is smaller")
         }
-        Verdict::Won => writeln!(f, "seen; nearer than the next by {margin} ulp"),
+        Verdict::Visible => writeln!(f, "visible; nearer than the next by {margin} ulp"),
         Verdict::Hidden => writeln!(f, "hidden by {} ulp", -margin),
-        Verdict::LostTie => writeln!(f, "as near as the winner, whose (object, face) is smaller"),
+        Verdict::EqualDepth => {
+            writeln!(f, "as near as the visible triangle, whose (object, face) is smaller")
+        }
         Verdict::BehindFarPlane => writeln!(f, "behind the far plane"),
         Verdict::MaskedAway => writeln!(f, "masked away"),
         Verdict::Layer(number) => writeln!(f, "layer {number} from the back"),

@@ -20,11 +20,11 @@ pub enum PrimitiveKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// It is visible.
-    Won,
-    /// The winner lies nearer.
+    Visible,
+    /// The visible triangle is nearer.
     Hidden,
-    /// It is as near as the winner, whose (object, face) is smaller.
-    LostTie,
+    /// The visible triangle is as near, and its (object, face) is smaller.
+    EqualDepth,
     /// It lies behind the far plane.
     BehindFarPlane,
     /// Its mask is false there.
@@ -32,8 +32,7 @@ pub enum Verdict {
     /// It is blended over what is visible, as the layer with this number: 0 is the
     /// farthest.
     Layer(usize),
-    /// It is a translucent line, and leaves the sample to a later segment that
-    /// meets it in a vertex.
+    /// It is a translucent line, and the sample is drawn by a later segment that shares a vertex with it.
     LeftToJoint,
     /// The sample lies outside of this edge, an index into
     /// [`edges`](FragmentExplanation::edges): the one that it is furthest from.
@@ -98,11 +97,11 @@ pub struct FragmentExplanation {
     pub is_covered: bool,
     /// Reversed depth there, if it covers the sample.
     pub depth: Option<f32>,
-    /// By how many units in the last place of f32 it lies nearer than the winner;
-    /// negative if further away. For the winner itself: than the next that would
-    /// be seen in its place, if there is one.
+    /// By how many units in the last place of f32 it is nearer than the visible triangle; negative if it is
+    /// farther away. For the visible triangle itself: than the one that would be visible without it, if there
+    /// is one.
     pub margin: Option<i64>,
-    /// Its colour, if it is seen or is a layer: linear light, premultiplied.
+    /// Its colour, if it is visible or a layer: linear light, premultiplied.
     pub color: Option<Vec4>,
     /// The outcome.
     pub verdict: Verdict,

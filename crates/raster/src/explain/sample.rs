@@ -14,9 +14,8 @@ pub struct SampleExplanation {
     pub number: usize,
     /// Where it lies, in 1/256 pixel of the finer grid from the top left.
     pub position: [i32; 2],
-    /// The triangles: the winner first, then layers from the nearest to the one
-    /// furthest away, then what is not seen, the nearest first, and then those
-    /// that miss the sample.
+    /// The triangles: the visible one first, then layers from the nearest to the farthest, then hidden
+    /// triangles from the nearest on, and then those that miss the sample.
     pub fragments: Vec<FragmentExplanation>,
     /// What the sample shows: linear light, premultiplied.
     pub color: Vec4,
@@ -26,8 +25,8 @@ impl SampleExplanation {
     /// The triangle whose depth and ids the sample has; `None` for the
     /// background.
     #[must_use]
-    pub fn winner(&self) -> Option<&FragmentExplanation> {
-        self.fragments.iter().find(|fragment| fragment.verdict == Verdict::Won)
+    pub fn visible(&self) -> Option<&FragmentExplanation> {
+        self.fragments.iter().find(|fragment| fragment.verdict == Verdict::Visible)
     }
 
     /// The translucent layers, the one furthest away first.

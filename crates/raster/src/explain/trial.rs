@@ -44,7 +44,7 @@ impl<'f> Trial<'f> {
     pub(super) fn new(frame: &'f FrameView<'f>) -> Self {
         let places = frame.chunks.iter().flat_map(|chunk| chunk.all());
         let triangles = places.flat_map(|place| {
-            // A point that is drawn from its vertex stands for both halves of its square.
+            // A point that is drawn from its vertex has one entry for both halves of its square.
             let other = frame.draw_view(frame.draw_of(place)).square(place).map(|square| square.half(1));
             [Some(frame.triangle(place)), other].into_iter().flatten().map(move |triangle| (place, triangle))
         });
@@ -66,9 +66,9 @@ impl<'f> Trial<'f> {
         self.judge(&mut entrants);
         self.number_layers(&mut entrants);
         for entrant in &mut entrants {
-            if matches!(entrant.fragment.verdict, Verdict::Won | Verdict::Layer(_)) {
+            if matches!(entrant.fragment.verdict, Verdict::Visible | Verdict::Layer(_)) {
                 // Over translucent faces no edges of others are laid.
-                let outer = if entrant.is(Verdict::Won) { &outer } else { &OuterInk::default() };
+                let outer = if entrant.is(Verdict::Visible) { &outer } else { &OuterInk::default() };
                 let color = ask::color(frame, pixel, entrant.place, outer);
                 entrant.fragment.color = Some(color * entrant.coverage);
             }
@@ -167,13 +167,13 @@ impl<'f> Trial<'f> {
         }
     }
 
-    /// Whether `a` is seen rather than `b`, where both are.
+    /// Whether `a` is visible rather than `b`, where both cover the sample.
     fn beats(&self, a: &Entrant, b: &Entrant) -> bool {
         a.depth() > b.depth() || (a.depth() == b.depth() && self.frame.precedes(a.place, b.place))
     }
 
-    /// Finds the winner and tells all others that cover the sample why they are
-    /// not seen; layers are left at [`Verdict::Layer`] 0.
+    /// Finds the visible triangle, and why the others that cover the sample are not visible; layers are left
+    /// at [`Verdict::Layer`] 0.
     fn judge(&self, entrants: &mut [Entrant]) {
         for entrant in entrants.iter_mut().filter(|entrant| entrant.is(Verdict::Hidden)) {
             if entrant.depth() <= BEHIND_ALL {
@@ -187,32 +187,32 @@ impl<'f> Trial<'f> {
             let rivals = (0..entrants.len()).filter(|&i| Some(i) != except && hides(&entrants[i]));
             rivals.reduce(|a, b| if self.beats(&entrants[b], &entrants[a]) { b } else { a })
         };
-        let winner = best(None);
-        let next = winner.and_then(|winner| best(Some(winner)));
+        let visible = best(None);
+        let next = visible.and_then(|visible| best(Some(visible)));
         let verdicts: Vec<_> =
-            entrants.iter().map(|entrant| self.verdict(entrants, entrant, winner)).collect();
-        let depths = [winner, next].map(|i| i.map(|i| entrants[i].depth()));
+            entrants.iter().map(|entrant| self.verdict(entrants, entrant, visible)).collect();
+        let depths = [visible, next].map(|i| i.map(|i| entrants[i].depth()));
         for (i, (entrant, verdict)) in entrants.iter_mut().zip(verdicts).enumerate() {
             entrant.fragment.verdict = verdict;
-            let rival = if winner == Some(i) { depths[1] } else { depths[0] };
+            let rival = if visible == Some(i) { depths[1] } else { depths[0] };
             let pair = entrant.fragment.depth.zip(rival);
             entrant.fragment.margin = pair.map(|(ours, theirs)| ulps::place(ours) - ulps::place(theirs));
         }
     }
 
-    fn verdict(&self, entrants: &[Entrant], entrant: &Entrant, winner: Option<usize>) -> Verdict {
+    fn verdict(&self, entrants: &[Entrant], entrant: &Entrant, visible: Option<usize>) -> Verdict {
         if !entrant.is(Verdict::Hidden) {
             return entrant.fragment.verdict;
         }
-        let winner = winner.map(|winner| &entrants[winner]);
-        match winner {
-            Some(winner) if std::ptr::eq(winner, entrant) => Verdict::Won,
+        let visible = visible.map(|visible| &entrants[visible]);
+        match visible {
+            Some(visible) if std::ptr::eq(visible, entrant) => Verdict::Visible,
             _ if entrant.fragment.blend_mode == BlendMode::Translucent
-                && winner.is_none_or(|winner| self.beats(entrant, winner)) =>
+                && visible.is_none_or(|visible| self.beats(entrant, visible)) =>
             {
                 Verdict::Layer(0)
             }
-            Some(winner) if winner.depth() == entrant.depth() => Verdict::LostTie,
+            Some(visible) if visible.depth() == entrant.depth() => Verdict::EqualDepth,
             _ => Verdict::Hidden,
         }
     }
@@ -242,7 +242,7 @@ impl<'f> Trial<'f> {
 
     fn in_telling_order(&self, a: &Entrant, b: &Entrant) -> Ordering {
         let rank = |entrant: &Entrant| match entrant.fragment.verdict {
-            Verdict::Won => 0,
+            Verdict::Visible => 0,
             Verdict::Layer(_) => 1,
             Verdict::OutsideEdge(_) | Verdict::OutsideDisc => 3,
             _ => 2,
@@ -251,18 +251,18 @@ impl<'f> Trial<'f> {
     }
 }
 
-/// What a sample shows: the layers over the winner or the background.
+/// The colour of a sample: its layers over the visible triangle or the background.
 fn blended(fragments: &[FragmentExplanation], background: Vec4) -> Vec4 {
     let colored = |won: bool| {
-        let told = fragments.iter().rev().filter(move |fragment| (fragment.verdict == Verdict::Won) == won);
+        let told =
+            fragments.iter().rev().filter(move |fragment| (fragment.verdict == Verdict::Visible) == won);
         told.filter_map(|fragment| fragment.color)
     };
     let ground = colored(true).next().unwrap_or(background);
     colored(false).fold(ground, |color, layer| saturated(layer + color * (1.0 - layer.w)))
 }
 
-/// The sorted vertices in the order in which they are told: that of the draw's
-/// indices if they are known.
+/// The vertices in the order in which they are reported: that of the draw's indices if they are known.
 fn order_of(triangle: &SetupTriangle) -> [usize; 3] {
     match (triangle.corners, triangle.kind) {
         (Corners::Whole(corners), Kind::Triangle) => {

@@ -40,8 +40,8 @@ fn ink(pass: &Pass<'_>, axis: u32) -> Option<Ink> {
     Ink::new(edges, marks, axis)
 }
 
-/// The side of a tile without what it sees of its neighbours. With that it is as large as
-/// was asked for, unless too little would be left of it, and never larger than can be.
+/// The side of a tile without its margin. Including the margin it has the requested size, unless too little
+/// would be left, and never more than the maximum.
 fn own_side(tile_size: u32, apron: u32) -> u32 {
     if tile_size >= 4 * apron { tile_size - 2 * apron } else { tile_size.min(MAX_SIDE as u32 - 2 * apron) }
 }

@@ -110,8 +110,8 @@ impl SetUp<'_> {
                 let triangles = &triangles[indices];
                 at_level!(token, simd => set_up_triangles(simd, &mut setup, range.start, triangles));
             }
-            (&Shape::Lines { segments, width, outline, depth_bias }, _) => {
-                let style = LineStyle::new((width, outline), depth_bias, axis, multisampled);
+            (&Shape::Lines { segments, width, smoothing, depth_bias }, _) => {
+                let style = LineStyle::new((width, smoothing), depth_bias, axis, multisampled);
                 for index in range {
                     setup.segment(index, segments[index as usize], style);
                 }
@@ -120,8 +120,8 @@ impl SetUp<'_> {
                 let points = (range.start, &points[indices]);
                 at_level!(token, simd => set_up_points(simd, &mut setup, points, (plain, &sizes)));
             }
-            (&Shape::Points { points, sizes, shape, outline, depth_bias }, None) => {
-                let style_of = sizes.each(|size| PointStyle::new((size, outline), shape, depth_bias, axis));
+            (&Shape::Points { points, sizes, shape, smoothing, depth_bias }, None) => {
+                let style_of = sizes.each(|size| PointStyle::new((size, smoothing), shape, depth_bias, axis));
                 for index in range {
                     setup.point(index, points[index as usize], style_of(index));
                 }

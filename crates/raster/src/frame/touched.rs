@@ -79,7 +79,7 @@ impl Touched {
         }
     }
 
-    /// Runs them again, and those beside them, and finds out which of them have moved.
+    /// Runs them and their neighbours again, and finds which have moved.
     pub(super) fn run_vertices(
         &mut self,
         pass: &[Recorded<'_>],
@@ -266,8 +266,7 @@ impl Search<'_> {
         seeds.extend(ends.into_iter().flatten().filter(is_beside));
     }
 
-    /// Whether any of some vertices may have other values, asked in a way that takes several
-    /// of them at once.
+    /// Whether any of some vertices may have changed, tested several at once.
     fn reaches(&self, vertices: &[u32]) -> bool {
         let [least, greatest] = self.reach;
         let within = |any: bool, &vertex: &u32| any | (vertex >= least) & (vertex <= greatest);
@@ -318,7 +317,7 @@ impl Piece<'_> {
                 let varyings = &mut self.varyings[first * stride..end * stride];
                 pipeline.run_vertices(token, self.used, slots, viewport, (places, varyings));
                 for ((bit, after), before) in (first % 64..).zip(&*places).zip(before) {
-                    // Where one without a place lies is asked of the pipeline once more.
+                    // The position of a vertex without a snapped one is computed by the pipeline once more.
                     let differs = after.0 != before.0 || !after.has_place();
                     *moved |= changed & (u64::from(differs) << bit);
                 }

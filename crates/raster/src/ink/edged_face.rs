@@ -36,7 +36,7 @@ pub(super) struct EdgedFace {
     has_parts: bool,
 }
 
-/// The most triangles of the face that are looked at before this one, and after it.
+/// The maximum number of triangles of the face that are examined before this one, and after it.
 const MOST_PARTS: u32 = 32;
 
 impl Segment {
@@ -149,14 +149,13 @@ impl EdgedFace {
     }
 }
 
-/// What tells a vertex from others.
+/// What distinguishes a vertex from others.
 fn identity(vertex: &ScreenVertex) -> [i32; 3] {
     [vertex.0[0], vertex.0[1], vertex.0[2]]
 }
 
-/// The other triangles of a face: those around one of them that have its number. Each of
-/// them finds this one, too. A triangle whose corners are one vertex is none: it only keeps a
-/// place.
+/// The other triangles of a face: those around one of its triangles that have the same face number. Each of
+/// them finds this one, too. Triangles whose three corners are one vertex are skipped: they only fill a slot.
 pub(crate) fn parts(geometry: &Geometry<'_>, primitive: u32) -> impl Iterator<Item = u32> {
     let face = geometry.face(primitive);
     let end = (geometry.len() as u32).min(primitive + 1 + MOST_PARTS);

@@ -1,6 +1,7 @@
 //! How wide the lines on a face are: the rule of [`FaceEdges`](crate::FaceEdges).
 
-use super::{Ink, Overlap};
+use super::Ink;
+use crate::marks::Overlap;
 use crate::simd::{F32, Simd, greater, lesser, prelude::*};
 
 /// The most of its inner radius that half a line takes of a face.

@@ -14,7 +14,6 @@
 
 mod edged_face;
 mod line_width;
-mod marks;
 mod outer;
 #[cfg(test)]
 mod tests;
@@ -23,11 +22,10 @@ mod visible_rows;
 
 pub(crate) use edged_face::parts;
 pub(crate) use line_width::{FaceLine, LineColumns};
-pub(crate) use marks::Overlap;
-pub use marks::{MarkColors, Marks};
 pub(crate) use outer::OuterInk;
 pub(crate) use visible_faces::{DepthRange, VisibleFaces};
 
+use crate::marks::{MarkColors, Overlap};
 use crate::simd::{Each, F32, LANES, Simd, U32, prelude::*};
 use trigon_math::{Vec3, Vec4};
 

@@ -15,13 +15,14 @@
 //! greatest of the depths around each; only those look at their neighbours one by one. All
 //! of it depends on what is visible around a pixel, and not on tiles.
 
+use super::Ink;
 use super::edged_face::EdgedFace;
 use super::visible_faces::{LARGE, VisibleFaces};
 use super::visible_rows::{VisibleRows, beside_large, in_front};
-use super::{Ink, Overlap};
 use crate::bin::TriangleRef;
+use crate::marks::Overlap;
 use crate::simd::{LANES, Simd, at_level};
-use crate::tile::{MAX_SIDE, NOBODY, PIXELS, TileArea, VisibilityBuffer};
+use crate::tile::{MAX_SIDE, NO_TRIANGLE, PIXELS, TileArea, VisibilityBuffer};
 use crate::view::FrameView;
 use std::ops::Range;
 
@@ -35,14 +36,14 @@ pub(crate) struct OuterInk {
     covered: Vec<Overlap>,
     /// The pixels that something covers.
     touched: Vec<u32>,
-    /// The triangles that the tile sees.
+    /// The triangles in the tile and its margin.
     faces: VisibleFaces,
     /// `None` until edges are painted.
     rows: Option<Box<VisibleRows>>,
     /// The lanes of each group that the tile draws itself.
     own: Vec<u8>,
     own_part: [Range<usize>; 2],
-    /// Faces whose edges are looked at, and such as they lie over.
+    /// Faces whose edges are examined, and faces over which they lie.
     ready: [Ready; 2],
 }
 
@@ -60,7 +61,7 @@ impl OuterInk {
         self.faces.begin(triangle_count);
     }
 
-    /// Where the triangles that the tile sees are noted.
+    /// Where the triangles of the tile and its margin are recorded.
     pub(crate) fn faces_mut(&mut self) -> &mut VisibleFaces {
         &mut self.faces
     }
@@ -161,7 +162,7 @@ impl OuterInk {
         if area.padded() != [MAX_SIDE; 2] {
             rows.least.fill([f32::NEG_INFINITY; MAX_SIDE]);
             rows.large.fill([0.0; MAX_SIDE]);
-            rows.nearest.fill([NOBODY; MAX_SIDE]);
+            rows.nearest.fill([NO_TRIANGLE; MAX_SIDE]);
         }
         let [columns, height] = area.padded();
         for (y, x) in (0..height).flat_map(|y| (0..columns).step_by(4).map(move |x| (y, x))) {
@@ -201,7 +202,7 @@ impl OuterInk {
             for column in columns.clone() {
                 let other = rows.nearest[row][column];
                 // Most often the same as before.
-                if other == last || other == own || other == NOBODY {
+                if other == last || other == own || other == NO_TRIANGLE {
                     continue;
                 }
                 last = other;
@@ -216,8 +217,8 @@ impl OuterInk {
         }
     }
 
-    /// What lines of its face cover of a pixel, beside those of the triangle that it sees:
-    /// if that is large, as for other triangles.
+    /// The coverage of a pixel by lines of its own face, other than those of its visible triangle: only if
+    /// that is large, as for other triangles.
     fn cover_by_own(
         &mut self,
         frame: &FrameView<'_>,
@@ -225,7 +226,7 @@ impl OuterInk {
         own: u32,
         point: [i32; 2],
     ) -> Overlap {
-        if own == NOBODY || self.faces.lines[own as usize].radius < LARGE {
+        if own == NO_TRIANGLE || self.faces.lines[own as usize].radius < LARGE {
             return Overlap::default();
         }
         let line = self.faces.lines[own as usize];
@@ -236,7 +237,7 @@ impl OuterInk {
         ground.nearest(point).map(|edge| line.overlap(&edge)).fold(Overlap::default(), Overlap::or)
     }
 
-    /// What lines of a triangle cover of a pixel that sees another one.
+    /// The coverage of a pixel by lines of a triangle other than its visible one.
     fn cover_by(
         &mut self,
         frame: &FrameView<'_>,
@@ -254,7 +255,7 @@ impl OuterInk {
         }
         let [others, grounds] = &mut self.ready;
         let lined = others.face(frame, triangles, other);
-        let ground = (own != NOBODY).then(|| grounds.face(frame, triangles, own));
+        let ground = (own != NO_TRIANGLE).then(|| grounds.face(frame, triangles, own));
         let are_joined = ground.is_some_and(|ground| ground.shares_a_vertex(lined));
         let line = if are_joined { theirs.narrower(ours) } else { theirs };
         lined.nearest(point).fold(Overlap::default(), |most, edge| {
@@ -274,8 +275,8 @@ impl OuterInk {
 impl Ready {
     /// Forgets all, and keeps their memory.
     fn clear(&mut self) {
-        self.0.resize_with(READY, || (NOBODY, EdgedFace::default()));
-        self.0.iter_mut().for_each(|(place, _)| *place = NOBODY);
+        self.0.resize_with(READY, || (NO_TRIANGLE, EdgedFace::default()));
+        self.0.iter_mut().for_each(|(place, _)| *place = NO_TRIANGLE);
     }
 
     /// The face of a triangle of the tile.
@@ -293,16 +294,16 @@ impl Ready {
 #[inline(always)]
 fn ends(buffer: &VisibilityBuffer, pixel: usize) -> [u32; 2] {
     let first = buffer.index(pixel, 0);
-    let mut ends = [buffer.winner[first]; 2];
+    let mut ends = [buffer.visible[first]; 2];
     let mut depths = [buffer.depth[first]; 2];
     for sample in 1..buffer.samples {
         let index = first + sample * LANES;
-        let (winner, depth) = (buffer.winner[index], buffer.depth[index]);
+        let (visible, depth) = (buffer.visible[index], buffer.depth[index]);
         if depth > depths[0] {
-            (ends[0], depths[0]) = (winner, depth);
+            (ends[0], depths[0]) = (visible, depth);
         }
         if depth < depths[1] {
-            (ends[1], depths[1]) = (winner, depth);
+            (ends[1], depths[1]) = (visible, depth);
         }
     }
     ends

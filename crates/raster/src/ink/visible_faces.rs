@@ -15,7 +15,7 @@ pub(crate) struct DepthRange {
 }
 
 impl DepthRange {
-    pub(super) const NOBODY: Self = Self { least: f32::NEG_INFINITY, greatest: f32::NEG_INFINITY };
+    pub(super) const EMPTY: Self = Self { least: f32::NEG_INFINITY, greatest: f32::NEG_INFINITY };
 }
 
 /// The visible triangles of a tile, by their numbers among the tile's, and one more entry for the
@@ -36,10 +36,10 @@ impl VisibleFaces {
         (self.has_lines, self.has_large) = (false, false);
         // Triangles that are not visible keep old values, which are not read.
         if self.depths.len() < triangle_count + 1 {
-            self.depths.resize(triangle_count + 1, DepthRange::NOBODY);
+            self.depths.resize(triangle_count + 1, DepthRange::EMPTY);
             self.lines.resize(triangle_count + 1, FaceLine::UNLINED);
         }
-        self.depths[triangle_count] = DepthRange::NOBODY;
+        self.depths[triangle_count] = DepthRange::EMPTY;
         self.lines[triangle_count] = FaceLine::UNLINED;
     }
 

@@ -2,7 +2,7 @@
 //! pixels at a time.
 
 use crate::simd::{F32, LANES, Simd, U32, greater, prelude::*};
-use crate::tile::{MAX_SIDE, NOBODY};
+use crate::tile::{MAX_SIDE, NO_TRIANGLE};
 use std::ops::Range;
 
 /// The farthest that a line reaches, in pixels.
@@ -14,7 +14,7 @@ pub(super) struct VisibleRows {
     pub(super) greatest: [[f32; MAX_SIDE]; MAX_SIDE],
     /// 1 for large triangles.
     pub(super) large: [[f32; MAX_SIDE]; MAX_SIDE],
-    /// The nearest that a pixel sees.
+    /// The nearest depth visible in a pixel.
     pub(super) nearest: [[u32; MAX_SIDE]; MAX_SIDE],
     /// The farthest.
     pub(super) farthest: [[u32; MAX_SIDE]; MAX_SIDE],
@@ -29,14 +29,13 @@ impl VisibleRows {
             least: [[f32::NEG_INFINITY; MAX_SIDE]; MAX_SIDE],
             greatest: [[f32::NEG_INFINITY; MAX_SIDE]; MAX_SIDE],
             large: [[0.0; MAX_SIDE]; MAX_SIDE],
-            nearest: [[NOBODY; MAX_SIDE]; MAX_SIDE],
-            farthest: [[NOBODY; MAX_SIDE]; MAX_SIDE],
+            nearest: [[NO_TRIANGLE; MAX_SIDE]; MAX_SIDE],
+            farthest: [[NO_TRIANGLE; MAX_SIDE]; MAX_SIDE],
         })
     }
 }
 
-/// The columns of a row around which a triangle with lines lies in front of all that the
-/// pixel sees.
+/// The columns of a row around which a triangle with lines lies in front of everything visible in the pixel.
 #[inline(always)]
 pub(super) fn in_front<S: Simd>(
     simd: S,

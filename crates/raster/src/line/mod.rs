@@ -12,7 +12,7 @@ mod stroke;
 
 pub(crate) use stroke::{Form, Stroke};
 
-use crate::Outline;
+use crate::Smoothing;
 use crate::setup::{Ends, Kind, Quad, QuadDetail, Setup};
 use crate::vertex::{ScreenVertex, nearer};
 use trigon_math::{ClipVertex, Fixed, clip_segment};
@@ -43,13 +43,15 @@ pub(crate) fn smooth_size(size: f32) -> f32 {
     }
 }
 
-/// How far a line or point reaches from its middle, along an axis of its own, in
-/// units of the grid: half its size, and for an anti-aliased one as far as it covers
-/// a part of a pixel, and a unit more, so that snapping cuts nothing off.
-pub(crate) fn half_size((size, outline): (f32, Outline), supersampling: u32) -> f64 {
-    match outline {
-        Outline::Sharp => f64::from(drawable_size(size)) * f64::from(supersampling) * 128.0,
-        Outline::AntiAliased => Stroke::reach(f64::from(smooth_size(size)) * f64::from(supersampling)) + 1.0,
+/// How far a line or point extends from its middle along an axis of its own, in units of the grid: half its
+/// size, or, if anti-aliased, as far as it covers any part of a pixel; and one unit more, so that snapping
+/// cuts nothing off.
+pub(crate) fn half_size((size, smoothing): (f32, Smoothing), supersampling: u32) -> f64 {
+    match smoothing {
+        Smoothing::Sharp => f64::from(drawable_size(size)) * f64::from(supersampling) * 128.0,
+        Smoothing::AntiAliased => {
+            Stroke::reach(f64::from(smooth_size(size)) * f64::from(supersampling)) + 1.0
+        }
     }
 }
 
@@ -67,14 +69,14 @@ pub(crate) struct LineStyle {
 
 impl LineStyle {
     pub(crate) fn new(
-        (width, outline): (f32, Outline),
+        (width, smoothing): (f32, Smoothing),
         depth_bias: f32,
         supersampling: u32,
         multisampled: bool,
     ) -> Self {
         let smooth = f64::from(smooth_size(width)) * f64::from(supersampling);
-        let smooth = (outline == Outline::AntiAliased).then_some(smooth);
-        let half_width = half_size((width, outline), supersampling);
+        let smooth = (smoothing == Smoothing::AntiAliased).then_some(smooth);
+        let half_width = half_size((width, smoothing), supersampling);
         let single = drawable_size(width) == 1.0 && supersampling == 1 && !multisampled;
         Self { smooth, half_width, single, depth_bias }
     }

@@ -13,9 +13,9 @@ pub const MAX_SIZE: u32 = 16384;
     "{width}x{height} with {pixels} pixels: sides must be 1 to {MAX_SIZE} and within the image, pixels their product"
 )]
 pub struct SizeError {
-    /// The width asked for.
+    /// The requested width.
     pub width: u32,
-    /// The height asked for.
+    /// The requested height.
     pub height: u32,
     /// The number of pixels given.
     pub pixels: usize,

@@ -77,8 +77,8 @@ impl Rectangle {
 /// if it is the same whole number for all.
 #[inline(always)]
 fn whole_offset(halves: [&[Corner; 3]; 2], axis: usize, size: i32) -> Option<i32> {
-    /// Half of what the painter of triangles rounds to the centre of a texel: so
-    /// it finds the same. In texels.
+    /// In texels: half of the distance that the painter of triangles rounds to the centre of a texel, so that
+    /// both find the same texel.
     const NEAR: f64 = 1.0 / 16384.0;
     let offset = |corner: &Corner| {
         let position = if axis == 0 { corner.point.x } else { corner.point.y };

@@ -15,8 +15,8 @@ pub(super) enum Source<'a> {
     Gradient([[f64; 4]; 3], Option<Texture<'a>>),
 }
 
-/// A mesh's image, and the colour of the place last asked for: most triangles
-/// of an interface have all corners at the same one, which is white.
+/// A mesh's image, and the colour at the last texture coordinate: in most triangles of an interface, all
+/// corners have the same one, which is white.
 pub(super) struct Texels<'a> {
     image: Option<&'a Image>,
     uv: [f32; 2],

@@ -9,7 +9,7 @@ pub(crate) use plain::{PlainPoints, sampled_pixels};
 use crate::line::{Form, Stroke, half_size, smooth_size};
 use crate::setup::{DetailIndex, Ends, Kind, Quad, QuadDetail, Setup};
 use crate::vertex::{ScreenVertex, nearer};
-use crate::{Outline, PointShape};
+use crate::{PointShape, Smoothing};
 
 /// How a draw's points look.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,14 +24,14 @@ pub(crate) struct PointStyle {
 
 impl PointStyle {
     pub(crate) fn new(
-        (size, outline): (f32, Outline),
+        (size, smoothing): (f32, Smoothing),
         shape: PointShape,
         depth_bias: f32,
         supersampling: u32,
     ) -> Self {
         let smooth = f64::from(smooth_size(size)) * f64::from(supersampling);
-        let smooth = (outline == Outline::AntiAliased).then_some(smooth);
-        let half = half_size((size, outline), supersampling);
+        let smooth = (smoothing == Smoothing::AntiAliased).then_some(smooth);
+        let half = half_size((size, smoothing), supersampling);
         let kind = match shape {
             PointShape::Round => Kind::RoundPoint,
             PointShape::Square => Kind::SquarePoint,

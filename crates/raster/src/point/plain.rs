@@ -7,7 +7,7 @@ use crate::geometry::{Geometry, PointSizes, Shape};
 use crate::setup::{Column, Kind, Quad, Setup};
 use crate::simd::{Each, I32, LANES, Mask, Simd, inlined, lane_numbers, lanes_of, prelude::*};
 use crate::vertex::ScreenVertex;
-use crate::{BlendMode, Outline};
+use crate::{BlendMode, Smoothing};
 
 /// How the points of a draw look if they are drawn from their vertices: sharp, opaque, and of one
 /// colour each, so that it does not matter in which half of its square a sample lies.
@@ -23,15 +23,15 @@ const WIDE: i32 = 32 * 256;
 impl PlainPoints {
     /// `None` if a draw, with a pipeline that may be flat, has no such points.
     pub(crate) fn of(geometry: &Geometry<'_>, is_flat: bool, supersampling: u32) -> Option<Self> {
-        let Shape::Points { sizes, shape, outline, depth_bias, .. } = geometry.shape else {
+        let Shape::Points { sizes, shape, smoothing, depth_bias, .. } = geometry.shape else {
             return None;
         };
         let is_opaque = matches!(geometry.blend_mode, BlendMode::Opaque | BlendMode::Overlay);
         let marked = sizes.marked.map_or(sizes.size, |marked| marked.size);
         let styles = [sizes.size, marked]
-            .map(|size| PointStyle::new((size, outline), shape, depth_bias, supersampling));
+            .map(|size| PointStyle::new((size, smoothing), shape, depth_bias, supersampling));
         let are_small = styles.iter().all(|style| 2 * style.half < WIDE);
-        let are_plain = outline == Outline::Sharp && is_opaque && is_flat;
+        let are_plain = smoothing == Smoothing::Sharp && is_opaque && is_flat;
         (are_plain && are_small).then_some(Self { styles })
     }
 

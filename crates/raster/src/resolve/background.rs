@@ -92,7 +92,7 @@ impl Part {
         }
     }
 
-    /// Gives each row a colour of its own.
+    /// Gives each row its own colour.
     fn paint_rows(&self, band: &mut Band<'_>, color_at: impl Fn(u32) -> Vec4) {
         for y in self.drawn[1].clone() {
             let color = color_at(y as u32);
@@ -102,7 +102,7 @@ impl Part {
         }
     }
 
-    /// Gives each pixel a colour of its own.
+    /// Gives each pixel its own colour.
     fn paint(&self, band: &mut Band<'_>, color_at: impl Fn(UVec2) -> Vec4) {
         let [columns, rows] = &self.drawn;
         for (y, x) in rows.clone().flat_map(|y| columns.clone().map(move |x| (y, x))) {

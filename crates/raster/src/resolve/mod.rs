@@ -14,7 +14,7 @@ pub(crate) use strip::Strip;
 use crate::shade::{Encoding, Shading};
 use crate::simd::at_level;
 use crate::target::{Band, Bands};
-use crate::tile::{NOBODY, TileArea, TileState};
+use crate::tile::{NO_TRIANGLE, TileArea, TileState};
 use crate::view::FrameView;
 use background::fill_background;
 use trigon_math::Vec4;
@@ -120,12 +120,12 @@ fn store_ids(
     band: &mut Band<'_>,
     pixels: impl Iterator<Item = (usize, usize)>,
 ) {
-    let mut last = (NOBODY, [u32::MAX; 3]);
+    let mut last = (NO_TRIANGLE, [u32::MAX; 3]);
     for (index, sample) in pixels {
-        let winner = state.buffer.winner[sample];
+        let visible = state.buffer.visible[sample];
         // Neighbours often see the same triangle.
-        if winner != last.0 {
-            last = (winner, frame.ids(state, winner));
+        if visible != last.0 {
+            last = (visible, frame.ids(state, visible));
         }
         let planes = [&mut band.objects, &mut band.faces, &mut band.triangles];
         for (plane, id) in planes.into_iter().zip(last.1) {
@@ -156,12 +156,12 @@ fn for_each_drawn(
 }
 
 impl FrameView<'_> {
-    /// The object, face and primitive of a winner.
-    fn ids(&self, state: &TileState, winner: u32) -> [u32; 3] {
-        match winner {
-            NOBODY => [u32::MAX; 3],
-            winner => {
-                let place = state.triangles[winner as usize];
+    /// The object, face and primitive of a visible triangle.
+    fn ids(&self, state: &TileState, visible: u32) -> [u32; 3] {
+        match visible {
+            NO_TRIANGLE => [u32::MAX; 3],
+            visible => {
+                let place = state.triangles[visible as usize];
                 let plan = &self.plan.draws[self.draw_of(place)];
                 let geometry = &self.pass[plan.draw].geometry;
                 let primitive = place.ordinal - plan.ordinals.start;

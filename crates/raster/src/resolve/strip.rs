@@ -107,7 +107,7 @@ fn copy_row(row: &mut [[u8; 4]], codes: &[u32], [column, y]: [usize; 2]) {
     let (eights, tail) = row.as_chunks_mut::<8>();
     let copied = whole + 8 * eights.len();
     let blocks = &codes.as_chunks::<BLOCK>().0[TileArea::index_of([whole, y]) / BLOCK..];
-    // The same in each block: what is known of it is not asked for each.
+    // The same in each block, from values that are known for the whole strip.
     let left = TileArea::index_of([0, y % 8]);
     for (pixels, block) in eights.iter_mut().zip(blocks) {
         for (pixels, at) in pixels.as_chunks_mut().0.iter_mut().zip([left, left + LANES]) {

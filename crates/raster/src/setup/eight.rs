@@ -140,8 +140,8 @@ impl Setup<'_> {
         }
     }
 
-    /// Those of the `plain` lanes that may be seen, and the first and last columns and
-    /// rows that they may have samples in.
+    /// The `plain` lanes that may be visible, and the first and last columns and rows in which they may have
+    /// samples.
     #[inline(always)]
     fn seen<S: Simd>(&self, simd: S, eight: &ScreenTriangles<S>, plain: u64) -> (u64, [[I32<S>; 2]; 2]) {
         let zero = I32::splat(simd, 0);

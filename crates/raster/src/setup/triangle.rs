@@ -39,10 +39,9 @@ pub(crate) type CutWeights = [[f32; 3]; 3];
 
 /// A triangle with an area and, perhaps, samples inside.
 ///
-/// Its vertices are sorted by (y, x), so that nothing that is computed from
-/// them depends on the order in which the corners were given. Only triangles
-/// that are not just three vertices of their draw are kept like this; the others
-/// are made when they are looked at.
+/// Its vertices are sorted by (y, x), so that nothing computed from them depends on the order in which the
+/// corners were given. Only triangles that are not simply three vertices of their draw are stored in this
+/// form; the others are built when they are needed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SetupTriangle {
     pub(crate) vertices: [ScreenVertex; 3],

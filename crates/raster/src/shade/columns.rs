@@ -218,7 +218,7 @@ impl Columns {
         }
     }
 
-    /// In a function of its own, so that it takes no registers where it is not needed.
+    /// A separate function, so that it takes no registers elsewhere.
     #[inline(always)]
     fn gather_apart<S: Simd>(&mut self, simd: S, records: &Records, slots: [u32; LANES]) {
         simd.vectorize(

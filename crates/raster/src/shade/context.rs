@@ -3,7 +3,8 @@
 use crate::BlendMode;
 use crate::bin::TriangleRef;
 use crate::geometry::{Geometry, Shape};
-use crate::ink::{Ink, Marks, Overlap};
+use crate::ink::Ink;
+use crate::marks::{Marks, Overlap};
 use crate::samples::SamplePattern;
 use crate::simd::{I32, Mask, Simd, U32, prelude::*};
 use crate::tile::TileArea;

@@ -3,7 +3,7 @@
 use super::ShadePoint;
 use super::fragments::FragmentList;
 use crate::simd::{LANES, Mask, Simd, U32, lane_numbers, prelude::*};
-use crate::tile::{NOBODY, PIXELS};
+use crate::tile::{NO_TRIANGLE, PIXELS};
 
 /// The place of the colour behind all triangles.
 pub(crate) const BEHIND: usize = PIXELS;
@@ -81,9 +81,9 @@ impl Edges {
         self.groups.iter().copied().zip(self.names.chunks_exact(self.samples))
     }
 
-    /// Lists pixels of a group whose samples see different triangles. Their own places
-    /// get the colours of what their first samples see, each other triangle's colour a
-    /// place of its own, and the samples name theirs.
+    /// Lists pixels of a group whose samples show different triangles. The pixels' own slots get the colours
+    /// of their first samples, the colour of each other triangle gets a slot of its own, and the samples
+    /// refer to these slots.
     #[inline(always)]
     pub(super) fn push<S: Simd>(
         &mut self,
@@ -95,21 +95,21 @@ impl Edges {
         let pixel = group * LANES;
         let names = &mut self.names[self.groups.len() * rows.len()..][..rows.len()];
         self.groups.push(EdgeGroup { number: group as u32, lanes: lanes as u32 });
-        let (nobody, behind) = (U32::splat(simd, NOBODY), U32::splat(simd, BEHIND as u32));
+        let (no_triangle, behind) = (U32::splat(simd, NO_TRIANGLE), U32::splat(simd, BEHIND as u32));
         let pixels = (lane_numbers(simd) + pixel as i32).bitcast::<U32<S>>();
         let listed = Mask::from_bitmask(simd, lanes);
-        names[0] = U32::simd_from(simd, rows[0]).simd_eq(nobody).select(behind, pixels).into();
+        names[0] = U32::simd_from(simd, rows[0]).simd_eq(no_triangle).select(behind, pixels).into();
         for sample in 1..rows.len() {
-            let winners = U32::simd_from(simd, rows[sample]);
+            let visible = U32::simd_from(simd, rows[sample]);
             let unnamed = U32::splat(simd, UNNAMED);
-            let mut name = winners.simd_eq(nobody).select(behind, unnamed);
+            let mut name = visible.simd_eq(no_triangle).select(behind, unnamed);
             for (row, names) in rows[..sample].iter().zip(&names[..sample]) {
-                name = winners.simd_eq(U32::simd_from(simd, *row)).select(U32::simd_from(simd, *names), name);
+                name = visible.simd_eq(U32::simd_from(simd, *row)).select(U32::simd_from(simd, *names), name);
             }
             // All lanes without a name at once: how many there are is hard to predict.
             let others = name.simd_eq(unnamed) & listed;
             let places = (lane_numbers(simd) + (PARTS + self.parts) as i32).bitcast::<U32<S>>();
-            parts.push_some(others, [winners, ShadePoint::covering_lanes(pixels, sample)], places);
+            parts.push_some(others, [visible, ShadePoint::covering_lanes(pixels, sample)], places);
             self.parts += others.to_bitmask().count_ones() as usize;
             names[sample] = places.expand_merge(others, name).into();
         }

@@ -134,7 +134,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
         (I32::simd_from(self.simd, flags) & flag::BACK).simd_eq(I32::splat(self.simd, 0))
     }
 
-    /// Calls `visit` with each active lane as a fragment of its own.
+    /// Calls `visit` with each active lane as a separate fragment.
     #[inline(always)]
     pub(crate) fn for_each(&self, mut visit: impl FnMut(usize, RawFragment<'_>)) {
         let (mut rows, count) = (Rows::new(), self.varyings[0].len());

@@ -20,7 +20,7 @@ pub(super) mod hot {
 
 /// Columns of the two rows that few vectors load.
 pub(super) mod cold {
-    /// As in the hot row, each number by itself.
+    /// As in the hot row, each number separately.
     pub(crate) const POINT: usize = 0;
     pub(crate) const RIGHT: usize = 2;
     pub(crate) const DOWN: usize = 4;

@@ -6,7 +6,8 @@ use super::layout::lined;
 use super::records::Records;
 use super::triangle_lanes::TriangleLanes;
 use super::{ShadeContext, ShadePoint};
-use crate::ink::{Ink, Overlap};
+use crate::ink::Ink;
+use crate::marks::Overlap;
 use crate::simd::{Each, F32, I32, LANES, Row, Simd, U32, greater, lesser, prelude::*};
 
 /// The inputs. Nothing that shading has computed is among them: its results stay in registers, and
@@ -29,7 +30,7 @@ impl LinesOver<'_> {
     #[inline(always)]
     pub(super) fn lay<S: Simd>(&self, simd: S, spots: U32<S>, color: [F32<S>; 4]) -> [F32<S>; 4] {
         if self.ink.has_marks() {
-            // In a function of its own, so that it takes no registers of edges without marks.
+            // A separate function, so that edges without marks spend no registers on it.
             return simd.vectorize(
                 #[inline(always)]
                 || self.lay_marked(simd, spots, color),
@@ -95,7 +96,7 @@ impl LinesOver<'_> {
             most = most.or(Overlaps { shares: is_edge.select(overlap, zero), marks });
         }
         let floor = column(lined::FLOOR);
-        // Where no single edge is told from others, the face shows its greatest mark.
+        // Where single edges cannot be distinguished, the face shows its greatest mark.
         let marks = floor.simd_gt(most.shares).select(greatest, most.marks);
         Overlaps { shares: most.shares + floor, marks }
     }

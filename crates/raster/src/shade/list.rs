@@ -3,7 +3,7 @@
 use super::task::Task;
 use super::{Job, ShadeContext, ShadeOutput, ShadePoint, Shading};
 use crate::bin::TriangleRef;
-use crate::ink::Overlap;
+use crate::marks::Overlap;
 use crate::tile::TileArea;
 use crate::view::FrameView;
 

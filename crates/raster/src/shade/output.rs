@@ -14,9 +14,8 @@ use crate::simd::{Each, F32, LANES, Simd, colors_of, prelude::*};
 pub(crate) enum ShadeOutput<'a> {
     Codes(Codes<'a>),
     Colors(Colors<'a>),
-    /// With edges and marks painted over the colours first. A variant of its own, so that the
-    /// loops of pipelines branch once on where colours go, and not also on whether there are
-    /// edges.
+    /// With edges and marks painted over the colours first. A separate variant, so that the loops of
+    /// pipelines branch once on where colours go, and not also on whether there are edges.
     Inked(Inked<'a>),
 }
 
@@ -66,9 +65,8 @@ impl<'a> ShadeOutput<'a> {
             Self::Inked(inked) => {
                 let over = LinesOver { ink: inked.ink, context, records, columns };
                 let (spots, to) = (vector.spots, vector.destination);
-                // In a function of its own, so that it is compiled once and takes no registers of a frame
-                // without edges; and nothing is lent to it that others would have to keep
-                // in memory for that.
+                // A separate function, so that it is compiled once, and frames without edges spend no
+                // registers on it; it borrows nothing that others would then have to keep in memory.
                 simd.vectorize(
                     #[inline(always)]
                     move || inked.write(finite(simd, over.lay(simd, spots, color)), to),

@@ -10,7 +10,8 @@ use super::layout::{RecordShape, cold, hot};
 use super::lines::Lines;
 use super::sorted::Sorted;
 use crate::bin::TriangleRef;
-use crate::ink::{DepthRange, FaceLine, Marks, VisibleFaces};
+use crate::ink::{DepthRange, FaceLine, VisibleFaces};
+use crate::marks::Marks;
 use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
 /// What few pipelines read of a triangle.
@@ -129,7 +130,7 @@ impl Records {
         self.selected().of(slot)
     }
 
-    /// The rows of the draw that is asked for.
+    /// The rows of the requested draw.
     #[inline(always)]
     pub(super) fn selected(&self) -> SelectedRows<'_> {
         SelectedRows { rows: &self.rows[self.shape.first[0]..], shape: self.shape }
@@ -143,7 +144,7 @@ impl Records {
         context: &ShadeContext<'_>,
         slots: [u32; LANES],
     ) -> [Row; cold::COUNT] {
-        // In a function of its own, so that it is compiled once.
+        // A separate function, so that it is compiled once.
         simd.vectorize(
             #[inline(always)]
             || {
@@ -251,7 +252,7 @@ fn eight<S: Simd>(
     if let Some(ink) = context.frame_ink
         && (shape.lines.is_some() || outer.is_some())
     {
-        // In a function of its own, so that it takes no registers where it is not needed.
+        // A separate function, so that it takes no registers elsewhere.
         simd.vectorize(
             #[inline(always)]
             || {

@@ -64,7 +64,7 @@ pub(super) fn for_each_vector<S: Simd>(
     let count = task.vectors();
     for number in 0..count + 1 {
         if number < count {
-            // In a function of its own, so that it is compiled once for all pipelines.
+            // A separate function, so that it is compiled once for all pipelines.
             simd.vectorize(
                 #[inline(always)]
                 || prepare(simd, context, (task, &mut *next), number),
@@ -78,7 +78,7 @@ pub(super) fn for_each_vector<S: Simd>(
     }
 }
 
-/// Loads a vector's triangles, and finds where its pixels lie in them.
+/// Loads a vector's triangles, and the positions of its pixels in them.
 #[inline(always)]
 fn prepare<S: Simd>(
     simd: S,
@@ -124,8 +124,8 @@ fn points<S: Simd>(simd: S, context: &ShadeContext<'_>, columns: &Columns, spots
             |column| column + 128,
         );
     };
-    // In a function of its own that borrows nothing from this one: values that are borrowed would
-    // have to live in memory, also where pixels have one sample.
+    // A separate function that borrows nothing from this one: borrowed values would have to live in memory,
+    // even where pixels have one sample.
     let [x, y] = simd.vectorize(
         #[inline(always)]
         move || sample_points(simd, context, &TriangleLanes::load(simd, columns), (corners, &spots)),

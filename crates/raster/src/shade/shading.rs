@@ -53,8 +53,8 @@ pub(crate) struct Shading {
     pub(super) flat_colors: Vec<[f32; 4]>,
     /// Pixels as bytes.
     pub(crate) codes: Vec<u32>,
-    /// Pixels in linear light, edge pixels with what their first samples see; what is
-    /// seen behind all triangles; and what other samples of edge pixels see.
+    /// Pixels in linear light; edge pixels with the colour of their first samples; then the background; then
+    /// the other samples of edge pixels.
     pub(crate) colors: Vec<[f32; 4]>,
     /// Groups with pixels that see the background.
     pub(crate) empty_groups: Vec<EmptyGroup>,
@@ -70,7 +70,7 @@ impl Shading {
     /// Starts a tile with this many triangles, and samples per pixel.
     pub(super) fn clear(&mut self, triangle_count: usize, samples: usize) {
         self.slots.clear();
-        // One more, for nobody.
+        // One more, for samples without a triangle.
         self.slots.resize(triangle_count + 1, 0);
         self.groups.clear();
         self.fragments.clear();

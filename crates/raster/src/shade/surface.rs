@@ -31,20 +31,20 @@ pub(crate) fn shade_tile(
             Some(shape) => shading.records.select(shape),
             None => shading.records.fill(frame.token, &context, &shading.seen[run.slots.clone()]),
         }
-        let winners = (buffer.winners(), LANES * buffer.samples);
+        let visible = (buffer.visible(), LANES * buffer.samples);
         // With lines on it no triangle is flat.
         if context.is_flat && (frame.ink.is_none() || context.is_of_plain_marks()) {
-            shade_flat(frame, &context, shading, (run, winners), encoding);
+            shade_flat(frame, &context, shading, (run, visible), encoding);
         } else {
-            shade_run(frame, &context, shading, (run, winners), encoding);
+            shade_run(frame, &context, shading, (run, visible), encoding);
         }
     }
     (shading.runs, shading.outer) = (runs, outer);
     count as u64
 }
 
-/// Lists what is visible in a tile, by draws; and finds what edges cover beyond their
-/// triangles. Tells how many fragments are to be shaded.
+/// Lists the visible triangles of a tile by draw, and finds what edges cover beyond their triangles. Returns
+/// the number of fragments to shade.
 pub(crate) fn list_visible(
     frame: &FrameView<'_>,
     area: &TileArea,
@@ -77,13 +77,13 @@ pub(crate) fn list_visible(
 }
 
 /// What groups see, and from group to group how many samples there are.
-type Winners<'w> = (&'w [u32], usize);
+type Visible<'w> = (&'w [u32], usize);
 
 fn shade_run(
     frame: &FrameView<'_>,
     context: &ShadeContext<'_>,
     shading: &mut Shading,
-    (run, winners): (&Run, Winners<'_>),
+    (run, visible): (&Run, Visible<'_>),
     encoding: Option<Encoding>,
 ) {
     let Shading { records, columns, slots, groups, fragments, parts, codes, colors, .. } = shading;
@@ -93,7 +93,7 @@ fn shade_run(
         records,
         base,
         groups: &groups[run.groups.clone()],
-        winners,
+        visible,
         slots,
         fragments: fragments.part(run.fragments.clone()),
     };
@@ -115,7 +115,7 @@ fn shade_flat(
     frame: &FrameView<'_>,
     context: &ShadeContext<'_>,
     shading: &mut Shading,
-    (run, (winners, step)): (&Run, Winners<'_>),
+    (run, (visible, step)): (&Run, Visible<'_>),
     encoding: Option<Encoding>,
 ) {
     shade_triangles(frame, context, shading, (run.draw, run.slots.len()), encoding);
@@ -124,8 +124,8 @@ fn shade_flat(
     for group in &groups[run.groups.clone()] {
         let number = group.number as usize;
         let pixels = number * LANES..(number + 1) * LANES;
-        let seen = &winners[number * step..][..LANES];
-        if seen.iter().all(|&winner| winner == seen[0]) {
+        let seen = &visible[number * step..][..LANES];
+        if seen.iter().all(|&visible| visible == seen[0]) {
             let slot = (group.slot - base) as usize;
             if encoding.is_some() {
                 codes[pixels.clone()].fill(flat_codes[slot]);

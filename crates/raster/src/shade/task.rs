@@ -24,7 +24,7 @@ pub(crate) struct Task<'t> {
     pub(crate) base: u32,
     pub(crate) groups: &'t [Group],
     /// The triangles that the pixels of groups show, and the distance from group to group.
-    pub(crate) winners: (&'t [u32], usize),
+    pub(crate) visible: (&'t [u32], usize),
     /// The records of the tile's triangles.
     pub(crate) slots: &'t [u32],
     pub(crate) fragments: FragmentSlice<'t>,
@@ -57,9 +57,8 @@ pub(super) struct FragmentBatch<'t, S: Simd> {
 enum Names<'t> {
     /// By their numbers.
     Slots,
-    /// By the winners that see them, whose slots are listed; and the number of the first
-    /// record.
-    Winners(&'t [u32], u32),
+    /// By the visible triangles, whose slots are listed; and the number of the first
+    Visible(&'t [u32], u32),
 }
 
 impl<'t, S: Simd> FragmentBatch<'t, S> {
@@ -68,7 +67,7 @@ impl<'t, S: Simd> FragmentBatch<'t, S> {
     pub(super) fn slot(&self, name: u32) -> u32 {
         match self.named {
             Names::Slots => name,
-            Names::Winners(slots, base) => slots[name as usize] - base,
+            Names::Visible(slots, base) => slots[name as usize] - base,
         }
     }
 
@@ -94,7 +93,7 @@ impl<'t, S: Simd> FragmentBatch<'t, S> {
 impl<'t> Task<'t> {
     /// A list of fragments.
     pub(crate) fn of_fragments(records: &'t Records, base: u32, fragments: FragmentSlice<'t>) -> Self {
-        Self { records, base, groups: &[], winners: (&[], 0), slots: &[], fragments }
+        Self { records, base, groups: &[], visible: (&[], 0), slots: &[], fragments }
     }
 
     /// How many vectors there are.
@@ -114,12 +113,12 @@ impl<'t> Task<'t> {
 
     #[inline(always)]
     fn group<S: Simd>(&self, simd: S, group: &Group) -> FragmentBatch<'t, S> {
-        let (winners, step) = self.winners;
-        let winners =
-            winners[group.number as usize * step..].first_chunk().expect("a group has eight pixels");
+        let (visible, step) = self.visible;
+        let visible =
+            visible[group.number as usize * step..].first_chunk().expect("a group has eight pixels");
         let active = u64::from(group.lanes);
-        let spare = U32::splat(simd, winners[group.lanes.trailing_zeros() as usize % LANES]);
-        let names = Mask::from_bitmask(simd, active).select(U32::simd_from(simd, *winners), spare);
+        let spare = U32::splat(simd, visible[group.lanes.trailing_zeros() as usize % LANES]);
+        let names = Mask::from_bitmask(simd, active).select(U32::simd_from(simd, *visible), spare);
         let pixel = group.number as usize * LANES;
         let mut spots = (lane_numbers(simd) + pixel as i32).bitcast();
         if group.edges != 0 {
@@ -128,7 +127,7 @@ impl<'t> Task<'t> {
         }
         FragmentBatch {
             names,
-            named: Names::Winners(self.slots, self.base),
+            named: Names::Visible(self.slots, self.base),
             spots,
             active,
             destination: Destination::Group(pixel, group.edges != 0),

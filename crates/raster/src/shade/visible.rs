@@ -6,15 +6,14 @@ use super::shading::{EmptyGroup, Run, Shading};
 use super::task::Group;
 use crate::bin::TriangleRef;
 use crate::simd::{LANES, Mask, Simd, U32, prelude::*};
-use crate::tile::{NOBODY, VisibilityBuffer};
+use crate::tile::{NO_TRIANGLE, VisibilityBuffer};
 use crate::view::FrameView;
 
 /// Groups with fewer pixels than this that see anything share vectors with others.
 const FULL: u32 = 4;
 
-/// Lists what is visible in a tile: the triangles, and the pixels that they are
-/// seen at, of those lanes of each group that are the tile's `own` where not all
-/// are. Tells how many fragments are to be shaded.
+/// Lists the visible triangles of a tile and the pixels in which they are visible, for those lanes of each
+/// group that are the tile's `own` if not all are. Returns the number of fragments to shade.
 #[inline(always)]
 pub(super) fn list<S: Simd>(
     simd: S,
@@ -41,8 +40,8 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
 ) -> usize {
     let samples = if SAMPLES > 0 { SAMPLES } else { buffer.samples };
     shading.clear(triangle_count, samples);
-    let (mut pixels, mut last) = (0, U32::splat(simd, NOBODY));
-    let rows = buffer.winners().as_chunks::<LANES>().0;
+    let (mut pixels, mut last) = (0, U32::splat(simd, NO_TRIANGLE));
+    let rows = buffer.visible().as_chunks::<LANES>().0;
     let Shading { slots, groups, fragments, parts, empty_groups, edges, .. } = &mut *shading;
     // As a slice: where it lies is looked up once.
     let marks = slots.as_mut_slice();
@@ -52,8 +51,8 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
         // As before: often within large triangles.
         if !lanes.simd_eq(last).all_true() {
             // All eight are marked: a branch on which are new would be mispredicted often.
-            for winner in <[u32; LANES]>::from(lanes.min(triangle_count as u32)) {
-                marks[winner as usize] = 1;
+            for visible in <[u32; LANES]>::from(lanes.min(triangle_count as u32)) {
+                marks[visible as usize] = 1;
             }
         }
         last = lanes;
@@ -67,7 +66,7 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
         if !WHOLE && own != 0xff && samples > 1 {
             mark_all(marks, others, triangle_count);
         }
-        let empty = lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask() & own;
+        let empty = lanes.simd_eq(U32::splat(simd, NO_TRIANGLE)).to_bitmask() & own;
         if empty != 0 {
             empty_groups.push(EmptyGroup { number: group as u32, lanes: empty as u32 });
         }
@@ -94,8 +93,8 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
 
 /// Marks what further samples see, of a group that is not shaded as a whole.
 fn mark_all(marks: &mut [u32], rows: &[[u32; LANES]], triangle_count: usize) {
-    for winner in rows.as_flattened() {
-        marks[(*winner as usize).min(triangle_count)] = 1;
+    for visible in rows.as_flattened() {
+        marks[(*visible as usize).min(triangle_count)] = 1;
     }
 }
 
@@ -104,8 +103,8 @@ fn mark_all(marks: &mut [u32], rows: &[[u32; LANES]], triangle_count: usize) {
 #[inline(always)]
 fn number(triangle_count: usize, shading: &mut Shading) {
     let Shading { slots, seen, groups, fragments, parts, .. } = shading;
-    for &winner in parts.slots() {
-        slots[winner as usize] = 1;
+    for &visible in parts.slots() {
+        slots[visible as usize] = 1;
     }
     slots.truncate(triangle_count);
     seen.resize(triangle_count, 0);
@@ -186,12 +185,12 @@ fn part_groups(buffer: &VisibilityBuffer, shading: &mut Shading) {
     let mut groups = std::mem::take(&mut shading.groups);
     groups.retain(|group| {
         let number = group.number as usize;
-        let winners =
-            buffer.winners()[number * LANES * buffer.samples..].first_chunk().expect("groups are whole");
+        let visible =
+            buffer.visible()[number * LANES * buffer.samples..].first_chunk().expect("groups are whole");
         let run = shading.runs.partition_point(|run| run.slots.end <= group.slot as usize);
         let slots = shading.runs[run].slots.clone();
         let seen: [u32; LANES] =
-            winners.map(|winner| shading.slots.get(winner as usize).copied().unwrap_or(NOBODY));
+            visible.map(|visible| shading.slots.get(visible as usize).copied().unwrap_or(NO_TRIANGLE));
         let belongs = |lane: usize| slots.contains(&(seen[lane] as usize));
         let stays = (0..LANES).filter(|lane| group.lanes >> lane & 1 != 0).all(belongs);
         if !stays {

@@ -11,7 +11,7 @@ const MAX_BANDS: usize = (super::MAX_TARGET_SIZE / LEAST_HEIGHT) as usize;
 
 const LEAST_HEIGHT: u32 = 32;
 
-/// The rows of one band in each output; empty where an output was not asked for.
+/// The rows of one band in each output; empty if an output was not requested.
 #[derive(Default)]
 pub(crate) struct Band<'t> {
     pub(crate) srgb8: &'t mut [[u8; 4]],

@@ -16,8 +16,7 @@ pub const MAX_TARGET_SIZE: u32 = 16384;
 /// The largest number of samples per pixel and axis.
 pub const MAX_SAMPLES_PER_AXIS: u32 = 4;
 
-/// One image that a frame can leave behind. What is not asked for is neither
-/// computed nor stored.
+/// One image that a frame can produce. Outputs that are not requested are neither computed nor stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Output {
     /// Colour as four bytes: red, green, blue through the sRGB transfer
@@ -46,21 +45,21 @@ pub enum TargetError {
     /// Width or height is 0 or above [`MAX_TARGET_SIZE`].
     #[error("a target of {width}x{height} pixels: each side must be 1 to {MAX_TARGET_SIZE}")]
     Size {
-        /// The width asked for.
+        /// The requested width.
         width: u32,
-        /// The height asked for.
+        /// The requested height.
         height: u32,
     },
     /// Not 1 to [`MAX_SAMPLES_PER_AXIS`].
     #[error("{samples_per_axis} samples per axis: it must be 1 to {MAX_SAMPLES_PER_AXIS}")]
     SamplesPerAxis {
-        /// The number asked for.
+        /// The requested number.
         samples_per_axis: u32,
     },
     /// Not 1, 2, 4, 8 or 16.
     #[error("{samples} samples per pixel: it must be 1, 2, 4, 8 or 16")]
     Samples {
-        /// The number asked for.
+        /// The requested number.
         samples: u32,
     },
     /// Borrowed pixels are not as many as the target has.
@@ -74,9 +73,9 @@ pub enum TargetError {
     /// The images do not fit into memory.
     #[error("no memory for images of {width}x{height} pixels: make the target smaller")]
     Memory {
-        /// The width asked for.
+        /// The requested width.
         width: u32,
-        /// The height asked for.
+        /// The requested height.
         height: u32,
     },
 }
@@ -104,8 +103,7 @@ pub struct Target<'a> {
 }
 
 impl<'a> Target<'a> {
-    /// A target of `width` by `height` pixels, one sample each, that keeps the
-    /// `outputs` asked for.
+    /// A target of `width` by `height` pixels, one sample each, with the requested `outputs`.
     ///
     /// # Errors
     /// [`TargetError::Size`] if a side is 0 or above [`MAX_TARGET_SIZE`],
@@ -270,43 +268,43 @@ impl<'a> Target<'a> {
         self.pattern
     }
 
-    /// The image of [`Output::Unorm8`], if asked for.
+    /// The image of [`Output::Unorm8`], if requested.
     #[must_use]
     pub fn unorm8(&self) -> Option<&[[u8; 4]]> {
         self.unorm8.pixels()
     }
 
-    /// The image of [`Output::Srgb8`], if asked for.
+    /// The image of [`Output::Srgb8`], if requested.
     #[must_use]
     pub fn srgb8(&self) -> Option<&[[u8; 4]]> {
         self.srgb8.pixels()
     }
 
-    /// The image of [`Output::Linear`], if asked for.
+    /// The image of [`Output::Linear`], if requested.
     #[must_use]
     pub fn linear(&self) -> Option<&[Vec4]> {
         self.linear.pixels()
     }
 
-    /// The image of [`Output::Depth`], if asked for.
+    /// The image of [`Output::Depth`], if requested.
     #[must_use]
     pub fn depth(&self) -> Option<&[f32]> {
         self.depth.pixels()
     }
 
-    /// The image of [`Output::Object`], if asked for.
+    /// The image of [`Output::Object`], if requested.
     #[must_use]
     pub fn objects(&self) -> Option<&[u32]> {
         self.objects.pixels()
     }
 
-    /// The image of [`Output::Face`], if asked for.
+    /// The image of [`Output::Face`], if requested.
     #[must_use]
     pub fn faces(&self) -> Option<&[u32]> {
         self.faces.pixels()
     }
 
-    /// The image of [`Output::Triangle`], if asked for.
+    /// The image of [`Output::Triangle`], if requested.
     #[must_use]
     pub fn triangles(&self) -> Option<&[u32]> {
         self.triangles.pixels()
@@ -327,8 +325,8 @@ impl<'a> Target<'a> {
     }
 }
 
-/// The images of a [`Target`], owned; those that were not asked for, or that
-/// lie in borrowed memory, are `None`.
+/// The images of a [`Target`], owned; `None` for images that were not requested, or that lie in borrowed
+/// memory.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TargetImages {
     /// See [`Output::Srgb8`].

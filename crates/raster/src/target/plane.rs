@@ -7,7 +7,7 @@ pub(super) enum Plane<'a, T> {
 }
 
 impl<T: Clone> Plane<'_, T> {
-    /// An image of its own; none if it has no pixels. `None` without memory.
+    /// An owned image, without pixels if it is empty. `None` if there is not enough memory.
     pub(super) fn owned(pixels: usize, value: T) -> Option<Self> {
         let mut image = Vec::new();
         image.try_reserve_exact(pixels).ok()?;

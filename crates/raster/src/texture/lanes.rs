@@ -220,9 +220,9 @@ struct Levels<S: Simd> {
 impl<S: Simd> Levels<S> {
     #[inline(always)]
     fn new(each: I32<S>) -> Self {
-        // The level is found by counting up to it instead of reading it from a lane. A processor
-        // that predicts the end of this loop goes on before the levels are known; most of a
-        // look-up depends on nothing that takes as long.
+        // The level is found by counting up to it instead of reading it from a lane. A processor that
+        // predicts the end of this loop continues before the levels are known; nothing else that most of a
+        // look-up depends on takes as long.
         let mut level = 0;
         while each.simd_gt(level).any_true() {
             level += 1;

@@ -35,10 +35,9 @@ pub enum MipFilter {
     /// The two nearest levels, weighted ("trilinear" with [`Filter::Linear`]).
     #[default]
     Linear,
-    /// Up to so many look-ups like [`Self::Linear`] along the longer side of the
-    /// footprint, each as sharp as the shorter side allows: surfaces seen at a
-    /// grazing angle stay sharp, and cost as many times more. 1 (or 0) is the
-    /// same as `Linear`; more than 16 counts as 16.
+    /// Up to this many look-ups like [`Self::Linear`] along the longer side of the footprint, each as sharp
+    /// as the shorter side allows: surfaces at grazing angles stay sharp, at the cost of that many look-ups.
+    /// 1 (or 0) is the same as `Linear`; more than 16 counts as 16.
     Anisotropic(u8),
 }
 

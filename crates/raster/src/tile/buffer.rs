@@ -5,7 +5,7 @@ use super::area::{BLOCKS, GROUPS, TileArea};
 use crate::simd::{F32, LANES, Simd, lesser, prelude::*};
 
 /// No triangle: the background.
-pub(crate) const NOBODY: u32 = u32::MAX;
+pub(crate) const NO_TRIANGLE: u32 = u32::MAX;
 
 /// The depth of the background: slightly below 0, the depth of the far plane, so that a
 /// triangle in the far plane is visible.
@@ -25,8 +25,8 @@ pub(crate) struct BlockBounds {
 /// eight lanes.
 pub(crate) struct VisibilityBuffer {
     pub(crate) depth: Vec<f32>,
-    /// The index of the visible triangle among the tile's triangles, or [`NOBODY`].
-    pub(crate) winner: Vec<u32>,
+    /// The index of the visible triangle among the tile's triangles, or [`NO_TRIANGLE`].
+    pub(crate) visible: Vec<u32>,
     pub(crate) blocks: [BlockBounds; BLOCKS * BLOCKS],
     /// No sample lies further away.
     pub(crate) farthest: f32,
@@ -44,7 +44,7 @@ impl VisibilityBuffer {
         let bounds = BlockBounds { farthest: 0.0, nearest: 0.0, writes: 0 };
         Self {
             depth: Vec::new(),
-            winner: Vec::new(),
+            visible: Vec::new(),
             blocks: [bounds; BLOCKS * BLOCKS],
             farthest: 0.0,
             stale: false,
@@ -63,15 +63,15 @@ impl VisibilityBuffer {
         let length = self.span * samples;
         if self.depth.len() < length {
             self.depth.resize(length, 0.0);
-            self.winner.resize(length, NOBODY);
+            self.visible.resize(length, NO_TRIANGLE);
         }
-        self.fill_with(BEHIND_ALL, NOBODY);
+        self.fill_with(BEHIND_ALL, NO_TRIANGLE);
     }
 
     /// Gives all samples one depth and triangle. Only a note is made; the arrays are filled when they
     /// are needed (`settle`).
-    pub(crate) fn fill_with(&mut self, depth: f32, winner: u32) {
-        self.fill = Some((depth, winner));
+    pub(crate) fn fill_with(&mut self, depth: f32, visible: u32) {
+        self.fill = Some((depth, visible));
         (self.farthest, self.stale) = (depth, false);
     }
 
@@ -90,14 +90,14 @@ impl VisibilityBuffer {
     }
 
     #[inline(never)]
-    fn settle_fill(&mut self, (depth, winner): (f32, u32)) {
+    fn settle_fill(&mut self, (depth, visible): (f32, u32)) {
         let length = self.span * self.samples;
         self.depth[..length].fill(depth);
         let block = GROUPS * LANES * self.samples;
-        for row in self.winner[..length].chunks_mut(BLOCKS * block) {
+        for row in self.visible[..length].chunks_mut(BLOCKS * block) {
             let (within, beside) = row.split_at_mut(self.columns * block);
-            within.fill(winner);
-            beside.fill(NOBODY);
+            within.fill(visible);
+            beside.fill(NO_TRIANGLE);
         }
         self.blocks.fill(BlockBounds { farthest: depth, nearest: depth, writes: 0 });
     }
@@ -117,7 +117,7 @@ impl VisibilityBuffer {
         for pixel in (0..self.span).filter(|&pixel| !area.contains(TileArea::pixel_at(pixel))) {
             for sample in 0..self.samples {
                 let index = self.index(pixel, sample);
-                self.winner[index] = NOBODY;
+                self.visible[index] = NO_TRIANGLE;
             }
         }
     }
@@ -129,17 +129,17 @@ impl VisibilityBuffer {
     }
 
     /// The visible triangles: group by group, sample by sample, eight lanes.
-    pub(crate) fn winners(&self) -> &[u32] {
-        &self.winner[..self.span * self.samples]
+    pub(crate) fn visible(&self) -> &[u32] {
+        &self.visible[..self.span * self.samples]
     }
 
-    pub(super) fn winners_mut(&mut self) -> &mut [u32] {
-        &mut self.winner[..self.span * self.samples]
+    pub(super) fn visible_mut(&mut self) -> &mut [u32] {
+        &mut self.visible[..self.span * self.samples]
     }
 
     /// The number of samples at which a triangle is visible.
     pub(crate) fn seen(&self) -> usize {
-        self.winners().iter().filter(|&&winner| winner != NOBODY).count()
+        self.visible().iter().filter(|&&visible| visible != NO_TRIANGLE).count()
     }
 
     /// How many pixels the arrays hold.
@@ -174,7 +174,7 @@ impl VisibilityBuffer {
         self.blocks[block].farthest
     }
 
-    /// Finds the farthest depth of each block of a tile anew where that may help.
+    /// Recomputes the farthest depth of each block of a tile where that may help.
     #[inline(always)]
     pub(super) fn refresh_all<S: Simd>(&mut self, simd: S, area: &TileArea) {
         let [columns, rows] = area.padded().map(|side| side / 8);

@@ -3,7 +3,7 @@
 //! gets the visible lanes and their depths. The depth test is that of `TileRasterizer::visible_lanes`.
 
 use super::blocks::Blocks;
-use super::buffer::{NOBODY, VisibilityBuffer};
+use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
 use super::{Ties, TileArea, TileTriangle};
 use crate::bin::TriangleRef;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
@@ -99,11 +99,11 @@ impl TileView<'_> {
     #[inline]
     pub(super) fn is_seen(&self, index: usize, depth: f32, place: u32) -> bool {
         let there = self.buffer.depth[index];
-        depth > there || (depth == there && self.wins_tie(place, self.buffer.winner[index]))
+        depth > there || (depth == there && self.precedes_at_tie(place, self.buffer.visible[index]))
     }
 
-    fn wins_tie(&self, place: u32, winner: u32) -> bool {
-        winner != NOBODY && self.ties.compare(self.frame, self.triangles, [place, winner]).is_lt()
+    fn precedes_at_tie(&self, place: u32, visible: u32) -> bool {
+        visible != NO_TRIANGLE && self.ties.compare(self.frame, self.triangles, [place, visible]).is_lt()
     }
 
     #[inline(always)]
@@ -166,7 +166,7 @@ impl TileView<'_> {
         let mut seen = covered & depth.simd_gt(there);
         let ties = covered & depth.simd_eq(there);
         if ties.any_true() {
-            let won = self.won_ties(candidate.place, ties.to_bitmask(), index);
+            let won = self.preceded_ties(candidate.place, ties.to_bitmask(), index);
             seen |= Mask::from_bitmask(simd, won);
         }
         seen.any_true().then_some((seen, depth))
@@ -174,9 +174,10 @@ impl TileView<'_> {
 
     /// In which of the lanes of equal depth the triangle has the smaller key.
     #[cold]
-    fn won_ties(&self, place: u32, ties: u64, index: usize) -> u64 {
-        let wins =
-            |lane: &usize| ties >> lane & 1 != 0 && self.wins_tie(place, self.buffer.winner[index + lane]);
+    fn preceded_ties(&self, place: u32, ties: u64, index: usize) -> u64 {
+        let wins = |lane: &usize| {
+            ties >> lane & 1 != 0 && self.precedes_at_tie(place, self.buffer.visible[index + lane])
+        };
         (0..LANES).filter(wins).fold(0, |won, lane| won | 1 << lane)
     }
 }

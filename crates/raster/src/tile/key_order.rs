@@ -1,6 +1,6 @@
 //! A tile's triangles in the order of their keys, which [`FrameView::compare`] defines.
 
-use super::buffer::{NOBODY, VisibilityBuffer};
+use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
 use crate::bin::TriangleRef;
 use crate::view::FrameView;
 
@@ -75,9 +75,9 @@ impl KeyOrder {
     }
 
     /// Replaces the indices in this order by those among the tile's triangles.
-    pub(super) fn name_winners(&self, buffer: &mut VisibilityBuffer) {
-        for winner in buffer.winners_mut().iter_mut().filter(|winner| **winner != NOBODY) {
-            *winner = self.sorted[*winner as usize].number() as u32;
+    pub(super) fn name_visible(&self, buffer: &mut VisibilityBuffer) {
+        for visible in buffer.visible_mut().iter_mut().filter(|visible| **visible != NO_TRIANGLE) {
+            *visible = self.sorted[*visible as usize].number() as u32;
         }
     }
 }

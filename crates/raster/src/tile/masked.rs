@@ -2,7 +2,7 @@
 //! mask is evaluated, then depth is tested again.
 
 use super::blocks::Blocks;
-use super::buffer::NOBODY;
+use super::buffer::NO_TRIANGLE;
 use super::depth_query::{Candidate, TileView};
 use super::single::single;
 use super::{TileArea, TileState};
@@ -70,7 +70,7 @@ impl MaskQueue {
         let Self { waiting, jobs, points, .. } = self;
         let start = points.len();
         let candidate = Candidate { covering: &covering, place: place as u32 };
-        let (mut group, mut kept) = (usize::MAX, [NOBODY; LANES]);
+        let (mut group, mut kept) = (usize::MAX, [NO_TRIANGLE; LANES]);
         view.for_each_seen(
             simd,
             candidate,
@@ -78,12 +78,12 @@ impl MaskQueue {
             #[inline(always)]
             |samples, seen, depth| {
                 if samples.group != group {
-                    (group, kept) = (samples.group, [NOBODY; LANES]);
+                    (group, kept) = (samples.group, [NO_TRIANGLE; LANES]);
                 }
                 let (seen, depth): (_, [f32; LANES]) = (seen.to_bitmask(), depth.into());
                 for lane in (0..LANES).filter(|lane| seen >> lane & 1 != 0) {
                     let pixel = samples.pixel(lane);
-                    if per_sample || kept[lane] == NOBODY {
+                    if per_sample || kept[lane] == NO_TRIANGLE {
                         kept[lane] = points.len() as u32;
                         points.push(match per_sample {
                             true => ShadePoint::at_sample(pixel, samples.sample, points.len()),
@@ -119,7 +119,7 @@ impl MaskQueue {
             let (index, depth) = (fragment.index as usize, fragment.depth);
             if state.view(frame, area).is_seen(index, depth, fragment.place) {
                 state.buffer.depth[index] = depth;
-                state.buffer.winner[index] = fragment.place;
+                state.buffer.visible[index] = fragment.place;
             }
         }
         jobs.clear();

@@ -11,10 +11,10 @@
 //! The depth test is that of `TileRasterizer::visible_lanes`, for one pixel.
 
 use super::area::{BLOCKS, GROUPS};
-use super::buffer::{NOBODY, VisibilityBuffer};
-use super::counts::Counts;
+use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
 use super::eight::{EightTriangles, MICRO};
 use super::rasterizer::TileRasterizer;
+use crate::counts::Counts;
 use crate::simd::{
     Each, F32, I32, LANES, Mask, Simd, U32, greater, lane_numbers, lesser, prelude::*, widened,
 };
@@ -85,7 +85,7 @@ impl TileRasterizer<'_> {
         let [top, bottom] = eight.pixels[1].each_ref().each(column);
         let (steps_right, steps_down) =
             (eight.right.each_ref().each(column), eight.down.each_ref().each(column));
-        // The edge functions of each triangle at the top left pixel of its own box.
+        // The edge functions of each triangle at the top left pixel of its bounding box.
         let mut edges = [0, 1, 2].each(
             #[inline(always)]
             |k| column(&eight.first[k]) + steps_right[k] * left + steps_down[k] * top,
@@ -202,25 +202,25 @@ impl TileRasterizer<'_> {
             // pixel the index is also that of the sample in the buffer.
             let (at, lane) = (place as usize / LANES, place as usize % LANES);
             let (there, place) = (buffer.depth[at], first + lane as u32);
-            if depth > there || (depth == there && self.wins_tie(place, buffer.winner[at])) {
+            if depth > there || (depth == there && self.precedes_at_tie(place, buffer.visible[at])) {
                 buffer.depth[at] = depth;
-                buffer.winner[at] = place;
+                buffer.visible[at] = place;
                 buffer.note_write(at / (GROUPS * LANES), eight.high[lane]);
             }
         }
     }
 
-    /// Whether a triangle wins against another of equal depth.
+    /// Whether a triangle is visible rather than another at the same depth.
     ///
     /// The list goes pixel by pixel of the boxes, not triangle by triangle, so of two triangles
     /// in the same eight the later one may come first. That is why numbers are compared even
     /// when triangles are drawn in the order of their keys.
     #[cold]
-    fn wins_tie(&self, place: u32, winner: u32) -> bool {
+    fn precedes_at_tie(&self, place: u32, visible: u32) -> bool {
         if self.in_order {
-            winner != NOBODY && place < winner
+            visible != NO_TRIANGLE && place < visible
         } else {
-            self.may_decide(1) && winner != NOBODY && (self.precedes)(place, winner)
+            self.may_decide(1) && visible != NO_TRIANGLE && (self.precedes)(place, visible)
         }
     }
 }

@@ -38,7 +38,6 @@
 mod area;
 mod blocks;
 mod buffer;
-mod counts;
 mod depth;
 mod depth_query;
 mod edge;
@@ -64,8 +63,7 @@ mod visibility;
 
 pub(crate) use area::{MAX_SIDE, PIXELS, TileArea, lane_point};
 pub(crate) use blocks::Blocks;
-pub(crate) use buffer::{BEHIND_ALL, NOBODY, VisibilityBuffer};
-pub(crate) use counts::Counts;
+pub(crate) use buffer::{BEHIND_ALL, NO_TRIANGLE, VisibilityBuffer};
 pub(crate) use depth::DepthPlane;
 pub(crate) use depth_query::{Candidate, SampleGroup, TileView};
 pub(crate) use edge::{Edge, owns_boundary};

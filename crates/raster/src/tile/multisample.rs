@@ -118,10 +118,10 @@ fn columns<S: Simd, const TIES: bool>(
         }
         let group = TileArea::group_of([column, row]) * samples;
         let depths = &mut buffer.depth.as_chunks_mut::<LANES>().0[group..group + samples];
-        let winners = &mut buffer.winner.as_chunks_mut::<LANES>().0[group..group + samples];
-        let there = depths.iter_mut().zip(winners);
+        let visible = &mut buffer.visible.as_chunks_mut::<LANES>().0[group..group + samples];
+        let there = depths.iter_mut().zip(visible);
         let starts = multisample.edges.iter().zip(&multisample.planes).zip(&multisample.offsets);
-        for ((there, winners), ((starts, planes), offset)) in there.zip(starts) {
+        for ((there, visible), ((starts, planes), offset)) in there.zip(starts) {
             let across = tiny.slopes[0] * (at + f64x4::simd_from(simd, offset[0]));
             let (upper, lower) = (f64x8::simd_from(simd, *planes) + across.combine(across)).split();
             let depth = lesser(greater(simd.narrow_f64x4(upper, lower), tiny.low), tiny.high);
@@ -140,7 +140,7 @@ fn columns<S: Simd, const TIES: bool>(
                 ties |= depth.simd_eq(before);
             }
             *there = greater(depth, before).into();
-            name_where(simd, depth.simd_gt(before), tiny.place, winners);
+            name_where(simd, depth.simd_gt(before), tiny.place, visible);
         }
     }
     ties

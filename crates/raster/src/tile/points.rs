@@ -7,10 +7,10 @@
 use super::TileArea;
 use super::area::GROUPS;
 use super::buffer::VisibilityBuffer;
-use super::counts::Counts;
 use super::rasterizer::TileRasterizer;
 use super::store::store_where;
 use crate::bin::TriangleRef;
+use crate::counts::Counts;
 use crate::geometry::Shape;
 use crate::point::{PlainPoints, sampled_pixels};
 use crate::samples::SamplePattern;

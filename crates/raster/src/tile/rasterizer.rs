@@ -17,11 +17,11 @@
 //! and `micro` and the queries of `depth_query` repeat it in the form that suits them.
 
 use super::area::{BLOCKS, TileArea};
-use super::buffer::{NOBODY, VisibilityBuffer};
-use super::counts::Counts;
+use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
 use super::store::{store, store_where};
 use super::ties::Ties;
 use super::triangle::TileTriangle;
+use crate::counts::Counts;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
 
 /// What all triangles of a tile have in common, for all coverage kernels.
@@ -342,7 +342,7 @@ impl TileRasterizer<'_> {
         if !self.in_order {
             let ties = covered & depth.simd_eq(there);
             if ties.any_true() {
-                let won = self.won_ties(place, ties.to_bitmask(), &buffer.winner[at..at + LANES]);
+                let won = self.preceded_ties(place, ties.to_bitmask(), &buffer.visible[at..at + LANES]);
                 return seen | Mask::from_bitmask(simd, won);
             }
         }
@@ -358,16 +358,16 @@ impl TileRasterizer<'_> {
 
     /// In which of the lanes of equal depth the new triangle has the smaller key.
     #[cold]
-    fn won_ties(&self, place: u32, ties: u64, winners: &[u32]) -> u64 {
+    fn preceded_ties(&self, place: u32, ties: u64, visible: &[u32]) -> u64 {
         if !self.may_decide(ties.count_ones()) {
             // The tile is drawn again.
             return 0;
         }
-        let wins = |winner: u32| winner != NOBODY && (self.precedes)(place, winner);
-        winners
+        let wins = |visible: u32| visible != NO_TRIANGLE && (self.precedes)(place, visible);
+        visible
             .iter()
             .enumerate()
-            .filter(|&(lane, &winner)| ties >> lane & 1 != 0 && wins(winner))
+            .filter(|&(lane, &visible)| ties >> lane & 1 != 0 && wins(visible))
             .fold(0, |won, (lane, _)| won | 1 << lane)
     }
 }

@@ -7,7 +7,7 @@ use crate::simd::{F32, LANES, Mask, Simd, U32, blended, prelude::*};
 #[inline(always)]
 pub(super) fn store<S: Simd>(simd: S, place: u32, depth: F32<S>, buffer: &mut VisibilityBuffer, at: usize) {
     depth.store_slice(&mut buffer.depth[at..at + LANES]);
-    U32::splat(simd, place).store_slice(&mut buffer.winner[at..at + LANES]);
+    U32::splat(simd, place).store_slice(&mut buffer.visible[at..at + LANES]);
 }
 
 /// Writes one triangle to some lanes.
@@ -35,13 +35,13 @@ pub(super) fn store_places_where<S: Simd>(
     let there = F32::from_slice(simd, &buffer.depth[at..at + LANES]);
     let depth: F32<S> = blended(bits, there.bitcast(), depth.bitcast()).bitcast();
     depth.store_slice(&mut buffer.depth[at..at + LANES]);
-    let winners = buffer.winner[at..].first_chunk_mut().expect("groups are whole");
-    *winners = blended(bits, U32::simd_from(simd, *winners), places).into();
+    let visible = buffer.visible[at..].first_chunk_mut().expect("groups are whole");
+    *visible = blended(bits, U32::simd_from(simd, *visible), places).into();
 }
 
 /// Makes a triangle the visible one in some lanes, without writing its depth.
 #[inline(always)]
-pub(super) fn name_where<S: Simd>(simd: S, mask: Mask<S>, place: u32, winners: &mut [u32; LANES]) {
+pub(super) fn name_where<S: Simd>(simd: S, mask: Mask<S>, place: u32, visible: &mut [u32; LANES]) {
     let bits = mask.select(U32::splat(simd, u32::MAX), U32::splat(simd, 0));
-    *winners = blended(bits, U32::simd_from(simd, *winners), U32::splat(simd, place)).into();
+    *visible = blended(bits, U32::simd_from(simd, *visible), U32::splat(simd, place)).into();
 }

@@ -14,8 +14,7 @@ use std::cmp::Ordering;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use std::sync::{Mutex, OnceLock};
 
-/// The cost of comparing two keys. The unit is the cost of testing one sample by itself, a few
-/// nanoseconds.
+/// The cost of comparing two keys. The unit is the cost of testing a single sample, a few nanoseconds.
 pub(super) const COMPARISON: u32 = 8;
 
 /// The budget of a tile: a number of units for each of its triangles, plus a constant. Sorting

@@ -17,13 +17,13 @@
 //! With several samples per pixel, the same steps use the loops of `multisample`.
 
 use super::area::{BLOCKS, TileArea};
-use super::buffer::{NOBODY, VisibilityBuffer};
-use super::counts::Counts;
+use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
 use super::edge_origins::EdgeOrigins;
 use super::eight::EightTriangles;
 use super::multisample;
 use super::rasterizer::TileRasterizer;
 use super::store::name_where;
+use crate::counts::Counts;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser, prelude::*};
 use fearless_simd::f64x4;
 
@@ -161,13 +161,13 @@ impl TileRasterizer<'_> {
             let pixel = TileArea::index_of(at.map(|v| v as usize));
             for (sample, &offset) in self.offsets.iter().enumerate() {
                 let index = buffer.index(pixel, sample);
-                let winner = buffer.winner[index];
-                if winner != NOBODY
+                let visible = buffer.visible[index];
+                if visible != NO_TRIANGLE
                     && covering.covers(at, sample, [0, 0])
                     && covering.depth.at(self.area.point(at, offset)) == buffer.depth[index]
-                    && (self.precedes)(place, winner)
+                    && (self.precedes)(place, visible)
                 {
-                    buffer.winner[index] = place;
+                    buffer.visible[index] = place;
                 }
             }
         }
@@ -230,10 +230,10 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
     buffer: &mut VisibilityBuffer,
 ) -> Mask<S> {
     let width = if WIDTH > 0 { WIDTH } else { tiny.columns[1] - tiny.columns[0] + 1 };
-    let (depths, winners) =
-        (buffer.depth.as_chunks_mut::<LANES>().0, buffer.winner.as_chunks_mut::<LANES>().0);
+    let (depths, visible) =
+        (buffer.depth.as_chunks_mut::<LANES>().0, buffer.visible.as_chunks_mut::<LANES>().0);
     // Equal lengths, so that one bounds check serves both.
-    let winners = &mut winners[..depths.len()];
+    let visible = &mut visible[..depths.len()];
     let Start { mut edges, vertex_offset: [first, mut dy] } = *start;
     let [right, down] = tiny.slopes;
     let mut ties = Mask::splat(simd, false);
@@ -260,7 +260,7 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
             }
             // The nearer depth stays. Where that is the new one, the visible triangle is replaced.
             depths[at] = greater(depth, there).into();
-            name_where(simd, depth.simd_gt(there), tiny.place, &mut winners[at]);
+            name_where(simd, depth.simd_gt(there), tiny.place, &mut visible[at]);
             // Four pixels to the right.
             a += tiny.right[0];
             b += tiny.right[1];

@@ -13,9 +13,10 @@ use super::rasterizer::TileRasterizer;
 use super::single::covering_apart;
 use super::ties::COMPARISON;
 use super::tiny::PreparedTriangle;
-use super::{Counts, NOBODY, Surfaces, TileArea, TileState, VisibilityBuffer, masked};
+use super::{NO_TRIANGLE, Surfaces, TileArea, TileState, VisibilityBuffer, masked};
 use crate::Stats;
 use crate::bin::TriangleRef;
+use crate::counts::Counts;
 use crate::shade::Shading;
 use crate::simd::{Each, LANES, Simd, at_level, lanes_of};
 use crate::vertex::ScreenVertex;
@@ -75,7 +76,7 @@ pub(crate) fn cover_overlay(
     };
     buffer.settle();
     if frame.hierarchical {
-        // Most overlays lie behind what hides them: the bounds are found anew once for all of them.
+        // Most overlays lie behind what hides them, so the bounds are recomputed once for all of them.
         at_level!(frame.token, simd => buffer.refresh_all(simd, area));
     }
     let mut counts = Counts::default();
@@ -92,7 +93,7 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
     let TileState { triangles, buffer, ties, key_order, reordered, .. } = state;
     let triangles = &triangles[..opaque];
     // Ties of one triangle are mostly with the same other one.
-    let last = Cell::new(([NOBODY; 2], false));
+    let last = Cell::new(([NO_TRIANGLE; 2], false));
     let precedes = |ours: u32, theirs: u32| {
         let (pair, wins) = last.get();
         if pair == [ours, theirs] {
@@ -125,7 +126,7 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
     let rasterizer = TileRasterizer { in_order: true, by_draws: false, ..rasterizer };
     cover_all(frame, &rasterizer, (reordered, 0), (buffer, &mut counts));
     buffer.settle();
-    key_order.name_winners(buffer);
+    key_order.name_visible(buffer);
     counts
 }
 
@@ -150,7 +151,7 @@ fn cover_triangles<S: Simd, const MULTI: bool>(
     (triangles, first): (&[TriangleRef], usize),
     (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
 ) -> bool {
-    // A copy of its own, which may stay in registers.
+    // A local copy, which may stay in registers.
     let rasterizer = &{ *rasterizer };
     let mut origins = EdgeOrigins::new(rasterizer.offsets);
     let mut covered = Covered::new();

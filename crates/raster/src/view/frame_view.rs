@@ -19,7 +19,7 @@ use std::ops::Range;
 pub(crate) struct FrameView<'f> {
     pub(crate) pass: &'f [Recorded<'f>],
     pub(crate) background: Background<'f>,
-    /// The background's rows, if each has one colour of its own.
+    /// The background's rows, if each has its own colour.
     pub(crate) background_rows: &'f [BackgroundRow],
     pub(crate) plan: &'f Plan,
     pub(crate) places: &'f [ScreenVertex],
@@ -47,7 +47,7 @@ impl<'f> FrameView<'f> {
         self.ink.as_ref().is_some_and(Ink::has_lines)
     }
 
-    /// The rectangle that a tile sees.
+    /// The rectangle that a tile reads.
     pub(crate) fn area(&self, tile: u32) -> TileArea {
         let Grid { viewport, size, apron, columns, .. } = self.grid;
         let own = [(tile % columns) * size, (tile / columns) * size];

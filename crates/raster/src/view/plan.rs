@@ -33,10 +33,9 @@ pub(crate) struct DrawPlan {
     pub(crate) points: Option<PlainPoints>,
 }
 
-/// The draws of a frame in the order of their ordinals: opaque, masked,
-/// translucent; within each the smaller object first. So at equal depth the
-/// smaller ordinal is mostly the one that is seen, whatever order the draws were
-/// recorded in.
+/// The draws of a frame in the order of their ordinals: opaque, masked, translucent; within each, the smaller
+/// object first. So at equal depth the triangle with the smaller ordinal is usually the visible one, whatever
+/// order the draws were recorded in.
 #[derive(Default)]
 pub(crate) struct Plan {
     pub(crate) draws: Vec<DrawPlan>,
@@ -122,7 +121,7 @@ impl Plan {
             let Some([first, last]) = geometry.ascending_faces() else {
                 return false;
             };
-            // A face that goes on in the next draw: there a triangle of smaller index may be.
+            // A face that continues in the next draw, where the triangle of smaller index may be.
             let goes_on = |last: (u32, u32), len: usize| last == (geometry.object, first) && len > 1;
             if before.is_some_and(|(last, len)| last > (geometry.object, first) || goes_on(last, len)) {
                 return false;

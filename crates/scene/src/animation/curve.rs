@@ -102,7 +102,7 @@ impl Curve {
     }
 
     /// [`Self::at`] for vectors of three numbers; missing ones are 0.
-    pub(super) fn vector(&self, time: f64) -> [f64; 3] {
+    pub(crate) fn vector(&self, time: f64) -> [f64; 3] {
         let place = self.locate(time);
         [0, 1, 2].map(|channel| if channel < self.width { self.component(place, channel) } else { 0.0 })
     }
@@ -110,7 +110,7 @@ impl Curve {
     /// The curve as a rotation, its vectors as quaternions (x, y, z, w): linear ones rotate about
     /// one axis, and the result is a unit quaternion. `None` if vectors do not have four numbers,
     /// or the result has no length.
-    pub(super) fn rotation(&self, time: f64) -> Option<DQuat> {
+    pub(crate) fn rotation(&self, time: f64) -> Option<DQuat> {
         if self.width != 4 {
             return None;
         }

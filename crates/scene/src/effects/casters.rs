@@ -5,9 +5,10 @@ use std::sync::Arc;
 use trigon_math::Bounds3;
 use trigon_raster::Texture;
 
+use crate::geometry::{Geometry, GeometryState};
 use crate::material::{AlphaMode, Material};
 use crate::node::Node;
-use crate::render::{Geometry, GeometryState, Shape, Shapes};
+use crate::render::{Shape, Shapes};
 use crate::scene::{Place, Scene};
 
 /// All shadow casters of a scene.

@@ -1,6 +1,6 @@
 //! Fog, eight lanes at a time.
 
-use super::work::{Work, note};
+use crate::work::{Work, note};
 use trigon_math::Vec3;
 use trigon_raster::simd::{Simd, prelude::*};
 

@@ -9,9 +9,9 @@ use super::fog::Mist;
 use super::metal_sky::{MetalSky, SkyOnMetal};
 use super::rays::{AmbientRays, RayScene};
 use super::shadow::ShadowMaps;
-use super::work::{Work, note};
 use crate::render::lanes::{V3, dot, splat};
 use crate::render::lighting::{Arriving, Lamp, Lights, LitPoints, Microfacets};
+use crate::work::{Work, note};
 
 /// The lighting environment of all surfaces in a frame.
 #[derive(Debug, Default)]

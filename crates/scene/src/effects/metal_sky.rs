@@ -1,15 +1,14 @@
-//! The built-in sky that metals mirror in a scene without defined surroundings.
+//! The built-in sky that metals reflect in a scene that defines no surroundings.
 //!
-//! Metals show hardly anything but what they mirror: with lamps alone they are black except for
-//! their highlights. The sky is the same all around, so what a metal mirrors depends on two
-//! numbers: the elevation of the mirrored direction, and the roughness. A table of both takes 14 kB
-//! and, once, at the first metal, a few milliseconds. An [`Environment`](super::Environment) of the
-//! same sky would hold maps of all directions.
+//! Metals show hardly anything but reflections: under lamps alone they are black except for their highlights.
+//! The sky is the same all around, so what a metal reflects depends on two numbers: the elevation of the
+//! reflected direction, and the roughness. The table of both takes 14 kB and is made for the first metal, in
+//! a few milliseconds. An [`Environment`](super::Environment) of the same sky would hold maps of all
+//! directions.
 //!
-//! The sky is fixed to the world, as environments are, while the studio's lamps move with the
-//! camera.
+//! The sky is fixed to the world, as environments are, while the studio's lamps move with the camera.
 
-use super::work::{Work, note};
+use crate::work::{Work, note};
 use std::sync::LazyLock;
 
 use trigon_math::{Mat3, Vec3, elementary};

@@ -12,7 +12,6 @@ mod rays;
 mod settings;
 mod shadow;
 mod tone;
-mod work;
 
 pub(crate) use casters::Casters;
 pub(crate) use environment::Surroundings;
@@ -27,7 +26,6 @@ pub(crate) use rays::{AmbientRays, Optics, RayCache};
 pub use settings::{AmbientOcclusion, EffectSettings, Fog, MetalReflection, Outline, Shadows, ToneMapping};
 pub(crate) use shadow::{LampPose, ShadowCache};
 pub(crate) use tone::{lay_on_background, map_tones};
-pub(crate) use work::{Work, note};
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,6 @@
 //! Outlines around nodes, drawn over the finished image from its node ids.
 
-use super::work::{Work, note};
+use crate::work::{Work, note};
 use trigon_math::color;
 
 use super::Outline;

@@ -1,10 +1,10 @@
 //! Exposure and tone mapping: from the image's linear light to display values, after all samples
 //! are averaged.
 //!
-//! A background colour is chosen for the display: it lies unchanged behind the mapped image. An
-//! environment is light and already in the image.
+//! A background colour is a colour of the display, so it stays as it is behind the mapped image. An
+//! environment is light, and part of the image that is mapped.
 
-use super::work::{Work, note};
+use crate::work::{Work, note};
 use trigon_math::{Vec3, Vec4, color};
 use trigon_raster::Rasterizer;
 

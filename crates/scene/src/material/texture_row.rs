@@ -1,4 +1,4 @@
-//! What is known of each place of a material that can have a texture.
+//! The properties of each texture slot of a material.
 
 use trigon_raster::TextureFormat;
 

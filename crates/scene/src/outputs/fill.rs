@@ -8,7 +8,7 @@ use super::facet::Beam;
 use super::seen::Seen;
 use super::source::{Point, Source, Triangle};
 use crate::frame::Frame;
-use crate::render::Stage;
+use crate::render::PreparedScene;
 
 /// Rows per task: enough to be worth a worker's while.
 const ROWS: usize = 8;
@@ -17,14 +17,14 @@ const ROWS: usize = 8;
 /// in each pixel.
 pub(crate) fn fill(
     frame: &mut Frame,
-    stage: &Stage<'_>,
+    prepared: &PreparedScene<'_>,
     (camera, sample): (&Camera, [f64; 2]),
     seen: &Seen,
     rasterizer: &Rasterizer,
 ) {
-    let Some(lens) = Lens::new(stage, camera, sample) else { return };
+    let Some(lens) = Lens::new(prepared, camera, sample) else { return };
     let width = frame.width as usize;
-    let sources: Vec<Option<Source<'_>>> = sources(stage, &seen.objects);
+    let sources: Vec<Option<Source<'_>>> = sources(prepared, &seen.objects);
     let pieces: Vec<Piece<'_>> = Piece::cut(frame, width * ROWS);
     rasterizer.share(pieces.into_iter().enumerate(), |(number, mut piece)| {
         piece.fill((&lens, &sources), (seen, width), number * width * ROWS);
@@ -32,8 +32,8 @@ pub(crate) fn fill(
 }
 
 /// The visible objects, by their indices.
-fn sources<'s>(stage: &'s Stage<'_>, objects: &[u32]) -> Vec<Option<Source<'s>>> {
-    let scene = stage.scene;
+fn sources<'s>(prepared: &'s PreparedScene<'_>, objects: &[u32]) -> Vec<Option<Source<'s>>> {
+    let scene = prepared.scene;
     let mut seen = vec![false; scene.nodes().index_bound()];
     for &object in objects.iter().filter(|&&object| object != u32::MAX) {
         seen[object as usize] = true;
@@ -41,9 +41,9 @@ fn sources<'s>(stage: &'s Stage<'_>, objects: &[u32]) -> Vec<Option<Source<'s>>>
     let mut sources: Vec<Option<Source<'_>>> = Vec::new();
     sources.resize_with(seen.len(), || None);
     for (id, node) in scene.nodes().iter().filter(|(id, _)| seen[id.index()]) {
-        let Some(shape) = stage.shapes.get(id.index()) else { continue };
+        let Some(shape) = prepared.shapes.get(id.index()) else { continue };
         let Some(asset) = node.mesh.and_then(|mesh| scene.meshes().get(mesh)) else { continue };
-        sources[id.index()] = Some(Source::new(stage, node, shape, asset.mesh()));
+        sources[id.index()] = Some(Source::new(prepared, node, shape, asset.mesh()));
     }
     sources
 }
@@ -61,8 +61,8 @@ struct Lens {
 
 impl Lens {
     /// `None` for an image without pixels.
-    fn new(stage: &Stage<'_>, camera: &Camera, sample: [f64; 2]) -> Option<Self> {
-        let (width, height) = (stage.settings.width, stage.settings.height);
+    fn new(prepared: &PreparedScene<'_>, camera: &Camera, sample: [f64; 2]) -> Option<Self> {
+        let (width, height) = (prepared.settings.width, prepared.settings.height);
         let before = Camera { projection: camera.projection, ..Camera::default() };
         let projector = Projector::new(&before, Viewport { width, height });
         let ray = |x, y| projector.at_distance(DVec2::new(x, y), 1.0);
@@ -72,7 +72,7 @@ impl Lens {
         let steps = [(right - corner) / f64::from(width), (down - corner) / f64::from(height)];
         let beam = if camera.projection.is_orthographic() { Beam::Parallel } else { Beam::Central };
         let first = corner + steps[0] * sample[0] + steps[1] * sample[1];
-        Some(Self { beam, camera: *camera, origin: stage.settings.outputs.origin, first, steps })
+        Some(Self { beam, camera: *camera, origin: prepared.settings.outputs.origin, first, steps })
     }
 
     fn ray(&self, x: usize, y: usize) -> DVec3 {

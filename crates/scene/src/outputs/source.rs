@@ -1,14 +1,15 @@
-//! What outputs read of an object: its mesh, its transform, and its materials.
+//! The parts of an object that outputs read: its mesh, its transform, and its materials.
 
 use trigon_math::{DAffine3, DVec2, DVec3, Mat3, Vec2, Vec3};
 use trigon_mesh::Mesh;
 use trigon_raster::Texture;
 
 use super::facet::{Beam, Facet, mixed, mixed2, vertex};
+use crate::geometry::Geometry;
 use crate::material::{Material, Shading, TextureBinding};
 use crate::node::Node;
 use crate::render::placement::normal_matrix;
-use crate::render::{Geometry, Shape, Stage};
+use crate::render::{PreparedScene, Shape};
 use crate::scene::Scene;
 use crate::settings::{Outputs, Style};
 
@@ -61,9 +62,9 @@ pub(super) struct Point {
 }
 
 impl<'s> Source<'s> {
-    pub(super) fn new(stage: &'s Stage<'_>, node: &Node, shape: &'s Shape, mesh: &Mesh) -> Self {
-        let scene = stage.scene;
-        let needs = &stage.settings.outputs;
+    pub(super) fn new(prepared: &'s PreparedScene<'_>, node: &Node, shape: &'s Shape, mesh: &Mesh) -> Self {
+        let scene = prepared.scene;
+        let needs = &prepared.settings.outputs;
         let geometry = &*shape.geometry;
         let looks = geometry.runs.iter().map(|run| {
             let id = node.materials.get(run.slot as usize).copied();
@@ -78,11 +79,11 @@ impl<'s> Source<'s> {
         Self {
             geometry,
             looks: looks.collect(),
-            to_camera: stage.eye.to_camera(&shape.place.world),
+            to_camera: prepared.eye.to_camera(&shape.place.world),
             normal_to_world: normal_matrix(&shape.place.world.matrix3, shape.place.is_mirrored),
             tangent_to_world: shape.place.world.matrix3.as_mat3(),
             mirrored: shape.place.is_mirrored,
-            draws_are_runs: stage.settings.style != Style::HiddenLine,
+            draws_are_runs: prepared.settings.style != Style::HiddenLine,
         }
     }
 

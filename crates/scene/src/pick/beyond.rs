@@ -1,9 +1,9 @@
-//! Which boxes lie beside an area of the screen, or before the near plane, as a whole.
+//! Tests whether a whole box lies outside an area of the screen, or in front of the near plane.
 
 use trigon_math::{DMat4, DVec2, DVec4};
 
 use super::region::Area;
-use crate::render::BlockBox;
+use crate::geometry::BlockBox;
 
 /// By how much the area is enlarged, in pixels: points between others are rounded, too.
 const MARGIN: f64 = 1.0;

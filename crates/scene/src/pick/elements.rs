@@ -1,4 +1,4 @@
-//! Sets of elements that grow one by one.
+//! Sets of elements that are filled one by one.
 
 use fixedbitset::FixedBitSet;
 

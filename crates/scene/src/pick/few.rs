@@ -1,11 +1,11 @@
-//! What of an object may lie in a small area: all else is passed over in whole boxes.
+//! Finds the parts of an object that may lie in a small area, and skips all others box by box.
 
 use super::beyond::Beyond;
 use super::nearby::Sides;
 use super::object::{Drawn, Object};
 use super::region::Area;
 use super::screen::Screen;
-use crate::render::Blocks;
+use crate::geometry::Blocks;
 
 /// The elements of an object that may lie in an area, each list increasing.
 #[derive(Default)]

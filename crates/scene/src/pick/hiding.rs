@@ -1,10 +1,10 @@
-//! Which points of elements are hidden by faces that they do not belong to.
+//! Decides which points of elements are hidden by faces that they do not belong to.
 //!
-//! The points are sorted into pixels. Then every drawn triangle visits the points in the pixels
-//! around it and hides those that lie within it on the screen and behind it. Each triangle is read
-//! once, and a triangle as small as a pixel tests few points, so the time grows with triangles plus
-//! points, not with their product. All tests are made at the points themselves in f64, never at
-//! pixel centres. Cases that do not need the exact test are removed before (`occluders`).
+//! The points are sorted into pixels. Every drawn triangle then tests the points in the pixels around it, and
+//! hides those that it covers on the screen and that lie behind it. Each triangle is read once, and a
+//! triangle as small as a pixel tests few points, so the time grows with triangles plus points, not with
+//! their product. Points are tested in f64 where they are, never at pixel centres. Quick tests come first
+//! (`occluders`).
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};

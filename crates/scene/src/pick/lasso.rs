@@ -1,9 +1,9 @@
 //! Point in polygon by the even-odd rule, without rounding.
 //!
-//! A ray to the right of a point crosses some sides; the point is inside if their number is odd. A
-//! side is crossed if one of its ends is above the point and the other is not, and if the exact
-//! orientation of its ends and the point says that it lies to the right. So each corner counts for
-//! one of its sides only, and a side belongs to one of the two areas that it divides.
+//! A horizontal ray from the point to the right crosses some sides of the polygon; the point is inside if
+//! their number is odd. A side is crossed if one of its ends is above the point and the other is not, and if
+//! the side passes to the right of the point, by the exact orientation of the three. So a corner counts for
+//! only one of its two sides, and a point on a side belongs to only one of the two areas beside it.
 
 use std::ops::Range;
 

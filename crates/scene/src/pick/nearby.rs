@@ -1,9 +1,9 @@
-//! The objects of a scene near an area of an image, and what of them may lie in it.
+//! The objects of a scene near an area of an image, and their elements that may lie in it.
 //!
-//! A small area, such as around a cursor, contains little: whole boxes of triangles are skipped,
-//! and nothing is stored (`few`). A large one contains much: the positions of all points are
-//! computed and stored, and one byte per point, its side of the area, is all that elements and
-//! triangles look up until they are near.
+//! A small area, such as around the pointer, contains few elements: whole boxes of triangles are skipped, and
+//! nothing is stored (`few`). In a large area, the screen positions of all points are computed and stored,
+//! and one byte per point records on which side of the area it lies; most elements and triangles are decided
+//! from these bytes alone.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};

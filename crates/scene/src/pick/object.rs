@@ -9,9 +9,10 @@ use trigon_math::{DMat4, DVec3, Vec3};
 use trigon_mesh::Mesh;
 
 use super::screen::{Screen, Spot};
+use crate::geometry::{Blocks, Run};
 use crate::material::AlphaMode;
 use crate::node::NodeId;
-use crate::render::{Blocks, Onlookers, Run, Shape, Shapes};
+use crate::render::{Onlookers, Shape, Shapes};
 use crate::scene::{PlacedMesh, Scene};
 
 /// Points that a thread takes at a time.

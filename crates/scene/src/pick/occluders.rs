@@ -1,8 +1,8 @@
 //! Triangles that may hide points, and the quick tests before the exact one.
 //!
-//! Most points in the pixels around a triangle lie beside it or in front of it. Slightly enlarged
-//! f32 boxes reject nearly all of them. Consecutive triangles are mostly neighbours: a few such
-//! triangles test the points around them together.
+//! Most points in the pixels around a triangle lie beside it or in front of it. Comparing slightly enlarged
+//! f32 boxes rejects nearly all of them. Consecutive triangles are mostly neighbours, so a few of them test
+//! the points around them together.
 
 use std::ops::Range;
 

@@ -190,7 +190,7 @@ impl<'p> Picker<'p> {
         match reach {
             Reach::Visible => {
                 let mut sets = Sets::new(self.objects(), Mesh::face_count);
-                self.winners(&area, |object, face, _| sets.insert(object, face));
+                self.visible_faces(&area, |object, face, _| sets.insert(object, face));
                 sets.finish()
             }
             Reach::Through => self.faces_through(&area),

@@ -154,7 +154,7 @@ impl<'p> Picker<'p> {
 
     /// Calls `found` with each face that wins a pixel whose centre lies in an area, for
     /// neighbouring pixels in a row once: the index of its node, its own, and the pixel.
-    pub(super) fn winners(&self, area: &Area<'_>, mut found: impl FnMut(u32, u32, [u32; 2])) {
+    pub(super) fn visible_faces(&self, area: &Area<'_>, mut found: impl FnMut(u32, u32, [u32; 2])) {
         let (Some(objects), Some(faces)) = (&self.frame.object_ids, &self.frame.face_ids) else { return };
         for row in area.rows.clone() {
             for run in area.runs(row) {

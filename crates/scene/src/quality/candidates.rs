@@ -1,4 +1,4 @@
-//! The qualities that a budget chooses from.
+//! The qualities among which a time budget chooses.
 
 use super::{Preset, Quality};
 

@@ -1,4 +1,4 @@
-//! The choice of a budget, and what it gave up.
+//! The quality that a time budget chose, and the settings that it reduced.
 
 use std::fmt;
 use std::time::Duration;

@@ -1,4 +1,4 @@
-//! The cost of frames, learnt from those that were drawn.
+//! Predicts the time of a frame, from the frames that were drawn before.
 
 use std::time::Duration;
 

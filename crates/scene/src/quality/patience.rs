@@ -1,4 +1,4 @@
-//! How far predicted times are trusted, and which qualities have to wait.
+//! How far predicted times are trusted, and for how long a quality that was too slow is not tried again.
 
 use std::time::Duration;
 

@@ -1,5 +1,5 @@
-//! What a budget learns from, beside the images that it was asked for: parts of an image
-//! in several qualities and in the reference.
+//! Extra measurements for a budget: small regions of the image, drawn at several qualities and at that of the
+//! reference.
 
 use std::time::Duration;
 

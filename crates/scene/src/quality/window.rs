@@ -1,4 +1,4 @@
-//! Parts of an image, drawn by cameras of their own.
+//! Regions of an image, each drawn by a camera of its own.
 
 use trigon_camera::{Camera, Viewport};
 

@@ -34,8 +34,8 @@ pub(crate) struct Panorama {
 }
 
 impl Backdrop {
-    /// If tone mapping follows, a background chosen for the display waits until then: the pass
-    /// draws on a transparent background.
+    /// If tone mapping follows, a background colour, which is a colour of the display, is added afterwards:
+    /// the pass draws on a transparent background.
     pub(super) fn new(camera: &Camera, settings: &RenderSettings) -> Self {
         match settings.background {
             Background::Environment => match &settings.effects.environment {
@@ -51,7 +51,7 @@ impl Backdrop {
         }
     }
 
-    /// At a pixel, premultiplied linear RGB.
+    /// The colour of a pixel, premultiplied linear RGB.
     pub(super) fn at(&self, pixel: UVec2) -> Vec4 {
         match self {
             Self::Color(color) => *color,

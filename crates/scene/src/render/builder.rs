@@ -1,4 +1,4 @@
-//! The renderer's builder.
+//! Builds a renderer from its settings.
 
 use std::num::NonZeroUsize;
 

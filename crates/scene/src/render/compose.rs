@@ -1,5 +1,5 @@
-//! Composes the draws of a frame, each with the pipeline that its material and mesh need and no
-//! more.
+//! Composes the draws of a frame: each gets a pipeline of the parts that its material and mesh need, and no
+//! others.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -10,23 +10,24 @@ use trigon_math::{Mat3, Vec3};
 use trigon_raster::{Culling, EdgeFlags};
 
 use super::backdrop::Backdrop;
-use super::geometry::{Geometry, Run};
 use super::placement::Rays;
 use super::placement::{Eye, Placement};
+use super::prepared_scene::PreparedScene;
 use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles};
 use super::shapes::{Shape, Shapes};
-use super::stage::Stage;
 use super::surface::{BoundMaterial, MaterialContext, Surface};
 use super::vertex_list::VertexList;
 use super::wire::{HiddenLine, Wire, WireMarks};
 use crate::display::Display;
 use crate::effect::Effect;
 use crate::effects::{Counts, LightingEnvironment};
+use crate::geometry::{Geometry, Run};
 use crate::marks;
 use crate::material::{AlphaMode, Material, Shading};
+use crate::mesh_asset::MeshAsset;
 use crate::node::Node;
 use crate::node::NodeId;
-use crate::scene::{MeshAsset, Scene};
+use crate::scene::Scene;
 use crate::settings::{RenderSettings, Style};
 
 /// The size of loose points, in line widths.
@@ -74,9 +75,9 @@ struct Object<'s> {
 }
 
 impl<'s> Composer<'s> {
-    /// For a pass of colours of a stage, with settings that may differ from the stage's in style.
+    /// For a colour pass of a scene, with settings whose style may differ from the scene's.
     pub(super) fn new(
-        stage: &'s Stage<'_>,
+        prepared: &'s PreparedScene<'_>,
         camera: &Camera,
         settings: &'s RenderSettings,
         lighting: &'s LightingEnvironment,
@@ -84,12 +85,12 @@ impl<'s> Composer<'s> {
         let rays = if camera.projection.is_orthographic() { Rays::Parallel } else { Rays::Meeting };
         let default_material = Material::default();
         Self {
-            scene: stage.scene,
+            scene: prepared.scene,
             settings,
-            shapes: &stage.shapes,
+            shapes: &prepared.shapes,
             lighting,
-            eye: &stage.eye,
-            backdrop: &stage.backdrop,
+            eye: &prepared.eye,
+            backdrop: &prepared.backdrop,
             rays,
             to_world: Mat3::from_quat(camera.orientation.as_quat()),
             default_material,
@@ -98,8 +99,12 @@ impl<'s> Composer<'s> {
     }
 
     /// For a pass of which only depth and ids are kept. The lighting environment must be empty.
-    pub(super) fn of_shapes(stage: &'s Stage<'_>, camera: &Camera, dark: &'s LightingEnvironment) -> Self {
-        Self { purpose: Purpose::Shapes, ..Self::new(stage, camera, stage.settings, dark) }
+    pub(super) fn of_shapes(
+        prepared: &'s PreparedScene<'_>,
+        camera: &Camera,
+        dark: &'s LightingEnvironment,
+    ) -> Self {
+        Self { purpose: Purpose::Shapes, ..Self::new(prepared, camera, prepared.settings, dark) }
     }
 
     /// All draws of the frame.
@@ -202,7 +207,7 @@ impl<'s> Composer<'s> {
         id.and_then(|&id| self.scene.materials.get(id)).unwrap_or(&self.default_material)
     }
 
-    /// The material that faces of a slot are displayed in.
+    /// The material in which the faces of a slot are displayed.
     fn displayed(&self, object: &Object<'s>, slot: u32) -> Cow<'_, Material> {
         let material = self.material(object, slot);
         self.settings.display.replaced(material).map_or(Cow::Borrowed(material), Cow::Owned)
@@ -236,8 +241,8 @@ impl<'s> Composer<'s> {
         }
     }
 
-    /// The same triangles without shading: their positions and alpha masks. `None` if blended
-    /// surfaces are to be seen through.
+    /// The same triangles without shading: positions and alpha masks. `None` if outputs see through blended
+    /// surfaces.
     fn shape<'c>(&'c self, object: &Object<'s>, run: &Run) -> Option<Box<dyn Record + 'c>>
     where
         's: 'c,

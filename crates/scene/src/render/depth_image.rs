@@ -1,4 +1,4 @@
-//! Depths as greys: what [`Display::Depth`](crate::Display::Depth) shows.
+//! Depths as greys, for [`Display::Depth`](crate::Display::Depth).
 
 use crate::frame::Frame;
 
@@ -10,7 +10,7 @@ pub(super) fn paint_depth(frame: &mut Frame) {
 
 /// Near is dark; nothing is white. Greys are in proportion to the distance.
 fn grey_depths(depths: &[f32]) -> Vec<u8> {
-    /// The farthest, so that it is told from the background.
+    /// The brightest grey, so that it differs from the background.
     const FAR: f32 = 235.0;
     let finite = || depths.iter().copied().filter(|depth| depth.is_finite());
     let nearest = finite().fold(f32::INFINITY, |least, depth| if depth < least { depth } else { least });

@@ -14,8 +14,8 @@ use super::depth_image::paint_depth;
 use super::kept::{Destination, Kept};
 use super::last_frame::{LastFrame, Step};
 use super::placement::DepthToDistance;
+use super::prepared_scene::PreparedScene;
 use super::record::Record;
-use super::stage::Stage;
 use crate::display::Display;
 use crate::effect::Effect;
 use crate::effects::{Counts, EffectCounts, EffectPlan, LightingEnvironment};
@@ -24,7 +24,7 @@ use crate::outputs::{self, Needed};
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, Style};
 
-/// Draws frames one after the other. What it keeps between them changes no byte.
+/// Draws frames one after the other. What it keeps between them never changes a byte.
 #[derive(Default)]
 pub(super) struct Engine {
     rasterizer: Option<Rasterizer>,
@@ -49,12 +49,13 @@ impl Engine {
         let target = blank(settings)?;
         let mut rasterizer = self.rasterizer(settings)?;
         rasterizer.set_cancel(None);
-        let stage = Stage::new(scene, camera, settings);
-        let plan = EffectPlan::of_stage(&stage);
-        let lighting = self.kept.lighting(&stage, &plan, &mut rasterizer)?;
-        let explained = record(&stage, camera, &lighting, settings, &mut Counts::default(), |pass, _, _| {
-            rasterizer.explain_pixel(pass, &target, x, y)
-        });
+        let prepared = PreparedScene::new(scene, camera, settings);
+        let plan = EffectPlan::of_prepared(&prepared);
+        let lighting = self.kept.lighting(&prepared, &plan, &mut rasterizer)?;
+        let explained =
+            record(&prepared, camera, &lighting, settings, &mut Counts::default(), |pass, _, _| {
+                rasterizer.explain_pixel(pass, &target, x, y)
+            });
         // The next image does not follow from what the rasterizer holds now.
         self.last = LastFrame::default();
         self.rasterizer = Some(rasterizer);
@@ -78,8 +79,8 @@ impl Engine {
         frame.make_room(settings)?;
         let mut rasterizer = self.rasterizer(settings)?;
         rasterizer.set_cancel(cancel.cloned());
-        let stage = Stage::new(scene, camera, settings);
-        let plan = EffectPlan::of_stage(&stage);
+        let prepared = PreparedScene::new(scene, camera, settings);
+        let plan = EffectPlan::of_prepared(&prepared);
         let mut counts = Counts::default();
         let apart = sees_apart(settings, &plan);
         if let Some(cancel) = cancel {
@@ -91,15 +92,15 @@ impl Engine {
         self.stats = Stats::default();
         let mut is_kept = false;
         if settings.outputs.of_light() {
-            let drawn = self.draw_colors(&stage, camera, (&plan, frame), (&mut rasterizer, &mut counts));
+            let drawn = self.draw_colors(&prepared, camera, (&plan, frame), (&mut rasterizer, &mut counts));
             // It may have been cancelled, too: its shadow maps may be incomplete.
             is_kept = drawn.inspect_err(|_| self.kept.forget_unfinished())?;
         }
         if apart {
-            self.draw_seen(&stage, camera, frame, &mut rasterizer)?;
+            self.draw_seen(&prepared, camera, frame, &mut rasterizer)?;
         }
         if settings.outputs.of_triangles() {
-            outputs::fill(frame, &stage, (camera, sample), &self.kept.seen, &rasterizer);
+            outputs::fill(frame, &prepared, (camera, sample), &self.kept.seen, &rasterizer);
         }
         if cancel.is_some_and(Cancel::is_cancelled) {
             self.kept.forget_unfinished();
@@ -111,7 +112,7 @@ impl Engine {
             self.kept.seen.hand_over(frame);
             measure_depth(frame, camera, settings, &rasterizer);
         }
-        counts.of(Effect::Poses).bytes = stage.shapes.posed_bytes() as u64;
+        counts.of(Effect::Poses).bytes = prepared.shapes.posed_bytes() as u64;
         (self.counts, self.plan) = (counts, Some(plan));
         self.rasterizer = Some(rasterizer);
         Ok(())
@@ -134,41 +135,43 @@ impl Engine {
         Ok(())
     }
 
-    /// Draws colours; and what is seen, too, unless that has a pass of its own. Whether the
-    /// image is one that is kept: then the frame is finished.
+    /// Draws the colours, and the visible triangles unless they have a pass of their own. Returns whether the
+    /// image is kept for the next frame; if so, the frame is finished.
     fn draw_colors(
         &mut self,
-        stage: &Stage<'_>,
+        prepared: &PreparedScene<'_>,
         camera: &Camera,
         (plan, frame): (&EffectPlan, &mut Frame),
         (rasterizer, counts): (&mut Rasterizer, &mut Counts),
     ) -> Result<bool, RenderError> {
-        let lighting = self.kept.lighting(stage, plan, rasterizer)?;
-        let settings = stage.settings;
+        let lighting = self.kept.lighting(prepared, plan, rasterizer)?;
+        let settings = prepared.settings;
         if settings.share_through_faces().is_some() {
             let wires = RenderSettings { style: Style::Wireframe, ..settings.clone() };
             let target = blank(settings)?;
-            self.stats += record(stage, camera, &lighting, &wires, &mut Counts::default(), |pass, _, _| {
-                self.kept.draw_beneath(pass, settings, target, rasterizer)
-            })?;
+            self.stats +=
+                record(prepared, camera, &lighting, &wires, &mut Counts::default(), |pass, _, _| {
+                    self.kept.draw_beneath(pass, settings, target, rasterizer)
+                })?;
         }
         let apart = sees_apart(settings, plan);
         let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
-        // Depth that has a pass of its own is not to be written twice.
+        // If depth has a pass of its own, it is not written twice.
         let depth = if apart { frame.depth.take() } else { None };
         let target = blank(settings)?;
-        let (stats, is_kept) = record(stage, camera, &lighting, settings, counts, |pass, draws, counts| {
-            let step = if apart { Step::Apart } else { self.last.step(stage, camera, plan, draws) };
-            let is_kept = !matches!(step, Step::Apart);
-            let stats = if is_kept {
-                let target = (target, &mut *frame);
-                self.last.draw(pass, (settings, camera), target, (rasterizer, &step))
-            } else {
-                let into = Destination { target, frame, needed };
-                self.kept.draw(pass, (settings, plan), into, (rasterizer, counts))
-            };
-            stats.map(|stats| (stats, is_kept))
-        })?;
+        let (stats, is_kept) =
+            record(prepared, camera, &lighting, settings, counts, |pass, draws, counts| {
+                let step = if apart { Step::Apart } else { self.last.step(prepared, camera, plan, draws) };
+                let is_kept = !matches!(step, Step::Apart);
+                let stats = if is_kept {
+                    let target = (target, &mut *frame);
+                    self.last.draw(pass, (settings, camera), target, (rasterizer, &step))
+                } else {
+                    let into = Destination { target, frame, needed };
+                    self.kept.draw(pass, (settings, plan), into, (rasterizer, counts))
+                };
+                stats.map(|stats| (stats, is_kept))
+            })?;
         self.stats += stats;
         if apart {
             frame.depth = depth;
@@ -180,13 +183,13 @@ impl Engine {
     /// Draws only ids and depth.
     fn draw_seen(
         &mut self,
-        stage: &Stage<'_>,
+        prepared: &PreparedScene<'_>,
         camera: &Camera,
         frame: &mut Frame,
         rasterizer: &mut Rasterizer,
     ) -> Result<(), RenderError> {
-        let (dark, settings) = (LightingEnvironment::default(), stage.settings);
-        let composer = Composer::of_shapes(stage, camera, &dark);
+        let (dark, settings) = (LightingEnvironment::default(), prepared.settings);
+        let composer = Composer::of_shapes(prepared, camera, &dark);
         // Effects do not matter for it.
         let draws = composer.draws(&mut Counts::default());
         let mut pass = Pass::new();
@@ -226,21 +229,21 @@ impl Engine {
     }
 }
 
-/// Records the colours of a stage as these settings have them, and does something with that.
+/// Records the colour pass of a scene with these settings, and passes it to a function.
 fn record<T>(
-    stage: &Stage<'_>,
+    prepared: &PreparedScene<'_>,
     camera: &Camera,
     lighting: &LightingEnvironment,
     settings: &RenderSettings,
     counts: &mut Counts,
     draw: impl FnOnce(&Pass<'_>, &[Box<dyn Record + '_>], &mut Counts) -> T,
 ) -> T {
-    let composer = Composer::new(stage, camera, settings, lighting);
+    let composer = Composer::new(prepared, camera, settings, lighting);
     let draws = composer.draws(counts);
-    let behind = |pixel| stage.backdrop.at(pixel);
-    let behind_row = |y| stage.backdrop.at(UVec2::new(0, y));
+    let behind = |pixel| prepared.backdrop.at(pixel);
+    let behind_row = |y| prepared.backdrop.at(UVec2::new(0, y));
     let mut pass = Pass::new();
-    pass.background(match stage.backdrop {
+    pass.background(match prepared.backdrop {
         Backdrop::Color(color) => Background::Color(color),
         Backdrop::Rows(..) => Background::PerRow(&behind_row),
         Backdrop::Environment(_) => Background::PerPixel(&behind),
@@ -255,7 +258,7 @@ fn record<T>(
     draw(&pass, &draws, counts)
 }
 
-/// Whether depth and ids have a pass of their own, beside that of colours.
+/// Whether depth and ids have a pass of their own, besides that of colours.
 fn sees_apart(settings: &RenderSettings, plan: &EffectPlan) -> bool {
     settings.outputs.need_own_pass(plan.is_on(Effect::Transparency))
 }

@@ -3,7 +3,7 @@
 use trigon_math::Vec4;
 use trigon_raster::{Pass, Rasterizer, Stats, Target, TargetError};
 
-use super::stage::Stage;
+use super::prepared_scene::PreparedScene;
 use crate::effect::Effect;
 use crate::effects::{
     AmbientRays, Casters, Counts, EffectPlan, LampPose, LightingEnvironment, Mist, RayCache, ShadowCache,
@@ -13,7 +13,7 @@ use crate::frame::{Frame, resize};
 use crate::outputs::{Needed, Seen};
 use crate::settings::RenderSettings;
 
-/// What a renderer keeps from frame to frame. It changes no byte of one.
+/// What a renderer keeps from frame to frame. It never changes a byte.
 #[derive(Default)]
 pub(super) struct Kept {
     shadows: ShadowCache,
@@ -31,7 +31,7 @@ pub(super) struct Destination<'a> {
     /// Of the right size and samples; stores nothing yet.
     pub(super) target: Target<'a>,
     pub(super) frame: &'a mut Frame,
-    /// What is needed of depth and ids.
+    /// The required parts of depth and ids.
     pub(super) needed: Needed,
 }
 
@@ -39,16 +39,16 @@ impl Kept {
     /// The lighting environment, as far as the plan requires it.
     pub(super) fn lighting(
         &mut self,
-        stage: &Stage<'_>,
+        prepared: &PreparedScene<'_>,
         plan: &EffectPlan,
         rasterizer: &mut Rasterizer,
     ) -> Result<LightingEnvironment, TargetError> {
-        let effects = &stage.settings.effects;
+        let effects = &prepared.settings.effects;
         let on = |effect| plan.is_on(effect);
         let mut lighting = LightingEnvironment {
-            lights: stage.lights.clone(),
-            surroundings: stage.surroundings().filter(|_| on(Effect::Environment)),
-            metal_sky: on(Effect::MetalSky).then(|| stage.metal_sky()),
+            lights: prepared.lights.clone(),
+            surroundings: prepared.surroundings().filter(|_| on(Effect::Environment)),
+            metal_sky: on(Effect::MetalSky).then(|| prepared.metal_sky()),
             mist: effects.fog.as_ref().filter(|_| on(Effect::Fog)).and_then(Mist::new),
             shadow_rays: on(Effect::ShadowRays),
             ambient_rays: effects
@@ -63,28 +63,28 @@ impl Kept {
         if !rays && !on(Effect::ShadowMaps) {
             return Ok(lighting);
         }
-        let casters = Casters::gather(stage.scene, &stage.shapes);
+        let casters = Casters::gather(prepared.scene, &prepared.shapes);
         if let (true, Shadows::Maps { resolution }) = (on(Effect::ShadowMaps), effects.shadows) {
-            let poses: Vec<LampPose> = stage.lights.lamps.iter().map(|lamp| stage.pose(lamp)).collect();
-            let (seen, to_world) = ((stage.scene, &casters), &stage.camera_to_world);
+            let poses: Vec<LampPose> = prepared.lights.lamps.iter().map(|lamp| prepared.pose(lamp)).collect();
+            let (seen, to_world) = ((prepared.scene, &casters), &prepared.camera_to_world);
             let resolution = resolution.clamp(16, 8192);
             lighting.shadow_maps = Some(self.shadows.maps(&poses, seen, resolution, to_world, rasterizer)?);
         }
         if rays {
             lighting.rays =
-                Some(self.rays.scene(&casters, sight.then_some(stage.scene), &stage.camera_to_world));
+                Some(self.rays.scene(&casters, sight.then_some(prepared.scene), &prepared.camera_to_world));
         }
         Ok(lighting)
     }
 
-    /// The frame was cancelled: what was drawn for it may be incomplete.
+    /// Forgets what a cancelled frame left incomplete.
     pub(super) fn forget_unfinished(&mut self) {
         if self.shadows.drawn() > 0 {
             self.shadows = ShadowCache::default();
         }
     }
 
-    /// Adds what the lighting took.
+    /// Adds the cost of the lighting.
     pub(super) fn count(&self, lighting: &LightingEnvironment, plan: &EffectPlan, counts: &mut Counts) {
         if let Some(maps) = &lighting.shadow_maps {
             counts.of(Effect::ShadowMaps).bytes = maps.byte_count() as u64;
@@ -113,8 +113,8 @@ impl Kept {
         }
     }
 
-    /// Draws the pass of colours, and what is laid over the image afterwards. Leaves
-    /// in `seen` and in the frame's depth what is needed of the pass beside colours.
+    /// Draws the colour pass, and what is laid over the image afterwards. The results of the pass other than
+    /// colours go to `seen` and the frame's depth, as far as they are needed.
     pub(super) fn draw(
         &mut self,
         pass: &Pass<'_>,
@@ -127,7 +127,7 @@ impl Kept {
         let needed = needed.with_objects(plan.is_on(Effect::Outline));
         let full = TargetError::Memory { width: settings.width, height: settings.height };
         self.seen.make_room(pixels, needed).ok_or(full)?;
-        // The lists are borrowed for as long as the target lives.
+        // The target borrows the lists.
         let mut seen = std::mem::take(&mut self.seen);
         let target = seen.with(target, depth.as_mut())?;
         let images = ColorImages { colors, radiance: radiance.as_mut() };
@@ -178,7 +178,7 @@ impl Kept {
         Ok(rasterizer.draw(pass, &mut blank.with_linear(&mut self.beneath)?))
     }
 
-    /// Draws linear light, lets show what is beneath, and maps the tones into the image.
+    /// Draws linear light, adds what shows through faces, and maps the tones into the image.
     fn draw_mapped(
         &mut self,
         pass: &Pass<'_>,

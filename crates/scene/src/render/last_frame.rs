@@ -1,9 +1,8 @@
 //! The last image, kept so that the next frame can reuse it: if few vertices of a mesh have moved
 //! since, and everything else is unchanged, most of the image is the same.
 //!
-//! A kept image is drawn here and copied to the frame, because a frame belongs to its user, who may
-//! change it. So it takes its memory twice. Images of meshes that were never changed and have no
-//! marks are not kept.
+//! The kept image is drawn here and copied to the caller's frame, which the caller may change. So its memory
+//! is needed twice. Images of meshes that were never changed and have no marks are not kept.
 
 mod marked;
 
@@ -13,14 +12,14 @@ use trigon_camera::Camera;
 use trigon_raster::{DrawChange, Pass, Rasterizer, Rect, Stats, Target, TargetError, Texture};
 
 use self::marked::{MarkOrigin, MarkPalette, MarkedPrimitives};
-use super::geometry::GeometryState;
 use super::placement::{DepthToDistance, Placement};
+use super::prepared_scene::PreparedScene;
 use super::record::{Record, Source};
-use super::stage::Stage;
 use crate::arena::Arena;
 use crate::effect::Effect;
 use crate::effects::{EffectPlan, Environment};
 use crate::frame::{Frame, resize};
+use crate::geometry::GeometryState;
 use crate::marks::Marks;
 use crate::material::Material;
 use crate::node::Node;
@@ -41,14 +40,14 @@ const COUPLING: [Effect; 8] = [
     Effect::Outline,
 ];
 
-/// Rows of an image that a thread copies at a time.
+/// Rows per task when copying.
 const ROWS: usize = 32;
 
-/// The last image, and what it was made from.
+/// The last image and everything that it was made from.
 #[derive(Default)]
 pub(super) struct LastFrame {
     origin: Option<Box<Origin>>,
-    /// Whether the images below have that origin, and are complete.
+    /// Whether the images below were made from this origin, and are complete.
     is_whole: bool,
     color: Vec<u8>,
     /// In metres.
@@ -56,7 +55,7 @@ pub(super) struct LastFrame {
     seen: Seen,
 }
 
-/// Everything that a frame is made from, except the values of meshes.
+/// Everything that determines a frame, except the values of meshes.
 struct Origin {
     /// Without the environment, which takes long to compare, and without marks.
     settings: RenderSettings,
@@ -80,13 +79,13 @@ struct DrawOrigin {
     marks: MarkOrigin,
 }
 
-/// How a frame follows from the last one.
+/// How a frame differs from the last one.
 pub(super) enum Step {
-    /// It does not. It is drawn as if nothing were kept.
+    /// Unknown: it is drawn as if nothing were kept.
     Apart,
-    /// It is kept, and all of it is drawn.
+    /// It is drawn completely, and kept.
     Whole,
-    /// It differs in this for each draw.
+    /// These are the differences of each draw.
     Changed(Vec<ChangedDraw>),
 }
 
@@ -99,23 +98,23 @@ pub(super) struct ChangedDraw {
 }
 
 impl LastFrame {
-    /// How the frame of a stage follows from the last one, which it replaces.
+    /// How the next frame differs from the last one, which it replaces.
     pub(super) fn step(
         &mut self,
-        stage: &Stage<'_>,
+        prepared: &PreparedScene<'_>,
         camera: &Camera,
         plan: &EffectPlan,
         draws: &[Box<dyn Record + '_>],
     ) -> Step {
-        let outputs = &stage.settings.outputs;
+        let outputs = &prepared.settings.outputs;
         let is_plain = outputs.color && !outputs.radiance && !outputs.of_triangles();
         // What shows through faces is a pass of its own, too.
         let is_coupled = COUPLING.into_iter().any(|effect| plan.is_on(effect))
-            || stage.settings.share_through_faces().is_some();
+            || prepared.settings.share_through_faces().is_some();
         let sources: Vec<Source<'_>> = draws.iter().map(|draw| draw.source()).collect();
         let was_changed = sources.iter().any(|source| source.geometry.can_follow());
-        // Other marks may follow at any time.
-        let is_marked = stage.settings.vertices.is_some() || !stage.settings.marks.is_plain();
+        // Marks may change at any time.
+        let is_marked = prepared.settings.vertices.is_some() || !prepared.settings.marks.is_plain();
         if !is_plain || is_coupled || !(was_changed || is_marked) {
             *self = Self::default();
             return Step::Apart;
@@ -123,10 +122,10 @@ impl LastFrame {
         let is_whole = std::mem::take(&mut self.is_whole);
         let unlike = if is_marked { Step::Whole } else { Step::Apart };
         let Some(origin) = &mut self.origin else {
-            self.origin = Some(Box::new(Origin::new(stage, camera, plan, &sources)));
+            self.origin = Some(Box::new(Origin::new(prepared, camera, plan, &sources)));
             return unlike;
         };
-        let is_same = origin.update(stage, camera, plan);
+        let is_same = origin.update(prepared, camera, plan);
         let changes = origin.replace_draws(&sources);
         match changes {
             _ if !is_same => unlike,
@@ -199,7 +198,7 @@ impl LastFrame {
 
     /// Copies the requested outputs to the frame.
     fn copy_to(&self, frame: &mut Frame, rasterizer: &Rasterizer) {
-        /// Bytes and numbers that a thread copies at a time.
+        /// Items per task when copying.
         const PIECE: usize = 1 << 18;
         copy(&mut frame.color, &self.color, 4 * PIECE, rasterizer);
         if let (Some(to), Some(from)) = (&mut frame.depth, &self.depth) {
@@ -212,13 +211,12 @@ impl LastFrame {
     }
 }
 
-/// Copies a list, so many items of it at a time by each thread.
+/// Copies a list in parallel, `piece` items per task.
 fn copy<T: Copy + Send + Sync>(to: &mut [T], from: &[T], piece: usize, rasterizer: &Rasterizer) {
     rasterizer.share(to.chunks_mut(piece).zip(from.chunks(piece)), |(to, from)| to.copy_from_slice(from));
 }
 
-/// Something shared that equals nothing but itself: whoever changes what others hold makes a
-/// copy.
+/// A shared value that is equal only to itself: whoever changes a value that others share makes a copy first.
 struct Same<T>(Arc<T>);
 
 impl<T> PartialEq for Same<T> {
@@ -234,38 +232,38 @@ impl<T> Clone for Same<T> {
 }
 
 impl Origin {
-    fn new(stage: &Stage<'_>, camera: &Camera, plan: &EffectPlan, sources: &[Source<'_>]) -> Self {
-        let scene = stage.scene;
+    fn new(prepared: &PreparedScene<'_>, camera: &Camera, plan: &EffectPlan, sources: &[Source<'_>]) -> Self {
+        let scene = prepared.scene;
         Self {
-            settings: without_environment_and_marks(stage.settings),
-            palette: MarkPalette::new(&stage.settings.marks),
-            environment: environment_of(stage),
+            settings: without_environment_and_marks(prepared.settings),
+            palette: MarkPalette::new(&prepared.settings.marks),
+            environment: environment_of(prepared),
             camera: *camera,
             nodes: scene.nodes().clone(),
             materials: scene.materials.clone(),
-            textures: textures_of(stage),
+            textures: textures_of(prepared),
             effects: Effect::ALL.map(|effect| plan.is_on(effect)),
             draws: sources.iter().map(DrawOrigin::new).collect(),
         }
     }
 
-    /// Becomes that of another image, but for its draws; whether it stays the same.
-    fn update(&mut self, stage: &Stage<'_>, camera: &Camera, plan: &EffectPlan) -> bool {
-        // Each of them is brought up to date.
+    /// Takes over everything but the draws of another image; returns whether it was the same.
+    fn update(&mut self, prepared: &PreparedScene<'_>, camera: &Camera, plan: &EffectPlan) -> bool {
+        // The draws are updated one by one.
         let are_same = [
-            keep(&mut self.settings, &without_environment_and_marks(stage.settings)),
-            keep(&mut self.palette, &MarkPalette::new(&stage.settings.marks)),
-            keep(&mut self.environment, &environment_of(stage)),
+            keep(&mut self.settings, &without_environment_and_marks(prepared.settings)),
+            keep(&mut self.palette, &MarkPalette::new(&prepared.settings.marks)),
+            keep(&mut self.environment, &environment_of(prepared)),
             keep(&mut self.camera, camera),
-            keep(&mut self.nodes, stage.scene.nodes()),
-            keep(&mut self.materials, &stage.scene.materials),
-            keep(&mut self.textures, &textures_of(stage)),
+            keep(&mut self.nodes, prepared.scene.nodes()),
+            keep(&mut self.materials, &prepared.scene.materials),
+            keep(&mut self.textures, &textures_of(prepared)),
             keep(&mut self.effects, &Effect::ALL.map(|effect| plan.is_on(effect))),
         ];
         !are_same.contains(&false)
     }
 
-    /// Takes the draws of another image; how they differ, if that is known.
+    /// Takes over the draws of another image; returns how they differ, if that is known.
     fn replace_draws(&mut self, sources: &[Source<'_>]) -> Option<Vec<ChangedDraw>> {
         let before = std::mem::replace(&mut self.draws, sources.iter().map(DrawOrigin::new).collect());
         if before.len() != sources.len() {
@@ -298,7 +296,7 @@ impl DrawOrigin {
         }
     }
 
-    /// In what the draw differs from another one; `None` if that is not known.
+    /// How the draw differs from another one; `None` if that is unknown.
     fn change(&self, now: &Self, source: &Source<'_>) -> Option<ChangedDraw> {
         let Self { first_triangle, triangle_count, place, .. } = self;
         let is_alike =
@@ -324,7 +322,7 @@ impl DrawOrigin {
     }
 }
 
-/// Gives a value another one; whether they are equal.
+/// Replaces a value; returns whether both are equal.
 fn keep<T: PartialEq + Clone>(own: &mut T, other: &T) -> bool {
     let is_same = own == other;
     if !is_same {
@@ -339,12 +337,12 @@ fn without_environment_and_marks(settings: &RenderSettings) -> RenderSettings {
     settings
 }
 
-fn environment_of(stage: &Stage<'_>) -> Option<Same<Environment>> {
-    stage.settings.effects.environment.clone().map(Same)
+fn environment_of(prepared: &PreparedScene<'_>) -> Option<Same<Environment>> {
+    prepared.settings.effects.environment.clone().map(Same)
 }
 
-fn textures_of(stage: &Stage<'_>) -> Vec<(TextureId, Same<Texture>)> {
-    stage.scene.textures.iter().map(|(id, asset)| (id, Same(Arc::clone(&asset.texture)))).collect()
+fn textures_of(prepared: &PreparedScene<'_>) -> Vec<(TextureId, Same<Texture>)> {
+    prepared.scene.textures.iter().map(|(id, asset)| (id, Same(Arc::clone(&asset.texture)))).collect()
 }
 
 #[cfg(test)]

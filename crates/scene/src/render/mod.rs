@@ -5,20 +5,18 @@
 
 mod backdrop;
 mod builder;
-mod columns;
 mod compose;
 mod depth_image;
 mod engine;
-mod geometry;
 mod kept;
 pub(crate) mod lanes;
 mod last_frame;
 pub(crate) mod lighting;
 pub(crate) mod placement;
+mod prepared_scene;
 mod record;
 mod renderer;
 mod shapes;
-mod stage;
 pub(crate) mod surface;
 #[cfg(test)]
 mod tests;
@@ -26,10 +24,9 @@ mod vertex_list;
 mod wire;
 
 pub use builder::RendererBuilder;
-pub(crate) use geometry::{BlockBox, Blocks, Geometry, GeometryState, Run, box_around};
+pub(crate) use prepared_scene::PreparedScene;
 pub use renderer::Renderer;
 pub(crate) use shapes::{Onlookers, Shape, Shapes};
-pub(crate) use stage::Stage;
 
 use thiserror::Error;
 use trigon_camera::Camera;

@@ -1,4 +1,4 @@
-//! Draws that own their pipelines, until they are recorded in a pass.
+//! Draws that own their pipelines, kept until they are recorded in a pass.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -8,11 +8,11 @@ use trigon_raster::{
     BlendMode, Culling, Draw, EdgeFlags, LanePipeline, Lines, MarkedPoints, Marks, Pass, Points,
 };
 
-use super::geometry::Geometry;
 use super::placement::Placement;
 use super::wire::Wire;
+use crate::geometry::Geometry;
 
-/// A draw that owns its pipeline, and can be recorded whatever that is.
+/// A draw that owns its pipeline, whatever its type, and can be recorded.
 pub(super) trait Record {
     fn record<'a>(&'a self, pass: &mut Pass<'a>);
 
@@ -20,7 +20,7 @@ pub(super) trait Record {
     fn source(&self) -> Source<'_>;
 }
 
-/// What a draw is made from, beside its look.
+/// The parts of a draw other than its material.
 pub(super) struct Source<'s> {
     pub(super) geometry: &'s Geometry,
     /// Those of the geometry's triangles that are drawn; none of lines and points.

@@ -133,8 +133,8 @@ impl Renderer {
     }
 
     /// Explains the pixel in column `x` and row `y` of the image that [`render`](Self::render) draws: all
-    /// triangles that touch it, sample by sample, with exact edge values and depths, which of them is seen,
-    /// and why. Object ids are indices of nodes. `None` outside the image.
+    /// triangles that touch it, sample by sample, with exact edge values and depths, which of them is
+    /// visible, and why. Object ids are indices of nodes. `None` outside the image.
     ///
     /// It costs about as much as all stages before the tiles, and then a test of each triangle.
     ///
@@ -147,8 +147,8 @@ impl Renderer {
     /// let mut renderer = Renderer::builder().size(40, 30).build();
     /// let camera = scene.overview(renderer.settings().aspect());
     /// let pixel = renderer.explain_pixel(&scene, &camera, 20, 15)?.expect("inside the image");
-    /// let winner = pixel.reported().winner().expect("the cube is in the middle");
-    /// assert_eq!(scene.nodes().id_at(winner.object as usize), Some(cube));
+    /// let visible = pixel.reported().visible().expect("the cube is in the middle");
+    /// assert_eq!(scene.nodes().id_at(visible.object as usize), Some(cube));
     /// # Ok::<(), trigon_scene::RenderError>(())
     /// ```
     ///
@@ -164,12 +164,13 @@ impl Renderer {
         self.engine.explain(scene, camera, &self.settings, [x, y])
     }
 
-    /// From now on [`Stats::times`] holds what each stage took. That itself takes a little time.
+    /// Makes later frames measure the time of each stage ([`Stats::times`]). Measuring takes a little time
+    /// itself.
     pub fn time_stages(&mut self) {
         self.engine.is_timed = true;
     }
 
-    /// From now on stages measure no time.
+    /// Makes later frames measure no times.
     pub fn stop_timing(&mut self) {
         self.engine.is_timed = false;
     }
@@ -192,7 +193,7 @@ impl Renderer {
         self.engine.stats()
     }
 
-    /// For tests: how much room is kept for objects, faces and triangles.
+    /// For tests: the capacity kept for objects, faces and triangles.
     #[cfg(test)]
     pub(crate) fn seen_capacities(&self) -> [usize; 3] {
         self.engine.seen_capacities()
@@ -208,7 +209,7 @@ mod tests {
     use super::*;
     use crate::{Outputs, render, showcase, views};
 
-    /// One scene for many threads, and renderers that may be handed from one to another.
+    /// Several threads may share a scene, and renderers may move between threads.
     #[test]
     fn whatever_takes_part_can_be_sent_and_shared() {
         fn check<T: Send + Sync>() {}
@@ -234,7 +235,7 @@ mod tests {
         });
     }
 
-    /// What the explanation says wins is what the image's ids show.
+    /// The triangle that the explanation calls visible is the one in the image's ids.
     #[test]
     fn explanations_tell_what_the_image_shows() {
         let scene = showcase();
@@ -245,8 +246,8 @@ mod tests {
         let ids = frame.object_ids.clone().expect("asked for");
         for [x, y] in [[18, 12], [3, 20], [30, 16], [0, 0]] {
             let explained = renderer.explain_pixel(&scene, &camera, x, y).expect("drawn").expect("inside");
-            let winner = explained.reported().winner().map_or(u32::MAX, |winner| winner.object);
-            assert_eq!(winner, ids[(y * 36 + x) as usize], "pixel {x}, {y}");
+            let visible = explained.reported().visible().map_or(u32::MAX, |visible| visible.object);
+            assert_eq!(visible, ids[(y * 36 + x) as usize], "pixel {x}, {y}");
         }
         assert_eq!(renderer.explain_pixel(&scene, &camera, 36, 0), Ok(None), "outside");
         assert!(renderer.render(&scene, &camera).expect("drawn") == frame, "no trace is left");

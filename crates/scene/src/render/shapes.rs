@@ -1,21 +1,21 @@
-//! The shape of every visible node at this moment: its mesh, in the pose that its
-//! joints and morph weights give it.
+//! The current shape of every visible node: its mesh in the pose that its joints and morph weights give it.
 //!
-//! Only what is in a pose is deformed, and of that only what somebody looks at: the
-//! camera, or a lamp that casts shadows.
+//! Only meshes with a pose are deformed, and of these only what is in the view of the camera or of a lamp
+//! that casts shadows.
 
 use std::sync::Arc;
 
 use trigon_math::glam::Affine3;
 use trigon_math::{Bounds3, DAffine3, is_mirroring};
 
-use super::geometry::Geometry;
 use super::placement::Eye;
+use crate::geometry::Geometry;
+use crate::mesh_asset::MeshAsset;
 use crate::node::Node;
 use crate::node::NodeId;
-use crate::scene::{MeshAsset, Place, Scene};
+use crate::scene::{Place, Scene};
 
-/// A mesh at a place.
+/// A placed mesh.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     pub(crate) geometry: Arc<Geometry>,
@@ -28,7 +28,7 @@ pub(crate) struct Shape {
 #[derive(Debug, Default)]
 pub(crate) struct Shapes(Vec<Option<Shape>>);
 
-/// Who looks at shapes.
+/// From where shapes are seen.
 #[derive(Clone, Copy)]
 pub(crate) enum Onlookers<'a> {
     /// The camera alone: poses beyond its view are not computed.
@@ -54,12 +54,12 @@ impl Shapes {
         self.0.get(index)?.as_ref()
     }
 
-    /// Takes the shape of a node out.
+    /// Removes and returns the shape of a node.
     pub(crate) fn take(&mut self, index: usize) -> Option<Shape> {
         self.0.get_mut(index)?.take()
     }
 
-    /// Bytes of the vertices that were put into a pose.
+    /// The bytes of deformed vertices.
     pub(crate) fn posed_bytes(&self) -> usize {
         let posed = self.0.iter().flatten().filter(|shape| shape.is_posed);
         posed.map(|shape| shape.geometry.columns.byte_count()).sum()
@@ -75,7 +75,7 @@ fn shape(
 ) -> Option<Shape> {
     let rest = Shape { geometry: Arc::clone(asset.geometry()), place, is_posed: false };
     let Some(bend) = scene.bend(id, asset) else { return Some(rest) };
-    // Joints may have taken the mesh to another space.
+    // Joints may have moved the mesh elsewhere.
     let place = bend
         .joints
         .as_ref()
@@ -90,7 +90,7 @@ fn shape(
     Some(posed.unwrap_or(rest))
 }
 
-/// A box around all that joints can make of a box: weights only mix their maps.
+/// A box around everything that joints can make of a box: weights only blend their maps.
 fn reach(rest: &Bounds3, palette: &[Affine3]) -> Bounds3 {
     palette.iter().fold(*rest, |reach, joint| {
         let matrix = joint.matrix3;

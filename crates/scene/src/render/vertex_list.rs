@@ -1,4 +1,4 @@
-//! The vertices of a mesh that are shown as points.
+//! The vertices of a mesh that are drawn as points.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ pub(super) struct VertexList {
     pub(super) numbers: Arc<Vec<u8>>,
     /// The points that have a mark.
     pub(super) marked: Arc<FixedBitSet>,
-    /// For each point that it belongs to no face.
+    /// Whether each point belongs to no face.
     pub(super) no_face: Arc<Vec<u32>>,
 }
 

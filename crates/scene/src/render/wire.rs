@@ -1,5 +1,4 @@
-//! The pipelines that draw edges, loose lines and points, and the faces that
-//! do nothing but hide what is behind them.
+//! The pipelines of edges, loose lines and points, and of faces that only hide what is behind them.
 
 use std::sync::Arc;
 
@@ -8,8 +7,8 @@ use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
 use trigon_raster::{Fragment, FragmentLanes, LanePipeline, MarkColors, Pipeline, VertexLanes, VertexOutput};
 
 use super::backdrop::Backdrop;
-use super::columns::Columns;
 use super::placement::Placement;
+use crate::geometry::Columns;
 
 /// Vertices of a mesh in one colour, unlit.
 pub(super) struct Wire<'a> {
@@ -58,8 +57,8 @@ impl Pipeline for Wire<'_> {
     }
 }
 
-/// Faces painted like the background: with the edges that the pass paints on them, a
-/// drawing without its hidden lines.
+/// Faces painted in the background's colour. With the edges that the pass paints on them, they make a
+/// hidden-line image.
 pub(super) struct HiddenLine<'a> {
     pub(super) columns: &'a Columns,
     pub(super) place: Placement,

@@ -1,4 +1,4 @@
-//! Putting one scene into another: several files in one image.
+//! Appends one scene to another, for several files in one image.
 
 use super::{NodeId, Scene};
 use crate::animation::{Animation, Channel};

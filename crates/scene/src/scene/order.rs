@@ -1,4 +1,4 @@
-//! In which order nodes are listed: what an outliner shows. Images do not depend on it.
+//! The order in which nodes are listed, as in an outliner. Images do not depend on it.
 
 use fixedbitset::FixedBitSet;
 

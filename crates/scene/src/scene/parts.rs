@@ -1,5 +1,5 @@
-//! All of a scene but what its meshes hold: what an editor keeps to undo a change of nodes or
-//! materials.
+//! Everything in a scene except the contents of its meshes: what an editor stores to undo a change of nodes
+//! or materials.
 
 use crate::animation::Animation;
 use crate::arena::Arena;

@@ -1,4 +1,4 @@
-//! Meshes where their nodes put them, bent as joints and morph weights say.
+//! Meshes in the world: placed by their nodes, and deformed by their joints and morph weights.
 
 use std::sync::Arc;
 
@@ -6,8 +6,9 @@ use trigon_math::glam::Affine3;
 use trigon_math::{Bounds3, DAffine3, DVec3, Vec3};
 use trigon_mesh::Mesh;
 
+use super::Scene;
 use super::skin_pose::SkinPose;
-use super::{MeshAsset, Scene};
+use crate::mesh_asset::MeshAsset;
 use crate::node::NodeId;
 
 /// What bends a mesh.

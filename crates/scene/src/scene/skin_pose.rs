@@ -1,9 +1,8 @@
-//! Poses of skins: meshes that follow other nodes, their joints.
+//! Poses of skins: meshes whose vertices follow other nodes, their joints.
 //!
-//! The vertices of a skinned mesh are where its joints put them; the placement
-//! of its own node does not matter, as glTF defines it (glTF 2.0 specification,
-//! section 3.7.3.3). What is far from the origin is taken out in f64 before
-//! anything becomes f32.
+//! The vertices of a skinned mesh are placed by its joints; the transform of its own node has no effect (glTF
+//! 2.0 specification, section 3.7.3.3). Large offsets from the origin are removed in f64 before anything is
+//! rounded to f32.
 
 use std::collections::HashMap;
 

@@ -1,5 +1,5 @@
-//! A scene to look at, to measure and to test with: the teapot among standard
-//! objects on a wooden floor, lit by the sun, a lamp and the sky.
+//! The built-in scene, also used for measurements and tests: the teapot among standard objects on a wooden
+//! floor, lit by the sun, a lamp and the sky.
 
 mod floor;
 

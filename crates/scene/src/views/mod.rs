@@ -1,10 +1,8 @@
-//! Where to stand to see all of a scene: one camera, or many around it.
+//! Cameras that see the whole scene: one, or many around it.
 //!
-//! [`turntable`], [`sphere`] and [`hemisphere`] say in which directions eyes lie from
-//! the middle of what they look at; [`Scene::surround`] makes cameras of them, all at
-//! the same distance.
+//! [`turntable`], [`sphere`] and [`hemisphere`] generate the directions from the middle of the scene to each
+//! camera; [`Scene::surround`] turns them into cameras, all at the same distance.
 
-mod random;
 mod viewpoints;
 
 use trigon_camera::{Camera, DEFAULT_MARGIN, Extent};

@@ -1,12 +1,10 @@
-//! Directions in which eyes lie, as unit vectors from what they look at. +Y is up.
+//! Directions from the middle of a scene to cameras around it, as unit vectors. +Y is up.
 //!
 //! The same arguments give the same bits on every machine.
 
 use std::f64::consts::{PI, TAU};
 
-use trigon_math::{DQuat, DVec3, elementary};
-
-use super::random::SplitMix64;
+use trigon_math::{DQuat, DVec3, SplitMix64, elementary};
 
 /// The angle between one point of a Fibonacci lattice and the next: 2π less its golden
 /// section.
@@ -44,7 +42,7 @@ pub fn sphere(count: usize, seed: u64) -> impl ExactSizeIterator<Item = DVec3> {
 #[must_use]
 pub fn hemisphere(count: usize, seed: u64) -> impl ExactSizeIterator<Item = DVec3> {
     let mut random = SplitMix64::new(seed);
-    let (azimuth, shift) = (TAU * random.next_unit(), random.next_unit());
+    let (azimuth, shift) = (TAU * random.unit(), random.unit());
     (0..count).map(move |index| {
         // Above 0, whatever is rounded: the smallest minuend is 1.
         let height = ((count - index) as f64 - shift) / count as f64;
@@ -60,7 +58,7 @@ fn lattice_point(index: usize, height: f64, azimuth: f64) -> DVec3 {
 }
 
 fn random_turn(random: &mut SplitMix64) -> DQuat {
-    let [share, first, second] = [(); 3].map(|()| random.next_unit());
+    let [share, first, second] = [(); 3].map(|()| random.unit());
     let [(s1, c1), (s2, c2)] = [first, second].map(|turn| elementary::sin_cos(2.0 * PI * turn));
     let (near, far) = ((1.0 - share).sqrt(), share.sqrt());
     DQuat::from_xyzw(near * s1, near * c1, far * s2, far * c2)

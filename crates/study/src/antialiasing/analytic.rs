@@ -20,8 +20,8 @@ pub(super) fn draw(star: &Star) -> Field<f64> {
     shares
 }
 
-/// The share of a pixel that a triangle covers, from 0 to 1: rounded in `f64` a few times
-/// at most, as points lie within the pixel.
+/// The fraction of a pixel that a triangle covers, from 0 to 1. It is rounded in `f64` a few times at most,
+/// because points lie within the pixel.
 pub(super) fn area(triangle: [GridPoint; 3], pixel: [i32; 2]) -> f64 {
     let corner = DVec2::new(pixel[0].into(), pixel[1].into());
     let [a, b, c] = triangle.map(|[x, y]| DVec2::new(x.into(), y.into()) / f64::from(STEPS) - corner);
@@ -34,7 +34,7 @@ pub(super) fn area(triangle: [GridPoint; 3], pixel: [i32; 2]) -> f64 {
     sides.map(|(p, q)| p.perp_dot(*q)).sum::<f64>() / 2.0
 }
 
-/// What of a convex polygon lies where a linear function is positive.
+/// Clips a convex polygon to where a linear function is positive.
 fn inside(polygon: &[DVec2], value: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (&point, &next) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {

@@ -1,4 +1,4 @@
-//! The renderer with several samples in a pixel.
+//! The engine with several samples per pixel.
 
 use super::Star;
 use crate::engine::{Corners, Engine, clip_position, field, target};
@@ -7,7 +7,7 @@ use crate::oracle::STEPS;
 use trigon_math::DVec2;
 use trigon_raster::{Output, Target};
 
-/// A star and what it takes to draw it again and again.
+/// A star, with what is kept to draw it repeatedly.
 pub(super) struct Drawer {
     engine: Engine,
     target: Target<'static>,
@@ -30,7 +30,7 @@ impl Drawer {
         self.engine.draw(&self.shape, &mut self.target);
     }
 
-    /// The share of each pixel that was covered.
+    /// The covered fraction of each pixel.
     pub(super) fn shares(&self) -> Field<f64> {
         let size = [self.target.width(), self.target.height()].map(|side| side as usize);
         field(size, self.target.linear()).map(|color| f64::from(color.x))

@@ -1,5 +1,4 @@
-//! How many samples does an edge need? A star of needles against the exact area in each
-//! pixel.
+//! How many samples does an edge need? A star of needles, compared with the exact area in each pixel.
 
 mod analytic;
 mod engine;
@@ -13,19 +12,19 @@ pub use star::Star;
 use crate::field::Field;
 use crate::metric::Difference;
 
-/// A way to smooth edges.
+/// A method of anti-aliasing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum AntiAliasing {
-    /// The renderer with that many samples in each pixel, at the standard places.
+    /// The engine with this many samples per pixel, at the standard positions.
     Samples(u32),
-    /// The renderer on a grid that is finer by this on both axes.
+    /// The engine on a grid that is finer by this factor along both axes.
     Finer(u32),
     /// The exact area.
     Analytic,
 }
 
 impl AntiAliasing {
-    /// All that are compared.
+    /// All methods that are compared.
     pub const ALL: [Self; 9] = [
         Self::Samples(1),
         Self::Samples(2),
@@ -49,7 +48,7 @@ impl AntiAliasing {
         }
     }
 
-    /// The share of each pixel that the star covers.
+    /// The fraction of each pixel that the star covers.
     #[must_use]
     pub fn draw(self, star: &Star) -> Field<f64> {
         match self.samples() {
@@ -62,7 +61,7 @@ impl AntiAliasing {
         }
     }
 
-    /// What draws the star again and again, with all kept that can be kept.
+    /// Returns a closure that draws the star repeatedly and keeps everything that can be kept.
     #[must_use]
     pub fn repeated(self, star: &Star) -> Box<dyn FnMut() + '_> {
         match self.samples() {
@@ -74,7 +73,7 @@ impl AntiAliasing {
         }
     }
 
-    /// The renderer's samples in a pixel, and how much finer its grid is.
+    /// The engine's samples per pixel, and the factor by which its grid is finer.
     fn samples(self) -> Option<[u32; 2]> {
         match self {
             Self::Samples(samples) => Some([samples, 1]),
@@ -83,7 +82,7 @@ impl AntiAliasing {
         }
     }
 
-    /// How far that is from the exact areas, in pixels that are partly covered.
+    /// The difference from the exact areas, in partly covered pixels.
     #[must_use]
     pub fn error(self, star: &Star, exact: &Field<f64>) -> Difference {
         let drawn = self.draw(star);

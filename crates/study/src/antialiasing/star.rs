@@ -1,4 +1,4 @@
-//! Needles round a point, with black between them.
+//! Needles around a point, with black between them.
 
 use crate::oracle::{GridPoint, STEPS};
 use std::f64::consts::TAU;
@@ -15,7 +15,7 @@ impl Star {
     #[must_use]
     pub fn new(side: usize) -> Self {
         const NEEDLES: usize = 24;
-        // Off the middle of a pixel, so that no sample lies on an axis.
+        // Off the centre of a pixel, so that no sample lies on an axis.
         let middle = side as f64 / 2.0 + 0.37;
         let point = |turn: f64, radius: f64| {
             let (sine, cosine) = elementary::sin_cos(turn * TAU);

@@ -1,5 +1,5 @@
-//! What does it cost to mix light as the bytes of a file? Two greys, half of each: bytes
-//! averaged as they are, in linear light with 8 bits between, and in linear light.
+//! What does it cost to mix colours as bytes of a file? Half of each of two greys: averaged as sRGB bytes, in
+//! linear light stored in 8 bits, and in linear light in floating point.
 
 #[cfg(test)]
 mod tests;
@@ -7,12 +7,12 @@ mod tests;
 use crate::metric::Difference;
 use trigon_math::color::{linear_to_srgb8, srgb8_to_linear};
 
-/// Where light is mixed.
+/// The form in which light is mixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mixing {
-    /// The bytes of sRGB.
+    /// sRGB bytes.
     GammaBytes,
-    /// Linear light, kept in bytes.
+    /// Linear light, stored in bytes.
     LinearBytes,
     /// Linear light in `f32`.
     Linear,
@@ -32,7 +32,7 @@ impl Mixing {
         }
     }
 
-    /// The sRGB byte of half of one grey and half of another.
+    /// The sRGB byte of a mixture of two greys, half of each.
     #[must_use]
     pub fn mix(self, one: u8, other: u8) -> u8 {
         match self {
@@ -45,7 +45,7 @@ impl Mixing {
         }
     }
 
-    /// How far the mixtures of all pairs of bytes are from right.
+    /// The errors of the mixtures of all pairs of bytes.
     #[must_use]
     pub fn error(self) -> Difference {
         let light = |byte: u8| f64::from(srgb8_to_linear(byte));

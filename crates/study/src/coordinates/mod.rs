@@ -1,24 +1,22 @@
-//! How far from the origin may a model be? Positions and camera in `f32` in world space,
-//! against positions relative to the camera, subtracted in `f64` before they are rounded.
+//! How far from the origin may a model be? Positions and camera in `f32` in world space, compared with
+//! positions relative to the camera that are subtracted in `f64` before rounding.
 
 #[cfg(test)]
 mod tests;
 
-use crate::random::Random;
 use std::hint::black_box;
-use trigon_math::{DMat3, DMat4, DVec3, Mat4, Vec3, elementary};
+use trigon_math::{DMat3, DMat4, DVec3, Mat4, SplitMix64, Vec3, elementary};
 
-/// A way to hold places.
+/// How positions are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Coordinates {
-    /// Places and the camera's matrix in `f32`, in world space.
+    /// Positions and the camera's matrix in `f32`, in world space.
     World,
     /// The camera is subtracted in `f64`, the rest is `f32`.
     CameraRelative,
 }
 
-/// Pixels for a metre at one metre's distance: an image 1,000 pixels wide, 53 degrees
-/// wide.
+/// Pixels per metre at a distance of one metre: an image 1,000 pixels wide, 53 degrees wide.
 const SCALE: f64 = 1000.0;
 
 impl Coordinates {
@@ -34,9 +32,9 @@ impl Coordinates {
         }
     }
 
-    /// How far a point is from where it should be on the image, in pixels: the most of
-    /// 1,000 points about three metres before a camera that stands `offset` metres from
-    /// the origin, a whole number, on each axis.
+    /// The largest error of a point's position on the image, in pixels, among 1,000 points about three metres
+    /// in front of a camera that stands `offset` metres from the origin along each axis. `offset` is an
+    /// integer.
     pub fn worst_error(self, offset: f64) -> f64 {
         let view = View::new(self, offset);
         let seen = view.points.iter().map(|&point| view.matrix().transform_point3(point));
@@ -47,8 +45,7 @@ impl Coordinates {
         errors.fold(0.0, f64::max)
     }
 
-    /// What makes the matrix of the points' node and brings all points before the camera, again and
-    /// again.
+    /// Returns a closure that computes the matrix of the points' node and transforms all points, repeatedly.
     #[must_use]
     pub fn repeated(self, offset: f64) -> Box<dyn FnMut()> {
         let view = View::new(self, offset);
@@ -63,24 +60,24 @@ impl Coordinates {
     }
 }
 
-/// How many points are looked at.
+/// The number of points.
 pub const POINTS: usize = 1000;
 
-/// Points before a camera, as they are stored.
+/// Points in front of a camera, as they are stored.
 struct View {
     way: Coordinates,
     /// In world space, or relative to their node.
     points: Vec<Vec3>,
     node: DVec3,
     eye: DVec3,
-    /// Where the points are on the image.
+    /// The exact positions of the points on the image.
     right: Vec<[f64; 2]>,
 }
 
 impl View {
     fn new(way: Coordinates, offset: f64) -> Self {
-        let mut random = Random::new(11);
-        // On a grid that any of the offsets leaves exact in f64.
+        let mut random = SplitMix64::new(11);
+        // On a grid on which sums with any of the offsets are exact in f64.
         let mut local = |low, high| (random.between(low, high) * 1024.0).round() / 1024.0;
         let eye = DVec3::new(local(-0.1, 0.1), local(-0.1, 0.1), local(-0.1, 0.1));
         let points: Vec<DVec3> =
@@ -112,12 +109,12 @@ impl View {
     }
 }
 
-/// The camera looks a little aside, so that matrices are no simple ones.
+/// The camera looks slightly sideways, so that no matrix is trivial.
 fn turn() -> DMat3 {
     DMat3::from_cols(DVec3::new(0.96, 0.0, 0.28), DVec3::Y, DVec3::new(-0.28, 0.0, 0.96))
 }
 
-/// In pixels from the middle.
+/// In pixels from the centre.
 fn on_image(seen: DVec3) -> [f64; 2] {
     [seen.x / -seen.z, seen.y / -seen.z].map(|part| part * SCALE)
 }

@@ -3,7 +3,7 @@
 
 use super::{FAR, NEAR};
 
-/// A way to store depth.
+/// A depth format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DepthFormat {
     /// 0 to 1 from near to far, in 16 bits.
@@ -12,9 +12,8 @@ pub enum DepthFormat {
     Fixed24,
     /// The same as a floating-point number.
     Float,
-    /// 1 to 0 from near to far, as a floating-point number, which is dense about 0 (E.
-    /// Lapidous and G. Jiao, "Optimal depth buffer for low-cost graphics hardware",
-    /// 1999).
+    /// 1 to 0 from near to far, as a floating-point number; these are dense near 0 (E. Lapidous and G. Jiao,
+    /// "Optimal depth buffer for low-cost graphics hardware", 1999).
     FloatReversed,
 }
 
@@ -33,19 +32,19 @@ impl DepthFormat {
         }
     }
 
-    /// How many bytes a depth takes in memory.
+    /// The bytes per depth.
     #[must_use]
     pub fn bytes(self) -> usize {
         if self == Self::Fixed16 { 2 } else { 4 }
     }
 
-    /// What is stored for a distance in metres, as 32 bits that compare like it.
+    /// The stored value for a distance in metres, as 32 bits that compare in the same order.
     #[must_use]
     pub fn encode(self, distance: f32) -> u32 {
         self.store(if self == Self::FloatReversed { reversed(distance) } else { forward(distance) })
     }
 
-    /// What is stored for a depth that was computed in `f32`.
+    /// The stored value for a depth computed in `f32`.
     #[must_use]
     pub fn store(self, depth: f32) -> u32 {
         match self {
@@ -55,8 +54,7 @@ impl DepthFormat {
         }
     }
 
-    /// The depth at one over a distance, of which it is a linear function, so that it is linear on
-    /// the screen.
+    /// The depth for one over a distance, of which it is a linear function, so it is linear on the screen.
     pub fn depth_at(self, inverse_distance: f64) -> f64 {
         let [near, far] = [NEAR, FAR].map(f64::from);
         if self == Self::FloatReversed {
@@ -66,14 +64,14 @@ impl DepthFormat {
         }
     }
 
-    /// Whether what is stored for one surface is before what is stored for another.
+    /// Whether the stored depth of one surface is in front of that of another.
     #[must_use]
     pub fn is_nearer(self, one: u32, other: u32) -> bool {
         if self == Self::FloatReversed { one > other } else { one < other }
     }
 }
 
-/// 0 to 1 as 0 to the largest number of so many bits, to the nearest.
+/// 0 to 1 as integers of this many bits, rounded to the nearest.
 fn fixed(depth: f32, bits: u32) -> u32 {
     let largest = f64::from((1_u32 << bits) - 1);
     (f64::from(depth).clamp(0.0, 1.0) * largest + 0.5) as u32

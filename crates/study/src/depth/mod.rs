@@ -1,5 +1,5 @@
-//! How near may two surfaces be before a z-buffer confuses them? Formats of depth, for a
-//! perspective with a near and a far plane.
+//! How close may two surfaces be before a z-buffer confuses them? Depth formats for a perspective with a near
+//! and a far plane.
 
 mod formats;
 mod road;
@@ -10,21 +10,19 @@ mod tests;
 pub use formats::DepthFormat;
 pub use road::Road;
 
-use crate::random::Random;
-use trigon_math::elementary;
+use trigon_math::{SplitMix64, elementary};
 
 /// The planes of the perspective, in metres.
 pub const NEAR: f32 = 0.1;
 /// As [`NEAR`].
 pub const FAR: f32 = 10_000.0;
 
-/// How many of a thousand pairs of surfaces come out in the wrong order or as equal:
-/// one lies at chance distances about `distance`, the other farther away by a share
-/// `separation` of it.
+/// Of a thousand pairs of surfaces, how many get the wrong order or equal depths. One surface lies at a
+/// random distance near `distance`, the other farther by the fraction `separation` of it.
 #[must_use]
 pub fn misordered_per_mille(format: DepthFormat, distance: f64, separation: f64) -> f64 {
     const PAIRS: usize = 10_000;
-    let mut random = Random::new(7);
+    let mut random = SplitMix64::new(7);
     let is_wrong = |_: &usize| {
         let near = distance * random.between(0.9, 1.1);
         let far = near * (1.0 + separation);
@@ -34,8 +32,8 @@ pub fn misordered_per_mille(format: DepthFormat, distance: f64, separation: f64)
     1e3 * wrong as f64 / PAIRS as f64
 }
 
-/// The least separation, as a share of the distance and a power of the square root of
-/// ten, at which no pair of surfaces is confused; 1 if there is none below.
+/// The smallest separation, as a fraction of the distance and a power of the square root of ten, at which no
+/// pair of surfaces is confused; 1 if there is none below.
 #[must_use]
 pub fn resolved_separation(format: DepthFormat, distance: f64) -> f64 {
     let separations = (-16..=0).map(|power| elementary::pow(10.0, f64::from(power) / 2.0));

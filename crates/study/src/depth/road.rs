@@ -1,5 +1,5 @@
-//! An image by a z-buffer of each format: a road that leads to the horizon, and a layer of paint
-//! above it, drawn after it.
+//! An image drawn with a z-buffer of each format: a road that leads to the horizon, and a layer of paint just
+//! above it that is drawn later.
 
 use super::DepthFormat;
 use crate::field::Field;
@@ -7,13 +7,13 @@ use crate::field::Field;
 /// An image of the road.
 pub struct Road {
     size: [usize; 2],
-    /// Of the eye above the road and above the paint, in metres.
+    /// The height of the eye above the road, and above the paint, in metres.
     heights: [f64; 2],
 }
 
 impl Road {
-    /// Seen from 1.7 metres, with paint so many metres above it, in an image of `width` pixels and
-    /// half of that in height.
+    /// Seen from a height of 1.7 metres, with paint this many metres above the road, in an image of `width`
+    /// pixels and half that height.
     #[must_use]
     pub fn new(width: usize, paint: f64) -> Self {
         Self { size: [width, width / 2], heights: [1.7, 1.7 - paint] }
@@ -25,15 +25,15 @@ impl Road {
         self.size
     }
 
-    /// One over the distance of a layer at the first pixel's centre, and its steps from column to
-    /// column and from row to row. The eye is rolled a little, so that no row is like another.
+    /// One over the distance of a layer at the first pixel's centre, and its steps per column and per row.
+    /// The eye is rolled a little, so that no two rows are alike.
     fn inverse_distance(&self, height: f64) -> [f64; 3] {
         const ROLL: f64 = 0.01;
         let scale = self.size[1] as f64 * height;
         [(0.5 + 0.5 * ROLL) / scale, ROLL / scale, 1.0 / scale]
     }
 
-    /// Whether each pixel shows the paint, which is nearer everywhere.
+    /// Whether each pixel shows the paint, which is in front everywhere.
     #[must_use]
     pub fn draw(&self, format: DepthFormat) -> Field<bool> {
         let mut buffers = Buffers::new(self);
@@ -41,14 +41,14 @@ impl Road {
         buffers.is_paint
     }
 
-    /// What draws the image again and again.
+    /// Returns a closure that draws the image repeatedly.
     #[must_use]
     pub fn repeated(&self, format: DepthFormat) -> Box<dyn FnMut() + '_> {
         let mut buffers = Buffers::new(self);
         Box::new(move || buffers.draw(self, format))
     }
 
-    /// How many of a thousand pixels show the road where they should show the paint.
+    /// Of a thousand pixels, how many show the road instead of the paint.
     #[must_use]
     pub fn wrong_per_mille(&self, format: DepthFormat) -> f64 {
         let drawn = self.draw(format);
@@ -57,7 +57,7 @@ impl Road {
     }
 }
 
-/// The stored depths, and which layer they are of.
+/// The stored depths, and the layer that each came from.
 struct Buffers {
     depths: Field<u32>,
     is_paint: Field<bool>,

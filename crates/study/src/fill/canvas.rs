@@ -1,19 +1,19 @@
-//! What triangles are painted into: an image that counts.
+//! The image into which triangles are painted. It counts how often each pixel is painted.
 
 use super::Triangle;
 use crate::field::Field;
 
-/// What a pixel has seen.
+/// The history of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Painted {
     /// How often it was painted.
     pub count: u32,
-    /// The number of the triangle that did so last, `u32::MAX` if none did.
+    /// The number of the triangle that painted it last, `u32::MAX` if none did.
     pub last: u32,
 }
 
 impl Painted {
-    /// By nobody.
+    /// Not painted.
     pub const NEVER: Self = Self { count: 0, last: u32::MAX };
 }
 
@@ -37,7 +37,7 @@ impl Canvas {
         &self.pixels
     }
 
-    /// Width and height, as coordinates are counted.
+    /// Width and height, in the type of coordinates.
     pub(crate) fn limits(&self) -> [i32; 2] {
         self.pixels.size().map(|side| side as i32)
     }
@@ -50,7 +50,7 @@ impl Canvas {
         }
     }
 
-    /// Fills triangles with a brush of its own for each.
+    /// Fills triangles, each with its own brush.
     #[inline(always)]
     pub(super) fn each(&mut self, triangles: &[Triangle], fill: impl Fn(&Triangle, &mut Self)) {
         for (brush, triangle) in (0..).zip(triangles) {

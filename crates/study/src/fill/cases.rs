@@ -1,8 +1,7 @@
-//! Triangles that tile the whole image, so that each pixel has one owner.
+//! Triangles that tile the whole image, so that each pixel belongs to exactly one.
 
 use super::Triangle;
-use crate::random::Random;
-use trigon_math::{DVec2, Vec2, elementary};
+use trigon_math::{DVec2, SplitMix64, Vec2, elementary};
 
 /// A tiling of the image. Its corners are multiples of 1/16384 pixel (of the fan's
 /// rim, of 1/512), which `f32` holds exactly.
@@ -47,7 +46,7 @@ impl Case {
 /// quarter of a square and put on multiples of `unit`.
 #[must_use]
 pub fn tiles(side: usize, square: f64, unit: f64, seed: u64) -> Vec<Triangle> {
-    let mut random = Random::new(seed);
+    let mut random = SplitMix64::new(seed);
     let count = (side as f64 / square).ceil() as usize + 3;
     let mut corner = |index: usize| {
         let place = DVec2::new((index % count) as f64, (index / count) as f64) - 1.0;
@@ -64,7 +63,7 @@ pub fn tiles(side: usize, square: f64, unit: f64, seed: u64) -> Vec<Triangle> {
 fn fan(side: usize, seed: u64) -> Vec<Triangle> {
     const NEEDLES: usize = 200;
     const RADIUS: f64 = 12_000.0;
-    let mut random = Random::new(seed);
+    let mut random = SplitMix64::new(seed);
     let mut within = || random.between(0.3, 0.7) * side as f64;
     let center = on_grid(DVec2::new(within(), within()), 1.0 / 16384.0);
     let turn = std::f64::consts::TAU / NEEDLES as f64;

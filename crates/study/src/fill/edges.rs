@@ -1,7 +1,6 @@
-//! Edge functions that take in what is exactly on an edge (source rows C1 to C3): y
-//! down, clockwise, and asked at the pixel's upper left corner, as the source does. So
-//! an image is half a pixel away from where it should be, and pixels on a shared edge
-//! are painted twice.
+//! Edge functions that include samples exactly on an edge (source rows C1 to C3): y down, clockwise, and
+//! evaluated at the pixel's upper left corner, as in the source. So the image is off by half a pixel, and
+//! pixels on a shared edge are painted twice.
 
 use super::{Canvas, Triangle, range};
 use trigon_math::Vec2;

@@ -1,5 +1,5 @@
-//! The renderer behind the canvas: one pass counts, another tells the winner, who is the
-//! same wherever only one triangle covers a pixel.
+//! The engine behind the canvas: one pass counts how many triangles cover each pixel, another stores which
+//! one is visible. The two agree wherever only one triangle covers a pixel.
 
 use super::{Canvas, Painted, Triangle};
 use crate::engine::{Corners, Engine};

@@ -1,4 +1,4 @@
-//! How far an image of a tiling is from the exact one.
+//! The difference between an image of a tiling and the exact one.
 
 use super::{Canvas, Painted, Triangle, edges::bounding_box};
 use crate::field::Field;
@@ -8,19 +8,18 @@ use std::ops::AddAssign;
 /// What is wrong with an image of a tiling, in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FillErrors {
-    /// Pixels whose right or lower neighbour belongs to another triangle: where
-    /// anything can go wrong.
+    /// Pixels whose right or lower neighbour belongs to another triangle: only there can errors occur.
     pub edge_pixels: usize,
     /// Pixels that were not painted exactly once, by the right triangle.
     pub wrong: usize,
-    /// Pixels that nobody painted.
+    /// Pixels that were not painted.
     pub gaps: usize,
     /// Pixels that were painted several times.
     pub doubles: usize,
 }
 
 impl FillErrors {
-    /// Of an image, where each pixel has the exact owner `owners` says.
+    /// Of an image, where `owners` has the exact owner of each pixel.
     #[must_use]
     pub fn of(canvas: &Canvas, owners: &Field<u32>) -> Self {
         let mut errors = Self { edge_pixels: edge_pixels(owners), ..Self::default() };
@@ -49,8 +48,7 @@ impl AddAssign for FillErrors {
     }
 }
 
-/// The one triangle that covers each pixel's centre, exactly: of triangles that tile the
-/// image.
+/// The triangle that covers each pixel's centre, exactly, of triangles that tile the image.
 #[must_use]
 pub fn owners(triangles: &[Triangle], size: [usize; 2]) -> Field<u32> {
     // Corners are multiples of this; see `Case`.

@@ -1,9 +1,9 @@
-//! Corners on a sub-pixel grid, and from there on exact integers with the top-left rule.
+//! Corners are snapped to a sub-pixel grid; from there on, exact integers with the top-left rule.
 
 use super::{Canvas, Triangle, range};
 use std::ops::RangeInclusive;
 
-/// With `BITS` bits behind the point.
+/// With `BITS` fractional bits.
 pub(super) fn fill<const BITS: u32>(triangle: &Triangle, canvas: &mut Canvas) {
     if let Some(edges) = edges(triangle, BITS) {
         fill_edges(&edges, canvas);
@@ -38,10 +38,10 @@ pub(crate) struct Edges {
     steps: [[i64; 2]; 3],
     /// Their values at the first pixel's centre.
     starts: [i64; 3],
-    /// 0 for an edge that has what lies on it, 1 for one that has not.
+    /// 0 for an edge that owns the samples on it, 1 for one that does not.
     biases: [i64; 3],
     one: i64,
-    /// Whether the last two corners were exchanged.
+    /// Whether the last two corners were swapped.
     flipped: bool,
 }
 
@@ -54,7 +54,7 @@ impl Edges {
         let flipped = turn < 0;
         let mut edges = Self { corners, steps: [[0; 2]; 3], starts: [0; 3], biases: [0; 3], one, flipped };
         for i in 0..3 {
-            // Opposite of corner i, so that the value is that corner's weight.
+            // Edge i is opposite of corner i, so its value is that corner's weight.
             let (from, to) = (corners[(i + 1) % 3], corners[(i + 2) % 3]);
             let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
             edges.steps[i] = [-dy * one, dx * one];

@@ -1,12 +1,11 @@
-//! Edge functions in `f32` with the top-left rule, at the middle of the pixel, as many
-//! software renderers have them (J. Pineda, "A parallel algorithm for polygon
-//! rasterization", SIGGRAPH 1988).
+//! Edge functions in `f32` with the top-left rule, evaluated at pixel centres, as in many software renderers
+//! (J. Pineda, "A parallel algorithm for polygon rasterization", SIGGRAPH 1988).
 //!
-//! Corners stay where they are, so this is nearer to the input than a grid. Evaluated from
-//! its corners, the value of a shared edge is rounded in different ways by the two neighbours,
-//! and where it gets different signs a pixel is painted twice or not at all. As `a x + b y + c`,
-//! with `c` from products that the neighbours exchange, both get the same number with the
-//! opposite sign; but `c` is large, and its rounding moves the edge.
+//! Corners are not snapped, so they are closer to the input than on a grid. If each triangle evaluates a
+//! shared edge from its own corners, the two rounded values can have signs that do not match, and a pixel is
+//! painted twice or not at all. In the form `a x + b y + c`, where the two triangles compute `c` from the
+//! same products with opposite signs, the values match exactly; but `c` is large, and its rounding moves the
+//! edge.
 
 use super::edges::{clockwise, edge};
 use super::{Canvas, Triangle, range};
@@ -57,7 +56,8 @@ pub(super) struct Edges {
     /// The value at the first pixel's centre, and its steps from column to column and from
     /// row to row.
     pub(super) values: [[f32; 3]; 3],
-    /// What a value has to reach: 0, or for an edge without its border the least number above.
+    /// The smallest value that is inside: 0, or for an edge that does not own its samples the smallest number
+    /// above.
     pub(super) least: [f32; 3],
 }
 

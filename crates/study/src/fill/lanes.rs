@@ -1,5 +1,5 @@
-//! Eight pixels of a row at a time: the same edges, boxes and pixels as [`float`](super::float)
-//! and [`fixed`](super::fixed) have one by one.
+//! Eight pixels of a row at a time: the same edges, boxes and pixels as [`float`](super::float) and
+//! [`fixed`](super::fixed), which take one pixel at a time.
 
 use super::{Canvas, Triangle, fixed, float};
 use fearless_simd::{Level, Simd, dispatch};
@@ -46,7 +46,7 @@ fn float_edges<S: Simd>(simd: S, triangle: &Triangle, canvas: &mut Canvas) {
 fn fixed_edges<S: Simd>(simd: S, triangle: &Triangle, canvas: &mut Canvas) {
     let Some(edges) = fixed::edges(triangle, 8) else { return };
     let [columns, rows] = edges.bounding_box(canvas.limits());
-    // Whole pixels change a value by multiples of 256, so that eight bits less keep its sign.
+    // Whole pixels change a value by multiples of 256, so dropping eight bits keeps its sign.
     let first = [*columns.start(), *rows.start()];
     let last = [*columns.end() + LANES as i32, *rows.end()];
     let Some(planes) = edges.planes(first, last) else { return fixed::fill_edges(&edges, canvas) };
@@ -72,7 +72,7 @@ fn groups(columns: &RangeInclusive<i32>) -> impl Iterator<Item = i32> {
     columns.clone().step_by(LANES)
 }
 
-/// Paints those of eight pixels whose bits are set.
+/// Paints those of eight pixels whose bits are set in the mask.
 #[inline(always)]
 fn paint(canvas: &mut Canvas, [x, y]: [i32; 2], covered: u64) {
     let mut covered = covered;

@@ -1,8 +1,8 @@
 //! Which pixels does a triangle cover, and what does it cost to know exactly?
 //!
-//! All algorithms take triangles in pixels and paint into a [`Canvas`] that counts. A
-//! pixel belongs to a triangle if its centre does; where triangles share an edge, each
-//! pixel on it should be painted once.
+//! All algorithms take triangles in pixel coordinates and paint into a [`Canvas`] that counts. A pixel
+//! belongs to a triangle if its centre lies inside; every pixel on an edge that two triangles share should be
+//! painted once.
 
 mod canvas;
 mod cases;
@@ -26,14 +26,14 @@ pub(crate) use scanlines::interpolate;
 pub use triangle::Triangle;
 pub(crate) use triangle::range;
 
-/// A way to fill triangles.
+/// A method of filling triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fill {
     /// Vertical strips between two sides (source row A9).
     Strips,
     /// Horizontal lines between interpolated sides (B2).
     Scanlines,
-    /// Inclusive edge functions, asked at every pixel of the screen (C1).
+    /// Inclusive edge functions, evaluated at every pixel of the screen (C1).
     EdgesOnScreen,
     /// The same within the bounding box (C3).
     EdgesInBox,
@@ -41,7 +41,7 @@ pub enum Fill {
     EdgesAtCenters,
     /// Edge functions in `f32` with the top-left rule, from their corners in each pixel.
     FloatFromCorners,
-    /// The same as linear functions, made once for a triangle.
+    /// The same as linear functions, set up once per triangle.
     FloatHoisted,
     /// The same for eight pixels at a time.
     FloatLanes,

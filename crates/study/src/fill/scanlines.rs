@@ -1,6 +1,5 @@
-//! Horizontal lines between interpolated sides (source row B2). Corners are pixels, as
-//! in the source: those that hold the triangle's corners. The long side runs from the
-//! topmost to the lowest corner, the two short ones beside it.
+//! Horizontal lines between interpolated sides (source row B2). As in the source, corners are rounded to
+//! pixels. The long side runs from the topmost to the lowest corner, with the two short ones opposite.
 
 use super::{Canvas, Triangle};
 
@@ -36,13 +35,12 @@ pub(crate) fn interpolate(from: i32, first: f32, to: i32, last: f32) -> Vec<f32>
     values
 }
 
-/// Whole steps from the left side on, as far as the right side reaches. What lies
-/// outside the image is not walked.
+/// Whole steps from the left side to the right side. Pixels outside the image are skipped.
 fn line(left: f32, right: f32, y: i32, canvas: &mut Canvas) {
     let width = canvas.limits()[0] as f32;
     let mut x = if left < -1.0 { left + (-1.0 - left).floor() } else { left };
     while x <= right && x < width {
-        // Halves go one way, or every other pixel would be left out.
+        // Halves are rounded in one direction, or every other pixel would be left out.
         canvas.paint((x + 0.5).floor() as i32, y);
         x += 1.0;
     }

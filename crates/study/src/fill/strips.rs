@@ -1,9 +1,8 @@
-//! Vertical strips (source row A9): the corners run counter-clockwise from the leftmost,
-//! of two such from the lower one; each column of pixels meets two sides, and what lies
-//! between is painted, the pixels that hold the two ends included.
+//! Vertical strips (source row A9). The corners are listed counter-clockwise from the leftmost one, or from
+//! the lower of two leftmost ones. Each column of pixels crosses two sides, and the pixels between them are
+//! painted, including those that contain the crossings.
 //!
-//! The source's y points up; its order of the corners is taken in these coordinates as
-//! they are.
+//! In the source y points up; its order of the corners is used here unchanged, although y points down.
 
 use super::{Canvas, Triangle, range};
 use trigon_math::Vec2;

@@ -1,4 +1,4 @@
-//! What all algorithms fill.
+//! The triangles that all algorithms fill.
 
 use trigon_math::Vec2;
 

@@ -9,14 +9,14 @@ use trigon_scene::{
     Light, Material, Node, RenderSettings, Scene, Shadows, Texture, TextureFormat, Transform, showcase,
 };
 
-/// A scene, and what is asked for of its image.
+/// A scene and its camera path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Case {
     /// The built-in scene: some objects, many lights, fine wood.
     Showcase,
     /// Knots on a chequered floor, with shadows.
     Shadows,
-    /// 36 balls of 5,120 triangles: most are smaller than a pixel.
+    /// 36 balls of 5,120 triangles, most of which are smaller than a pixel.
     Dense,
     /// The teapot of Martin Newell, 1975, with shadows.
     Teapot,
@@ -73,8 +73,9 @@ impl Case {
         settings
     }
 
-    /// Where a flight is in a part of it, from 0 to 1: three eighths of a circle about the scene, rising, a third nearer in
-    /// the middle than at either end. No constant of the models of costs and errors was chosen by a flight like this.
+    /// The camera at a fraction of the flight, from 0 to 1: three eighths of a circle around the scene,
+    /// rising, and a third nearer in the middle than at either end. No constant of the cost and error models
+    /// was fitted to such a flight.
     #[must_use]
     pub fn camera(self, scene: &Scene, aspect: f64, part: f64) -> Camera {
         let start = scene.cameras().first().map_or_else(|| scene.overview(aspect), |(_, camera)| *camera);

@@ -1,28 +1,28 @@
-//! Which share of an image is proven, and what proving it takes.
+//! How much of an image can be proven correct, and what the proof costs.
 
 use crate::workloads::{Canvas, Scene, Workload};
 use std::num::NonZeroUsize;
 use trigon_raster::{Certainty, ExecuteSettings, Rasterizer, TargetError, Tolerance};
 
-/// Shares of the pixels that show anything, together 1.
+/// Fractions of the pixels that show any surface; their sum is 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Certified {
-    /// Proven to stay as they are.
+    /// Proven not to change.
     pub certified: f64,
-    /// May come to see something else.
+    /// The visible triangle may change.
     pub visibility: f64,
-    /// See the same, but a byte may change.
+    /// The visible triangle does not change, but a byte may.
     pub color: f64,
 }
 
-/// Draws a workload's image and proves it, as often as asked for, on one thread.
+/// Draws a workload's image and certifies it, repeatedly, on one thread.
 pub struct Prover {
     scene: Scene,
     canvas: Canvas<'static>,
 }
 
 impl Prover {
-    /// An image so many times smaller in each direction. Nothing is drawn yet.
+    /// An image smaller by this factor in each direction. Nothing is drawn yet.
     ///
     /// # Errors
     /// Not enough memory.
@@ -46,7 +46,7 @@ impl Prover {
         self.canvas.draw(&self.scene);
     }
 
-    /// Draws the image, and proves under the usual tolerance what can be proven of it.
+    /// Draws the image, and certifies what can be proven of it under the usual tolerance.
     ///
     /// # Errors
     /// Not enough memory.

@@ -1,5 +1,4 @@
-//! A time budget on a flight: whether frames keep it, and whether errors are what was
-//! foreseen.
+//! A time budget during a flight: whether frames keep within it, and whether the predicted errors are right.
 
 use super::Case;
 use std::time::Duration;
@@ -9,18 +8,18 @@ use trigon_scene::{Frame, RenderError, Renderer};
 /// One frame of a flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// What was chosen and foreseen before it was drawn.
+    /// The choice and its predictions, before the frame was drawn.
     pub choice: Choice,
-    /// What choosing, drawing and learning from it took, which is what had been foreseen.
+    /// The time to choose, draw and learn from the frame, which is the time that was predicted.
     pub drawing: Duration,
-    /// What all of it took, looking again at a part of the image as well.
+    /// The total time, including that of measuring a part of the image again.
     pub time: Duration,
-    /// How far it is from the reference.
+    /// The error relative to the reference.
     pub error: f64,
 }
 
-/// Draws the frames of a case's flight, each within a time, and measures their errors, while the clock's time is not
-/// counted.
+/// Draws the frames of a case's flight, each within a time, and measures their errors. The clock is stopped
+/// while errors are measured.
 ///
 /// # Errors
 /// A size that cannot be drawn.
@@ -51,16 +50,16 @@ pub fn fly(
     Ok(steps)
 }
 
-/// How a flight went: shares of all its frames.
+/// The results of a flight: fractions of all its frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kept {
-    /// Took no longer than they should.
+    /// Frames that kept within the time.
     pub in_time: f64,
-    /// Took as long to draw as had been foreseen, within a fifth.
+    /// Frames whose time was predicted within a fifth.
     pub times: f64,
-    /// Had the error that had been foreseen, within a fifth. A frame whose error was not foreseen is none of these.
+    /// Frames whose error was predicted within a fifth. Frames without a prediction do not count.
     pub errors: f64,
-    /// The greatest miss of an error that was foreseen, as a part of the error.
+    /// The largest relative difference between a predicted error and the measured one.
     pub worst: f64,
 }
 
@@ -82,7 +81,7 @@ impl Kept {
     }
 }
 
-/// How far what was foreseen is from what was measured, as a part of that.
+/// The relative difference between prediction and measurement.
 pub(super) fn miss(foreseen: f64, measured: f64) -> f64 {
     if foreseen == measured { 0.0 } else { (foreseen - measured).abs() / measured }
 }

@@ -1,5 +1,5 @@
-//! What does a whole image's accuracy cost? Six scenes at all combinations of samples and shading, against a
-//! [`Truth`]; and a time budget on flights past them.
+//! What does a whole image's accuracy cost? Six scenes with all combinations of samples and shading, compared
+//! with a [`Truth`]; and a time budget on flights past them.
 
 mod cases;
 mod certified;
@@ -17,7 +17,7 @@ pub use truth::Truth;
 use trigon_scene::quality::{Preset, Quality};
 use trigon_scene::{Frame, RenderError, Renderer, Scene, ShadingModel, Shadows, SimdLevel};
 
-/// What is compared in every case: all numbers of samples with light once for each triangle, at the vertices and in each
+/// The variants of every case: all numbers of samples, with light once per triangle, per vertex and per
 /// pixel. The presets are among them.
 #[must_use]
 pub fn variants() -> Vec<Quality> {
@@ -26,7 +26,8 @@ pub fn variants() -> Vec<Quality> {
     models.into_iter().flat_map(shaded).collect()
 }
 
-/// What is compared as well where there are shadows: those that [`variants`] find by maps by rays, and the other way round.
+/// The additional variants for scenes with shadows: those of [`variants`] with maps instead of rays, and the
+/// other way round.
 #[must_use]
 pub fn other_shadows() -> Vec<Quality> {
     let by_maps = Preset::Draft.quality().shadows;
@@ -72,7 +73,7 @@ pub fn name(quality: Quality) -> String {
     format!("{axis}×{axis}×{samples}{places}{shadows}{preset}")
 }
 
-/// A case at a quality, drawn as often as asked for.
+/// A case at a quality, drawn repeatedly.
 pub struct Repeated {
     case: Case,
     scene: Scene,
@@ -89,7 +90,7 @@ impl Repeated {
         Self { case, scene: case.scene(), renderer: Renderer::new(settings), frame: Frame::default() }
     }
 
-    /// With these vector instructions.
+    /// With these SIMD instructions.
     #[must_use]
     pub fn at_level(mut self, level: SimdLevel) -> Self {
         self.renderer.settings_mut().simd = Some(level);
@@ -107,7 +108,7 @@ impl Repeated {
     }
 }
 
-/// How far each of some qualities is from the [`Truth`] at the start of a case's flight.
+/// The errors of several qualities, relative to the [`Truth`], at the start of a case's flight.
 ///
 /// # Errors
 /// A size that cannot be drawn.

@@ -1,5 +1,4 @@
-//! What images are held against: more samples than any quality has, at places where none of
-//! them has one.
+//! The reference image: more samples than any quality has, at positions that none of them uses.
 
 use super::{Case, Repeated};
 use trigon_math::color::srgb8_to_linear;
@@ -9,8 +8,8 @@ use trigon_scene::{Frame, RenderError};
 /// The light of each pixel of a case's image: the mean of the four pixels that `reference` draws
 /// in its place at twice the size, 8×8 shaded places with 16 samples each.
 ///
-/// They lie at odd sixteenths of a pixel. Those of grids of 1, 2, 3 and 4 in a row lie at halves,
-/// quarters, sixths and eighths of one, which are none.
+/// They lie at odd sixteenths of a pixel. The samples of grids with 1, 2, 3 and 4 per row lie at halves,
+/// quarters, sixths and eighths, which are never odd sixteenths.
 pub struct Truth {
     size: [usize; 2],
     light: Vec<[f64; 3]>,
@@ -34,8 +33,7 @@ impl Truth {
         Ok(Self { size: [width, height], light: (0..width * height).map(mean).collect() })
     }
 
-    /// The root of the mean square of an image's difference from it, in linear light, over red,
-    /// green and blue.
+    /// The root mean square difference of an image from it, in linear light, over red, green and blue.
     #[must_use]
     pub fn error(&self, frame: &Frame) -> f64 {
         assert_eq!(

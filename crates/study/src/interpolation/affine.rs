@@ -1,5 +1,5 @@
-//! Linear on the screen (source row B4): right for what faces the eye, and wrong for
-//! what leads away.
+//! Linear on the screen (source row B4): correct for surfaces that face the camera, wrong for surfaces that
+//! recede.
 
 use super::Texel;
 use super::wall::Row;

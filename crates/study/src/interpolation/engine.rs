@@ -1,4 +1,4 @@
-//! The renderer's varyings.
+//! The engine's varyings.
 
 use super::Wall;
 use super::wall::{TRIANGLES, WallImage};

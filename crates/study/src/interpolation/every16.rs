@@ -1,5 +1,5 @@
-//! Divided at every 16th pixel of a row and at its end, and steps added between (M. Abrash,
-//! "Graphics Programming Black Book", 1997, chapter 70, on Quake).
+//! A division at every 16th pixel of a row and at its end, and linear steps in between (M. Abrash, "Graphics
+//! Programming Black Book", 1997, chapter 70, on Quake).
 
 use super::Texel;
 use super::wall::Row;

@@ -1,5 +1,5 @@
-//! What does a division in each pixel buy? Texture coordinates over a wall seen in
-//! perspective: linear on the screen, linear between divisions, divided in each pixel.
+//! What does a division in each pixel buy? Texture coordinates on a wall in perspective: linear on the
+//! screen, linear between divisions, divided in each pixel.
 
 mod affine;
 mod engine;
@@ -14,7 +14,7 @@ pub use wall::{Texel, Wall};
 
 use crate::field::Field;
 
-/// A way to interpolate.
+/// A method of interpolation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Interpolation {
     /// Linear on the screen.
@@ -42,7 +42,7 @@ impl Interpolation {
         }
     }
 
-    /// The texel at the centre of each pixel of a wall; none beside it.
+    /// The texel at the centre of each pixel of a wall; none outside of it.
     #[must_use]
     pub fn draw(self, wall: &Wall) -> Field<Option<Texel>> {
         if self == Self::Engine {
@@ -55,7 +55,7 @@ impl Interpolation {
         image
     }
 
-    /// What draws a wall again and again, with all kept that can be kept.
+    /// Returns a closure that draws a wall repeatedly and keeps everything that can be kept.
     #[must_use]
     pub fn repeated(self, wall: &Wall) -> Box<dyn FnMut() + '_> {
         if self == Self::Engine {
@@ -79,7 +79,7 @@ impl Interpolation {
         }
     }
 
-    /// How far the texels are from the right ones.
+    /// The errors of the texels.
     pub fn errors(self, wall: &Wall) -> TexelErrors {
         let drawn = self.draw(wall);
         let distance = |(place, texel): ([usize; 2], &Option<Texel>)| {
@@ -94,7 +94,7 @@ impl Interpolation {
     }
 }
 
-/// Distances from the right texel, in texels.
+/// Distances from the correct texel, in texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TexelErrors {
     /// The root of the mean square.

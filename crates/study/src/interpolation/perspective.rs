@@ -1,5 +1,5 @@
-//! Divided in each pixel (J. F. Blinn, "Hyperbolic interpolation", IEEE CG&A, 1992;
-//! source row D10 has it for depth).
+//! A division in each pixel (J. F. Blinn, "Hyperbolic interpolation", IEEE CG&A, 1992; source row D10 does
+//! the same for depth).
 
 use super::Texel;
 use super::wall::Row;

@@ -1,4 +1,4 @@
-//! A wall of two triangles that leads away, seen in perspective.
+//! A receding wall of two triangles.
 
 use crate::field::Field;
 use crate::fill::fixed::Edges;
@@ -8,10 +8,10 @@ use std::ops::Range;
 /// Texture coordinates in texels.
 pub type Texel = [f32; 2];
 
-/// The texel in each pixel; none where the wall is not.
+/// The texel in each pixel; none outside the wall.
 pub(super) type WallImage = Field<Option<Texel>>;
 
-/// A wall with a texture, beside an eye one metre from it.
+/// A textured wall, one metre to the side of the eye.
 pub struct Wall {
     pub(super) size: [usize; 2],
     pub(super) corners: [Corner; 4],
@@ -23,7 +23,7 @@ pub struct Wall {
 pub(super) struct Corner {
     /// In 1/256 pixel.
     pub(super) place: [i32; 2],
-    /// How far from the eye.
+    /// The distance from the eye.
     pub(super) distance: f64,
     /// In texels.
     pub(super) texel: [f64; 2],
@@ -66,7 +66,7 @@ impl Linear {
     }
 }
 
-/// What a row of a triangle has at its first pixel, and how that changes.
+/// The values of a triangle at the first pixel of a row, and their steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
     pub(super) texel: [Linear; 2],
@@ -83,7 +83,7 @@ impl Row {
     }
 }
 
-/// A triangle with what is linear on the screen over it.
+/// A triangle with its functions that are linear on the screen.
 struct Facet {
     /// The columns that each row covers: one range, as a triangle has no holes.
     spans: Vec<Range<usize>>,
@@ -151,7 +151,7 @@ impl Wall {
         }
     }
 
-    /// The right texel at the centre of a pixel, by [`perspective::at`].
+    /// The correct texel at the centre of a pixel, by [`perspective::at`].
     pub(super) fn texel(&self, place: [usize; 2]) -> Option<[f64; 2]> {
         let point = coverage::centre(place.map(|part| part as i32));
         let triangles = TRIANGLES.map(|triangle| triangle.map(|index| self.corners[index]));

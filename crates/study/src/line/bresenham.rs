@@ -1,5 +1,5 @@
-//! J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Systems
-//! Journal 4(1), 1965, for all eight directions: whole numbers only, and nothing adds up.
+//! J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Systems Journal 4(1), 1965,
+//! for all eight directions: integers only, so no error accumulates.
 
 use super::segment::{Segment, paint};
 use crate::field::Field;

@@ -1,5 +1,5 @@
-//! The incremental form (source row B1, its last one): the slope is added in each step
-//! along the longer side, so that there are no gaps; its rounding adds up.
+//! The incremental form (the last one of source row B1): the slope is added at each step along the longer
+//! side. There are no gaps, but rounding errors accumulate.
 
 use super::segment::{Segment, paint};
 use crate::field::Field;

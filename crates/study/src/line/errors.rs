@@ -1,4 +1,4 @@
-//! How far lines are from the ideal one.
+//! The distance of drawn lines from the ideal one.
 
 use super::{Line, Segment};
 use crate::field::Field;
@@ -6,25 +6,25 @@ use crate::oracle::half_plane;
 use std::ops::AddAssign;
 use trigon_math::DVec2;
 
-/// What is wrong with lines.
+/// The errors of lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LineErrors {
     /// Steps along the longer sides.
     pub steps: usize,
-    /// Pixels with ink whose centre is more than half a pixel beside the line.
+    /// Pixels with ink whose centre lies more than half a pixel beside the line.
     pub strays: usize,
     /// Steps without ink where it should be.
     pub gaps: usize,
-    /// The sum of squares of what pixels have too much or too little ink, against the
-    /// area that a strip one pixel wide covers of them.
+    /// The sum of squared differences between a pixel's ink and the area that a strip one pixel wide covers
+    /// of it.
     pub squares: f64,
-    /// How many pixels that is the sum of: those up to two beside the line.
+    /// The number of pixels in that sum: those up to two pixels beside the line.
     pub pixels: usize,
 }
 
 impl LineErrors {
-    /// Of one segment, drawn in an image that holds it. Its ends are left out of the
-    /// comparison of areas: there is more than one way to end a line.
+    /// The errors of one segment, drawn in an image that contains it. Its ends are excluded from the
+    /// comparison of areas, because there is more than one way to end a line.
     #[must_use]
     pub fn of(line: Line, segment: Segment, size: [usize; 2]) -> Self {
         let mut coverage = Field::new(size, 0.0);
@@ -82,7 +82,7 @@ impl LineErrors {
     }
 }
 
-/// The pixels of a step, up to two beside the line, with their place across.
+/// The pixels of a step, up to two beside the line, with their distance across.
 fn column(
     [from, to]: Segment,
     along: usize,

@@ -1,7 +1,7 @@
-//! Which pixels make a straight line one pixel wide (source row B1), and whether the
-//! outline of a triangle keeps to its fill (B3)?
+//! Which pixels make a straight line one pixel wide (source row B1)? And does the outline of a triangle match
+//! its fill (B3)?
 //!
-//! Ends are the centres of pixels, as the classical algorithms have them.
+//! Lines end at pixel centres, as in the classical algorithms.
 
 mod bresenham;
 mod dda;
@@ -21,7 +21,7 @@ pub use segment::Segment;
 
 use crate::field::Field;
 
-/// A way to draw lines.
+/// A method of drawing lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Line {
     /// y = a x + b for each column, whatever the slope.
@@ -58,8 +58,8 @@ impl Line {
 
     /// Draws segments; each adds how much of a pixel it covers.
     pub fn paint(self, segments: &[Segment], coverage: &mut Field<f32>) {
-        if let Some(outline) = self.outline() {
-            let mut drawer = engine::Drawer::new(segments, outline, coverage.size());
+        if let Some(smoothing) = self.smoothing() {
+            let mut drawer = engine::Drawer::new(segments, smoothing, coverage.size());
             drawer.draw();
             *coverage = drawer.coverage();
         } else if let Some(draw) = self.classical() {
@@ -67,11 +67,11 @@ impl Line {
         }
     }
 
-    /// What draws segments again and again, with all kept that can be kept.
+    /// Returns a closure that draws segments repeatedly and keeps everything that can be kept.
     #[must_use]
     pub fn repeated<'a>(self, segments: &'a [Segment], size: [usize; 2]) -> Box<dyn FnMut() + 'a> {
-        if let Some(outline) = self.outline() {
-            let mut drawer = engine::Drawer::new(segments, outline, size);
+        if let Some(smoothing) = self.smoothing() {
+            let mut drawer = engine::Drawer::new(segments, smoothing, size);
             return Box::new(move || drawer.draw());
         }
         let mut coverage = Field::new(size, 0.0);
@@ -89,18 +89,17 @@ impl Line {
         }
     }
 
-    /// The outline of the renderer's lines.
-    fn outline(self) -> Option<trigon_raster::Outline> {
+    /// How the renderer smooths the lines.
+    fn smoothing(self) -> Option<trigon_raster::Smoothing> {
         match self {
-            Self::Engine => Some(trigon_raster::Outline::Sharp),
-            Self::EngineSmooth => Some(trigon_raster::Outline::AntiAliased),
+            Self::Engine => Some(trigon_raster::Smoothing::Sharp),
+            Self::EngineSmooth => Some(trigon_raster::Smoothing::AntiAliased),
             _ => None,
         }
     }
 }
 
-/// Segments of `radius` pixels and the same back, from the middle of a square image to
-/// all sides.
+/// Segments of `radius` pixels, and their reverse, from the middle of a square image in all directions.
 #[must_use]
 pub fn star(side: usize, radius: i32) -> Vec<Segment> {
     let middle = side as i32 / 2;

@@ -1,5 +1,5 @@
-//! The equation y = a x + b for each column (source row B1, its first form): steep lines
-//! have gaps, and upright ones are not drawn.
+//! The equation y = a x + b, evaluated for each column (the first form of source row B1): steep lines have
+//! gaps, and vertical ones are not drawn.
 
 use super::segment::{Segment, paint};
 use crate::field::Field;

@@ -1,4 +1,4 @@
-//! Whether the outline of a triangle keeps to its fill (source row B3).
+//! Whether the outline of a triangle matches its fill (source row B3).
 
 use super::{Line, Segment, dda};
 use crate::engine::{Corners, Engine};
@@ -7,7 +7,7 @@ use crate::fill::{Canvas, Fill};
 use std::ops::AddAssign;
 use trigon_math::Vec2;
 
-/// A way to fill a triangle and draw its outline.
+/// A method of filling a triangle and drawing its outline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outline {
     /// As the source does: scanlines, and lines along the longer side.
@@ -18,12 +18,12 @@ pub enum Outline {
     EngineFaces,
 }
 
-/// How many pixels of outlines leave their triangle.
+/// Counts the pixels of outlines that lie outside their triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OutlineErrors {
     /// Pixels of outlines.
     pub outline: usize,
-    /// Those that the fill has not.
+    /// Pixels of outlines that the fill does not cover.
     pub outside: usize,
 }
 

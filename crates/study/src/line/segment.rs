@@ -1,4 +1,4 @@
-//! What all algorithms draw, and how they paint it.
+//! The lines that all algorithms draw, and the image that they paint.
 
 use crate::field::Field;
 

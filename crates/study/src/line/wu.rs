@@ -1,5 +1,5 @@
-//! X. Wu, "An efficient antialiasing technique", SIGGRAPH 1991: the two pixels above and
-//! below the line share one pixel's ink by their distances.
+//! X. Wu, "An efficient antialiasing technique", SIGGRAPH 1991: the two pixels above and below the line share
+//! the ink of one pixel, in proportion to their distances.
 
 use super::segment::{Segment, paint};
 use crate::field::Field;

@@ -1,9 +1,8 @@
-//! Areas of triangles and of what half-planes leave of them, in rational numbers.
+//! Areas of triangles, and of what is left of them after clipping at half-planes, in rational numbers.
 //!
-//! A point of a triangle is given by the weights of its corners. Any linear
-//! function of a position is linear in the weights, too, so that areas need no
-//! coordinates: the whole triangle has area 1, whatever its shape, in whatever
-//! space, also if it is a point.
+//! A point of a triangle is given by its barycentric coordinates. A linear function of the position is also
+//! linear in these, so areas need no coordinates: the whole triangle has area 1, whatever its shape and the
+//! space it lies in, even if it is degenerate.
 
 use super::coverage::doubled_area;
 use super::{GridPoint, STEPS};
@@ -11,7 +10,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, Signed, Zero};
 
-/// A point by the weights of a triangle's corners.
+/// A point in barycentric coordinates.
 pub type Weights = [BigRational; 3];
 
 /// A number as it is.
@@ -36,8 +35,7 @@ pub fn whole() -> Vec<Weights> {
     (0..3).map(corner).collect()
 }
 
-/// The share of the triangle's area that a polygon has: negative if it turns the
-/// other way.
+/// The fraction of the triangle's area that a polygon covers: negative if its winding is opposite.
 #[must_use]
 pub fn share(polygon: &[Weights]) -> BigRational {
     let mut sum = BigRational::zero();
@@ -54,10 +52,9 @@ fn value(at_corners: &[BigRational; 3], point: &Weights) -> BigRational {
     terms.map(|(value, weight)| value * weight).sum()
 }
 
-/// What lies on either side of a line across a convex polygon, given a linear
-/// function's values at the triangle's corners: first where it is not negative, then
-/// where it is, with the border. What lies on the line as a whole is on the first
-/// side only.
+/// The two parts of a convex polygon on either side of a line, given a linear function's values at the
+/// triangle's corners: first where it is not negative, then where it is, including the border. A polygon that
+/// lies on the line as a whole is in the first part only.
 #[must_use]
 pub fn split(polygon: &[Weights], at_corners: &[BigRational; 3]) -> (Vec<Weights>, Vec<Weights>) {
     let values: Vec<BigRational> = polygon.iter().map(|p| value(at_corners, p)).collect();
@@ -84,7 +81,7 @@ pub fn split(polygon: &[Weights], at_corners: &[BigRational; 3]) -> (Vec<Weights
     (inside, outside)
 }
 
-/// How much of a pixel a triangle covers, from 0 to 1.
+/// The fraction of a pixel that a triangle covers, from 0 to 1.
 #[must_use]
 pub fn in_pixel(triangle: [GridPoint; 3], pixel: [i32; 2]) -> BigRational {
     let mut polygon = whole();

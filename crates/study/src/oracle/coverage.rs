@@ -1,9 +1,8 @@
-//! Which samples a triangle on the sub-pixel grid covers.
+//! Decides which samples a triangle on the sub-pixel grid covers.
 //!
-//! The top-left rule (Direct3D 11.3 functional specification, section 3.4.2.1)
-//! gives a sample on an edge to the triangle to the right of it or, if the edge is
-//! horizontal, to that below. It is applied here as what it means: every sample
-//! lies a little further right than it does, and less than that further down.
+//! The top-left rule (Direct3D 11.3 functional specification, section 3.4.2.1) assigns a sample on an edge to
+//! the triangle to the right of it or, if the edge is horizontal, to the one below. It is implemented here by
+//! its meaning: every sample is moved a tiny distance to the right, and a much tinier one down.
 
 use super::{GridPoint, STEPS};
 

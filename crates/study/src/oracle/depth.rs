@@ -1,5 +1,4 @@
-//! The exact depth of a triangle: the plane through its snapped corners, in
-//! rational numbers.
+//! The exact depth of a triangle: the plane through its snapped corners, in rational numbers.
 
 use super::GridPoint;
 use super::area::{integer, rational};
@@ -26,7 +25,7 @@ impl Plane {
     pub fn at(&self, point: GridPoint) -> Option<BigRational> {
         let [a, b, c] = self.corners;
         let area = doubled_area(self.corners);
-        // Each corner's share is the area of the triangle with the point instead.
+        // Each corner's weight is the area of the triangle in which the point replaces it.
         let shares = [[point, b, c], [a, point, c], [a, b, point]].map(doubled_area);
         let terms = shares.into_iter().zip(self.depths);
         let sum: BigRational = terms.map(|(share, depth)| integer(share) * rational(depth)).sum();
@@ -40,8 +39,8 @@ impl Plane {
         [a.min(b).min(c), a.max(b).max(c)]
     }
 
-    /// How much of a needle it is: the area of the box around it over its own, at
-    /// least 2, infinite without area. Rounding of a plane's slopes grows with it.
+    /// How thin it is: the area of its bounding box over its own area, at least 2, infinite without area. The
+    /// rounding of a plane's slopes grows with it.
     #[must_use]
     pub fn stretch(&self) -> f64 {
         let extent = |axis: usize| {

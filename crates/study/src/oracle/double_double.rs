@@ -1,4 +1,4 @@
-//! Numbers of 106 bits: the unevaluated sum of two `f64`.
+//! Numbers of 106 bits: unevaluated sums of two `f64`.
 //!
 //! T. J. Dekker, *A floating-point technique for extending the available
 //! precision*, Numerische Mathematik 18 (1971); sums by D. E. Knuth's exact
@@ -8,11 +8,10 @@
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number `high + low`, where `low` is what `high` was rounded by.
+/// A number `high + low`, where `low` is the rounding error of `high`.
 ///
-/// Sums, products and quotients are off by at most 2⁻¹⁰⁰ of the result, sums of
-/// numbers of either sign by 2⁻¹⁰⁰ of the larger one, as long as nothing exceeds
-/// 2⁹⁷⁰ or falls below 2⁻⁹⁰⁰. What is divided by zero is no number.
+/// The error of products and quotients is at most 2⁻¹⁰⁰ of the result, that of sums 2⁻¹⁰⁰ of the larger term,
+/// as long as nothing exceeds 2⁹⁷⁰ or falls below 2⁻⁹⁰⁰. A division by zero gives NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoubleDouble {
     high: f64,
@@ -29,7 +28,7 @@ impl DoubleDouble {
         self.high
     }
 
-    /// Without its sign.
+    /// The absolute value.
     #[must_use]
     pub fn abs(self) -> Self {
         if self.high < 0.0 { -self } else { self }
@@ -108,7 +107,7 @@ impl Mul for DoubleDouble {
 impl Div for DoubleDouble {
     type Output = Self;
 
-    /// Long division: each digit is a quotient in `f64` of what is left.
+    /// Long division: each digit is a quotient in `f64` of the remainder.
     fn div(self, other: Self) -> Self {
         let digit = |rest: Self| Self::from(rest.high / other.high);
         let first = digit(self);

@@ -1,32 +1,29 @@
-//! What the edges of faces cover of an image's pixels, by area.
+//! The area of each pixel that the painted edges of faces cover.
 //!
-//! Many points in each pixel are asked for what an eye sees there; an edge covers those
-//! that lie within half its width of a part of it that is seen. Projection, visibility and
-//! distances are found here in f64 and share nothing with the rasterizer, not even a
-//! triangulation: faces are polygons, and a point lies in one if a ray from it crosses the
-//! outline an odd number of times.
+//! Many points in each pixel are tested. An edge covers a point if a visible part of the edge lies within
+//! half its width. Projection, visibility and distances are computed in f64 and share nothing with the
+//! rasterizer, not even a triangulation: faces are polygons, and a point lies inside one if a ray from it
+//! crosses the outline an odd number of times.
 //!
-//! An edge is as wide as the rule of `trigon_raster::FaceEdges` says. It covers a point of
-//! another face if the nearest point of the edge is not hidden, and the other face does not
-//! lie before it.
+//! An edge is as wide as the rule of `trigon_raster::FaceEdges` says. It covers a point of another face if
+//! the nearest point of the edge is visible, and the other face does not lie in front of it.
 
 use std::ops::Range;
 use trigon_math::{DVec2, DVec3};
 
-/// Points in a row of a pixel, and in a column.
+/// The number of test points along each side of a pixel.
 pub const POINTS: usize = 16;
 
-/// By how much of its distance something has to lie nearer to hide an edge. Positions of f32
-/// lie that much beside the planes of their faces, a few units of 2^-24, and less; so edges do
-/// not hide themselves.
+/// The fraction of its distance by which something has to be nearer to hide an edge. Positions rounded to f32
+/// lie off the planes of their faces by a few units of 2⁻²⁴ or less, so that edges do not hide themselves.
 const NEARER: f64 = 1e-5;
 
-/// From where a scene is seen, and how large.
+/// The viewpoint and the size of the image.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     /// The eye.
     pub eye: DVec3,
-    /// What is in the middle of the image.
+    /// The point at the centre of the image.
     pub target: DVec3,
     /// Half the height of the image at a distance of 1.
     pub half_height: f64,
@@ -67,7 +64,7 @@ impl View {
 }
 
 impl Face {
-    /// `None` for a face that is seen from its edge.
+    /// `None` for a face that is seen edge-on.
     fn new(corners: Vec<Corner>, width: f64) -> Option<Self> {
         let sides = || corners.iter().zip(corners.iter().cycle().skip(1));
         let doubled: f64 = sides().map(|(a, b)| a.place.perp_dot(b.place)).sum();
@@ -105,12 +102,12 @@ impl Face {
         self.corners.iter().any(|a| other.corners.iter().any(|b| a.vertex == b.vertex))
     }
 
-    /// Whether it hides what is at a place.
+    /// Whether it hides a point on the image.
     fn hides(&self, at: DVec2, nearness: f64) -> bool {
         self.nearness(at) > nearness * (1.0 + NEARER) && self.contains(at)
     }
 
-    /// The pixels around it, up to so many beyond.
+    /// The pixels within this distance of it.
     fn pixels(&self, size: [usize; 2], beyond: f64) -> [Range<usize>; 2] {
         [0, 1].map(|axis| {
             let along = || self.corners.iter().map(|corner| corner.place[axis]);
@@ -122,8 +119,8 @@ impl Face {
     }
 }
 
-/// What edges of a width in pixels cover of each pixel, row by row: 0 to 1. Faces are lists
-/// of vertices; those that are turned away are seen, too. Everything lies before the eye.
+/// The fraction of each pixel that edges of a width in pixels cover, row by row: 0 to 1. Faces are lists of
+/// vertices; faces that are turned away are visible, too. Everything lies in front of the eye.
 #[must_use]
 pub fn coverage(view: &View, positions: &[DVec3], faces: &[Vec<u32>], width: f64) -> Vec<f64> {
     let project = |face: &Vec<u32>| {

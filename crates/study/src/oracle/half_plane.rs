@@ -1,13 +1,13 @@
-//! How much of a pixel lies on one side of a line, in closed form.
+//! The area of a pixel on one side of a line, in closed form.
 
 use trigon_math::DVec2;
 
-/// The share of a pixel, from 0 to 1, on the inner side of a line: `normal` points there
-/// and has length 1, and the pixel's centre lies `distance` pixels inside.
+/// The fraction of a pixel, from 0 to 1, on the inner side of a line: `normal` points there and has length 1,
+/// and the pixel's centre lies `distance` pixels inside.
 ///
-/// The share at a distance is what two boxes as wide as the parts of the normal,
-/// convolved, hold up to there: a parabola, a straight line and a parabola. Rounded in
-/// `f64`, no more than 2⁻⁵⁰.
+/// The fraction as a function of the distance is the integral of the convolution of two boxes, as wide as the
+/// components of the normal: a parabola, a straight line and a parabola. It is rounded in `f64`, by at most
+/// 2⁻⁵⁰.
 #[must_use]
 pub fn share(normal: DVec2, distance: f64) -> f64 {
     let DVec2 { x, y } = normal.abs();

@@ -1,13 +1,12 @@
-//! Independent answers to what the renderer computes, slow and exact.
+//! Independent, slow and exact implementations of what the renderer computes.
 //!
-//! Nothing here shares a line with the engine: coverage by displacement instead
-//! of edge functions with a bias ([`coverage`]), depth and areas in rational
-//! numbers ([`depth`], [`area`]), order by fractions of integers ([`nearness`]), what an eye sees by rays instead of projection,
-//! cutting and snapping ([`ray`]). Where a result is not exact, its
-//! documentation states the bound.
+//! Nothing here shares a line with the engine: coverage by displaced samples instead of biased edge functions
+//! ([`coverage`]), depth and areas in rational numbers ([`depth`], [`area`]), depth order by integer
+//! fractions ([`nearness`]), and visibility by rays instead of projection, clipping and snapping ([`ray`]).
+//! Where a result is not exact, its documentation states the bound.
 //!
-//! A triangle that has been snapped is given by its corners on the sub-pixel
-//! grid, and from there on there is exactly one right answer:
+//! A snapped triangle is given by its corners on the sub-pixel grid. From there on, only one answer is
+//! correct:
 //!
 //! ```
 //! use trigon_study::oracle::{GridPoint, area, coverage, depth};

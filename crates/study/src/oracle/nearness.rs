@@ -1,4 +1,4 @@
-//! Which of several triangles lies nearer in a pixel, by fractions of integers.
+//! Which of several triangles is nearest in a pixel, by integer fractions.
 
 use super::coverage::{centre, covers, doubled_area};
 use super::{GridPoint, STEPS};
@@ -8,7 +8,7 @@ use std::ops::Range;
 /// A corner on the sub-pixel grid, with its nearness to the eye in steps of any length.
 pub type Corner = [i32; 3];
 
-/// How near a triangle lies at a point: a fraction with a positive denominator.
+/// The nearness of a triangle at a point: a fraction with a positive denominator.
 #[derive(Clone, Copy, Debug)]
 pub struct Nearness {
     numerator: i128,

@@ -1,4 +1,4 @@
-//! A value that is linear on a triangle in space, seen in perspective.
+//! Perspective-correct interpolation of a value that is linear on a triangle in space.
 
 use super::GridPoint;
 use super::coverage::doubled_area;

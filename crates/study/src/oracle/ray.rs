@@ -1,12 +1,11 @@
-//! What an eye sees, by rays and brute force: no edge functions, no projection of
-//! corners, no snapping, no cutting.
+//! Visibility by rays and brute force: corners are not projected, snapped or clipped, and there are no edge
+//! functions.
 //!
-//! A ray through the image at (X, Y) meets a triangle where (X, Y, 1) is a sum of
-//! its corners' (x, y, w); the shares tell inside from outside, and they tell the
-//! depth. All of that is linear in X and Y (M. Olano and T. Greer, *Triangle scan
-//! conversion using 2D homogeneous coordinates*, Graphics Hardware 1997), so that
-//! corners at the eye and behind it are nothing special. Computed in numbers of 106
-//! bits, as corners a million pixels away leave too few of `f64`.
+//! The ray through the image at (X, Y) hits a triangle where (X, Y, 1) is a weighted sum of its corners' (x,
+//! y, w). The weights decide whether the hit is inside, and give the depth. All of them are linear in X and Y
+//! (M. Olano and T. Greer, *Triangle scan conversion using 2D homogeneous coordinates*, Graphics Hardware
+//! 1997), so corners at the eye or behind it are not special cases. The arithmetic has 106 bits, because
+//! `f64` leaves too few for corners a million pixels away.
 
 use super::DoubleDouble;
 use trigon_math::{DVec2, UVec2, Vec4};
@@ -17,10 +16,10 @@ type Linear = [DoubleDouble; 3];
 /// A triangle in clip space, seen on an image.
 #[derive(Clone, Debug)]
 pub struct Facet {
-    /// The shares of the corners in a ray, not negative inside. Zero on the edges, also
-    /// if the eye lies in the triangle's plane and so sees nothing of it.
+    /// The weights of the corners along a ray, not negative inside. Zero on the edges, and also if the eye
+    /// lies in the triangle's plane and so sees nothing of it.
     shares: [Linear; 3],
-    /// The depth z/w of the point met.
+    /// The depth z/w of the hit.
     depth: Linear,
     is_cut: bool,
     is_seen: bool,
@@ -45,8 +44,8 @@ impl Facet {
         Self { shares, depth: [0, 1, 2].map(of_axis), is_cut, is_seen }
     }
 
-    /// The depth z/w where the ray through a point in pixels meets the triangle,
-    /// between the near plane and infinity.
+    /// The depth z/w where the ray through a point in pixels hits the triangle, between the near plane and
+    /// infinity.
     #[must_use]
     pub fn meets(&self, point: DVec2) -> Option<f64> {
         let depth = at(self.depth, point);
@@ -54,8 +53,8 @@ impl Facet {
         (self.is_seen && inside && depth <= DoubleDouble::from(1.0_f64)).then(|| depth.to_f64())
     }
 
-    /// How far a point is from the lines that the triangle's edges lie on, and from
-    /// that where the near plane cuts it, in pixels: never more than to its outline.
+    /// The distance of a point from the lines through the triangle's edges and from the line where the near
+    /// plane cuts it, in pixels: never more than to its outline.
     #[must_use]
     pub fn distance_to_outline(&self, point: DVec2) -> f64 {
         let [x, y, one] = self.depth;
@@ -73,27 +72,27 @@ impl Facet {
     }
 }
 
-/// How far what was drawn may lie from what is exact.
+/// The tolerance of a drawn image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Of outlines, in pixels.
     pub outline: f64,
-    /// Of depths, beside what a displacement by `outline` makes of them.
+    /// Of depths, in addition to the change that a displacement by `outline` causes.
     pub depth: f64,
 }
 
-/// What is seen at a point.
+/// What is visible at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sight {
     /// No triangle.
     Nothing,
-    /// The triangle of this number, whatever the tolerance allows.
+    /// The triangle of this number, certainly.
     Triangle(usize),
-    /// One thing or another, within the tolerance.
+    /// Ambiguous within the tolerance.
     Unclear,
 }
 
-/// What a ray through a point in pixels meets first.
+/// The first hit of a ray through a point in pixels.
 #[must_use]
 pub fn first_met(facets: &[Facet], point: DVec2, tolerance: Tolerance) -> Sight {
     if facets.iter().any(|facet| facet.distance_to_outline(point) <= tolerance.outline) {
@@ -119,8 +118,7 @@ fn at([x, y, one]: Linear, point: DVec2) -> DoubleDouble {
     x * point.x.into() + y * point.y.into() + one
 }
 
-/// Infinite for a line at infinity; 0 from what is no line at all, as that of an edge
-/// seen as a point is.
+/// Infinite for a line at infinity; 0 for a degenerate line, such as an edge that is seen as a point.
 fn distance(line: Linear, point: DVec2) -> f64 {
     let slope = DVec2::new(line[0].to_f64(), line[1].to_f64());
     let distance = at(line, point).abs().to_f64() / slope.length();

@@ -1,11 +1,11 @@
-//! A question, and what a chapter of the report says about it.
+//! A chapter of the report: a question, and its text, tables and plots.
 
 use super::figures::Row;
 use super::headline::Headline;
 use super::image_row::ImageRow;
 use super::plot::Plot;
 
-/// How long measuring may take.
+/// How much time measuring may take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Effort {
     /// Less than a minute: fewer runs, smaller images.
@@ -13,7 +13,7 @@ pub enum Effort {
     /// Some minutes.
     #[default]
     Full,
-    /// Everything once, to see that it works.
+    /// Everything once, as a test.
     #[cfg(test)]
     Once,
 }
@@ -24,7 +24,7 @@ impl Effort {
         if self == Self::Full { full } else { quick }
     }
 
-    /// How often everything is timed.
+    /// The number of timed runs.
     pub(super) fn rounds(self) -> usize {
         match self {
             Self::Quick => 5,
@@ -41,21 +41,21 @@ pub(super) struct Question {
     /// In file names.
     pub(super) name: &'static str,
     pub(super) measure: fn(Effort) -> Chapter,
-    /// What stands under "In short" of it.
+    /// Its sentences under "In short".
     pub(super) headlines: fn() -> Vec<Headline>,
 }
 
-/// One question, and what was found.
+/// The results for one question.
 pub(super) struct Chapter {
     /// In file names.
     pub(super) name: &'static str,
     pub(super) title: &'static str,
-    /// What is compared, and in which units.
+    /// The comparison, with its units.
     pub(super) text: &'static str,
     pub(super) rows: Vec<Row>,
     pub(super) plots: Vec<Plot>,
     pub(super) images: Vec<ImageRow>,
-    /// What else a reader should know, with figures that are not divided by each other.
+    /// Further notes for the reader, with figures that are not divided by each other.
     pub(super) findings: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What was measured, in a form that tables, plots and files are made from.
+//! The measured values, in a form from which tables, plots and files are made.
 
 use crate::measure::Spread;
 

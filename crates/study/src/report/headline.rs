@@ -1,7 +1,7 @@
-//! A sentence of "In short": one row over another, which differs from it in one condition.
+//! A sentence of "In short": one row divided by another that differs from it in one condition.
 //!
-//! Chapters name the two rows and what to compare; words and figures follow from the rows. So no
-//! sentence can divide by a row that it does not name, or hide a second difference.
+//! A chapter names the two rows and the compared column; words and numbers follow from the rows. So a
+//! sentence cannot divide by a row that it does not name, or hide a second difference.
 
 use super::figures::{Conditions, Row, number};
 

@@ -1,5 +1,4 @@
-//! Where the labels of a plot's points go: beside their points, clear of each other and of
-//! all points.
+//! Positions of the labels in a plot: next to their points, without overlapping each other or any point.
 
 /// A rectangle in whole pixels: its left, top, right and lower edge, the last two outside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

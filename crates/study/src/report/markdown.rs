@@ -1,4 +1,4 @@
-//! The report as text, and its numbers as a list.
+//! Writes the report as Markdown, and its numbers as CSV.
 
 use super::chapter::{Answer, Effort};
 use super::figures::{Conditions, Row, Value, Warmth, number};

@@ -1,7 +1,7 @@
-//! What accuracy costs in time: every question measured, in one report.
+//! The report "What accuracy costs": measurements for every question.
 //!
-//! Errors are the same wherever the report is made; times are those of the machine that
-//! makes it, medians of runs in turn.
+//! Errors are the same on every machine. Times are those of the machine that writes the report: medians of
+//! interleaved runs.
 
 mod chapter;
 mod chapters;

@@ -164,7 +164,7 @@ mod published {
         records
     }
 
-    /// What stands under "In short", without how to read it.
+    /// Its sentences under "In short".
     fn in_short() -> Vec<String> {
         let text = read("accuracy.md");
         let part = text.split("## In short").nth(1).unwrap().split("\n## ").next().unwrap();

@@ -1,4 +1,4 @@
-//! How far an image is from the exact one, by causes.
+//! The error of an image relative to the exact one, separated by cause.
 
 use super::{Exact, Pixel};
 use crate::workloads::Scene;

@@ -1,8 +1,9 @@
-//! A workload's image as its definition has it, by rays in `f64`.
+//! The exact image of a workload, computed from its definition by rays in `f64`.
 //!
-//! A ray through the image at (X, Y) meets a triangle where (X, Y, 1) is a sum of its corners' (x, y, w); the shares are
-//! linear in X and Y, and their sum is 1/w (M. Olano and T. Greer, *Triangle scan conversion using 2D homogeneous
-//! coordinates*, Graphics Hardware 1997). No corner is projected or snapped, and nothing is cut: all lie before the eye.
+//! The ray through the image at (X, Y) hits a triangle where (X, Y, 1) is a weighted sum of its corners' (x,
+//! y, w); the weights are linear in X and Y, and their sum is 1/w (M. Olano and T. Greer, *Triangle scan
+//! conversion using 2D homogeneous coordinates*, Graphics Hardware 1997). Corners are not projected or
+//! snapped. Nothing needs clipping, because all corners lie in front of the eye.
 
 use super::light::{blinn_phong, lambert, lit};
 use super::texture::Texture;

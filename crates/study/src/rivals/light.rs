@@ -1,4 +1,4 @@
-//! The workloads' light and colours, from their definition.
+//! The workloads' lighting and colours, implemented from their definition.
 
 use trigon_math::{DVec3, elementary};
 

@@ -1,8 +1,8 @@
-//! How right the images are that other renderers make of the [`workloads`](crate::workloads), and trigon's own.
+//! Measures how accurately other renderers, and trigon, draw the [`workloads`](crate::workloads).
 //!
-//! All are held against the same [`Exact`] image: the workload's definition carried out in `f64`, by rays, with its own
-//! camera, light and texture. It shares no code with the engine, and takes from the workloads only vertices, triangles and
-//! colours. Errors are taken apart:
+//! Every image is compared with the same [`Exact`] image: the workload's definition evaluated in `f64`, by
+//! rays, with camera, light and texture implemented again. It shares no code with the engine, and reads only
+//! vertices, triangles and colours from the workloads. Errors are separated:
 //!
 //! - *Outlines*: pixels where several surfaces meet, and that show the wrong one. That is coverage, and depth where one
 //!   surface hides another.

@@ -1,4 +1,4 @@
-//! The published errors and times, as files in this crate's folder `rivals`.
+//! The published errors and times, which are files in this crate's folder `rivals`.
 
 use super::Errors;
 use super::errors::Centres;

@@ -1,4 +1,4 @@
-//! The workloads' texture and how it is read, from their definition.
+//! The workloads' texture and its filtering, implemented from their definition.
 
 use trigon_math::{DVec3, elementary};
 

@@ -1,4 +1,4 @@
-//! Two operations that the renderer does without, and what it has instead.
+//! Two operations that the renderer avoids, and what it uses instead.
 
 use trigon_raster::simd::{F32, Simd, prelude::*};
 

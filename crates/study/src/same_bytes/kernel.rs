@@ -1,5 +1,5 @@
-//! A triangle over the whole image, lit in each pixel: position and normal by perspective,
-//! then J. F. Blinn's highlight, as the workloads have it.
+//! A triangle that fills the image and is lit in each pixel: perspective-correct position and normal, then
+//! Blinn's highlight, as in the workloads.
 
 use super::arithmetic::Arithmetic;
 use trigon_math::{DVec3, Vec3};

@@ -1,6 +1,6 @@
-//! What do the same bytes on every machine cost? Light in each pixel by the renderer's rules,
-//! and by rules that it does not allow itself: products fused with sums where the processor can,
-//! and its estimates of reciprocals. Both differ from processor to processor.
+//! What do the same bytes on every machine cost? Lighting in each pixel, by the renderer's rules and with two
+//! operations that these rule out because they differ between processors: fused multiply-add, and estimated
+//! reciprocals.
 
 mod arithmetic;
 mod kernel;
@@ -46,7 +46,7 @@ impl Rules {
         light
     }
 
-    /// What draws the image again and again into the same memory.
+    /// Returns a closure that draws the image repeatedly.
     #[must_use]
     pub fn repeated(self) -> Box<dyn FnMut()> {
         let mut light = Field::new([kernel::SIDE; 2], 0.0);

@@ -1,4 +1,4 @@
-//! A ball made of triangles, seen along parallel rays.
+//! A ball of triangles in parallel projection.
 
 use crate::field::Field;
 use crate::fill::fixed::Edges;

@@ -1,5 +1,5 @@
-//! Flat shading (W. J. Bouknight, "A procedure for generation of three-dimensional
-//! half-toned computer graphics presentations", 1970): light once for each face.
+//! Flat shading (W. J. Bouknight, "A procedure for generation of three-dimensional half-toned computer
+//! graphics presentations", 1970): one light value per face.
 
 use super::ball::{BallImage, Facet};
 use super::light_of;

@@ -1,5 +1,5 @@
-//! H. Gouraud, "Continuous shading of curved surfaces", IEEE Transactions on Computers,
-//! 1971: light at the corners, interpolated.
+//! H. Gouraud, "Continuous shading of curved surfaces", IEEE Transactions on Computers, 1971: light is
+//! computed at the corners and interpolated.
 
 use super::ball::{BallImage, Facet};
 use super::light_of;

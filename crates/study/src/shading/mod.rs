@@ -1,5 +1,5 @@
-//! What do normals in each pixel buy? Flat, Gouraud and Phong shading (source row D6)
-//! against the closed form: a ball of triangles for a ball.
+//! What do normals in each pixel buy? Flat, Gouraud and Phong shading (source row D6) of a ball of triangles,
+//! compared with the closed form for a sphere.
 
 mod ball;
 mod flat;

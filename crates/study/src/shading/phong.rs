@@ -1,5 +1,5 @@
-//! B. T. Phong, "Illumination for computer generated pictures", CACM 18(6), 1975: normals
-//! are interpolated, and light is computed in each pixel.
+//! B. T. Phong, "Illumination for computer generated pictures", CACM 18(6), 1975: normals are interpolated,
+//! and light is computed in each pixel.
 
 use super::ball::{BallImage, Facet};
 use super::light_of;

@@ -1,6 +1,6 @@
-//! The renderer's own shadows, of the same ball on the same floor.
+//! The engine's shadows of the same ball on the same floor.
 
-use super::stage::{self, BALL, FLOOR, LIGHT};
+use super::ball_on_floor::{self, BALL, FLOOR, LIGHT};
 use crate::field::Field;
 use std::num::NonZeroUsize;
 use trigon_math::{DVec3, Vec3};
@@ -51,7 +51,7 @@ fn scene() -> Scene {
     let mut scene = Scene::new();
     let white = Material { shading: Shading::Lambert, ..Material::from_color(Vec3::ONE) };
     scene.add_object("floor", primitives::plane(FLOOR as f32, FLOOR as f32), white);
-    let mesh = scene.add_mesh("ball", stage::ball());
+    let mesh = scene.add_mesh("ball", ball_on_floor::ball());
     let material = scene.add_material(Material::from_color(Vec3::ONE));
     scene.add(Node::from_mesh(mesh, material).at(BALL));
     let orientation = Camera::look_at(LIGHT, DVec3::ZERO, DVec3::Y).orientation;

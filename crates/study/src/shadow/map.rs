@@ -1,10 +1,10 @@
-//! L. Williams, "Casting curved shadows on curved surfaces", SIGGRAPH 1978: what the light
-//! sees nearest is kept in a map. Filtered as in W. T. Reeves, D. H. Salesin and R. L. Cook,
-//! "Rendering antialiased shadows with depth maps", SIGGRAPH 1987: answers are averaged,
-//! not depths.
+//! Shadow maps (L. Williams, "Casting curved shadows on curved surfaces", SIGGRAPH 1978): the map stores the
+//! depth nearest to the light. Filtering is percentage-closer (W. T. Reeves, D. H. Salesin and R. L. Cook,
+//! "Rendering antialiased shadows with depth maps", SIGGRAPH 1987): results of comparisons are averaged, not
+//! depths.
 
 use super::MapFilter;
-use super::stage::{BALL, LIGHT, across, on_floor, triangles};
+use super::ball_on_floor::{BALL, LIGHT, across, on_floor, triangles};
 use crate::field::Field;
 use crate::fill::fixed::{Edges, weighted};
 use trigon_math::DVec3;

@@ -1,11 +1,11 @@
-//! What does a shadow's edge cost? A ball of triangles above a floor, lit from one direction:
-//! maps of several sizes and filters, and rays, and the renderer's own of both, against the
-//! shadow of the same triangles.
+//! What does a shadow's edge cost? A ball of triangles above a floor, lit from one direction: shadow maps of
+//! several sizes and filters, rays, and the engine's own of both kinds, compared with the exact shadow of the
+//! same triangles.
 
+mod ball_on_floor;
 mod engine;
 mod map;
 mod rays;
-mod stage;
 
 #[cfg(test)]
 mod tests;
@@ -36,7 +36,7 @@ pub enum Shadow {
 }
 
 impl Shadow {
-    /// All that are compared.
+    /// All methods that are compared.
     pub const ALL: [Self; 9] = [
         Self::Map(64, MapFilter::Nearest),
         Self::Map(64, MapFilter::Linear),
@@ -87,7 +87,7 @@ pub fn draw_into(image: &mut Field<f64>, light: &dyn Fn([f64; 2]) -> f64) {
     let [side, _] = image.size();
     for (y, row) in image.rows_mut().enumerate() {
         for (x, pixel) in row.iter_mut().enumerate() {
-            *pixel = light(stage::point([x, y], side));
+            *pixel = light(ball_on_floor::point([x, y], side));
         }
     }
 }
@@ -96,7 +96,7 @@ pub fn draw_into(image: &mut Field<f64>, light: &dyn Fn([f64; 2]) -> f64) {
 /// else 1.
 #[must_use]
 pub fn exact(side: usize) -> Field<f64> {
-    stage::exact(side)
+    ball_on_floor::exact(side)
 }
 
 /// How far an image is from right, in the pixels that lie within two of the shadow's edge.

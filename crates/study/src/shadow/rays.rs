@@ -1,7 +1,7 @@
-//! A ray from each point to the light (T. Whitted, "An improved illumination model for
-//! shaded display", CACM 23(6), 1980), against triangles in a tree.
+//! A ray from each point to the light (T. Whitted, "An improved illumination model for shaded display", CACM
+//! 23(6), 1980), tested against a tree of triangles.
 
-use super::stage::{LIGHT, on_floor, triangles};
+use super::ball_on_floor::{LIGHT, on_floor, triangles};
 use trigon_math::{Bvh, Ray, Vec3};
 
 /// A ball of 5,120 triangles in a tree.

@@ -1,4 +1,4 @@
-//! The tasks of a representation, and what all of them do alike.
+//! The tasks that each representation performs, and the code that all of them share.
 
 use trigon_math::Vec3;
 

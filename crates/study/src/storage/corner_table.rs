@@ -1,6 +1,6 @@
-//! The corner table (J. Rossignac, A. Safonova and A. Szymczak, "3D compression made
-//! simple: Edgebreaker on a corner table", 2001): the vertex of each corner, and the corner
-//! opposite to it in the triangle across; all else follows from the numbers.
+//! The corner table (J. Rossignac, A. Safonova and A. Szymczak, "3D compression made simple: Edgebreaker on a
+//! corner table", 2001): for each corner its vertex and the opposite corner in the neighbouring triangle.
+//! Everything else follows from the corner's number.
 
 use super::Triangles;
 use super::answer::{Storage, byte_count, in_order, nearest};

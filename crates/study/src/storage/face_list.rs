@@ -1,5 +1,4 @@
-//! Face lists: faces know their vertices, and each vertex its neighbours and the faces
-//! around it.
+//! Face lists: each face stores its vertices, and each vertex its neighbours and the faces around it.
 
 use super::Triangles;
 use super::answer::{Storage, byte_count, in_order, nearest};

@@ -1,4 +1,4 @@
-//! Lists of different lengths in one piece of memory.
+//! Lists of different lengths in one allocation.
 
 use super::answer::byte_count;
 use super::reads::Reads;

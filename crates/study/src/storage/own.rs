@@ -1,6 +1,6 @@
-//! Faces with explicit edges, as source D stores them in the end, and as the engine's
-//! [`Mesh`] does: faces know their vertices and edges, edges their vertices, and nothing
-//! leads from a vertex to its faces. Such questions read the whole list of corners.
+//! Faces with explicit edges, as source D finally stores them, and as the engine's [`Mesh`] does: faces store
+//! their vertices and edges, edges their vertices, and nothing leads from a vertex to its faces. Finding
+//! these reads the whole list of corners.
 
 use super::answer::{Storage, in_order, nearest};
 use super::reads::Reads;

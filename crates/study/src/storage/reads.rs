@@ -1,4 +1,4 @@
-//! Lists that count the indices read from them.
+//! Lists that count the indices that are read from them.
 
 use super::answer::byte_count;
 use std::cell::Cell;

@@ -1,4 +1,4 @@
-//! The mesh that all representations are made from.
+//! The mesh from which all representations are built.
 
 use trigon_math::Vec3;
 use trigon_mesh::{Mesh, primitives};

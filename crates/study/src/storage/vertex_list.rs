@@ -1,5 +1,5 @@
-//! Vertex lists: each vertex knows those that it is joined to. There are neither faces nor
-//! edges: they have to be found among the neighbours.
+//! Vertex lists: each vertex stores its neighbours. There are no faces or edges; they have to be found from
+//! the neighbours.
 
 use super::Triangles;
 use super::answer::{Storage, byte_count, in_order, nearest};

@@ -1,4 +1,4 @@
-//! The floor drawn by the renderer: two triangles, and a look-up in each pixel.
+//! The floor drawn by the engine: two triangles, and one texture look-up per pixel.
 
 use super::{Ground, TextureFilter};
 use crate::engine::{Engine, clip_position, field, positions, target};

@@ -1,5 +1,5 @@
-//! How many texels does a pixel need? The renderer's filters on a floor that leads to the
-//! horizon, against the mean of what each pixel sees of it.
+//! How many texels does a pixel need? The engine's filters on a floor that extends to the horizon, compared
+//! with the mean over each pixel.
 
 mod engine;
 mod ground;
@@ -28,7 +28,7 @@ pub enum TextureFilter {
 }
 
 impl TextureFilter {
-    /// All that are compared.
+    /// All methods that are compared.
     pub const ALL: [Self; 6] = [
         Self::Nearest,
         Self::Bilinear,

@@ -1,5 +1,4 @@
-//! The engine's way: one pool that lasts, and tiles of the image that its threads take
-//! in turn.
+//! The engine's method: one lasting thread pool, whose threads take tiles of the image in turn.
 
 use super::Corner;
 use crate::engine::{Corners, Engine, clip_position, field, target};

@@ -1,5 +1,5 @@
-//! How many threads does an image want? Source D's measurement (row D12, its table 4.1),
-//! its way and the engine's: a square of two faces.
+//! How many threads does an image need? The measurement of source D (row D12, its table 4.1) by its method
+//! and by the engine's: a square of two faces.
 
 mod engine;
 mod source;

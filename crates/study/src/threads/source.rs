@@ -1,6 +1,6 @@
-//! The source's way: a bounding box, weights by areas, depth by perspective (formulas 2.8
-//! to 2.12), a frame, depth, face and model buffer; and for each face as many new threads
-//! as are asked for, each with some rows of the box.
+//! The source's method: a bounding box, barycentric coordinates from areas, perspective depth (formulas 2.8
+//! to 2.12), buffers for colour, depth, face and model. For each face it starts as many new threads as
+//! requested, each with some rows of the box.
 
 use super::Corner;
 use crate::field::Field;

@@ -1,4 +1,4 @@
-//! The renderer's translucent surfaces, which it sorts in each sample.
+//! The engine's translucent surfaces, which it sorts in each sample.
 
 use super::{SHOWS, Way, lights};
 use crate::engine::{Engine, field, target};

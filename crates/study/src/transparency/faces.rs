@@ -1,5 +1,5 @@
-//! Faces laid over each other one after the other (T. Porter and T. Duff, "Compositing
-//! digital images", SIGGRAPH 1984), the farthest first.
+//! Whole faces blended one after the other, the farthest first (T. Porter and T. Duff, "Compositing digital
+//! images", SIGGRAPH 1984).
 
 use super::{SHOWS, Way, lights};
 use crate::field::Field;

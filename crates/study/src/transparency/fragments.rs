@@ -1,5 +1,5 @@
-//! Fragments are kept and sorted in each pixel (L. Carpenter, "The A-buffer, an
-//! antialiased hidden surface method", SIGGRAPH 1984, without its masks).
+//! Fragments are stored and sorted in each pixel (L. Carpenter, "The A-buffer, an antialiased hidden surface
+//! method", SIGGRAPH 1984, without its masks).
 
 use super::{SHOWS, Way, lights};
 use crate::field::Field;

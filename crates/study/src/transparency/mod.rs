@@ -1,5 +1,5 @@
-//! In which order are translucent faces laid over each other? By faces as they come, by
-//! bodies, by faces, and by fragments in each pixel.
+//! In which order are translucent faces blended? In submission order, sorted by body, sorted by face, and
+//! sorted by fragment in each pixel.
 
 mod engine;
 mod faces;
@@ -11,12 +11,12 @@ mod tests;
 use crate::field::Field;
 use crate::metric::Difference;
 use crate::oracle::nearness::{self, Nearness};
-use crate::random::Random;
 use crate::visibility::Scene;
 use engine::Drawer;
 use faces::Faces;
 use fragments::Fragments;
 use std::cmp::Reverse;
+use trigon_math::SplitMix64;
 
 /// A way to order what is translucent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -112,7 +112,7 @@ const SHOWS: f64 = 0.5;
 
 /// The light of a face, a number of its own for each.
 fn light(face: u32) -> f64 {
-    Random::new(face.into()).between(0.1, 1.0)
+    SplitMix64::new(face.into()).between(0.1, 1.0)
 }
 
 /// The lights of all faces of a scene.

@@ -1,9 +1,8 @@
-//! What is drawn to compare the algorithms.
+//! The scenes in which the algorithms are compared.
 
 use super::scene::{Pose, STEPS};
 use super::{Body, Scene};
-use crate::random::Random;
-use trigon_math::DVec3;
+use trigon_math::{DVec3, SplitMix64};
 use trigon_mesh::{Mesh, primitives};
 
 /// A scene that asks one question.
@@ -54,7 +53,7 @@ impl Case {
 /// Balls of 80 faces at chance places, wholly in the image.
 #[must_use]
 pub fn balls(side: usize, count: usize, radius: f64, seed: u64) -> Scene {
-    let mut random = Random::new(seed);
+    let mut random = SplitMix64::new(seed);
     let mut place = || {
         let mut across = || random.between(radius, side as f64 - radius);
         DVec3::new(across(), across(), across())

@@ -1,4 +1,4 @@
-//! What every algorithm returns.
+//! The result of every algorithm.
 
 use crate::field::Field;
 

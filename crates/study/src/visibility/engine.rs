@@ -1,4 +1,4 @@
-//! The renderer, asked for ids.
+//! The engine, drawing ids alone.
 
 use super::scene::{DEEPEST, STEPS};
 use super::{Drawing, Scene};

@@ -1,4 +1,4 @@
-//! How many pixels show the wrong face, in exact integers.
+//! Counts the pixels that show the wrong face, in exact integers.
 
 use super::Scene;
 use crate::field::Field;

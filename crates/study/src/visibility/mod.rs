@@ -1,9 +1,8 @@
-//! Which face is seen in each pixel? The ways that source D argues about (row D5), and
-//! two that it leaves out.
+//! Which face is visible in each pixel? The algorithms that source D discusses (row D5), and two that it
+//! leaves out.
 //!
-//! All take a [`Scene`] of bodies whose corners lie on a grid as fine as the engine's, so
-//! that they agree about what a face covers, and differ only in how they find the
-//! nearest one.
+//! All take a [`Scene`] of bodies whose corners lie on a grid as fine as the engine's. So they agree on what
+//! a face covers, and differ only in how they find the nearest one.
 
 mod cases;
 mod drawing;

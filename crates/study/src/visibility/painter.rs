@@ -1,7 +1,6 @@
-//! The painter's algorithm (M. E. Newell, R. G. Newell and T. L. Sancha, "A solution to
-//! the hidden surface problem", ACM Annual Conference 1972) without its cutting of faces:
-//! they are sorted by the depth of their middle, and painted one over the other. Faces
-//! that cross each other, or overlap in a ring, have no right order.
+//! The painter's algorithm (M. E. Newell, R. G. Newell and T. L. Sancha, "A solution to the hidden surface
+//! problem", ACM Annual Conference 1972) without splitting faces: they are sorted by the depth of their
+//! centres and painted in that order. For faces that intersect, or overlap in a cycle, no order is correct.
 
 use super::{Drawing, Scene, Surface};
 

@@ -1,6 +1,5 @@
-//! Ray casting (A. Appel, "Some techniques for shading machine renderings of solids",
-//! AFIPS 1968): a ray through the middle of each pixel, and the nearest face that it
-//! meets.
+//! Ray casting (A. Appel, "Some techniques for shading machine renderings of solids", AFIPS 1968): a ray
+//! through the centre of each pixel, and the nearest face that it hits.
 
 use super::scene::{Face, STEPS};
 use super::{Drawing, Scene, Surface};

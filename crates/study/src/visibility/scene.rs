@@ -1,4 +1,4 @@
-//! Bodies as the screen shows them, for all algorithms alike.
+//! Bodies projected to the screen, for all algorithms alike.
 
 use thiserror::Error;
 use trigon_math::{DMat3, DVec3, elementary};
@@ -124,7 +124,7 @@ impl Scene {
         &self.faces[number as usize]
     }
 
-    /// Width and height, as coordinates are counted.
+    /// Width and height, in the type of coordinates.
     pub(crate) fn limits(&self) -> [i32; 2] {
         self.size.map(|side| side as i32)
     }

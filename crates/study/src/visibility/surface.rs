@@ -1,4 +1,4 @@
-//! A face made ready for pixels: what it covers, and how deep it lies there.
+//! A face prepared for pixels: its coverage and its depth plane.
 
 use super::scene::{Face, STEPS};
 use crate::fill::fixed::{Edges, weighted};

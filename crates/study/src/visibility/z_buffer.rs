@@ -1,6 +1,5 @@
-//! The z-buffer (E. Catmull, "A subdivision algorithm for computer display of curved
-//! surfaces", 1974): each pixel keeps the nearest depth so far, here in `f32`. Faces come
-//! in any order.
+//! The z-buffer (E. Catmull, "A subdivision algorithm for computer display of curved surfaces", 1974): each
+//! pixel stores the nearest depth so far, here in `f32`. Faces come in any order.
 
 use super::{Drawing, Scene, Surface};
 use crate::field::Field;

@@ -1,4 +1,4 @@
-//! The only file here that drives the rasterizer.
+//! Draws a workload with the rasterizer. The only file here that uses it.
 
 use super::pipelines::{BlinnPhong, Flat, Gouraud, Textured};
 use super::{Scene, Shading};

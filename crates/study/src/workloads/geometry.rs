@@ -1,7 +1,6 @@
-//! The meshes, each from a formula.
+//! The meshes, each generated from a formula.
 //!
-//! Positions and normals are columns (structure of arrays): what a vertex stage
-//! in vectors wants to read.
+//! Positions and normals are columns (structure of arrays), the layout that a vectorized vertex stage reads.
 
 use trigon_math::{DVec3, Vec3, elementary};
 

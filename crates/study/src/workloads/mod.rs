@@ -1,10 +1,8 @@
-//! Eight images that every renderer can draw, each of which asks one question:
-//! how fast are pixels filled, triangles set up, fragments shaded, textures
-//! read, hidden things skipped, samples kept?
+//! Eight images that every renderer can draw. Each measures one thing: how fast pixels are filled, triangles
+//! set up, fragments shaded, textures read, hidden surfaces skipped, or samples stored.
 //!
-//! All are 1920 by 1080 pixels of plain (not sRGB) RGBA8 on [`Scene::BACKGROUND`];
-//! the nearer fragment wins; nothing is blended. A frame is the whole way from
-//! the caller's vertices to the finished row-major image.
+//! All are 1920 by 1080 pixels of plain (not sRGB) RGBA8 on [`Scene::BACKGROUND`]; the nearest fragment is
+//! visible; nothing is blended. A frame goes from the caller's vertices to the finished row-major image.
 
 mod canvas;
 mod geometry;

@@ -1,4 +1,4 @@
-//! The four ways of shading as pipelines of the rasterizer.
+//! The four shading methods as pipelines of the rasterizer.
 
 use super::Scene;
 use super::shading::{BASE_COLOR, blinn_phong, lambert_lanes, lit};

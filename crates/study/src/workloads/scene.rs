@@ -1,4 +1,4 @@
-//! All that a frame is made from.
+//! The data of a frame.
 
 use super::Mesh;
 use super::geometry::{self, Grid};

@@ -1,4 +1,4 @@
-//! The light, and the two formulas by which surfaces answer it.
+//! The light, and the two reflection models.
 
 use trigon_math::Vec3;
 use trigon_raster::simd::{F32, Simd, greater, prelude::*};

@@ -1,4 +1,4 @@
-//! How long frames take.
+//! The times of frames.
 
 use std::time::Instant;
 

@@ -1,4 +1,4 @@
-//! What happens to a window, as the session sees it.
+//! Events of a window, as the session receives them.
 
 use std::path::PathBuf;
 

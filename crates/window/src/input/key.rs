@@ -1,4 +1,4 @@
-//! Names for keys, modifiers and buttons, and how people read them.
+//! Keys, modifiers and buttons, and their names for people.
 
 use std::fmt;
 use std::ops::BitOr;

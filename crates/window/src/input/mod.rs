@@ -1,8 +1,7 @@
-//! User input in terms that know no window system: keys, pointer, wheel. `translate` is the only
-//! file here that knows winit.
+//! User input (keys, pointer, wheel), independent of the window system. `translate` is the only file here
+//! that knows winit.
 
 mod event;
-mod held;
 mod key;
 mod offer;
 mod pointer;
@@ -10,7 +9,6 @@ pub(crate) mod translate;
 mod wheel;
 
 pub(crate) use event::{InputEvent, KeyCode, KeyPress, Press};
-pub(crate) use held::{HeldKeys, STEP};
 pub use key::{Chord, ChordError, Key, Modifiers, PointerButton};
 pub use offer::{Hands, Input, InputOwner, Taken};
 pub(crate) use pointer::{Gesture, Pointer};

@@ -1,4 +1,4 @@
-//! Input in the form in which an application is offered it, before camera and keymap.
+//! Input as the application receives it, before camera and keymap.
 
 use trigon_math::DVec2;
 

@@ -1,4 +1,4 @@
-//! From winit's events to ours. Nothing is decided here.
+//! Translates winit's events into ours, and decides nothing.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 

@@ -1,6 +1,5 @@
-//! One unit for all wheels. A notch of a mouse is one line; touchpads report pixels, dozens of
-//! them; and some systems deliver in one event everything that was scrolled while the window was
-//! busy.
+//! One unit for all wheels: lines. A notch of a mouse is one line. Touchpads report pixels, dozens of them,
+//! and some systems deliver in one event everything that was scrolled while the window was busy.
 
 use trigon_math::DVec2;
 

@@ -1,4 +1,4 @@
-//! What is to be seen while files are dragged over the window.
+//! The hint that is shown while files are dragged over the window.
 
 use egui::{Align2, Color32, Context, FontId, Id, LayerId, Order, Stroke, StrokeKind};
 

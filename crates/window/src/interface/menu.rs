@@ -1,4 +1,4 @@
-//! The menu at the pointer: the bindings that the keymap names for it.
+//! The menu at the pointer, which lists the bindings that the keymap marks for it.
 
 use egui::{Context, Ui, pos2};
 

@@ -1,5 +1,5 @@
-//! The interface over the image: an egui context, the window's own widgets, and the painter that
-//! turns it into pixels. It knows no window system: events and times go in, triangles come out.
+//! The interface over the image: an egui context, the window's own widgets, and the painter that turns them
+//! into pixels. It is independent of the window system: events and times go in, triangles come out.
 
 mod corners;
 mod drop_target;

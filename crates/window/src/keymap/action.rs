@@ -1,4 +1,4 @@
-//! What can be done by a key or a drag.
+//! The actions that a key or a drag can have.
 
 use trigon_camera::AxisView;
 use trigon_math::DVec3;

@@ -1,4 +1,4 @@
-//! Tables of bindings, to be read, searched and added to.
+//! Tables of bindings that can be read, searched and extended.
 
 use std::borrow::Cow;
 

@@ -1,6 +1,5 @@
-//! The bindings that every window begins with. Letters, digits and mouse are
-//! those of F3D (`interactor_impl.cxx`); what is ours alone is on keys that F3D
-//! leaves free.
+//! The default bindings of every window. Letters, digits and mouse follow F3D (`interactor_impl.cxx`);
+//! functions that F3D does not have are on keys that it leaves free.
 
 use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;

@@ -1,5 +1,5 @@
-//! The cheat sheet's lines, from the tables themselves: what is not bound is
-//! not listed, and what is bound cannot be forgotten.
+//! The rows of the list of keys. They are made from the tables of bindings, so the list is always complete
+//! and correct.
 
 use std::borrow::Cow;
 

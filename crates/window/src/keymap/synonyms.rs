@@ -1,4 +1,4 @@
-//! Words that mean the same: a search for one finds what the others name.
+//! Synonyms for the search: searching for one word also finds rows with the others.
 
 /// Each row is one meaning. Words of several parts are found in descriptions as they stand.
 const SYNONYMS: [&[&str]; 20] = [

@@ -1,4 +1,4 @@
-//! The images that a window has of its scene, and which of them it shows.
+//! The images of a scene that a window has, and which of them it shows.
 
 use std::sync::Arc;
 use std::time::Duration;

@@ -1,4 +1,4 @@
-//! The sequence of images at rest.
+//! The sequence of images at rest, each better than the one before.
 
 use trigon_scene::RenderSettings;
 use trigon_scene::quality::{Preset, Quality};

@@ -11,10 +11,9 @@ use trigon_math::{DVec2, DVec3};
 use super::Session;
 use crate::commands;
 use crate::input::{
-    Chord, Gesture, Input, InputEvent, InputOwner, KeyCode, KeyPress, Modifiers, PointerButton, Press, STEP,
-    Taken,
+    Chord, Gesture, Input, InputEvent, InputOwner, KeyCode, KeyPress, Modifiers, PointerButton, Press, Taken,
 };
-use crate::keymap::{Action, Binding, ClickAction, DragAction, Motion};
+use crate::keymap::{Action, Binding, ClickAction, DragAction, Motion, STEP};
 use crate::motion;
 use crate::pacing::Change;
 

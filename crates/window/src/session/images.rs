@@ -1,4 +1,4 @@
-//! Which images are drawn beside the window, and what becomes of them.
+//! Which images are drawn beside the one in the window, and what happens to them.
 
 use std::sync::Arc;
 use std::time::Duration;

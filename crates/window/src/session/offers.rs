@@ -1,5 +1,5 @@
-//! What is offered to the application, after the interface had its chance and before the
-//! camera gets it. What the application takes stays its own until it is released.
+//! Offers input to the application, after the interface and before the camera. A key or button that the
+//! application takes belongs to it until it is released.
 
 use std::time::Duration;
 

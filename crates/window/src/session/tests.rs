@@ -48,10 +48,10 @@ impl Handler for Recorder {
         stage.keymap.bind('g', "grid", Action::Command, "grid");
     }
 
-    fn frame(&mut self, _: &mut Stage, tick: Tick) -> Animation {
+    fn frame(&mut self, _: &mut Stage, tick: Tick) -> AnimationState {
         self.told.push(format!("frame {}", tick.delta.as_millis()));
         self.frames_left = self.frames_left.saturating_sub(1);
-        if self.frames_left > 0 { Animation::Running } else { Animation::Resting }
+        if self.frames_left > 0 { AnimationState::Running } else { AnimationState::Resting }
     }
 
     fn command(&mut self, stage: &mut Stage, name: &str) {

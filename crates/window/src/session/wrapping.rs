@@ -1,8 +1,8 @@
-//! Drags without end: at a border of the window the pointer is put to the other side, where the system lets
+//! Endless drags: at a border of the window the pointer is moved to the opposite one, where the system lets
 //! programs do that.
 //!
-//! The session asks for a place, the shell puts the pointer there, and the first movement from there on is told
-//! apart from those that were still under way. A replay has both from its recording.
+//! The session requests a position, the shell moves the pointer there, and the first movement from there is
+//! distinguished from earlier ones that arrive late. A replay takes both from its recording.
 
 use trigon_math::DVec2;
 

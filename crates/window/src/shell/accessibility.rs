@@ -1,5 +1,4 @@
-//! Names of widgets for those who read the screen aloud, and what they do with them.
-//! Nothing is named before somebody asks.
+//! Names and actions of widgets for screen readers. Nothing is computed until a screen reader asks for it.
 
 use egui_winit::accesskit_winit::{Event, WindowEvent};
 

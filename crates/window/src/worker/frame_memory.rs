@@ -1,7 +1,7 @@
-//! The memory of frames, used again.
+//! Reuses the memory of frames.
 //!
-//! A frame of a window is tens of megabytes. Asking the system for them with every frame takes it
-//! milliseconds, for each page has to be mapped and cleared.
+//! A frame of a window takes tens of megabytes. Allocating them for every frame would take milliseconds,
+//! because the system has to map and clear each page.
 
 use std::sync::Arc;
 

@@ -1,5 +1,5 @@
-//! For tests: jobs that wait at a gate. What a test needs to be under way is under way
-//! until the test opens the gate, on a machine of any speed.
+//! For tests: jobs wait at a gate until the test opens it. So a job is certainly still running when the test
+//! needs it to be, on a machine of any speed.
 
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};

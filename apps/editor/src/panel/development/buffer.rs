@@ -107,7 +107,7 @@ fn gray(depth: f32, [least, most]: [f32; 2]) -> Color32 {
     Color32::from_gray((255.0 - 200.0 * share) as u8)
 }
 
-/// Colours of neighbouring numbers that are easily told apart.
+/// Colours that differ clearly for neighbouring numbers.
 fn of_id(id: u32) -> Color32 {
     if id == u32::MAX {
         return Color32::BLACK;

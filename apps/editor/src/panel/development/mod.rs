@@ -48,7 +48,7 @@ impl<'v> DrawnView<'v> {
     }
 }
 
-/// What the tab remembers: the image that was asked for.
+/// The state of the tab: the requested image.
 #[derive(Default)]
 pub(crate) struct DevelopmentState {
     inspected: Option<Inspected>,
@@ -64,7 +64,7 @@ struct Inspected {
     /// How many samples of a pixel are shaded.
     shades: u64,
     plan: Option<EffectPlan>,
-    /// The buffer as an image, of which one; made anew when another one is chosen.
+    /// The buffer as an image, and which buffer it is; made again when another one is chosen.
     image: Option<(Buffer, TextureHandle)>,
     pixel: Option<[u32; 2]>,
 }

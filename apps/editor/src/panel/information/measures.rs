@@ -11,7 +11,7 @@ use super::super::row::written;
 pub(super) struct Finding {
     pub(super) name: &'static str,
     pub(super) value: String,
-    /// Whether it is usually in the way of printing or further work.
+    /// Whether it usually prevents printing or further work.
     pub(super) is_problem: bool,
 }
 

@@ -12,7 +12,7 @@ use super::row::{is_narrow, written};
 use counts::{Counts, counted};
 use measures::{Finding, measured};
 
-/// What the tab remembers: what was computed, and of which revision of the document.
+/// The state of the tab: the requested image.
 #[derive(Debug, Default)]
 pub(crate) struct InformationState {
     counts: Option<(u64, Counts)>,

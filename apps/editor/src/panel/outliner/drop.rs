@@ -60,7 +60,7 @@ fn dropped(document: &Document, dragged: NodeId, on: NodeId, place: Place, reque
     }
     let scene = document.nodes();
     let (Some(node), Some(target)) = (scene.node(dragged), scene.node(on)) else { return };
-    // Its place among the others, without itself.
+    // Its position among the others, without itself.
     let siblings = siblings(scene, on);
     let mut others = siblings.iter().filter(|&&sibling| sibling != dragged);
     let Some(at) = others.position(|&sibling| sibling == on) else { return };

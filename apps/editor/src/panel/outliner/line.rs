@@ -30,7 +30,7 @@ pub(super) struct Line<'l> {
 }
 
 impl Line<'_> {
-    /// Shows the row and asks for what is done there.
+    /// Shows the row, and requests what is done in it.
     pub(super) fn show(&self, ui: &mut Ui, state: &mut OutlinerState, requests: &mut Vec<Request>) {
         let Self { document, row, node, .. } = *self;
         ui.horizontal(|ui| {
@@ -113,7 +113,7 @@ fn name(ui: &mut Ui, width: f32, document: &Document, id: NodeId, node: &Node) -
     response.inner.accessible_name(shown)
 }
 
-/// The field in place of a name: Enter or a click elsewhere takes it, Escape does not.
+/// The field that replaces a name: Enter or a click elsewhere accepts it, Escape does not.
 fn rename(ui: &mut Ui, width: f32, state: &mut OutlinerState, requests: &mut Vec<Request>) {
     let Some(renaming) = &mut state.renaming else { return };
     let field = egui::TextEdit::singleline(&mut renaming.text).desired_width(width);

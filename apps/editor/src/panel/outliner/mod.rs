@@ -39,7 +39,7 @@ struct Renaming {
 }
 
 impl OutlinerState {
-    /// Opens a field in place of an object's name.
+    /// Opens a field that replaces an object's name.
     pub(crate) fn rename(&mut self, document: &Document, object: NodeId) {
         let Some(node) = document.nodes().node(object) else { return };
         self.renaming = Some(Renaming { object, text: node.name.clone(), is_open: false });

@@ -16,7 +16,7 @@ pub(super) struct Row {
     pub(super) is_folded: bool,
 }
 
-/// All rows, found anew only when something changed.
+/// All rows, recomputed only after a change.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
     rows: Vec<Row>,
@@ -78,7 +78,7 @@ fn found(scene: &Scene, search: &str, folded: &BTreeSet<NodeId>) -> Vec<Row> {
     waiting.reverse();
     while let Some((id, depth)) = waiting.pop() {
         let Some(node) = scene.node(id).filter(|_| is_shown(id)) else { continue };
-        // What is searched for is seen wherever it is.
+        // Search results are shown even in collapsed branches.
         let is_folded = shown.is_none() && folded.contains(&id);
         rows.push(Row { id, depth, has_children: !node.children().is_empty(), is_folded });
         if !is_folded {

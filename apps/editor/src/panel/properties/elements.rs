@@ -23,7 +23,7 @@ pub(super) struct Values {
     edges: u32,
 }
 
-/// Shows it and asks for changes.
+/// Shows it, and requests changes.
 pub(super) fn elements(
     ui: &mut Ui,
     document: &Document,
@@ -84,7 +84,7 @@ fn median(ui: &mut Ui, document: &Document, values: Values, requests: &mut Vec<R
     }
 }
 
-/// How far the same drag has moved them already: its next command takes the place of that move.
+/// How far the same drag has moved them already: its next command replaces that move.
 fn moved_before(ui: &Ui, document: &Document, response: &Response) -> DVec3 {
     match document.history().done().last().map(|entry| entry.command()) {
         Some(Command::Translate(last)) if is_same_drag(ui, response) => DVec3::from(last.offset),

@@ -13,7 +13,7 @@ use crate::request::Request;
 /// What the range is when a limit is switched on, in metres.
 const USUAL_RANGE: f32 = 10.0;
 
-/// Shows it and asks for changes.
+/// Shows it, and requests changes.
 pub(super) fn light(
     ui: &mut Ui,
     document: &Document,

@@ -13,7 +13,7 @@ use trigon_window::egui::{self, CollapsingHeader, Ui};
 use super::row::{row, text};
 use crate::request::Request;
 
-/// What the tab remembers.
+/// The state of the tab: the requested image.
 #[derive(Debug, Default)]
 pub(crate) struct PropertiesState {
     transform: transform::TransformState,

@@ -30,7 +30,7 @@ enum RotationForm {
 /// Two rotations whose quaternions differ by no more than this are the same: roundings of angles.
 const SAME_ROTATION: f64 = 1e-9;
 
-/// Shows them and asks for changes.
+/// Shows them, and requests changes.
 pub(super) fn transform(
     ui: &mut Ui,
     document: &Document,

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 use thiserror::Error;
 use trigon_edit::mesh::math::elementary;
 
-/// What a number stands for, and so which units it may have.
+/// What a number means, and so which units it may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Quantity {
     /// In metres.
@@ -94,7 +94,7 @@ impl<'t> Parser<'t> {
         self.rest = self.rest.trim_start();
     }
 
-    /// Takes a symbol if it comes next.
+    /// Consumes a symbol if it is next.
     fn take(&mut self, symbol: char) -> bool {
         self.skip_space();
         let rest = self.rest.strip_prefix(symbol);

@@ -25,7 +25,7 @@ pub(crate) enum RegionMode {
 pub(crate) enum GestureKind {
     /// Dragged from corner to corner.
     Box,
-    /// Painted with a circle; goes on until it is ended.
+    /// Painted with a circle, until it is ended.
     Circle,
     /// Drawn freely.
     Lasso,
@@ -34,9 +34,9 @@ pub(crate) enum GestureKind {
 /// What an input did.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum GestureState {
-    /// It goes on.
+    /// It continues.
     Running,
-    /// This is to be selected; a circle goes on afterwards.
+    /// Selects this; a circle continues afterwards.
     Selects(Region, RegionMode),
     /// It is over, with what the last region selects, if there is one.
     Ended(Option<(Region, RegionMode)>),
@@ -61,7 +61,7 @@ pub(crate) struct Gesture {
 /// A circle's first radius, and the least and the most, in logical pixels.
 const RADIUS: f64 = 25.0;
 const RADII: [f64; 2] = [1.0, 1000.0];
-/// A lasso notes a place when the pointer went so far, in pixels, and at most so many places.
+/// A lasso records a point each time the pointer has moved this far, in pixels, and at most this many points.
 const LASSO_STEP: f64 = 2.0;
 const LASSO_POINTS: usize = 20_000;
 

@@ -11,7 +11,7 @@ use trigon_window::{Key, Modifiers};
 
 use super::expression::{ExpressionError, Quantity, evaluate};
 
-/// What was typed so far.
+/// The text typed so far.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NumericEntry {
     quantity: Quantity,
@@ -34,7 +34,7 @@ struct Component {
 const MOST_CHARACTERS: usize = 200;
 
 impl NumericEntry {
-    /// Nothing typed yet; `count` components are asked for.
+    /// Nothing typed yet; `count` components are expected.
     pub(crate) fn new(quantity: Quantity, count: usize) -> Self {
         Self { quantity, components: vec![Component::default(); count.max(1)], current: 0, active: false }
     }
@@ -116,7 +116,7 @@ impl NumericEntry {
         }
     }
 
-    /// What was typed so far stays, as the text that it stands for.
+    /// The text typed so far is kept as an expression.
     fn start_expression(&mut self) {
         let component = self.component();
         component.text = component.written();
@@ -148,8 +148,8 @@ impl NumericEntry {
         self.components.iter().map(|component| component.value(self.quantity)).collect()
     }
 
-    /// One value for all components that are asked for; `missing` for those into which nothing was typed.
-    /// `None` where the pointer counts.
+    /// One value for each expected component; `missing` for those without text. `None` if the pointer
+    /// decides.
     ///
     /// # Errors
     /// As [`Self::values`].

@@ -75,7 +75,7 @@ impl TransformTool {
         let place = self.modal.pointer.place();
         let from = std::mem::replace(&mut self.turned_from, place);
         if let Some(center) = view.screen(self.pivot()) {
-            // y points down in images, so this is counter-clockwise as it is seen.
+            // y points down in images, so this is counter-clockwise on the screen.
             let (a, b) = (from - center, place - center);
             let turn = elementary::atan2(b.x * a.y - b.y * a.x, a.dot(b));
             self.turn += turn.to_degrees();

@@ -107,7 +107,7 @@ impl TransformTool {
         self
     }
 
-    /// The place around which things turn and scale.
+    /// The point around which the selection rotates and scales.
     pub(super) fn pivot(&self) -> DVec3 {
         self.settings.pivot.point(&self.selected, self.settings.cursor)
     }
@@ -116,7 +116,7 @@ impl TransformTool {
         self.settings.pivot.center(&self.selected, self.settings.cursor)
     }
 
-    /// Whether parts turn and scale by themselves: in edit mode only, objects do without being told.
+    /// Whether parts rotate and scale individually: in edit mode only; objects always do.
     pub(super) fn individual(&self) -> bool {
         self.settings.pivot == Pivot::Individual && self.selected.is_editing
     }
@@ -131,7 +131,7 @@ impl TransformTool {
         self.settings.snap.is_on != self.modal.inverts_snapping()
     }
 
-    /// The lengths of numbers that are asked for depend on what is free.
+    /// The number of expected values depends on the lock.
     fn renew_numbers(&mut self) {
         let (quantity, free) = match self.kind {
             TransformKind::Translate => (Quantity::Length, 3),
@@ -202,12 +202,12 @@ impl Tool for TransformTool {
         self.modal.status(text.trim_end().to_owned() + keys)
     }
 
-    fn pointer_jumped(&mut self, to: DVec2) {
-        self.modal.pointer.jumped(to);
+    fn modal(&mut self) -> &mut Modal {
+        &mut self.modal
     }
 
     fn marks(&self) -> ToolMarks {
-        /// Lines of locks go so far, in metres: beyond every image.
+        /// The length of the lines of locks, in metres: beyond every image.
         const FAR: f64 = 1e4;
         let (pivot, axes) = (self.pivot(), self.constraint.axes(&self.frames));
         let free = |axis: &Axis| match self.constraint.freedom() {

@@ -166,7 +166,7 @@ const ALSO: [(&str, &[&str]); 3] = [
     ),
 ];
 
-/// What a menu at the pointer offers first, which stands elsewhere in the bar's menus.
+/// The entries that the menu at the pointer lists first; they are in the bar's menus, too.
 pub(crate) fn also_in(menu: &str) -> impl Iterator<Item = &'static Action> {
     let names = ALSO.iter().find(|(name, _)| *name == menu).map_or(&[][..], |(_, names)| names);
     names.iter().filter_map(|name| named(name))
@@ -183,7 +183,7 @@ pub(crate) fn tools() -> impl Iterator<Item = &'static Action> {
 }
 
 impl Action {
-    /// What the editor is asked when it is chosen.
+    /// The request that choosing it sends to the editor.
     pub(crate) fn request(&self) -> Request {
         match self.does {
             Does::Run(json) => {

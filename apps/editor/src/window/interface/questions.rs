@@ -24,7 +24,7 @@ pub(super) fn show(context: &Context, editor: &mut Editor, stage: &mut Stage) {
     }
 }
 
-/// What is being loaded, and a way to end it.
+/// The file that is being loaded, and a handle to cancel it.
 pub(super) fn loading(context: &Context, editor: &mut Editor, stage: &mut Stage) {
     let Some(loading) = &editor.loading else { return };
     let text = loading.text();
@@ -53,7 +53,7 @@ pub(super) fn saving(context: &Context, editor: &mut Editor) {
     }
 }
 
-/// What is asked, and the buttons.
+/// The question, and the buttons.
 fn content(ui: &mut Ui, question: &Question) -> Option<Answer> {
     match question {
         Question::Unsaved(_) => {
@@ -84,7 +84,7 @@ fn content(ui: &mut Ui, question: &Question) -> Option<Answer> {
     }
 }
 
-/// The first has the keyboard, so that Enter presses it and Tab goes on to the others.
+/// The first has the keyboard focus: Enter presses it, and Tab moves on to the others.
 fn buttons(ui: &mut Ui, all: &[(&str, Answer)]) -> Option<Answer> {
     ui.add_space(8.0);
     ui.horizontal(|ui| {

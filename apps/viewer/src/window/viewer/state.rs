@@ -6,7 +6,8 @@ use trigon_scene::RenderSettings;
 use trigon_window::Stage;
 
 use super::{View, Viewer};
-use crate::args::{CommandLine, DECIDED, ExactCamera, PlacedNode, Request, Subject, of_settings, plain};
+use crate::args::{CommandLine, DECIDED, PlacedNode, Request, Subject, of_settings, plain};
+use crate::exact_camera::ExactCamera;
 use crate::failure::Failure;
 use crate::loading;
 use crate::source::Source;

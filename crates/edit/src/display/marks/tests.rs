@@ -1,16 +1,11 @@
 //! What is selected and marked has its colour, under the numbers of the scene's mesh.
 
-use serde_json::{Value, json};
+use serde_json::json;
 use trigon_mesh::primitives;
 use trigon_scene::{Material, Scene};
 
 use super::*;
-use crate::Command;
-
-fn run(document: &mut Document, json: Value) {
-    let command: Command = serde_json::from_value(json.clone()).expect("a command");
-    document.run(command).unwrap_or_else(|error| panic!("{json}: {error}"));
-}
+use crate::tests::commands::run;
 
 /// A grid that is edited with a hole in the numbering of its faces, and a cube that is not edited.
 fn document() -> Document {

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use serde_json::{Value, json};
+use serde_json::json;
 use trigon_mesh::edit::{FaceId, VertexId};
 use trigon_mesh::math::{DVec3, Vec3};
 use trigon_mesh::{Mesh, primitives};
@@ -11,13 +11,9 @@ use trigon_scene::camera::{Camera, Projector, Viewport};
 use trigon_scene::{Frame, Material, Node, Outputs, RenderSettings, Scene, render};
 
 use super::*;
+use crate::tests::commands::run;
 
 const SIZE: Viewport = Viewport { width: 96, height: 72 };
-
-fn run(document: &mut Document, json: Value) {
-    let command: Command = serde_json::from_value(json.clone()).expect("a command");
-    document.run(command).unwrap_or_else(|error| panic!("{json}: {error}"));
-}
 
 /// A document and an image of it.
 struct View {

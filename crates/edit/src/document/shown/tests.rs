@@ -9,7 +9,8 @@ use trigon_scene::{Material, Scene};
 
 use super::super::visible::Sight;
 use super::*;
-use crate::{Command, Document};
+use crate::Document;
+use crate::tests::commands::{command, run};
 
 /// A smooth torus with texture coordinates and colours, and a plain grid.
 fn document() -> Document {
@@ -28,14 +29,6 @@ fn document() -> Document {
     let mut document = Document::new(scene);
     run(&mut document, json!({ "op": "edit_objects", "objects": [0, 1] }));
     document
-}
-
-fn command(json: Value) -> Command {
-    serde_json::from_value(json).expect("a command")
-}
-
-fn run(document: &mut Document, json: Value) {
-    document.run(command(json.clone())).unwrap_or_else(|error| panic!("{json}: {error}"));
 }
 
 /// Commands that change values, marks or elements; null undoes, and true does again.

@@ -1,4 +1,4 @@
-//! Animations: samplers become curves, channels say what they move.
+//! Animations: samplers become curves, and channels name the properties that they change.
 
 use gltf::json::animation::{
     Channel as JsonChannel, Interpolation as JsonInterpolation, Property as JsonProperty,

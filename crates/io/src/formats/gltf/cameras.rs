@@ -1,4 +1,4 @@
-//! Cameras of the file; one that cannot see is left out.
+//! Cameras of the file; invalid ones are left out.
 
 use gltf::json::camera::Type;
 use gltf::json::{Node, Root};

@@ -1,4 +1,4 @@
-//! Buffer views that an extension compresses: what the document says of them.
+//! Buffer views that an extension compresses, as the document describes them.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Extensions: which are read, and what is said about the others.
+//! Extensions: which are read, and the messages about the others.
 
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -1,8 +1,8 @@
-//! The formats that glTF allows for what accessors hold (glTF 2.0
-//! specification, sections 3.7.2, 3.7.3 and 3.11; KHR_mesh_quantization).
+//! The formats that glTF allows for each kind of accessor (glTF 2.0 specification, sections 3.7.2, 3.7.3 and
+//! 3.11; KHR_mesh_quantization).
 //!
-//! Others are read as plain numbers with a warning: other programs refuse
-//! them, or read them differently.
+//! Other formats are read as plain numbers, with a warning: other programs refuse them or read them
+//! differently.
 
 use gltf::json::Root;
 use gltf::json::accessor::{ComponentType, Type};

@@ -1,6 +1,6 @@
 //! EXT_mesh_gpu_instancing: one node that draws its mesh many times.
 //!
-//! The copies become nodes that hang on the file's node and share its mesh.
+//! The copies become children of the file's node and share its mesh.
 
 use gltf::json::Root;
 use gltf::json::accessor::Type;

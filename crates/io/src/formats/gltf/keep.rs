@@ -1,4 +1,4 @@
-//! Keeps what a load comes by of the file itself, where somebody asked for it.
+//! Keeps the parts of the file itself that a load reads, on request.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -10,8 +10,8 @@ use super::images::fetch_image;
 use super::lights::light_index;
 use super::mesh::BuiltMesh;
 use super::nodes::Placed;
-use super::source::{JsonText, MeshOrigin, PrimitiveFaces, SharedBytes, SourceDraft, share};
 use crate::error::Place;
+use crate::gltf_source::{JsonText, MeshOrigin, PrimitiveFaces, SharedBytes, SourceDraft, share};
 use crate::import::Import;
 use crate::warning::Warnings;
 

@@ -1,5 +1,5 @@
-//! The extensions of materials whose parameters are plain numbers, colours and textures. What there
-//! is stands in [`Material::EXTENSION_PARAMETERS`]; here it is found in a document.
+//! Reads the extensions of materials whose parameters are plain numbers, colours and textures.
+//! [`Material::EXTENSION_PARAMETERS`] lists them.
 
 use gltf::json::extensions::material::Material as Extensions;
 use gltf::json::texture;

@@ -3,7 +3,7 @@
 //! `container` (the GLB) → `preview`, `document` (JSON) → `extensions`, `references`,
 //! `hierarchy` (all checks), `contradictions` → `mesh` with `accessor`, `buffers` and `meshopt` →
 //! `materials` with `slots` and `images` → `nodes` with `instances` → `skins`
-//! and `animations`; `source` keeps the file itself for those who ask. Nothing is followed that was not checked, and nothing is
+//! and `animations`; [`gltf_source`](crate::gltf_source) keeps the file itself on request. Everything is checked before it is followed, and nothing is
 //! recursive.
 
 mod accessor;
@@ -36,7 +36,6 @@ mod reader;
 mod references;
 mod skins;
 mod slots;
-mod source;
 mod triangle_hash;
 mod write;
 
@@ -52,14 +51,12 @@ use mesh::{BuiltMesh, Needs};
 use native::Extras;
 use reader::Reader;
 
-pub use source::GltfSource;
-pub(crate) use source::SourceDraft;
 pub(crate) use write::mime_type;
 pub use write::{NativeDocument, NativeFile, encode_glb, write_glb};
 
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::import::Import;
-use crate::options::Stage;
+use crate::options::LoadStage;
 use crate::warning::Warnings;
 
 /// Reads a binary glTF into the scene.
@@ -121,7 +118,7 @@ fn build_meshes(
     let limits = &import.options.limits;
     let mut drawable = false;
     for (done, &index) in used.iter().enumerate() {
-        import.options.report(import.path, Stage::Geometry, done as f32 / used.len() as f32)?;
+        import.options.report(import.path, LoadStage::Geometry, done as f32 / used.len() as f32)?;
         let most = limits.vertices.max(limits.corners);
         let mut accessors = Accessors {
             root,

@@ -1,6 +1,6 @@
-//! What can be said of a document before all of it is understood: its version,
-//! the extensions that its objects have, and whether its indices fit 32 bits: gltf::json
-//! cuts those that do not, and another object would be meant. One pass that keeps nothing else.
+//! What can be said about a document before it is parsed completely: its version, the extensions of its
+//! objects, and whether its indices fit into 32 bits (gltf::json truncates larger ones, which would refer to
+//! another object). It is one pass that stores nothing else.
 
 use std::collections::BTreeSet;
 use std::fmt;

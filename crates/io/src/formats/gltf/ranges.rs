@@ -1,4 +1,4 @@
-//! The ranges that factors of materials have.
+//! The valid ranges of material factors.
 
 /// A number from 0 to 1.
 pub(crate) fn share(value: f32, otherwise: f32) -> f32 {

@@ -1,4 +1,4 @@
-//! From parsed lists to nodes: one for each object or group of the file.
+//! Builds nodes from the parsed lists: one for each object or group of the file.
 
 use std::collections::HashMap;
 use std::ops::Range;

@@ -1,5 +1,5 @@
-//! An OBJ in pieces that can be read side by side: each ends where a logical
-//! line ends, and knows what the file has before it.
+//! Splits an OBJ into pieces that can be read in parallel. Each piece ends at the end of a logical line and
+//! knows how many lines and vertices come before it.
 
 use super::index::Counts;
 use super::lines::{Lines, split_keyword};

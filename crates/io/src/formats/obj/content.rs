@@ -1,4 +1,4 @@
-//! The vertices and elements of an OBJ, in long lists.
+//! The vertices and elements of an OBJ, as long lists.
 
 use trigon_math::{DVec3, Vec2, Vec3};
 

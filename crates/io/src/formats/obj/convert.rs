@@ -1,5 +1,5 @@
-//! What MTL says of a material, as a material of the scene. Colours are taken
-//! as sRGB, as they look in the programs that write them.
+//! Converts MTL materials to materials of the scene. Colours are taken as sRGB, as they look in the programs
+//! that write them.
 
 use std::path::Path;
 

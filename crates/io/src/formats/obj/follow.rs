@@ -1,4 +1,4 @@
-//! What follows along while parts are built.
+//! Progress and cancellation while parts are built.
 
 use crate::error::LoadError;
 

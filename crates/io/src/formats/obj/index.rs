@@ -1,8 +1,7 @@
-//! The corners of a face: indices checked against what the file holds.
+//! The corners of a face, with indices checked against the number of vertices in the file.
 //!
-//! An index counts from 1, or from the end backwards; 0 does not exist. Numbers of
-//! more digits than u64 holds are its largest, so no absurd one wraps around into a
-//! valid one.
+//! Indices count from 1, or backwards from the end; 0 is invalid. A number with more digits than fit into u64
+//! becomes the largest u64, so that it cannot wrap around to a valid one.
 
 use crate::numbers::{MOST_DIGITS, digits, first_word};
 use crate::warning::counted;

@@ -1,4 +1,4 @@
-//! Finding what an OBJ refers to: its libraries and the materials it uses.
+//! Finds what an OBJ refers to: its libraries and the materials that it uses.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;

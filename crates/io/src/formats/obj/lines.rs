@@ -1,7 +1,7 @@
-//! OBJ and MTL text as logical lines: any line ending, continuations joined.
+//! Splits OBJ and MTL text into logical lines: any line ending, continuations joined.
 //!
-//! Works on bytes, so that a stray Latin-1 letter in a comment breaks nothing.
-//! Every line knows its number in the file.
+//! It works on bytes, so a stray Latin-1 letter in a comment does no harm. Every line knows its number in the
+//! file.
 
 use std::borrow::Cow;
 

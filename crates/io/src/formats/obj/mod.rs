@@ -1,17 +1,15 @@
 //! Wavefront OBJ and MTL.
 //!
-//! `lines` → `chunks` (pieces of the text) → `section` (one piece: `index`,
-//! `oddities`) → `parse` (all pieces, in parallel; `record` follows names and
-//! materials through them) → `build` (polygons, one node for each object or group).
-//! Materials come from `mtl` and `convert`, by way of `library`, their images by
-//! way of `textures`. `write` goes the other way.
+//! `lines` → `chunks` (pieces of the text) → `section` (one piece: `index`, `oddities`) → `parse` (all pieces
+//! in parallel; `record` carries names and materials from one to the next) → `build` (polygons, one node for
+//! each object or group). Materials come from `mtl` and `convert` through `library`, their images through
+//! `textures`. `write` is the other direction.
 //!
-//! The `tobj` crate is the oracle of the tests, not the parser: it was that at first,
-//! behind a layer that wrote every line anew, because it stops at the first odd byte
-//! without saying where, takes polylines for polygons, repeats the last texture
-//! coordinate where a corner has none, and shifts vertex colours when some vertices
-//! have none (`tests/import/tobj_crate.rs` has all cases). `docs/architecture.md` compares the
-//! instructions and memory of both.
+//! The tests use the `tobj` crate as an oracle. The first reader was built on it and rewrote every line
+//! before, because it stops at the first invalid byte without saying where, takes polylines for polygons,
+//! repeats the last texture coordinate where a corner has none, and shifts vertex colours when some vertices
+//! have none (`tests/import/tobj_crate.rs` has all cases). `docs/architecture.md` compares the instructions
+//! and memory of both.
 
 mod build;
 mod chunks;
@@ -48,7 +46,7 @@ use self::library::Added;
 use self::record::Record;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
-use crate::options::Stage;
+use crate::options::LoadStage;
 
 pub(crate) use write::write_obj;
 
@@ -65,10 +63,10 @@ pub(crate) fn import_obj(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
         ));
     }
     let follow = |share| {
-        import.options.report(import.path, Stage::Geometry, parse::READ + (1.0 - parse::READ) * share)
+        import.options.report(import.path, LoadStage::Geometry, parse::READ + (1.0 - parse::READ) * share)
     };
     let (parts, offset) = build::build_parts(&parsed, &mut import.warnings, &follow)?;
-    import.options.report(import.path, Stage::Geometry, 1.0)?;
+    import.options.report(import.path, LoadStage::Geometry, 1.0)?;
     let has_colors = !parsed.content.colors.is_empty();
     let record = parsed.record;
     let materials = library::add_materials(import, &record)?;

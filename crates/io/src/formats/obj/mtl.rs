@@ -1,5 +1,4 @@
-//! Material libraries: MTL text to materials of the scene. A malformed statement
-//! is left out, with a warning, and the others stay.
+//! Parses material libraries. A malformed statement is left out with a warning; the others are kept.
 
 use std::path::{Path, PathBuf};
 

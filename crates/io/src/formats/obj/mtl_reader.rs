@@ -1,5 +1,5 @@
-//! The statements of a material library, one by one. Keywords are read in any
-//! case: exporters write `map_kd`, `map_Kd` and `map_KD`.
+//! Reads the statements of a material library one by one. Keywords may be upper or lower case: exporters
+//! write `map_kd`, `map_Kd` and `map_KD`.
 
 use std::ops::RangeInclusive;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! The numbers of an MTL statement, each word accounted for.
+//! The numbers of an MTL statement. Words that are not used cause a warning.
 
 use super::lines::{decode_name, words};
 

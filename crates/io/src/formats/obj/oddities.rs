@@ -1,5 +1,4 @@
-//! What an OBJ has that is left out or changed: counted line by line, and said
-//! once each at the end.
+//! Parts of an OBJ that are left out or changed: counted line by line, and reported once each at the end.
 
 use super::unread::Unknown;
 use crate::error::Place;

@@ -1,9 +1,9 @@
-//! OBJ text to flat lists, piece by piece in parallel.
+//! Parses OBJ text to flat lists, one piece per task in parallel.
 //!
-//! The text is cut at ends of lines. A first look at every piece counts lines and
-//! vertices, so that a second one can read it as if it had read all before:
-//! messages name lines of the file, and every index is checked where it stands.
-//! What comes out depends neither on how the text was cut nor on the threads.
+//! The text is split at ends of lines. A first pass over all pieces counts lines and vertices, so that the
+//! second pass can read each piece as if it had read everything before: messages name lines of the file, and
+//! every index is checked on the spot. The result depends neither on how the text was split nor on the number
+//! of threads.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ use super::oddities::{Oddities, Oddity, Tally};
 use super::record::Record;
 use super::section::{Section, read_section};
 use crate::error::{LoadError, LoadErrorKind, Place};
-use crate::options::{LoadOptions, Stage};
+use crate::options::{LoadOptions, LoadStage};
 use crate::warning::Warnings;
 
 /// How many bytes are a piece: long enough to be worth a task.
@@ -59,7 +59,7 @@ pub(super) fn parse_in_pieces(
 ) -> Result<Parsed, LoadError> {
     let text = plain_bytes(bytes)
         .map_err(|what| LoadError::malformed(path, what, "fetch the real file with `git lfs pull`"))?;
-    options.report(path, Stage::Geometry, 0.0)?;
+    options.report(path, LoadStage::Geometry, 0.0)?;
     let pieces = cut(&text, size);
     let (chunks, total) = number(&pieces, &count_all(path, &pieces, options)?);
     // Above the largest index there is `NONE`, whatever the caller allows.
@@ -89,7 +89,7 @@ fn count_all(path: &Path, pieces: &[&[u8]], options: &LoadOptions<'_>) -> Result
     let mut censuses = Vec::with_capacity(pieces.len());
     for some in pieces.chunks(PIECES_PER_THREAD * rayon::current_num_threads()) {
         let share = COUNTED * censuses.len() as f32 / pieces.len() as f32;
-        let ask = || options.report(path, Stage::Geometry, share);
+        let ask = || options.report(path, LoadStage::Geometry, share);
         censuses.extend(side_by_side(some, ask, |piece| census(piece))?);
     }
     Ok(censuses)
@@ -109,7 +109,7 @@ fn read_all(
     let mut done = 0;
     for some in chunks.chunks(PIECES_PER_THREAD * rayon::current_num_threads()) {
         let share = COUNTED + (READ - COUNTED) * done as f32 / chunks.len() as f32;
-        let ask = || options.report(path, Stage::Geometry, share);
+        let ask = || options.report(path, LoadStage::Geometry, share);
         let sections = side_by_side(some, ask, |chunk| read_section(chunk, total, most_corners))?;
         for (chunk, section) in some.iter().zip(sections) {
             parsed.append(path, chunk, section, most_corners)?;

@@ -1,5 +1,5 @@
-//! What is left out or changed while the mesh is built: counted element by element,
-//! and said once each at the end.
+//! What is left out or changed while the mesh is built: counted element by element, and reported once each at
+//! the end.
 
 use trigon_mesh::Mesh;
 

@@ -1,5 +1,5 @@
-//! Which elements belong together, in which material, and how smooth: the
-//! statements of all pieces in their order.
+//! Which elements belong to which object, material and smoothing group: the statements of all pieces, in
+//! order.
 
 use std::collections::BTreeMap;
 

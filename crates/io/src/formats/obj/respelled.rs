@@ -1,4 +1,4 @@
-//! Files that were found under another spelling of their names.
+//! Files that were found under a different spelling of their names.
 
 use std::path::Path;
 

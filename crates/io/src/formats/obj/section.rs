@@ -1,6 +1,5 @@
-//! One piece of an OBJ, read by itself: what it has of vertices and elements, with
-//! indices of the whole file, and where the statements are that the order of the
-//! pieces gives a meaning to (`o`, `g`, `usemtl`, `s`, `mtllib`).
+//! Reads one piece of an OBJ: its vertices and elements, with indices into the whole file, and the positions
+//! of statements whose meaning depends on the pieces before (`o`, `g`, `usemtl`, `s`, `mtllib`).
 
 use trigon_math::{DVec3, Vec2, Vec3};
 

@@ -1,5 +1,5 @@
-//! Normals for meshes with several smoothing groups: faces are smooth among
-//! those of their own group, and have a crease towards all others.
+//! Normals for meshes with several smoothing groups: faces of the same group are smooth among each other,
+//! with a crease towards all others.
 
 use std::collections::HashMap;
 

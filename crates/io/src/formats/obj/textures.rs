@@ -1,5 +1,5 @@
-//! The textures of MTL materials: found beside the library or the model, put
-//! together where two images make one, and bound to the material.
+//! The textures of MTL materials: found beside the library or the model, combined where one texture needs two
+//! images, and assigned to the material.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,5 @@
-//! What a material asks for as a whole and does not get: said when all of its
-//! statements are known, because none of them says it alone.
+//! Warnings about combinations of statements in a material that are not supported, given once all of them are
+//! known.
 
 use std::path::Path;
 

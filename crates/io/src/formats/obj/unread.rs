@@ -1,5 +1,5 @@
-//! Statements of OBJ that are not read: which of them change the image, and
-//! which are no statements at all. `docs/obj-statements.md` lists them all.
+//! OBJ statements that are not read: which of them change the image, and which words are not statements at
+//! all. `docs/obj-statements.md` lists them all.
 
 use super::oddities::{Oddity, Tally};
 use crate::error::Place;

@@ -1,4 +1,4 @@
-//! The first lines of an OFF: what vertices have, and how many vertices and faces there are.
+//! The first lines of an OFF: the attributes of vertices, and the numbers of vertices and faces.
 
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::import::Import;

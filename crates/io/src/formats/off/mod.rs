@@ -1,8 +1,9 @@
 //! OFF, the object file format of Geomview (University of Minnesota, 1991), as text: with normals (NOFF),
 //! colours (COFF) and texture coordinates (STOFF) of vertices, and colours of faces.
 //!
-//! The crate `off-rs` 2.0 has limits and names lines, but reads neither normals nor texture coordinates,
-//! colours only of the kind that the caller knows before, and no file with a face of two vertices.
+//! The crate `off-rs` 2.0 has limits and names lines in errors, but it reads neither normals nor texture
+//! coordinates, reads colours only of a kind that the caller knows beforehand, and no file with a face of two
+//! vertices.
 
 mod header;
 mod rows;
@@ -16,7 +17,7 @@ use self::header::{Header, REMEDY, read_header};
 use self::rows::Numbers;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
-use crate::options::Stage;
+use crate::options::LoadStage;
 use crate::polygons::{
     Polygons, add_polygons, check_vertices, light_from_srgb, most_corners, too_many_corners,
 };
@@ -30,7 +31,7 @@ const STRIDE: u64 = 1 << 16;
 
 /// Reads an OFF into the scene.
 pub(crate) fn import_off(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Result<(), LoadError> {
-    import.options.report(import.path, Stage::Geometry, 0.0)?;
+    import.options.report(import.path, LoadStage::Geometry, 0.0)?;
     let mut rows = Rows::without_comments(&bytes);
     let header = read_header(import, &mut rows)?;
     check_vertices(import, header.vertices)?;
@@ -62,7 +63,7 @@ impl Reader<'_> {
         }
         let (done, left) = self.rows.progress();
         let share = 0.9 * done as f32 / (done + left).max(1) as f32;
-        import.options.report(import.path, Stage::Geometry, share)
+        import.options.report(import.path, LoadStage::Geometry, share)
     }
 
     fn vertices(&mut self, import: &Import<'_>) -> Result<(), LoadError> {

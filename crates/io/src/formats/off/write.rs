@@ -1,5 +1,5 @@
-//! Scenes as OFF: the vertices and faces of all objects; COFF where vertices have colours, the one kind
-//! beside OFF itself that other programs read.
+//! Scenes as OFF: the vertices and faces of all objects; COFF if vertices have colours, because it is the
+//! only variant beside OFF that other programs read.
 
 use trigon_math::color::linear_to_srgba8;
 

@@ -1,4 +1,4 @@
-//! The header of a PLY: which elements there are, how many, and what each has.
+//! The header of a PLY: its elements, their number, and the properties of each.
 
 use super::scalar::{ByteOrder, Scalar};
 use crate::error::{LoadError, Place};

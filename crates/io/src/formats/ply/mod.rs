@@ -1,13 +1,12 @@
 //! PLY, the Stanford triangle format, as text and in both byte orders (G. Turk, "The PLY Polygon
 //! File Format", 1994).
 //!
-//! `header` (elements and their properties) → `values` (numbers of either encoding, one after the
-//! other) → `vertices`, `faces` (what means something; all else is skipped by its type). `write`
-//! goes the other way.
+//! `header` (elements and their properties) → `values` (numbers of either encoding, one by one) → `vertices`,
+//! `faces` (everything that has a meaning; the rest is skipped by its type). `write` is the other direction.
 //!
-//! Of the crates `ply-rs-bw` 4.0 is the one that is kept (`ply-rs` 0.1 is not). It gives a file up for one
-//! row, also where faces are cut off at its end; it counts rows of binary data as lines, so that an
-//! error names no byte; and it hands over each number through a call by the name of its property.
+//! Of the crates for PLY, `ply-rs-bw` 4.0 is maintained (`ply-rs` 0.1 is not). It rejects a whole file for
+//! one bad row, also if only the last faces are cut off; it counts rows of binary data as lines, so its
+//! errors name no byte; and it delivers each number through a call with the name of its property.
 
 mod faces;
 mod header;
@@ -28,7 +27,7 @@ use self::values::{Binary, Ended, Text, Values};
 use self::vertices::read_vertices;
 use crate::error::LoadError;
 use crate::import::Import;
-use crate::options::Stage;
+use crate::options::LoadStage;
 use crate::polygons::{Polygons, add_polygons};
 
 pub(crate) use write::write_ply;
@@ -40,7 +39,7 @@ pub(crate) fn is_ply(bytes: &[u8]) -> bool {
 
 /// Reads a PLY into the scene.
 pub(crate) fn import_ply(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Result<(), LoadError> {
-    import.options.report(import.path, Stage::Geometry, 0.0)?;
+    import.options.report(import.path, LoadStage::Geometry, 0.0)?;
     let header = read_header(import, &bytes)?;
     let data = &bytes[header.data..];
     let mut polygons = Polygons::default();

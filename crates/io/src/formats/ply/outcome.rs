@@ -1,10 +1,10 @@
-//! How reading an element ends, and what follows along.
+//! How reading an element ends, and its progress and cancellation.
 
 use super::header::Element;
 use super::values::{Ended, Fault, Values};
 use crate::error::{LoadError, LoadErrorKind};
 use crate::import::Import;
-use crate::options::Stage;
+use crate::options::LoadStage;
 use crate::polygons::too_many_corners;
 
 /// An element to its end, or to that of the file.
@@ -18,7 +18,7 @@ pub(super) fn report(import: &Import<'_>, row: u64, values: &impl Values) -> Res
     if row.is_multiple_of(STRIDE) {
         let (done, left) = values.progress();
         let share = 0.9 * done as f32 / (done + left).max(1) as f32;
-        import.options.report(import.path, Stage::Geometry, share)?;
+        import.options.report(import.path, LoadStage::Geometry, share)?;
     }
     Ok(())
 }

@@ -1,5 +1,4 @@
-//! Strips of triangles, one after the other in a list, with −1 between them, as the scans of Stanford
-//! have them.
+//! Triangle strips in one list, separated by −1, as in the Stanford scans.
 
 use super::faces::{INDICES, checked};
 use super::header::{Element, Kind};

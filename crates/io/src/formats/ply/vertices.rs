@@ -1,4 +1,4 @@
-//! The vertices of a PLY: places, normals, colours and texture coordinates.
+//! The vertices of a PLY: positions, normals, colours and texture coordinates.
 
 use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 

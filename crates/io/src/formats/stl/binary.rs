@@ -1,4 +1,4 @@
-//! STL as bytes: a header of 80, the number of triangles, and 50 for each.
+//! Binary STL: a header of 80 bytes, the number of triangles, and 50 bytes for each.
 
 use trigon_math::color::srgb_to_linear;
 use trigon_math::{DVec3, Vec3, Vec4};
@@ -6,7 +6,7 @@ use trigon_math::{DVec3, Vec3, Vec4};
 use super::solid::Solid;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
-use crate::options::Stage;
+use crate::options::LoadStage;
 use crate::polygons::{Polygons, most_corners, too_many_corners};
 
 /// The header and the number of triangles, in bytes.
@@ -43,7 +43,7 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
     let mut colors = Colors::new(&bytes[..HEADER - 4], length);
     for (index, triangle) in triangles.enumerate() {
         if index % STRIDE == 0 {
-            import.options.report(import.path, Stage::Geometry, 0.9 * index as f32 / length as f32)?;
+            import.options.report(import.path, LoadStage::Geometry, 0.9 * index as f32 / length as f32)?;
         }
         let (numbers, rest) = triangle.as_chunks::<4>();
         let number = |at: usize| f64::from(f32::from_le_bytes(numbers[at]));

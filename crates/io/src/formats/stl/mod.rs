@@ -1,12 +1,12 @@
 //! STL, the format of stereolithography (3D Systems, 1988), as text and binary, with the colours that
 //! VisCAM, SolidView and Materialise Magics put into its attribute bytes.
 //!
-//! Many binary files begin with the word "solid", with which text begins: their size tells. Vertices are
-//! corners of single triangles; those whose coordinates have the same bits become one. Normals follow
-//! from the order of the vertices, and those of the file are not read: many files have zeros.
+//! Text files begin with the word "solid", but so do many binary ones: the size of a file decides. Vertices
+//! are corners of single triangles; those with bit-identical coordinates are merged. Normals follow from the
+//! order of the vertices; those in the file are ignored, because many files contain zeros.
 //!
-//! The crate `stl_io` 0.11 goes by the first line alone, drops the attributes, reads the first solid of
-//! several, and refuses a file for one line without saying which.
+//! The crate `stl_io` 0.11 decides by the first line alone, drops the attributes, reads only the first of
+//! several solids, and rejects a file for one line without saying which.
 
 mod binary;
 mod solid;
@@ -17,7 +17,7 @@ use std::borrow::Cow;
 
 use crate::error::LoadError;
 use crate::import::Import;
-use crate::options::Stage;
+use crate::options::LoadStage;
 use crate::polygons::add_polygons;
 
 pub(crate) use write::write_stl;
@@ -44,7 +44,7 @@ fn is_text(bytes: &[u8]) -> bool {
 
 /// Reads an STL into the scene.
 pub(crate) fn import_stl(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Result<(), LoadError> {
-    import.options.report(import.path, Stage::Geometry, 0.0)?;
+    import.options.report(import.path, LoadStage::Geometry, 0.0)?;
     let solids =
         if is_text(&bytes) { text::read(import, &bytes)? } else { vec![binary::read(import, &bytes)?] };
     drop(bytes);

@@ -1,4 +1,4 @@
-//! The triangles of a solid, whose vertices are united.
+//! The triangles of a solid, with merged vertices.
 
 use std::collections::HashMap;
 

@@ -6,7 +6,7 @@ use super::solid::Solid;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
 use crate::numbers::number;
-use crate::options::Stage;
+use crate::options::LoadStage;
 use crate::polygons::{Polygons, check_solids, most_corners, too_many_corners};
 use crate::rows::{Rows, quoted, words};
 
@@ -31,7 +31,11 @@ pub(super) fn read(import: &mut Import<'_>, text: &[u8]) -> Result<Vec<Polygons>
     while let Some(line) = rows.next() {
         if rows.line().is_multiple_of(STRIDE) {
             let (done, left) = rows.progress();
-            import.options.report(import.path, Stage::Geometry, 0.9 * done as f32 / (done + left) as f32)?;
+            import.options.report(
+                import.path,
+                LoadStage::Geometry,
+                0.9 * done as f32 / (done + left) as f32,
+            )?;
         }
         reader.line(import, rows.line(), line)?;
     }

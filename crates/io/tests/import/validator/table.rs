@@ -41,7 +41,7 @@ fn summary(rows: &[Row], report: &Report) -> String {
     let severity = |severity: &str| report.codes.iter().filter(|code| code.severity == severity).count();
     format!(
         "Version {version} of the validator has {errors} errors and {warnings} warnings. Of the {files} files, {refused} \
-         are refused,\n{warned} are drawn with a warning and {silent} without one. Not in the table are its {informations} codes of the severity \
+         are refused,\n{warned} are drawn with a warning and {silent} without one. Not in the table are its {facts} codes of the severity \
          Information and\n{hints} of the severity Hint, which are about correct files.",
         version = report.version,
         errors = severity("Error"),
@@ -50,7 +50,7 @@ fn summary(rows: &[Row], report: &Report) -> String {
         refused = count(|outcome| *outcome == Refused),
         warned = count(|outcome| *outcome == Warned),
         silent = count(|outcome| matches!(outcome, Silent(_))),
-        informations = severity("Information"),
+        facts = severity("Information"),
         hints = severity("Hint"),
     )
 }

@@ -4,7 +4,7 @@
 use crate::simd::SimdLevel;
 use crate::{
     Background, BlendMode, Cancel, Culling, Draw, DrawChange, EdgeFlags, ExecuteSettings, FaceEdges,
-    Fragment, Lines, MarkColors, MarkedPoints, Marks, Outline, Output, Pass, Pipeline, Points, Rasterizer,
+    Fragment, Lines, MarkColors, MarkedPoints, Marks, Output, Pass, Pipeline, Points, Rasterizer, Smoothing,
     Stats, Target, TileSize, VertexOutput,
 };
 use fixedbitset::FixedBitSet;
@@ -305,16 +305,16 @@ impl View {
         let lines = Lines::new(&models[0], segments);
         pass.lines(Lines { object: 9, width: 3.0, ..lines });
         let points: &[u32] = if self.has_lines { &[0, 12, 34, 60] } else { &[] };
-        let (outline, blend_mode) = match self.background {
-            0 => (Outline::AntiAliased, BlendMode::Opaque),
-            _ => (Outline::Sharp, BlendMode::Overlay),
+        let (smoothing, blend_mode) = match self.background {
+            0 => (Smoothing::AntiAliased, BlendMode::Opaque),
+            _ => (Smoothing::Sharp, BlendMode::Overlay),
         };
         let marked = Some(MarkedPoints { set: &models[0].large, size: 7.0 });
         if self.background == 2 && self.has_lines {
             let points = Points::new(&models[0].vertices, &ALL_POINTS, 4.0);
             pass.points(Points { object: 10, blend_mode, marked, ..points });
         } else {
-            let points = Points { outline, blend_mode, marked, ..Points::new(&models[0], points, 4.0) };
+            let points = Points { smoothing, blend_mode, marked, ..Points::new(&models[0], points, 4.0) };
             pass.points(Points { object: 10, ..points });
         }
         if let Some(width) = self.edges {

@@ -124,7 +124,7 @@ impl QuadEdges {
         }
     }
 
-    /// Their steps within a group, each in a vector of its own.
+    /// Their steps within a group, a vector for each.
     #[inline(always)]
     pub(super) fn lanes<S: Simd>(&self, simd: S) -> [I32<S>; EDGES] {
         let (x, y) = (lane_numbers(simd) & 3, lane_numbers(simd) >> 2);

@@ -16,10 +16,10 @@ pub(super) use edges::QuadEdges;
 
 use super::area::GROUPS;
 use super::buffer::VisibilityBuffer;
-use super::counts::Counts;
 use super::rasterizer::TileRasterizer;
 use super::store::store_places_where;
 use super::{DepthPlane, TileArea};
+use crate::counts::Counts;
 use crate::samples::SamplePattern;
 use crate::setup::{Kind, Quad};
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, U32, inlined, lane_numbers, prelude::*};

@@ -9,8 +9,8 @@ use crate::tile::{BEHIND_ALL, DepthPlane};
 use crate::vertex::{ScreenVertex, nearer};
 use crate::viewport::Viewport;
 use crate::{
-    BlendMode, ExecuteSettings, FixedBitSet, Fragment, Lines, MarkedPoints, Outline, Output, Pass, Pipeline,
-    PointShape, Points, Target, TargetImages, VertexOutput,
+    BlendMode, ExecuteSettings, FixedBitSet, Fragment, Lines, MarkedPoints, Output, Pass, Pipeline,
+    PointShape, Points, Smoothing, Target, TargetImages, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -401,13 +401,13 @@ fn marked_points_have_a_size_of_their_own() {
     let set: FixedBitSet = (0..30).filter(|i| i % 3 == 0).collect();
     let all: Vec<u32> = (0..40).collect();
     let (marked, usual): (Vec<u32>, Vec<u32>) = all.iter().partition(|&&i| set.contains(i as usize));
-    for outline in [Outline::Sharp, Outline::AntiAliased] {
+    for smoothing in [Smoothing::Sharp, Smoothing::AntiAliased] {
         let image = |draws: &[Points<'_, Marks>]| {
             let [width, height] = SIZE.map(|side| side as u32);
             let mut target = Target::new(width, height, &[Output::Linear, Output::Depth]).unwrap();
             let mut pass = Pass::new();
             for &Points { points, ids, size, marked, .. } in draws {
-                pass.points(Points { ids, marked, outline, ..Points::new(&marks, points, size) });
+                pass.points(Points { ids, marked, smoothing, ..Points::new(&marks, points, size) });
             }
             Rasterizer::default().draw(&pass, &mut target);
             target.into_images()
@@ -418,7 +418,7 @@ fn marked_points_have_a_size_of_their_own() {
             Points { ids: Some(&usual), ..Points::new(&marks, &usual, 3.0) },
             Points { ids: Some(&marked), ..Points::new(&marks, &marked, 7.0) },
         ];
-        assert!(image(&[together]) == image(&apart), "{outline:?}");
+        assert!(image(&[together]) == image(&apart), "{smoothing:?}");
         assert!(image(&apart) != image(&[Points::new(&marks, &all, 3.0)]), "the mark is seen");
     }
 }

@@ -1,9 +1,8 @@
 //! Environment light: from a sky, or from an image of all directions.
 //!
-//! Stored in two forms, computed once: the diffuse irradiance for each orientation, as nine
-//! coefficients (R. Ramamoorthi and P. Hanrahan, "An Efficient Representation for Irradiance
-//! Environment Maps", 2001), and what mirrors of five roughnesses show (B. Karis, "Real Shading in
-//! Unreal Engine 4", 2013).
+//! Stored in two forms, computed once: the diffuse irradiance for each orientation, as nine coefficients (R.
+//! Ramamoorthi and P. Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001), and the
+//! reflections at five roughnesses (B. Karis, "Real Shading in Unreal Engine 4", 2013).
 
 mod harmonics;
 mod octahedral;
@@ -12,7 +11,7 @@ mod sky;
 
 pub use sky::Sky;
 
-use super::work::{Work, note};
+use crate::work::{Work, note};
 use std::sync::Arc;
 
 use harmonics::Harmonics;

@@ -1,5 +1,5 @@
-//! What mirrors of several roughnesses show: the light of all directions, weighted by GGX's
-//! distribution around each, as if seen head-on.
+//! Reflections at several roughnesses: the light of all directions, weighted by the GGX distribution around
+//! each, as if seen head-on.
 
 use rayon::prelude::*;
 use trigon_math::Vec3;

@@ -1,4 +1,4 @@
-//! Frames without one of their effects: shows what the effect adds, and what it costs.
+//! Frames without one of their effects, to see what the effect adds and what it costs.
 
 use trigon_math::Vec3;
 

@@ -19,7 +19,7 @@ use super::{MetalReflection, Mist, Shadows};
 use crate::background::Background;
 use crate::display::Display;
 use crate::effect::Effect;
-use crate::render::Stage;
+use crate::render::PreparedScene;
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, ShadingModel, Style};
 use survey::{Survey, has_ambient};
@@ -44,12 +44,12 @@ impl EffectPlan {
     /// Examines the scene and what the camera can see of it.
     #[must_use]
     pub fn new(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Self {
-        Self::of_stage(&Stage::new(scene, camera, settings))
+        Self::of_prepared(&PreparedScene::new(scene, camera, settings))
     }
 
-    pub(crate) fn of_stage(stage: &Stage<'_>) -> Self {
-        let survey = Survey::new(stage);
-        Self { decisions: Effect::ALL.iter().map(|&effect| decide(effect, stage, &survey)).collect() }
+    pub(crate) fn of_prepared(prepared: &PreparedScene<'_>) -> Self {
+        let survey = Survey::new(prepared);
+        Self { decisions: Effect::ALL.iter().map(|&effect| decide(effect, prepared, &survey)).collect() }
     }
 
     /// Whether an effect is on, and why.
@@ -77,37 +77,37 @@ impl fmt::Display for EffectPlan {
     }
 }
 
-fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
+fn decide(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> Decision {
     let outcome = match effect {
-        _ if !stage.settings.outputs.of_light() && !shapes(effect) => Err(Absence::NoColor),
-        _ if let Some(absence) = not_displayed(effect, stage.settings) => Err(absence),
-        Effect::Lamps => lamps(stage, survey),
-        Effect::AmbientLight => ambient_light(stage, survey),
-        Effect::Environment => environment(stage, survey),
-        Effect::MetalSky => metal_sky(stage, survey),
+        _ if !prepared.settings.outputs.of_light() && !shapes(effect) => Err(Absence::NoColor),
+        _ if let Some(absence) = not_displayed(effect, prepared.settings) => Err(absence),
+        Effect::Lamps => lamps(prepared, survey),
+        Effect::AmbientLight => ambient_light(prepared, survey),
+        Effect::Environment => environment(prepared, survey),
+        Effect::MetalSky => metal_sky(prepared, survey),
         Effect::ShadowMaps => {
-            shadows(matches!(stage.settings.effects.shadows, Shadows::Maps { .. }), stage, survey)
+            shadows(matches!(prepared.settings.effects.shadows, Shadows::Maps { .. }), prepared, survey)
         }
-        Effect::ShadowRays => shadows(stage.settings.effects.shadows == Shadows::Rays, stage, survey),
-        Effect::AmbientOcclusion => ambient_occlusion(stage, survey),
-        Effect::Fog => asked(stage.settings.effects.fog.as_ref().and_then(Mist::new).is_some()),
-        Effect::ToneMapping => asked(stage.settings.effects.maps_tones()),
+        Effect::ShadowRays => shadows(prepared.settings.effects.shadows == Shadows::Rays, prepared, survey),
+        Effect::AmbientOcclusion => ambient_occlusion(prepared, survey),
+        Effect::Fog => asked(prepared.settings.effects.fog.as_ref().and_then(Mist::new).is_some()),
+        Effect::ToneMapping => asked(prepared.settings.effects.maps_tones()),
         Effect::Outline => {
-            asked(stage.settings.effects.outline.as_ref().is_some_and(|outline| !outline.nodes.is_empty()))
+            asked(prepared.settings.effects.outline.as_ref().is_some_and(|outline| !outline.nodes.is_empty()))
         }
-        Effect::Edges => asked(stage.settings.style != Style::Surface),
-        Effect::Reflection | Effect::Refraction if stage.settings.effects.bounces == 0 => {
+        Effect::Edges => asked(prepared.settings.style != Style::Surface),
+        Effect::Reflection | Effect::Refraction if prepared.settings.effects.bounces == 0 => {
             Err(Absence::NotAsked)
         }
-        Effect::OcclusionMaps => occlusion_maps(stage, survey),
-        Effect::NormalMaps | Effect::Reflection | Effect::Refraction => of_pixels(effect, stage, survey),
+        Effect::OcclusionMaps => occlusion_maps(prepared, survey),
+        Effect::NormalMaps | Effect::Reflection | Effect::Refraction => of_pixels(effect, prepared, survey),
         Effect::Highlights
         | Effect::Textures
         | Effect::Emission
         | Effect::VertexColors
         | Effect::Masks
         | Effect::Transparency
-        | Effect::Poses => of_objects(effect, stage, survey),
+        | Effect::Poses => of_objects(effect, prepared, survey),
     };
     match outcome {
         Ok(cause) => Decision::On(cause),
@@ -161,17 +161,17 @@ fn asked(asked: bool) -> Outcome {
 }
 
 /// Whether light is evaluated at all.
-fn check_lit(stage: &Stage<'_>, survey: &Survey) -> Result<(), Absence> {
-    match stage.settings.style {
+fn check_lit(prepared: &PreparedScene<'_>, survey: &Survey) -> Result<(), Absence> {
+    match prepared.settings.style {
         Style::Wireframe | Style::HiddenLine => Err(Absence::NoFaces),
         Style::Surface | Style::SurfaceWithEdges if survey.lit == 0 => Err(Absence::NothingLit),
         Style::Surface | Style::SurfaceWithEdges => Ok(()),
     }
 }
 
-fn lamps(stage: &Stage<'_>, survey: &Survey) -> Outcome {
-    check_lit(stage, survey)?;
-    let lamps = &stage.lights.lamps;
+fn lamps(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    check_lit(prepared, survey)?;
+    let lamps = &prepared.lights.lamps;
     match (lamps.len(), lamps.first().and_then(|lamp| lamp.node)) {
         (0, _) => Err(Absence::Nowhere),
         (_, None) => Ok(Cause::Studio),
@@ -179,70 +179,70 @@ fn lamps(stage: &Stage<'_>, survey: &Survey) -> Outcome {
     }
 }
 
-fn ambient_light(stage: &Stage<'_>, survey: &Survey) -> Outcome {
-    check_lit(stage, survey)?;
-    if stage.settings.effects.environment.is_some() {
+fn ambient_light(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    check_lit(prepared, survey)?;
+    if prepared.settings.effects.environment.is_some() {
         return Err(Absence::Environment);
     }
-    match (stage.lights.ambient == Vec3::ZERO, stage.lights.own_ambient) {
+    match (prepared.lights.ambient == Vec3::ZERO, prepared.lights.own_ambient) {
         (true, _) => Err(Absence::Nowhere),
         (false, 0) => Ok(Cause::Studio),
         (false, count) => Ok(Cause::Lights(count)),
     }
 }
 
-fn environment(stage: &Stage<'_>, survey: &Survey) -> Outcome {
-    if stage.settings.effects.environment.is_none() {
+fn environment(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    if prepared.settings.effects.environment.is_none() {
         return Err(Absence::NotAsked);
     }
-    if stage.settings.background == Background::Environment {
+    if prepared.settings.background == Background::Environment {
         return Ok(Cause::Background);
     }
-    check_lit(stage, survey)?;
+    check_lit(prepared, survey)?;
     Ok(Cause::Asked)
 }
 
-fn metal_sky(stage: &Stage<'_>, survey: &Survey) -> Outcome {
-    match stage.settings.effects.metal_reflection {
+fn metal_sky(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    match prepared.settings.effects.metal_reflection {
         MetalReflection::Ambient => return Err(Absence::NotAsked),
         MetalReflection::Sky => {}
     }
-    check_lit(stage, survey)?;
+    check_lit(prepared, survey)?;
     let [metals, _] = survey.of(Effect::MetalSky);
     if metals.count == 0 {
         return Err(Absence::NoMetal);
     }
-    if stage.settings.effects.environment.is_some() {
+    if prepared.settings.effects.environment.is_some() {
         return Err(Absence::Environment);
     }
-    match (stage.lights.ambient == Vec3::ZERO, stage.lights.own_ambient) {
+    match (prepared.lights.ambient == Vec3::ZERO, prepared.lights.own_ambient) {
         (true, _) => Err(Absence::NoAmbientLight),
         (false, 0) => Ok(Cause::Metals(metals.clone())),
         (false, _) => Err(Absence::OwnAmbientLight),
     }
 }
 
-fn shadows(asked: bool, stage: &Stage<'_>, survey: &Survey) -> Outcome {
+fn shadows(asked: bool, prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     if !asked {
         return Err(Absence::NotAsked);
     }
-    check_lit(stage, survey)?;
-    match (stage.lights.lamps.len(), survey.casters) {
+    check_lit(prepared, survey)?;
+    match (prepared.lights.lamps.len(), survey.casters) {
         (0, _) => Err(Absence::NoLamp),
         (_, 0) => Err(Absence::NoCaster),
         (lamps, casters) => Ok(Cause::Shadows { lamps, casters }),
     }
 }
 
-fn ambient_occlusion(stage: &Stage<'_>, survey: &Survey) -> Outcome {
-    if stage.settings.effects.ambient_occlusion.is_none() {
+fn ambient_occlusion(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    if prepared.settings.effects.ambient_occlusion.is_none() {
         return Err(Absence::NotAsked);
     }
-    check_lit(stage, survey)?;
-    if stage.settings.shading != ShadingModel::Phong {
+    check_lit(prepared, survey)?;
+    if prepared.settings.shading != ShadingModel::Phong {
         return Err(Absence::ShadingModel);
     }
-    match (has_ambient(stage), survey.casters) {
+    match (has_ambient(prepared), survey.casters) {
         (false, _) => Err(Absence::NoAmbientLight),
         (true, 0) => Err(Absence::NoCaster),
         (true, _) => Ok(Cause::Asked),
@@ -250,23 +250,23 @@ fn ambient_occlusion(stage: &Stage<'_>, survey: &Survey) -> Outcome {
 }
 
 /// Occlusion maps dim ambient light alone.
-fn occlusion_maps(stage: &Stage<'_>, survey: &Survey) -> Outcome {
-    let cause = of_pixels(Effect::OcclusionMaps, stage, survey)?;
-    if has_ambient(stage) { Ok(cause) } else { Err(Absence::NoAmbientLight) }
+fn occlusion_maps(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    let cause = of_pixels(Effect::OcclusionMaps, prepared, survey)?;
+    if has_ambient(prepared) { Ok(cause) } else { Err(Absence::NoAmbientLight) }
 }
 
 /// Effects of objects that require per-pixel lighting.
-fn of_pixels(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Outcome {
-    let cause = of_objects(effect, stage, survey)?;
-    match stage.settings.shading {
+fn of_pixels(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    let cause = of_objects(effect, prepared, survey)?;
+    match prepared.settings.shading {
         ShadingModel::Flat | ShadingModel::Gouraud => Err(Absence::ShadingModel),
         ShadingModel::Phong => Ok(cause),
     }
 }
 
-fn of_objects(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Outcome {
+fn of_objects(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     let [in_view, elsewhere] = survey.of(effect);
-    let faces = matches!(stage.settings.style, Style::Surface | Style::SurfaceWithEdges);
+    let faces = matches!(prepared.settings.style, Style::Surface | Style::SurfaceWithEdges);
     match (in_view.count, elsewhere.count) {
         (0, 0) => Err(Absence::Nowhere),
         (0, _) => Err(Absence::OutOfView(elsewhere.clone())),

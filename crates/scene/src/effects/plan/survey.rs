@@ -6,7 +6,7 @@ use super::Named;
 use crate::effect::Effect;
 use crate::effects::Optics;
 use crate::material::{AlphaMode, DrawnIf, Material, MaterialTexture, Shading};
-use crate::render::{Shape, Stage};
+use crate::render::{PreparedScene, Shape};
 use crate::settings::ShadingModel;
 
 /// What a scene contains, and what of it the camera can see.
@@ -21,20 +21,20 @@ pub(super) struct Survey {
 }
 
 impl Survey {
-    pub(super) fn new(stage: &Stage<'_>) -> Self {
+    pub(super) fn new(prepared: &PreparedScene<'_>) -> Self {
         let mut survey = Self::default();
-        for (id, node) in stage.scene.nodes().iter() {
-            let Some(shape) = stage.shapes.get(id.index()) else { continue };
-            let seen = stage.may_show(shape);
+        for (id, node) in prepared.scene.nodes().iter() {
+            let Some(shape) = prepared.shapes.get(id.index()) else { continue };
+            let seen = prepared.may_show(shape);
             let name = if node.name.is_empty() { "an unnamed object" } else { &node.name };
             let default = Material::default();
             let materials = shape.geometry.runs.iter().map(|run| {
                 let id = node.materials.get(run.slot as usize);
-                id.and_then(|&id| stage.scene.materials.get(id)).unwrap_or(&default)
+                id.and_then(|&id| prepared.scene.materials.get(id)).unwrap_or(&default)
             });
             let materials: Vec<&Material> = materials.collect();
             for effect in Effect::ALL {
-                if materials.iter().any(|material| has(effect, material, shape, stage)) {
+                if materials.iter().any(|material| has(effect, material, shape, prepared)) {
                     survey.found[effect as usize][usize::from(!seen)].add(name);
                 }
             }
@@ -53,17 +53,17 @@ impl Survey {
 }
 
 /// Whether a material on a mesh needs an effect.
-fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) -> bool {
+fn has(effect: Effect, material: &Material, shape: &Shape, prepared: &PreparedScene<'_>) -> bool {
     let lit = material.shading != Shading::Unlit;
     match effect {
         Effect::Highlights => {
-            let shading = stage.settings.reflection.of(material);
+            let shading = prepared.settings.reflection.of(material);
             !matches!(shading, Shading::Unlit | Shading::Lambert)
         }
         Effect::Textures => {
-            let shading = stage.settings.reflection.of(material);
+            let shading = prepared.settings.reflection.of(material);
             let material = Material { shading, ..material.clone() };
-            material.textures().any(|(place, _)| is_drawn(place, &material, stage))
+            material.textures().any(|(place, _)| is_drawn(place, &material, prepared))
         }
         Effect::NormalMaps => lit && material.normal_map.is_some(),
         Effect::OcclusionMaps => lit && (MaterialTexture::Occlusion.row().matters)(material),
@@ -72,7 +72,7 @@ fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) ->
         Effect::Masks => matches!(material.alpha_mode, AlphaMode::Mask { .. }),
         Effect::Transparency => material.alpha_mode == AlphaMode::Blend,
         Effect::Poses => shape.is_posed,
-        Effect::MetalSky => is_metal(material, stage),
+        Effect::MetalSky => is_metal(material, prepared),
         Effect::Reflection => is_traced(material, false),
         Effect::Refraction => is_traced(material, true),
         // Those that depend on lights and settings, not on materials.
@@ -90,26 +90,26 @@ fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) ->
 }
 
 /// Whether a texture of a material has an effect on what it shows.
-fn is_drawn(place: MaterialTexture, material: &Material, stage: &Stage<'_>) -> bool {
-    let settings = stage.settings;
+fn is_drawn(place: MaterialTexture, material: &Material, prepared: &PreparedScene<'_>) -> bool {
+    let settings = prepared.settings;
     let in_pixels = material.shading != Shading::Unlit && settings.shading == ShadingModel::Phong;
     let has_what_it_needs = match place.row().drawn_if {
         DrawnIf::Always => true,
         DrawnIf::LightInPixels | DrawnIf::TangentsInPixels => in_pixels,
-        DrawnIf::AmbientLightInPixels => in_pixels && has_ambient(stage),
+        DrawnIf::AmbientLightInPixels => in_pixels && has_ambient(prepared),
         DrawnIf::Refracting => in_pixels && settings.effects.bounces > 0 && is_traced(material, true),
     };
     has_what_it_needs && material.texture(place).is_some() && (place.row().matters)(material)
 }
 
 /// Whether light comes from everywhere.
-pub(super) fn has_ambient(stage: &Stage<'_>) -> bool {
-    stage.settings.effects.environment.is_some() || stage.lights.ambient != Vec3::ZERO
+pub(super) fn has_ambient(prepared: &PreparedScene<'_>) -> bool {
+    prepared.settings.effects.environment.is_some() || prepared.lights.ambient != Vec3::ZERO
 }
 
 /// Whether a material may be metallic somewhere: textures are not searched.
-fn is_metal(material: &Material, stage: &Stage<'_>) -> bool {
-    match stage.settings.reflection.of(material) {
+fn is_metal(material: &Material, prepared: &PreparedScene<'_>) -> bool {
+    match prepared.settings.reflection.of(material) {
         Shading::Unlit | Shading::Lambert | Shading::BlinnPhong { .. } => false,
         Shading::MetallicRoughness(model) => model.metallic > 0.0,
     }

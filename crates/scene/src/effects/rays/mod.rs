@@ -10,7 +10,7 @@ pub(crate) use cache::RayCache;
 pub(crate) use occlusion::AmbientRays;
 pub(crate) use surface_hit::Optics;
 
-use super::work::{Work, note};
+use crate::work::{Work, note};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 

@@ -5,7 +5,7 @@
 //! the cosine weights), rotated about the normal by one of 16 angles selected by the pixel's
 //! position in a square of four by four: neighbours differ, and the image is reproducible.
 
-use crate::effects::work::{Work, note};
+use crate::work::{Work, note};
 use std::sync::atomic::Ordering;
 
 use trigon_math::{Ray, Vec2, Vec3, elementary};

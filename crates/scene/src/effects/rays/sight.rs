@@ -1,9 +1,9 @@
 //! Sight rays: reflections and refractions (T. Whitted, "An Improved Illumination Model for Shaded
 //! Display", 1980).
 //!
-//! Eight rays are traced together. A ray ends at a surface that is neither mirror nor glass, which
-//! shows its diffuse colour in the light of the scene, including shadows. At glass it follows the
-//! refraction; reflections there come only from the environment.
+//! Eight rays are traced together. A ray ends at a surface that is neither mirror nor glass and takes its
+//! diffuse colour in the light of the scene, shadows included. At glass it follows the refraction;
+//! reflections there come from the environment alone.
 
 use std::sync::atomic::Ordering;
 

@@ -7,8 +7,8 @@ use trigon_math::{Mat3, RayHit, Vec2, Vec3};
 use trigon_raster::Texture;
 
 use crate::effects::casters::{Caster, Casters};
+use crate::geometry::Geometry;
 use crate::material::{Material, Shading, TextureBinding};
-use crate::render::Geometry;
 use crate::render::placement::normal_matrix;
 use crate::scene::Scene;
 

@@ -1,6 +1,6 @@
 //! Draws a shadow map: depth only.
 
-use crate::effects::work::{Work, note};
+use crate::work::{Work, note};
 use trigon_math::Mat3;
 use trigon_raster::{Culling, Draw, Pass, Rasterizer, Target, TargetError};
 

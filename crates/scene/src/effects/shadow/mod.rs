@@ -21,7 +21,7 @@ mod fit;
 
 pub(crate) use cache::ShadowCache;
 
-use super::work::{Work, note};
+use crate::work::{Work, note};
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::sync::Arc;
 

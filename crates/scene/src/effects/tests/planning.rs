@@ -1,8 +1,8 @@
 //! Plans, and what is off.
 
 use crate::effect::Effect;
-use crate::effects::work::{Work, done};
 use crate::material::MaterialTexture;
+use crate::work::{Work, done};
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_mesh::{Deltas, Mesh, MorphTarget};

@@ -8,7 +8,8 @@ use trigon_mesh::{Mesh, MeshBuilder, primitives};
 use super::super::Region;
 use crate::{Material, Scene, Transform};
 
-/// Numbers at random, the same on every machine (G. Marsaglia, "Xorshift RNGs", 2003).
+/// G. Marsaglia, "Xorshift RNGs", 2003. It is not `trigon_math::SplitMix64`, because the oracle of these tests shares nothing with
+/// the engine.
 pub(super) struct Random(pub(super) u64);
 
 impl Random {

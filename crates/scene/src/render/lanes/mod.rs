@@ -1,7 +1,6 @@
-//! Vectors of space and elementary functions for eight points at once.
+//! Vectors and elementary functions for eight points at once, one in each lane.
 //!
-//! Each lane is computed by itself, by operations that round the same on every
-//! machine.
+//! Each lane is independent of the others, and every operation rounds the same way on every machine.
 
 mod power;
 
@@ -43,7 +42,7 @@ pub(crate) fn scaled<S: Simd>([a, b, c]: V3<S>, factor: F32<S>) -> V3<S> {
     [a * factor, b * factor, c * factor]
 }
 
-/// A colour in all lanes, as bright as the lanes say.
+/// A colour scaled by the value in each lane.
 #[inline(always)]
 pub(crate) fn tinted<S: Simd>(factor: F32<S>, color: Vec3) -> V3<S> {
     [factor * color.x, factor * color.y, factor * color.z]
@@ -70,13 +69,13 @@ pub(crate) fn select<S: Simd>(mask: trigon_raster::simd::Mask<S>, a: V3<S>, b: V
     [mask.select(a[0], b[0]), mask.select(a[1], b[1]), mask.select(a[2], b[2])]
 }
 
-/// Unit vectors; zero where there is no direction.
+/// Unit vectors; zero for vectors without a direction.
 #[inline(always)]
 pub(crate) fn normalized<S: Simd>(vector: V3<S>) -> V3<S> {
     scaled(vector, inverse_root(dot(vector, vector)))
 }
 
-/// One over the square root; 0 where that is no positive number.
+/// One over the square root; 0 unless that is a positive number.
 #[inline(always)]
 pub(crate) fn inverse_root<S: Simd>(square: F32<S>) -> F32<S> {
     let simd = square.token();
@@ -85,13 +84,13 @@ pub(crate) fn inverse_root<S: Simd>(square: F32<S>) -> F32<S> {
     exists.select(inverse, F32::splat(simd, 0.0))
 }
 
-/// 0 where the value is negative or no number.
+/// The value, or 0 if it is negative or NaN.
 #[inline(always)]
 pub(crate) fn positive<S: Simd>(value: F32<S>) -> F32<S> {
     greater(value, F32::splat(value.token(), 0.0))
 }
 
-/// Held to 0…1; 0 where it is no number.
+/// Clamped to 0…1; 0 for NaN.
 #[inline(always)]
 pub(crate) fn saturated<S: Simd>(value: F32<S>) -> F32<S> {
     lesser(positive(value), F32::splat(value.token(), 1.0))
@@ -143,15 +142,14 @@ pub(crate) fn fifth_power<S: Simd>(value: F32<S>) -> F32<S> {
     square * square * value
 }
 
-/// Held to at most a bound.
+/// Clamped to a maximum.
 #[inline(always)]
 pub(crate) fn lesser_of<S: Simd>(value: F32<S>, bound: f32) -> F32<S> {
     lesser(value, F32::splat(value.token(), bound))
 }
 
-/// Where values from 0 to 1 lie in a table of `count` entries in equal steps: the entry
-/// before each, and the share of the way to the next one. The last entry is the far end
-/// of the last step.
+/// Positions of values from 0 to 1 in a table of `count` entries in equal steps: the index of the entry
+/// before each, and the fraction of the way to the next. The last entry is the end of the last step.
 #[inline(always)]
 pub(crate) fn table_step<S: Simd>(value: F32<S>, count: usize) -> ([i32; LANES], F32<S>) {
     let place = saturated(value) * (count - 1) as f32;

@@ -1,13 +1,12 @@
-//! Powers in lanes: logarithm and exponential to base 2 by polynomials of the
-//! mantissa, which need neither a table nor the machine's own functions.
+//! Powers in lanes: base-2 logarithm and exponential, by polynomials of the mantissa. They need neither a
+//! table nor the machine's own functions.
 //!
-//! The logarithm is the series of the area tangent, whose relative error stays
-//! small near 1: there a power with a large exponent has its highlights.
+//! The logarithm is computed from the series of the inverse hyperbolic tangent, whose relative error stays
+//! small near 1, where powers with large exponents have their highlights.
 
 use trigon_raster::simd::{F32, I32, Simd, greater, lesser, prelude::*};
 
-/// 2 to the power of `exponent`, within 3 units of the last place; held to
-/// normal numbers: 2⁻¹²⁶ to 2¹²⁷.
+/// 2 to the power of `exponent`, within 3 units of the last place; clamped to normal numbers: 2⁻¹²⁶ to 2¹²⁷.
 #[inline(always)]
 pub(crate) fn exp2<S: Simd>(exponent: F32<S>) -> F32<S> {
     let simd = exponent.token();
@@ -28,7 +27,7 @@ pub(crate) fn exp2<S: Simd>(exponent: F32<S>) -> F32<S> {
 /// The logarithm to base 2 of a positive normal number.
 #[inline(always)]
 fn log2<S: Simd>(value: F32<S>) -> F32<S> {
-    /// The bits of the root of one half: mantissas are taken from there to its double.
+    /// The bits of √½: mantissas are normalized to the range from there to its double.
     const ROOT_OF_HALF: i32 = 0x3f35_04f3;
     let bits: I32<S> = value.bitcast();
     let exponent = (bits - ROOT_OF_HALF) >> 23;

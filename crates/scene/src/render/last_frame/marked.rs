@@ -1,4 +1,4 @@
-//! Which primitives have other marks than in the last image.
+//! Finds the primitives whose marks differ from those of the last image.
 
 use std::sync::Arc;
 
@@ -24,14 +24,14 @@ impl MarkPalette {
     }
 }
 
-/// The marks that a draw's primitives had.
+/// The marks of a draw's primitives.
 #[derive(PartialEq)]
 pub(super) enum MarkOrigin {
     Faces(Option<Arc<MarkNumbers>>),
     Wires { numbers: Arc<Vec<u8>>, points: Option<Arc<Vec<u32>>>, large: Option<Arc<FixedBitSet>> },
 }
 
-/// Primitives whose marks are others; increasing.
+/// Primitives whose marks have changed; increasing.
 #[derive(Default)]
 pub(super) struct MarkedPrimitives {
     pub(super) recolored: Vec<u32>,
@@ -48,8 +48,7 @@ impl MarkOrigin {
         }
     }
 
-    /// The primitives of a draw whose marks are not what they were; `None` if that is not
-    /// known.
+    /// The primitives of a draw whose marks have changed; `None` if that is unknown.
     pub(super) fn difference(&self, now: &Self, source: &Source<'_>) -> Option<MarkedPrimitives> {
         match (self, now) {
             (Self::Faces(before), Self::Faces(now)) => {
@@ -68,14 +67,14 @@ impl MarkOrigin {
     }
 }
 
-/// Where two sets differ.
+/// The elements in which two sets differ.
 fn differing_bits(before: Option<&FixedBitSet>, now: Option<&FixedBitSet>) -> Vec<u32> {
     let none = FixedBitSet::new();
     let [before, now] = [before, now].map(|set| set.unwrap_or(&none));
     before.symmetric_difference(now).map(|bit| bit as u32).collect()
 }
 
-/// The triangles of a draw whose faces, or sides, have other marks.
+/// The triangles of a draw whose faces or sides have changed marks.
 fn triangles(marks: [Option<&MarkNumbers>; 2], source: &Source<'_>) -> Option<Vec<u32>> {
     let numbers = |of: fn(&MarkNumbers) -> &Vec<u8>| {
         let [before, now] = marks.map(|marks| marks.map_or(&[][..], |marks| of(marks)));
@@ -123,7 +122,7 @@ impl Elements {
     }
 }
 
-/// Where two lists of marks differ; beyond their ends there are none.
+/// The positions at which two lists of marks differ; missing entries have no marks.
 fn differing(before: &[u8], now: &[u8]) -> Vec<u32> {
     /// Marks that are compared together.
     const BLOCK: usize = 256;

@@ -12,26 +12,26 @@ use trigon_raster::simd::{F32, Simd, greater, prelude::*};
 use super::reflectance::reflectance;
 use crate::render::lanes::{V3, fifth_power, mix, positive, saturated};
 
-/// What a microfacet surface is like at eight points.
+/// The parameters of a microfacet surface at eight points.
 #[derive(Clone, Copy)]
 pub(crate) struct Microfacets<S: Simd> {
-    /// Reflected head-on, linear RGB.
+    /// The reflectance at normal incidence (F0), linear RGB.
     pub(crate) f0: V3<S>,
-    /// Reflected at grazing angles.
+    /// The reflectance at grazing angles (F90).
     pub(crate) grazing: F32<S>,
     /// Perceptual roughness, 0…1.
     pub(crate) roughness: F32<S>,
-    /// How far it is a metal, 0…1: what it mirrors depends on that.
+    /// Metalness, 0…1; reflections of the environment depend on it.
     pub(crate) metallic: F32<S>,
 }
 
-/// The least α (the square of the roughness) that lamps see: a lamp without
-/// size would leave no highlight at all on a perfect mirror.
+/// The smallest α (the square of the roughness) for lamps: because a lamp has no size, a perfect mirror would
+/// show no highlight at all.
 const ALPHA_LEAST: f32 = 1e-3;
 
 impl<S: Simd> Microfacets<S> {
-    /// The part of the light that is reflected without entering, where `cosine`
-    /// is that between the light and the microfacets that mirror it.
+    /// The fraction of light that is reflected at the surface (Fresnel). `cosine` is that of the angle
+    /// between the light and the half vector.
     #[inline(always)]
     pub(crate) fn fresnel(&self, cosine: F32<S>) -> V3<S> {
         let grazing = fifth_power(1.0 - saturated(cosine));
@@ -39,8 +39,7 @@ impl<S: Simd> Microfacets<S> {
         [mix(r, self.grazing, grazing), mix(g, self.grazing, grazing), mix(b, self.grazing, grazing)]
     }
 
-    /// π · D · V: the highlight without Fresnel's law and without N·L. All
-    /// cosines are above 0.
+    /// π · D · V: the highlight without the Fresnel term and without N·L. All cosines are above 0.
     #[inline(always)]
     pub(crate) fn highlight(&self, [n_dot_l, n_dot_v, n_dot_h]: [F32<S>; 3]) -> F32<S> {
         let alpha = self.roughness * self.roughness;
@@ -54,14 +53,12 @@ impl<S: Simd> Microfacets<S> {
         distribution * 0.5 / (towards_view + towards_light)
     }
 
-    /// How a surface answers light that is the same all around: shares of what is
-    /// mirrored, RGB, single and repeated reflection together, and of what is left
-    /// for the diffuse part.
+    /// The reflection of uniform light: the fractions that are reflected specularly (RGB, single and multiple
+    /// scattering together) and what remains for the diffuse part.
     ///
-    /// The single reflection comes from a table, the repeated one is that of C.
-    /// Fdez-Agüera ("A Multiple-
-    /// Scattering Microfacet Model for Real-Time Image-based Lighting", 2019):
-    /// nothing is lost, so white surfaces vanish in a white room.
+    /// Single scattering comes from a table, multiple scattering from C. Fdez-Agüera ("A Multiple-Scattering
+    /// Microfacet Model for Real-Time Image-based Lighting", 2019). No energy is lost, so white surfaces
+    /// vanish in a white room.
     #[inline(always)]
     pub(crate) fn surrounded(&self, n_dot_v: F32<S>) -> Surrounded<S> {
         let [scale, offset] = reflectance(n_dot_v.token(), self.roughness, n_dot_v);
@@ -84,11 +81,11 @@ impl<S: Simd> Microfacets<S> {
 /// See [`Microfacets::surrounded`].
 #[derive(Clone, Copy)]
 pub(crate) struct Surrounded<S: Simd> {
-    /// Of the light from the mirror direction, blurred by the roughness.
+    /// The factor of light from the mirror direction, blurred by the roughness.
     pub(crate) single: V3<S>,
-    /// Of the light from everywhere, after repeated reflection.
+    /// The factor of light from all directions, after multiple scattering.
     pub(crate) repeated: V3<S>,
-    /// Left over for the diffuse part.
+    /// The fraction that remains for the diffuse part.
     pub(crate) diffuse: V3<S>,
 }
 
@@ -109,9 +106,8 @@ mod tests {
         }
     }
 
-    /// The integral over all microfacets of D · G₁ · max(v·h, 0) / n·v, which is 1
-    /// whatever the roughness: no light is lost or won before it is shadowed on
-    /// its way out (Heitz 2014, equation 22, the "weak white furnace test").
+    /// The integral over all microfacets of D · G₁ · max(v·h, 0) / n·v. It is 1 for any roughness: before
+    /// shadowing, no light is lost or gained (Heitz 2014, equation 22, the "weak white furnace test").
     fn furnace(roughness: f32, n_dot_v: f64) -> f64 {
         let simd = Fallback::new();
         let (rings, sectors) = (600, 256);

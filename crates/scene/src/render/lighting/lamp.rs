@@ -1,4 +1,4 @@
-//! Lamps in camera space, and what of their light arrives at a point.
+//! Lamps in camera space, and how much of their light arrives at a point.
 
 use trigon_math::{DAffine3, DVec3, Vec3};
 use trigon_raster::simd::{F32, Simd, prelude::*};
@@ -8,9 +8,8 @@ use crate::render::lanes::{
     V3, difference, dot, inverse_root, lesser_of, positive, saturated, scaled, splat,
 };
 
-/// No light that arrives is brighter: products with what surfaces make of it, and sums
-/// of thousands of lamps, stay finite. Infinity times nothing would be no number, and
-/// black in the brightest light.
+/// The largest light that arrives. It keeps products with reflectances, and sums over thousands of lamps,
+/// finite: infinity times zero would be NaN, and show as black in the brightest light.
 pub(super) const BRIGHTEST: f32 = (1_u64 << 60) as f32;
 
 /// A light with a direction, in camera space: differences of large world
@@ -18,19 +17,18 @@ pub(super) const BRIGHTEST: f32 = (1_u64 << 60) as f32;
 #[derive(Clone, Debug)]
 pub(crate) struct Lamp {
     pub(crate) source: Source,
-    /// Linear RGB that a white surface shows; of a point or spot light one metre
-    /// away.
+    /// The linear RGB of a white surface in this light; for a point or spot light, at one metre.
     pub(crate) radiance: Vec3,
     /// Its node.
     pub(crate) node: Option<u32>,
 }
 
-/// Where light comes from.
+/// The direction from which light comes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Source {
     /// Parallel; the unit vector points towards the light.
     Directional(Vec3),
-    /// Spreads from a point, perhaps within a cone.
+    /// From a point, perhaps within a cone.
     Point {
         position: Vec3,
         /// One over the range in metres, squared; 0 for none.
@@ -39,10 +37,10 @@ pub(crate) enum Source {
     },
 }
 
-/// Where a spot light shines; see [`Light::cone`].
+/// The cone of a spot light; see [`Light::cone`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cone {
-    /// Unit vector against the way of the light: from what it meets to the lamp.
+    /// The unit vector from a lit point to the lamp.
     backwards: Vec3,
     scale: f32,
     offset: f32,
@@ -52,7 +50,7 @@ pub(crate) struct Cone {
 pub(crate) struct Arriving<S: Simd> {
     /// Unit vectors towards the lamp; zero where there is no direction.
     pub(crate) towards: V3<S>,
-    /// The share of the lamp's radiance; 1 is that of a metre's distance.
+    /// The fraction of the lamp's radiance that arrives; 1 at one metre.
     pub(crate) share: F32<S>,
 }
 
@@ -82,18 +80,18 @@ impl Lamp {
         Self { source, radiance: Vec3::splat(radiance), node: None }
     }
 
-    /// Whether it matters where a surface is, and not only how it is turned.
+    /// Whether the light depends on a surface's position, and not only on its normal.
     pub(crate) fn needs_position(&self) -> bool {
         matches!(self.source, Source::Point { .. })
     }
 
-    /// Whether a white surface under it is grey.
+    /// Whether its light is grey.
     pub(crate) fn is_grey(&self) -> bool {
         self.radiance.x == self.radiance.y && self.radiance.y == self.radiance.z
     }
 
-    /// What arrives at points in camera space, by the formulas of
-    /// [`Light::falloff`] and [`Light::cone`].
+    /// The light that arrives at points in camera space, by the formulas of [`Light::falloff`] and
+    /// [`Light::cone`].
     #[inline(always)]
     pub(crate) fn arriving<S: Simd>(&self, simd: S, position: V3<S>) -> Arriving<S> {
         match &self.source {

@@ -1,4 +1,4 @@
-//! The lights of an image, gathered once, and what they make of a surface.
+//! The lights of an image, gathered once per frame, and the shading of surfaces by them.
 
 mod brdf;
 mod lamp;
@@ -18,23 +18,23 @@ use crate::light::LightKind;
 use crate::scene::Scene;
 use crate::settings::{Lighting, RenderSettings};
 
-/// The light from everywhere that is added to lamps of the scene's own. How bright the
-/// scene is, they decide: this is only enough to see shapes that they do not reach.
+/// The ambient light that is added if a scene has lamps but no ambient light. The lamps decide how bright the
+/// scene is; this only makes shapes visible that they do not reach.
 const ADDED_AMBIENT: Vec3 = Vec3::splat(0.1);
 
 /// All lights of an image.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Lights {
-    /// From everywhere alike, linear RGB.
+    /// Ambient light, linear RGB.
     pub(crate) ambient: Vec3,
-    /// How many of the scene's lights that is made of.
+    /// The number of ambient lights in the scene.
     pub(crate) own_ambient: usize,
     pub(crate) lamps: Vec<Lamp>,
 }
 
 impl Lights {
-    /// The lights that the settings and the scene call for. `transforms` is
-    /// the scene's table of visible nodes.
+    /// Collects the lights that the settings and the scene require. `transforms` is the scene's table of
+    /// visible nodes.
     pub(crate) fn gather(
         scene: &Scene,
         transforms: &[Option<DAffine3>],
@@ -48,8 +48,8 @@ impl Lights {
             // An environment is light, too.
             Lighting::Automatic if settings.effects.environment.is_some() => lights,
             Lighting::Automatic if lights.is_dark() => Self::studio(),
-            // Formats such as glTF know no ambient light; without any, the sides
-            // that no light reaches would be black holes.
+            // glTF and other formats have no ambient light. Without any, sides that no lamp reaches would be
+            // black.
             Lighting::Automatic if lights.ambient == Vec3::ZERO => {
                 Self { ambient: ADDED_AMBIENT, own_ambient: 0, ..lights }
             }
@@ -77,20 +77,19 @@ impl Lights {
         self.ambient == Vec3::ZERO && self.lamps.is_empty()
     }
 
-    /// Every light this many times as bright; a factor that is no positive
-    /// number puts them out.
+    /// Multiplies the intensity of every light; a factor that is not positive turns them off.
     pub(crate) fn scaled(mut self, factor: f32) -> Self {
         self.ambient *= factor;
         self.lamps.iter_mut().for_each(|lamp| lamp.radiance *= factor);
         self
     }
 
-    /// Whether it matters where a surface is, and not only how it is turned.
+    /// Whether the light depends on a surface's position, and not only on its normal.
     pub(crate) fn need_position(&self) -> bool {
         self.lamps.iter().any(Lamp::needs_position)
     }
 
-    /// Whether a white surface is grey everywhere.
+    /// Whether all light is grey.
     pub(crate) fn are_grey(&self) -> bool {
         let Vec3 { x, y, z } = self.ambient;
         x == y && y == z && self.lamps.iter().all(Lamp::is_grey)
@@ -106,7 +105,7 @@ mod tests {
     use fearless_simd::Fallback;
     use trigon_math::DVec3;
 
-    /// What a white Lambertian surface two metres away shows, seen and lit head-on.
+    /// The value of a white Lambertian surface two metres away, lit and seen head-on.
     fn shown(lights: &Lights) -> Vec3 {
         let simd = Fallback::new();
         let at = |vector| -> V3<Fallback> { splat(simd, vector) };

@@ -1,4 +1,4 @@
-//! Points of a surface, what it makes of light, and the light that it sends on.
+//! Eight points of a surface with their reflectance, and the light that they reflect.
 
 use trigon_raster::simd::{F32, Simd, prelude::*};
 
@@ -11,13 +11,13 @@ pub(crate) struct LitPoints<S: Simd> {
     pub(crate) position: V3<S>,
     /// Of unit length, or zero, which no light reaches.
     pub(crate) normal: V3<S>,
-    /// The same before a normal map bent it: which way the surface lies.
+    /// The same without the normal map: the orientation of the surface itself.
     pub(crate) facing: V3<S>,
     /// Unit vectors towards the eye.
     pub(crate) view: V3<S>,
 }
 
-/// How a surface answers to light at eight points.
+/// The reflection model at eight points.
 #[derive(Clone, Copy)]
 pub(crate) enum Brdf<S: Simd> {
     /// Base colour × N·L.
@@ -28,7 +28,7 @@ pub(crate) enum Brdf<S: Simd> {
     Microfacets(Microfacets<S>),
 }
 
-/// Light on its way to the eye.
+/// Light that leaves towards the eye.
 #[derive(Clone, Copy)]
 pub(crate) struct Reflected<S: Simd> {
     /// To be multiplied by the diffuse colour.
@@ -44,7 +44,7 @@ impl<S: Simd> Reflected<S> {
         Self { diffuse: [zero; 3], specular: [zero; 3] }
     }
 
-    /// Adds light of which `diffuse` and `specular` go to the eye.
+    /// Adds light, of which `diffuse` and `specular` are reflected to the eye.
     #[inline(always)]
     pub(super) fn add(&mut self, light: V3<S>, diffuse: V3<S>, specular: V3<S>) {
         self.diffuse = sum(self.diffuse, product(light, diffuse));

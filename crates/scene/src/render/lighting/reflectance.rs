@@ -1,9 +1,9 @@
-//! How much light a microfacet surface reflects in all directions together, as a
-//! table: the integral has no closed form.
+//! The fraction of light that a microfacet surface reflects in all directions together, as a table, because
+//! the integral has no closed form.
 //!
-//! Made at the first use, by 256 directions of the distribution for each entry (B.
-//! Karis, "Real Shading in Unreal Engine 4", 2013, section "Environment BRDF"), with
-//! the shadowing of the surface itself.
+//! The table is made on first use. Each entry is the mean over 256 directions of the distribution (B. Karis,
+//! "Real Shading in Unreal Engine 4", 2013, section "Environment BRDF"), with the shadowing term of the
+//! surface itself.
 
 use std::sync::OnceLock;
 
@@ -12,13 +12,13 @@ use trigon_raster::simd::{F32, Simd, inlined, lanes_of, prelude::*};
 
 use crate::render::lanes::{mix, table_step};
 
-/// Entries for each of roughness and cosine, from 0 to 1.
+/// Entries along each axis, roughness and cosine, both from 0 to 1.
 const SIDE: usize = 16;
 
 /// Directions for each entry.
 const SAMPLES: u32 = 256;
 
-/// Factors of what is reflected head-on and of what is at grazing angles.
+/// The factors of F0 and of F90.
 type Table = [[f32; SIDE * SIDE]; 2];
 
 fn table() -> &'static Table {
@@ -33,7 +33,7 @@ fn table() -> &'static Table {
 
 /// Both factors for a roughness and the cosine between normal and view.
 fn integral(roughness: f32, cosine: f32) -> [f32; 2] {
-    /// Edge-on, and on a perfect mirror, there is nothing to integrate over.
+    /// At grazing views and for perfect mirrors there is nothing to integrate.
     const LEAST: f32 = 1e-3;
     let cosine = if cosine > LEAST { cosine } else { LEAST };
     let alpha = if roughness * roughness > LEAST { roughness * roughness } else { LEAST };
@@ -64,8 +64,7 @@ fn integral(roughness: f32, cosine: f32) -> [f32; 2] {
     sums.map(|sum| (sum / f64::from(SAMPLES)) as f32)
 }
 
-/// Both factors at eight points: what is reflected is the one times what is
-/// reflected head-on, plus the other times what is at grazing angles.
+/// Both factors at eight points: the reflectance is the first times F0 plus the second times F90.
 #[inline(always)]
 pub(super) fn reflectance<S: Simd>(simd: S, roughness: F32<S>, cosine: F32<S>) -> [F32<S>; 2] {
     let table = table();

@@ -1,17 +1,16 @@
-//! The light of scenes that have none.
+//! The default lights, for scenes without any.
 
 use trigon_math::Vec3;
 
 use super::{Lamp, Lights};
 
 impl Lights {
-    /// A key light from the upper left, a weaker fill from the right, a rim light from
-    /// behind, and a little light from everywhere. All of it moves with the camera, so
-    /// that no side of a model is ever dark.
+    /// A key light from the upper left, a weaker fill from the right, a rim light from behind, and a little
+    /// ambient light. All of them move with the camera, so that no side of a model is ever dark.
     ///
-    /// It is as bright as a display can show: a white plate that faces the camera shows at
-    /// least 235 of 255, and no white diffuse surface is clipped, however it is turned.
-    /// The darkest side of a white ball has a fifth of the light of the brightest.
+    /// They are as bright as a display can show: a white plate that faces the camera shows at least 235 of
+    /// 255, and no white diffuse surface is clipped, at any orientation. The darkest side of a white ball has
+    /// a fifth of the light of the brightest.
     pub(crate) fn studio() -> Self {
         let key = Lamp::studio(Vec3::new(-0.5, 0.55, 0.75), 0.72);
         let fill = Lamp::studio(Vec3::new(0.75, -0.1, 0.65), 0.25);
@@ -36,7 +35,7 @@ mod tests {
         lights.ambient.max_element() + longest.fold(0.0, f32::max)
     }
 
-    /// As long as the lamp is bright.
+    /// The length is the lamp's brightness.
     fn towards(lamp: &Lamp) -> Vec3 {
         let Source::Directional(towards) = lamp.source else { panic!("lamps of the studio are parallel") };
         towards * lamp.radiance

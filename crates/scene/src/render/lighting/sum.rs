@@ -1,14 +1,15 @@
-//! The sum over lamps: what reaches the eye from eight points of a surface.
+//! Sums the light of all lamps at eight points of a surface.
 
 use trigon_raster::simd::{Each, F32, Simd, prelude::*};
 
 use super::lamp::BRIGHTEST;
 use super::points::{Brdf, LitPoints, Reflected};
-use crate::effects::{LightingEnvironment, Work, note};
+use crate::effects::LightingEnvironment;
 use crate::render::lanes::{V3, dot, lesser_of, normalized, positive, pow, scaled, sum, tinted};
+use crate::work::{Work, note};
 
 impl LightingEnvironment {
-    /// The light of all lamps that a surface sends to the eye.
+    /// Sums the light of all lamps that a surface reflects to the eye.
     #[inline(always)]
     pub(crate) fn reflected<S: Simd>(&self, simd: S, points: &LitPoints<S>, brdf: &Brdf<S>) -> Reflected<S> {
         let mut reflected = Reflected::none(simd);
@@ -49,10 +50,10 @@ impl LightingEnvironment {
     }
 }
 
-/// The light of a lamp where it meets a surface.
+/// A lamp's light at a surface.
 #[derive(Clone, Copy)]
 pub(crate) struct IncidentLight<S: Simd> {
-    /// What arrives, times N·L.
+    /// The arriving light times N·L.
     pub(crate) radiance: V3<S>,
     /// Unit vectors to the lamp.
     pub(crate) towards: V3<S>,
@@ -75,7 +76,7 @@ impl<S: Simd> Brdf<S> {
                 reflected.add(light, one, scaled(*specular, highlight));
             }
             Self::Microfacets(facets) => {
-                /// Where the surface is seen edge-on, V would divide by zero.
+                /// At grazing views, V would divide by zero.
                 const LEAST_COSINE: f32 = 1e-4;
                 note(Work::Highlight);
                 let half = normalized(sum(towards, points.view));

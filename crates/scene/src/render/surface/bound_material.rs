@@ -1,6 +1,6 @@
-//! From a material to its parameters on a mesh: which values are interpolated, which
-//! textures are read, where light is found. What the material does not have, and
-//! what the mesh cannot show, is left out.
+//! Binds a material to a mesh: decides which values are interpolated, which textures are read, and whether
+//! light is computed per pixel or per vertex. Parts that the material lacks, or that the mesh has no data
+//! for, are left out.
 
 use trigon_math::glam::Affine2;
 use trigon_math::{Mat3, Vec3, Vec4};
@@ -9,13 +9,13 @@ use super::reflection::f0;
 use super::{Coverage, Illumination, Layout, LightSlots, Map, Maps, MaterialParams, MicrofacetModel, Model};
 use crate::display::Display;
 use crate::effects::{LightingEnvironment, Optics};
+use crate::geometry::Columns;
 use crate::material::{AlphaMode, DrawnIf, Material, MaterialTexture, Shading, TextureBinding};
-use crate::render::columns::Columns;
 use crate::render::placement::Rays;
 use crate::scene::Scene;
 use crate::settings::{Reflection, ShadingModel};
 
-/// What a draw is made for.
+/// What a draw's material depends on.
 #[derive(Clone, Copy)]
 pub(crate) struct MaterialContext<'a> {
     pub(crate) scene: &'a Scene,
@@ -28,7 +28,7 @@ pub(crate) struct MaterialContext<'a> {
     pub(crate) to_world: Mat3,
 }
 
-/// A material made ready for a mesh.
+/// A material bound to a mesh.
 pub(crate) struct BoundMaterial<'a> {
     pub(crate) params: MaterialParams<'a>,
     pub(crate) layout: Layout,
@@ -75,21 +75,21 @@ impl<'a> BoundMaterial<'a> {
         Self { params, layout: fitting.layout, illumination }
     }
 
-    /// Whether a triangle has one colour all over.
+    /// Whether a triangle has a single colour.
     pub(crate) fn is_flat(&self) -> bool {
         let is_even = self.params.maps.places().next().is_none();
         let per_triangle = matches!(self.illumination, Illumination::None | Illumination::OnFacets);
         per_triangle && is_even && self.layout.count == 0
     }
 
-    /// Leaves nothing but the shape.
+    /// Removes everything but the shape.
     pub(crate) fn strip(&mut self) {
         self.layout = Layout::default();
         self.params.maps = Maps::default();
     }
 }
 
-/// A material while it is bound.
+/// A material that is being bound.
 struct Fitting<'o, 'a> {
     context: &'o MaterialContext<'a>,
     columns: &'o Columns,
@@ -97,7 +97,7 @@ struct Fitting<'o, 'a> {
 }
 
 impl<'a> Fitting<'_, 'a> {
-    /// A texture that exists, on coordinates that the mesh has.
+    /// A texture that exists, with texture coordinates that the mesh has.
     fn map(&mut self, place: MaterialTexture, binding: &TextureBinding) -> Option<Map<'a>> {
         let texture = &self.context.scene.textures.get(binding.texture)?.texture;
         self.columns.uv_sets.get(binding.uv_set)?;
@@ -105,7 +105,7 @@ impl<'a> Fitting<'_, 'a> {
         Some(Map { texture, sampler: binding.sampler, at, place })
     }
 
-    /// What the look and its light have to know at each pixel.
+    /// Adds the varyings that the material and its lighting need in each pixel.
     fn add_values(&mut self, params: &MaterialParams<'_>, illumination: Illumination) {
         let Self { context, columns, layout } = self;
         if columns.colors.is_some() {
@@ -149,7 +149,7 @@ impl<'a> Fitting<'_, 'a> {
     }
 }
 
-/// What faces can show in place of light that takes a texture.
+/// The texture that a displayed value needs.
 fn shown_as(texture: MaterialTexture) -> &'static [Display] {
     match texture {
         MaterialTexture::MetallicRoughness => &[Display::Metallic, Display::Roughness],
@@ -158,9 +158,8 @@ fn shown_as(texture: MaterialTexture) -> &'static [Display] {
     }
 }
 
-/// A material's law of reflection, and where light is found: nowhere where there is none, unless rays of sight go on
-/// from it. Surfaces that show how metallic and how rough they
-/// are have a law that knows both.
+/// The reflection model of a material, and where its light is computed: nowhere if there is no light, unless
+/// sight rays continue from it. Surfaces that show their metalness or roughness get the model that has them.
 fn shown(material: &Material, context: &MaterialContext<'_>, is_traced: bool) -> (Shading, Illumination) {
     let shading = context.reflection.of(material);
     match context.display {

@@ -1,13 +1,13 @@
-//! Faces of one colour: the light on a triangle as a whole.
+//! Flat faces: one colour per triangle, lit once.
 
 use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;
 use trigon_raster::simd::{Each, F32, LANES, Simd, prelude::*};
 
 use super::{Coverage, Illumination, Surface, shown};
-use crate::effects::{Work, note};
 use crate::render::lanes::{V3, cross, difference, dot, negated, normalized, scaled, select, splat, sum};
 use crate::render::lighting::LitPoints;
+use crate::work::{Work, note};
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
     /// One colour for each triangle.
@@ -36,7 +36,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         }
     }
 
-    /// A colour in the light on the middle of its triangle.
+    /// A colour lit at the centre of its triangle.
     pub(super) fn lit_facets<S: Simd>(
         &self,
         simd: S,
@@ -52,7 +52,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         )
     }
 
-    /// The middles of triangles and the sides of theirs that are seen.
+    /// The centres of triangles, and the sides from which they are seen.
     #[inline(always)]
     pub(super) fn facets<S: Simd>(&self, simd: S, primitives: [u32; LANES]) -> LitPoints<S> {
         let [a, b, c] = [0, 1, 2].each(
@@ -62,8 +62,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         let position = scaled(sum(sum(a, b), c), F32::splat(simd, 1.0 / 3.0));
         let normal = normalized(cross(difference(b, a), difference(c, a)));
         let view = self.view(simd, position);
-        // The side that is seen is the one that is turned to the eye, whichever
-        // way the triangle winds.
+        // The visible side is the one that faces the eye, whatever the winding.
         let seen = dot(normal, view).simd_ge(0.0);
         let normal = select(seen, normal, negated(normal));
         LitPoints { position, normal, facing: normal, view }

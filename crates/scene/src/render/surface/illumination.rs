@@ -1,19 +1,19 @@
-//! Where light is found, or what is shown in its place.
+//! Whether a surface is lit per face, per vertex or per pixel, or shows a value instead.
 
 use crate::display::Display;
 
-/// Where light is found.
+/// Where light is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Illumination {
-    /// It does not matter.
+    /// There is no light.
     None,
     /// At the vertices, and interpolated (H. Gouraud, "Continuous Shading of Curved
     /// Surfaces", 1971).
     AtVertices,
-    /// At each pixel, for an interpolated normal (B. T. Phong, "Illumination for
-    /// Computer Generated Pictures", 1975).
+    /// In each pixel, for an interpolated normal (B. T. Phong, "Illumination for Computer Generated
+    /// Pictures", 1975).
     InPixels,
-    /// Once for each triangle, in its middle.
+    /// Once for each triangle, at its centre.
     OnFacets,
     /// Nowhere: surfaces show one of their values.
     Value(Display),

@@ -1,12 +1,11 @@
-//! Which values of a draw are interpolated, and where they lie: only those that
-//! its look and its light ask for.
+//! The layout of a draw's varyings: only values that its material and its lighting need are interpolated.
 
 use trigon_math::glam::Affine2;
 
-/// Where a draw's varyings lie. Nothing that is `None` is interpolated.
+/// The varyings of a draw. What is `None` is not interpolated.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Layout {
-    /// How many f32 there are.
+    /// The number of f32.
     pub(crate) count: usize,
     /// In camera space: three.
     pub(crate) position: Option<usize>,
@@ -18,7 +17,7 @@ pub(crate) struct Layout {
     pub(crate) color: Option<usize>,
     /// Texture coordinates: two for each.
     pub(crate) coordinates: Vec<Coordinates>,
-    /// Where those lie that the surface shows as colours: two.
+    /// Texture coordinates that the surface shows as colours: two.
     pub(crate) shown_uv: Option<usize>,
     /// Light at the vertices.
     pub(crate) light: Option<LightSlots>,
@@ -33,41 +32,40 @@ pub(crate) struct Coordinates {
     pub(crate) at: usize,
 }
 
-/// Light that is interpolated instead of found at each pixel.
+/// Light that is computed at the vertices and interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LightSlots {
     /// The first varying.
     pub(crate) at: usize,
-    /// 1 where all light is grey, else 3.
+    /// 1 if all light is grey, else 3.
     pub(crate) channels: usize,
-    /// Whether highlights follow the diffuse light.
+    /// Whether highlights are interpolated separately, after the diffuse light.
     pub(crate) specular: bool,
-    /// Whether the light of the back follows that of the front.
+    /// Whether the light of the back side follows that of the front side.
     pub(crate) two_sided: bool,
 }
 
 impl LightSlots {
-    /// Varyings of one side.
+    /// The varyings of one side.
     pub(crate) fn per_side(&self) -> usize {
         self.channels * if self.specular { 2 } else { 1 }
     }
 
-    /// All varyings.
+    /// The varyings of all sides.
     pub(crate) fn len(&self) -> usize {
         self.per_side() * if self.two_sided { 2 } else { 1 }
     }
 }
 
 impl Layout {
-    /// Makes room for some varyings.
+    /// Adds some varyings.
     pub(crate) fn add(&mut self, count: usize) -> usize {
         let at = self.count;
         self.count += count;
         at
     }
 
-    /// Where the coordinates of a UV set lie under a transform. Textures that
-    /// agree in both share them.
+    /// The varyings of a UV set under a transform. Textures with the same set and transform share them.
     pub(crate) fn add_coordinates(&mut self, uv_set: usize, transform: Affine2) -> usize {
         let shared = self.coordinates.iter().find(|of| of.uv_set == uv_set && of.transform == transform);
         if let Some(shared) = shared {

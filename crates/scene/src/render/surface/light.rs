@@ -5,13 +5,14 @@ use trigon_raster::{FragmentLanes, VertexLanes};
 
 use super::traced::TracedSurface;
 use super::{LightSlots, Surface, Values, load, shown};
-use crate::effects::{Work, note};
 use crate::material::MaterialTexture;
 use crate::render::lanes::{V3, dot, mixed, negated, normalized, product, scaled, splat, sum, turned};
 use crate::render::lighting::{Brdf, LitPoints, Reflected};
+use crate::work::{Work, note};
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
-    /// Light at eight vertices. Textures but that of the base colour are left out.
+    /// The light at eight vertices. Only the texture of the base colour is applied later; all others are
+    /// ignored.
     #[inline(always)]
     pub(super) fn set_light<S: Simd>(
         &self,
@@ -51,8 +52,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         }
     }
 
-    /// Light by the material's factors alone. The diffuse part is to be multiplied
-    /// by the base colour.
+    /// Light from the material's factors alone. The diffuse part has to be multiplied by the base colour.
     pub(super) fn lit_plainly<S: Simd>(&self, simd: S, points: &LitPoints<S>) -> Reflected<S> {
         simd.vectorize(
             #[inline(always)]
@@ -65,7 +65,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         )
     }
 
-    /// A colour in the light that its vertices got.
+    /// A colour lit at its vertices.
     #[inline(always)]
     pub(super) fn interpolated<S: Simd>(&self, fragments: &FragmentLanes<'_, S>, [r, g, b]: V3<S>) -> V3<S> {
         let Some(slots) = self.layout.light else { return [r, g, b] };
@@ -93,7 +93,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         }
     }
 
-    /// A colour in the light that each pixel gets; in a function of its own.
+    /// A colour lit in each pixel; a separate function.
     pub(super) fn lit<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>, albedo: V3<S>) -> V3<S> {
         simd.vectorize(
             #[inline(always)]
@@ -111,7 +111,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         )
     }
 
-    /// A colour at points that are known.
+    /// A colour lit at known points.
     #[inline(always)]
     pub(super) fn shaded<S: Simd>(
         &self,
@@ -144,8 +144,8 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         }
     }
 
-    /// All light that the surface sends to the eye. `open` is the share of the ambient
-    /// light that arrives, `traced` what rays found in the mirror direction.
+    /// All light from the surface to the eye. `open` is the fraction of the ambient light that arrives,
+    /// `traced` the light that rays found in the mirror direction.
     #[inline(always)]
     pub(super) fn reflected<S: Simd>(
         &self,

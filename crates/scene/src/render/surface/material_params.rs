@@ -1,7 +1,7 @@
-//! A material made ready for its draw: factors, textures with the places of
-//! their coordinates, and what they make of a surface at eight points.
+//! A material's parameters, ready to be evaluated in lanes: factors, and textures with the varyings of their
+//! coordinates.
 
-use crate::effects::{Work, note};
+use crate::work::{Work, note};
 use trigon_math::{Vec3, Vec4};
 use trigon_raster::simd::{Each, F32, Simd, prelude::*};
 use trigon_raster::{Sampler, Texture};
@@ -12,33 +12,33 @@ use crate::material::{Material, MaterialTexture};
 use crate::render::lanes::{V3, lesser_of, mix, product, splat};
 use crate::render::lighting::{Brdf, Microfacets};
 
-/// A texture and where its coordinates lie.
+/// A texture and its varyings.
 #[derive(Clone, Copy)]
 pub(crate) struct Map<'a> {
     pub(crate) texture: &'a Texture,
     pub(crate) sampler: Sampler,
     /// The varying that holds u; v is the next.
     pub(crate) at: usize,
-    /// What it is of its material.
+    /// Its slot in the material.
     pub(crate) place: MaterialTexture,
 }
 
-/// A material made ready.
+/// A material prepared for a draw.
 #[derive(Clone)]
 pub(crate) struct MaterialParams<'a> {
     /// Its factors.
     pub(crate) material: Material,
-    /// The textures that are drawn of it.
+    /// The textures that are used.
     pub(crate) maps: Maps<'a>,
     pub(crate) model: Model,
-    /// Whether rays of sight go on from it.
+    /// Whether sight rays continue from it.
     pub(crate) optics: Option<Optics>,
-    /// Alpha below this is a hole, where the draw is masked.
+    /// In masked draws, fragments with less alpha are discarded.
     pub(crate) cutoff: f32,
     pub(crate) coverage: Coverage,
 }
 
-/// What a surface's alpha does to its colour.
+/// The effect of a surface's alpha on its colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Coverage {
     /// Alpha is 1 whatever the material says.
@@ -60,17 +60,17 @@ pub(crate) enum Model {
 pub(crate) struct MicrofacetModel {
     pub(crate) metallic: f32,
     pub(crate) roughness: f32,
-    /// What a dielectric reflects head-on, before `specular` and not limited.
+    /// The reflectance of a dielectric at normal incidence, before `specular` and without a limit.
     pub(crate) f0: Vec3,
     pub(crate) specular: f32,
 }
 
-/// The textures of a material, by their places.
+/// The textures of a material, by slot.
 #[derive(Clone, Default)]
 pub(crate) struct Maps<'a>([Option<Map<'a>>; MaterialTexture::ALL.len()]);
 
 impl<'a> Maps<'a> {
-    /// The textures that a function finds.
+    /// The textures for which a function returns one.
     pub(crate) fn new(find: impl FnMut(MaterialTexture) -> Option<Map<'a>>) -> Self {
         Self(MaterialTexture::ALL.map(find))
     }
@@ -80,7 +80,7 @@ impl<'a> Maps<'a> {
         self.0[place as usize].as_ref()
     }
 
-    /// The places of those that are drawn.
+    /// The slots that are in use.
     pub(crate) fn places(&self) -> impl Iterator<Item = MaterialTexture> {
         MaterialTexture::ALL.into_iter().filter(|&place| self.get(place).is_some())
     }
@@ -96,7 +96,7 @@ impl Map<'_> {
         self.texture.sample_lanes(simd, uv, [ux, vx], [uy, vy], &self.sampler)
     }
 
-    /// The same in a function of its own: for textures that few materials have.
+    /// The same as a separate function, for textures that few materials have.
     pub(crate) fn look_up_apart<S: Simd>(&self, simd: S, values: &impl Values<S>) -> [F32<S>; 4] {
         simd.vectorize(
             #[inline(always)]
@@ -138,8 +138,8 @@ impl MaterialParams<'_> {
         albedo
     }
 
-    /// How the surface answers to light, and which share of its base colour is
-    /// diffuse. Without values only factors count.
+    /// The reflection model, and the fraction of the base colour that is diffuse. Without values only the
+    /// factors are used.
     #[inline(always)]
     pub(crate) fn brdf<S: Simd>(
         &self,

@@ -1,9 +1,8 @@
-//! The pipeline that draws faces, in vectors of eight.
+//! The pipeline that draws faces, eight pixels at a time.
 //!
-//! One pipeline serves all looks: what a material or its light does not ask for
-//! costs a branch for each group of eight pixels, and is neither fetched nor
-//! interpolated. A second form of it, `FLAT`, is asked once for each visible
-//! triangle: for faces of one colour.
+//! One pipeline serves all materials. A part that a material or its lighting does not need costs one branch
+//! for each group of eight pixels; its values are neither fetched nor interpolated. A second variant of the
+//! pipeline, `FLAT`, is evaluated once for each visible triangle, for faces of one colour.
 
 mod bound_material;
 mod facet;
@@ -24,28 +23,28 @@ pub(crate) use layout::{Layout, LightSlots};
 pub(crate) use material_params::{Coverage, Map, Maps, MaterialParams, MicrofacetModel, Model};
 pub(crate) use values::{Values, three};
 
-use crate::effects::{Work, note};
+use crate::work::{Work, note};
 use trigon_math::{Mat3, Vec3};
 use trigon_raster::simd::{Each, F32, Mask, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
 
-use super::columns::Columns;
 use super::lanes::{V3, normalized, saturated, splat, sum, turned};
 use super::lighting::Reflected;
 use super::placement::{Placement, Rays};
 use crate::effects::LightingEnvironment;
+use crate::geometry::Columns;
 use crate::material::MaterialTexture;
 
 /// Faces of one mesh in one material.
 pub(crate) struct Surface<'a, const FLAT: bool> {
     pub(crate) columns: &'a Columns,
-    /// All of the draw, for facets.
+    /// The whole draw, for flat faces.
     pub(crate) triangles: &'a [[u32; 3]],
     pub(crate) place: Placement,
     pub(crate) layout: Layout,
     pub(crate) params: MaterialParams<'a>,
     pub(crate) illumination: Illumination,
-    /// Whether rays of view meet in the camera, or run parallel.
+    /// Whether the projection is perspective or orthographic.
     pub(crate) rays: Rays,
     pub(crate) lighting: &'a LightingEnvironment,
     /// From camera space.
@@ -53,7 +52,7 @@ pub(crate) struct Surface<'a, const FLAT: bool> {
 }
 
 impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
-    /// Laid out when the draw is made.
+    /// The layout, made with the draw.
     const VARYINGS: usize = 0;
     const FLAT: bool = FLAT;
     const MASKED: bool = !FLAT;
@@ -70,7 +69,7 @@ impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
     #[inline(always)]
     fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
         let position = load(simd, vertices, &self.columns.positions);
-        // A flat one interpolates nothing: the rest is not even compiled.
+        // Flat faces interpolate nothing: the rest is not even compiled.
         if !FLAT && self.layout.count > 0 {
             self.set_varyings(simd, vertices, position);
         }
@@ -91,7 +90,7 @@ impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
 }
 
 impl<'a, const FLAT: bool> Surface<'a, FLAT> {
-    /// Triangles of a mesh at a place, in a look.
+    /// Triangles of a placed mesh in one material.
     pub(crate) fn new(
         (columns, triangles): (&'a Columns, &'a [[u32; 3]]),
         place: Placement,
@@ -187,7 +186,7 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
     }
 }
 
-/// Sums of light and colours.
+/// Sums of linear light.
 #[inline(always)]
 fn shown<S: Simd>(reflected: &Reflected<S>, [r, g, b]: V3<S>) -> V3<S> {
     let [[dr, dg, db], [sr, sg, sb]] = [reflected.diffuse, reflected.specular];

@@ -1,4 +1,4 @@
-//! Where eight pixels of a surface lie, and how it is turned there.
+//! Positions and normals of eight pixels of a surface.
 
 use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;
@@ -11,7 +11,7 @@ use crate::render::lighting::LitPoints;
 use crate::render::placement::{Rays, Side};
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
-    /// Where the pixels lie and how the surface is turned there.
+    /// The positions and normals of the pixels.
     #[inline(always)]
     pub(super) fn points<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> LitPoints<S> {
         let zero = [F32::splat(simd, 0.0); 3];
@@ -51,7 +51,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         }
     }
 
-    /// Which pixels see the side from which the face winds counter-clockwise.
+    /// The pixels that see the side from which the face winds counter-clockwise.
     #[inline(always)]
     pub(super) fn shows_front<S: Simd>(&self, fragments: &FragmentLanes<'_, S>) -> Mask<S> {
         match self.place.front {
@@ -61,15 +61,15 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
     }
 }
 
-/// The interpolated normal, and where the tangent is among the varyings.
+/// The interpolated normal, and the varying that holds the tangent.
 #[derive(Clone, Copy)]
 struct NormalBasis<S: Simd> {
     normal: V3<S>,
     tangent_at: usize,
 }
 
-/// Normals bent by a map, in the frame of tangent, bitangent and normal: as
-/// MikkTSpace has it, none of them is made a unit vector first.
+/// Normals from a normal map, in the basis of tangent, bitangent and normal. As MikkTSpace defines it, none
+/// of the three is normalized first.
 fn apply_normal_map<S: Simd>(
     simd: S,
     fragments: &FragmentLanes<'_, S>,

@@ -1,16 +1,16 @@
-//! Laws of reflection: the material's own, or another one for comparison.
+//! Reflection models: the material's own, or another one for comparison.
 
 use crate::material::{Material, MetallicRoughness, Shading};
 use crate::settings::Reflection;
 
-/// What a dielectric reflects head-on: ((n − 1) / (n + 1))².
+/// The reflectance of a dielectric at normal incidence: ((n − 1) / (n + 1))².
 pub(super) fn f0(ior: f32) -> f32 {
     let root = (ior - 1.0) / (ior + 1.0);
     root * root
 }
 
 impl Reflection {
-    /// What a material's answer to light becomes.
+    /// The shading model that replaces a material's own.
     pub(crate) fn of(self, material: &Material) -> Shading {
         let shading = material.shading;
         match self {
@@ -23,11 +23,10 @@ impl Reflection {
     }
 }
 
-/// The exponent of Blinn's highlight that is as wide as GGX's with this
-/// roughness: 2 / α² − 2 (B. Walter et al. 2007, section 5.2, for Beckmann's,
-/// which is near to it).
+/// The exponent for which Blinn's highlight is as wide as that of GGX with this roughness: 2 / α² − 2 (B.
+/// Walter et al. 2007, section 5.2, for Beckmann's, which is close to it).
 fn blinn_phong(material: &Material) -> Shading {
-    /// Beyond, highlights are smaller than pixels.
+    /// Above it, highlights are smaller than a pixel.
     const SHARPEST: f32 = 2000.0;
     match material.shading {
         Shading::MetallicRoughness(model) => {
@@ -36,7 +35,7 @@ fn blinn_phong(material: &Material) -> Shading {
             let shininess = if exponent < SHARPEST { exponent } else { SHARPEST };
             let dielectric = f0(material.ior) * model.specular_color * model.specular;
             let reflected = dielectric.lerp(material.base_color.truncate(), model.metallic);
-            // As bright as one that sends out as much light as it reflects.
+            // (n + 8) / 8 normalizes the highlight, so that its total light does not depend on the exponent.
             Shading::blinn_phong(reflected * ((shininess + 8.0) / 8.0), shininess)
         }
         Shading::BlinnPhong { .. } => material.shading,

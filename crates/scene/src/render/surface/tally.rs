@@ -1,4 +1,4 @@
-//! What a draw hands on and looks up, counted for the effects that ask for it.
+//! Counts the varyings and texture look-ups of a draw, for the effects that need them.
 
 use super::{BoundMaterial, Coverage, Illumination, Model};
 use crate::effect::Effect;
@@ -6,7 +6,7 @@ use crate::effects::{Counts, LightingEnvironment, Optics};
 use crate::material::MaterialTexture;
 
 impl BoundMaterial<'_> {
-    /// Adds what each vertex hands on and what each pixel looks up.
+    /// Adds the varyings of each vertex and the look-ups of each pixel.
     pub(crate) fn count(&self, lighting: &LightingEnvironment, masked: bool, counts: &mut Counts) {
         let Self { params, layout, .. } = self;
         let some = |there: bool, count: u64| if there { count } else { 0 };

@@ -1,4 +1,4 @@
-//! Surfaces from which rays of sight go on: mirrors and glass.
+//! Surfaces from which sight rays continue: mirrors and glass.
 
 use trigon_raster::simd::{F32, Simd, prelude::*};
 
@@ -7,23 +7,23 @@ use crate::effects::Optics;
 use crate::render::lanes::{V3, difference, dot, negated, product, scaled, sum};
 use crate::render::lighting::{Brdf, LitPoints, Microfacets};
 
-/// What rays of sight go on from, at eight points.
+/// The start of sight rays at eight points.
 #[derive(Clone, Copy)]
 pub(super) struct TracedSurface<'a, S: Simd> {
     pub(super) facets: &'a Microfacets<S>,
     pub(super) optics: &'a Optics,
-    /// The share of ambient light that arrives.
+    /// The fraction of ambient light that arrives.
     pub(super) open: Option<F32<S>>,
     pub(super) albedo: V3<S>,
-    /// The share of the albedo that is diffuse.
+    /// The fraction of the albedo that is diffuse.
     pub(super) diffuse_share: F32<S>,
-    /// What the texture leaves of the transmission.
+    /// The transmission factor of the texture.
     pub(super) transmission: Option<F32<S>>,
 }
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
-    /// What mirrors and glass show. Of what the surface does not reflect its diffuse
-    /// colour has a share, and of that, glass lets a part pass.
+    /// The light from mirrors and glass. The diffuse colour gets a fraction of what the surface does not
+    /// reflect, and glass transmits a part of that.
     pub(super) fn traced<S: Simd>(
         &self,
         simd: S,
@@ -49,7 +49,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                     None => F32::splat(simd, factor),
                 };
                 let matt = shown(&reflected, scaled(albedo, diffuse_share * (1.0 - transmission)));
-                // Snell's law, into what is denser: no light is reflected as a whole.
+                // Snell's law, into the denser medium: there is no total reflection.
                 let ratio = 1.0 / ior;
                 let bent = (1.0 - (1.0 - cosine * cosine) * (ratio * ratio)).sqrt();
                 let into =

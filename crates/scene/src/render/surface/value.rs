@@ -1,4 +1,4 @@
-//! Surfaces that show one of their values in place of light.
+//! Surfaces that show one of their values as a colour, instead of light.
 
 use trigon_raster::FragmentLanes;
 use trigon_raster::simd::{Each, F32, Simd, prelude::*};
@@ -9,7 +9,7 @@ use crate::material::MaterialTexture;
 use crate::render::lanes::{V3, pow, saturated, turned};
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
-    /// What eight pixels show of a value, in linear light; in a function of its own.
+    /// The colour of eight pixels that show a value, in linear light.
     pub(super) fn value<S: Simd>(
         &self,
         simd: S,
@@ -74,7 +74,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         }
     }
 
-    /// The share of ambient light that arrives.
+    /// The fraction of ambient light that arrives.
     #[inline(always)]
     fn open<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> F32<S> {
         let strength = self.params.material.occlusion.map_or(0.0, |map| map.strength);
@@ -85,7 +85,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
     }
 }
 
-/// The light that the display shows as this share of its range (IEC 61966-2-1).
+/// Converts a fraction of the display's range to linear light (IEC 61966-2-1).
 #[inline(always)]
 fn decoded<S: Simd>(stored: F32<S>) -> F32<S> {
     let stored = saturated(stored);

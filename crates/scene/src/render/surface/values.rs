@@ -1,13 +1,13 @@
-//! Where the values of eight points come from.
+//! The varyings and their gradients at eight points.
 
 use trigon_raster::FragmentLanes;
 use trigon_raster::simd::{F32, Simd};
 
-/// The varyings of eight points, by the numbers of the draw's layout.
+/// The varyings of eight points, by their index in the draw's layout.
 pub(crate) trait Values<S: Simd> {
-    /// The value itself.
+    /// The values.
     fn varying(&self, index: usize) -> F32<S>;
-    /// What it changes by in a pixel to the right, and in one downwards.
+    /// Their change per pixel to the right, and per pixel down.
     fn gradient(&self, index: usize) -> [F32<S>; 2];
 }
 

@@ -8,7 +8,7 @@ const TIME: &str = "ns per point";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
     let offsets = [1.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7];
-    /// Runs of all points, so that a run takes some tenths of a millisecond.
+    /// The number of runs over all points, so that a measurement takes some tenths of a millisecond.
     const RUNS: usize = 100;
     let times = nanoseconds(effort.rounds(), &Coordinates::ALL, |way| -> Box<dyn FnMut()> {
         let mut place = way.repeated(1e3);

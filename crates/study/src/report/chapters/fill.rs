@@ -70,8 +70,7 @@ fn of_case(case: Case, effort: Effort) -> Vec<Row> {
     Fill::ALL.iter().zip(times).map(row).collect()
 }
 
-/// Nanoseconds for all triangles. The engine is asked for one image, which it stores,
-/// as the others do.
+/// Nanoseconds for all triangles. The engine draws and stores one image, as the others do.
 fn times_of(fills: &[Fill], triangles: &[Triangle], side: usize, effort: Effort) -> Vec<Spread> {
     nanoseconds(effort.rounds(), fills, |fill| -> Box<dyn FnMut()> {
         let mut canvas = Canvas::new([side; 2]);
@@ -100,7 +99,7 @@ fn growth(effort: Effort) -> Vec<(String, Vec<[f64; 2]>)> {
     lines
 }
 
-/// What was painted wrong: a gap white, a double red, a neighbour's pixel yellow.
+/// Errors: a gap is white, a pixel painted twice red, a neighbour's pixel yellow.
 fn image() -> ImageRow {
     const SIZE: [usize; 2] = [64; 2];
     let triangles = Case::Lattice.triangles(SIZE[0], 2);

@@ -78,7 +78,7 @@ fn front(case: Case, size: [u32; 2], effort: Effort) -> Vec<Row> {
     variants.iter().zip(errors).zip(times).map(row).collect()
 }
 
-/// Keeps in tables and plots what is on the front, or is a preset.
+/// Keeps only qualities on the front and presets in tables and plots.
 fn leave_out_what_is_beaten(rows: &mut [Row], case: &str) {
     let point = |row: &Row| Some([row.value(TIME)?, row.value(RMSE)?]);
     let points: Vec<[f64; 2]> = rows.iter().filter(|row| row.case == case).filter_map(point).collect();
@@ -89,7 +89,7 @@ fn leave_out_what_is_beaten(rows: &mut [Row], case: &str) {
     }
 }
 
-/// A row of images that all threads of the machine draw.
+/// A row of images, drawn by all threads of the machine.
 fn whole(case: &str, variant: impl Into<String>, size: [u32; 2]) -> Row {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     Row::new(case, variant).sized(size.map(|side| side as usize)).with_threads(threads)

@@ -1,4 +1,4 @@
-//! A chapter for each question: its variants, measured.
+//! The chapters: for each question, the variants and their measurements.
 
 mod antialiasing;
 mod color;

@@ -1,5 +1,5 @@
-//! What do other renderers' images cost, and how right are they? Nothing is measured here: the rows are the two files in
-//! `crates/study/rivals`.
+//! What do other renderers' images cost, and how accurate are they? Nothing is measured here: the rows are
+//! read from the two files in `crates/study/rivals`.
 
 use super::*;
 use crate::rivals::{Measured, Timed, measured, timed};

@@ -1,4 +1,4 @@
-//! In which order are translucent faces laid over each other?
+//! In which order are translucent faces blended?
 
 use super::*;
 use crate::transparency::{Transparency, exact};

@@ -1,9 +1,8 @@
-//! Hidden lines: the parts of edges that no body hides.
+//! Hidden lines: the parts of edges that bodies hide.
 //!
-//! With the ray from every point of an edge to the eye, an edge is a strip in two
-//! numbers: t along the edge from 0 to 1, and α ≥ 0 towards the eye. The planes of a body
-//! cut a convex polygon out of it, and the edge is hidden between that polygon's least
-//! and greatest t.
+//! The rays from all points of an edge to the eye form a strip with two parameters: t along the edge from 0
+//! to 1, and α ≥ 0 towards the eye. The planes of a body cut a convex polygon out of the strip; the edge is
+//! hidden between the smallest and the largest t of that polygon.
 
 use super::body::{ConvexBody, convex_bodies};
 use super::{NotConvex, Scene};

@@ -1,11 +1,10 @@
-//! Roberts' algorithm (L. G. Roberts, "Machine perception of three-dimensional solids",
-//! MIT Lincoln Laboratory TR 315, 1963) as source D has it (row D5): a body is a matrix of
-//! planes with its inside on their positive side; planes that are turned away are hidden
-//! by the body itself; what is left is compared with every other body: a point is hidden
-//! if the ray from it to the eye passes through one.
+//! Roberts' algorithm (L. G. Roberts, "Machine perception of three-dimensional solids", MIT Lincoln
+//! Laboratory TR 315, 1963) as in source D (row D5). A body is a matrix of planes with its inside on their
+//! positive side. Planes that face away are hidden by the body itself. The remaining faces are compared with
+//! every other body: a point is hidden if the ray from it to the eye passes through one.
 //!
-//! Work grows with the square of the number of bodies: no box or order is used to leave
-//! any comparison out.
+//! The work grows with the square of the number of bodies: no boxes and no depth order reduce the
+//! comparisons.
 
 mod body;
 mod lines;

@@ -70,7 +70,7 @@ fn refining_can_be_switched_on_and_off_and_shows_what_is_there() {
     assert!(session.shown.as_deref() == Some(&coarse), "as the settings say, and no better");
     session.stage.refinement = Refinement::Reference;
     session.woken(ms(1000));
-    session.animation = Animation::Resting;
+    session.animation = AnimationState::Resting;
     run(&mut session, ms(1000));
     assert!(session.shown.as_deref() == Some(&reference), "refined");
     session.stage.refinement = Refinement::Settings;

@@ -18,7 +18,9 @@ use trigon_edit::Document;
 use trigon_edit::mesh::edit::EditMesh;
 use trigon_window::scene::Frame;
 use trigon_window::scene::camera::Viewport;
-use trigon_window::{Animation, Handler, Hands, HeadlessWindow, Input, Modifiers, Stage, Taken, Tick, egui};
+use trigon_window::{
+    AnimationState, Handler, Hands, HeadlessWindow, Input, Modifiers, Stage, Taken, Tick, egui,
+};
 
 use crate::window::editor::Editor;
 use crate::window::keys::Keys;
@@ -34,7 +36,7 @@ impl Handler for Watched {
         self.0.borrow_mut().start(stage);
     }
 
-    fn frame(&mut self, stage: &mut Stage, tick: Tick) -> Animation {
+    fn frame(&mut self, stage: &mut Stage, tick: Tick) -> AnimationState {
         self.0.borrow_mut().frame(stage, tick)
     }
 

@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use trigon_math::SplitMix64;
+
 use super::*;
 
 /// The window still does what keys say, and the message is there all the time.
@@ -16,12 +18,8 @@ fn lives_on(window: &mut HeadlessWindow<'_>, what: &str) {
 
 /// What can arrive under the name of a model.
 fn broken() -> Vec<(&'static str, Vec<u8>)> {
-    let mut noise = Vec::new();
-    let mut state = 1u32;
-    for _ in 0..20_000 {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        noise.push((state >> 24) as u8);
-    }
+    let mut random = SplitMix64::new(1);
+    let noise: Vec<u8> = (0..20_000).map(|_| random.below(256) as u8).collect();
     let mut cut = b"glTF\x02\0\0\0\xff\xff\xff\x7f".to_vec();
     cut.extend([0xff, 0xff, 0xff, 0x7e, b'J', b'S', b'O', b'N', b'{']);
     vec![

@@ -10,9 +10,8 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use trigon_camera::{Orbit, Projector, Viewport};
 use trigon_math::DVec2;
-use trigon_window::{Chord, HeadlessWindow, Key, Modifiers, PointerButton, Stage};
+use trigon_window::{Chord, HeadlessWindow, Key, Modifiers, PointerButton, RecentFiles, Stage};
 
-use super::super::recent::Recent;
 use super::Viewer;
 use crate::args::{RawArgs, Request};
 use crate::report::{Level, Reporter};
@@ -42,7 +41,7 @@ fn viewer(flags: &str, files: &[PathBuf]) -> Viewer {
     let request = Request::new(RawArgs::parse_from(words)).expect("consistent flags");
     let sources = Source::all(&request);
     let mut viewer = Viewer::new(request, sources, Reporter::new(Level::Quiet));
-    viewer.recent = Recent::default();
+    viewer.recent = RecentFiles::default();
     viewer
 }
 

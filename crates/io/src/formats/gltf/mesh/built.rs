@@ -1,11 +1,11 @@
-//! A converted mesh, and what its materials need of it.
+//! A converted mesh, and what its materials need to know about it.
 
 use trigon_mesh::Mesh;
 use trigon_mesh::edit::Marks;
 use trigon_scene::MaterialTexture;
 
 use crate::formats::gltf::slots::SlotTexture;
-use crate::formats::gltf::source::PrimitiveFaces;
+use crate::gltf_source::PrimitiveFaces;
 
 /// A mesh, and the contents of its slots.
 pub(crate) struct BuiltMesh {

@@ -21,8 +21,8 @@ use gltf::json::Root;
 
 use super::accessor::Accessors;
 use super::buffers::Unplaced;
-use super::source::PrimitiveFaces;
 use crate::error::Place;
+use crate::gltf_source::PrimitiveFaces;
 use crate::warning::Warnings;
 pub(super) use built::{BuiltMesh, Needs};
 use draft::Draft;

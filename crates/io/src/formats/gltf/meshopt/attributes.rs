@@ -97,23 +97,31 @@ fn read_block(
 /// Sixteen deltas with some bits each. One with all bits set stands for a byte after the group.
 fn read_group(stream: &mut Stream<'_>, width: usize, deltas: &mut Vec<u8>) -> Result<(), Broken> {
     let packed = stream.take(GROUP * width / 8)?;
-    if width == 8 {
-        deltas.extend_from_slice(packed);
-        return Ok(());
-    }
+    let mut group = match width {
+        0 => [0; GROUP],
+        1 => unpacked::<1>(packed),
+        2 => unpacked::<2>(packed),
+        4 => unpacked::<4>(packed),
+        _ => {
+            deltas.extend_from_slice(packed);
+            return Ok(());
+        }
+    };
     let escape = (1u8 << width) - 1;
-    for index in 0..GROUP {
-        let bit = index * width;
-        let delta = match width {
-            0 => 0,
-            // Single bits are stored from the lowest on, others from the highest.
-            1 => packed[bit / 8] >> (bit % 8) & 1,
-            _ => packed[bit / 8] >> (8 - width - bit % 8) & escape,
-        };
-        let is_escaped = width > 0 && delta == escape;
-        deltas.push(if is_escaped { stream.byte()? } else { delta });
+    for delta in group.iter_mut().filter(|delta| width > 0 && **delta == escape) {
+        *delta = stream.byte()?;
     }
+    deltas.extend_from_slice(&group);
     Ok(())
+}
+
+fn unpacked<const WIDTH: usize>(packed: &[u8]) -> [u8; GROUP] {
+    std::array::from_fn(|index| {
+        let bit = index * WIDTH;
+        // Single bits are stored from the lowest on, others from the highest.
+        let shift = if WIDTH == 1 { bit % 8 } else { 8 - WIDTH - bit % 8 };
+        packed[bit / 8] >> shift & ((1 << WIDTH) - 1)
+    })
 }
 
 /// How four bytes of an element follow from those of the previous one.
@@ -123,7 +131,7 @@ enum Channel {
     Bytes,
     /// Differences of two 16-bit numbers.
     Words,
-    /// The differing bits, rotated to the left by this many.
+    /// The differing bits, which the encoder rotated to the left by this many.
     Bits(u32),
 }
 
@@ -149,7 +157,7 @@ impl Channel {
                 [a, b, c, d]
             }
             Self::Bits(rotation) => {
-                let bits = u32::from_le_bytes(delta).rotate_left(rotation);
+                let bits = u32::from_le_bytes(delta).rotate_right(rotation);
                 (u32::from_le_bytes(previous) ^ bits).to_le_bytes()
             }
         }
@@ -164,15 +172,17 @@ fn unzigzag_word(value: u16) -> u16 {
     if value & 1 == 0 { value >> 1 } else { !(value >> 1) }
 }
 
-/// Converts the deltas of a block to elements.
+/// Converts the deltas of a block to elements, channel by channel.
 fn add_up(deltas: &[u8], elements: usize, channels: &[Channel], previous: &mut [u8], decoded: &mut Vec<u8>) {
-    let pitch = elements.div_ceil(GROUP) * GROUP;
-    for element in 0..elements {
-        for (index, (channel, bytes)) in channels.iter().zip(previous.chunks_exact_mut(4)).enumerate() {
-            let delta = std::array::from_fn(|byte| deltas[(4 * index + byte) * pitch + element]);
-            let next = channel.follow([bytes[0], bytes[1], bytes[2], bytes[3]], delta);
-            bytes.copy_from_slice(&next);
+    let (pitch, stride, start) = (elements.div_ceil(GROUP) * GROUP, previous.len(), decoded.len());
+    decoded.resize(start + elements * stride, 0);
+    for (index, (channel, last)) in channels.iter().zip(previous.chunks_exact_mut(4)).enumerate() {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|byte| &deltas[(4 * index + byte) * pitch..][..elements]);
+        let mut value = [last[0], last[1], last[2], last[3]];
+        for (at, element) in decoded[start..].chunks_exact_mut(stride).enumerate() {
+            value = channel.follow(value, [a[at], b[at], c[at], d[at]]);
+            element[4 * index..4 * index + 4].copy_from_slice(&value);
         }
-        decoded.extend_from_slice(previous);
+        last.copy_from_slice(&value);
     }
 }

@@ -71,7 +71,13 @@ impl Layout {
 
 /// Indices as little-endian bytes, truncated to their size.
 fn written(indices: &[u32], stride: usize) -> Vec<u8> {
-    indices.iter().flat_map(|index| index.to_le_bytes().into_iter().take(stride)).collect()
+    let mut bytes = Vec::with_capacity(indices.len() * stride);
+    if stride == 2 {
+        indices.iter().for_each(|&index| bytes.extend_from_slice(&(index as u16).to_le_bytes()));
+    } else {
+        indices.iter().for_each(|&index| bytes.extend_from_slice(&index.to_le_bytes()));
+    }
+    bytes
 }
 
 #[cfg(test)]

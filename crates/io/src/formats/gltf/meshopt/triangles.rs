@@ -1,5 +1,5 @@
-//! Mode 1: each triangle is a byte that names a recent edge and vertex to reuse, plus a few bytes
-//! where that is not enough.
+//! Mode 1: each triangle is a byte that refers to a recent edge and a recent vertex, plus a few bytes where
+//! that is not enough.
 
 use super::broken::Broken;
 use super::stream::{Stream, unzigzag};

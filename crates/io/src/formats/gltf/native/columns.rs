@@ -295,7 +295,7 @@ fn read_target(reader: &mut ColumnReader<'_>, number: usize) -> Result<MorphTarg
         let indices = reader.words(&format!("{name}.indices"))?;
         let values = vec3(&name, reader.column(&name))?;
         if indices.len() != values.len() {
-            return Err(format!("its {name} are not as many as their indices"));
+            return Err(format!("its {name} and their indices differ in number"));
         }
         Ok(Deltas::new(indices.into_iter().zip(values).collect()))
     };

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use trigon_mesh::edit::Marks;
 use trigon_scene::{MeshId, Scene};
 
-use crate::formats::gltf::source::GltfSource;
+use crate::gltf_source::GltfSource;
 
 /// A file, and the scene as loaded: whatever is unchanged in a scene is unchanged in the file.
 #[derive(Debug)]

@@ -22,7 +22,7 @@ use super::nodes::{camera, matrix, write_node};
 use super::raw::RawObject;
 use super::textures::Textures;
 use crate::error::Place;
-use crate::formats::gltf::source::GltfSource;
+use crate::gltf_source::GltfSource;
 use crate::loss::Loss;
 use crate::write::WriteError;
 use choice::{Choice, unchanged_copies};

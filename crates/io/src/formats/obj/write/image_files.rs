@@ -1,4 +1,4 @@
-//! The images beside a material library: as they were encoded, or as PNG.
+//! The images of a material library, in their original encoding or as PNG.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,7 +7,8 @@ use trigon_scene::{Scene, TextureId};
 
 use super::names::Names;
 use crate::export::{ExportedFile, plain_name};
-use crate::formats::gltf::{GltfSource, mime_type};
+use crate::formats::gltf::mime_type;
+use crate::gltf_source::GltfSource;
 use crate::png::{Pixels, encode_png};
 
 pub(super) struct ImageFiles<'a> {

@@ -33,7 +33,7 @@ impl ChannelMode {
             }
             Self::Bits(rotation) => {
                 let bits = |bytes: &[u8]| u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
-                (bits(from) ^ bits(to)).rotate_right(rotation).to_le_bytes()
+                (bits(from) ^ bits(to)).rotate_left(rotation).to_le_bytes()
             }
         }
     }

@@ -2,6 +2,7 @@
 //! were; streams of any bytes come back as errors.
 
 mod encoder;
+mod reference;
 
 use proptest::prelude::*;
 

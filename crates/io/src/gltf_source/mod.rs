@@ -20,11 +20,11 @@ use std::sync::Arc;
 use trigon_scene::{MaterialId, MeshId, NodeId, SkinId, TextureId};
 
 pub(crate) use draft::SourceDraft;
-pub(super) use draft::share;
-pub(super) use origins::MeshOrigin;
+pub(crate) use draft::share;
+pub(crate) use origins::MeshOrigin;
 use origins::Origins;
 pub(crate) use origins::PrimitiveFaces;
-pub(super) use text::JsonText;
+pub(crate) use text::JsonText;
 
 /// A glTF or GLB file as it was read, with its mapping to the scene.
 ///
@@ -62,7 +62,7 @@ pub struct GltfSource {
 
 /// A part of shared bytes.
 #[derive(Clone)]
-pub(super) struct SharedBytes {
+pub(crate) struct SharedBytes {
     bytes: Arc<[u8]>,
     range: Range<usize>,
 }

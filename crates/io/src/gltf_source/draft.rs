@@ -14,11 +14,11 @@ use crate::texture_request::{ImageBytes, Request};
 #[derive(Default)]
 pub(crate) struct SourceDraft {
     /// `None` as long as the file is not known to be a glTF.
-    pub(in crate::formats::gltf) text: Option<JsonText>,
-    pub(in crate::formats::gltf) buffers: Vec<Option<Arc<[u8]>>>,
-    pub(in crate::formats::gltf) images: BTreeMap<usize, SharedBytes>,
-    pub(in crate::formats::gltf) image_count: usize,
-    pub(in crate::formats::gltf) origins: Origins,
+    pub(crate) text: Option<JsonText>,
+    pub(crate) buffers: Vec<Option<Arc<[u8]>>>,
+    pub(crate) images: BTreeMap<usize, SharedBytes>,
+    pub(crate) image_count: usize,
+    pub(crate) origins: Origins,
 }
 
 impl SourceDraft {
@@ -52,7 +52,7 @@ impl SourceDraft {
     }
 }
 
-pub(in crate::formats::gltf) fn share(bytes: &ImageBytes) -> SharedBytes {
+pub(crate) fn share(bytes: &ImageBytes) -> SharedBytes {
     match bytes {
         ImageBytes::Own(bytes) => SharedBytes { bytes: bytes.as_slice().into(), range: 0..bytes.len() },
         ImageBytes::Shared(buffer, range) => SharedBytes { bytes: buffer.clone(), range: range.clone() },

@@ -6,9 +6,8 @@
 
 use std::time::Duration;
 
-use crate::keymap::Motion;
-
-use super::event::KeyCode;
+use super::Motion;
+use crate::input::KeyCode;
 
 /// The length of a step.
 pub(crate) const STEP: Duration = Duration::from_millis(4);

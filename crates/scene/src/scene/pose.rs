@@ -1,12 +1,13 @@
-//! The state of an animation at one moment.
+//! The state of an animation at one moment: a pure function of scene, animation and time, with the same bits on every
+//! machine.
 
 use std::collections::BTreeMap;
 
 use trigon_math::{DQuat, DVec3};
 
-use super::{Animation, Channel, Property};
+use super::Scene;
+use crate::animation::{Animation, Channel, Property};
 use crate::node::NodeId;
-use crate::scene::Scene;
 use crate::transform::Transform;
 
 /// One node in a pose.
@@ -96,8 +97,8 @@ impl Parts {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Curve, Interpolation};
     use super::*;
+    use crate::animation::{Curve, Interpolation};
     use crate::node::Node;
 
     fn channel(node: NodeId, property: Property, width: usize, values: &[f32]) -> Channel {

@@ -1,20 +1,18 @@
-//! Which edges of a mesh the sides of triangles are.
+//! The edge of the mesh to which each side of a triangle belongs.
 
 use trigon_mesh::Mesh;
 
-/// Stands for a diagonal of a triangulation.
+/// Marks a diagonal of a triangulation.
 pub(super) const NO_EDGE: u32 = u32::MAX;
 
-/// For each triangle of a mesh's triangulation the edges that its sides are, from the first
-/// corner on.
+/// For each triangle of a mesh's triangulation, the edges of its three sides, starting at the first corner.
 pub(super) fn sides_of_mesh(source: &Mesh) -> Vec<[u32; 3]> {
     let triangulation = source.triangulation();
     let triangles = triangulation.triangles.iter().zip(&triangulation.triangle_faces);
     triangles.map(|(triangle, &face)| sides_of_triangle(source, face, triangle)).collect()
 }
 
-/// Those of one triangle of a face. A side is an edge where it leads from one corner of the
-/// face to the next.
+/// The edges of one triangle of a face. A side is an edge if it joins consecutive corners of the face.
 pub(super) fn sides_of_triangle(source: &Mesh, face: u32, &[a, b, c]: &[u32; 3]) -> [u32; 3] {
     let corners = source.face_corners(face as usize);
     let (first, last) = (corners.start as u32, corners.end as u32 - 1);

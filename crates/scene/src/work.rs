@@ -1,4 +1,5 @@
-//! What is done for effects, noted where it is done. Tests alone look at it: in other builds nothing is left of it.
+//! Counts of the work done for effects, noted where it is done. Only tests read them; other builds contain
+//! none of this.
 
 use crate::material::MaterialTexture;
 

@@ -31,14 +31,14 @@ const LISTS: &[&str] = &[
 type Lists = BTreeMap<&'static str, Vec<Range<usize>>>;
 
 /// The text, and the start and end of the items of its lists.
-pub(in crate::formats::gltf) struct JsonText {
+pub(crate) struct JsonText {
     text: Box<str>,
     lists: Lists,
 }
 
 impl JsonText {
     /// Finds the lists of a document.
-    pub(in crate::formats::gltf) fn new(text: &str) -> serde_json::Result<Self> {
+    pub(crate) fn new(text: &str) -> serde_json::Result<Self> {
         let lists = serde_json::Deserializer::from_str(text).deserialize_map(FindLists(text))?;
         Ok(Self { text: text.into(), lists })
     }

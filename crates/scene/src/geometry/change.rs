@@ -1,11 +1,10 @@
-//! Geometry that follows changes of its mesh instead of being made anew.
+//! Updates geometry after a change of its mesh, instead of rebuilding it.
 //!
-//! Whatever it holds afterwards draws the bytes of geometry made from the changed mesh:
-//! each triangle shows the same values. Only the numbers of vertices may differ. What is
-//! made anew as a whole: tangents that were generated, when a normal map asks for them;
-//! the geometry of a mesh that a pose can bend. Each polygon has places for two triangles less
-//! than it has corners; one that folds, and has fewer, fills them with triangles whose corners
-//! are one.
+//! Updated geometry draws the same bytes as geometry rebuilt from the changed mesh: each triangle shows the
+//! same values, only the number of vertices may differ. Two things are rebuilt as a whole: tangents that were
+//! generated for a normal map, and the geometry of a mesh that a pose can deform. Each polygon has slots for
+//! two triangles fewer than it has corners. A folded polygon has fewer triangles; degenerate ones, whose
+//! three corners are the same vertex, fill the rest of its slots.
 
 use std::mem::{replace, take};
 use std::ops::Range;
@@ -35,8 +34,8 @@ impl Geometry {
         self.links.is_some()
     }
 
-    /// The geometry of a mesh, from the one that it had before these elements were
-    /// changed. That is copied if somebody else holds it.
+    /// Updates the geometry of a mesh after these elements have changed. It is copied first if somebody else
+    /// holds it.
     pub(crate) fn after_change(before: Arc<Self>, mesh: &Mesh, changed: &ChangedElements) -> Self {
         let state = before.state.clone();
         let mut geometry = Arc::try_unwrap(before).unwrap_or_else(|shared| shared.copied());
@@ -50,13 +49,13 @@ impl Geometry {
         }
     }
 
-    /// All that follows changes.
+    /// The data needed to follow changes.
     fn copied(&self) -> Self {
         Self { links: self.links.clone(), ..self.with_columns(self.columns.clone()) }
     }
 
-    /// The vertices and triangles that are written. `None` if it cannot follow, and then it
-    /// is of no more use.
+    /// Writes the affected vertices and triangles, and returns them. `None` if it cannot follow the change;
+    /// it is then of no further use.
     fn follow(&mut self, mesh: &Mesh, changed: &ChangedElements) -> Option<(Vec<u32>, Vec<u32>)> {
         let update = self.links.as_mut()?.follow(mesh, changed);
         self.state = GeometryState::default();
@@ -72,27 +71,27 @@ impl Geometry {
         Some((update.vertices.iter().map(|updated| updated.vertex).collect(), triangles?))
     }
 
-    /// The box, if it is known and stays the same without some vertices.
+    /// The box, if it is known and does not change without some vertices.
     fn bounds_without(&self, vertices: &[UpdatedVertex]) -> Option<Bounds3> {
         let bounds = *self.bounds.get()?;
         let is_on_border = |vertex: &UpdatedVertex| {
-            // New vertices have no place yet.
+            // New vertices have no position yet.
             let place = self.columns.position(vertex.vertex).map(Vec3::as_dvec3);
             place.is_some_and(|place| (place.cmpeq(bounds.min) | place.cmpeq(bounds.max)).any())
         };
         (!vertices.iter().any(is_on_border)).then_some(bounds)
     }
 
-    /// The box with vertices that were written.
+    /// The box extended by vertices that were written.
     fn bounds_with(&self, bounds: Bounds3, vertices: &[UpdatedVertex]) -> Bounds3 {
         let places = vertices.iter().filter_map(|vertex| self.columns.position(vertex.vertex));
         bounds.union(box_around(places))
     }
 
-    /// Replaces the triangles of faces; those that are other ones now, or have other flags or
-    /// sides, increasing. `None`, and nothing is replaced, where a face has more than places.
+    /// Replaces the triangles of faces, and returns those that have other corners, edge flags or sides now,
+    /// increasing. `None`, with nothing replaced, if a face needs more slots than it has.
     fn replace_triangles(&mut self, mesh: &Mesh, update: &RenderUpdate) -> Option<Vec<u32>> {
-        /// Faces that a thread takes at a time.
+        /// Faces per task.
         const PIECE: usize = 1024;
         let cuts = self.cuts(mesh, update)?;
         self.note_fillers(&cuts);
@@ -123,7 +122,7 @@ impl Geometry {
         Some(pieces.into_par_iter().map(replace).collect::<Vec<_>>().concat())
     }
 
-    /// How the changed faces are cut, by the place of their triangles.
+    /// The triangulation of the changed faces, by the slots of their triangles.
     fn cuts<'a>(&self, mesh: &Mesh, update: &'a RenderUpdate) -> Option<Vec<Cut<'a>>> {
         let slots = mesh.attributes().face_materials.as_deref();
         let (mut triangles, mut faces) =
@@ -147,13 +146,13 @@ impl Geometry {
         Some(cuts)
     }
 
-    /// Brings the list of fillers up to date.
+    /// Updates the list of fillers.
     fn note_fillers(&mut self, cuts: &[Cut<'_>]) {
         let is_full = |cut: &Cut<'_>| cut.triangles.len() == cut.place.len();
         if self.fillers.is_empty() && cuts.iter().all(is_full) {
             return;
         }
-        // The places of a face lie side by side in the triangulation, too.
+        // The slots of a face are consecutive in the triangulation, too.
         let in_triangulation = |cut: &Cut<'_>| {
             let start = self.place_in_triangulation(cut.place.start);
             (start..start + cut.place.len() as u32, cut.triangles.len() as u32)
@@ -168,12 +167,12 @@ impl Geometry {
         self.fillers.sort_unstable();
     }
 
-    /// Where the triangles of a face of a slot lie; empty where it has none.
+    /// The slots of a face's triangles in a material slot; empty if it has none.
     fn place_of(&self, face: u32, slot: u32, face_count: usize) -> Range<usize> {
         let Ok(run) = self.runs.binary_search_by_key(&slot, |run| run.slot) else { return 0..0 };
         let start = self.runs[run].triangles.start;
         let faces = &self.faces[self.runs[run].triangles.clone()];
-        // Right at once where all faces have equally many triangles and one slot.
+        // Correct at once if all faces have equally many triangles and one material slot.
         let guess = (u64::from(face) * faces.len() as u64 / face_count as u64) as usize;
         let begins = |at: usize| faces.get(at) == Some(&face) && (at == 0 || faces[at - 1] != face);
         let first = if begins(guess) { guess } else { faces.partition_point(|&other| other < face) };
@@ -182,8 +181,8 @@ impl Geometry {
     }
 }
 
-/// Gives each face places for as many triangles as it can ever have; those of fillers,
-/// increasing. A polygon that crosses itself or has no area has fewer triangles than places.
+/// Gives each face slots for as many triangles as it can ever have, and returns the slots of fillers,
+/// increasing. A polygon that crosses itself or has no area has fewer triangles than slots.
 fn fill(render_mesh: &mut RenderMesh, mesh: &Mesh, links: &RenderLinks) -> Vec<u32> {
     let most = mesh.corner_count() - 2 * mesh.face_count();
     let mut fillers = Vec::new();
@@ -216,9 +215,9 @@ fn fill(render_mesh: &mut RenderMesh, mesh: &Mesh, links: &RenderLinks) -> Vec<u
     fillers
 }
 
-/// The corners of which the fillers of a face consist.
+/// The corners that the fillers of a face use.
 struct Fillers {
-    /// Those that no triangle of the face has, so that none is without a triangle.
+    /// First those that no triangle of the face uses, so that no corner is left without a triangle.
     unused: std::vec::IntoIter<u32>,
     first: u32,
 }
@@ -246,12 +245,11 @@ struct Cut<'a> {
     face: u32,
     /// Over the corners of the mesh.
     triangles: &'a [[u32; 3]],
-    /// Where they lie in the geometry; there may be more places.
+    /// Their slots in the geometry; there may be more.
     place: Range<usize>,
 }
 
-/// What geometry has for each triangle, of some triangles one after the other; or nothing
-/// where it is not known.
+/// Per-triangle data of consecutive triangles, or nothing where it is unknown.
 struct TriangleLists<'a> {
     triangles: &'a mut [[u32; 3]],
     flags: &'a mut [EdgeFlags],
@@ -259,7 +257,7 @@ struct TriangleLists<'a> {
 }
 
 impl<'a> TriangleLists<'a> {
-    /// Takes away the first so many.
+    /// Splits off the first `count` triangles and returns them.
     fn split_off(&mut self, count: usize) -> Self {
         fn first<'a, T>(list: &mut &'a mut [T], count: usize) -> &'a mut [T] {
             list.split_off_mut(..count).unwrap_or_default()
@@ -271,8 +269,8 @@ impl<'a> TriangleLists<'a> {
         }
     }
 
-    /// Writes those of a face, given the place of the first triangle of these lists, and adds
-    /// the places of those that differ from before.
+    /// Writes the triangles of a face to the slots from the given one on, and records the slots that have
+    /// changed.
     fn write(
         &mut self,
         mesh: &Mesh,

@@ -1,4 +1,4 @@
-//! The vertex values of a mesh, column by column, for the vectorized vertex stage.
+//! The vertex attributes of a mesh as columns (structure of arrays), for the vectorized vertex stage.
 
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Deformed, Mesh, RenderMesh, UpdatedVertex};
@@ -37,8 +37,8 @@ impl Columns {
         }
     }
 
-    /// Writes the values of vertices that a change of the mesh has affected; new ones come in order
-    /// of their numbers.
+    /// Writes the values of vertices that a change of the mesh has affected; new vertices are appended in
+    /// order.
     pub(crate) fn update(&mut self, mesh: &Mesh, vertices: &[UpdatedVertex]) {
         let Self { positions, normals, tangents, uv_sets, colors } = self;
         let attributes = mesh.attributes();
@@ -60,14 +60,14 @@ impl Columns {
         rayon::join(|| write(positions, vertices, position), write_others);
     }
 
-    /// Bytes of what a pose changes.
+    /// The bytes that a pose changes.
     pub(crate) fn byte_count(&self) -> usize {
         let tangents = self.tangents.iter().flatten();
         let columns = self.positions.iter().chain(&self.normals).chain(tangents);
         columns.map(|column| size_of_val(column.as_slice())).sum()
     }
 
-    /// Where a vertex lies, if it exists.
+    /// The position of a vertex, if it exists.
     pub(crate) fn position(&self, vertex: u32) -> Option<Vec3> {
         let [x, y, z] = self.positions.each_ref().map(|column| column.get(vertex as usize).copied());
         Some(Vec3::new(x?, y?, z?))

@@ -34,10 +34,10 @@ pub struct MarkColors {
 }
 
 impl MarkColors {
-    /// How many marks there are, with that which stands for none.
+    /// The number of marks, including the one for "no mark".
     pub const COUNT: usize = 16;
 
-    /// Marks that cannot be seen.
+    /// Marks that are invisible.
     pub const NONE: Self = Self { edges: [Vec4::ZERO; Self::COUNT], faces: [Vec4::ZERO; Self::COUNT] };
 }
 
@@ -73,7 +73,7 @@ impl Overlap {
         if other.is_above(self) { other } else { self }
     }
 
-    /// Whether it is seen where the two meet.
+    /// Whether it is drawn above the other where the two overlap.
     pub(crate) fn is_above(self, other: Self) -> bool {
         match self.share.partial_cmp(&other.share) {
             Some(Ordering::Greater) => true,

@@ -1,4 +1,4 @@
-//! A mesh of a scene, and what has been found out about it.
+//! A mesh of a scene, with data derived from it.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -6,7 +6,7 @@ use trigon_math::{Bounds3, Vec3};
 use trigon_mesh::{ChangeError, ChangedElements, Mesh, MeshChange};
 
 use crate::arena::Id;
-use crate::render::{Geometry, box_around};
+use crate::geometry::{Geometry, box_around};
 
 /// Names a mesh.
 pub type MeshId = Id<MeshAsset>;
@@ -40,11 +40,11 @@ struct Outdated {
 }
 
 impl MeshAsset {
-    pub(super) fn new(name: String, mesh: Mesh) -> Self {
+    pub(crate) fn new(name: String, mesh: Mesh) -> Self {
         Self { name, mesh: Arc::new(mesh), derived: Arc::default() }
     }
 
-    pub(super) fn replace(&mut self, mesh: Mesh) {
+    pub(crate) fn replace(&mut self, mesh: Mesh) {
         (self.mesh, self.derived) = (Arc::new(mesh), Arc::default());
     }
 
@@ -57,8 +57,8 @@ impl MeshAsset {
     /// The same, to be held on to: another one after [`Scene::replace_mesh`] and
     /// [`Scene::change_mesh`].
     ///
-    /// [`Scene::replace_mesh`]: super::Scene::replace_mesh
-    /// [`Scene::change_mesh`]: super::Scene::change_mesh
+    /// [`Scene::replace_mesh`]: crate::Scene::replace_mesh
+    /// [`Scene::change_mesh`]: crate::Scene::change_mesh
     #[must_use]
     pub fn shared_mesh(&self) -> &Arc<Mesh> {
         &self.mesh
@@ -76,7 +76,7 @@ impl MeshAsset {
 
     /// The same with the vertices at other places. Stray vertices of a file must not push
     /// the model out of the image.
-    pub(super) fn bounds_of(&self, positions: &[Vec3]) -> Bounds3 {
+    pub(crate) fn bounds_of(&self, positions: &[Vec3]) -> Bounds3 {
         let used = positions.iter().zip(self.used_vertices().iter()).filter(|&(_, &used)| used);
         box_around(used.map(|(point, _)| *point))
     }
@@ -103,8 +103,8 @@ impl MeshAsset {
         })
     }
 
-    /// See [`Scene::change_mesh`](super::Scene::change_mesh).
-    pub(super) fn change(&mut self, change: &MeshChange) -> Result<(), ChangeError> {
+    /// See [`Scene::change_mesh`](crate::Scene::change_mesh).
+    pub(crate) fn change(&mut self, change: &MeshChange) -> Result<(), ChangeError> {
         change.check(&self.mesh)?;
         let inside = self.bounds_without(change);
         Arc::make_mut(&mut self.mesh).change(change)?;

@@ -1,5 +1,5 @@
-//! Boxes around triangles that follow each other in a mesh, and so mostly lie side by side: a
-//! question about a small part of space passes over 64 triangles at a time.
+//! Bounding boxes of 64 consecutive triangles each. Consecutive triangles are mostly neighbours, so a query
+//! about a small part of space skips most of them 64 at a time.
 
 use std::ops::Range;
 
@@ -8,10 +8,10 @@ use trigon_mesh::Mesh;
 
 use super::Geometry;
 
-/// Triangles in a box.
+/// Triangles per box.
 const BLOCK: usize = 64;
 
-/// Boxes that a thread makes at a time.
+/// Boxes per task.
 const SHARE: usize = 64;
 
 /// Boxes around all triangles of a mesh, in its own space.
@@ -19,8 +19,7 @@ const SHARE: usize = 64;
 pub(crate) struct Blocks {
     boxes: Vec<BlockBox>,
     triangles: usize,
-    /// Faces some of whose corners are corners of no triangle: such as cross themselves, or
-    /// have no area. Increasing.
+    /// Faces with corners that no triangle has, because they cross themselves or have no area. Increasing.
     pub(crate) scant_faces: Vec<u32>,
 }
 
@@ -64,8 +63,8 @@ impl BlockBox {
     }
 }
 
-/// Faces with fewer than two triangles less than they have corners: of so many, each cuts a
-/// corner off, and the last has three.
+/// Faces with fewer triangles than their number of corners less two. With exactly that many, each triangle
+/// cuts off one corner, and the last has three, so every corner has a triangle.
 fn scant_faces(source: &Mesh, geometry: &Geometry) -> Vec<u32> {
     let mut counts = vec![0; source.face_count()];
     for (&[a, b, c], &face) in geometry.triangles.iter().zip(&geometry.faces) {

@@ -1,14 +1,14 @@
-//! A mesh as drawn: triangles grouped by material slot.
+//! The triangles of a mesh as they are drawn, grouped by material slot.
 //!
 //! Created once per mesh, at its first frame, and shared by all nodes that draw the mesh. After a
 //! change of few of the mesh's values it is updated: see `change`.
 
 mod blocks;
 mod change;
+mod columns;
 mod edge_flags;
 mod side_edges;
 
-use crate::effects::{Work, note};
 use std::mem::take;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -18,13 +18,15 @@ use trigon_math::{Bounds3, Vec3};
 use trigon_mesh::{Attributes, Deformed, Mesh, RenderLinks, RenderMesh};
 use trigon_raster::EdgeFlags;
 
-use super::columns::Columns;
+use crate::work::{Work, note};
+
 pub(crate) use blocks::{BlockBox, Blocks};
+pub(crate) use columns::Columns;
 use edge_flags::flags_of_mesh;
 use side_edges::{NO_EDGE, sides_of_mesh};
 
-/// The UV sets for which tangents are made: as many as the glTF reader takes. Each set
-/// with a normal map takes as much memory as the mesh, and a file may have thousands.
+/// The number of UV sets that can have tangents: as many as the glTF reader supports. Each set with a normal
+/// map takes as much memory as the mesh, and a file may have thousands.
 const MOST_TANGENT_SETS: usize = 8;
 
 /// A mesh as drawn.
@@ -39,10 +41,10 @@ pub(crate) struct Geometry {
     pub(crate) runs: Vec<Run>,
     /// The original position of each triangle in the triangulation; `None` if unchanged.
     order: Option<Vec<u32>>,
-    /// Places in the triangulation of triangles that a change has taken from their faces,
-    /// increasing. The three corners of such a triangle are one.
+    /// Slots of the triangulation whose triangle a change has taken from its face, increasing. The three
+    /// corners of such a filler are the same vertex.
     fillers: Vec<u32>,
-    /// Differs from that of any other geometry, and from its own before a change.
+    /// Different from that of any other geometry, and from its own before a change.
     pub(crate) state: GeometryState,
     bounds: OnceLock<Bounds3>,
     blocks: OnceLock<Blocks>,
@@ -54,11 +56,11 @@ pub(crate) struct Geometry {
     /// For each of the first UV sets the same with its tangents, created when a normal map on that
     /// set needs them.
     tangential: Vec<OnceLock<Box<Geometry>>>,
-    /// How a posed mesh without tangents came about, to make them.
+    /// How a posed mesh without tangents was deformed, to compute them later.
     pose: Option<Pose>,
-    /// The data to follow changes of the mesh; `None` until the first one.
+    /// The data needed to follow changes of the mesh; `None` until the first one.
     links: Option<RenderLinks>,
-    /// What the last change has written.
+    /// The difference that the last change made.
     pub(crate) change: Option<GeometryChange>,
 }
 
@@ -66,11 +68,11 @@ pub(crate) struct Geometry {
 #[derive(Debug)]
 pub(crate) struct GeometryChange {
     pub(crate) before: GeometryState,
-    /// Vertices with other values.
+    /// Vertices whose values changed.
     pub(crate) vertices: Vec<u32>,
     /// Vertices of the mesh that moved.
     pub(crate) mesh_vertices: Vec<u32>,
-    /// Triangles that may have other corners or other edge flags; increasing.
+    /// Triangles whose corners or edge flags may have changed; increasing.
     pub(crate) triangles: Vec<u32>,
 }
 
@@ -151,7 +153,7 @@ impl Geometry {
         Some(self.with_columns(self.columns.deformed(&deformed)))
     }
 
-    /// The same triangles over other values of vertices.
+    /// The same triangles with other vertex values.
     fn with_columns(&self, columns: Columns) -> Self {
         Self {
             triangles: self.triangles.clone(),
@@ -179,17 +181,17 @@ impl Geometry {
         place - self.fillers.partition_point(|&filler| filler < place) as u32
     }
 
-    /// The same with the places of fillers.
+    /// The same, fillers included.
     fn place_in_triangulation(&self, triangle: usize) -> u32 {
         self.order.as_ref().map_or(triangle as u32, |order| order[triangle])
     }
 
-    /// Whether a triangle is none of the triangulation.
+    /// Whether a triangle is a filler.
     fn is_filler(&self, triangle: usize) -> bool {
         self.fillers.binary_search(&self.place_in_triangulation(triangle)).is_ok()
     }
 
-    /// What was made for each triangle of the triangulation, with something in the places of fillers.
+    /// Per-triangle data of the triangulation, extended by a value for each filler.
     fn with_fillers<T: Copy>(&self, made: Vec<T>, filler: T) -> Vec<T> {
         let mut fillers = self.fillers.iter().peekable();
         let (count, mut made) = (made.len() + self.fillers.len(), made.into_iter());
@@ -200,7 +202,7 @@ impl Geometry {
         if self.fillers.is_empty() { made.collect() } else { (0..count).map(of).collect() }
     }
 
-    /// Has fillers where another geometry of the same mesh has them.
+    /// Takes the fillers from another geometry of the same mesh.
     fn filled_like(mut self, other: &Self) -> Self {
         if !other.fillers.is_empty() {
             let mut own = take(&mut self.triangles).into_iter();
@@ -226,15 +228,16 @@ impl Geometry {
     /// Boxes around its triangles.
     pub(crate) fn blocks(&self, source: &Mesh) -> &Blocks {
         if self.blocks.get().is_none() {
-            // Without a lock: a thread that waits for others may be given work that asks for the same.
+            // Without a lock: a thread that waits for other threads may be given work that needs the same
+            // boxes.
             let _ = self.blocks.set(Blocks::new(source, self));
         }
         self.blocks.get().expect("they were just made")
     }
 
-    /// The mesh as a normal map on a UV set needs it: with its own tangents, or else with tangents
-    /// of that set created on first use, from the mesh at rest: a pose moves them along. The mesh
-    /// unchanged if it has no such set, and no normal map is then drawn on it.
+    /// The mesh for a normal map on a UV set: with its own tangents, or else with tangents of that set. These
+    /// are created on first use from the mesh at rest, and a pose moves them along. If the mesh has no such
+    /// set, it is returned unchanged, and no normal map is drawn.
     pub(crate) fn with_tangents(&self, source: &Mesh, uv_set: usize) -> &Self {
         let Some(tangential) = self.tangential.get(uv_set).filter(|_| self.columns.tangents.is_none()) else {
             return self;
@@ -276,14 +279,14 @@ impl Geometry {
         })
     }
 
-    /// The same if an image has asked for it.
+    /// The same if they have been computed.
     pub(crate) fn sides_if_known(&self) -> Option<&[[u32; 3]]> {
         self.side_edges.get().map(|sides| sides.as_slice())
     }
 }
 
-/// The least and the greatest of some numbers, leaving out NaN. Several at a time, since
-/// large meshes that are changed wait for it.
+/// The smallest and the largest of some numbers, ignoring NaN. Several at a time, because updates of large
+/// meshes wait for it.
 fn range(values: &[f32]) -> [f32; 2] {
     const AT_A_TIME: usize = 16;
     let (mut least, mut greatest) = ([f32::INFINITY; AT_A_TIME], [f32::NEG_INFINITY; AT_A_TIME]);
@@ -323,7 +326,7 @@ fn box_between(min: Vec3, max: Vec3) -> Bounds3 {
     Bounds3 { min, max }
 }
 
-/// An empty place for each UV set that can have tangents.
+/// An empty slot for each UV set that can have tangents.
 fn places_for(columns: &Columns) -> Vec<OnceLock<Box<Geometry>>> {
     columns.uv_sets.iter().take(MOST_TANGENT_SETS).map(|_| OnceLock::new()).collect()
 }

@@ -12,8 +12,8 @@ use crate::light::LightKind;
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 
-/// What is seen, from where, in which light.
-pub(crate) struct Stage<'s> {
+/// The scene as one frame sees it: the camera, the settings, the shapes and the lights.
+pub(crate) struct PreparedScene<'s> {
     pub(crate) scene: &'s Scene,
     pub(crate) settings: &'s RenderSettings,
     transforms: Vec<Option<DAffine3>>,
@@ -24,7 +24,7 @@ pub(crate) struct Stage<'s> {
     pub(crate) lights: Lights,
 }
 
-impl<'s> Stage<'s> {
+impl<'s> PreparedScene<'s> {
     pub(crate) fn new(scene: &'s Scene, camera: &Camera, settings: &'s RenderSettings) -> Self {
         let places = scene.visible_places();
         let transforms = places.iter().map(|place| Some(place.as_ref()?.world)).collect::<Vec<_>>();
@@ -41,12 +41,12 @@ impl<'s> Stage<'s> {
         Self { scene, settings, transforms, camera_to_world, eye, backdrop, shapes, lights }
     }
 
-    /// Whether the camera may see something of a shape's faces.
+    /// Whether some of a shape's faces may be in view.
     pub(crate) fn may_show(&self, shape: &Shape) -> bool {
         self.eye.may_see(&shape.geometry.bounds(), &shape.place.world)
     }
 
-    /// Where a lamp is in the world.
+    /// The transform of a lamp.
     pub(super) fn pose(&self, lamp: &Lamp) -> LampPose {
         let world = lamp.node.and_then(|node| self.transforms[node as usize]);
         let along = world.map_or_else(

@@ -1,5 +1,5 @@
-//! Which edges of triangles are edges of their polygons, and how much larger a polygon is
-//! than its triangles show.
+//! Which sides of triangles are edges of their polygons, and how much larger a polygon is than each of its
+//! triangles.
 
 use trigon_mesh::Mesh;
 use trigon_raster::EdgeFlags;
@@ -43,7 +43,7 @@ pub(super) fn flags_of_face(
     }
 }
 
-/// How large triangles of a polygon are.
+/// The size of a triangle of a polygon.
 #[derive(Clone, Copy, Default)]
 struct Measure {
     /// Twice the area.
@@ -67,11 +67,11 @@ impl Measure {
         }
     }
 
-    /// How many times the inner radius of this triangle its polygon has.
+    /// The ratio of the polygon's inner radius to that of this triangle.
     fn radius_ratio(&self, whole: &Self) -> f32 {
-        // In the middle of a polygon there are no edges.
+        // A triangle in the middle of a polygon may have no edge.
         let own = if self.edges > 0.0 { self.edges } else { self.perimeter };
-        // Without an area it is no number, and so ignored.
+        // Without area the ratio is NaN, and ignored.
         ((whole.area * own) / (self.area * whole.edges)) as f32
     }
 

@@ -6,25 +6,25 @@ use trigon_scene::{MaterialId, MeshId, NodeId, SkinId, TextureId};
 
 /// Indices of the file by ids of the scene.
 #[derive(Default)]
-pub(in crate::formats::gltf) struct Origins {
-    pub(in crate::formats::gltf) nodes: BTreeMap<NodeId, usize>,
-    pub(in crate::formats::gltf) meshes: BTreeMap<MeshId, MeshOrigin>,
-    pub(in crate::formats::gltf) materials: BTreeMap<MaterialId, usize>,
-    pub(in crate::formats::gltf) textures: BTreeMap<TextureId, BTreeSet<usize>>,
-    pub(in crate::formats::gltf) skins: BTreeMap<SkinId, usize>,
+pub(crate) struct Origins {
+    pub(crate) nodes: BTreeMap<NodeId, usize>,
+    pub(crate) meshes: BTreeMap<MeshId, MeshOrigin>,
+    pub(crate) materials: BTreeMap<MaterialId, usize>,
+    pub(crate) textures: BTreeMap<TextureId, BTreeSet<usize>>,
+    pub(crate) skins: BTreeMap<SkinId, usize>,
     /// By their index in the scene.
-    pub(in crate::formats::gltf) animations: Vec<usize>,
-    pub(in crate::formats::gltf) cameras: BTreeMap<NodeId, usize>,
-    pub(in crate::formats::gltf) lights: BTreeMap<NodeId, usize>,
+    pub(crate) animations: Vec<usize>,
+    pub(crate) cameras: BTreeMap<NodeId, usize>,
+    pub(crate) lights: BTreeMap<NodeId, usize>,
     /// The loaded scene, if the file has scenes.
-    pub(in crate::formats::gltf) scene: Option<usize>,
+    pub(crate) scene: Option<usize>,
 }
 
 /// A mesh of the file.
-pub(in crate::formats::gltf) struct MeshOrigin {
-    pub(in crate::formats::gltf) index: usize,
+pub(crate) struct MeshOrigin {
+    pub(crate) index: usize,
     /// In the order of their faces.
-    pub(in crate::formats::gltf) primitives: Vec<PrimitiveFaces>,
+    pub(crate) primitives: Vec<PrimitiveFaces>,
 }
 
 /// The faces of a primitive: from the end of the previous one's.

@@ -1,0 +1,27 @@
+//! Commands as JSON, for all tests of this crate.
+
+use serde_json::{Value, json};
+
+use crate::{Command, Document, EditError, Outcome};
+
+pub(crate) fn command(json: Value) -> Command {
+    serde_json::from_value(json).expect("a command")
+}
+
+pub(crate) fn try_run(document: &mut Document, json: Value) -> Result<Outcome, EditError> {
+    document.run(command(json))
+}
+
+pub(crate) fn run(document: &mut Document, json: Value) {
+    document.run(command(json.clone())).unwrap_or_else(|error| panic!("{json}: {error}"));
+}
+
+pub(crate) fn run_all(document: &mut Document, commands: &[Value]) {
+    commands.iter().for_each(|json| run(document, json.clone()));
+}
+
+/// Edits the faces of these objects.
+pub(crate) fn edit_faces(document: &mut Document, objects: &[&str]) {
+    run(document, json!({ "op": "edit_objects", "objects": objects }));
+    run(document, json!({ "op": "set_element_kind", "kind": "face" }));
+}
