@@ -13,17 +13,28 @@ use thiserror::Error;
 
 use super::Storage;
 
-/// Why a file was not saved. The old one still exists.
+/// Why a file was not saved.
 #[derive(Debug, Error)]
-#[error("{}: cannot be saved, {step} failed ({source}); the file is as it was before: check that its folder is writable and has room, or save under another name", path.display())]
+#[error("{}: cannot be saved, {step} failed ({source}); {}: check that its folder is writable and has room, or save under another name", path.display(), outcome(*is_replaced))]
 #[non_exhaustive]
 pub struct SaveError {
     /// The file.
     pub path: PathBuf,
     /// The step that failed.
     pub step: &'static str,
+    /// Whether the new file already has its name. Then only the folder was not synced: until it is, a power failure can
+    /// bring the old file back.
+    pub is_replaced: bool,
     /// The operating system's error.
     pub source: io::Error,
+}
+
+fn outcome(is_replaced: bool) -> &'static str {
+    if is_replaced {
+        "the new file is in place, but may be lost in a power failure"
+    } else {
+        "the file is as it was before"
+    }
 }
 
 /// The path of the backup: the same name with `.bak` appended.
@@ -38,7 +49,7 @@ pub fn backup_path(path: &Path) -> PathBuf {
 /// still refers to the complete old or new contents; leftover files end in `.part`.
 ///
 /// # Errors
-/// The step that failed. The file is unchanged.
+/// The step that failed. The file is unchanged, unless [`SaveError::is_replaced`].
 ///
 /// ```
 /// use trigon_edit::{Disk, backup_path, save};
@@ -72,7 +83,7 @@ pub(crate) fn replace(storage: &mut dyn Storage, path: &Path, bytes: &[u8]) -> R
 }
 
 fn failed(path: &Path, step: &'static str) -> impl FnOnce(io::Error) -> SaveError {
-    move |source| SaveError { path: path.to_owned(), step, source }
+    move |source| SaveError { path: path.to_owned(), step, is_replaced: false, source }
 }
 
 /// Writes and syncs a file next to the one that it will replace.
@@ -90,7 +101,8 @@ fn remove_on_failure(storage: &mut dyn Storage, new: &Path, step: io::Result<()>
 
 fn give_name(storage: &mut dyn Storage, new: &Path, path: &Path) -> Result<(), SaveError> {
     storage.rename(new, path).map_err(failed(path, "replacing the old file"))?;
-    storage.sync_folder(folder_of(path)).map_err(failed(path, "syncing the folder"))
+    let synced = storage.sync_folder(folder_of(path)).map_err(failed(path, "syncing the folder"));
+    synced.map_err(|error| SaveError { is_replaced: true, ..error })
 }
 
 fn keep_backup(storage: &mut dyn Storage, target: &Path) -> io::Result<()> {
@@ -190,6 +202,7 @@ mod tests {
                 failures += 1;
                 let message = error.to_string();
                 assert!(message.contains("chair.glb") && message.contains("failed"), "{message}");
+                assert_eq!(bytes == b"second", error.is_replaced, "the error tells which of both is there");
             } else {
                 assert_eq!(bytes, b"second", "what is said to be saved is saved");
             }

@@ -6,8 +6,8 @@
 //! last byte.
 //!
 //! From low to high: `ids`, `column` (values with a record of changes), `records` and `layers` (the
-//! stored data), `edit_mesh` (all columns), `slots` and `rings` (the only places that write
-//! adjacency), `walk` (navigation between elements), `euler` (elementary changes), and the
+//! stored data), `edit_mesh` (all columns), `slots` and `rings` (elements and their
+//! adjacency, joined and taken out one by one), `walk` (navigation between elements), `euler` (elementary changes), and the
 //! operations.
 
 mod blends;

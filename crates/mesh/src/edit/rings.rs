@@ -1,5 +1,6 @@
-//! Joining elements to their neighbours' rings and taking them out: the only place that
-//! writes `next` and `previous` of edges and corners at edges.
+//! Joining elements to the rings of their neighbours, one by one, and taking them out. (Whole
+//! meshes and steps that move many corners write their rings themselves: `from_mesh`, `euler`.)
+//! The order within a ring has no geometric meaning.
 
 use super::edit_mesh::EditMesh;
 use super::ids::NONE;

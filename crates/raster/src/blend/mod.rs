@@ -10,9 +10,9 @@
 //! laid is final. So any number of layers is exact in bounded memory, and the
 //! result does not depend on the bound.
 //!
-//! The first round looks at the whole tile at once; blocks where that was not
-//! enough get rounds of their own, few enough at a time that all that waits has
-//! room, down to single blocks.
+//! With one sample per pixel the first round looks at the whole tile at once, otherwise at as
+//! many blocks as have room for eight layers of each sample. Blocks where that was not enough get
+//! rounds of their own, few enough at a time that all that waits has room, down to single blocks.
 //!
 //! With several samples a fragment is shaded once for its triangle and pixel (and
 //! round), like an opaque one, and laid over each sample that it covers and that
@@ -198,7 +198,7 @@ impl Layers {
         if self.last.len() < samples.end {
             self.last.resize(samples.end, Layer::default());
         }
-        // In front of nothing all is left.
+        // A sample without layers: every layer lies in front of this one.
         let nothing = Layer { depth: f32::NEG_INFINITY, ..Layer::default() };
         for (at, last) in self.last[samples].iter_mut().enumerate() {
             match self.runs.of(start + at).last() {
@@ -219,7 +219,7 @@ fn laid_over(behind: Vec4, layers: &[Layer], colors: &[[f32; 4]]) -> Vec4 {
     };
     let color = layers.iter().fold(behind, over);
     if color.is_finite() {
-        // Then it was so all the time.
+        // Then no sum on the way was infinite or NaN.
         color
     } else {
         layers.iter().fold(behind, |below, layer| saturated(over(below, layer)))

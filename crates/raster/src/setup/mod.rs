@@ -1,15 +1,16 @@
 //! Set-up: primitives become triangles that are ready for the tiles. They are culled and entered in
 //! the bins of the tiles that they touch.
 //!
-//! Vertices come snapped from the vertex stage (`vertex/run.rs`). Only triangles with a vertex that
-//! could not be snapped are cut here, and the corners that this gives are snapped here
-//! (`Setup::snap`), with the same bits.
+//! Vertices come snapped from the vertex stage (`vertex/run.rs`). A vertex in front of the near
+//! plane or outside the guard band has no point on the grid. Triangles with such a vertex are cut here,
+//! and all corners of the result are snapped here (`Setup::snap`): a corner that was a vertex gets the
+//! same point as in the vertex stage, so no gap opens beside a neighbour that is not cut.
 //!
 //! In the order in which a triangle passes through:
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `eight` | culls and bins whole triangles, eight at a time; most triangles see nothing else |
+//! | `eight` | culls and bins whole triangles, eight at a time; most triangles need only this file |
 //! | `columns` | eight triangles in lanes, their vertices sorted; the limit of small triangles |
 //! | `mod` | one triangle at a time ([`Setup::triangle`]): cuts it, snaps the result, culls, bins |
 //! | `ears` | cuts the snapped polygon into triangles |

@@ -1,8 +1,8 @@
 //! The visibility stage: which triangle is visible at each sample of a tile.
 //!
 //! A triangle covers a sample if no edge function is negative there. Of the triangles that cover a
-//! sample the nearest is visible. Depth is reversed: **a greater depth is nearer**, so `high` is the
-//! depth of a triangle's nearest vertex, and the farthest of several depths is the least. At
+//! sample the nearest is visible. Depth is reversed: **a greater depth is nearer**, so the
+//! farthest of several depths is the least. At
 //! equal depth the triangle with the smaller key is visible:
 //! [`FrameView::compare`](crate::view::FrameView::compare) is that rule.
 //!
@@ -18,19 +18,19 @@
 //! | `area`, `blocks` | where a tile and its pixels lie; sets of its blocks |
 //! | `visibility` | **the order of the kinds of surface, and which kernel draws a triangle** |
 //! | `eight` | eight small triangles prepared together, and the limits of the kernels |
-//! | `edge_origins` | their edge functions at the first group of each, for `tiny` and `multisample` |
+//! | `edge_origins` | the edge functions of those eight at each one's first 4×2 group, for `tiny` and `multisample` |
 //! | `triangle`, `single` | one triangle prepared for the tile, whatever its size |
 //! | `edge` | edge functions in i64, and **the top-left rule** (`Edge::bias`, `owns_boundary`) |
 //! | `depth` | the plane of a triangle's depths |
 //! | `micro` | kernel: up to eight small triangles of at most 4×4 pixels each, one sample per pixel |
 //! | `tiny` | kernel: one small triangle of at most 24×24 pixels, one sample per pixel |
 //! | `multisample` | the same with several samples per pixel |
-//! | `rasterizer` | kernel: any other triangle (the *general* kernel); also **the depth test** that others repeat |
+//! | `rasterizer` | kernel: any other triangle (the *general* kernel); also **the depth test**, of which the other kernels have versions |
 //! | `quad` | kernel: lines and points |
+//! | `points` | kernel: plain points, from their vertices |
 //! | `masked`, `depth_query` | masked triangles; where a masked or translucent triangle would be visible |
 //! | `buffer`, `store` | depth and visible triangle of each sample, with the depth bounds of blocks; writing to it |
 //! | `ties`, `key_order` | the tile's budget for equal depths; its triangles sorted by key |
-//! | `counts` | statistics |
 //!
 //! The sizes in pixels count the part of a triangle's bounding box that lies in the tile.
 //! `docs/architecture.md`, "Coverage kernels", compares the kernels.
