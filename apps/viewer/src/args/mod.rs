@@ -4,6 +4,7 @@
 mod animation;
 mod beside;
 mod camera;
+mod change;
 mod config;
 mod effects;
 #[cfg(feature = "window")]
@@ -28,16 +29,22 @@ mod words;
 pub(crate) use animation::AnimationProgress;
 pub(crate) use beside::{Beside, Format};
 pub(crate) use camera::ExactCamera;
+#[cfg(feature = "window")]
+pub(crate) use config::KeyBinding;
 pub(crate) use effects::Explanation;
 #[cfg(feature = "window")]
 pub(crate) use flags::{DECIDED, of_settings};
 pub(crate) use help::short as short_help;
 pub(crate) use line::CommandLine;
+#[cfg(feature = "window")]
+pub(crate) use names::flag as flag_named;
 pub(crate) use output::{Destination, Subject, Template};
 pub(crate) use place::PlacedNode;
 pub(crate) use quality::Limit;
 pub(crate) use raw::{Command, HelpLength, RawArgs};
 pub(crate) use request::{Mode, Reference, Request, STDIN, plain};
-pub(crate) use script::{RANGES, Step, steps};
+pub(crate) use script::{Step, steps};
+#[cfg(feature = "window")]
+pub(crate) use script::{split, step};
 #[cfg(feature = "window")]
 pub(crate) use window::InteractionStyle;
