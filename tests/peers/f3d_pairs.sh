@@ -42,7 +42,7 @@ best() { grep -E '^[0-9.]+ [0-9]+$' "$1" | sort -n | awk 'NR == 1 { s = $1 } $2 
 
 echo "model,trigon_s,trigon_MB,f3d_s,f3d_MB"
 for model in "$@"; do
-    name=$(basename "$(dirname "$model")")-$(basename "${model%.*}")
+    name=$(basename "$(dirname "$model")")-$(basename "$model" | tr . -)
     ours=$folder/$name.trigon theirs=$folder/$name.f3d
     rm -f "$ours".* "$theirs".*
     mapfile -t view < <(camera "$model")

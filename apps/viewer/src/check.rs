@@ -86,6 +86,11 @@ impl Fault {
         }
     }
 
+    /// Whether it is no fault.
+    fn is_note(&self) -> bool {
+        self.severity == Severity::Note
+    }
+
     fn of_scene(finding: Finding) -> Self {
         let Finding { severity, fault, place, what, remedy } = finding;
         Self { severity, name: fault, place, what, remedy: remedy.to_owned() }
@@ -108,23 +113,26 @@ impl fmt::Display for Fault {
 
 fn severity(severity: Severity) -> &'static str {
     match severity {
+        Severity::Note => "note",
         Severity::Warning => "warning",
         Severity::Error => "error",
     }
 }
 
 fn lines(source: &Source, faults: &[Fault]) -> Vec<String> {
-    if faults.is_empty() {
-        return vec![format!("{}: no faults", source.title())];
-    }
+    let title = match faults.iter().all(Fault::is_note) {
+        true => format!("{}: no faults", source.title()),
+        false => source.title(),
+    };
     let faults = faults.iter().map(|fault| format!("  {fault}"));
-    std::iter::once(source.title()).chain(faults).collect()
+    std::iter::once(title).chain(faults).collect()
 }
 
 fn facts(source: &Source, faults: &[Fault]) -> Value {
     let is_wrong = faults.iter().any(|fault| fault.severity == Severity::Error);
+    let (notes, findings): (Vec<&Fault>, Vec<&Fault>) = faults.iter().partition(|fault| fault.is_note());
+    let all = |faults: Vec<&Fault>| faults.into_iter().map(Fault::facts).collect::<Vec<_>>();
     json!({
-        "file": source.first_file(), "ok": !is_wrong,
-        "findings": faults.iter().map(Fault::facts).collect::<Vec<_>>(),
+        "file": source.first_file(), "ok": !is_wrong, "findings": all(findings), "notes": all(notes),
     })
 }

@@ -48,7 +48,8 @@ fn compared(
     let source = only_source(request)?;
     let mut model = loading::load_aloud(&source, request, reporter)?;
     let mut changed = loading::load_aloud(&Source::Files(vec![other.to_owned()]), request, reporter)?;
-    let camera = camera_for(&model.shot(&request.framing, request.settings.aspect())?.camera, &changed.scene);
+    let shot = model.shot_with(&changed.scene, &request.framing, request.settings.aspect())?;
+    let camera = camera_for(&shot.camera, &changed.scene);
     for scene in [&mut model.scene, &mut changed.scene] {
         request.scenery.add_to(scene);
     }

@@ -74,7 +74,7 @@ fn main() -> ExitCode {
         Mode::Check => check::run(&request, reporter),
         Mode::Inspect => lists::inspect(&request, reporter),
         Mode::ListReaders => lists::readers(reporter),
-        Mode::ListBindings => list_bindings(reporter),
+        Mode::ListBindings => list_bindings(&request, reporter),
         Mode::ListBackends => lists::backends(reporter),
     })
 }
@@ -91,12 +91,12 @@ fn help(length: HelpLength, reporter: Reporter) -> u8 {
 
 /// `--list-bindings`: the keys under their headings.
 #[cfg(feature = "window")]
-fn list_bindings(reporter: Reporter) -> u8 {
-    lists::print_lines(window::bindings(), reporter)
+fn list_bindings(request: &Request, reporter: Reporter) -> u8 {
+    lists::print_lines(window::bindings(request, reporter), reporter)
 }
 
 #[cfg(not(feature = "window"))]
-fn list_bindings(reporter: Reporter) -> u8 {
+fn list_bindings(_: &Request, reporter: Reporter) -> u8 {
     reporter.error("this trigon-viewer was built without its window, so there are no keys; build it with the feature `window`");
     1
 }

@@ -90,6 +90,13 @@ impl Model {
         self.composed(framing).shot(&self.scene, aspect)
     }
 
+    /// The same camera for this model and another one beside it: both are in view.
+    pub(crate) fn shot_with(&self, other: &Scene, framing: &Framing, aspect: f64) -> Result<Shot, Failure> {
+        let mut both = self.scene.clone();
+        both.append(other);
+        self.composed(framing).shot(&both, aspect)
+    }
+
     /// Views once around it.
     pub(crate) fn turntable(
         &self,

@@ -62,24 +62,27 @@ impl Moment {
 
     /// The time after all jumps.
     fn time(&self, scene: &Scene, chosen: &[usize]) -> f64 {
+        self.jumps.iter().fold(self.seconds, |now, &jump| jump.from(now, scene, chosen, self.frame_rate))
+    }
+}
+
+impl Jump {
+    /// The time after a jump from another one; a frame is a part of a second.
+    pub(crate) fn from(self, now: f64, scene: &Scene, chosen: &[usize], frame_rate: f64) -> f64 {
         let (duration, keyframes) = (duration(scene, chosen), keyframes(scene, chosen));
-        let last_frame = (duration * self.frame_rate).floor() as i64;
-        let mut now = self.seconds;
-        for &jump in &self.jumps {
-            now = match jump {
-                Jump::Time(to) => to,
-                Jump::TimeBy(by) => now + by,
-                Jump::Frame(frame) if frame < 0 => (last_frame + 1 + frame).max(0) as f64 / self.frame_rate,
-                Jump::Frame(frame) => frame as f64 / self.frame_rate,
-                Jump::FrameBy(by) => now + by as f64 / self.frame_rate,
-                Jump::Keyframe(to) => keyframe(&keyframes, to).unwrap_or(now),
-                Jump::KeyframeBy(by) => {
-                    let here = keyframes.partition_point(|&time| time <= now) as i64 - 1;
-                    keyframe(&keyframes, here + by).unwrap_or(now)
-                }
-            };
+        let last_frame = (duration * frame_rate).floor() as i64;
+        match self {
+            Self::Time(to) => to,
+            Self::TimeBy(by) => now + by,
+            Self::Frame(frame) if frame < 0 => (last_frame + 1 + frame).max(0) as f64 / frame_rate,
+            Self::Frame(frame) => frame as f64 / frame_rate,
+            Self::FrameBy(by) => now + by as f64 / frame_rate,
+            Self::Keyframe(to) => keyframe(&keyframes, to).unwrap_or(now),
+            Self::KeyframeBy(by) => {
+                let here = keyframes.partition_point(|&time| time <= now) as i64 - 1;
+                keyframe(&keyframes, here + by).unwrap_or(now)
+            }
         }
-        now
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::args::{CommandLine, Destination, Mode, RANGES, Request, Step, Template, plain, steps};
+use crate::args::{CommandLine, Destination, Mode, Request, Step, Template, plain, steps};
 use crate::failure::Failure;
 use crate::image;
 use crate::lists::print_lines;
@@ -65,7 +65,9 @@ fn done(request: &Request, outlet: &mut Outlet<'_>, reporter: Reporter) -> Resul
             Step::Say(what) => reporter.info(what),
             Step::Ignored(why) => reporter.warning(format_args!("{name}, line {line}: {why}")),
             Step::SceneInfo => session.describe(reporter)?,
-            Step::Print(flag) => reporter.info(session.value(&flag)),
+            Step::Print(flag) => {
+                reporter.info(session.line.typed_value(&flag, session.source().first_file()));
+            }
             Step::Screenshot { file, background } => {
                 session.draw(file.as_deref(), background, outlet, reporter)?;
             }
@@ -98,37 +100,8 @@ impl Session {
 
     /// Changes flags.
     fn change(&mut self, step: Step) -> Result<(), String> {
-        let changed = match step {
-            Step::Edit(words) => self.line.with(words),
-            Step::Reset(flag) => self.line.without(&flag),
-            Step::Toggle(flag) => {
-                let on = self.value(&flag).parse::<bool>().unwrap_or(false);
-                self.line.with([format!("--{flag}={}", !on)])
-            }
-            Step::Increase(flag, up) => self.line.with([self.increased(&flag, up)]),
-            Step::Cycle(flag) => self.line.with([self.line.next_value(&flag, &self.value(&flag))?]),
-            other => return Err(format!("{other:?} changes no flag; this is a bug in trigon")),
-        };
-        changed.raw(self.source().first_file()).map_err(|error| plain(&error))?;
-        self.line = changed;
+        self.line = self.line.changed(step, self.source().first_file())?;
         Ok(())
-    }
-
-    fn increased(&self, flag: &str, up: bool) -> String {
-        let row = RANGES.iter().find(|row| row.0 == flag);
-        let &(_, least, most, step) = row.expect("the script was checked");
-        let now = self.value(flag).parse::<f64>().unwrap_or(1.0);
-        let next = (if up { now + step } else { now - step }).clamp(least, most);
-        // In steps, without what rounding adds.
-        format!("--{flag}={}", (next / step).round() * step)
-    }
-
-    /// The value of a flag as it would be typed; all that was typed for none.
-    fn value(&self, flag: &str) -> String {
-        if flag.is_empty() {
-            return self.line.text();
-        }
-        self.line.value(flag, self.source().first_file()).unwrap_or_default()
     }
 
     fn describe(&self, reporter: Reporter) -> Result<(), Failure> {

@@ -1,8 +1,7 @@
 //! Atomic writing of files that can be made again: images, outputs, captures, exported models.
 //!
 //! The editor's documents are saved by `trigon_edit::save` instead. It keeps a backup and the permissions,
-//! follows symbolic links, and goes through a trait, so that tests can make a disk lose what was not
-//! synced. Here the contents are streamed into a temporary file and never held in memory as a whole.
+//! and goes through a trait, so that tests can make a disk lose what was not synced. Here the contents are streamed into a temporary file and never held in memory as a whole.
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -74,15 +73,41 @@ pub enum WriteError {
 }
 
 /// Runs `write` on a new file that takes the name `path` when all went well: `path` is the old file or the whole new
-/// one, also when the program or the machine stops meanwhile.
+/// one, also when the program or the machine stops meanwhile. Where it is a symbolic link, the file that this leads to is
+/// replaced, and the link stays.
 ///
 /// # Errors
-/// When the folder is missing, not writable or full, or `write` fails. The old file stays then.
+/// When the old file is write-protected, the folder is missing, not writable or full, or `write` fails. The old file
+/// stays then.
 pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    replace(path, write).map_err(|source| WriteError::File { path: path.to_owned(), source })
+    let target = followed(path);
+    let replaced = refuse_protected(&target).and_then(|()| replace(&target, write));
+    replaced.map_err(|source| WriteError::File { path: path.to_owned(), source })
+}
+
+/// Where a link leads, also if nothing is there yet.
+fn followed(path: &Path) -> PathBuf {
+    /// Longer chains are circles.
+    const MOST: usize = 40;
+    let mut path = path.to_owned();
+    for _ in 0..MOST {
+        let Ok(target) = fs::read_link(&path) else { break };
+        path = path.parent().map_or(target.clone(), |folder| folder.join(&target));
+    }
+    path
+}
+
+/// A new file may take the place of one that nobody may write to; that is not what was meant.
+fn refuse_protected(path: &Path) -> io::Result<()> {
+    match fs::metadata(path) {
+        Ok(metadata) if metadata.permissions().readonly() => {
+            Err(io::Error::new(io::ErrorKind::PermissionDenied, "it is write-protected"))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
@@ -120,5 +145,35 @@ mod tests {
         failed.expect_err("reported");
         assert_eq!(fs::read(&path).expect("a file"), b"old", "untouched");
         assert_eq!(fs::read_dir(dir.path()).expect("a folder").count(), 1, "no temporary file");
+    }
+
+    #[test]
+    fn a_write_protected_file_is_not_replaced() {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        let path = dir.path().join("a.png");
+        fs::write(&path, "old").expect("a file");
+        let mut permissions = fs::metadata(&path).expect("a file").permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(&path, permissions).expect("it is ours");
+        let refused = write_atomically(&path, |file| file.write_all(b"new")).expect_err("refused");
+        assert!(
+            refused.to_string().contains("a.png: cannot be written (it is write-protected)"),
+            "{refused}"
+        );
+        assert_eq!(fs::read(&path).expect("a file"), b"old", "untouched");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_followed_also_to_where_nothing_is() {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        fs::create_dir(dir.path().join("real")).expect("a folder");
+        let (link, target) = (dir.path().join("a.png"), dir.path().join("real/b.png"));
+        std::os::unix::fs::symlink("real/b.png", &link).expect("a link");
+        for text in ["first", "second"] {
+            write_atomically(&link, |file| file.write_all(text.as_bytes())).expect("written");
+            assert_eq!(fs::read_to_string(&target).expect("there"), text, "the target");
+            assert!(link.is_symlink(), "the link stays");
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Normals: of faces from their area vectors, of vertices as angle-weighted means of their faces,
 //! and of corners as a renderer needs them.
 
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 use trigon_math::{DVec3, Vec3};
@@ -54,6 +55,16 @@ impl Mesh {
             }
         }
         normals
+    }
+
+    /// The same, without a copy where all are used as they were given.
+    pub(crate) fn shading_normals_or_given(&self) -> Cow<'_, [Vec3]> {
+        let bits = |normal: Vec3| normal.to_array().map(f32::to_bits);
+        let is_kept = |&normal: &Vec3| normal != Vec3::ZERO && bits(unit_keeping(normal)) == bits(normal);
+        match &self.attributes().corner_normals {
+            Some(given) if given.iter().all(is_kept) => Cow::Borrowed(given),
+            _ => Cow::Owned(self.shading_normals()),
+        }
     }
 
     /// Shading normals from the faces alone.

@@ -44,14 +44,14 @@ impl RenderMesh {
     /// (of faces without area) still count. Vertices without faces are left out, as are loose edges
     /// and points. The normals are those of [`Mesh::shading_normals`].
     pub fn from_mesh(mesh: &Mesh) -> RenderMesh {
-        let normals = mesh.shading_normals();
+        let normals = mesh.shading_normals_or_given();
         Self::from_welded(mesh, &normals, &weld(mesh, &normals))
     }
 
     /// The same, with the data to follow changes of the mesh later; `None` if a pose can deform the
     /// mesh, which must be rebuilt after a change.
     pub fn with_links(mesh: &Mesh) -> (RenderMesh, Option<RenderLinks>) {
-        let normals = mesh.shading_normals();
+        let normals = mesh.shading_normals_or_given();
         let welded = weld(mesh, &normals);
         let render_mesh = Self::from_welded(mesh, &normals, &welded);
         let links = (!render_mesh.is_deformable()).then(|| RenderLinks::new(mesh, welded));

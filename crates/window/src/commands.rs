@@ -6,6 +6,14 @@ use trigon_scene::{NodeId, Style};
 use crate::keymap::Action;
 use crate::stage::{Stage, Visibility};
 
+impl Stage {
+    /// Does what a key with this action does, at once. Nothing comes of actions that go on while a key is
+    /// down, of the application's own, and of giving the keyboard to the interface.
+    pub fn act(&mut self, action: Action) {
+        act(self, action);
+    }
+}
+
 /// Does it. Held keys and the application's commands are not for this function.
 pub(crate) fn act(stage: &mut Stage, action: Action) {
     match action {

@@ -27,6 +27,11 @@ pub trait Drawer: Send + Sync {
         false
     }
 
+    /// How many drawings with `cancel` make an image: the share that is drawn is told of all of them.
+    fn drawings(&self) -> u32 {
+        1
+    }
+
     /// Whether the image shows the window's scene through the window's camera. If not, nothing in the image can
     /// be picked, and the selected object has no outline.
     fn shows_scene(&self) -> bool {

@@ -87,6 +87,17 @@ pub(crate) struct Worker {
     begun: u64,
 }
 
+impl Job {
+    /// How many drawings it takes.
+    fn drawings(&self) -> u32 {
+        let of_view = match &self.task {
+            Task::Draw { drawer: Some(drawer), .. } => drawer.drawings(),
+            _ => 1,
+        };
+        self.views.count() * of_view
+    }
+}
+
 /// A job that was begun.
 struct UnderWay {
     number: u64,
@@ -178,7 +189,7 @@ impl Worker {
             self.forget_others(job.purpose);
         }
         self.begun += 1;
-        let (number, cancel) = (self.begun, Cancel::for_drawings(job.views.count()));
+        let (number, cancel) = (self.begun, Cancel::for_drawings(job.drawings()));
         let Job { purpose, ref views, .. } = job;
         self.under_way = Some(UnderWay { number, purpose, views: views.clone(), cancel: cancel.clone() });
         self.holder(purpose).hands.begin((number, job, cancel));

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use regex::Regex;
 use serde_json::{Map, Value};
 
-use super::names;
+use super::{names, script};
 
 /// All blocks of all configuration files, in order of precedence.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +28,14 @@ struct Block {
     /// `None` for all files.
     files: Option<Regex>,
     options: Vec<Setting>,
+    bindings: Vec<KeyBinding>,
+}
+
+/// A key, and the lines of a command script that it executes in the window.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct KeyBinding {
+    pub(crate) key: String,
+    pub(crate) lines: Vec<String>,
 }
 
 /// A flag, its value, and whether it overrides the command line.
@@ -78,19 +86,34 @@ impl Config {
     /// The settings for a file (`None` for the built-in scene); those with the highest precedence
     /// come last.
     pub(crate) fn settings(&self, file: Option<&Path>) -> Vec<Setting> {
-        let name = file.map(|file| std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
-        let name = name.map(|name| name.to_string_lossy().into_owned());
-        let matching = self.blocks.iter().filter(|block| match (&block.files, &name) {
-            (None, _) => true,
-            (Some(files), Some(name)) => files.is_match(name),
-            (Some(_), None) => false,
-        });
         let mut settings: Vec<Setting> = Vec::new();
-        for setting in matching.flat_map(|block| &block.options) {
+        for setting in self.matching(file).flat_map(|block| &block.options) {
             settings.retain(|other| other.flag != setting.flag);
             settings.push(setting.clone());
         }
         settings
+    }
+
+    /// The keys of the window for a file; later ones override earlier ones on the same key.
+    #[cfg(feature = "window")]
+    pub(crate) fn bindings(&self, file: Option<&Path>) -> Vec<KeyBinding> {
+        let mut bindings: Vec<KeyBinding> = Vec::new();
+        for binding in self.matching(file).flat_map(|block| &block.bindings) {
+            bindings.retain(|other| !other.key.eq_ignore_ascii_case(&binding.key));
+            bindings.push(binding.clone());
+        }
+        bindings
+    }
+
+    /// The blocks that apply to a file.
+    fn matching(&self, file: Option<&Path>) -> impl Iterator<Item = &Block> {
+        let name = file.map(|file| std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
+        let name = name.map(|name| name.to_string_lossy().into_owned());
+        self.blocks.iter().filter(move |block| match (&block.files, &name) {
+            (None, _) => true,
+            (Some(files), Some(name)) => files.is_match(name),
+            (Some(_), None) => false,
+        })
     }
 }
 
@@ -130,15 +153,34 @@ fn block(value: &Value, warnings: &mut Vec<String>) -> Result<Block, String> {
     if let Some(other) = fields.keys().find(|key| !KEYS.contains(&key.as_str())) {
         return Err(format!("{other:?} is unknown; write one of {}", KEYS.join(", ")));
     }
-    if fields.contains_key("bindings") {
-        warnings.push("bindings are ignored: a file cannot change keys".to_owned());
-    }
+    let bindings = match fields.get("bindings") {
+        None => Vec::new(),
+        Some(Value::Object(bindings)) => bindings.iter().map(binding).collect::<Result<_, _>>()?,
+        Some(_) => return Err("bindings is not an object".to_owned()),
+    };
     let options = match fields.get("options") {
         None => Vec::new(),
         Some(Value::Object(options)) => settings(options, warnings)?,
         Some(_) => return Err("options is not an object".to_owned()),
     };
-    Ok(Block { files: pattern(fields)?, options })
+    Ok(Block { files: pattern(fields)?, options, bindings })
+}
+
+/// A key and its line, or its lines.
+fn binding((key, value): (&String, &Value)) -> Result<KeyBinding, String> {
+    let wrong = || format!("bindings: {key} is {value}; write a command, or a list of commands");
+    let texts = match value {
+        Value::Array(list) => list.iter().map(Value::as_str).collect(),
+        other => other.as_str().map(|line| vec![line]),
+    };
+    let lines: Vec<String> = texts.ok_or_else(wrong)?.into_iter().map(str::to_owned).collect();
+    for line in &lines {
+        let words = script::split(line).map_err(|why| format!("bindings: {key}: {why}"))?;
+        if words.is_empty() {
+            return Err(wrong());
+        }
+    }
+    Ok(KeyBinding { key: key.clone(), lines })
 }
 
 const KEYS: [&str; 4] = ["match", "match-type", "options", "bindings"];
@@ -270,6 +312,10 @@ mod tests {
             (r#"[{"match": "a", "match-type": "like"}]"#, "regex, glob or exact"),
             (r#"[{"options": {"config": "x"}}]"#, "command line"),
             (r#"[{"options": {"grid": {}}}]"#, "grid is"),
+            (r#"[{"bindings": ["O"]}]"#, "bindings is not an object"),
+            (r#"[{"bindings": {"O": 3}}]"#, "bindings: O is 3"),
+            (r#"[{"bindings": {"O": ["exit", ""]}}]"#, "bindings: O is"),
+            (r#"[{"bindings": {"O": "set up 'x"}}]"#, "not closed"),
         ] {
             let why = blocks(text, &mut Vec::new()).expect_err("refused");
             assert!(why.contains(word), "{text}: {why}");
@@ -278,9 +324,26 @@ mod tests {
 
     #[test]
     fn what_does_nothing_is_said() {
-        let text = r#"[{"options": {"final-shader": "x", "edges": true}, "bindings": {"O": "exit"}}]"#;
+        let text = r#"[{"options": {"final-shader": "x", "edges": true}}]"#;
         let mut warnings = Vec::new();
         assert_eq!(blocks(text, &mut warnings).expect("fine")[0].options.len(), 1, "the edges");
-        assert!(warnings[0].contains("bindings") && warnings[1].contains("no GPU"), "{warnings:?}");
+        assert!(warnings[0].contains("no GPU"), "{warnings:?}");
+    }
+
+    #[cfg(feature = "window")]
+    #[test]
+    fn bindings_are_for_the_files_that_match() {
+        let config = config(
+            r#"[{"bindings": {"Ctrl+Shift+O": "toggle ui.filename", "Any+3": "roll_camera -90"}},
+                {"match": ".*vtu", "bindings": {"any+3": ["roll_camera 90", "toggle ui.axis"]}}]"#,
+        );
+        let lines = |file: &str| {
+            let bindings = config.bindings(Some(Path::new(file)));
+            bindings.into_iter().map(|binding| (binding.key, binding.lines.join("; "))).collect::<Vec<_>>()
+        };
+        let own = |key: &str, lines: &str| (key.to_owned(), lines.to_owned());
+        let name = own("Ctrl+Shift+O", "toggle ui.filename");
+        assert_eq!(lines("/a/b.ply"), [own("Any+3", "roll_camera -90"), name.clone()], "of all files");
+        assert_eq!(lines("/a/b.vtu"), [name, own("any+3", "roll_camera 90; toggle ui.axis")], "later counts");
     }
 }

@@ -8,6 +8,8 @@ use clap::error::{ContextKind, ErrorKind};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory, FromArgMatches};
 
+#[cfg(feature = "window")]
+use super::config::KeyBinding;
 use super::config::{Config, Setting};
 use super::raw::RawArgs;
 use super::{names, words};
@@ -62,6 +64,12 @@ impl CommandLine {
         &self.config.warnings
     }
 
+    /// The keys of configuration files for a file, `None` for the built-in scene.
+    #[cfg(feature = "window")]
+    pub(crate) fn bindings(&self, file: Option<&Path>) -> Vec<KeyBinding> {
+        self.config.bindings(file)
+    }
+
     /// Whether files may have different flags.
     pub(crate) fn differs_by_file(&self) -> bool {
         !self.config.files.is_empty()
@@ -86,6 +94,13 @@ impl CommandLine {
     pub(crate) fn text(&self) -> String {
         let typed = self.typed.iter().map(|word| word.to_string_lossy().into_owned());
         typed.chain(self.edits.iter().cloned()).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The last change, to be read: "edges: true".
+    #[cfg(feature = "window")]
+    pub(crate) fn last_change(&self) -> String {
+        let last = self.edits.last().map(String::as_str).unwrap_or_default();
+        last.trim_start_matches('-').replacen('=', ": ", 1)
     }
 
     /// The value of a flag as it was typed, or its default.
@@ -158,7 +173,8 @@ impl CommandLine {
         let argument = command.get_arguments().find(|argument| argument.get_long() == Some(flag));
         let choices = argument.map(clap::Arg::get_possible_values).unwrap_or_default();
         let index = choices.iter().position(|choice| choice.matches(now, true));
-        let next = choices.get(index.map_or(0, |index| (index + 1) % choices.len()));
+        // Without a value it is as the first one says.
+        let next = choices.get((index.unwrap_or(0) + 1) % choices.len().max(1));
         let next = next.ok_or_else(|| format!("{flag} does not have a list of values; write set {flag}"))?;
         Ok(format!("--{flag}={}", next.get_name()))
     }

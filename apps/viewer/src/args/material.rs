@@ -90,6 +90,4 @@ pub(crate) enum PointSprites {
     None,
     /// Balls
     Sphere,
-    /// Discs that face the camera
-    Circle,
 }

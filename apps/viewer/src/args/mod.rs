@@ -3,6 +3,7 @@
 
 mod animation;
 mod beside;
+mod change;
 mod config;
 mod effects;
 #[cfg(feature = "window")]
@@ -26,16 +27,22 @@ mod words;
 #[cfg(feature = "window")]
 pub(crate) use animation::AnimationProgress;
 pub(crate) use beside::{Beside, Format};
+#[cfg(feature = "window")]
+pub(crate) use config::KeyBinding;
 pub(crate) use effects::Explanation;
 #[cfg(feature = "window")]
 pub(crate) use flags::{DECIDED, of_settings};
 pub(crate) use help::short as short_help;
 pub(crate) use line::CommandLine;
+#[cfg(feature = "window")]
+pub(crate) use names::flag as flag_named;
 pub(crate) use output::{Destination, Subject, Template};
 pub(crate) use place::PlacedNode;
 pub(crate) use quality::Limit;
 pub(crate) use raw::{Command, HelpLength, RawArgs};
 pub(crate) use request::{Mode, Reference, Request, STDIN, plain};
-pub(crate) use script::{RANGES, Step, steps};
+pub(crate) use script::{Step, steps};
+#[cfg(feature = "window")]
+pub(crate) use script::{split, step};
 #[cfg(feature = "window")]
 pub(crate) use window::InteractionStyle;

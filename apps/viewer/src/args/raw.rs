@@ -73,6 +73,7 @@ pub(crate) struct RawArgs {
 
     /// Write an image instead of opening a window (PNG, JPEG, WebP, OpenEXR); - is a PNG on standard output
     ///
+    /// A file is complete or not written at all. Symbolic links are followed, and a write-protected file is refused.
     /// JPEG has no alpha: transparent areas become white. OpenEXR holds linear light, premultiplied with
     /// alpha, before exposure and tone mapping. The name may contain {model} (the file's name without its
     /// extension), {model.ext} (with it), {model_ext} (the extension), {n:3} (the first number whose file

@@ -42,6 +42,9 @@ pub(crate) struct Request {
     pub(crate) mode: Mode,
     /// The models; none means the built-in scene.
     pub(crate) files: Vec<PathBuf>,
+    /// Whether the models of a folder are also those of the folders in it.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
+    pub(crate) goes_deep: bool,
     /// How several models are shown.
     pub(crate) grouping: Grouping,
     /// Larger files are refused.
@@ -241,6 +244,7 @@ impl Request {
             limit: limit(&raw, &mode)?,
             mode,
             files,
+            goes_deep: raw.recursive_dir_add == Some(true),
             grouping,
             max_bytes: raw.max_size,
             format: raw.force_reader,

@@ -132,8 +132,9 @@ pub(crate) fn step(words: &[String]) -> Result<Step, String> {
             Step::Edit(vec!["--animation-speed-factor=-1".to_owned(), "--animation-autoplay".to_owned()])
         }
         "cycle_verbose_level" => Step::Cycle("verbose".to_owned()),
-        "toggle_volume_rendering" => Step::Ignored("there are no volumes in the formats that are read"),
-        "set_reader_option" => Step::Ignored("readers have no options"),
+        "toggle_volume_rendering" => Step::Ignored(
+            "toggle_volume_rendering is ignored: there are no volumes in the formats that are read",
+        ),
         "take_screenshot" | "take_minimal_screenshot" => {
             if rest.len() > 1 {
                 return Err(format!("{action} takes one name"));
@@ -199,12 +200,13 @@ const KNOWN: [&str; 38] = [
 ];
 
 /// F3D commands that trigon lacks, with the reason.
-const REFUSED: [(&str, &str); 11] = [
+const REFUSED: [(&str, &str); 12] = [
     ("cycle_animation", "write set animation-indices and a number or a name"),
     ("cycle_coloring", "simulation values are not shown as colours"),
     ("add_current_directories", "name the folder on the command line"),
     ("remove_current_file_group", "name the files that are to be shown on the command line"),
     ("remove_file_groups", "name the files that are to be shown on the command line"),
+    ("set_reader_option", "readers have no options; leave the line out"),
     ("open_file_dialog", "a script cannot wait for input; write add_files"),
     ("save_statefile", NO_STATE),
     ("load_statefile", NO_STATE),

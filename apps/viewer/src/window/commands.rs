@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use trigon_window::{Action, Binding, Key, Keymap, MenuEntry};
+use trigon_window::{Action, Binding, Keymap, MenuEntry};
 
 /// One row for each: its variant, the heading under which the list of keys has it, its name in the keymap, its
 /// key, and what the list says.
@@ -36,6 +36,7 @@ commands! {
     PlayOrPause: "Animation", "animation.play", "Space", "play, pause animations";
     PlayBackward: "Animation", "animation.play.backward", "Ctrl+Shift+Space", "play them backwards";
     CycleAnimation: "Animation", "animation.next", "W", "next animation, all, none";
+    AddFolder: "Files", "file.folder", "Down", "go through all models of the folder";
     CancelLoading: "Files", "file.cancel", "Ctrl+.", "cancel loading";
     ResetView: "View", "reset_view", "Enter", "reset the view";
     ToggleName: "Display", "file.name", "N", "name of the file";
@@ -44,6 +45,17 @@ commands! {
     ToggleQuality: "Display", "quality", "Shift+D", "accuracy and what it costs";
     Brighter: "Display", "light.brighter", "L", "brighter, darker light";
     Darker: "Display", "light.darker", "Shift+L", "brighter, darker light";
+    AmbientOcclusion: "Display", "ambient_occlusion", "Q", "ambient occlusion";
+    Shadows: "Display", "shadows", "S", "shadows";
+    ToneMapping: "Display", "tone_mapping", "T", "tone mapping";
+    EnvironmentLight: "Display", "environment.light", "F", "light from all around (sky or HDRI)";
+    EnvironmentBackground: "Display", "environment.background", "J", "sky or HDRI behind the model";
+    Spheres: "Display", "point_sprites", "O", "vertices as spheres";
+    MoreOpaque: "Display", "opacity.more", "Ctrl+P", "more, less opaque";
+    LessOpaque: "Display", "opacity.less", "Ctrl+Shift+P", "more, less opaque";
+    Bones: "Inspect", "armature", "Shift+A", "bones";
+    Normals: "Inspect", "normal_glyphs", "Ctrl+N", "normals as lines";
+    Notifications: "Window", "notifications", "Ctrl+K", "messages about keys";
     UpY: "View", "up.y", "Alt+Y", "+Y up, +Z up";
     UpZ: "View", "up.z", "Alt+Z", "+Y up, +Z up";
     Screenshot: "Files", "screenshot", "F12", "save a screenshot";
@@ -111,10 +123,9 @@ impl FromStr for Command {
 }
 
 /// The window's keys and the viewer's own. The left, right and up arrows
-/// belong to files, as in F3D; the down arrow alone would orbit to one side.
+/// belong to files, as in F3D, and so does the down arrow.
 pub(super) fn keymap() -> Keymap {
     let mut keymap = Keymap::default();
-    keymap.unbind(Key::Down);
     for &command in Command::ALL {
         keymap.add(command.binding());
     }

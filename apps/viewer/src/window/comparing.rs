@@ -5,16 +5,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use trigon_camera::Camera;
 use trigon_scene::{Cancel, Frame, RenderSettings, Renderer, Scene};
-use trigon_window::{Drawer, Stage, egui};
+use trigon_window::{Drawer, Stage};
 
 use super::background::Loading;
 use crate::args::Request;
 use crate::compare;
 use crate::failure::Failure;
 use crate::source::Source;
-
-/// The room of the file's name, in points.
-const BELOW_NAME: f32 = 42.0;
 
 /// What of both is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,14 +42,19 @@ impl Comparing {
         self.loading = Some(Loading::start(self.source.clone(), request.clone(), stage.waker()));
     }
 
-    /// Takes over the other model once it is loaded.
-    pub(super) fn woken(&mut self, stage: &mut Stage) -> Result<(), Failure> {
-        let Some(outcome) = self.loading.as_ref().and_then(Loading::outcome) else { return Ok(()) };
+    /// Takes over the other model once it is loaded. Returns whether that was now.
+    pub(super) fn woken(&mut self, stage: &mut Stage) -> Result<bool, Failure> {
+        let Some(outcome) = self.loading.as_ref().and_then(Loading::outcome) else { return Ok(false) };
         self.loading = None;
         let (model, _) = outcome?;
         self.other = Some(Arc::new(model.scene));
         self.show_pair(stage, Pair::Beside);
-        Ok(())
+        Ok(true)
+    }
+
+    /// The other model, once it is loaded.
+    pub(super) fn other(&self) -> Option<&Scene> {
+        self.other.as_deref()
     }
 
     /// One model, and then the other in its place.
@@ -76,23 +78,16 @@ impl Comparing {
         stage.drawer = self.drawer.clone().map(|drawer| drawer as Arc<dyn Drawer>);
     }
 
-    /// Says what is shown.
-    pub(super) fn show(&self, ui: &egui::Ui, first: &str) {
+    /// What is shown, in words.
+    pub(super) fn text(&self, first: &str) -> String {
         let other = self.source.title();
-        let text = match self.pair {
+        match self.pair {
             _ if self.other.is_none() => format!("loading {other}"),
-            Pair::Beside => format!("{first} | {other}    B: in turn, Shift+B: where they differ"),
-            Pair::First => format!("{first}    B: {other}"),
-            Pair::Second => format!("{other}    B: {first}"),
+            Pair::Beside => format!("{first} | {other}  (B: in turn, Shift+B: where they differ)"),
+            Pair::First => format!("{first}  (B: {other})"),
+            Pair::Second => format!("{other}  (B: {first})"),
             Pair::Heat => self.drawer.as_ref().map(|drawer| drawer.said()).unwrap_or_default(),
-        };
-        let area = egui::Area::new(egui::Id::unique("comparing")).order(egui::Order::Background);
-        let area =
-            area.anchor(egui::Align2::CENTER_TOP, [0.0, BELOW_NAME]).interactable(false).fade_in(false);
-        area.constrain_to(ui.available_rect_before_wrap()).show(ui.ctx(), |ui| {
-            let text = egui::Label::new(text).extend();
-            egui::Frame::popup(ui.style()).show(ui, |ui| ui.add(text));
-        });
+        }
     }
 }
 
@@ -144,7 +139,8 @@ impl Drawer for PairDrawer {
                 let one = draw(first, scene, settings.clone())?;
                 let other = draw(second, &self.other, settings.clone())?;
                 let difference = compare::difference(&one, &other);
-                *self.said.lock().unwrap_or_else(PoisonError::into_inner) = compare::said(&difference);
+                *self.said.lock().unwrap_or_else(PoisonError::into_inner) =
+                    format!("how much each channel differs: {}", compare::said(&difference));
                 Ok(compare::frame_of(&difference.image))
             }
         }
@@ -152,6 +148,13 @@ impl Drawer for PairDrawer {
 
     fn draws_drafts(&self) -> bool {
         true
+    }
+
+    fn drawings(&self) -> u32 {
+        match self.pair {
+            Pair::First | Pair::Second => 1,
+            Pair::Beside | Pair::Heat => 2,
+        }
     }
 
     fn shows_scene(&self) -> bool {

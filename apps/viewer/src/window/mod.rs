@@ -7,6 +7,7 @@ mod classic;
 mod commands;
 mod comparing;
 mod hint;
+mod lines;
 mod measuring;
 mod notices;
 mod open;
@@ -21,7 +22,7 @@ mod viewer;
 mod watch;
 
 use std::fmt::Display;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use trigon_camera::Viewport;
 use trigon_scene::ShadingModel;
@@ -114,9 +115,14 @@ fn interactions(
     Ok(())
 }
 
-/// `--list-bindings`: the lines of the cheat sheet under their headings.
-pub(crate) fn bindings() -> Vec<String> {
-    let sheet = commands::keymap().sheet();
+/// `--list-bindings`: the lines of the cheat sheet under their headings, with the keys that configuration files have
+/// for the first file.
+pub(crate) fn bindings(request: &Request, reporter: Reporter) -> Vec<String> {
+    let mut keymap = commands::keymap();
+    let first = request.files.first().map(PathBuf::as_path);
+    let unbound = lines::Bound::default().bind(&mut keymap, request.line.bindings(first));
+    unbound.iter().for_each(|unbound| reporter.warning(unbound));
+    let sheet = keymap.sheet();
     let sections = sheet.chunk_by(|one, next| one.section == next.section);
     let lines = sections.flat_map(|rows| {
         let rows_of = rows.iter().map(|row| format!("  {:46} {}", row.keys, row.description));

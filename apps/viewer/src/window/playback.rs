@@ -8,7 +8,7 @@ use trigon_window::{Stage, choose, egui};
 
 use crate::args::AnimationProgress;
 use crate::args::Request;
-use crate::moment::{self, Clip};
+use crate::moment::{self, Clip, Jump};
 
 /// Speeds that can be chosen, forwards.
 const SPEEDS: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
@@ -156,6 +156,13 @@ impl Playback {
         format!("animation: {}", self.label(self.choice))
     }
 
+    /// Goes to another time, held to those that there are.
+    pub(super) fn jump(&mut self, stage: &mut Stage, jump: Jump, frame_rate: f64) {
+        let to = jump.from(self.seconds, &stage.scene, &self.clips(), frame_rate);
+        self.seconds = to.clamp(0.0, self.duration);
+        self.pose(stage);
+    }
+
     fn rewind(&mut self, stage: &mut Stage) {
         self.duration = moment::duration(&stage.scene, &self.clips());
         self.seconds = 0.0;
@@ -201,7 +208,13 @@ impl Playback {
         if ui.button(if self.is_playing { "Pause" } else { "Play" }).clicked() {
             self.toggle(stage);
         }
+        /// What stands beside the scrubber, in points, with and without the choices, and the least of it.
+        const BESIDE: f32 = 430.0;
+        const PLAY: f32 = 80.0;
+        const LEAST: f32 = 100.0;
         let is_advanced = self.progress == AnimationProgress::Advanced;
+        let room = ui.available_width() - if is_advanced { BESIDE } else { PLAY };
+        ui.spacing_mut().slider_width = room.max(LEAST);
         let slider = egui::Slider::new(&mut self.seconds, 0.0..=self.duration.max(1e-3));
         let slider = slider.show_value(is_advanced).fixed_decimals(2).suffix(" s");
         if ui.add(slider).changed() {
@@ -216,7 +229,10 @@ impl Playback {
     fn choices(&mut self, ui: &mut egui::Ui, stage: &mut Stage) {
         let clips = (0..self.names.len()).map(Playing::One).chain([Playing::All, Playing::None]);
         let clips: Vec<_> = clips.map(|clip| (self.label(clip), clip)).collect();
-        let list = egui::ComboBox::from_id_salt("clip").selected_text(self.label(self.choice));
+        let list = egui::ComboBox::from_id_salt("clip")
+            .selected_text(self.label(self.choice))
+            .width(120.0)
+            .truncate();
         let (list, choice) = choose(ui, list, &clips, &self.choice);
         label(&list, "clip");
         if let Some(choice) = choice {

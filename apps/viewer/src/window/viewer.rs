@@ -1,12 +1,15 @@
 //! The viewer's part of the window: the current model, loading, and the viewer's own keys.
 
 mod files;
+mod lines;
 mod overlays;
 mod run;
 mod state;
 
-use std::path::PathBuf;
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
 
+use trigon_camera::Orbit;
 use trigon_math::DVec3;
 use trigon_scene::{Background, Frame, NodeId, RenderSettings, Scene};
 use trigon_window::{
@@ -20,6 +23,7 @@ use super::background::Loading;
 use super::classic::Classics;
 use super::comparing::Comparing;
 use super::hint::Hint;
+use super::lines::Bound;
 use super::measuring::Measuring;
 use super::notices::{Answer, Notices};
 use super::open::{OpenWindow, SystemDialog};
@@ -28,7 +32,7 @@ use super::quality::QualityPanel;
 use super::screenshot;
 use super::side::SidePanel;
 use super::watch::Watch;
-use crate::args::Request;
+use crate::args::{Request, Template};
 use crate::failure::Failure;
 use crate::image;
 use crate::model::{Model, Summary};
@@ -100,6 +104,12 @@ pub(super) struct Viewer {
     /// Whether it is asked if objects that were moved may go back.
     asks_to_load_again: bool,
     hint: Hint,
+    /// The view that was fitted last.
+    fitted: Option<Orbit>,
+    /// The keys of configuration files.
+    bound: Bound,
+    /// The names of screenshots that are being drawn, first things first.
+    shots: VecDeque<Template>,
     /// If files are to be watched, and can be.
     watch: Option<Watch>,
 }
@@ -132,6 +142,9 @@ impl Viewer {
             failure: None,
             asks_to_load_again: false,
             hint: Hint::default(),
+            fitted: None,
+            bound: Bound::default(),
+            shots: VecDeque::new(),
             watch: None,
         }
     }
@@ -220,7 +233,8 @@ impl Viewer {
     /// Writes what is to be read beside the model: above it, for messages come
     /// below.
     fn write_overlay(&mut self, stage: &mut Stage) {
-        stage.overlay.set(Corner::Top, self.show_name.then(|| self.name()));
+        let compared = self.comparing.as_ref().map(|pair| pair.text(&self.sources[self.current].title()));
+        stage.overlay.set(Corner::Top, self.show_name.then(|| self.name()).into_iter().chain(compared));
         let shown = self.shown.as_mut().filter(|_| self.show_metadata);
         let lines = shown.map(|shown| {
             let summary = shown.summary.unwrap_or_else(|| shown.model(stage).summary());
@@ -240,12 +254,15 @@ impl Viewer {
         let Some(shown) = &self.shown else { return };
         let model = shown.model(stage);
         match self.home(stage, &model) {
-            Ok(orbit) => {
-                stage.orbit = orbit;
-                stage.set_home(orbit);
-            }
+            Ok(orbit) => self.set_home(stage, orbit),
             Err(failure) => self.tell_failure(stage, &failure),
         }
+    }
+
+    fn set_home(&mut self, stage: &mut Stage, orbit: Orbit) {
+        stage.orbit = orbit;
+        stage.set_home(orbit);
+        self.fitted = Some(orbit);
     }
 
     fn brighten(stage: &mut Stage, factor: f32) {
@@ -256,9 +273,19 @@ impl Viewer {
         stage.overlay.notify(format!("light: {light:.2}"));
     }
 
-    fn take_screenshot(stage: &mut Stage, background: Background) {
+    /// Takes a screenshot under a name, or under the usual one.
+    fn take_screenshot(&mut self, stage: &mut Stage, background: Background, name: Option<Template>) {
         let settings = stage.image_settings();
         stage.request_image(RenderSettings { background, ..settings });
+        self.shots.push_back(name.unwrap_or_else(|| self.request.screenshot.clone()));
+    }
+
+    /// Binds the keys that configuration files have for a model.
+    fn bind_keys(&mut self, stage: &mut Stage, file: Option<&Path>) {
+        for unbound in self.bound.bind(&mut stage.keymap, self.request.line.bindings(file)) {
+            self.reporter.warning(&unbound);
+            stage.overlay.notify(format!("warning: {unbound}"));
+        }
     }
 
     /// Draws and writes over a screenshot what lies over the window's image, as `--output` does.
@@ -278,6 +305,8 @@ impl Handler for Viewer {
             stage.overlay.notify(format!("warning: {ignored}"));
         }
         stage.columns = if self.comparing.is_some() { 2 } else { 1 };
+        let file = self.sources[self.current].first_file().map(Path::to_owned);
+        self.bind_keys(stage, file.as_deref());
         self.load(stage, View::Fit);
         if let Some(comparing) = &mut self.comparing {
             comparing.load(stage, &self.request);
@@ -307,10 +336,14 @@ impl Handler for Viewer {
     }
 
     fn command(&mut self, stage: &mut Stage, name: &str) {
-        if let Ok(command) = name.parse() {
-            self.run(stage, command);
-            self.write_overlay(stage);
+        match name.parse() {
+            Ok(command) => self.run(stage, command),
+            Err(()) => {
+                let lines = self.bound.lines(name).to_vec();
+                self.run_lines(stage, &lines);
+            }
         }
+        self.write_overlay(stage);
     }
 
     fn dropped(&mut self, stage: &mut Stage, paths: Vec<PathBuf>, _: Modifiers) {
@@ -331,8 +364,9 @@ impl Handler for Viewer {
         self.quality.show(ui, stage, |_, _| {});
         // On what no panel covers.
         self.measuring.show(ui, stage);
-        if let Some(comparing) = &self.comparing {
-            comparing.show(ui, &self.sources[self.current].title());
+        if self.comparing.is_some() {
+            // How far both are apart is known once they are drawn.
+            self.write_overlay(stage);
         }
         if self.request.overlay.shows_axes {
             self.axes.show(ui, stage, self.request.overlay.axes);
@@ -350,9 +384,8 @@ impl Handler for Viewer {
 
     fn image(&mut self, stage: &mut Stage, frame: Frame) {
         let model = self.shown.as_ref().and_then(|shown| shown.source.first_file());
-        let saved = self
-            .with_overlay(stage, frame)
-            .and_then(|frame| screenshot::save(&frame, &self.request.screenshot, model));
+        let name = self.shots.pop_front().unwrap_or_else(|| self.request.screenshot.clone());
+        let saved = self.with_overlay(stage, frame).and_then(|frame| screenshot::save(&frame, &name, model));
         match saved {
             Ok(path) => {
                 let path = std::path::absolute(&path).unwrap_or(path);
@@ -366,8 +399,11 @@ impl Handler for Viewer {
     fn woken(&mut self, stage: &mut Stage) {
         let picked = self.open.picked();
         self.add(stage, picked);
-        if let Some(Err(failure)) = self.comparing.as_mut().map(|comparing| comparing.woken(stage)) {
-            self.tell_failure(stage, &failure);
+        match self.comparing.as_mut().map(|comparing| comparing.woken(stage)) {
+            Some(Err(failure)) => self.tell_failure(stage, &failure),
+            // Now it is known how large it is; who has turned the camera keeps it.
+            Some(Ok(true)) if self.fitted == Some(stage.orbit) => self.reset_view(stage),
+            _ => {}
         }
         if self.watch.as_ref().is_some_and(Watch::take_changed) {
             self.load_again(stage);

@@ -10,9 +10,9 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
-use Expected::{Changes, Exit, Ignored, Keeps, Refused, Says, Shows, Warned, Writes};
+use Expected::{Changes, Exit, InWindow, Keeps, Refused, Says, Shows, Warned, Writes};
 use examples::{COMMANDS, OPTIONS, Row};
-use models::{CORNER, DOTS_PLY, TYPICAL, bones, quad, room, slide};
+use models::{BINDINGS, CORNER, DOTS_PLY, TYPICAL, bones, quad, room, slide};
 
 /// What an example does.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +22,8 @@ enum Expected {
     /// Same: the image is that without it, because it names the default, or what F3D's flag
     /// turns on is always on.
     Keeps,
+    /// Same: what it does is seen in the window, where replayed sessions hold it; the image is that without it.
+    InWindow,
     /// Same: the image is that of these flags, which differs from the one without.
     Shows(&'static str),
     /// Same: standard output holds this.
@@ -32,11 +34,15 @@ enum Expected {
     Exit(i32, &'static str),
     /// A flag of graphics cards and plugins: does nothing, with a warning that names it.
     Warned,
-    /// Not the same: does nothing, and this says why.
-    Ignored(&'static str),
     /// Ends with 2 and this reason.
     Refused(&'static str),
 }
+
+/// The sessions of the window that use F3D's flags.
+const REPLAYS: [&str; 2] = [
+    include_str!("../../src/window/viewer/replays/flags.rs"),
+    include_str!("../../src/window/viewer/replays/broken_files.rs"),
+];
 
 /// A folder with all that the examples name, removed at the end.
 struct Folder(tempfile::TempDir);
@@ -67,7 +73,7 @@ impl Folder {
                 r#"[{"match-type": "exact", "match": "/path/to/file.mhd", "options": {"edges": true}}]"#,
             ),
             ("imperative.json", r#"[{"options": {"!edges": true}}]"#),
-            ("bindings.json", r#"[{"bindings": {"Ctrl+Shift+O": "toggle ui.filename"}}]"#),
+            ("bindings.json", BINDINGS),
             (
                 "thumbnail.json",
                 r#"[{"options": {"no-background": true, "anti-aliasing": "ssaa", "verbose": "quiet"}}]"#,
@@ -153,6 +159,11 @@ impl Folder {
         match expected {
             Changes => holds(!self.same(&whole, plain)?, || "it changes nothing".to_owned()),
             Keeps => holds(self.same(&whole, plain)?, || "it changes something".to_owned()),
+            InWindow => {
+                let flag = words.split(['=', ' ']).next().unwrap_or_default();
+                holds(REPLAYS.iter().any(|text| text.contains(flag)), || "no session replays it".to_owned())?;
+                holds(self.same(&whole, plain)?, || "it changes something".to_owned())
+            }
             Shows(flags) => {
                 let shown = format!("{file} {flags}");
                 let is_plain = self.same(&shown, plain)? && !plain.contains("-time");
@@ -170,11 +181,6 @@ impl Folder {
             Warned => {
                 let said = self.image(&whole)?.1;
                 holds(said.contains(" is ignored: "), || format!("no warning: {said}"))?;
-                holds(self.same(&whole, plain)?, || "it changes something".to_owned())
-            }
-            Ignored(reason) => {
-                let said = self.image(&whole)?.1;
-                holds(said.contains(reason), || format!("it does not say {reason:?}: {said}"))?;
                 holds(self.same(&whole, plain)?, || "it changes something".to_owned())
             }
             Refused(reason) => self.ends(&whole, 2, reason),
@@ -239,7 +245,7 @@ fn every_documented_command_does_what_it_does_in_f3d_or_says_why_not() {
     let failed = COMMANDS.iter().filter_map(|&(name, file, script, expected)| {
         fs::write(folder.path("script.txt"), script).expect("written");
         let mut words = "--command-script=script.txt".to_owned();
-        if !matches!(expected, Changes | Keeps | Shows(_) | Ignored(_)) {
+        if !matches!(expected, Changes | Keeps | Shows(_) | Warned) {
             words += " --resolution=60,40 --output=o.png";
         }
         // The first of those jumps is at the start.
@@ -258,14 +264,11 @@ fn most_examples_work_and_only_those_of_cards_and_plugins_are_warned_of() {
     let refused = rows().filter(|row| matches!(row.3, Refused(_) | Exit(2, _))).count();
     let warned: Vec<&Row> = rows().filter(|row| matches!(row.3, Warned)).collect();
     let (all, warned_count) = (rows().count(), warned.len());
-    let ignored: Vec<&str> =
-        rows().filter(|row| matches!(row.3, Ignored(_))).map(|&(name, ..)| name).collect();
-    // Readers of plugins have options, and only cards draw volumes.
-    assert_eq!(ignored, ["configuration: bindings", "set_reader_option", "toggle_volume_rendering"]);
-    let same = all - refused - warned_count - ignored.len();
+    let same = all - refused - warned_count;
     assert!(same * 10 >= all * 7, "{same} of {all} are the same");
-    for (_, _, words, _) in warned {
+    for (name, _, words, _) in warned {
+        // Only cards draw volumes.
         let cards = ["plugins", "rendering-backend", "raytracing", "volume", "-r", "-d", "-v", "-i"];
-        assert!(cards.iter().any(|part| words.contains(part)), "{words}");
+        assert!(cards.iter().any(|part| words.contains(part)), "{name}: {words}");
     }
 }

@@ -86,3 +86,17 @@ pub(crate) fn bones() -> String {
     let quad = quad.replacen(r#"{"mesh": 0}"#, r#"{"mesh": 0, "skin": 0}"#, 1);
     quad.replacen(r#""materials""#, r#""skins": [{"joints": [2, 3]}], "materials""#, 1)
 }
+
+/// The configuration file with bindings that the manual shows, but for the files of its second block.
+pub(crate) const BINDINGS: &str = r#"[
+  {"bindings": {"Ctrl+Shift+O": "toggle ui.filename", "Any+3": "roll_camera -90", "O": "set_camera isometric"}},
+  {
+    "match": ".*vtp.obj",
+    "bindings": {
+      "Any+3": "roll_camera 90",
+      "Shift+O": "set model.point_sprites.type circle",
+      "Ctrl+O": ["toggle render.grid.enable", "toggle scene.camera.orthographic"],
+      "None+I": "toggle ui.axis"
+    }
+  }
+]"#;

@@ -455,6 +455,19 @@ fn a_check_lists_faults_with_remedies() {
         String::from_utf8_lossy(&output.stdout).into_owned()
     };
     assert_eq!(checked("corner.obj", 0), "corner.obj: no faults\n", "a sound model");
+    folder.write(
+        "chrome.gltf",
+        &moments::SLIDE.replace(r#""POSITION": 0}"#, r#""POSITION": 0}, "material": 0"#).replacen(
+            '{',
+            r#"{"materials": [{"doubleSided": true, "pbrMetallicRoughness": {"roughnessFactor": 0}}],"#,
+            1,
+        ),
+    );
+    let said = checked("chrome.gltf", 0);
+    assert!(
+        said.starts_with("chrome.gltf: no faults\n  note: scene: everything is polished metal"),
+        "{said}"
+    );
     fs::create_dir(folder.path("mtl")).expect("a folder");
     folder.write("mtl/gone.mtl", "newmtl a\nmap_Kd C:\\maps\\wood.png\n");
     folder.write(

@@ -4,7 +4,7 @@ use super::*;
 
 /// A triangle that goes 3 m to the right within a second, in a scene called "near",
 /// and the same at rest in a scene called "far"; "near" is what is shown.
-const SLIDE: &str = r#"{"asset": {"version": "2.0"}, "scene": 0,
+pub(crate) const SLIDE: &str = r#"{"asset": {"version": "2.0"}, "scene": 0,
 "scenes": [{"name": "near", "nodes": [0]}, {"name": "far", "nodes": [1]}],
 "nodes": [{"mesh": 0}, {"mesh": 0, "translation": [2, 2, 0]}],
 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],

@@ -137,8 +137,20 @@ impl<'a> Object<'a> {
 
     /// The normal of a corner in the file; zero if there is none.
     pub(crate) fn normal(&self, corner: u32) -> Vec3 {
-        let Some(normals) = &self.mesh.attributes().corner_normals else { return Vec3::ZERO };
-        let normal = normals[corner as usize];
+        let normals = self.mesh.attributes().corner_normals.as_ref();
+        normals.map_or(Vec3::ZERO, |normals| self.turned(normals[corner as usize]))
+    }
+
+    /// Whether it has normals of its own, or smooth faces.
+    pub(crate) fn is_shaded(&self) -> bool {
+        let attributes = self.mesh.attributes();
+        let normals = attributes.corner_normals.as_deref().unwrap_or_default();
+        let smooth = attributes.face_smooth.as_deref().unwrap_or_default();
+        normals.iter().any(|&normal| normal != Vec3::ZERO) || smooth.contains(&true)
+    }
+
+    /// A normal of the mesh in the file; zero if it has no direction there.
+    pub(crate) fn turned(&self, normal: Vec3) -> Vec3 {
         let turned = self
             .normal_map
             .map_or(normal, |map| (map * normal.as_dvec3()).try_normalize().unwrap_or_default().as_vec3());

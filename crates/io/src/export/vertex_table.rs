@@ -22,7 +22,7 @@ impl Columns {
     pub(crate) fn found(self, gathered: &Gathered<'_>) -> Self {
         let any = |has: fn(&Object<'_>) -> bool| gathered.objects.iter().any(has);
         Self {
-            normals: self.normals && any(|object| object.mesh.attributes().corner_normals.is_some()),
+            normals: self.normals && any(|object| object.is_shaded()),
             uvs: self.uvs && any(|object| !object.mesh.attributes().uv_sets.is_empty()),
             colors: self.colors && any(|object| object.mesh.attributes().corner_colors.is_some()),
         }
@@ -45,10 +45,11 @@ impl Default for Values {
 }
 
 impl Values {
-    fn of(object: &Object<'_>, corner: u32, columns: Columns) -> Self {
+    /// `normals` are those of the mesh's corners, or none of them.
+    fn of(object: &Object<'_>, corner: u32, columns: Columns, normals: &[Vec3]) -> Self {
         let (attributes, mut values) = (object.mesh.attributes(), Self::default());
-        if columns.normals {
-            values.normal = object.normal(corner);
+        if let Some(&normal) = normals.get(corner as usize) {
+            values.normal = object.turned(normal);
         }
         if let Some(uvs) = attributes.uv_sets.first().filter(|_| columns.uvs) {
             values.uv = Some(uvs[corner as usize]).filter(|uv| uv.is_finite()).unwrap_or_default();
@@ -92,11 +93,14 @@ impl VertexTable {
         self.positions.extend((0..count as u32).map(|vertex| gathered.position(object, vertex)));
         self.values.resize(base + count, Values::default());
         let mut is_known = vec![false; count];
+        // Such files know no smooth faces: their normals say it.
+        let has_normals = columns.normals && object.is_shaded();
+        let normals = if has_normals { object.mesh.shading_normals() } else { Vec::new() };
         let mut others: HashMap<(u32, [u32; 9]), u32> = HashMap::new();
         for &corner in &object.corners {
             let vertex = object.vertex(corner);
             let own = base + vertex as usize;
-            let values = Values::of(object, corner, columns);
+            let values = Values::of(object, corner, columns, &normals);
             if !std::mem::replace(&mut is_known[vertex as usize], true) {
                 self.values[own] = values;
             }

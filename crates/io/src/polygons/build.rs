@@ -1,5 +1,7 @@
 //! Builds a mesh from lists: invalid faces are left out, and vertex values are copied to corners.
 
+use std::ops::Range;
+
 use trigon_math::{DVec3, Vec2, Vec4};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 
@@ -22,14 +24,19 @@ fn note((count, first): &mut (usize, usize), index: usize) {
 }
 
 /// The mesh of a part, with all positions less the offset.
-pub(super) fn build(import: &mut Import<'_>, polygons: Polygons, offset: DVec3) -> Result<Mesh, LoadError> {
+pub(super) fn build(
+    import: &mut Import<'_>,
+    mut polygons: Polygons,
+    offset: DVec3,
+) -> Result<Mesh, LoadError> {
     let faces = polygons.face_sizes.len();
     let mut builder =
         MeshBuilder::with_capacity(polygons.positions.len(), faces, polygons.corner_vertices.len());
     let local = push_vertices(import, &polygons, offset, &mut builder);
+    // Large, and not needed any more.
+    polygons.positions = Vec::new();
     let mut left_out = LeftOut::default();
-    let (mut sources, mut face_sources) =
-        (Vec::with_capacity(polygons.corner_vertices.len()), Vec::with_capacity(faces));
+    let mut kept = Kept::default();
     let (mut face, mut start) = (Vec::new(), 0);
     for (index, &size) in polygons.face_sizes.iter().enumerate() {
         let corners = start..start + size as usize;
@@ -41,16 +48,49 @@ pub(super) fn build(import: &mut Import<'_>, polygons: Polygons, offset: DVec3) 
         } else if builder.push_face(&face).is_err() {
             note(&mut left_out.flat, index);
         } else {
-            sources.extend(corners.map(|corner| corner as u32));
-            face_sources.push(index as u32);
+            kept.push(index, corners);
+            continue;
         }
+        kept.begin(index, corners.start);
     }
     push_edges(import, &polygons, &local, &mut builder, &mut left_out)?;
     warn(import, &left_out);
     let mut mesh = builder.build();
-    mesh.set_attributes(attributes(&polygons, &sources, &face_sources))
-        .expect("one value per accepted corner");
+    mesh.set_attributes(attributes(&polygons, &kept)).expect("one value per accepted corner");
     Ok(mesh)
+}
+
+/// The faces that were accepted, and their corners, by their numbers in the file: lists only once one is left out.
+#[derive(Default)]
+struct Kept(Option<(Vec<u32>, Vec<u32>)>);
+
+impl Kept {
+    /// A face is left out that stands after so many faces and corners.
+    fn begin(&mut self, faces: usize, corners: usize) {
+        self.0.get_or_insert_with(|| ((0..faces as u32).collect(), (0..corners as u32).collect()));
+    }
+
+    fn push(&mut self, face: usize, corners: Range<usize>) {
+        if let Some((faces, all)) = &mut self.0 {
+            faces.push(face as u32);
+            all.extend(corners.map(|corner| corner as u32));
+        }
+    }
+
+    /// Of all so many faces, or corners, those that were accepted.
+    fn faces(&self, count: usize) -> impl Iterator<Item = usize> {
+        listed(self.0.as_ref().map(|(faces, _)| faces.as_slice()), count)
+    }
+
+    fn corners(&self, count: usize) -> impl Iterator<Item = usize> {
+        listed(self.0.as_ref().map(|(_, corners)| corners.as_slice()), count)
+    }
+}
+
+/// The numbers of a list, or all up to a count.
+fn listed(list: Option<&[u32]>, count: usize) -> impl Iterator<Item = usize> {
+    let all = 0..list.map_or(count, <[u32]>::len);
+    all.map(move |index| list.map_or(index, |list| list[index] as usize))
 }
 
 /// Stands for a vertex that has no place.
@@ -153,19 +193,20 @@ fn warn(import: &mut Import<'_>, left_out: &LeftOut) {
     );
 }
 
-fn attributes(polygons: &Polygons, sources: &[u32], face_sources: &[u32]) -> Attributes {
-    let vertex = |&corner: &u32| polygons.corner_vertices[corner as usize] as usize;
+fn attributes(polygons: &Polygons, kept: &Kept) -> Attributes {
+    let corners = || kept.corners(polygons.corner_vertices.len());
+    let vertices = || corners().map(|corner| polygons.corner_vertices[corner] as usize);
     let normals =
-        (!polygons.normals.is_empty()).then(|| sources.iter().map(|c| polygons.normals[vertex(c)]).collect());
+        (!polygons.normals.is_empty()).then(|| vertices().map(|vertex| polygons.normals[vertex]).collect());
     let uvs: Option<Vec<Vec2>> = if !polygons.corner_uvs.is_empty() {
-        Some(sources.iter().map(|&corner| polygons.corner_uvs[corner as usize]).collect())
+        Some(corners().map(|corner| polygons.corner_uvs[corner]).collect())
     } else {
-        (!polygons.uvs.is_empty()).then(|| sources.iter().map(|c| polygons.uvs[vertex(c)]).collect())
+        (!polygons.uvs.is_empty()).then(|| vertices().map(|vertex| polygons.uvs[vertex]).collect())
     };
     let colors = if !polygons.colors.is_empty() {
-        Some(sources.iter().map(|c| polygons.colors[vertex(c)]).collect())
+        Some(vertices().map(|vertex| polygons.colors[vertex]).collect())
     } else {
-        (!polygons.face_colors.is_empty()).then(|| colors_of_faces(polygons, face_sources))
+        (!polygons.face_colors.is_empty()).then(|| colors_of_faces(polygons, kept))
     };
     Attributes {
         corner_normals: normals,
@@ -176,10 +217,10 @@ fn attributes(polygons: &Polygons, sources: &[u32], face_sources: &[u32]) -> Att
 }
 
 /// The colour of its face at each corner of the faces that were accepted.
-fn colors_of_faces(polygons: &Polygons, face_sources: &[u32]) -> Vec<Vec4> {
-    let color = |&face: &u32| {
-        let size = polygons.face_sizes[face as usize] as usize;
-        std::iter::repeat_n(polygons.face_colors[face as usize], size)
+fn colors_of_faces(polygons: &Polygons, kept: &Kept) -> Vec<Vec4> {
+    let color = |face: usize| {
+        let size = polygons.face_sizes[face] as usize;
+        std::iter::repeat_n(polygons.face_colors[face], size)
     };
-    face_sources.iter().flat_map(color).collect()
+    kept.faces(polygons.face_sizes.len()).flat_map(color).collect()
 }

@@ -187,6 +187,24 @@ fn values_of_corners_come_back() {
     assert!(text.iter().any(|loss| loss.contains("seams and sharp edges are one")), "{text:?}");
 }
 
+/// Smooth meshes without normals of their own were written with normals of no length, and came back flat.
+#[test]
+fn smooth_faces_have_their_normals_in_a_ply() {
+    let mut mesh = primitives::cube(1.0);
+    let attributes = Attributes {
+        face_smooth: Some(vec![true; mesh.face_count()]),
+        corner_normals: Some(vec![Vec3::ZERO; mesh.corner_count()]),
+        ..Attributes::default()
+    };
+    mesh.set_attributes(attributes).expect("one for each face and corner");
+    let normals = mesh.shading_normals();
+    let scene = again(&scene_of(mesh), FORMATS[1], &ExportOptions::default()).scene;
+    let (_, asset) = scene.meshes().iter().next().expect("a mesh");
+    assert_eq!(asset.mesh().vertex_count(), 8, "no vertex is written twice");
+    let read = asset.mesh().shading_normals();
+    assert!(read.iter().zip(&normals).all(|(read, normal)| read.abs_diff_eq(*normal, 1e-6)), "{read:?}");
+}
+
 #[test]
 fn objects_are_in_their_places() {
     let mut scene = scene_of(primitives::cube(2.0));

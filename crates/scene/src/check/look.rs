@@ -49,7 +49,8 @@ fn one(material: &Material, place: &str, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Metal shows only what it mirrors.
+/// Metal shows only what it mirrors. Here that is a sky if there is nothing else, and polished metal is as good as any
+/// other material: a note.
 fn all_metal(scene: &Scene, seen: &BTreeSet<MaterialId>, findings: &mut Vec<Finding>) {
     let materials: Vec<&Material> = seen.iter().filter_map(|&id| scene.materials.get(id)).collect();
     let is_mirror = |material: &&Material| match &material.shading {
@@ -60,7 +61,7 @@ fn all_metal(scene: &Scene, seen: &BTreeSet<MaterialId>, findings: &mut Vec<Find
     };
     if !materials.is_empty() && materials.iter().all(is_mirror) {
         findings.push(Finding {
-            severity: Severity::Warning,
+            severity: Severity::Note,
             fault: "metal-without-environment",
             place: "scene".to_owned(),
             what: "everything is polished metal, which is black in programs without an environment to mirror"

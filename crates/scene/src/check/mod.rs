@@ -1,7 +1,7 @@
 //! Faults of a scene: why it would be black, inside out, invisible or tiny.
 //!
 //! Nothing is drawn for these checks. Each finding states what was found, where, and how to fix it;
-//! a correct scene has none.
+//! a correct scene has none but notes.
 
 mod look;
 mod space;
@@ -14,6 +14,8 @@ use crate::scene::Scene;
 /// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
+    /// Nothing is wrong, but people may wonder.
+    Note,
     /// It may be intended.
     Warning,
     /// The image is wrong, here or in other programs.
@@ -38,6 +40,7 @@ pub struct Finding {
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let severity = match self.severity {
+            Severity::Note => "note",
             Severity::Warning => "warning",
             Severity::Error => "error",
         };

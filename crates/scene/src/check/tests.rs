@@ -149,7 +149,7 @@ fn each_fault_is_named() {
         (textured(Vec4::W, cube()), "black", Severity::Error),
         (with_mesh(black_vertices()), "black", Severity::Error),
         (textured(Vec4::ONE, without_coordinates()), "no-texture-coordinates", Severity::Error),
-        (scene_of(cube(), polished()), "metal-without-environment", Severity::Warning),
+        (scene_of(cube(), polished()), "metal-without-environment", Severity::Note),
         (unlit_by_lights(), "no-light", Severity::Error),
     ] {
         let findings = scene.check();

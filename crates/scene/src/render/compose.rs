@@ -171,7 +171,10 @@ impl<'s> Composer<'s> {
             counts.of(Effect::Edges).bytes += sides + (marks.edges.len() + marks.faces.len()) as u64;
         }
         let (mesh, color) = (object.asset.mesh(), self.material(object, 0).base_color.truncate());
-        draws.extend(self.segments(object, (mesh.face_edge_count(), mesh.loose_edges()), color));
+        let loose = mesh.loose_edges();
+        // Counting the edges of faces means to find them all.
+        let first = if loose.is_empty() { 0 } else { mesh.face_edge_count() };
+        draws.extend(self.segments(object, (first, loose), color));
         draws.extend(self.points(object, color));
         draws.extend(self.vertices(object));
     }

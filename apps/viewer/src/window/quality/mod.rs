@@ -13,8 +13,19 @@ use settings::Setting;
 
 use crate::ladder::Step;
 
-/// In points: half of a small window stays for the image.
+/// In points.
 const WIDTH: f32 = 392.0;
+const LEAST_WIDTH: f32 = 264.0;
+
+/// The most of the window's width that it takes: the image needs more.
+const SHARE: f32 = 0.36;
+
+/// Below this width in points, what a change costs is told by the list's tooltip.
+const WITH_COSTS: f32 = 370.0;
+
+/// The widths of the columns beside the lists, with the gaps.
+const LABELS: f32 = 122.0;
+const COSTS: f32 = 76.0;
 
 /// Budgets that can be chosen, in milliseconds: 200 to 2 frames a second.
 const BUDGETS: std::ops::RangeInclusive<f64> = 5.0..=500.0;
@@ -72,7 +83,8 @@ impl QualityPanel {
         // An open list is closed first.
         let is_alone = !egui::Popup::is_any_open(ui.ctx());
         let mut shown = !(is_alone && ui.input(|input| input.key_pressed(egui::Key::Escape)));
-        let panel = egui::Panel::left("accuracy").resizable(false).exact_size(WIDTH);
+        let width = (ui.available_width() * SHARE).clamp(LEAST_WIDTH, WIDTH);
+        let panel = egui::Panel::left("accuracy").resizable(false).exact_size(width);
         panel.show(ui, |ui| {
             ui.horizontal(|ui| {
                 ui.heading("Accuracy");
@@ -92,9 +104,10 @@ impl QualityPanel {
     fn contents(&mut self, ui: &mut egui::Ui, stage: &mut Stage) {
         self.steps(ui, stage);
         ui.separator();
-        egui::Grid::new("accuracy").num_columns(3).spacing([8.0, 4.0]).show(ui, |ui| {
+        let width = ui.available_width();
+        egui::Grid::new("accuracy").spacing([8.0, 4.0]).show(ui, |ui| {
             for setting in Setting::ALL {
-                self.row(ui, stage, setting);
+                self.row(ui, (&mut *stage, width), setting);
                 ui.end_row();
             }
         });
@@ -119,21 +132,28 @@ impl QualityPanel {
     }
 
     /// A setting, its choices, and what the last change of it cost.
-    fn row(&mut self, ui: &mut egui::Ui, stage: &mut Stage, setting: Setting) {
+    fn row(&mut self, ui: &mut egui::Ui, (stage, width): (&mut Stage, f32), setting: Setting) {
+        let (has_costs, costs) = (width > WITH_COSTS, self.costs.of(setting));
         let label = ui.label(setting.name());
         let choices = setting.choices(&stage.settings);
         let current = choices.iter().find(|(_, choice)| *choice == stage.settings);
         let text = current.map_or("another value", |(name, _)| name.as_str());
-        let list = egui::ComboBox::from_id_salt(setting.name()).width(190.0).selected_text(text);
+        let room = width - LABELS - if has_costs { COSTS } else { 0.0 };
+        let list = egui::ComboBox::from_id_salt(setting.name()).width(room).truncate().selected_text(text);
         let (list, chosen) = choose(ui, list, &choices, &stage.settings);
-        list.labelled_by(label.id);
+        let list = list.labelled_by(label.id);
+        if !has_costs && !costs.is_empty() {
+            list.on_hover_text(&costs);
+        }
         if let Some(choice) = chosen {
             stage.settings = choice;
             // Whoever changes a setting wants to see what that does.
             stage.refinement = Refinement::Settings;
             self.costs.changed(setting);
         }
-        ui.label(egui::RichText::new(self.costs.of(setting)).monospace());
+        if has_costs {
+            ui.label(egui::RichText::new(costs).monospace());
+        }
     }
 }
 

@@ -73,6 +73,21 @@ fn two_models_are_seen_side_by_side_in_turn_and_where_they_differ() {
     });
 }
 
+/// The camera was fitted to the first model alone: of a larger one beside it, or one at another place, nothing was seen.
+#[test]
+fn both_models_are_in_view() {
+    const AWAY: &str = "v 40 0 0\nv 42 0 0\nv 40 2 0\nf 1 2 3\n";
+    with_pair([TRIANGLE, AWAY], |window| {
+        let differs = |window: &HeadlessWindow<'_>, part: std::ops::Range<usize>| {
+            let pixels = columns(window, part.clone());
+            pixels.chunks(part.len()).any(|row| row.iter().any(|pixel| *pixel != row[0]))
+        };
+        assert!(differs(window, 0..300) && differs(window, 300..600), "each in its half");
+        shift(window, 'b');
+        assert!(differs(window, 0..300) && differs(window, 300..600), "at both ends of what they fill");
+    });
+}
+
 #[test]
 fn without_another_model_the_keys_say_what_to_do() {
     with_window("", SIZE, |window| {

@@ -13,6 +13,7 @@ use crate::folders;
 use crate::model::Model;
 use crate::source::Source;
 use crate::window::background::{Loading, Outcome};
+use crate::window::comparing::Comparing;
 use crate::window::playback::Playback;
 use crate::window::watch::Watch;
 
@@ -61,8 +62,7 @@ impl Viewer {
         if view == View::Fit || self.shown.is_none() {
             let covered = std::mem::replace(&mut stage.covered_below, bar);
             let home = self.home(stage, &model).inspect_err(|_| stage.covered_below = covered)?;
-            stage.orbit = home;
-            stage.set_home(home);
+            self.set_home(stage, home);
         }
         stage.covered_below = bar;
         stage.set_title(model.source.window_title());
@@ -78,6 +78,7 @@ impl Viewer {
             self.notify(stage, odd.clone());
         }
         self.failure = None;
+        self.bind_keys(stage, model.source.first_file());
         let scenery = self.request.scenery.add_to(&mut scene);
         stage.scene = scene.into();
         stage.forget_moves();
@@ -86,8 +87,9 @@ impl Viewer {
         if let Some(file) = model.source.first_file() {
             self.recent.add(file);
         }
+        let is_other = self.shown.as_ref().is_none_or(|shown| shown.source != model.source);
         self.shown = Some(Shown { source: model.source, index: self.current, summary: None, scenery });
-        if self.sources.len() > 1 && !self.show_name {
+        if is_other && self.sources.len() > 1 && !self.show_name {
             stage.overlay.notify(self.name());
         }
         Ok(())
@@ -127,6 +129,26 @@ impl Viewer {
         self.load(stage, View::Fit);
     }
 
+    /// Goes through all models of the folder of the one that is shown, beginning with that.
+    pub(super) fn add_folder(&mut self, stage: &mut Stage) {
+        let index = self.shown.as_ref().map_or(self.current, |shown| shown.index);
+        let file = self.sources[index].first_file().and_then(|file| std::path::absolute(file).ok());
+        let Some((file, folder)) = file.as_ref().and_then(|file| Some((file, file.parent()?))) else {
+            return self.notify(stage, "the built-in scene is in no folder");
+        };
+        let files = match folders::expanded(&[folder.to_owned()], self.request.goes_deep) {
+            Ok(files) => files,
+            Err(reason) => return self.tell_failure(stage, &Failure::work(reason)),
+        };
+        self.current = files.iter().position(|other| other == file).unwrap_or(0);
+        if let Some(shown) = &mut self.shown {
+            shown.index = self.current;
+        }
+        self.sources = files.into_iter().map(|file| Source::Files(vec![file])).collect();
+        self.notify(stage, self.name());
+        self.load(stage, View::Fit);
+    }
+
     /// Nobody waits for what is being loaded any more.
     pub(super) fn cancel_loading(&mut self, stage: &mut Stage) {
         if self.pending.take().is_some() {
@@ -136,7 +158,11 @@ impl Viewer {
 
     /// The view that the command line asks for.
     pub(super) fn home(&self, stage: &Stage, model: &Model) -> Result<Orbit, Failure> {
-        let shot = model.shot(&self.request.framing, stage.fit_aspect())?;
+        let (framing, aspect) = (&self.request.framing, stage.fit_aspect());
+        let shot = match self.comparing.as_ref().and_then(Comparing::other) {
+            Some(other) => model.shot_with(other, framing, aspect)?,
+            None => model.shot(framing, aspect)?,
+        };
         let mut orbit = Orbit::from_camera(&shot.camera, shot.distance, self.request.framing.up);
         if self.request.framing.is_fitted() {
             orbit.zoom(stage.room());

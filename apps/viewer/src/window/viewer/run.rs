@@ -5,6 +5,7 @@ use trigon_scene::{Background, Display};
 use trigon_window::{Stage, Visibility};
 
 use super::{View, Viewer};
+use crate::args::Step;
 use crate::window::commands::Command;
 use crate::window::comparing::Comparing;
 use crate::window::side::Content;
@@ -32,6 +33,7 @@ impl Viewer {
                 None
             }),
             Command::CycleAnimation => self.play(stage, |playback, stage| Some(playback.cycle(stage))),
+            Command::AddFolder => self.add_folder(stage),
             Command::CancelLoading => self.cancel_loading(stage),
             Command::ResetView => self.reset_view(stage),
             Command::ToggleName => self.show_name = !self.show_name,
@@ -42,8 +44,21 @@ impl Viewer {
             Command::Darker => Self::brighten(stage, 1.0 / BRIGHTER),
             Command::UpY => self.set_up(stage, DVec3::Y, "+Y"),
             Command::UpZ => self.set_up(stage, DVec3::Z, "+Z"),
-            Command::Screenshot => Self::take_screenshot(stage, stage.settings.background),
-            Command::ScreenshotWithoutBackground => Self::take_screenshot(stage, Background::Transparent),
+            Command::Screenshot => self.take_screenshot(stage, stage.settings.background, None),
+            Command::ScreenshotWithoutBackground => {
+                self.take_screenshot(stage, Background::Transparent, None);
+            }
+            Command::AmbientOcclusion => self.toggle_flag(stage, "ambient-occlusion"),
+            Command::Shadows => self.toggle_shadows(stage),
+            Command::ToneMapping => self.toggle_flag(stage, "tone-mapping"),
+            Command::EnvironmentLight => self.toggle_environment(stage),
+            Command::EnvironmentBackground => self.toggle_skybox(stage),
+            Command::Spheres => self.change_by_key(stage, Step::Cycle("point-sprites".to_owned())),
+            Command::MoreOpaque => self.change_by_key(stage, Step::Increase("opacity".to_owned(), true)),
+            Command::LessOpaque => self.change_by_key(stage, Step::Increase("opacity".to_owned(), false)),
+            Command::Bones => self.toggle_flag(stage, "armature"),
+            Command::Normals => self.toggle_flag(stage, "normal-glyphs"),
+            Command::Notifications => self.toggle_flag(stage, "notifications"),
             Command::Tree => self.side.toggle(stage, Content::Tree),
             Command::Pixel => self.side.toggle(stage, Content::Pixel),
             Command::Effects => self.side.toggle(stage, Content::Effects),

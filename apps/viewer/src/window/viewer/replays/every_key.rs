@@ -2,7 +2,12 @@
 //! panel covers another, and none leaves the window. With `TRIGON_REPLAY_IMAGES=FOLDER` a screenshot of each
 //! is written, to be looked at.
 
+use std::sync::Arc;
+
+use trigon_camera::Camera;
 use trigon_io::{Pixels, write_png};
+use trigon_scene::{Cancel, Frame, RenderSettings, Scene};
+use trigon_window::Drawer;
 
 use super::*;
 
@@ -17,11 +22,28 @@ const WINDOWS: [(Viewport, f64); 3] = [
 const OPENERS: [&str; 9] = ["H", "Ctrl+O", "Shift+D", "N", "M", "Z", "D", "X", "Tab"];
 
 /// Names of commands that show something that Escape leaves on the screen: the same key hides it.
-const TOGGLES: [&str; 7] =
-    ["quality.difference", "axis", "grid", "file.name", "metadata", "frame_time", "frame_time.stages"];
+const TOGGLES: [&str; 16] = [
+    "ambient_occlusion",
+    "armature",
+    "axis",
+    "environment.background",
+    "environment.light",
+    "file.name",
+    "frame_time",
+    "frame_time.stages",
+    "grid",
+    "metadata",
+    "normal_glyphs",
+    "notifications",
+    "point_sprites",
+    "quality.difference",
+    "shadows",
+    "tone_mapping",
+];
 
 /// What undoes a key that changes the image, so that the next one is seen alone.
-const UNDONE_BY: [(&str, &str); 15] = [
+const UNDONE_BY: [(&str, &str); 16] = [
+    ("opacity.less", "Ctrl+P"),
     ("edges", "E"),
     ("wireframe", "Shift+E Shift+E"),
     ("samples", "A A A"),
@@ -123,15 +145,40 @@ fn check_layers(window: &mut HeadlessWindow<'_>, what: &str) {
     }
 }
 
-/// A window that shows an animated model, and another one beside it.
+/// Draws nothing. Large windows are for where panels stand, and a drawn scene would take most of the time.
+struct Blank;
+
+impl Drawer for Blank {
+    fn draw(&self, _: &Scene, _: &Camera, settings: &RenderSettings, _: &Cancel) -> Result<Frame, String> {
+        let (width, height) = (settings.width, settings.height);
+        let count = width as usize * height as usize;
+        let (color, depth, ids) =
+            (vec![0; 4 * count], Some(vec![f32::INFINITY; count]), vec![u32::MAX; count]);
+        let (object_ids, face_ids) = (Some(ids.clone()), Some(ids));
+        Ok(Frame { width, height, color, depth, object_ids, face_ids, ..Frame::default() })
+    }
+
+    fn draws_drafts(&self) -> bool {
+        true
+    }
+}
+
+/// A window that shows an animated model, and another one beside it. In large windows the scene is drawn only if
+/// somebody wants to look at it.
 fn with_window(test: impl Fn(&mut HeadlessWindow<'_>, &str)) {
     let folder = tempfile::tempdir().expect("a folder");
     let files = [written_boxes(folder.path()), written(folder.path(), "other.obj", OBJ)];
     let at = folder.path().display();
     let flags = format!("--screenshot-filename={at}/shot.png --statefile-filename={at}/state.json");
+    let is_looked_at = std::env::var_os("TRIGON_REPLAY_IMAGES").is_some();
     for (size, scale) in WINDOWS {
         let mut viewer = viewer(&flags, &files);
-        let mut window = open(&mut viewer, size);
+        let mut stage = stage(&viewer);
+        if size != SIZE && !is_looked_at {
+            stage.drawer = Some(Arc::new(Blank));
+        }
+        let mut window = HeadlessWindow::open(stage, &mut viewer, size);
+        loaded(&mut window);
         window.resize(size, scale);
         let name = format!("{}x{}@{scale}", size.width, size.height);
         test(&mut window, &name);

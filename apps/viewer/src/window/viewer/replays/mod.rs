@@ -1,19 +1,21 @@
 //! The viewer worked by mouse and keyboard in a window without a display: what somebody who has just
 //! installed it would try.
 
+mod bindings;
 mod broken_files;
 mod every_key;
 mod first_contact;
+mod flags;
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use clap::Parser;
 use trigon_camera::{Orbit, Projector, Viewport};
 use trigon_math::DVec2;
 use trigon_window::{Chord, HeadlessWindow, Key, Modifiers, PointerButton, RecentFiles, Stage};
 
 use super::Viewer;
-use crate::args::{RawArgs, Request};
+use crate::args::{CommandLine, Request};
 use crate::report::{Level, Reporter};
 use crate::source::Source;
 
@@ -36,9 +38,11 @@ const GLTF: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0
 
 /// A viewer of files, with the flags of a command line, that remembers nothing of other runs.
 fn viewer(flags: &str, files: &[PathBuf]) -> Viewer {
-    let words = ["trigon-viewer", "--refine=false", "--samples=1"].map(PathBuf::from).into_iter();
-    let words = words.chain(flags.split_whitespace().map(PathBuf::from)).chain(files.iter().cloned());
-    let request = Request::new(RawArgs::parse_from(words)).expect("consistent flags");
+    let words = ["--no-config", "--refine=false", "--samples=1"].map(OsString::from).into_iter();
+    let words = words.chain(flags.split_whitespace().map(OsString::from));
+    let line = CommandLine::new(words.chain(files.iter().map(OsString::from))).expect("flags");
+    let file = files.first().map(PathBuf::as_path);
+    let request = Request::from_line(&line, file).expect("consistent flags");
     let sources = Source::all(&request);
     let mut viewer = Viewer::new(request, sources, Reporter::new(Level::Quiet));
     viewer.recent = RecentFiles::default();
@@ -54,11 +58,16 @@ fn simple() -> (tempfile::TempDir, Viewer) {
 
 /// Opens its window and waits until nothing is loaded any more.
 fn open(viewer: &mut Viewer, size: Viewport) -> HeadlessWindow<'_> {
-    let mut stage = Stage::new(viewer.sources[0].window_title());
-    super::super::set_stage(&mut stage, &viewer.request);
-    let mut window = HeadlessWindow::open(stage, viewer, size);
+    let mut window = HeadlessWindow::open(stage(viewer), viewer, size);
     loaded(&mut window);
     window
+}
+
+/// Its window before it opens.
+fn stage(viewer: &Viewer) -> Stage {
+    let mut stage = Stage::new(viewer.sources[0].window_title());
+    super::super::set_stage(&mut stage, &viewer.request);
+    stage
 }
 
 /// Waits until nothing is loaded any more.
