@@ -1,5 +1,5 @@
 //! Boxes around triangles that follow each other in a mesh, and so mostly lie side by side: a
-//! question about a small part of space passes over 64 triangles at a time.
+//! question about a small part of space passes over 64 triangles at a time, then over 8.
 
 use std::ops::Range;
 
@@ -10,6 +10,10 @@ use super::Geometry;
 
 /// Triangles in a box.
 const BLOCK: usize = 64;
+
+/// Triangles in a part of a box, which gets a box of its own when that one is near. Of a row of quads across
+/// waves it is far smaller.
+const PART: usize = 8;
 
 /// Boxes that a thread makes at a time.
 const SHARE: usize = 64;
@@ -42,11 +46,22 @@ impl Blocks {
         }
     }
 
-    /// The triangles in each box that passes a test, from the first one on.
-    pub(crate) fn within(&self, may_hold: impl Fn(&BlockBox) -> bool) -> impl Iterator<Item = Range<usize>> {
-        let starts = (0..self.triangles).step_by(BLOCK);
-        let near = starts.zip(&self.boxes).filter(move |(_, block)| may_hold(block));
-        near.map(|(start, _)| start..self.triangles.min(start + BLOCK))
+    /// Triangles in boxes that pass a test, from the first one on, a few at a time.
+    pub(crate) fn within(
+        &self,
+        geometry: &Geometry,
+        may_hold: impl Fn(&BlockBox) -> bool + Copy,
+    ) -> impl Iterator<Item = Range<usize>> {
+        let parts = move |(start, block): (usize, &BlockBox)| {
+            let end = if may_hold(block) { self.triangles.min(start + BLOCK) } else { start };
+            (start..end).step_by(PART).map(move |start| start..end.min(start + PART))
+        };
+        let is_near = move |part: &Range<usize>| {
+            let triangles = &geometry.triangles[part.clone()];
+            may_hold(&BlockBox::around(triangles, &geometry.columns.positions))
+        };
+        let all = (0..self.triangles).step_by(BLOCK).zip(&self.boxes);
+        all.flat_map(parts).filter(is_near)
     }
 }
 
