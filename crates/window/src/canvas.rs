@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
 use trigon_raster::paint2d::Rect;
 use trigon_scene::Frame;
 
@@ -37,15 +38,12 @@ impl Canvas {
         self.pixels.resize(count, EMPTY);
         self.beneath.resize(count, EMPTY);
         let frame = frame.filter(|frame| !frame.color.is_empty());
-        let mut rows = Rows::new(frame, [width as usize, height as usize]);
-        for (y, shown) in self.beneath.chunks_exact_mut((width as usize).max(1)).enumerate() {
-            let row = rows.row(y);
-            for columns in differing(shown, row) {
-                shown[columns.clone()].copy_from_slice(&row[columns.clone()]);
-                let [left, right] = [columns.start as i32, columns.end as i32];
-                changed(Rect::new([left, y as i32], [right, y as i32 + 1]));
-            }
-        }
+        let size = [width as usize, height as usize];
+        let columns = frame.and_then(|frame| source_columns(frame, size[0]));
+        let rows = || Rows::new(frame, size, columns.as_deref());
+        let bands = self.beneath.par_chunks_mut(size[0].max(1) * BAND).enumerate();
+        let parts = bands.map(|(band, shown)| show_band(band * BAND, shown, rows()));
+        parts.collect::<Vec<_>>().into_iter().flatten().for_each(&mut changed);
     }
 
     /// Brings the pixels up to date with the interface. Returns whether any changed.
@@ -72,6 +70,23 @@ impl Canvas {
     }
 }
 
+/// Rows that a thread takes at a time.
+const BAND: usize = 32;
+
+/// Puts rows of a frame into those of the window from `top` on. The parts that differ from what was there.
+fn show_band(top: usize, shown: &mut [[u8; 4]], mut rows: Rows<'_>) -> Vec<Rect> {
+    let mut parts = Vec::new();
+    for (shown, y) in shown.chunks_exact_mut(rows.size[0]).zip(top..) {
+        let row = rows.row(y);
+        for columns in differing(shown, row) {
+            shown[columns.clone()].copy_from_slice(&row[columns.clone()]);
+            let [left, right] = [columns.start as i32, columns.end as i32];
+            parts.push(Rect::new([left, y as i32], [right, y as i32 + 1]));
+        }
+    }
+    parts
+}
+
 /// Pixels of a row that are compared at a time.
 const PIECE: usize = 64;
 
@@ -95,19 +110,16 @@ fn differing(a: &[[u8; 4]], b: &[[u8; 4]]) -> Vec<Range<usize>> {
 struct Rows<'f> {
     frame: Option<&'f Frame>,
     size: [usize; 2],
-    /// The frame's column for each one of the image, unless they are the same.
-    columns: Option<Vec<usize>>,
+    /// See [`source_columns`].
+    columns: Option<&'f [usize]>,
     /// The last row, and the frame's row that it shows.
     row: Vec<[u8; 4]>,
     source: Option<usize>,
 }
 
 impl<'f> Rows<'f> {
-    fn new(frame: Option<&'f Frame>, size: [usize; 2]) -> Self {
-        let [width, _] = size;
-        let across = frame.map(|frame| frame.width as usize).filter(|&across| across != width);
-        let columns = across.map(|across| (0..width).map(|x| source_pixel(x, width, across)).collect());
-        Self { frame, size, columns, row: vec![EMPTY; width], source: None }
+    fn new(frame: Option<&'f Frame>, size: [usize; 2], columns: Option<&'f [usize]>) -> Self {
+        Self { frame, size, columns, row: vec![EMPTY; size[0]], source: None }
     }
 
     fn row(&mut self, y: usize) -> &[[u8; 4]] {
@@ -117,7 +129,7 @@ impl<'f> Rows<'f> {
             self.source = Some(source);
             let across = frame.width as usize;
             let from = &frame.color.as_chunks::<4>().0[source * across..][..across];
-            match &self.columns {
+            match self.columns {
                 None => over_black(from, &mut self.row),
                 Some(columns) => {
                     let picked: Vec<[u8; 4]> = columns.iter().map(|&column| from[column]).collect();
@@ -129,9 +141,17 @@ impl<'f> Rows<'f> {
     }
 }
 
+/// The frame's column for each one of an image of some width, unless they are the same.
+fn source_columns(frame: &Frame, width: usize) -> Option<Vec<usize>> {
+    let across = frame.width as usize;
+    (across != width).then(|| (0..width).map(|x| source_pixel(x, width, across)).collect())
+}
+
 /// Maps one of `to` columns or rows of the window to one of `from` in the frame.
+#[inline]
 pub(crate) fn source_pixel(at: usize, to: usize, from: usize) -> usize {
-    at * from / to
+    // Divisions take long where thousands of pixels are looked up.
+    if from == to { at } else { at * from / to }
 }
 
 /// From straight alpha to opaque pixels over black, as windows have them.

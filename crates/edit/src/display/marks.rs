@@ -142,15 +142,22 @@ impl Sets {
         let (Some(mesh), Some(map)) = (document.mesh(id), document.shown_elements(id)) else { return };
         let Some(numbers) = document.shown_numbers(id) else { return };
         let kind = document.selection().kind();
-        let vertices = selected.vertices(mesh, kind);
-        let edges = selected.edges(mesh, kind);
-        let faces = selected.faces(mesh, kind);
         let [of_vertices, of_edges, of_faces] = [map.vertices.len(), numbers.edge_count(), map.faces.len()];
         let parts = |face: FaceId| parts(map, numbers, face);
-        let vertices = bits(of_vertices, vertices.iter().filter_map(|&id| numbers.vertex(id)));
+        // Of many elements each kind takes milliseconds.
+        let vertices = || {
+            let vertices = selected.vertices(mesh, kind);
+            bits(of_vertices, vertices.iter().filter_map(|&id| numbers.vertex(id)))
+        };
+        let edges = || {
+            let edges = selected.edges(mesh, kind);
+            bits(of_edges, edges.iter().filter_map(|&id| numbers.edge(id)))
+        };
+        let faces = || bits(of_faces, selected.faces(mesh, kind).into_iter().flat_map(parts));
+        let (edges, (vertices, faces)) = rayon::join(edges, || rayon::join(vertices, faces));
         self.selected[VERTICES].add(node, vertices);
-        self.selected[EDGES].add(node, bits(of_edges, edges.iter().filter_map(|&id| numbers.edge(id))));
-        self.selected[FACES].add(node, bits(of_faces, faces.iter().copied().flat_map(parts)));
+        self.selected[EDGES].add(node, edges);
+        self.selected[FACES].add(node, faces);
         self.show_cage(document, node, id, map);
         if let Some(active) = selected.order().last().copied() {
             match kind {

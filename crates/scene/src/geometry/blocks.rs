@@ -1,5 +1,5 @@
-//! Bounding boxes of 64 consecutive triangles each. Consecutive triangles are mostly neighbours, so a query
-//! about a small part of space skips most of them 64 at a time.
+//! Bounding boxes of 64 consecutive triangles each, and of eight within them. Consecutive triangles are mostly
+//! neighbours, so a query about a small part of space skips most of them 64 at a time, and then eight at a time.
 
 use std::ops::Range;
 
@@ -10,6 +10,10 @@ use super::Geometry;
 
 /// Triangles per box.
 const BLOCK: usize = 64;
+
+/// Triangles in a part of a box. A part gets its own box when the whole one is near; it is far smaller where a row
+/// of quads crosses waves.
+const PART: usize = 8;
 
 /// Boxes per task.
 const SHARE: usize = 64;
@@ -41,11 +45,22 @@ impl Blocks {
         }
     }
 
-    /// The triangles in each box that passes a test, from the first one on.
-    pub(crate) fn within(&self, may_hold: impl Fn(&BlockBox) -> bool) -> impl Iterator<Item = Range<usize>> {
-        let starts = (0..self.triangles).step_by(BLOCK);
-        let near = starts.zip(&self.boxes).filter(move |(_, block)| may_hold(block));
-        near.map(|(start, _)| start..self.triangles.min(start + BLOCK))
+    /// Triangles in boxes that pass a test, from the first one on, a few at a time.
+    pub(crate) fn within(
+        &self,
+        geometry: &Geometry,
+        may_hold: impl Fn(&BlockBox) -> bool + Copy,
+    ) -> impl Iterator<Item = Range<usize>> {
+        let parts = move |(start, block): (usize, &BlockBox)| {
+            let end = if may_hold(block) { self.triangles.min(start + BLOCK) } else { start };
+            (start..end).step_by(PART).map(move |start| start..end.min(start + PART))
+        };
+        let is_near = move |part: &Range<usize>| {
+            let triangles = &geometry.triangles[part.clone()];
+            may_hold(&BlockBox::around(triangles, &geometry.columns.positions))
+        };
+        let all = (0..self.triangles).step_by(BLOCK).zip(&self.boxes);
+        all.flat_map(parts).filter(is_near)
     }
 }
 

@@ -1,10 +1,10 @@
 //! Finds the parts of an object that may lie in a small area, and skips all others box by box.
 
 use super::beyond::Beyond;
-use super::nearby::Sides;
 use super::object::{Drawn, Object};
 use super::region::Area;
 use super::screen::Screen;
+use super::sides::Sides;
 use crate::geometry::Blocks;
 
 /// The elements of an object that may lie in an area, each list increasing.
@@ -42,8 +42,8 @@ fn near_triangles(drawn: &Drawn, blocks: &Blocks, (screen, area): (&Screen, &Are
     let is_near = |triangle: &usize| {
         !Sides::is_beside(&drawn.triangle(*triangle).map(|at| Sides::of(&corner(at), area)))
     };
-    let near = blocks.within(|block| beyond.may_hold(block)).flatten().filter(is_near);
-    near.map(|triangle| triangle as u32).collect()
+    let near = drawn.within(blocks, |block| beyond.may_hold(block));
+    near.flatten().filter(is_near).map(|triangle| triangle as u32).collect()
 }
 
 fn each_once(mut numbers: Vec<u32>) -> Vec<u32> {

@@ -9,12 +9,16 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 use trigon_math::DVec2;
+use trigon_raster::simd::Simd;
 
+use super::forms::Forms;
 use super::nearby::{Nearby, NearbyTriangles};
 use super::object::{Facing, Object};
-use super::occluders::{Group, Occluder, Pixels, Probes};
+use super::occluders::{Around, Extent, Group, Pixels};
+use super::probes::{Probe, Probes};
 use super::region::Area;
 use super::screen::{Screen, Spot};
 use crate::frame::Frame;
@@ -36,7 +40,6 @@ pub(super) struct Candidate {
 
 /// The points of elements, sorted by the pixels that they lie in.
 pub(super) struct Hiding<'p> {
-    screen: &'p Screen,
     frame: &'p Frame,
     columns: Range<u32>,
     rows: Range<u32>,
@@ -56,7 +59,7 @@ impl<'p> Hiding<'p> {
     /// The candidates, in any number of lists, have to lie in the area. There have to be
     /// fewer than `u32::MAX` of them.
     pub(super) fn new(
-        (screen, frame): (&'p Screen, &'p Frame),
+        (screen, frame): (&Screen, &'p Frame),
         area: &Area<'_>,
         lists: &[Vec<Candidate>],
     ) -> Self {
@@ -74,13 +77,14 @@ impl<'p> Hiding<'p> {
             Band::new(screen, [columns.start, first], columns.len(), &points_of(band as usize))
         });
         let bands = bands.collect();
-        Self { screen, frame, columns, rows, bands }
+        Self { frame, columns, rows, bands }
     }
 
     /// Lets the faces of an object hide points. `is_own` tells whether a candidate
     /// belongs to a face of that object.
     pub(super) fn hide(&self, nearby: &Nearby<'_>, is_own: impl Fn(u32, &Candidate) -> bool + Sync) {
         let Some(triangles) = nearby.triangles() else { return };
+        let level = Level::new();
         for (facing, run) in triangles.drawn.runs() {
             let wins = |face: u32, at: DVec2| facing.is_opaque || self.wins(nearby.object, face, at);
             let hides = |face: u32, point: &Candidate| wins(face, point.spot.at) && !is_own(face, point);
@@ -88,7 +92,7 @@ impl<'p> Hiding<'p> {
             let starts: Vec<usize> = places.clone().step_by(TRIANGLES).collect();
             starts.into_par_iter().for_each(|start| {
                 let share = start..places.end.min(start + TRIANGLES);
-                self.visit_all(&triangles, facing, share, &hides);
+                dispatch!(level, simd => self.visit_all(simd, (&triangles, facing), share, &hides));
             });
         }
     }
@@ -107,71 +111,72 @@ impl<'p> Hiding<'p> {
             && id(&self.frame.face_ids) == Some(face)
     }
 
-    fn visit_all(
+    fn visit_all<S: Simd>(
         &self,
-        triangles: &NearbyTriangles<'_>,
-        facing: Facing,
+        simd: S,
+        (triangles, facing): (&NearbyTriangles<'_>, Facing),
         places: Range<usize>,
         hides: &impl Fn(u32, &Candidate) -> bool,
     ) {
         let mut group = Group::new();
         for place in places {
             triangles.pieces(place, |piece| {
-                let [a, b, c] = piece.map(|spot| spot.at);
-                if !facing.draws((b - a).perp_dot(c - a)) {
+                let [a, b, c] = piece;
+                if !facing.draws((b.at - a.at).perp_dot(c.at - a.at)) {
                     return;
                 }
-                let Some(pixels) = self.pixels(piece) else { return };
-                let occluder =
-                    Occluder { piece: *piece, face: triangles.drawn.face(triangles.number(place)) };
+                let extent = Extent::new(piece);
+                let Some(pixels) = extent.pixels(&self.columns, &self.rows) else { return };
                 if !group.takes(&pixels) {
-                    self.visit(&group, hides);
+                    self.visit(simd, &group, hides);
                     group.clear();
                 }
-                group.push(occluder, pixels);
+                let face = triangles.drawn.face(triangles.number(place));
+                group.push((piece, face), (extent, pixels));
             });
         }
-        self.visit(&group, hides);
+        self.visit(simd, &group, hides);
     }
 
     /// Lets the triangles of a group hide the points in the pixels around them.
-    fn visit(&self, group: &Group, hides: &impl Fn(u32, &Candidate) -> bool) {
-        let Some(around) = group.around() else { return };
-        for row in around.pixels.rows.clone() {
-            let band = &self.bands[(row / BAND) as usize];
-            let numbers = band.points_of(row % BAND, &around.pixels.columns, self.columns.len());
-            band.probes.for_each_hidden(&around.extent, numbers, |number| {
-                if band.hidden[number].load(Ordering::Relaxed) {
-                    return;
+    fn visit<S: Simd>(&self, simd: S, group: &Group, hides: &impl Fn(u32, &Candidate) -> bool) {
+        let Some(Around { pixels, extent }) = group.around() else { return };
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut forms = None;
+                for row in pixels.rows.clone() {
+                    let band = &self.bands[(row / BAND) as usize];
+                    let numbers = band.points_of(row % BAND, &pixels.columns, self.columns.len());
+                    band.probes.for_each_hidden(
+                        simd,
+                        (extent, numbers),
+                        #[inline(always)]
+                        |number| {
+                            if band.hidden[number].load(Ordering::Relaxed) {
+                                return;
+                            }
+                            let forms = forms.get_or_insert_with(
+                                #[inline(always)]
+                                || Forms::new(simd, &group.pieces, self.around(pixels)),
+                            );
+                            let bits = forms.that_may_hide(simd, band.probes.get(number)) & group.bits();
+                            if bits != 0 && band.is_hidden(number, (group, bits), hides) {
+                                band.hidden[number].store(true, Ordering::Relaxed);
+                            }
+                        },
+                    );
                 }
-                let (point, probe) = (&band.points[number], band.probes.get(number));
-                let hiding_depth = || self.screen.hiding_depth(point.spot.depth);
-                let is_hidden = group.that_may_hide(&probe).any(|occluder| {
-                    depth_at(&occluder.piece, point.spot.at).is_some_and(|depth| depth > hiding_depth())
-                        && hides(occluder.face, point)
-                });
-                if is_hidden {
-                    band.hidden[number].store(true, Ordering::Relaxed);
-                }
-            });
-        }
+            },
+        );
     }
 
-    /// The pixels around a triangle, counted from the area's first; `None` where it lies
-    /// beside the area.
-    fn pixels(&self, piece: &[Spot; 3]) -> Option<Pixels> {
-        let [a, b, c] = piece.map(|spot| spot.at);
-        let (min, max) = (a.min(b).min(c), a.max(b).max(c));
-        let within = |min: f64, max: f64, pixels: &Range<u32>| {
-            // The casts saturate.
-            let (start, end) =
-                ((min as u32).max(pixels.start), (max as u32).saturating_add(1).min(pixels.end));
-            (max >= 0.0 && start < end).then(|| start - pixels.start..end - pixels.start)
-        };
-        Some(Pixels {
-            columns: within(min.x, max.x, &self.columns)?,
-            rows: within(min.y, max.y, &self.rows)?,
-        })
+    /// The upper left corner of some pixels, and how far they go from there.
+    fn around(&self, pixels: &Pixels) -> (DVec2, DVec2) {
+        let corner = |columns: u32, rows: u32| DVec2::new(columns.into(), rows.into());
+        let first = corner(self.columns.start, self.rows.start);
+        let start = corner(pixels.columns.start, pixels.rows.start);
+        (first + start, corner(pixels.columns.end, pixels.rows.end) - start)
     }
 }
 
@@ -188,6 +193,26 @@ impl Band {
         let probes = Probes::new(screen, points.iter().map(|point| &point.spot));
         let hidden = points.iter().map(|_| AtomicBool::new(false)).collect();
         Self { starts, points, probes, hidden }
+    }
+
+    /// Whether one of some triangles hides a point: the exact test.
+    #[inline(never)]
+    fn is_hidden(
+        &self,
+        number: usize,
+        (group, mut bits): (&Group, u64),
+        hides: &impl Fn(u32, &Candidate) -> bool,
+    ) -> bool {
+        let Probe { at, hiding_depth } = *self.probes.get(number);
+        while bits != 0 {
+            let (piece, face) = group.get(bits.trailing_zeros() as usize);
+            let is_behind = depth_at(&piece, at).is_some_and(|depth| depth > hiding_depth);
+            if is_behind && hides(face, &self.points[number]) {
+                return true;
+            }
+            bits &= bits - 1;
+        }
+        false
     }
 
     /// The points of some pixels of a row, both counted from the first.

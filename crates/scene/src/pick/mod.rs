@@ -2,14 +2,16 @@
 //! of polygons.
 //!
 //! [`Picker`] defines the rule. Visible faces are read from an image's ids (`search`); everything else is
-//! decided in f64: `screen` and `object` locate the points of elements, `nearby` (in small regions `few`,
-//! `beyond`) finds what may lie in a region (`region`, `lasso`), `kind` what does, `hiding` (with
-//! `occluders`) which of these a face hides, and `covering` which pixel centres a face covers.
+//! decided in f64: `screen` and `object` locate the points of elements, `nearby` (by `sides`; in small regions
+//! `few`, `beyond`) finds what may lie in a region (`region`, `lasso`), `kind` what does, `hiding` (with
+//! `occluders`, `probes` and `forms`) which of these a face hides, and `covering` which pixel centres a face
+//! covers.
 
 mod beyond;
 mod covering;
 mod elements;
 mod few;
+mod forms;
 mod hiding;
 mod kind;
 mod lasso;
@@ -19,9 +21,11 @@ mod object;
 mod occluders;
 mod outline;
 mod picker;
+mod probes;
 mod region;
 mod screen;
 mod search;
+mod sides;
 mod snap;
 #[cfg(test)]
 mod tests;

@@ -8,62 +8,17 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rayon::prelude::*;
+use trigon_raster::simd::LANES;
 
 use super::few::Few;
 use super::kind::Kind;
-use super::object::{Drawn, Object, POINTS};
+use super::object::{Drawn, Object};
 use super::region::Area;
 use super::screen::{Screen, Spot};
+use super::sides::Sides;
 
 /// Of an image, the part from which on an area is large.
 const LARGE: usize = 16;
-
-/// On which sides of an area a point lies, of the box of pixels around it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Sides(u8);
-
-impl Sides {
-    const LEFT: u8 = 1;
-    const RIGHT: u8 = 2;
-    const ABOVE: u8 = 4;
-    const BELOW: u8 = 8;
-    /// Beyond the far plane.
-    const FAR: u8 = 16;
-    /// Before the near plane: not on the screen.
-    const NOWHERE: u8 = 32;
-
-    pub(super) fn of(spot: &Spot, area: &Area<'_>) -> Self {
-        if !spot.is_somewhere() {
-            return Self(Self::NOWHERE);
-        }
-        let [left, right] = [area.columns.start, area.columns.end].map(f64::from);
-        let [above, below] = [area.rows.start, area.rows.end].map(f64::from);
-        let side = |is_there: bool, side: u8| if is_there { side } else { 0 };
-        Self(
-            side(spot.at.x < left, Self::LEFT)
-                | side(spot.at.x > right, Self::RIGHT)
-                | side(spot.at.y < above, Self::ABOVE)
-                | side(spot.at.y > below, Self::BELOW)
-                | side(!spot.is_in_range(), Self::FAR),
-        )
-    }
-
-    /// Whether the point lies in the box.
-    fn is_inside(self) -> bool {
-        self.0 == 0
-    }
-
-    /// Whether the near plane cuts what lies between points, of which some are before it.
-    fn is_cut(points: &[Self]) -> bool {
-        points.iter().any(|point| point.0 == Self::NOWHERE)
-    }
-
-    /// Whether all that is between some points lies on one side.
-    pub(super) fn is_beside(points: &[Self]) -> bool {
-        points.iter().fold(u8::MAX, |sides, point| sides & point.0) != 0
-    }
-}
 
 /// An object beside an area.
 pub(super) struct Nearby<'q> {
@@ -78,8 +33,8 @@ enum Near<'q> {
     Few(Few),
     /// All of it.
     All {
-        /// Of the mesh's vertices.
-        vertices: Vec<Sides>,
+        /// Of the mesh's vertices, and some more.
+        vertices: Vec<[Sides; LANES]>,
         /// Which of these belong to something.
         used: &'q [AtomicBool],
     },
@@ -88,8 +43,7 @@ enum Near<'q> {
 impl<'q> Nearby<'q> {
     pub(super) fn new(object: &'q Object<'q>, screen: &'q Screen, area: &'q Area<'q>) -> Self {
         let near = if is_large(screen, area) {
-            object.keep_vertices(screen);
-            let vertices = sides(object.mesh().vertex_count(), area, object.vertices(screen));
+            let vertices = object.vertex_sides(screen, area);
             Near::All { vertices, used: object.used() }
         } else {
             Near::Few(Few::new(object, screen, area))
@@ -122,7 +76,7 @@ impl<'q> Nearby<'q> {
         let is_near = match &self.near {
             Near::Few(_) => true,
             Near::All { vertices, used } => {
-                vertices[vertex].is_inside() && used[vertex].load(Ordering::Relaxed)
+                vertices.as_flattened()[vertex].is_inside() && used[vertex].load(Ordering::Relaxed)
             }
         };
         is_near.then(|| self.object.vertices(self.screen)(vertex))
@@ -135,7 +89,7 @@ impl<'q> Nearby<'q> {
         let spot = |end: u32| self.object.vertices(self.screen)(end as usize);
         let sides = ends.map(|end| match &self.near {
             Near::Few(_) => Sides::of(&spot(end), self.area),
-            Near::All { vertices, .. } => vertices[end as usize],
+            Near::All { vertices, .. } => vertices.as_flattened()[end as usize],
         });
         if Sides::is_beside(&sides) {
             return None;
@@ -151,10 +105,7 @@ impl<'q> Nearby<'q> {
         let drawn = self.object.drawn()?;
         let near = match &self.near {
             Near::Few(few) => NearTriangles::Few(&few.triangles),
-            Near::All { .. } => {
-                drawn.keep_corners(self.screen);
-                NearTriangles::All(sides(drawn.corner_count(), self.area, drawn.corners(self.screen)))
-            }
+            Near::All { .. } => NearTriangles::All(drawn.corner_sides(self.screen, self.area)),
         };
         Some(NearbyTriangles { drawn, screen: self.screen, near })
     }
@@ -170,8 +121,8 @@ pub(super) struct NearbyTriangles<'q> {
 enum NearTriangles<'q> {
     /// Those that may lie in it.
     Few(&'q [u32]),
-    /// The sides of all corners.
-    All(Vec<Sides>),
+    /// The sides of all corners, and some more.
+    All(Vec<[Sides; LANES]>),
 }
 
 impl NearbyTriangles<'_> {
@@ -203,6 +154,7 @@ impl NearbyTriangles<'_> {
         let is_near = match &self.near {
             NearTriangles::Few(_) => true,
             NearTriangles::All(sides) => {
+                let sides = sides.as_flattened();
                 !Sides::is_beside(&self.drawn.triangle(triangle).map(|corner| sides[corner]))
             }
         };
@@ -214,9 +166,4 @@ impl NearbyTriangles<'_> {
 
 fn is_large(screen: &Screen, area: &Area<'_>) -> bool {
     area.columns.len() * area.rows.len() * LARGE > screen.pixel_count()
-}
-
-fn sides(count: usize, area: &Area<'_>, spot: impl Fn(usize) -> Spot + Sync) -> Vec<Sides> {
-    let points = (0..count).into_par_iter().with_min_len(POINTS);
-    points.map(|point| Sides::of(&spot(point), area)).collect()
 }

@@ -1,15 +1,20 @@
 //! Objects for picking: their elements, and the screen positions of their points. Everything is
 //! computed on first use.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 use trigon_math::{DMat4, DVec3, Vec3};
 use trigon_mesh::Mesh;
+use trigon_raster::simd::{LANES, inlined, lanes_of};
 
-use super::screen::{Screen, Spot};
-use crate::geometry::{Blocks, Run};
+use super::region::Area;
+use super::screen::{Screen, Spot, Spots};
+use super::sides::Sides;
+use crate::geometry::{BlockBox, Blocks, Run};
 use crate::material::AlphaMode;
 use crate::node::NodeId;
 use crate::render::{Onlookers, Shape, Shapes};
@@ -26,8 +31,8 @@ pub(super) struct Object<'s> {
     drawn: Option<Drawn>,
     /// Where vertices are.
     map: DMat4,
-    /// The same for all of them, once that is kept.
-    vertices: OnceLock<Vec<Spot>>,
+    /// The same for all of them, once that is kept, and for some more.
+    vertices: OnceLock<Vec<[Spot; LANES]>>,
     used: OnceLock<Vec<AtomicBool>>,
 }
 
@@ -37,8 +42,8 @@ pub(super) struct Drawn {
     map: DMat4,
     /// For each run how its material shows faces.
     facings: Vec<Facing>,
-    /// Where all corners are, once that is kept.
-    corners: OnceLock<Vec<Spot>>,
+    /// Where all corners are, once that is kept, and some more.
+    corners: OnceLock<Vec<[Spot; LANES]>>,
 }
 
 /// How faces of a material are drawn.
@@ -83,21 +88,27 @@ impl<'s> Object<'s> {
         self.drawn.as_ref()
     }
 
-    /// Finds where all vertices are, and keeps it.
-    pub(super) fn keep_vertices(&self, screen: &Screen) {
-        keep(&self.vertices, || {
-            let positions = self.placed.positions().par_iter().with_min_len(POINTS);
-            positions.map(|position| screen.spot(&self.map, position.as_dvec3())).collect()
-        });
+    /// On which sides of an area all vertices lie; where they are is kept.
+    pub(super) fn vertex_sides(&self, screen: &Screen, area: &Area<'_>) -> Vec<[Sides; LANES]> {
+        let positions = self.placed.positions();
+        sides(&self.vertices, positions.len(), (screen, &self.map, area), |block| {
+            let place = |vertex: usize| positions.get(vertex).map_or([0.0; 3], |point| point.to_array());
+            let points: [[f32; 3]; LANES] = lanes_of(|lane| place(block * LANES + lane));
+            [0, 1, 2].map(|axis| points.map(|point| point[axis]))
+        })
     }
 
     /// Where a vertex is.
     pub(super) fn vertices<'v>(&'v self, screen: &'v Screen) -> impl Fn(usize) -> Spot + Sync + 'v {
-        let (kept, positions) = (self.vertices.get(), self.placed.positions());
-        move |vertex| match kept {
-            Some(spots) => spots[vertex],
-            None => screen.spot(&self.map, positions[vertex].as_dvec3()),
-        }
+        let positions = self.placed.positions();
+        let kept = self.vertices.get().map(|spots| spots.as_flattened());
+        inlined(
+            #[inline(always)]
+            move |vertex: usize| match kept {
+                Some(spots) => spots[vertex],
+                None => screen.spot(&self.map, positions[vertex].as_dvec3()),
+            },
+        )
     }
 
     /// Which vertices belong to a face, an edge or a point.
@@ -141,7 +152,7 @@ impl Drawn {
     }
 
     /// The triangles of each material.
-    pub(super) fn runs(&self) -> impl Iterator<Item = (Facing, std::ops::Range<usize>)> + '_ {
+    pub(super) fn runs(&self) -> impl Iterator<Item = (Facing, Range<usize>)> + '_ {
         self.facings.iter().copied().zip(self.shape.geometry.runs.iter().map(|run| run.triangles.clone()))
     }
 
@@ -153,6 +164,15 @@ impl Drawn {
     /// Boxes around its triangles.
     pub(super) fn blocks(&self, mesh: &Mesh) -> &Blocks {
         self.shape.geometry.blocks(mesh)
+    }
+
+    /// The triangles in those boxes that pass a test, a few at a time.
+    pub(super) fn within<'d>(
+        &'d self,
+        blocks: &'d Blocks,
+        may_hold: impl Fn(&BlockBox) -> bool + Copy + 'd,
+    ) -> impl Iterator<Item = Range<usize>> + 'd {
+        blocks.within(&self.shape.geometry, may_hold)
     }
 
     pub(super) fn triangle_count(&self) -> usize {
@@ -170,33 +190,37 @@ impl Drawn {
         self.shape.geometry.triangles[triangle].map(|corner| corner as usize)
     }
 
-    /// How many corners all triangles have; neighbours may share them.
-    pub(super) fn corner_count(&self) -> usize {
-        self.shape.geometry.columns.vertex_count()
-    }
-
-    /// Finds where all corners are, and keeps it.
-    pub(super) fn keep_corners(&self, screen: &Screen) {
-        keep(&self.corners, || {
-            let points = (0..self.corner_count()).into_par_iter().with_min_len(POINTS);
-            points.map(|corner| screen.spot(&self.map, self.position(corner))).collect()
-        });
+    /// On which sides of an area all corners lie; where they are is kept.
+    pub(super) fn corner_sides(&self, screen: &Screen, area: &Area<'_>) -> Vec<[Sides; LANES]> {
+        let columns = &self.shape.geometry.columns;
+        sides(&self.corners, columns.vertex_count(), (screen, &self.map, area), |block| {
+            columns.positions.each_ref().map(|column| {
+                let rest = &column[block * LANES..];
+                let at = |lane: usize| rest.get(lane).copied().unwrap_or_default();
+                rest.first_chunk().copied().unwrap_or_else(|| lanes_of(at))
+            })
+        })
     }
 
     /// Where a corner is.
     pub(super) fn corners<'d>(&'d self, screen: &'d Screen) -> impl Fn(usize) -> Spot + Sync + 'd {
-        let kept = self.corners.get();
-        move |corner| match kept {
-            Some(spots) => spots[corner],
-            None => screen.spot(&self.map, self.position(corner)),
-        }
+        let kept = self.corners.get().map(|spots| spots.as_flattened());
+        inlined(
+            #[inline(always)]
+            move |corner: usize| match kept {
+                Some(spots) => spots[corner],
+                None => screen.spot(&self.map, self.position(corner)),
+            },
+        )
     }
 
     /// Calls `visit` with the triangle, or with those that the near plane leaves of it.
     #[inline]
     pub(super) fn pieces(&self, screen: &Screen, triangle: usize, mut visit: impl FnMut(&[Spot; 3])) {
-        let corners = self.triangle(triangle);
-        let spots = corners.map(self.corners(screen));
+        let corners @ [a, b, c] = self.triangle(triangle);
+        let at = self.corners(screen);
+        // Not by `map`, which would be a call here.
+        let spots = [at(a), at(b), at(c)];
         if spots.iter().all(Spot::is_somewhere) {
             visit(&spots);
         } else if spots.iter().any(Spot::is_somewhere) {
@@ -216,6 +240,35 @@ impl Facing {
     pub(super) fn draws(&self, area: f64) -> bool {
         area != 0.0 && (self.double_sided || (area < 0.0) != self.is_mirrored)
     }
+}
+
+/// On which sides of an area points of an object lie, and some more to make the last eight complete. Where they are
+/// is looked up, or found and kept. `points` has the coordinates of eight at a time.
+fn sides(
+    kept: &OnceLock<Vec<[Spot; LANES]>>,
+    count: usize,
+    (screen, map, area): (&Screen, &DMat4, &Area<'_>),
+    points: impl Fn(usize) -> [[f32; LANES]; 3] + Sync,
+) -> Vec<[Sides; LANES]> {
+    let level = Level::new();
+    if let Some(spots) = kept.get() {
+        let blocks = spots.par_iter().with_min_len(POINTS / LANES);
+        let of = |spots| dispatch!(level, simd => Sides::of_each(simd, &Spots::of(simd, spots), area));
+        return blocks.map(of).collect();
+    }
+    let blocks = (0..count.div_ceil(LANES)).into_par_iter().with_min_len(POINTS / LANES);
+    let found = blocks.map(|block| {
+        let points = points(block);
+        dispatch!(level, simd => {
+            let spots = screen.spots(simd, map, points);
+            (spots.each(), Sides::of_each(simd, &spots, area))
+        })
+    });
+    let (mut spots, mut sides) = (Vec::new(), Vec::new());
+    found.unzip_into_vecs(&mut spots, &mut sides);
+    // Another thread may have been quicker, and has found the same.
+    let _ = kept.set(spots);
+    sides
 }
 
 /// What is kept, or found now and kept. It is found without a lock: a thread that waits for others

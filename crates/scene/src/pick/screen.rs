@@ -4,8 +4,10 @@
 //! before anything is multiplied. Depth is that of the depth buffer, which is linear across the
 //! screen: 1 on the near plane, 0 on the far plane or at infinity.
 
+use fearless_simd::f64x8;
 use trigon_camera::{Camera, Viewport};
 use trigon_math::{DAffine3, DMat4, DVec2, DVec3, DVec4};
+use trigon_raster::simd::{Each, LANES, Simd, inlined, lanes_of, prelude::*};
 
 use crate::render::placement::Eye;
 
@@ -32,6 +34,34 @@ pub(super) struct Spot {
     pub(super) at: DVec2,
     /// Larger is nearer.
     pub(super) depth: f64,
+}
+
+/// Eight points on the screen: x, y and depth.
+pub(super) struct Spots<S: Simd>(pub(super) [f64x8<S>; 3]);
+
+impl<S: Simd> Spots<S> {
+    #[inline(always)]
+    pub(super) fn of(simd: S, spots: &[Spot; LANES]) -> Self {
+        let x = lanes_of(|lane| spots[lane].at.x);
+        let y = lanes_of(|lane| spots[lane].at.y);
+        let depth = lanes_of(|lane| spots[lane].depth);
+        Self([x, y, depth].each(
+            #[inline(always)]
+            |values| f64x8::simd_from(simd, values),
+        ))
+    }
+
+    #[inline(always)]
+    pub(super) fn each(&self) -> [Spot; LANES] {
+        let [x, y, depth]: [[f64; LANES]; 3] = self.0.each(
+            #[inline(always)]
+            |values| values.into(),
+        );
+        lanes_of(
+            #[inline(always)]
+            |lane| Spot { at: DVec2::new(x[lane], y[lane]), depth: depth[lane] },
+        )
+    }
 }
 
 /// What the near plane leaves of a triangle on the screen.
@@ -95,6 +125,39 @@ impl Screen {
     /// Where a point of an object is.
     pub(super) fn spot(&self, map: &DMat4, point: DVec3) -> Spot {
         self.project(*map * point.extend(1.0))
+    }
+
+    /// The same of several points, given by their x, y and z: all at once, with the same bits.
+    #[inline(always)]
+    pub(super) fn spots<S: Simd>(&self, simd: S, map: &DMat4, points: [[f32; LANES]; 3]) -> Spots<S> {
+        let splat = inlined(
+            #[inline(always)]
+            |value: f64| f64x8::splat(simd, value),
+        );
+        let [x, y, z] = points.each(
+            #[inline(always)]
+            |values| f64x8::simd_from(simd, lanes_of(|lane| f64::from(values[lane]))),
+        );
+        let columns = map.to_cols_array_2d();
+        let [x, y, z, w] = [0, 1, 2, 3].each(
+            #[inline(always)]
+            |row: usize| {
+                x * splat(columns[0][row])
+                    + y * splat(columns[1][row])
+                    + z * splat(columns[2][row])
+                    + splat(columns[3][row])
+            },
+        );
+        let (zero, one, most) = (splat(0.0), splat(1.0), splat(f64::INFINITY));
+        let is_finite =
+            x.abs().simd_lt(most) & y.abs().simd_lt(most) & z.abs().simd_lt(most) & w.abs().simd_lt(most);
+        let is_somewhere = is_finite & (w - z).simd_ge(zero);
+        let values =
+            [(one + x / w) * splat(self.half_size.x), (one - y / w) * splat(self.half_size.y), z / w];
+        Spots(values.each(
+            #[inline(always)]
+            |value| is_somewhere.select(value, splat(f64::NAN)),
+        ))
     }
 
     /// From clip space; nowhere before the near plane.
@@ -185,5 +248,38 @@ impl Piece {
         let [first, ..] = self.corners;
         let sides = self.corners().windows(2).skip(1);
         sides.map(move |side| [first, side[0], side[1]])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::{Level, dispatch};
+    use proptest::prelude::*;
+    use trigon_math::Vec3;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn points_that_are_placed_together_are_where_each_is_alone(
+            points in prop::array::uniform8(prop::array::uniform3(prop_oneof![
+                8 => -9.0..9.0_f32, 1 => -1e30..1e30_f32, 1 => Just(f32::NAN), 1 => Just(f32::INFINITY)
+            ])),
+            eye in -5.0..5.0_f64,
+        ) {
+            let camera = Camera::look_at(DVec3::new(eye, 0.5, 3.0), DVec3::ZERO, DVec3::Y);
+            let screen = Screen::new(&camera, Viewport { width: 200, height: 100 });
+            let map = screen.map(&DAffine3::from_scale(DVec3::new(1.0, -0.7, 2.0)));
+            let columns = [0, 1, 2].map(|axis| points.map(|point| point[axis]));
+            let together = dispatch!(Level::new(), simd => screen.spots(simd, &map, columns).each());
+            for (point, spot) in points.iter().zip(together) {
+                let alone = screen.spot(&map, Vec3::from_array(*point).as_dvec3());
+                let bits = |spot: Spot| [spot.at.x, spot.at.y, spot.depth].map(f64::to_bits);
+                prop_assert!(
+                    bits(alone) == bits(spot) || !(alone.is_somewhere() || spot.is_somewhere()),
+                    "{point:?}: {alone:?} and {spot:?}"
+                );
+            }
+        }
     }
 }

@@ -272,7 +272,7 @@ fn shares(count: usize) -> Vec<Range<usize>> {
 
 /// The points of some elements, and what is left of these for later.
 fn points(kind: Kind, nearby: &Nearby<'_>, share: Range<usize>) -> (Vec<Candidate>, Range<usize>) {
-    let (mut points, object) = (Vec::new(), nearby.object.node.index() as u32);
+    let (mut points, object) = (Vec::with_capacity(share.len()), nearby.object.node.index() as u32);
     for number in share.clone() {
         let element = nearby.element(kind, number);
         kind.points(nearby, element, |spot| {

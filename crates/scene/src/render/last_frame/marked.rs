@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use fixedbitset::FixedBitSet;
+use rayon::prelude::*;
 use trigon_math::Vec4;
 use trigon_raster::MarkColors;
 
@@ -74,30 +75,36 @@ fn differing_bits(before: Option<&FixedBitSet>, now: Option<&FixedBitSet>) -> Ve
     before.symmetric_difference(now).map(|bit| bit as u32).collect()
 }
 
+/// Triangles that a thread takes at a time.
+const SHARE: usize = 1 << 14;
+
 /// The triangles of a draw whose faces or sides have changed marks.
 fn triangles(marks: [Option<&MarkNumbers>; 2], source: &Source<'_>) -> Option<Vec<u32>> {
     let numbers = |of: fn(&MarkNumbers) -> &Vec<u8>| {
         let [before, now] = marks.map(|marks| marks.map_or(&[][..], |marks| of(marks)));
         Elements::new(&differing(before, now))
     };
-    let (edges, faces) = (numbers(|marks| &marks.edges), numbers(|marks| &marks.faces));
-    let (range, mut listed) = (source.triangles.clone(), Vec::new());
-    if let Some(faces) = &faces {
-        let own = source.geometry.faces[range.clone()].iter();
-        listed.extend((0..).zip(own).filter(|&(_, &face)| faces.has(face)).map(|(triangle, _)| triangle));
+    let (edges, faces) = rayon::join(|| numbers(|marks| &marks.edges), || numbers(|marks| &marks.faces));
+    if edges.is_none() && faces.is_none() {
+        return Some(Vec::new());
     }
-    if let Some(edges) = &edges {
-        let own = match &source.marked {
-            Marked::Faces(Some(marks)) if !marks.sides.is_empty() => marks.sides,
-            _ => &source.geometry.sides_if_known()?[range],
-        };
-        let own = own.iter();
-        let is_other = |sides: &[u32; 3]| sides.iter().any(|&side| edges.has(side));
-        listed.extend((0..).zip(own).filter(|(_, sides)| is_other(sides)).map(|(triangle, _)| triangle));
-        listed.sort_unstable();
-        listed.dedup();
-    }
-    Some(listed)
+    let range = source.triangles.clone();
+    let sides = match &source.marked {
+        _ if edges.is_none() => &[][..],
+        Marked::Faces(Some(marks)) if !marks.sides.is_empty() => marks.sides,
+        _ => &source.geometry.sides_if_known()?[range.clone()],
+    };
+    let own = &source.geometry.faces[range];
+    let is_other = |triangle: &usize| {
+        faces.as_ref().is_some_and(|faces| faces.has(own[*triangle]))
+            || edges.as_ref().is_some_and(|edges| sides[*triangle].iter().any(|&side| edges.has(side)))
+    };
+    let starts: Vec<usize> = (0..own.len()).step_by(SHARE).collect();
+    let shares = starts.into_par_iter().map(|start| {
+        let share = start..own.len().min(start + SHARE);
+        share.filter(is_other).map(|triangle| triangle as u32).collect::<Vec<u32>>()
+    });
+    Some(shares.collect::<Vec<_>>().concat())
 }
 
 /// Some elements of a mesh.
