@@ -15,7 +15,7 @@ fn configured(folder: &Path, json: &str) -> Viewer {
     let request = Request::from_line(&line, Some(&files[0])).expect("flags that fit");
     let sources = Source::all(&request);
     let mut viewer = Viewer::new(request, sources, Reporter::new(Level::Quiet));
-    viewer.recent = Recent::default();
+    viewer.recent = RecentFiles::default();
     viewer
 }
 
