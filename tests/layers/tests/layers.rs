@@ -37,12 +37,14 @@ fn folders_depend_on_each_other_one_way() {
 
 /// Top-level modules that need each other although none of their files do. `docs/architecture.md` says why; a change that
 /// adds one to a circle shows here.
-const MODULE_CIRCLES: [(&str, &str); 5] = [
+const MODULE_CIRCLES: [(&str, &str); 7] = [
     ("edit", "command document"),
     ("io", "export formats load"),
     ("raster", "bin ink line pass pipeline point resolve setup shade tile vertex view"),
     ("scene", "effects frame outputs render settings"),
     ("scene", "node skin"),
+    ("viewer", "image scripted"),
+    ("window", "canvas refinement shown"),
 ];
 
 #[test]
