@@ -8,6 +8,7 @@ use trigon_scene::Frame;
 
 use crate::egui_painter::{ChannelOrder, EguiPainter};
 use crate::refinement;
+use crate::shown::source_pixel;
 
 /// Shown before the first image: dark, so as not to dazzle.
 const EMPTY: [u8; 4] = [24, 24, 24, 255];
@@ -127,11 +128,6 @@ impl<'f> Rows<'f> {
         }
         &self.row
     }
-}
-
-/// Maps one of `to` columns or rows of the window to one of `from` in the frame.
-pub(crate) fn source_pixel(at: usize, to: usize, from: usize) -> usize {
-    at * from / to
 }
 
 /// From straight alpha to opaque pixels over black, as windows have them.
