@@ -18,7 +18,6 @@ use crate::loading;
 use crate::model::Model;
 use crate::outlet::{Outlet, write_file};
 use crate::report::Reporter;
-use crate::scripted;
 use crate::series::Series;
 use crate::source::Source;
 
@@ -32,9 +31,6 @@ pub(crate) fn run(
 ) -> u8 {
     let mut outlet = Outlet::new(output, reporter);
     outlet.beside = &request.outputs;
-    if request.script.is_some() {
-        return scripted::run(request, capture, &mut outlet, reporter);
-    }
     Source::visit_all(request, reporter, |source, request| {
         draw_source(source, request, capture, &mut outlet, reporter)
     })

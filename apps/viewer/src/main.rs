@@ -64,7 +64,8 @@ fn main() -> ExitCode {
     }
     ExitCode::from(match &request.mode {
         Mode::Image { output, capture } => {
-            image::run(&request, output.as_ref(), capture.as_deref(), reporter)
+            let run = if request.script.is_some() { scripted::run } else { image::run };
+            run(&request, output.as_ref(), capture.as_deref(), reporter)
         }
         Mode::Compare { other, output } => compare::run(&request, other, output, reporter),
         Mode::Replay { capture, output } => replay::run(capture, output.as_ref(), &request, reporter),

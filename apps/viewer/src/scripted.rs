@@ -19,16 +19,18 @@ struct Session {
     current: usize,
 }
 
-/// Does what the script says, and then draws what --output asks for; returns the exit code.
+/// Executes the script, and then draws the image of --output; returns the exit code.
 pub(crate) fn run(
     request: &Request,
+    output: Option<&Destination>,
     capture: Option<&Path>,
-    outlet: &mut Outlet<'_>,
     reporter: Reporter,
 ) -> u8 {
-    let done = done(request, outlet, reporter).and_then(|session| {
+    let mut outlet = Outlet::new(output, reporter);
+    outlet.beside = &request.outputs;
+    let done = done(request, &mut outlet, reporter).and_then(|session| {
         let request = session.request(reporter)?;
-        image::draw_source(session.source(), &request, capture, outlet, reporter)
+        image::draw_source(session.source(), &request, capture, &mut outlet, reporter)
     });
     match done {
         Ok(()) => 0,

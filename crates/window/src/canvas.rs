@@ -9,6 +9,7 @@ use trigon_scene::Frame;
 
 use crate::egui_painter::{ChannelOrder, EguiPainter};
 use crate::refinement;
+use crate::shown::source_pixel;
 
 /// Shown before the first image: dark, so as not to dazzle.
 const EMPTY: [u8; 4] = [24, 24, 24, 255];
@@ -145,13 +146,6 @@ impl<'f> Rows<'f> {
 fn source_columns(frame: &Frame, width: usize) -> Option<Vec<usize>> {
     let across = frame.width as usize;
     (across != width).then(|| (0..width).map(|x| source_pixel(x, width, across)).collect())
-}
-
-/// Maps one of `to` columns or rows of the window to one of `from` in the frame.
-#[inline]
-pub(crate) fn source_pixel(at: usize, to: usize, from: usize) -> usize {
-    // Divisions take long where thousands of pixels are looked up.
-    if from == to { at } else { at * from / to }
 }
 
 /// From straight alpha to opaque pixels over black, as windows have them.

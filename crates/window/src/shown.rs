@@ -11,7 +11,6 @@ use trigon_math::{DVec2, DVec3};
 use trigon_mesh::Mesh;
 use trigon_scene::{Frame, Hit, NodeId, Outputs, Picker, Scene, Snap};
 
-use crate::canvas::source_pixel;
 use crate::panes::Views;
 
 /// The outputs of the window's images.
@@ -97,4 +96,9 @@ impl Shown {
 fn mesh(scene: &Scene, node: NodeId) -> Weak<Mesh> {
     let asset = scene.node(node).and_then(|node| scene.meshes().get(node.mesh?));
     asset.map_or_else(Weak::new, |asset| Arc::downgrade(asset.shared_mesh()))
+}
+
+/// Maps one of `to` columns or rows of the window to one of `from` in the frame.
+pub(crate) fn source_pixel(at: usize, to: usize, from: usize) -> usize {
+    at * from / to
 }

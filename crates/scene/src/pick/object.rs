@@ -91,7 +91,8 @@ impl<'s> Object<'s> {
     /// On which sides of an area all vertices lie; where they are is kept.
     pub(super) fn vertex_sides(&self, screen: &Screen, area: &Area<'_>) -> Vec<[Sides; LANES]> {
         let positions = self.placed.positions();
-        sides(&self.vertices, positions.len(), (screen, &self.map, area), |block| {
+        let spots = KeptSpots { kept: &self.vertices, count: positions.len(), screen, map: &self.map };
+        spots.sides(area, |block| {
             let place = |vertex: usize| positions.get(vertex).map_or([0.0; 3], |point| point.to_array());
             let points: [[f32; 3]; LANES] = lanes_of(|lane| place(block * LANES + lane));
             [0, 1, 2].map(|axis| points.map(|point| point[axis]))
@@ -193,7 +194,8 @@ impl Drawn {
     /// On which sides of an area all corners lie; where they are is kept.
     pub(super) fn corner_sides(&self, screen: &Screen, area: &Area<'_>) -> Vec<[Sides; LANES]> {
         let columns = &self.shape.geometry.columns;
-        sides(&self.corners, columns.vertex_count(), (screen, &self.map, area), |block| {
+        let spots = KeptSpots { kept: &self.corners, count: columns.vertex_count(), screen, map: &self.map };
+        spots.sides(area, |block| {
             columns.positions.each_ref().map(|column| {
                 let rest = &column[block * LANES..];
                 let at = |lane: usize| rest.get(lane).copied().unwrap_or_default();
@@ -242,33 +244,43 @@ impl Facing {
     }
 }
 
-/// On which sides of an area points of an object lie, and some more to make the last eight complete. Where they are
-/// is looked up, or found and kept. `points` has the coordinates of eight at a time.
-fn sides(
-    kept: &OnceLock<Vec<[Spot; LANES]>>,
+/// Where the points of an object are on the screen, kept once they are found.
+struct KeptSpots<'o> {
+    kept: &'o OnceLock<Vec<[Spot; LANES]>>,
+    /// The number of points.
     count: usize,
-    (screen, map, area): (&Screen, &DMat4, &Area<'_>),
-    points: impl Fn(usize) -> [[f32; LANES]; 3] + Sync,
-) -> Vec<[Sides; LANES]> {
-    let level = Level::new();
-    if let Some(spots) = kept.get() {
-        let blocks = spots.par_iter().with_min_len(POINTS / LANES);
-        let of = |spots| dispatch!(level, simd => Sides::of_each(simd, &Spots::of(simd, spots), area));
-        return blocks.map(of).collect();
+    screen: &'o Screen,
+    /// From the object to the screen.
+    map: &'o DMat4,
+}
+
+impl KeptSpots<'_> {
+    /// On which sides of an area the points lie. `points` gives eight of them, by axis.
+    fn sides(
+        &self,
+        area: &Area<'_>,
+        points: impl Fn(usize) -> [[f32; LANES]; 3] + Sync,
+    ) -> Vec<[Sides; LANES]> {
+        let level = Level::new();
+        if let Some(spots) = self.kept.get() {
+            let blocks = spots.par_iter().with_min_len(POINTS / LANES);
+            let of = |spots| dispatch!(level, simd => Sides::of_each(simd, &Spots::of(simd, spots), area));
+            return blocks.map(of).collect();
+        }
+        let blocks = (0..self.count.div_ceil(LANES)).into_par_iter().with_min_len(POINTS / LANES);
+        let found = blocks.map(|block| {
+            let points = points(block);
+            dispatch!(level, simd => {
+                let spots = self.screen.spots(simd, self.map, points);
+                (spots.each(), Sides::of_each(simd, &spots, area))
+            })
+        });
+        let (mut spots, mut sides) = (Vec::new(), Vec::new());
+        found.unzip_into_vecs(&mut spots, &mut sides);
+        // Another thread may have been quicker, and has found the same.
+        let _ = self.kept.set(spots);
+        sides
     }
-    let blocks = (0..count.div_ceil(LANES)).into_par_iter().with_min_len(POINTS / LANES);
-    let found = blocks.map(|block| {
-        let points = points(block);
-        dispatch!(level, simd => {
-            let spots = screen.spots(simd, map, points);
-            (spots.each(), Sides::of_each(simd, &spots, area))
-        })
-    });
-    let (mut spots, mut sides) = (Vec::new(), Vec::new());
-    found.unzip_into_vecs(&mut spots, &mut sides);
-    // Another thread may have been quicker, and has found the same.
-    let _ = kept.set(spots);
-    sides
 }
 
 /// What is kept, or found now and kept. It is found without a lock: a thread that waits for others
