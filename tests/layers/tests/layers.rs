@@ -43,8 +43,6 @@ const MODULE_CIRCLES: [(&str, &str); 7] = [
     ("raster", "bin ink line pass pipeline point resolve setup shade tile vertex view"),
     ("scene", "effects frame outputs render settings"),
     ("scene", "node skin"),
-    ("viewer", "image scripted"),
-    ("window", "canvas refinement shown"),
 ];
 
 #[test]
