@@ -127,9 +127,7 @@ impl Stroke {
         match self.form {
             Form::Square => self.overlap(x.abs()) * self.overlap(y.abs()),
             Form::Line => self.overlap(self.distance([x, y])),
-            Form::Round => {
-                self.overlap(self.distance([x, y])) * self.most()
-            }
+            Form::Round => self.overlap(self.distance([x, y])) * self.most(),
         }
     }
 
