@@ -70,6 +70,25 @@ pub fn module_circles(of: &Crate) -> Vec<Vec<String>> {
     circles
 }
 
+impl Crate {
+    /// Every item that a file needs of another, as `tile/area.rs -> simd.rs (Simd)`, sorted.
+    #[must_use]
+    pub fn needs(&self) -> Vec<String> {
+        let mut needs = BTreeSet::new();
+        for (number, module) in self.modules.iter().enumerate() {
+            for path in &module.references {
+                let Some(definition) = self.definition(number, path) else { continue };
+                let [from, to] = [module.file, self.modules[definition].file];
+                if from != to {
+                    let [from, to] = [from, to].map(|file| self.files[file].display());
+                    needs.insert(format!("{from} -> {to} ({})", path.join("::")));
+                }
+            }
+        }
+        needs.into_iter().collect()
+    }
+}
+
 /// Which file needs which, and an item for which it does.
 fn needs(of: &Crate) -> BTreeMap<(usize, usize), String> {
     let mut needs = BTreeMap::new();
