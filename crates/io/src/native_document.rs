@@ -8,13 +8,11 @@ use std::sync::Arc;
 use trigon_mesh::edit::EditMesh;
 use trigon_scene::{MeshId, Scene};
 
-use super::glb_file::GlbFile;
-use super::kept_file::KeptFile;
-use super::meshes::exported;
-use super::scene::{Input, write_scene};
 use crate::error::{LoadError, Place};
-use crate::export::{Export, ExportOptions, export};
+use crate::export::{Export, ExportOptions};
 use crate::format::Format;
+use crate::formats::export;
+use crate::formats::gltf::{GlbFile, Input, KeptFile, exported, write_scene};
 use crate::load::{Loaded, load, load_from_slice};
 use crate::loss::Loss;
 use crate::options::LoadOptions;
