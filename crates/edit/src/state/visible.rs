@@ -12,21 +12,21 @@ use super::scene_change::SceneChange;
 
 /// What a copy of the scene shows of a mesh.
 #[derive(Debug)]
-pub(super) struct VisibleMesh {
-    pub(super) sight: Sight,
-    pub(super) map: ElementMap,
-    pub(super) numbers: ElementNumbers,
+pub(crate) struct VisibleMesh {
+    pub(crate) sight: Sight,
+    pub(crate) map: ElementMap,
+    pub(crate) numbers: ElementNumbers,
     /// The surface that the copy has; changes are found by comparing with it.
-    pub(super) surface: Option<Mesh>,
+    pub(crate) surface: Option<Mesh>,
     /// Changes that the copy has not received.
-    pub(super) values: ChangedValues,
+    pub(crate) values: ChangedValues,
     /// Whether the visible elements have changed since.
-    pub(super) is_outdated: bool,
+    pub(crate) is_outdated: bool,
 }
 
 /// How a mesh is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Sight {
+pub(crate) enum Sight {
     /// As the scene has it.
     Whole,
     /// Without what is hidden.
@@ -47,7 +47,7 @@ pub(crate) fn shown_levels(mesh: &EditMesh) -> u32 {
 }
 
 impl Sight {
-    pub(super) fn of(mesh: &EditMesh, is_edited: bool, has_hidden: bool) -> Self {
+    pub(crate) fn of(mesh: &EditMesh, is_edited: bool, has_hidden: bool) -> Self {
         match (shown_levels(mesh), is_edited) {
             (0, true) if has_hidden => Self::Part,
             (0, _) => Self::Whole,
@@ -57,7 +57,7 @@ impl Sight {
     }
 
     /// What a copy shows of a mesh.
-    pub(super) fn mesh(self, edited: &EditMesh) -> (Mesh, ElementMap) {
+    pub(crate) fn mesh(self, edited: &EditMesh) -> (Mesh, ElementMap) {
         let surface = match self {
             Self::Whole => return edited.to_mesh(),
             Self::Part => return edited.to_visible_mesh(),
@@ -71,7 +71,7 @@ impl Sight {
 }
 
 impl VisibleMesh {
-    pub(super) fn new(sight: Sight, edited: &EditMesh) -> (Self, Mesh) {
+    pub(crate) fn new(sight: Sight, edited: &EditMesh) -> (Self, Mesh) {
         let (mesh, map) = sight.mesh(edited);
         let numbers = ElementNumbers::new(edited, &mesh, &map);
         let surface = matches!(sight, Sight::Surface(_) | Sight::Cage(_)).then(|| mesh.clone());
@@ -80,7 +80,7 @@ impl VisibleMesh {
     }
 
     /// The change of a mesh that the copy has not received.
-    pub(super) fn take(&mut self, id: MeshId, edited: &EditMesh) -> Option<SceneChange> {
+    pub(crate) fn take(&mut self, id: MeshId, edited: &EditMesh) -> Option<SceneChange> {
         let values = std::mem::take(&mut self.values);
         if values.is_empty() {
             return None;

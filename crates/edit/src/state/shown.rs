@@ -18,8 +18,8 @@ use crate::selection::Selection;
 
 /// How the scene shows an edited mesh.
 #[derive(Debug)]
-pub(super) struct ShownMesh {
-    pub(super) map: ElementMap,
+pub(crate) struct ShownMesh {
+    pub(crate) map: ElementMap,
     /// Computed on demand.
     numbers: OnceLock<ElementNumbers>,
     /// Likewise.
@@ -28,39 +28,39 @@ pub(super) struct ShownMesh {
 
 /// How the scene's mesh differs from the edited one.
 #[derive(Debug)]
-pub(super) enum Outdated {
+pub(crate) enum Outdated {
     Whole,
     Values(ChangedValues),
 }
 
 /// Changes that the copy of the scene has not received yet.
 #[derive(Debug, Default)]
-pub(super) struct Untold {
-    pub(super) parts: bool,
-    pub(super) meshes: BTreeSet<MeshId>,
+pub(crate) struct Untold {
+    pub(crate) parts: bool,
+    pub(crate) meshes: BTreeSet<MeshId>,
     /// Shown instead of the scene's.
-    pub(super) visible: BTreeMap<MeshId, Mesh>,
-    pub(super) values: BTreeMap<MeshId, ChangedElements>,
+    pub(crate) visible: BTreeMap<MeshId, Mesh>,
+    pub(crate) values: BTreeMap<MeshId, ChangedElements>,
     /// The number of meshes in the copy.
-    pub(super) known_meshes: usize,
+    pub(crate) known_meshes: usize,
 }
 
 /// A document's record of its scene.
 #[derive(Debug, Default)]
-pub(super) struct Shown {
-    pub(super) meshes: BTreeMap<MeshId, ShownMesh>,
-    pub(super) outdated: BTreeMap<MeshId, Outdated>,
+pub(crate) struct Shown {
+    pub(crate) meshes: BTreeMap<MeshId, ShownMesh>,
+    pub(crate) outdated: BTreeMap<MeshId, Outdated>,
     /// `None` until the first request.
-    pub(super) untold: Option<Untold>,
+    pub(crate) untold: Option<Untold>,
     /// What a copy shows instead of the scene's mesh.
-    pub(super) visible: BTreeMap<MeshId, VisibleMesh>,
+    pub(crate) visible: BTreeMap<MeshId, VisibleMesh>,
     /// Counts changes that affect marks, other than the selection.
-    pub(super) marks_revision: u64,
+    pub(crate) marks_revision: u64,
 }
 
 impl Shown {
     /// An edited mesh is in the other state of a difference.
-    pub(super) fn note_difference(&mut self, id: MeshId, mesh: &EditMesh, difference: &Difference) {
+    pub(crate) fn note_difference(&mut self, id: MeshId, mesh: &EditMesh, difference: &Difference) {
         if difference.changes_marks() {
             self.marks_revision += 1;
             if let Some(shown) = self.meshes.get_mut(&id) {
@@ -89,19 +89,19 @@ impl Shown {
     }
 
     /// The scene's mesh must be rebuilt.
-    pub(super) fn note_mesh(&mut self, id: MeshId) {
+    pub(crate) fn note_mesh(&mut self, id: MeshId) {
         self.outdated.insert(id, Outdated::Whole);
     }
 
     /// A mesh is edited from now on: its elements get numbers in the scene.
-    pub(super) fn note_edited(&mut self, id: MeshId) {
+    pub(crate) fn note_edited(&mut self, id: MeshId) {
         if !self.meshes.contains_key(&id) {
             self.note_mesh(id);
         }
     }
 
     /// Nodes, materials or the like may have changed.
-    pub(super) fn note_parts(&mut self) {
+    pub(crate) fn note_parts(&mut self) {
         self.marks_revision += 1;
         if let Some(untold) = &mut self.untold {
             untold.parts = true;
@@ -109,7 +109,7 @@ impl Shown {
     }
 
     /// Makes the scene show the current state of the edited meshes.
-    pub(super) fn update(
+    pub(crate) fn update(
         &mut self,
         scene: &mut Scene,
         meshes: &BTreeMap<MeshId, EditMesh>,
@@ -177,7 +177,7 @@ impl Shown {
         self.untold = Some(untold);
     }
 
-    pub(super) fn marked(&self, id: MeshId, edited: &EditMesh) -> &MarkedElements {
+    pub(crate) fn marked(&self, id: MeshId, edited: &EditMesh) -> &MarkedElements {
         static NONE: MarkedElements = MarkedElements::NONE;
         match self.meshes.get(&id) {
             Some(shown) => shown.marked.get_or_init(|| MarkedElements::of(edited)),
@@ -208,7 +208,7 @@ impl Shown {
 }
 
 impl ShownMesh {
-    pub(super) fn numbers(&self, edited: &EditMesh, mesh: &Mesh) -> &ElementNumbers {
+    pub(crate) fn numbers(&self, edited: &EditMesh, mesh: &Mesh) -> &ElementNumbers {
         self.numbers.get_or_init(|| ElementNumbers::new(edited, mesh, &self.map))
     }
 }
@@ -216,7 +216,7 @@ impl ShownMesh {
 impl Untold {
     /// The pending changes, meshes first, because nodes refer to them. Another function handles
     /// meshes of which the copy shows a part.
-    pub(super) fn take(&mut self, scene: &Scene, partly: &BTreeMap<MeshId, VisibleMesh>) -> Vec<SceneChange> {
+    pub(crate) fn take(&mut self, scene: &Scene, partly: &BTreeMap<MeshId, VisibleMesh>) -> Vec<SceneChange> {
         let known = std::mem::replace(&mut self.known_meshes, scene.meshes().index_bound());
         let mut meshes = std::mem::take(&mut self.meshes);
         meshes.extend(scene.meshes().iter().map(|(id, _)| id).filter(|id| id.index() >= known));

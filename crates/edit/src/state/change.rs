@@ -5,15 +5,15 @@ use std::collections::BTreeMap;
 use trigon_mesh::edit::{Difference, EdgeId, EditMesh, FaceId, Refusal, VertexId};
 use trigon_scene::{MeshId, NodeId, Scene, SceneError, SceneParts};
 
-use super::state::State;
+use super::State;
 use crate::error::EditError;
 use crate::selection::{Elements, MeshSelection, Selection};
 
 /// A running command: all changes go through it, so that they can be undone.
 pub(crate) struct Change<'d> {
-    pub(super) state: &'d mut State,
-    pub(super) meshes: Vec<(MeshId, Difference)>,
-    pub(super) parts: Option<Box<SceneParts>>,
+    pub(crate) state: &'d mut State,
+    pub(crate) meshes: Vec<(MeshId, Difference)>,
+    pub(crate) parts: Option<Box<SceneParts>>,
 }
 
 /// The selection of a mesh after a change.
