@@ -4,7 +4,7 @@
 ///
 /// A table by index is fast, but takes time proportional to the mesh to build, so it is used only
 /// for long lists; short lists are searched.
-pub(in super::super) enum Numbering {
+pub(super) enum Numbering {
     Searched(Vec<u32>),
     /// By index: the position, or `u32::MAX`.
     Table(Vec<u32>),
@@ -15,7 +15,7 @@ impl Numbering {
     const SPARSEST: usize = 32;
 
     /// The list holds ascending indices below `capacity`, each once.
-    pub(in super::super) fn new(sorted: &[u32], capacity: usize) -> Self {
+    pub(super) fn new(sorted: &[u32], capacity: usize) -> Self {
         if sorted.len() * Self::SPARSEST < capacity {
             return Self::Searched(sorted.to_vec());
         }
@@ -28,7 +28,7 @@ impl Numbering {
 
     /// The position of an index in the list; `None` if it is not in it.
     #[inline]
-    pub(in super::super) fn get(&self, index: u32) -> Option<usize> {
+    pub(super) fn get(&self, index: u32) -> Option<usize> {
         match self {
             Self::Searched(sorted) => sorted.binary_search(&index).ok(),
             // An element added later is in no list.
@@ -40,7 +40,7 @@ impl Numbering {
 }
 
 /// Ascending, each once.
-pub(in super::super) fn sorted_once<T: Ord>(mut list: Vec<T>) -> Vec<T> {
+pub(super) fn sorted_once<T: Ord>(mut list: Vec<T>) -> Vec<T> {
     list.sort_unstable();
     list.dedup();
     list

@@ -2,6 +2,7 @@
 
 use trigon_edit::{Document, ObjectName};
 use trigon_window::egui::Pos2;
+use trigon_window::matches_search;
 
 use crate::panel::{AddState, DevelopmentState, InformationState, OutlinerState, PropertiesState};
 use crate::window::actions::{self, Action};
@@ -45,17 +46,19 @@ pub(crate) struct Search {
 }
 
 impl Search {
-    /// Actions in whose name, menu or help all words occur; those whose name begins so come first.
+    /// Actions in whose name, menu or help all words or their synonyms occur. First come actions whose name
+    /// begins with the text, then those whose name contains it, then those that contain all words, then those
+    /// found by a synonym.
     pub(super) fn found(&self) -> Vec<&'static Action> {
         let text = self.text.to_lowercase();
-        let matches = |action: &&Action| {
-            let all = format!("{} {} {}", action.label, action.menu, action.help).to_lowercase();
-            text.split_whitespace().all(|word| all.contains(word))
-        };
-        let mut found: Vec<_> = actions::all().filter(matches).collect();
+        let everything =
+            |action: &Action| format!("{} {} {}", action.label, action.menu, action.help).to_lowercase();
+        let mut found: Vec<_> =
+            actions::all().filter(|action| matches_search(&everything(action), &text)).collect();
         let rank = |action: &&Action| {
-            let name = action.label.to_lowercase();
-            (!name.starts_with(text.trim()), !name.contains(text.trim()))
+            let (name, everything) = (action.label.to_lowercase(), everything(action));
+            let has_all_words = text.split_whitespace().all(|word| everything.contains(word));
+            (!name.starts_with(text.trim()), !name.contains(text.trim()), !has_all_words)
         };
         found.sort_by_key(rank);
         found
@@ -97,6 +100,7 @@ mod tests {
         assert_eq!(names("loop c").first(), Some(&"Loop Cut"), "its beginning");
         assert!(names("seam mark").contains(&"Mark Seam"), "words in any order");
         assert!(names("no such thing").is_empty(), "nothing");
+        assert!(names("exit").contains(&"Quit"), "a synonym");
         assert_eq!(names("").len(), actions::all().count(), "everything");
     }
 }
