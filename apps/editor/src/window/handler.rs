@@ -13,9 +13,9 @@ use super::loading::Loading;
 use super::open_file::{Answer, Next};
 use super::panels::Popup;
 use super::panes::pane_of;
-use super::{files, interface, pick};
 use super::running::Running;
 use super::saving::Saving;
+use super::{files, interface, pick};
 use crate::request::{FileAction, FileRequest, Request};
 
 impl Handler for Editor {
