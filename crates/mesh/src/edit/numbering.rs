@@ -39,6 +39,12 @@ impl Numbering {
     }
 }
 
+/// Whether more than one of `parts` equal parts of all elements is worked on. From some part on, one pass over all
+/// costs less than a step for each; the result is the same.
+pub(in super::super) fn is_more_than_one_of(parts: usize, count: usize, all: usize) -> bool {
+    count > all / parts
+}
+
 /// Ascending, each once.
 pub(super) fn sorted_once<T: Ord>(mut list: Vec<T>) -> Vec<T> {
     list.sort_unstable();
@@ -49,6 +55,14 @@ pub(super) fn sorted_once<T: Ord>(mut list: Vec<T>) -> Vec<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn more_than_a_part_begins_after_it() {
+        for (parts, all, most) in [(2, 8, 4), (8, 8, 1), (8, 64, 8), (8, 71, 8), (2, 1, 0), (2, 0, 0)] {
+            assert!(!is_more_than_one_of(parts, most, all), "{most} of {all}");
+            assert!(is_more_than_one_of(parts, most + 1, all), "{} of {all}", most + 1);
+        }
+    }
 
     #[test]
     fn a_search_and_a_table_give_the_same_places() {

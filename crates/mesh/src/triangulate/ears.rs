@@ -267,3 +267,37 @@ fn refill<T>(buffer: &mut Vec<T>, values: impl Iterator<Item = T>) {
     buffer.clear();
     buffer.extend(values);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the usual way and that for crossing polygons say about the second of some points.
+    fn verdicts(points: &[DVec2]) -> [char; 2] {
+        let mut cutter = EarCutter::default();
+        cutter.start(points);
+        let letter = |verdict: Verdict| match verdict {
+            Verdict::Ear => 'E',
+            Verdict::Needless => 'N',
+            Verdict::Keep => 'K',
+        };
+        [cutter.verdict(points, [0, 1, 2]), cutter.verdict_when_crossing(points, [0, 1, 2])].map(letter)
+    }
+
+    #[test]
+    fn corners_that_cross_are_cut_whatever_is_in_the_way() {
+        type Corners = [[f64; 2]; 4];
+        let cases: [(&str, Corners, [char; 2]); 7] = [
+            ("a square", [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], ['E', 'E']),
+            ("a corner within", [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [1.0, 1.0]], ['K', 'E']),
+            ("a corner on the diagonal", [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [0.0, 2.0]], ['K', 'E']),
+            ("clockwise", [[0.0, 0.0], [0.0, 4.0], [4.0, 0.0], [5.0, 5.0]], ['K', 'K']),
+            ("within a side", [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 2.0]], ['K', 'N']),
+            ("the end of a spike", [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [0.0, 2.0]], ['N', 'N']),
+            ("twice in one place", [[0.0, 0.0], [2.0, 0.0], [2.0, 0.0], [0.0, 2.0]], ['N', 'N']),
+        ];
+        for (what, points, expected) in cases {
+            assert_eq!(verdicts(&points.map(DVec2::from)), expected, "{what}");
+        }
+    }
+}
