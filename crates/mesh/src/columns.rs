@@ -1,4 +1,4 @@
-//! A mesh as plain lists, as in files: checked as a whole, so that millions of faces do not need
+//! A mesh as plain lists, as in files. They are checked as a whole, so that millions of faces do not need
 //! one call each.
 
 use trigon_math::Vec3;

@@ -1,16 +1,16 @@
-//! Cutting ears off a polygon in the plane, by exact orientation.
+//! Cuts ears off a polygon in the plane, by exact orientation.
 //!
-//! The classical method (Meisters 1975; the treatment of touching corners
-//! follows the questions that Held's FIST, 2001, asks): an ear is a convex
-//! corner whose triangle nothing else of the polygon enters. Two things are
-//! particular here. Corners that lie on the new diagonal block an ear, so a
-//! corner in the middle of a straight side is kept and used. And an outline
-//! may touch itself (bridges to holes): at a corner in the same place as one
-//! of the ear's, it is the direction of the two sides there that decides.
+//! This is the classical method (Meisters 1975; the treatment of touching corners follows Held's FIST,
+//! 2001). An ear is a convex corner whose triangle contains nothing else of the polygon. Two things are
+//! particular here:
+//! - Corners that lie on the new diagonal block an ear, so a corner in the middle of a straight side is kept
+//!   and used.
+//! - An outline may touch itself, for example along bridges to holes. If a corner has the same position as a
+//!   corner of the ear, the direction of its two sides decides whether it blocks the ear.
 //!
-//! Corners wait in a queue and come up again only when a neighbour of theirs
-//! went, so ears go all round the polygon in turns (which gives well-shaped
-//! triangles on convex polygons) and there are at most three tests per corner.
+//! Corners wait in a queue and are tested again only after a neighbour was removed. Ears are therefore cut
+//! all around the polygon in turn, which gives well-shaped triangles on convex polygons, and there are at
+//! most three tests per corner.
 
 use std::collections::VecDeque;
 

@@ -8,8 +8,8 @@ use super::super::ids::{EdgeId, FaceId, VertexId};
 use super::super::refusal::Refusal;
 use super::super::slots::Room;
 use super::delete::require;
-use super::numbering::sorted_once;
 use super::parts::{Divided, PartPoint, Parts};
+use crate::edit::numbering::sorted_once;
 use crate::triangulate::Triangulator;
 
 /// The result of a triangulation.
