@@ -6,7 +6,7 @@ use trigon_math::DVec3;
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::FaceId;
 use super::super::refusal::Refusal;
-use super::numbering::is_more_than_one_of;
+use crate::edit::numbering::is_more_than_one_of;
 
 /// A part whose volume is less than this fraction of its area times its size counts as flat: that
 /// is what rounding to f32 makes of a plane, with some margin.

@@ -8,10 +8,10 @@ use super::super::super::ids::VertexId;
 use super::super::super::refusal::Refusal;
 use super::super::super::transaction::Difference;
 use super::super::delete::require;
-use super::super::numbering::is_more_than_one_of;
 use super::falloff::{Falloff, Weighted};
 use super::given_normals::GivenNormals;
 use super::kind::{Prepared, Transform};
+use crate::edit::numbering::is_more_than_one_of;
 
 /// Vertices that move, from where they were at the start.
 ///
