@@ -132,3 +132,82 @@ impl AddAssign for StageTimes {
         self.resolve += other.resolve;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each count and each time is another number.
+    fn numbered(first: u64) -> Stats {
+        let count = |place: u64| first + place;
+        let time = |place: u64| Duration::from_millis(first * 100 + place);
+        Stats {
+            primitives: count(0),
+            vertices: count(1),
+            invalid: count(2),
+            outside: count(3),
+            clipped: count(4),
+            culled: count(5),
+            set_up: count(6),
+            binned: count(7),
+            tiles: count(8),
+            tiles_rejected: count(9),
+            tiles_filled: count(10),
+            tiles_reordered: count(11),
+            blocks_rejected: count(12),
+            blocks_accepted: count(13),
+            groups_tested: count(14),
+            samples_seen: count(15),
+            pixels_shaded: count(16),
+            pixels_blended: count(17),
+            triangles_edged: count(18),
+            samples_masked: count(19),
+            times: StageTimes {
+                vertices: time(20),
+                set_up: time(21),
+                visibility: time(22),
+                shading: time(23),
+                blending: time(24),
+                resolve: time(25),
+            },
+        }
+    }
+
+    #[test]
+    fn each_count_and_each_time_is_added_up() {
+        let mut sum = numbered(1000);
+        sum += numbered(5000);
+        let mut twice = numbered(3000);
+        twice += numbered(3000);
+        assert_eq!(sum, twice, "1000 + 5000 = 3000 + 3000 in every field");
+        assert_eq!((sum.primitives, sum.samples_masked), (6000, 6038));
+        assert_eq!(sum.times.resolve, Duration::from_millis(600_050));
+        let mut same = numbered(7);
+        same += Stats::default();
+        assert_eq!(same, numbered(7), "nothing changes nothing");
+    }
+
+    #[test]
+    fn the_counts_of_a_tile_are_added() {
+        let counts = Counts {
+            tiles_rejected: 1,
+            tiles_filled: 2,
+            tiles_reordered: 3,
+            blocks_rejected: 4,
+            blocks_accepted: 5,
+            groups: 6,
+        };
+        let mut stats = numbered(100);
+        stats.add_counts(&counts);
+        let expected = Stats {
+            tiles_rejected: 110,
+            tiles_filled: 112,
+            tiles_reordered: 114,
+            blocks_rejected: 116,
+            blocks_accepted: 118,
+            groups_tested: 120,
+            ..numbered(100)
+        };
+        assert_eq!(stats, expected);
+    }
+}

@@ -175,4 +175,33 @@ mod tests {
         assert_eq!(arena.get(second), Some(&"second"), "the new id lives");
         assert_eq!(arena.len(), 1, "one item");
     }
+
+    #[test]
+    fn items_are_listed_by_their_indices() {
+        let mut arena = Arena::default();
+        assert!(arena.is_empty() && arena.index_bound() == 0 && arena.id_at(0).is_none());
+        let ids = [10, 11, 12].map(|item| arena.insert(item));
+        assert_eq!(ids.map(|id| id.index()), [0, 1, 2]);
+        assert!(ids.is_sorted() && ids[0] < ids[1] && ids[0] != ids[1]);
+        arena.remove(ids[1]);
+        let items: Vec<_> = arena.iter().map(|(id, &item)| (id, item)).collect();
+        assert_eq!(items, [(ids[0], 10), (ids[2], 12)]);
+        assert_eq!((arena.len(), arena.index_bound(), arena.is_empty()), (2, 3, false));
+        assert_eq!([0, 1, 2, 3].map(|index| arena.id_at(index)), [Some(ids[0]), None, Some(ids[2]), None]);
+        arena.iter_mut().for_each(|(id, item)| *item += id.index());
+        *arena.get_mut(ids[0]).expect("it is there") += 5;
+        assert_eq!([0, 1, 2].map(|place| arena.get(ids[place]).copied()), [Some(15), None, Some(14)]);
+        assert_eq!(arena.get_mut(ids[1]), None);
+        let again = arena.insert(20);
+        assert!(
+            again.index() == 1 && again != ids[1] && ids[1] < again && again < ids[2],
+            "by index, then age"
+        );
+        assert_eq!(format!("{:?} {again:?}", ids[1]), "#1 #1v1");
+        arena.remove(again);
+        arena.remove(ids[0]);
+        arena.remove(ids[2]);
+        assert!(arena.is_empty());
+        assert_eq!(arena.len(), 0);
+    }
 }

@@ -58,3 +58,41 @@ impl ElementSet {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Node, Scene};
+
+    fn bits(elements: &[usize]) -> FixedBitSet {
+        let mut bits = FixedBitSet::with_capacity(10);
+        elements.iter().for_each(|&element| bits.insert(element));
+        bits
+    }
+
+    #[test]
+    fn sets_hold_what_was_added() {
+        let mut scene = Scene::new();
+        let nodes = [(); 3].map(|()| scene.add(Node::default()));
+        let mut set = ElementSet::default();
+        set.add(nodes[1], bits(&[]));
+        assert!(set.is_empty() && set == ElementSet::default(), "nothing is no element");
+        assert_eq!(set.len(), 0);
+        set.add(nodes[2], bits(&[7]));
+        set.add(nodes[0], bits(&[1, 4]));
+        set.add(nodes[0], bits(&[4, 9]));
+        assert!(!set.is_empty());
+        assert_eq!(set.len(), 4, "each once");
+        let elements: Vec<_> = set.iter().collect();
+        assert_eq!(elements, [(nodes[0], 1), (nodes[0], 4), (nodes[0], 9), (nodes[2], 7)], "in order");
+        for (place, node) in nodes.into_iter().enumerate() {
+            for element in 0..12 {
+                let expected = elements.contains(&(node, element));
+                assert_eq!(set.contains(node, element), expected, "{element} of node {place}");
+            }
+            assert_eq!(set.of(node).is_some(), place != 1, "node {place}");
+        }
+        let listed: Vec<_> = set.nodes().map(|(node, bits)| (node, bits.count_ones(..))).collect();
+        assert_eq!(listed, [(nodes[0], 3), (nodes[2], 1)]);
+    }
+}

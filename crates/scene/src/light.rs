@@ -137,6 +137,26 @@ mod tests {
     }
 
     #[test]
+    fn a_light_of_each_kind_is_white_and_unlimited() {
+        let lights = [
+            (Light::ambient(3.0), LightKind::Ambient),
+            (Light::directional(3.0), LightKind::Directional),
+            (Light::point(3.0), LightKind::Point),
+            (Light::spot(3.0), LightKind::Spot { inner: 0.0, outer: FRAC_PI_4 }),
+        ];
+        for (light, kind) in lights {
+            let plain = Light { kind, color: Vec3::ONE, intensity: 3.0, range: f32::INFINITY };
+            assert_eq!(light, plain);
+            let color = Vec3::new(0.1, 0.2, 0.3);
+            assert_eq!(light.with_color(color), Light { color, ..plain });
+            assert_eq!(light.with_range(4.0), Light { range: 4.0, ..plain });
+            assert_eq!(light.with_color(color).radiance(), color * 3.0);
+        }
+        let odd = Light::point(2.0).with_color(Vec3::new(-1.0, f32::NAN, f32::INFINITY));
+        assert_eq!(odd.radiance(), Vec3::ZERO, "what is no light does not shine");
+    }
+
+    #[test]
     fn a_cone_fades_between_its_angles() {
         let light = Light { kind: LightKind::Spot { inner: 0.3, outer: 0.6 }, ..Light::spot(1.0) };
         let (scale, offset) = light.cone();

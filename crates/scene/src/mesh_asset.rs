@@ -157,3 +157,45 @@ impl Clone for Derived {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trigon_math::DVec3;
+    use trigon_mesh::MeshBuilder;
+
+    /// A triangle, perhaps an edge and a point beside it, and a vertex that nothing uses.
+    fn asset(has_edge: bool, has_point: bool) -> MeshAsset {
+        let mut builder = MeshBuilder::new();
+        for place in
+            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 7.0], [-5.0, 0.0, 0.0], [99.0; 3]]
+        {
+            builder.push_vertex(Vec3::from_array(place));
+        }
+        builder.push_face(&[0, 1, 2]).expect("three vertices");
+        if has_edge {
+            builder.push_loose_edge(0, 3).expect("two vertices");
+        }
+        if has_point {
+            builder.push_loose_point(4).expect("a vertex");
+        }
+        MeshAsset::new("mesh".to_owned(), builder.build())
+    }
+
+    #[test]
+    fn bounds_hold_what_is_used_whether_or_not_it_was_drawn_before() {
+        for (has_edge, has_point) in [(false, false), (true, false), (false, true), (true, true)] {
+            let expected = Bounds3 {
+                min: DVec3::new(if has_point { -5.0 } else { 0.0 }, 0.0, 0.0),
+                max: DVec3::new(1.0, 2.0, if has_edge { 7.0 } else { 0.0 }),
+            };
+            for is_drawn in [false, true] {
+                let asset = asset(has_edge, has_point);
+                if is_drawn {
+                    asset.geometry();
+                }
+                assert_eq!(asset.bounds(), expected, "edge {has_edge}, point {has_point}, drawn {is_drawn}");
+            }
+        }
+    }
+}

@@ -278,3 +278,46 @@ impl RenderSettings {
         f64::from(self.width.max(1)) / f64::from(self.height.max(1))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_output_is_of_its_kind() {
+        let none = Outputs::NONE;
+        assert!(!none.of_light() && !none.of_triangles() && !none.beside_color());
+        for light in [Outputs { color: true, ..none }, Outputs { radiance: true, ..none }] {
+            assert!(light.of_light() && !light.of_triangles() && !light.beside_color(), "{light:?}");
+        }
+        for visible in [Outputs { depth: true, ..none }, Outputs { ids: true, ..none }] {
+            assert!(!visible.of_light() && !visible.of_triangles() && visible.beside_color(), "{visible:?}");
+        }
+        for triangles in [
+            Outputs { material_ids: true, ..none },
+            Outputs { triangle_ids: true, ..none },
+            Outputs { barycentrics: true, ..none },
+            Outputs { positions: true, ..none },
+            Outputs { normals: true, ..none },
+            Outputs { geometric_normals: true, ..none },
+            Outputs { uvs: true, ..none },
+            Outputs { albedo: true, ..none },
+        ] {
+            assert!(triangles.of_triangles() && triangles.beside_color(), "{triangles:?}");
+            assert!(!triangles.of_light(), "{triangles:?}");
+        }
+        assert_eq!(Outputs::default(), Outputs { color: true, ..none }, "colour alone");
+    }
+
+    #[test]
+    fn a_pass_of_its_own_is_for_what_colours_do_not_find() {
+        let of = |color, ids, of_blended| Outputs { color, ids, of_blended, ..Outputs::NONE };
+        for has_blended in [false, true] {
+            assert!(!of(true, false, true).need_own_pass(has_blended), "colour alone");
+            assert!(!of(true, true, false).need_own_pass(has_blended), "both see what is opaque");
+            assert_eq!(of(true, true, true).need_own_pass(has_blended), has_blended);
+            assert!(of(false, true, false).need_own_pass(has_blended), "no colours are drawn");
+            assert!(!of(false, false, true).need_own_pass(has_blended), "nothing is");
+        }
+    }
+}

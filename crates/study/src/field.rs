@@ -116,4 +116,31 @@ mod tests {
         let outside = [[-1, 0], [3, 0], [0, 2], [0, -1]].map(|place| field.get(place));
         assert_eq!(outside, [None; 4], "left, right, below and above");
     }
+
+    #[test]
+    fn each_place_holds_its_own_value() {
+        let mut field = Field::new([3, 2], 7);
+        assert_eq!(field.values(), [7; 6]);
+        for (x, y) in [(0, 0), (2, 0), (1, 1), (2, 1)] {
+            field[[x, y]] = 10 * y + x;
+            assert_eq!(field[[x, y]], 10 * y + x);
+            assert_eq!(field.get([x as i32, y as i32]), Some(&(10 * y + x)));
+        }
+        assert_eq!(field.values(), [0, 7, 2, 7, 11, 12], "row by row");
+        *field.get_mut([1, 0]).expect("it is in the image") = 1;
+        assert_eq!(field.get_mut([3, 1]), None, "no pixel of the next row");
+        field.row_mut(1)[0] = 10;
+        assert_eq!(field, Field::from_fn([3, 2], |[x, y]| 10 * y + x));
+        let places: Vec<_> = field.pixels().map(|([x, y], value)| value - (10 * y + x)).collect();
+        assert_eq!(places, [0; 6], "every pixel with its place");
+        let rows: Vec<Vec<usize>> = field.rows_mut().map(|row| row.to_vec()).collect();
+        assert_eq!(rows, [[0, 1, 2], [10, 11, 12]]);
+        let doubled = field.map(|value| 2 * value);
+        assert_eq!((doubled.size(), doubled[[2, 1]]), ([3, 2], 24));
+        field.values_mut()[5] = 1;
+        assert_eq!(field[[2, 1]], 1);
+        field.clear(4);
+        assert_eq!(field.values(), [4; 6]);
+        assert_eq!(Field::new([0, 5], 1).values(), [1; 5], "at least a pixel wide");
+    }
 }

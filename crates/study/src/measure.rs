@@ -22,6 +22,14 @@ impl Spread {
         Self { low, median, high }
     }
 
+    /// For one of so many things that were done in each run.
+    #[must_use]
+    pub fn per(self, count: usize) -> Self {
+        let Self { low, median, high } = self;
+        let share = |whole: f64| whole / count as f64;
+        Self { low: share(low), median: share(median), high: share(high) }
+    }
+
     /// The same in another unit.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
@@ -103,6 +111,13 @@ mod tests {
             });
             assert_eq!((sittings.get(), runs.get()), (made, counted + made), "of {rounds} rounds");
         }
+    }
+
+    #[test]
+    fn times_are_told_for_each_thing_and_in_other_units() {
+        let spread = Spread { low: 2e3, median: 4e3, high: 7e3 };
+        assert_eq!(spread.per(1000), Spread { low: 2.0, median: 4.0, high: 7.0 }, "of a thousand");
+        assert_eq!(spread.scaled(0.5), Spread { low: 1e3, median: 2e3, high: 3.5e3 }, "in another unit");
     }
 
     #[test]

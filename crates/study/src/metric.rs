@@ -67,4 +67,26 @@ mod tests {
         assert_eq!((difference.worst, difference.delta_e()), (1.0, 50.0), "black instead of white once");
         assert_eq!(difference.rmse(), 0.5_f64.sqrt(), "in one of two pixels");
     }
+
+    #[test]
+    fn dark_light_is_linear_in_lightness() {
+        // Up to 216/24389, where L* is 8.
+        for (light, expected) in [(-1.0, 0.0), (216.0 / 24389.0, 8.0), (108.0 / 24389.0, 4.0)] {
+            assert!((lightness(light) - expected).abs() < 1e-9, "{}", lightness(light));
+        }
+        assert!((lightness(8.0 / 27.0) - (116.0 * 2.0 / 3.0 - 16.0)).abs() < 1e-9, "then a cubic root");
+        assert!((lightness(216.01 / 24389.0) - 8.0).abs() < 1e-3, "without a step");
+    }
+
+    #[test]
+    fn means_are_over_all_pairs() {
+        let difference = Difference::of([[0.5, 0.25], [0.25, 0.5], [0.0, 0.0], [0.5, 0.0]]);
+        assert_eq!(difference.worst, 0.5);
+        assert!((difference.rmse() - (0.375_f64 / 4.0).sqrt()).abs() < 1e-12, "either way");
+        let [half, quarter] = [0.5, 0.25].map(lightness);
+        let expected = (2.0 * (half - quarter) + half) / 4.0;
+        assert!((difference.delta_e() - expected).abs() < 1e-12, "{}", difference.delta_e());
+        let nothing = Difference::of([]);
+        assert_eq!((nothing.rmse(), nothing.delta_e(), nothing.worst), (0.0, 0.0, 0.0));
+    }
 }

@@ -142,3 +142,6 @@ fn cycle_samples(stage: &mut Stage) {
     let unit = if next == 1 { "sample" } else { "samples" };
     stage.overlay.notify(format!("{} {unit} per pixel", next * next));
 }
+
+#[cfg(test)]
+mod tests;

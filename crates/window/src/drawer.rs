@@ -58,3 +58,34 @@ impl fmt::Debug for DrawnBy {
         f.write_str(if self.0.is_some() { "another" } else { "the renderer" })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of some size, so that two of them have two places in memory.
+    struct Nothing(u8);
+
+    impl Drawer for Nothing {
+        fn draw(&self, _: &Scene, _: &Camera, _: &RenderSettings, _: &Cancel) -> Result<Frame, String> {
+            Err(self.0.to_string())
+        }
+    }
+
+    #[test]
+    fn drawers_are_told_apart() {
+        let [one, other]: [Arc<dyn Drawer>; 2] = [Arc::new(Nothing(1)), Arc::new(Nothing(2))];
+        let by = |drawer: &Arc<dyn Drawer>| DrawnBy(Some(Arc::clone(drawer)));
+        assert!(by(&one) == by(&one) && by(&one) != by(&other), "each is itself");
+        assert!(DrawnBy(None) == DrawnBy(None), "the renderer is one");
+        assert!(by(&one) != DrawnBy(None) && DrawnBy(None) != by(&one), "and no drawer");
+        assert_eq!(format!("{:?} {:?}", by(&one), DrawnBy(None)), "another the renderer");
+    }
+
+    #[test]
+    fn a_drawer_usually_draws_the_scene_at_rest() {
+        let drawer = Nothing(1);
+        assert!(!drawer.draws_drafts() && drawer.shows_scene());
+        assert_eq!(drawer.drawings(), 1);
+    }
+}

@@ -213,4 +213,55 @@ mod tests {
         hold(&mut stage, Motion::Object(ObjectMotion::Turn(DVec3::X)), 1.0);
         assert_eq!(stage.scene.bounds(), bounds, "nothing moved");
     }
+
+    #[test]
+    fn held_keys_go_on_by_the_second() {
+        let mut stage = stage();
+        let held = |stage: &mut Stage, motion| hold(stage, Motion::Camera(motion), 2.0);
+        let distance = stage.orbit.distance();
+        held(&mut stage, CameraMotion::Zoom(0.25));
+        let expected = distance * elementary::exp(-0.5);
+        assert!((stage.orbit.distance() - expected).abs() < 1e-9, "closer by e to half");
+        let (before, height) = (stage.orbit.target(), stage.orbit.height_at_target());
+        held(&mut stage, CameraMotion::Pan(0.25, -0.5));
+        let moved = stage.orbit.target() - before;
+        assert!(moved.distance(DVec3::new(0.5, -1.0, 0.0) * height) < 1e-9, "{moved} of {height}");
+        held(&mut stage, CameraMotion::Orbit(0.2, 0.0));
+        let eye = stage.orbit.orientation() * DVec3::Z;
+        let (sin, cos) = elementary::sin_cos(0.4);
+        assert!(eye.distance(DVec3::new(sin, 0.0, cos)) < 1e-9, "{eye}: to the right");
+        held(&mut stage, CameraMotion::Orbit(0.0, 0.1));
+        assert!(((stage.orbit.orientation() * DVec3::Z).y - elementary::sin_cos(0.2).0).abs() < 1e-9, "up");
+    }
+
+    #[test]
+    fn zooming_to_the_pointer_keeps_what_is_there() {
+        let mut stage = stage();
+        let anchor = DVec3::new(0.7, -0.4, 1.0);
+        let screen = |stage: &Stage| {
+            Projector::new(&stage.camera(), stage.viewport()).to_screen(anchor).expect("before the eye")
+        };
+        let (before, distance) = (screen(&stage), stage.orbit.distance());
+        drag(&mut stage, DragAction::ZoomToPointer, DVec2::ZERO, DVec2::new(9.0, -30.0), Some(anchor));
+        assert!(screen(&stage).distance(before) < 1e-6, "it stays in place");
+        // A tenth of the window's height.
+        let factor = elementary::exp(-0.1 * ZOOM_PER_HEIGHT);
+        assert!((stage.orbit.distance() / distance - factor).abs() < 1e-9, "and comes closer");
+        wheel(&mut stage, 1.0, Some(anchor));
+        assert!(screen(&stage).distance(before) < 1e-6, "with the wheel, too");
+        assert!((stage.orbit.distance() * 1.1 / distance - factor).abs() < 1e-9, "to 1.1 times the size");
+    }
+
+    /// The way of a drag is told in heights of the view, whatever its width.
+    #[test]
+    fn a_drag_over_the_height_turns_by_half() {
+        let mut stage = stage();
+        drag(&mut stage, DragAction::Orbit, DVec2::ZERO, DVec2::new(-75.0, 0.0), None);
+        let eye = stage.orbit.orientation() * DVec3::Z;
+        let (sin, cos) = elementary::sin_cos(PI / 4.0);
+        assert!(eye.distance(DVec3::new(sin, 0.0, cos)) < 1e-9, "{eye}: a quarter of it, to the right");
+        drag(&mut stage, DragAction::Orbit, DVec2::ZERO, DVec2::new(0.0, 50.0), None);
+        let up = (stage.orbit.orientation() * DVec3::Z).y;
+        assert!((up - elementary::sin_cos(PI / 6.0).0).abs() < 1e-9, "{up}: a sixth, up");
+    }
 }

@@ -236,6 +236,88 @@ mod tests {
         assert_eq!(four[1].orbit, orbit, "the camera's own");
     }
 
+    #[test]
+    fn an_area_holds_its_first_pixels_and_not_those_after_its_last() {
+        let area = Area { min: [10, 20], size: Viewport { width: 5, height: 3 } };
+        assert_eq!(area.origin(), DVec2::new(10.0, 20.0));
+        for (x, y) in (0..40).flat_map(|y| (0..40).map(move |x| (x, y))) {
+            let expected = (10..15).contains(&x) && (20..23).contains(&y);
+            assert_eq!(area.contains(DVec2::new(x.into(), y.into())), expected, "{x}, {y}");
+        }
+        assert!(area.contains(DVec2::new(14.9, 22.9)) && !area.contains(DVec2::new(9.9, 21.0)));
+    }
+
+    /// Four views beside a panel of 10 by 6 pixels.
+    fn four() -> (Vec<Pane>, Viewport, Views) {
+        let window = Viewport { width: 52, height: 38 };
+        let area = Area { min: [10, 6], size: Viewport { width: 42, height: 32 } };
+        let panes = panes(Orbit::new(DVec3::Y), window, Some(area));
+        let bounds = Bounds3 { min: DVec3::splat(-1.0), max: DVec3::ONE };
+        let views = Views::new(&panes, window, &bounds);
+        (panes, window, views)
+    }
+
+    #[test]
+    fn four_images_are_put_together() {
+        let (panes, window, views) = four();
+        assert_eq!((views.count(), views.is_one()), (4, false));
+        let settings = RenderSettings {
+            outputs: Outputs { depth: true, ids: true, ..Outputs::default() },
+            ..RenderSettings::new(window.width, window.height)
+        };
+        let mut number = 0;
+        let whole = views.draw(settings, |_, RenderSettings { width, height, .. }| {
+            number += 1;
+            let pixels = (width * height) as usize;
+            let ids = Some(vec![number; pixels]);
+            let color = vec![number as u8; 4 * pixels];
+            let depth = Some(vec![number as f32; pixels]);
+            Ok::<_, ()>(Frame {
+                width,
+                height,
+                color,
+                depth,
+                object_ids: ids.clone(),
+                face_ids: ids,
+                ..Frame::default()
+            })
+        });
+        let whole = whole.expect("all were drawn");
+        let place =
+            (0..window.height).flat_map(|y| (0..window.width).map(move |x| DVec2::new(x.into(), y.into())));
+        for (pixel, at) in place.enumerate() {
+            let pane = panes.iter().position(|pane| pane.area.contains(at));
+            let (id, depth) =
+                pane.map_or((u32::MAX, f32::INFINITY), |pane| (pane as u32 + 1, pane as f32 + 1.0));
+            let color = pane.map_or(0, |pane| pane as u8 + 1);
+            assert_eq!(whole.color[4 * pixel..][..4], [color; 4], "{at}");
+            assert_eq!(whole.depth.as_ref().map(|depths| depths[pixel]), Some(depth), "{at}");
+            for ids in [&whole.object_ids, &whole.face_ids] {
+                assert_eq!(ids.as_ref().map(|ids| ids[pixel]), Some(id), "{at}");
+            }
+        }
+        let failed = views.draw(RenderSettings::new(52, 38), |_, _| Err("no image"));
+        assert_eq!(failed.err(), Some("no image"));
+    }
+
+    #[test]
+    fn points_of_a_window_are_seen_through_the_view_there() {
+        let (panes, window, views) = four();
+        assert_eq!(views.at_distance(DVec2::new(5.0, 20.0), window, 1.0), None, "the panel shows nothing");
+        for (pane, (camera, area)) in panes.iter().zip(&views.parts) {
+            assert_eq!(pane.area, *area);
+            let middle = area.origin() + area.size.size() / 2.0;
+            let expected = camera.position + camera.orientation * DVec3::NEG_Z * 2.5;
+            let found = views.at_distance(middle, window, 2.5).expect("it is in the view");
+            assert!(found.distance(expected) < 1e-6, "{:?}: {found}, not {expected}", pane.side);
+        }
+        let alone = Views::from(views.main);
+        assert_eq!((alone.count(), alone.is_one()), (1, true));
+        let found = alone.at_distance(window.size() / 2.0, window, 2.5).expect("it is the middle");
+        let expected = views.main.position + views.main.orientation * DVec3::NEG_Z * 2.5;
+        assert!(found.distance(expected) < 1e-6, "{found}, not {expected}");
+    }
+
     proptest! {
         /// Whatever a panel leaves, also beside the window.
         #[test]

@@ -560,3 +560,6 @@ pub(crate) struct Subject {
     /// Whoever wants to see times waits for an image that has them.
     stage_times: Visibility,
 }
+
+#[cfg(test)]
+mod tests;

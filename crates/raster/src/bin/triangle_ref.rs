@@ -29,7 +29,7 @@ impl Entry {
     /// The point at this place in the chunk, drawn from its vertex.
     #[inline(always)]
     pub(crate) fn point(place: u32) -> Self {
-        Self(place | Self::POINT)
+        Self(place + Self::POINT)
     }
 
     /// The place in the chunk of a triangle or a point that is drawn as it is.
@@ -46,13 +46,13 @@ impl Entry {
     /// A triangle of the chunk's own.
     #[inline(always)]
     pub(crate) fn extra(index: usize) -> Self {
-        Self(index as u32 | Self::EXTRA)
+        Self(index as u32 + Self::EXTRA)
     }
 
     /// A line or a point.
     #[inline(always)]
     pub(super) fn quad(index: usize) -> Self {
-        Self(index as u32 | Self::QUAD)
+        Self(index as u32 + Self::QUAD)
     }
 
     #[inline(always)]
@@ -90,7 +90,7 @@ impl TriangleRef {
     /// Half of a line or a point.
     #[inline(always)]
     pub(super) fn half(ordinal: u32, quad: usize, half: u32) -> Self {
-        Self { ordinal, extra: Self::QUAD | (quad as u32) << 1 | half }
+        Self { ordinal, extra: Self::QUAD + 2 * quad as u32 + half }
     }
 
     /// Whether it is simply a triangle that was recorded.
@@ -131,5 +131,46 @@ impl TriangleRef {
     #[inline(always)]
     pub(crate) fn is_first_half(self) -> bool {
         self.quad().is_some_and(|(_, half)| half == 0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_tell_what_they_list() {
+        for number in [0, 1, 2, 77, (1 << 29) - 1] {
+            for (entry, is_point) in [(Entry::primitive(number), false), (Entry::point(number), true)] {
+                let Listed::Primitive(place) = entry.listed() else { panic!("a primitive") };
+                assert_eq!((place, entry.place(), entry.is_point()), (number, number, is_point));
+                let place = TriangleRef::whole(5, entry);
+                assert_eq!((place.ordinal, place.part()), (5 + number, None), "all of its primitive");
+                assert_eq!((place.is_point(), place.is_whole()), (is_point, !is_point));
+                assert_eq!((place.extra(), place.quad(), place.is_first_half()), (None, None, false));
+            }
+            let index = number as usize;
+            assert!(matches!(Entry::extra(index).listed(), Listed::Extra(found) if found == index));
+            assert!(matches!(Entry::quad(index).listed(), Listed::Quad(found) if found == index));
+        }
+    }
+
+    #[test]
+    fn halves_tell_their_line_and_their_order() {
+        for quad in [0, 1, 6, (1 << 29) - 1] {
+            let [first, second] = [0, 1].map(|half| TriangleRef::half(9, quad, half));
+            assert_eq!([first.ordinal, second.ordinal], [9, 9], "of one primitive");
+            assert_eq!([first.quad(), second.quad()], [Some((quad, 0)), Some((quad, 1))]);
+            assert_eq!([first.is_first_half(), second.is_first_half()], [true, false]);
+            assert!(first.part() < second.part(), "the number grows from part to part");
+            for half in [first, second] {
+                assert!(!half.is_whole() && !half.is_point() && half.extra().is_none());
+            }
+        }
+        for index in [0, 1, 77] {
+            let part = TriangleRef { ordinal: 9, extra: index };
+            assert_eq!((part.extra(), part.part()), (Some(index as usize), Some(index)), "made by a cut");
+            assert_eq!((part.quad(), part.is_whole(), part.is_point()), (None, false, false));
+        }
     }
 }

@@ -244,3 +244,16 @@ fn diagonals(corners: &[Corner]) -> Vec<Side> {
 fn triples(count: usize) -> impl Iterator<Item = [usize; 3]> {
     (0..count).flat_map(move |a| (a + 1..count).flat_map(move |b| (b + 1..count).map(move |c| [a, b, c])))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triples_are_all_choices_of_three() {
+        let of = |count| triples(count).collect::<Vec<_>>();
+        assert_eq!((of(2), of(3)), (vec![], vec![[0, 1, 2]]));
+        assert_eq!(of(4), [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]);
+        assert_eq!(of(6).len(), 20);
+    }
+}

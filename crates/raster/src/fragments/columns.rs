@@ -274,3 +274,47 @@ impl Special {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fragments::list::FragmentSlice;
+    use crate::simd::{SimdLevel, at_level};
+
+    /// How many records are told apart, and the record of each lane by the masks.
+    fn seen(slots: [u32; LANES]) -> (usize, [u32; LANES]) {
+        fn lanes<S: Simd, const COUNT: usize, const OTHERS: usize>(
+            slots: [u32; COUNT],
+            masks: [Mask<S>; OTHERS],
+        ) -> (usize, [u32; LANES]) {
+            let bits = masks.map(|mask| mask.to_bitmask());
+            let of_lane = |lane: usize| {
+                let other = (0..OTHERS).rev().find(|&other| bits[other] >> lane & 1 != 0);
+                slots[other.map_or(0, |other| other + 1)]
+            };
+            (COUNT, std::array::from_fn(of_lane))
+        }
+        let records = Records::default();
+        let fragments = FragmentSlice { slots: &slots, spots: &[0; LANES], outputs: &[0; LANES] };
+        let task = crate::fragments::task::Task::of_fragments(&records, 0, fragments);
+        let token = SimdLevel::best().token().expect("the best level is there");
+        at_level!(token, simd => match Seen::find(simd, &task.vector(simd, 0)) {
+            Seen::One([slot]) => (1, [slot; LANES]),
+            Seen::Two(slots, masks) => lanes(slots, masks),
+            Seen::Three(slots, masks) => lanes(slots, masks),
+            Seen::Four(slots, masks) => lanes(slots, masks),
+            Seen::Many(slots) => (LANES, slots),
+        })
+    }
+
+    /// Many of the ways in which eight lanes can show up to four triangles.
+    #[test]
+    fn up_to_four_triangles_are_told_apart() {
+        for number in (0..1 << (2 * LANES)).step_by(5) {
+            let slots: [u32; LANES] = std::array::from_fn(|lane| 30 + (number >> (2 * lane) & 3));
+            let count = (30..34).filter(|slot| slots.contains(slot)).count();
+            assert_eq!(seen(slots), (count, slots), "{slots:?}");
+        }
+        assert_eq!(seen([4, 9, 4, 2, 7, 7, 1, 0]).1, [4, 9, 4, 2, 7, 7, 1, 0], "and more are gathered");
+    }
+}

@@ -85,10 +85,8 @@ impl FaceLine {
 
     /// What it covers of a pixel with an edge at a distance.
     fn coverage(self, distance: f64) -> f32 {
-        let most = if self.half < 0.5 { 2.0 * self.half } else { 1.0 };
-        let overlap = self.half + 0.5 - distance as f32;
-        let overlap = if overlap < most { overlap } else { most };
-        if overlap > 0.0 { self.weight * overlap } else { 0.0 }
+        let most = (2.0 * self.half).min(1.0);
+        self.weight * (self.half + 0.5 - distance as f32).min(most).max(0.0)
     }
 }
 
@@ -124,6 +122,22 @@ mod tests {
         }
         assert_eq!(weight, [1.0, 1.0, 1.0, 1.0, 0.5, 0.0, 0.0, 0.0], "a pixel cannot resolve the last");
         assert!(floor[7] < 1e-3, "nothing is left of the edges of faces far away");
+    }
+
+    /// `min(w, 1, w/2 + 1/2 - d)` of a pixel.
+    #[test]
+    fn a_line_covers_its_width_and_no_more_than_the_pixel() {
+        let line = |half| FaceLine { half, weight: 0.5, radius: 9.0 };
+        for half in [0.0, 0.1, 0.5, 0.75, 3.0] {
+            for distance in (0..40).map(|i| f64::from(i) / 8.0) {
+                let expected = f64::from(2.0 * half).min(1.0).min(f64::from(half) + 0.5 - distance).max(0.0);
+                let found = f64::from(line(half).coverage(distance));
+                assert!((found - 0.5 * expected).abs() < 1e-6, "{found} of {half} at {distance}");
+            }
+        }
+        let narrower = line(3.0).narrower(FaceLine { half: 1.0, weight: 0.75, radius: 2.0 });
+        assert_eq!(narrower, FaceLine { half: 1.0, weight: 0.5, radius: 9.0 }, "of both the least");
+        assert_eq!(line(3.0).narrower(FaceLine::UNLINED), line(3.0));
     }
 
     #[test]

@@ -50,9 +50,7 @@ impl Segment {
 
     fn nearest(&self, point: [f64; 2]) -> EdgePoint {
         let [x, y] = [0, 1].map(|axis| point[axis] - self.from[axis]);
-        let share = (x * self.way[0] + y * self.way[1]) * self.inverse;
-        let share = if share < 1.0 { share } else { 1.0 };
-        let share = if share > 0.0 { share } else { 0.0 };
+        let share = ((x * self.way[0] + y * self.way[1]) * self.inverse).clamp(0.0, 1.0);
         let [dx, dy] = [x - self.way[0] * share, y - self.way[1] * share];
         EdgePoint {
             distance: (dx * dx + dy * dy).sqrt() / 256.0,

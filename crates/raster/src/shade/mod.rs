@@ -19,6 +19,9 @@ mod shading;
 mod surface;
 mod visible;
 
+#[cfg(test)]
+mod tests;
+
 pub(crate) use edges::{BEHIND, EdgeGroup};
 pub(crate) use list::{JobList, mask_jobs, shade_jobs, shade_jobs_with};
 pub(crate) use shading::{EmptyGroup, Shading};

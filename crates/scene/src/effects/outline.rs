@@ -64,3 +64,22 @@ fn over(outline: &Outline, share: f32, [r, g, b, a]: [u8; 4]) -> [u8; 4] {
     };
     [mixed(0, r), mixed(1, g), mixed(2, b), (alpha * 255.0 + 0.5) as u8]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_within_have_four_neighbours_inside() {
+        // The last row and the last column are outside.
+        let size = (5, 4);
+        let inside = |index: usize| index % 5 < 4 && index / 5 < 3;
+        for (x, y) in (0..4).flat_map(|y| (0..5).map(move |x| (x, y))) {
+            let expected = (1..3).contains(&x) && y == 1;
+            assert_eq!(is_within(inside, (x, y), size), expected, "{x}, {y}");
+            let [all, none] = [true, false].map(|answer| is_within(|_| answer, (x, y), size));
+            assert_eq!(all, (1..4).contains(&x) && (1..3).contains(&y), "{x}, {y}: borders have fewer");
+            assert!(!none, "{x}, {y}");
+        }
+    }
+}

@@ -127,4 +127,68 @@ mod tests {
             "as chosen, and eight times as bright"
         );
     }
+
+    #[test]
+    fn light_is_laid_over_what_is_behind_it() {
+        let half = Vec4::new(0.25, 0.125, 0.0, 0.5);
+        let behind = Vec4::new(0.5, 0.5, 0.5, 1.0);
+        let expected = [0.5, 0.375, 0.25].map(color::linear_to_srgb8);
+        assert_eq!(encoded(half, behind), [expected[0], expected[1], expected[2], 255], "half shows through");
+        let straight = [0.5, 0.25, 0.0].map(color::linear_to_srgb8);
+        assert_eq!(encoded(half, Vec4::ZERO), [straight[0], straight[1], straight[2], 128], "straight alpha");
+        assert_eq!(encoded(Vec4::ZERO, Vec4::ZERO), [0; 4], "nothing over nothing");
+        let mut linear = [half, Vec4::ZERO];
+        let mut settings = RenderSettings::new(1, 2);
+        settings.background = Background::Gradient { top: Vec3::ZERO, bottom: Vec3::ONE };
+        lay_on_background(&mut linear, &settings);
+        assert_eq!(linear[0], half + Vec4::new(0.25, 0.25, 0.25, 1.0) * 0.5, "a quarter of the way down");
+        assert_eq!(linear[1], Vec4::new(0.75, 0.75, 0.75, 1.0));
+    }
+
+    #[test]
+    fn translucent_light_is_mapped_as_if_it_were_opaque() {
+        let opaque = Vec4::new(0.6, 0.3, 2.0, 1.0);
+        for tone in [ToneMapping::None, ToneMapping::KhronosPbrNeutral] {
+            let right = mapped(opaque, 2.0, tone);
+            for alpha in [0.25, 0.5] {
+                let found = mapped(opaque * alpha, 2.0, tone);
+                assert!((found - right * alpha).abs().max_element() < 1e-6, "{found} of {right}");
+            }
+            assert_eq!(mapped(Vec4::new(0.3, 0.3, 0.3, 0.0), 2.0, tone), Vec4::ZERO, "nothing is there");
+        }
+        assert_eq!(mapped(opaque, 2.0, ToneMapping::None), Vec4::new(1.2, 0.6, 4.0, 1.0));
+    }
+
+    /// By the formula of the specification, in f64.
+    #[test]
+    fn neutral_tones_follow_the_specification() {
+        let by_hand = |color: [f64; 3]| {
+            let [least, most] =
+                [color.iter().copied().fold(9e9, f64::min), color.iter().copied().fold(0.0, f64::max)];
+            let offset = if least < 0.08 { least - 6.25 * least * least } else { 0.04 };
+            let (color, peak) = (color.map(|channel| channel - offset), most - offset);
+            if peak < 0.76 {
+                return color;
+            }
+            let bright = 1.0 - 0.24 * 0.24 / (peak + 0.24 - 0.76);
+            let share = 1.0 - 1.0 / (0.15 * (peak - bright) + 1.0);
+            color.map(|channel| channel * bright / peak * (1.0 - share) + bright * share)
+        };
+        let levels = [0.0, 0.03, 0.08, 0.5, 0.9, 3.0];
+        for (r, g, b) in
+            levels.into_iter().flat_map(|r| levels.into_iter().flat_map(move |g| levels.map(|b| (r, g, b))))
+        {
+            let found = khronos_pbr_neutral(Vec3::new(r as f32, g as f32, b as f32));
+            for (found, expected) in found.to_array().into_iter().zip(by_hand([r, g, b])) {
+                assert!(
+                    (f64::from(found) - expected).abs() < 1e-5,
+                    "{found}, not {expected}, of {r} {g} {b}"
+                );
+            }
+        }
+        assert_eq!(
+            khronos_pbr_neutral(Vec3::new(-1.0, 0.2, 0.3)),
+            khronos_pbr_neutral(Vec3::new(0.0, 0.2, 0.3))
+        );
+    }
 }

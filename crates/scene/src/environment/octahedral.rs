@@ -191,4 +191,57 @@ mod tests {
         }
         assert!((map.at(Vec3::NEG_Y) - Vec3::NEG_Y).length() < 0.03, "the corners are one point");
     }
+
+    /// Beyond an edge of the square lies the same edge, reversed, and beyond a corner the opposite one.
+    #[test]
+    fn the_border_continues_across_the_fold() {
+        for size in [2, 4, 5] {
+            let texel = |x: usize, y: usize| Vec3::new(x as f32, y as f32, 1.0);
+            let texels: Vec<Vec3> = (0..size * size).map(|i| texel(i % size, i / size)).collect();
+            let map = Octahedral::from_texels(size, &texels);
+            assert_eq!((map.size(), map.texels.len()), (size, (size + 2) * (size + 2)));
+            let last = size - 1;
+            // Columns and rows are counted from the border.
+            let at = |column: usize, row: usize| map.texels[row * (size + 2) + column];
+            for i in 0..size {
+                assert_eq!(at(i + 1, 0), texel(last - i, 0), "above column {i} of {size}");
+                assert_eq!(at(i + 1, size + 1), texel(last - i, last), "below column {i} of {size}");
+                assert_eq!(at(0, i + 1), texel(0, last - i), "left of row {i} of {size}");
+                assert_eq!(at(size + 1, i + 1), texel(last, last - i), "right of row {i} of {size}");
+                (0..size).for_each(|x| assert_eq!(at(x + 1, i + 1), texel(x, i), "within"));
+            }
+            let corners = [at(0, 0), at(size + 1, 0), at(0, size + 1), at(size + 1, size + 1)];
+            assert_eq!(corners, [texel(last, last), texel(0, last), texel(last, 0), texel(0, 0)]);
+        }
+    }
+
+    #[test]
+    fn a_smaller_map_has_the_means_of_four_texels() {
+        let texels: Vec<Vec3> =
+            (0..36).map(|i| Vec3::new((i * i) as f32, (7 * i % 11) as f32, 1.0)).collect();
+        let halved = Octahedral::from_texels(6, &texels).halved();
+        assert_eq!(halved.size(), 3);
+        for (i, (_, _, found)) in halved.iter().enumerate() {
+            let first = i / 3 * 12 + i % 3 * 2;
+            let mean = (texels[first] + texels[first + 1] + texels[first + 6] + texels[first + 7]) / 4.0;
+            assert_eq!(found, mean, "texel {i}");
+        }
+    }
+
+    #[test]
+    fn a_small_sun_keeps_its_light() {
+        let (width, height) = (64, 32);
+        let mut pixels = vec![[0.0; 3]; width * height];
+        pixels[9 * width + 40] = [900.0, 600.0, f32::NAN];
+        let map = Octahedral::from_equirectangular(16, (width, height), &pixels);
+        let light = map.iter().map(|(_, area, light)| light * area).sum::<Vec3>();
+        // A pixel's rows are parts of half a turn, and its columns of a whole one.
+        let polar = (9.5 / height as f32) * std::f32::consts::PI;
+        let step = std::f32::consts::PI / height as f32;
+        let area = step * step * trigon_math::elementary::sin_f32(polar);
+        let expected = Vec3::new(900.0, 600.0, 0.0) * area;
+        // Texels are no parts of pixels: a third of a texel more or less.
+        assert!((light / expected).truncate().distance(Vec2::ONE) < 0.7, "{light}, not {expected}");
+        assert_eq!(light.z, 0.0, "what is no light gives none");
+    }
 }

@@ -88,3 +88,38 @@ fn scant_faces(source: &Mesh, geometry: &Geometry) -> Vec<u32> {
     let faces = (0..).zip(counts.iter().zip(source.faces()));
     faces.filter(|(_, (count, corners))| *count + 2 < corners.len()).map(|(face, _)| face).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trigon_mesh::primitives;
+
+    fn scant(mesh: &Mesh) -> Vec<u32> {
+        scant_faces(mesh, &Geometry::new(mesh))
+    }
+
+    #[test]
+    fn faces_whose_corners_all_have_triangles_are_not_scant() {
+        for mesh in [primitives::cube(1.0), primitives::cone(1.0, 1.0, 9), primitives::icosphere(1.0, 1)] {
+            assert!(scant(&mesh).is_empty(), "{:?}", scant(&mesh));
+        }
+    }
+
+    #[test]
+    fn boxes_hold_their_triangles() {
+        let mesh = primitives::torus(1.0, 0.4, 40, 20);
+        let geometry = Geometry::new(&mesh);
+        let blocks = Blocks::new(&mesh, &geometry);
+        let all: Vec<usize> = blocks.within(&geometry, |_| true).flatten().collect();
+        assert!(all.iter().copied().eq(0..geometry.triangles.len()), "each once, in order");
+        // Of those to the right all are found, and not many others.
+        let is_right = |triangle: &usize| {
+            let corners = geometry.triangles[*triangle];
+            corners.iter().any(|&corner| geometry.columns.positions[0][corner as usize] > 1.2)
+        };
+        let found: Vec<usize> = blocks.within(&geometry, |part| part.max[0] > 1.2).flatten().collect();
+        assert!((0..geometry.triangles.len()).filter(is_right).all(|triangle| found.contains(&triangle)));
+        assert!(found.len() < all.len(), "{} of {}", found.len(), all.len());
+        assert_eq!(blocks.within(&geometry, |_| false).count(), 0);
+    }
+}

@@ -7,8 +7,8 @@ use trigon_math::{DVec2, DVec3, Vec2, Vec3, Vec4, color};
 use trigon_mesh::{Mesh, primitives};
 
 use crate::{
-    AlphaMode, Background, Frame, Lighting, Material, NodeId, Outputs, RenderSettings, Renderer, Scene,
-    Shading, Style, Texture, TextureFormat, Transform, render, showcase,
+    AlphaMode, Background, Frame, Lighting, Material, NodeId, NormalMap, Outputs, RenderSettings, Renderer,
+    Scene, Shading, Style, Texture, TextureBinding, TextureFormat, Transform, render, showcase,
 };
 
 const EVERYTHING: Outputs = Outputs {
@@ -164,6 +164,38 @@ fn normals_of_a_ball_point_away_from_its_middle() {
         assert!((normal.length() - 1.0).abs() < 1e-6, "of unit length: {normal}");
     }
     assert!(count > 500, "{count} pixels see it");
+}
+
+/// The direction in a texel is told along the image: to the right, up, and off the surface.
+#[test]
+fn a_normal_map_bends_the_normals_of_outputs() {
+    let texel = [204, 178, 230];
+    let texture = Texture::new(1, 1, vec![[204, 178, 230, 255]], TextureFormat::Linear).expect("one texel");
+    let turn = trigon_math::DQuat::from_xyzw(0.1, 0.5, -0.2, 0.9).normalize();
+    for (width, turn) in [(1.0, trigon_math::DQuat::IDENTITY), (1.0, turn), (-1.0, turn)] {
+        for scale in [1.0, 0.5, -1.5] {
+            let mut scene = Scene::new();
+            let binding = TextureBinding::new(scene.add_texture("bumps", texture.clone()));
+            let material = Material { normal_map: Some(NormalMap { binding, scale }), ..Material::default() };
+            let quad = scene.add_object("quad", primitives::plane(3.0, 3.0), material);
+            let placed = DVec3::new(width, 1.0, 1.0);
+            let placed = Transform::from_scale_rotation_translation(placed, turn, DVec3::ZERO);
+            scene.node_mut(quad).expect("just added").transform = placed;
+            let world = scene.world_transform(quad);
+            let [x, y, z] = texel.map(|byte| f64::from(byte) / 255.0 * 2.0 - 1.0);
+            // The image's top is at -Z, and the quad faces up.
+            let scale = f64::from(scale);
+            let expected = world.transform_vector3(DVec3::new(x * scale, z, -y * scale)).normalize();
+            let [right, up] = [DVec3::X, DVec3::Y].map(|axis| world.transform_vector3(axis));
+            let camera = Camera::look_at(up * 4.0 + right * 0.5, DVec3::ZERO, right);
+            let frame = render(&scene, &camera, &settings(EVERYTHING)).expect("drawn");
+            let normals = list(&frame.normals).iter().filter(|normal| **normal != Vec3::ZERO);
+            assert!(normals.clone().count() > 500, "the quad is seen");
+            for normal in normals {
+                assert!(normal.as_dvec3().distance(expected) < 1e-5, "{normal}, not {expected}");
+            }
+        }
+    }
 }
 
 #[test]

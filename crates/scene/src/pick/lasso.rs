@@ -104,16 +104,50 @@ fn is_right_of(&[from, to]: &[DVec2; 2], point: DVec2) -> bool {
 /// The first of the columns whose centre has the side not to its right; the end if
 /// there is none.
 fn border(side: &[DVec2; 2], row: u32, columns: &Range<u32>) -> u32 {
-    let right = |column: u32| is_right_of(side, center(column, row));
-    let [from, to] = *side;
-    let crossing = from.x + (center(0, row).y - from.y) * ((to.x - from.x) / (to.y - from.y));
-    // Rounded, so near the border; from there on it is found exactly.
-    let mut border = ((crossing - 0.5).ceil() as u32).clamp(columns.start, columns.end);
-    while border > columns.start && !right(border - 1) {
-        border -= 1;
+    let Range { mut start, mut end } = *columns;
+    while start < end {
+        let middle = u32::midpoint(start, end);
+        if is_right_of(side, center(middle, row)) {
+            start = middle + 1;
+        } else {
+            end = middle;
+        }
     }
-    while border < columns.end && right(border) {
-        border += 1;
+    start
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a point is in a polygon, by the angles under which it sees the sides: the sum is a full turn or none.
+    fn surrounds(corners: &[DVec2], point: DVec2) -> bool {
+        let sides =
+            (0..corners.len()).map(|i| [corners[i] - point, corners[(i + 1) % corners.len()] - point]);
+        let turn: f64 = sides.map(|[a, b]| a.angle_to(b)).sum();
+        turn.abs() > 3.0
     }
-    border
+
+    #[test]
+    fn rows_begin_and_end_where_the_polygon_does() {
+        let star = [[1.3, 2.2], [17.9, 9.1], [3.7, 9.9], [18.2, 1.4], [9.6, 18.3], [-6.0, 30.0]];
+        for polygon in [&star[..3], &star[1..5], &star[2..]] {
+            let corners: Vec<DVec2> = polygon.iter().map(|&corner| DVec2::from_array(corner)).collect();
+            for (rows, columns) in [(0..20, 0..20), (3..11, 5..9)] {
+                let lasso = Lasso::new(&corners, &rows);
+                for row in rows {
+                    let runs = lasso.runs(row, &columns);
+                    assert!(runs.iter().all(|run| !run.is_empty()), "{runs:?}");
+                    for column in columns.clone() {
+                        let at = center(column, row);
+                        let is_inside = runs.iter().filter(|run| run.contains(&column)).count();
+                        assert_eq!(is_inside, usize::from(lasso.contains(at)), "{at}: {runs:?}");
+                        // Polygons that cross themselves may be surrounded twice.
+                        let is_simple = polygon.len() == 3;
+                        assert!(!is_simple || lasso.contains(at) == surrounds(&corners, at), "{at}");
+                    }
+                }
+            }
+        }
+    }
 }

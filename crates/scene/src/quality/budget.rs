@@ -208,3 +208,57 @@ pub(super) fn of_quality(settings: &RenderSettings, quality: Quality) -> RenderS
     quality.apply(&mut settings);
     settings
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Milliseconds and an error; of qualities that are all different.
+    fn foreseen(all: &[(u64, Option<f64>)]) -> Vec<Foreseen> {
+        let one = |(rays, &(time, error)): (u32, &(u64, Option<f64>))| Foreseen {
+            quality: Quality { occlusion_rays: rays, ..Preset::Draft.quality() },
+            time: Duration::from_millis(time),
+            error,
+        };
+        (0..).zip(all).map(one).collect()
+    }
+
+    #[test]
+    fn the_smaller_error_is_more_accurate_and_the_later_while_it_is_unknown() {
+        let pair = |errors: [Option<f64>; 2]| {
+            let all = foreseen(&errors.map(|error| (1, error)));
+            usize::from(more_accurate(&all[0], &all[1]).quality == all[1].quality)
+        };
+        assert_eq!(pair([Some(1.0), Some(2.0)]), 0);
+        assert_eq!(pair([Some(2.0), Some(1.0)]), 1);
+        assert_eq!(pair([Some(1.0), Some(1.0)]), 0, "of equal ones the first");
+        for unknown in [[None, Some(1.0)], [Some(1.0), None], [None, None]] {
+            assert_eq!(pair(unknown), 1, "{unknown:?}");
+        }
+    }
+
+    #[test]
+    fn the_fastest_of_those_that_are_better_comes_next() {
+        let next = |all: &[(u64, Option<f64>)], than: usize| {
+            let all = foreseen(all);
+            next_better(&all, &all[than]).map(|next| next.quality.occlusion_rays)
+        };
+        let known = [(1, Some(9.0)), (5, Some(4.0)), (3, Some(6.0)), (9, Some(6.0)), (2, None)];
+        assert_eq!([0, 1, 2, 3].map(|than| next(&known, than)), [Some(2), None, Some(1), Some(1)]);
+        let unknown = [(1, None), (5, None), (3, None), (4, None)];
+        assert_eq!([0, 1, 2, 3].map(|than| next(&unknown, than)), [Some(2), Some(2), Some(3), None]);
+    }
+
+    #[test]
+    fn a_tenth_less_error_is_worth_a_change() {
+        let worth = |errors: [Option<f64>; 2]| {
+            let all = foreseen(&errors.map(|error| (1, error)));
+            is_worth_a_change(&all[0], &all[1])
+        };
+        assert!(worth([Some(1.0), Some(0.89)]) && !worth([Some(1.0), Some(0.91)]));
+        assert!(!worth([Some(1.0), Some(1.0)]) && !worth([Some(1.0), Some(2.0)]));
+        assert!(worth([None, Some(1.0)]) && worth([Some(1.0), None]), "unless it is unknown");
+        let all = foreseen(&[(1, None)]);
+        assert!(!is_worth_a_change(&all[0], &all[0]), "not to itself");
+    }
+}

@@ -64,6 +64,7 @@ fn what_never_fits_is_drawn_as_quickly_as_possible() {
 fn what_somebody_insists_on_is_not_traded() {
     let mut budget =
         TimeBudget::new(LIMIT).insisting(|quality| Quality { samples_per_axis: 2, samples: 1, ..quality });
+    assert_eq!(budget.limit(), LIMIT, "of the same time");
     let (choice, _) = pretend(&mut budget, 1000.0);
     assert_eq!((choice.chosen.quality.samples_per_axis, choice.chosen.quality.samples), (2, 1), "{choice}");
     assert!(choice.given_up.is_none(), "nothing else is told apart: {choice}");

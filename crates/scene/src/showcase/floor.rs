@@ -97,3 +97,67 @@ fn smooth(t: f32) -> f32 {
 fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spot_is_black_in_the_middle_and_fades_to_nothing_at_its_rim() {
+        let (spot, side) = (spot(), 64.0);
+        assert_eq!([spot.width(), spot.height()], [64; 2]);
+        for (number, texel) in spot.texels().enumerate() {
+            let [x, y] = [number % 64, number / 64].map(|place| (place as f64 + 0.5) / side * 2.0 - 1.0);
+            let out = (x * x + y * y).sqrt();
+            let share = ((1.0 - out) / 0.65).clamp(0.0, 1.0);
+            let expected = share * share * (3.0 - 2.0 * share) * 255.0;
+            assert_eq!(texel[..3], [0; 3], "black");
+            assert!((f64::from(texel[3]) - expected).abs() < 0.51, "{texel:?} at {out}");
+            assert!(out > 0.35 || texel[3] == 255, "{texel:?} at {out}");
+            assert!(out < 1.0 || texel[3] == 0, "{texel:?} at {out}");
+        }
+    }
+
+    #[test]
+    fn noise_is_smooth_and_has_its_lattice_values() {
+        for (x, y, seed) in (0..12).map(|i| (i % 4, i / 4, i * 31)) {
+            let corners = [[x, y], [x + 1, y], [x, y + 1], [x + 1, y + 1]];
+            let values = corners.map(|[x, y]| lattice(x, y, seed));
+            assert!(values.iter().all(|value| (-1.0..=1.0).contains(value)), "{values:?}");
+            let at = |u: f32, v: f32| noise(Vec2::new(x as f32 + u, y as f32 + v), seed);
+            assert_eq!(at(0.0, 0.0), values[0]);
+            let [middle, upper, left] = [at(0.5, 0.5), at(0.5, 0.0), at(0.0, 0.5)];
+            assert!((middle - values.iter().sum::<f32>() / 4.0).abs() < 1e-6, "half way between all four");
+            assert!((upper - (values[0] + values[1]) / 2.0).abs() < 1e-6, "and between two");
+            assert!((left - (values[0] + values[2]) / 2.0).abs() < 1e-6, "either way");
+            // A quarter is eased to 5/32.
+            let eased = values[0] + (values[1] - values[0]) * 0.15625;
+            assert!((at(0.25, 0.0) - eased).abs() < 1e-6, "with no slope at the ends");
+        }
+        let values: Vec<f32> = (0..1000).map(|i| lattice(i % 40, i / 40, 7)).collect();
+        let mean = values.iter().sum::<f32>() / 1000.0;
+        assert!(mean.abs() < 0.1, "{mean}: as often below 0 as above");
+    }
+
+    #[test]
+    fn a_floor_has_light_and_dark_fields_with_joints_between_them() {
+        let floor = floor();
+        assert_eq!([floor.width(), floor.height()], [512; 2]);
+        let texels: Vec<[u8; 4]> = floor.texels().collect();
+        let field = |column: usize, row: usize| {
+            let within =
+                (20..108).flat_map(|y| (20..108).map(move |x| (128 * row + y) * 512 + 128 * column + x));
+            within.map(|place| f64::from(texels[place][0])).sum::<f64>() / (88.0 * 88.0)
+        };
+        for (column, row) in (0..16).map(|i| (i % 4, i / 4)) {
+            let expected = if (column + row) % 2 == 0 { 0.86 } else { 0.52 } * 0.9 * 255.0;
+            assert!(
+                (field(column, row) / expected - 1.0).abs() < 0.12,
+                "field {column}, {row}: {}",
+                field(column, row)
+            );
+            let joint = f64::from(texels[128 * row * 512 + 128 * column + 64][0]);
+            assert!(joint < 0.85 * field(column, row), "{joint} at the border of field {column}, {row}");
+        }
+    }
+}

@@ -133,6 +133,28 @@ mod tests {
         }
     }
 
+    /// In an image that is higher than wide its width is what limits.
+    #[test]
+    fn a_ball_fills_a_narrow_image_from_side_to_side() {
+        let mut scene = Scene::new();
+        scene.add_object("ball", primitives::icosphere(2.0, 4), Material::default());
+        let distance = |aspect: f64| {
+            let camera = scene.surround(turntable(1, 0.0), aspect).next().expect("one viewpoint");
+            camera.position.length()
+        };
+        for (width, height) in [(100, 200), (150, 200), (40, 200)] {
+            let viewport = Viewport { width, height };
+            for camera in scene.surround(turntable(3, 0.3), viewport.aspect()) {
+                let projector = Projector::new(&camera, viewport);
+                let columns = scene.visible_points().filter_map(|point| projector.to_screen(point));
+                let right = columns.map(|at| at.x).fold(0.0, f64::max) / f64::from(width);
+                assert!((right - 0.95).abs() < 0.01, "a twentieth stays free: {right} of {width}");
+            }
+        }
+        assert_eq!(distance(1.0), distance(3.0), "in a wide one its height");
+        assert!(distance(0.5) > 1.5 * distance(1.0));
+    }
+
     #[test]
     fn a_scene_of_nothing_has_cameras_too() {
         let cameras: Vec<Camera> = Scene::new().surround(turntable(3, 0.2), 1.5).collect();

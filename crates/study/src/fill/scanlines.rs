@@ -13,7 +13,7 @@ pub(super) fn fill(triangle: &Triangle, canvas: &mut Canvas) {
     short.extend(interpolate(y1, x1 as f32, y2, x2 as f32));
     let middle = short.len() / 2;
     let (left, right) = if long[middle] < short[middle] { (long, short) } else { (short, long) };
-    for y in y0.max(0)..=y2.min(canvas.limits()[1] - 1) {
+    for y in y0.max(0)..(y2 + 1).min(canvas.limits()[1]) {
         let row = (y - y0) as usize;
         line(left[row], right[row], y, canvas);
     }

@@ -1,7 +1,7 @@
 //! What the report claims of filling, and that each algorithm is what it says.
 
 use super::*;
-use trigon_math::Vec2;
+use trigon_math::{Vec2, elementary};
 
 const SIDE: usize = 256;
 const SIZE: [usize; 2] = [SIDE; 2];
@@ -141,4 +141,48 @@ fn each_source_draws_the_triangle_its_own_way() {
         "........ .#...... ..###... ..####.. ..###... ...#.... ........ ........",
     ];
     assert_eq!(images, expected, "exact, strips, scanlines, edges at the corners of pixels");
+}
+
+#[test]
+fn tiles_are_moved_squares_on_a_grid() {
+    for (square, unit) in [(16.0, 1.0 / 16384.0), (16.0, 0.5), (9.0, 1.0 / 256.0)] {
+        let triangles = tiles(SIDE, square, unit, 3);
+        let count = (SIDE as f64 / square).ceil() as usize + 2;
+        assert_eq!(triangles.len(), 2 * count * count, "two to a square, one square more on every side");
+        let mut moved = 0.0_f64;
+        for (number, halves) in triangles.chunks(2).enumerate() {
+            let [x, y] = [number % count, number / count].map(|place| place as f64 - 1.0);
+            let places = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[u, v]| [x + u, y + v]);
+            let [[a, b, c], [d, e, f]] = [halves[0], halves[1]];
+            assert_eq!((a, c), (d, e), "both have the diagonal");
+            for (corner, place) in [a, b, c, f].into_iter().zip(places) {
+                for (found, place) in corner.to_array().map(f64::from).into_iter().zip(place) {
+                    assert_eq!((found / unit).fract(), 0.0, "{found} on a grid of {unit}");
+                    moved = moved.max((found - place * square).abs());
+                }
+            }
+        }
+        assert!((0.2..0.27).contains(&(moved / square)), "up to a quarter: {moved} of {square}");
+        assert_ne!(triangles, tiles(SIDE, square, unit, 4), "another seed");
+    }
+}
+
+#[test]
+fn needles_of_a_fan_go_round_once() {
+    for seed in 0..3 {
+        let needles = Case::Fan.triangles(SIDE, seed);
+        assert_eq!(needles.len(), 200);
+        let center = needles[0][0];
+        let range = 0.3 * SIDE as f32..0.7 * SIDE as f32;
+        assert!(range.contains(&center.x) && range.contains(&center.y), "{center}");
+        for (number, &[middle, from, to]) in needles.iter().enumerate() {
+            assert_eq!((middle, to), (center, needles[(number + 1) % 200][1]), "side by side");
+            assert!((from.length() - 12_000.0).abs() < 0.01, "{from}");
+            let angle =
+                elementary::atan2(f64::from(from.y), f64::from(from.x)).rem_euclid(std::f64::consts::TAU);
+            let steps = angle / std::f64::consts::TAU * 200.0;
+            let off = (steps - number as f64 + 100.0).rem_euclid(200.0) - 100.0;
+            assert!(off.abs() <= 0.401, "needle {number} at step {steps}");
+        }
+    }
 }

@@ -105,3 +105,97 @@ impl AddAssign for LineErrors {
         self.pixels += other.pixels;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: [usize; 2] = [40, 40];
+
+    /// The errors of ink that is given for each pixel.
+    fn errors(segment: Segment, ink: impl Fn([usize; 2]) -> f32) -> LineErrors {
+        let (coverage, mut errors) = (Field::from_fn(SIZE, ink), LineErrors::default());
+        let [from, to] = segment;
+        let along = usize::from((to[0] - from[0]).abs() < (to[1] - from[1]).abs());
+        let steps = (to[along] - from[along]).abs();
+        for step in 0..=steps {
+            errors.look_at_step(segment, along, step, &coverage);
+            errors.compare_areas(segment, along, step, &coverage);
+        }
+        errors
+    }
+
+    /// Lines in all directions.
+    const SEGMENTS: [Segment; 6] = [
+        [[5, 6], [30, 6]],
+        [[5, 6], [30, 20]],
+        [[30, 20], [5, 6]],
+        [[8, 4], [12, 33]],
+        [[33, 8], [30, 36]],
+        [[7, 30], [30, 7]],
+    ];
+
+    /// How far a pixel lies beside a line, in pixels across its length.
+    fn beside([from, to]: Segment, [x, y]: [usize; 2]) -> f64 {
+        let [dx, dy] = [0, 1].map(|axis| f64::from(to[axis] - from[axis]));
+        let (x, y) = (x as f64 - f64::from(from[0]), y as f64 - f64::from(from[1]));
+        (x * dy - y * dx).abs() / dx.abs().max(dy.abs())
+    }
+
+    #[test]
+    fn a_line_without_ink_has_gaps_only() {
+        for segment in SEGMENTS {
+            let LineErrors { steps, strays, gaps, .. } = errors(segment, |_| 0.0);
+            let [from, to] = segment;
+            let length = (to[0] - from[0]).abs().max((to[1] - from[1]).abs());
+            assert_eq!((steps, strays, gaps), (length as usize + 1, 0, length as usize + 1), "{segment:?}");
+        }
+    }
+
+    #[test]
+    fn ink_within_half_a_pixel_is_right_and_all_other_strays() {
+        for segment in SEGMENTS {
+            let LineErrors { strays, gaps, .. } =
+                errors(segment, |pixel| f32::from(u8::from(beside(segment, pixel) <= 0.5)));
+            assert_eq!((strays, gaps), (0, 0), "{segment:?}");
+            // Five pixels are looked at in each step; one or two of them are the line's.
+            let LineErrors { steps, strays, gaps, pixels, .. } = errors(segment, |_| 1.0);
+            assert_eq!((gaps, pixels), (0, 5 * steps), "{segment:?}");
+            assert!((3 * steps..=4 * steps).contains(&strays), "{segment:?}: {strays} of {steps}");
+            let faint = errors(segment, |_| 0.4);
+            assert_eq!((faint.strays, faint.gaps), (0, steps), "{segment:?}: faint ink is none");
+        }
+    }
+
+    #[test]
+    fn level_lines_cover_their_pixels_and_diagonal_ones_parts() {
+        let level = SEGMENTS[0];
+        let right = errors(level, |[_, y]| if y == 6 { 1.0 } else { 0.0 });
+        assert!(right.squares < 1e-12 && right.rmse() < 1e-6, "{right:?}");
+        let half = errors(level, |[_, y]| if y == 6 { 0.5 } else { 0.0 });
+        // A fifth of the pixels is off by a half.
+        assert!((half.rmse() - 0.05_f64.sqrt()).abs() < 1e-6, "{}", half.rmse());
+        // A strip one wide along the diagonal covers all but two corners of its pixels, each a right-angled
+        // triangle whose height is (√2 - 1) / 2.
+        let height = (2.0_f64.sqrt() - 1.0) / 2.0;
+        let corner = height * height;
+        let off = errors(SEGMENTS[5], |[x, y]| if x + y == 37 { 1.0 - 2.0 * corner as f32 } else { 0.0 });
+        let beside = errors(SEGMENTS[5], |_| 0.0);
+        let steps = off.steps as f64;
+        // What is left is beside those pixels.
+        assert!(off.squares < beside.squares, "{off:?} {beside:?}");
+        let share = 1.0 - 2.0 * corner;
+        let inked = share * share * steps;
+        assert!((beside.squares - off.squares - inked).abs() < 1e-3 * steps, "{off:?} {beside:?}");
+    }
+
+    #[test]
+    fn errors_add_up_and_are_told_per_step() {
+        let one = LineErrors { steps: 10, strays: 2, gaps: 3, squares: 0.5, pixels: 7 };
+        let other = LineErrors { steps: 30, strays: 4, gaps: 1, squares: 1.5, pixels: 1 };
+        let mut sum = one;
+        sum += other;
+        assert_eq!(sum, LineErrors { steps: 40, strays: 6, gaps: 4, squares: 2.0, pixels: 8 });
+        assert_eq!((sum.wrong_per_mille(), sum.rmse()), (250.0, 0.5));
+    }
+}

@@ -200,3 +200,81 @@ fn is_near(line: &[[f64; 2]], other: &[[f64; 2]]) -> bool {
     line.len() == other.len()
         && line.iter().zip(other).all(|(a, b)| (0..2).all(|axis| is_near(a[axis], b[axis])))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn trade(points: &[[f64; 2]]) -> Plot {
+        let row = |(number, [time, error]): (usize, &[f64; 2])| {
+            Row::new("case", format!("way {number}")).with("time", *time).with("error", *error)
+        };
+        let rows: Vec<Row> = points.iter().enumerate().map(row).collect();
+        Plot::trade("name", &rows, "case", ["time", "error"])
+    }
+
+    #[test]
+    fn axes_end_at_1_2_or_5_of_a_decade_with_room_about_the_values() {
+        for (values, expected) in [
+            ([2.0, 30.0], [1.0, 50.0]),
+            ([3.0, 16.0], [2.0, 50.0]),
+            ([8.0, 8.0], [5.0, 20.0]),
+            ([0.1, 0.2], [0.05, 0.5]),
+            ([1.2, 70.0], [0.5, 100.0]),
+            ([1.4, 80.0], [1.0, 200.0]),
+        ] {
+            let range = trade(&values.map(|value| [value, 1.0])).range(0);
+            for (found, expected) in range.into_iter().zip(expected) {
+                assert!((found / expected - 1.0).abs() < 1e-9, "{range:?} about {values:?}");
+            }
+        }
+        let plot = trade(&[[1.0, 0.0], [1.0, 30.0], [1.0, 2.0]]);
+        assert!((plot.range(1)[0] - 1.0).abs() < 1e-9, "0 has no logarithm: {:?}", plot.range(1));
+        assert_eq!(trade(&[[1.0, 0.0]]).range(1), [0.1, 10.0], "without any value");
+    }
+
+    #[test]
+    fn lines_have_whole_decades_and_room_for_their_names() {
+        let line = |name: &str, points: &[[f64; 2]]| (name.to_owned(), points.to_vec());
+        let lines = vec![line("one", &[[2.0, 0.3], [30.0, 40.0]]), line("other", &[[0.5, 3.0]])];
+        let plot = Plot::growth("name", "title", ["x", "y"], lines);
+        for (axis, expected) in [[0.1, 100.0], [0.1, 100.0]].into_iter().enumerate() {
+            for (found, expected) in plot.range(axis).into_iter().zip(expected) {
+                assert!((found / expected - 1.0).abs() < 1e-9, "{:?} of axis {axis}", plot.range(axis));
+            }
+        }
+        assert_eq!(plot.file("line"), "accuracy-line-name.svg");
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("plot.svg");
+        plot.write(&path).unwrap();
+        let text = std::fs::read_to_string(path).unwrap();
+        for word in ["title", "one", "other"] {
+            assert!(text.contains(&format!("\n{word}\n")), "it says {word}");
+        }
+        assert_eq!(text.matches("<circle").count(), 3, "a circle at each point");
+    }
+
+    #[test]
+    fn the_best_have_nothing_better_on_both_axes() {
+        let named = |point: [f64; 2]| (String::new(), point);
+        let points = [[1.0, 9.0], [2.0, 5.0], [2.0, 7.0], [3.0, 5.0], [4.0, 1.0], [4.0, 1.0]].map(named);
+        let best = points.each_ref().map(|(_, point)| is_best(*point, &points));
+        assert_eq!(best, [true, true, false, false, true, true], "equal ones are both the best");
+    }
+
+    #[test]
+    fn lines_within_a_tenth_cannot_be_told_apart() {
+        let line = [[1.0, 10.0], [2.0, 100.0]];
+        assert!(is_near(&line, &[[1.0, 11.0], [2.0, 91.0]]));
+        assert!(
+            !is_near(&line, &[[1.0, 11.5], [2.0, 100.0]]) && !is_near(&line, &[[1.2, 10.0], [2.0, 100.0]])
+        );
+        assert!(!is_near(&line, &line[..1]), "not a part of it");
+    }
+
+    #[test]
+    fn numbers_at_axes_are_short() {
+        let written = [0.001, 0.02, 1.0, 20.0, 50000.0, 1e5, 5e-4].map(power);
+        assert_eq!(written, ["0.001", "0.02", "1", "20", "50000", "1e5", "5e-4"]);
+    }
+}

@@ -104,3 +104,95 @@ fn color([r, g, b, _]: [u8; 4]) -> DVec3 {
 fn root_mean(squares: &[f64]) -> f64 {
     (squares.iter().sum::<f64>() / (3 * squares.len()).max(1) as f64).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A row of pixels: a surface, its distance and its light.
+    fn exact(pixels: &[(u32, f64, f64)]) -> Exact {
+        let pixel = |&(surface, distance, light): &(u32, f64, f64)| Pixel {
+            color: DVec3::splat(light),
+            surface,
+            nearness: if surface == 0 { 0.0 } else { 1.0 / distance },
+            mean: DVec3::splat(light),
+            is_touched: surface != 0,
+        };
+        Exact { pixels: pixels.iter().map(pixel).collect(), width: pixels.len() }
+    }
+
+    fn grey(level: u8) -> [u8; 4] {
+        [level, level, level, 255]
+    }
+
+    /// Three pixels of one surface between others: the middle one has no outline beside it.
+    fn image() -> Exact {
+        exact(&[(0, 0.0, 0.0), (1, 2.0, 0.2), (1, 2.0, 0.2), (1, 2.0, 0.2), (2, 2.0, 0.6)])
+    }
+
+    #[test]
+    fn what_is_right_is_not_wrong() {
+        let found = [0, 51, 51, 51, 153].map(grey);
+        let Errors { image, centres } = Errors::new(&self::image(), &found, true, true);
+        assert!(image < 1e-9, "{image}");
+        let Centres { wrong_at_outlines, wrong_within, within, worst_within } = centres.expect("asked for");
+        assert_eq!((wrong_at_outlines, wrong_within), (0.0, 0.0));
+        assert!(within < 1e-9 && worst_within < 1e-9);
+        assert_eq!(Errors::new(&self::image(), &found, false, true).centres, None, "not asked for");
+    }
+
+    #[test]
+    fn a_neighbours_colour_is_wrong_at_an_outline() {
+        // The fourth pixel shows the fifth's surface; four pixels lie at outlines.
+        let found = [0, 51, 51, 153, 153].map(grey);
+        let centres = Errors::new(&image(), &found, true, true).centres.expect("asked for");
+        assert_eq!((centres.wrong_at_outlines, centres.wrong_within), (250.0, 0.0));
+        let nearly = [0, 51, 51, 53, 153].map(grey);
+        let centres = Errors::new(&image(), &nearly, true, true).centres.expect("asked for");
+        assert_eq!(centres.wrong_at_outlines, 0.0, "nearer to its own");
+    }
+
+    #[test]
+    fn within_a_surface_light_may_be_off() {
+        let found = [0, 51, 55, 51, 153].map(grey);
+        let centres = Errors::new(&image(), &found, true, false).centres.expect("asked for");
+        assert_eq!((centres.wrong_at_outlines, centres.wrong_within), (0.0, 0.0));
+        assert!((centres.within - 4.0).abs() < 1e-9 && (centres.worst_within - 4.0).abs() < 1e-9);
+        let flat = Errors::new(&image(), &found, true, true).centres.expect("asked for");
+        assert_eq!(flat.wrong_within, 1e6, "but not where the surface has one colour");
+        let mut hole = found;
+        hole[2] = Scene::BACKGROUND;
+        let centres = Errors::new(&image(), &hole, true, false).centres.expect("asked for");
+        assert_eq!((centres.wrong_within, centres.within), (1e6, 0.0), "a hole is no light");
+    }
+
+    #[test]
+    fn pixels_that_show_a_surface_count() {
+        // Of four pixels one is off by 8.
+        let found = [99, 51, 51, 59, 153].map(grey);
+        let error = Errors::new(&image(), &found, false, false).image;
+        assert!((error - 4.0).abs() < 1e-9, "{error}: the background does not count");
+    }
+
+    #[test]
+    fn neighbours_are_the_eight_around_a_pixel() {
+        let nine = Exact {
+            pixels: (0..12).map(|surface| Pixel { surface, ..Pixel::default() }).collect(),
+            width: 4,
+        };
+        let around =
+            |index: usize| -> Vec<u32> { nine.neighbours(index).map(|pixel| pixel.surface).collect() };
+        assert_eq!(around(0), [0, 1, 4, 5], "with itself");
+        assert_eq!(around(5), [0, 1, 2, 4, 5, 6, 8, 9, 10]);
+        assert_eq!(around(7), [2, 3, 6, 7, 10, 11]);
+        assert_eq!(around(11), [6, 7, 10, 11]);
+    }
+
+    #[test]
+    fn a_surface_that_hides_itself_is_another() {
+        let at = |distance: f64| Pixel { surface: 1, nearness: 1.0 / distance, ..Pixel::default() };
+        assert!(!is_other(&at(100.0), &at(101.0)) && !is_other(&at(101.0), &at(100.0)), "a slope");
+        assert!(is_other(&at(100.0), &at(103.0)) && is_other(&at(103.0), &at(100.0)), "a step");
+        assert!(is_other(&at(1.0), &Pixel { surface: 2, ..at(1.0) }), "another number");
+    }
+}

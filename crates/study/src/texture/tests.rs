@@ -38,3 +38,15 @@ fn the_engine_looks_up_where_the_closed_form_does() {
     }
     assert!(count > 1000 && wrong == 0, "{wrong} of {count} pixels inside of squares");
 }
+
+/// Without the texture the floor is its coordinates: the engine interpolates them as the closed form does.
+#[test]
+fn the_plain_floor_has_its_coordinates_as_colours() {
+    let ground = Ground::new(96);
+    let mut drawer = Drawer::new(&ground);
+    drawer.draw_plain();
+    for ([x, y], found) in drawer.light().pixels() {
+        let [right, _] = ground.coordinates([x as f64 + 0.5, y as f64 + 0.5]);
+        assert!((found - right).abs() < 1e-3 * right.abs().max(1.0), "{x}, {y}: {found}, not {right}");
+    }
+}

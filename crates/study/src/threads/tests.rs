@@ -20,3 +20,23 @@ fn any_number_of_threads_draws_the_same_image() {
         assert!(differing < 30, "the engine with {threads}: {differing} pixels differ");
     }
 }
+
+/// Depth is linear over the distance: the face that is nearer in a pixel is seen there, whatever their order.
+#[test]
+fn the_nearer_of_two_crossing_faces_is_seen() {
+    let size = [40, 40];
+    // One recedes to the right from 2 to 8, the other one to the left.
+    let face = |left: f64, right: f64| [[0.0, 0.0, left], [39.0, 0.0, right], [39.0, 39.0, right]];
+    let (one, other) = (face(2.0, 8.0), face(8.0, 2.0));
+    for faces in [[one, other], [other, one]] {
+        let drawn = draw_by_face(&faces, size, 2);
+        for (x, y) in (0..40).flat_map(|y| (y..40).map(move |x| (x, y))) {
+            let share = x as f64 / 39.0;
+            let distance = |left: f64, right: f64| 1.0 / ((1.0 - share) / left + share / right);
+            let first = usize::from(faces[0] != one);
+            let expected = if distance(2.0, 8.0) < distance(8.0, 2.0) { first } else { 1 - first };
+            assert_eq!(drawn[[x, y]], expected as u32, "{x}, {y}");
+        }
+        assert_eq!(drawn[[3, 20]], u32::MAX, "beside both");
+    }
+}

@@ -43,3 +43,21 @@ fn what_is_drawn_twice_is_the_same() {
         assert!(first == drawn.image() && first == way.draw(&scene), "{way:?}");
     }
 }
+
+/// By hand: two faces of one body, and a body beyond it.
+#[test]
+fn faces_are_sorted_by_their_middle_and_bodies_by_theirs() {
+    let body = |depths: [i32; 4]| {
+        crate::visibility::Body::tetrahedron([
+            [0, 0, depths[0]],
+            [900, 0, depths[1]],
+            [0, 900, depths[2]],
+            [900, 900, depths[3]],
+        ])
+    };
+    let scene = Scene::new([4; 2], vec![body([3, 6, 9, 30]), body([-8, -4, 0, 4])]);
+    let faces: Vec<i64> = (0..8).map(|number| faces::depth_of_face(&scene, number)).collect();
+    assert_eq!(faces, [18, 39, 42, 45, -12, -8, -4, 0], "three times the middle");
+    let bodies: Vec<i64> = (0..8).map(|number| faces::depth_of_body(&scene, number)).collect();
+    assert_eq!(bodies, [12, 12, 12, 12, -2, -2, -2, -2]);
+}

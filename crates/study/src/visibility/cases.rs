@@ -84,7 +84,7 @@ fn ball(radius: f64, middle: DVec3) -> Body {
     Body::of_mesh(&primitives::icosphere(1.0, 1), Pose::new(0.3, 0.4, radius, middle))
 }
 
-/// Two rings of balls, each of which sticks in its neighbours.
+/// Two rows of balls, each of which sticks in its neighbours. None is farther from the eye than the first.
 fn crossing(side: usize) -> Scene {
     let size = side as f64;
     let place = |i: usize| {
@@ -122,3 +122,6 @@ fn of_mesh(side: usize, mesh: &Mesh, scale: f64) -> Scene {
     let middle = middle - DVec3::new(center.x, -center.y, center.z);
     Scene::new([side; 2], vec![Body::of_mesh(mesh, Pose { middle, ..pose })])
 }
+
+#[cfg(test)]
+mod tests;

@@ -249,4 +249,54 @@ mod tests {
             assert!(error.contains("Ctrl+Shift+Z"), "{error}");
         }
     }
+
+    #[test]
+    fn modifiers_are_sets() {
+        let single = [Modifiers::CTRL, Modifiers::ALT, Modifiers::SHIFT];
+        for bits in 0..8_usize {
+            let held = (0..3).filter(|place| bits >> place & 1 != 0);
+            let all = held.clone().fold(Modifiers::NONE, |all, place| all | single[place]);
+            assert_eq!(all.count() as usize, held.clone().count(), "{all}");
+            for (place, one) in single.into_iter().enumerate() {
+                assert_eq!(all.contains(one), bits >> place & 1 != 0, "{one} in {all}");
+                assert!((all | one).contains(all) && (all | one).contains(one), "{one} or {all}");
+            }
+            assert!(all.contains(Modifiers::NONE) && all.contains(all) && all | all == all, "{all}");
+        }
+    }
+
+    #[test]
+    fn every_key_is_read_by_its_name() {
+        let named = [
+            ("Enter", Key::Enter),
+            ("Escape", Key::Escape),
+            ("Tab", Key::Tab),
+            ("Space", Key::Space),
+            ("Backspace", Key::Backspace),
+            ("Delete", Key::Delete),
+            ("Home", Key::Home),
+            ("End", Key::End),
+            ("PageUp", Key::PageUp),
+            ("PageDown", Key::PageDown),
+            ("Left", Key::Left),
+            ("Right", Key::Right),
+            ("Up", Key::Up),
+            ("Down", Key::Down),
+            ("Menu", Key::Menu),
+        ];
+        for (name, key) in named {
+            assert_eq!(name.parse(), Ok(Chord::from(key)), "{name}");
+            assert_eq!(format!(" ctrl + {name}").parse(), Ok(Chord::new(Modifiers::CTRL, key)), "{name}");
+            assert_eq!(key.to_string(), name);
+        }
+        for number in 1..=24 {
+            assert_eq!(format!("F{number}").parse(), Ok(Chord::from(Key::Function(number))));
+        }
+        for typed in "0123456789.+-*/".chars() {
+            assert_eq!(format!("Numpad{typed}").parse(), Ok(Chord::from(Key::Numpad(typed))));
+        }
+        for wrong in ["F0", "F25", "F-1", "Numpad10", "Alt+", "Alt+Shift+", "ab"] {
+            assert!(wrong.parse::<Chord>().is_err(), "{wrong}");
+        }
+    }
 }

@@ -241,4 +241,107 @@ mod tests {
         let point = physical_key(place(keyboard::KeyCode::NumpadDecimal), &locked);
         assert_eq!(point, Some(Key::Character('.')), "whether its lock is on or not");
     }
+
+    #[test]
+    fn buttons_and_presses_are_told_apart() {
+        let buttons = [MouseButton::Left, MouseButton::Right, MouseButton::Middle, MouseButton::Back];
+        let expected = [PointerButton::Left, PointerButton::Right, PointerButton::Middle].map(Some);
+        assert_eq!(buttons.map(pointer_button)[..3], expected);
+        assert_eq!(pointer_button(MouseButton::Back), None, "it means nothing to us");
+        assert_eq!([ElementState::Pressed, ElementState::Released].map(press), [Press::Down, Press::Up]);
+    }
+
+    #[test]
+    fn wheels_turn_by_lines_and_touchpads_by_pixels() {
+        let lines = wheel_delta(MouseScrollDelta::LineDelta(1.0, -2.0));
+        assert!(matches!(lines, WheelDelta::Lines(by) if by == DVec2::new(1.0, -2.0)));
+        let pixels = winit::dpi::PhysicalPosition::new(3.0, 4.5);
+        let pixels = wheel_delta(MouseScrollDelta::PixelDelta(pixels));
+        assert!(matches!(pixels, WheelDelta::Pixels(by) if by == DVec2::new(3.0, 4.5)));
+    }
+
+    #[test]
+    fn modifiers_are_those_that_are_down() {
+        let control = if cfg!(target_os = "macos") { ModifiersState::SUPER } else { ModifiersState::CONTROL };
+        let pairs = [
+            (control, Modifiers::CTRL),
+            (ModifiersState::ALT, Modifiers::ALT),
+            (ModifiersState::SHIFT, Modifiers::SHIFT),
+        ];
+        for bits in 0..8 {
+            let down = pairs.iter().enumerate().filter(|(place, _)| bits >> place & 1 != 0);
+            let (mut theirs, mut ours) = (ModifiersState::empty(), Modifiers::NONE);
+            for (_, &(one, other)) in down {
+                theirs |= one;
+                ours = ours | other;
+            }
+            assert_eq!(modifier_set(theirs), ours);
+        }
+    }
+
+    #[test]
+    fn what_happens_to_the_window_is_told() {
+        let told = |event| translate(&event, 1.0);
+        let size = winit::dpi::PhysicalSize::new(30, 20);
+        assert_eq!(told(WindowEvent::Resized(size)), Some(InputEvent::Resized { width: 30, height: 20 }));
+        assert_eq!(told(WindowEvent::Occluded(true)), Some(InputEvent::Hidden));
+        assert_eq!(told(WindowEvent::Occluded(false)), Some(InputEvent::Shown));
+        assert_eq!(told(WindowEvent::CloseRequested), Some(InputEvent::CloseRequested));
+        assert_eq!(told(WindowEvent::Focused(false)), Some(InputEvent::FocusLost));
+        assert_eq!(told(WindowEvent::Focused(true)), None, "nothing is to be done");
+        assert_eq!(told(WindowEvent::RedrawRequested), None, "the session knows when to draw");
+        let control = if cfg!(target_os = "macos") { ModifiersState::SUPER } else { ModifiersState::CONTROL };
+        let modifiers = WindowEvent::ModifiersChanged(control.into());
+        assert_eq!(told(modifiers), Some(InputEvent::Modifiers(Modifiers::CTRL)));
+    }
+
+    #[test]
+    fn every_named_key_has_its_name() {
+        let named = [
+            (NamedKey::Enter, Key::Enter),
+            (NamedKey::Escape, Key::Escape),
+            (NamedKey::Tab, Key::Tab),
+            (NamedKey::Space, Key::Space),
+            (NamedKey::Backspace, Key::Backspace),
+            (NamedKey::Delete, Key::Delete),
+            (NamedKey::Home, Key::Home),
+            (NamedKey::End, Key::End),
+            (NamedKey::PageUp, Key::PageUp),
+            (NamedKey::PageDown, Key::PageDown),
+            (NamedKey::ArrowLeft, Key::Left),
+            (NamedKey::ArrowRight, Key::Right),
+            (NamedKey::ArrowUp, Key::Up),
+            (NamedKey::ArrowDown, Key::Down),
+            (NamedKey::ContextMenu, Key::Menu),
+            (NamedKey::F1, Key::Function(1)),
+            (NamedKey::F7, Key::Function(7)),
+        ];
+        for (theirs, ours) in named {
+            assert_eq!(logical_key(&keyboard::Key::Named(theirs)), Some(ours));
+        }
+        assert_eq!(named_key(NamedKey::CapsLock), None, "it is no key of ours");
+        assert_eq!(logical_key(&keyboard::Key::Dead(None)), None);
+    }
+
+    #[test]
+    fn places_are_those_of_a_keyboard_of_the_us() {
+        use keyboard::KeyCode as Code;
+        let foreign = keyboard::Key::Character("\u{439}".into());
+        let place = |code| physical_key(PhysicalKey::Code(code), &foreign);
+        for (code, letter) in [(Code::KeyA, 'a'), (Code::KeyM, 'm'), (Code::KeyZ, 'z'), (Code::Digit0, '0')] {
+            assert_eq!(place(code), Some(Key::Character(letter)));
+        }
+        assert_eq!(place(Code::Semicolon), None, "it is no letter");
+        for (code, typed) in [
+            (Code::Numpad0, '0'),
+            (Code::Numpad9, '9'),
+            (Code::NumpadAdd, '+'),
+            (Code::NumpadSubtract, '-'),
+            (Code::NumpadMultiply, '*'),
+            (Code::NumpadDivide, '/'),
+        ] {
+            assert_eq!(pad_key(PhysicalKey::Code(code)), Some(Key::Numpad(typed)));
+            assert_eq!(place(code), Some(Key::Character(typed)), "{typed} stands for the row's");
+        }
+    }
 }

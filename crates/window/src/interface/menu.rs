@@ -45,3 +45,29 @@ fn entries(ui: &mut Ui, keymap: &Keymap) -> Option<Binding> {
     }
     chosen
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stage::Menu;
+    use egui::{Rect, Vec2};
+    use trigon_math::DVec2;
+
+    #[test]
+    fn a_menu_opens_where_it_was_asked_for_on_any_screen() {
+        for points in [1.0, 2.0] {
+            let (context, mut stage) = (Context::default(), Stage::new("test"));
+            stage.menu = Some(Menu { asked: Some(DVec2::new(101.0, 60.0)), at: None });
+            context.set_pixels_per_point(points);
+            let screen_rect = Some(Rect::from_min_size(egui::Pos2::ZERO, Vec2::splat(4000.0)));
+            for _ in 0..2 {
+                let input = egui::RawInput { screen_rect, ..egui::RawInput::default() };
+                let _ = context.run_ui(input, |ui| {
+                    assert!(show(ui.ctx(), &mut stage).is_none(), "nothing is chosen");
+                });
+            }
+            let at = stage.menu.expect("it stays open").at;
+            assert_eq!(at, Some(pos2(101.0 / points, 60.0 / points)), "{points} pixels to a point");
+        }
+    }
+}

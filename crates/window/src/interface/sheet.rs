@@ -16,6 +16,29 @@ const WIDEST: f32 = 440.0;
 /// What the window takes beside the columns: its frame, title and search, in points.
 const BESIDE: egui::Vec2 = vec2(48.0, 104.0);
 
+/// Between two columns, in points.
+const GAP: f32 = 16.0;
+
+/// How the list fills an area, in points.
+struct Fit {
+    /// Of all columns.
+    size: egui::Vec2,
+    columns: u16,
+    /// Of a column.
+    width: f32,
+    /// Of a key or a description, which share a column.
+    cell: f32,
+}
+
+impl Fit {
+    fn new(free: egui::Vec2) -> Self {
+        let size = (free - BESIDE).max(vec2(200.0, 40.0));
+        let columns = ((size.x / COLUMN) as u16).clamp(1, 3);
+        let width = (size.x / f32::from(columns) - GAP).min(WIDEST);
+        Self { size, columns, width, cell: (width - 16.0) / 2.0 }
+    }
+}
+
 /// Shows the list if it is visible, in the area that no panel covers. Returns the selected command.
 pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<Binding> {
     if stage.cheat_sheet == Visibility::Hidden {
@@ -25,7 +48,7 @@ pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<B
     let mut chosen = None;
     let window = Window::new("Keys and commands").open(&mut open).collapsible(false).fade_in(false);
     let window = window.anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0));
-    let size = (free.size() - BESIDE).max(vec2(200.0, 40.0));
+    let Fit { size, columns: count, width, cell } = Fit::new(free.size());
     window.auto_sized().constrain_to(free).show(context, |ui| {
         ui.set_max_width(size.x);
         let search = TextEdit::singleline(&mut stage.command_search).hint_text("search");
@@ -39,9 +62,6 @@ pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<B
         // Rows below the last visible one are not noticed without a bar.
         ui.style_mut().spacing.scroll = egui::style::ScrollStyle::solid();
         ScrollArea::vertical().max_height(size.y).show(ui, |ui| {
-            let count = ((size.x / COLUMN) as u16).clamp(1, 3);
-            let width = (size.x / f32::from(count) - 16.0).min(WIDEST);
-            let cell = (width - 16.0) / 2.0;
             ui.horizontal_top(|ui| {
                 for (number, column) in columns(&rows, count.into()).into_iter().enumerate() {
                     ui.push_id(number, |ui| {
@@ -119,6 +139,23 @@ fn line(ui: &mut egui::Ui, row: &SheetRow) -> Option<Binding> {
 mod tests {
     use super::*;
     use crate::keymap::Keymap;
+
+    #[test]
+    fn as_many_columns_are_shown_as_fit_and_none_is_too_narrow() {
+        for free in (150..2500).map(|width| vec2(width as f32, 700.0)) {
+            let Fit { size, columns, width, cell } = Fit::new(free);
+            assert_eq!(size, vec2((free.x - 48.0).max(200.0), 596.0), "{free}: all but the frame");
+            let count = f32::from(columns);
+            assert!((1..=3).contains(&columns), "{free}: {columns}");
+            assert!(columns == 1 || size.x / count >= 360.0, "{free}: {columns} columns are narrow");
+            assert!(columns == 3 || size.x / (count + 1.0) < 360.0, "{free}: one more would fit");
+            let used = count * (width + 16.0);
+            assert!(used <= size.x + 0.01, "{free}: {used} with gaps");
+            assert!(width == 440.0 || (width < 440.0 && used > size.x - 0.01), "{free}: all is used");
+            assert!((2.0 * cell + 16.0 - width).abs() < 1e-3, "{free}: two cells to a column");
+        }
+        assert_eq!(Fit::new(vec2(100.0, 100.0)).size, vec2(200.0, 40.0), "room for a few lines");
+    }
 
     #[test]
     fn columns_hold_every_row_once_and_are_about_as_long() {

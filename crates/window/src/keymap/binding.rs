@@ -184,3 +184,6 @@ impl Keymap {
         possible.max_by_key(|click| click.modifiers.count()).map(|click| click.action)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -198,6 +198,22 @@ fn the_overlay_waits_for_no_image() {
 }
 
 #[test]
+fn no_image_is_begun_while_another_is_drawn_for_a_file() {
+    for (change, frames) in
+        [(Change::Settled, Frames::None), (Change::Moving, Frames::None), (Change::Settled, Frames::Wanted)]
+    {
+        let mut pacing = rested(ms(50));
+        pacing.occupy(Some(ms(900)));
+        pacing.changed(change, ms(1000));
+        assert_eq!(begin(&mut pacing, ms(1000), frames), None, "{change:?}: it waits");
+        assert_eq!(pacing.next(ms(1020), frames, None), Wake::At(ms(1900)), "{change:?}: to tell a second");
+        pacing.occupy(None);
+        assert_eq!(pacing.next(ms(1020), frames, None), Wake::Now, "{change:?}: and then its turn comes");
+        assert!(begin(&mut pacing, ms(1020), frames).is_some(), "{change:?}: at once");
+    }
+}
+
+#[test]
 fn full_images_that_nobody_will_see_are_useless_and_drafts_are_not() {
     let mut pacing = rested(ms(50));
     pacing.changed(Change::Moving, ms(1000));

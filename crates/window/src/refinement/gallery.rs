@@ -93,3 +93,48 @@ impl Gallery {
         self.settings.as_ref().map(|_| self.report)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DRAFT: Quality = Quality::Draft { shrink: 2.0 };
+
+    /// Adds an image of that width, which took as many milliseconds.
+    fn add(gallery: &mut Gallery, quality: Quality, width: u32) {
+        let frame = Arc::new(Frame { width, ..Frame::default() });
+        let shown = Shown { frame, views: Camera::default().into(), nodes: Arc::default() };
+        gallery.add(quality, shown, Duration::from_millis(width.into()));
+    }
+
+    /// The widths of what is shown instead of the settings' image, the best one and the difference.
+    fn widths(gallery: &Gallery) -> [Option<u32>; 3] {
+        [Wanted::Settings, Wanted::Best, Wanted::Difference]
+            .map(|wanted| gallery.shown(wanted).map(|frame| frame.width))
+    }
+
+    #[test]
+    fn the_report_has_the_times_of_both_images() {
+        let (ms, mut gallery) = (Duration::from_millis, Gallery::default());
+        assert_eq!((gallery.report(), widths(&gallery)), (None, [None; 3]), "there is no image");
+        add(&mut gallery, DRAFT, 3);
+        assert_eq!((gallery.report(), widths(&gallery)), (None, [Some(3); 3]), "a draft is not timed");
+        for settings in [20, 30] {
+            add(&mut gallery, Quality::Full(0), settings);
+            let report = QualityReport { settings: ms(settings.into()), ..QualityReport::default() };
+            assert_eq!(gallery.report(), Some(report), "without a better one");
+            assert_eq!(widths(&gallery), [Some(settings); 3], "it is the best there is");
+            for best in [70, 900] {
+                add(&mut gallery, Quality::Full(2), best);
+                let report = QualityReport { best: Some(ms(best.into())), ..report };
+                assert_eq!(gallery.report(), Some(report), "the last one's time");
+                assert_eq!(widths(&gallery), [settings, best, settings].map(Some), "each where it is wanted");
+            }
+            let pair = gallery.pair().expect("there are both").map(|frame| frame.width);
+            assert_eq!(pair, [settings, 900], "to be compared");
+        }
+        add(&mut gallery, DRAFT, 4);
+        assert_eq!((gallery.report(), widths(&gallery)), (None, [Some(4); 3]), "of another state");
+        assert!(gallery.pair().is_none(), "nothing to compare");
+    }
+}

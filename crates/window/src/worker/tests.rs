@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use super::gate::Gate;
 use super::{
-    Cancel, Drawer, Finished, Frame, Job, Product, Purpose, Quality, RenderSettings, Scene, Task, Unfinished,
-    Worker,
+    Cancel, Drawer, Finished, Frame, Job, Outputs, Product, Purpose, Quality, RenderSettings, Scene,
+    StageTimes, Task, Unfinished, Worker,
 };
 use crate::shared_scene::{SceneUpdate, SharedScene};
 use crate::stage::Visibility;
@@ -140,6 +140,31 @@ fn nobody_waits_for_the_last_tiles_of_what_was_only_better() {
     assert_eq!(found.width, 8, "with the next one, and not with what was given up");
 }
 
+/// Draws an image of some size with so many bytes of colours.
+struct Odd([u32; 2], usize);
+
+impl Drawer for Odd {
+    fn draw(&self, _: &Scene, _: &Camera, _: &RenderSettings, _: &Cancel) -> Result<Frame, String> {
+        let [width, height] = self.0;
+        Ok(Frame { width, height, color: vec![7; self.1], ..Frame::default() })
+    }
+}
+
+#[test]
+fn images_of_other_sizes_and_without_all_colours_are_refused() {
+    for (size, bytes, is_drawn) in [
+        ([8, 8], 256, true),
+        ([7, 8], 256, false),
+        ([8, 9], 256, false),
+        ([8, 8], 252, false),
+        ([8, 8], 0, false),
+    ] {
+        let mut worker = Worker::of_caller();
+        worker.begin(drawn_by(Odd(size, bytes)));
+        assert_eq!(image(&mut worker).is_some(), is_drawn, "{size:?} with {bytes} bytes");
+    }
+}
+
 /// Draws an image of some size, or refuses.
 struct Other(Result<u32, String>);
 
@@ -166,6 +191,103 @@ fn other_drawers_are_heard_and_not_trusted() {
     };
     assert_eq!(reason(product(Other(Err("not convex".into())))), "not convex", "its reason");
     assert!(reason(product(Other(Ok(3)))).contains("3x3"), "an image of the wrong size is none");
+}
+
+/// Draws something that is not the scene, with depths and ids of its own.
+struct Elsewhere;
+
+impl Drawer for Elsewhere {
+    fn draw(&self, _: &Scene, _: &Camera, _: &RenderSettings, _: &Cancel) -> Result<Frame, String> {
+        let mut settings = RenderSettings::new(8, 8);
+        settings.outputs = Outputs { depth: true, ids: true, ..settings.outputs };
+        let other = showcase();
+        render(&other, &other.overview(1.0), &settings).map_err(|error| error.to_string())
+    }
+
+    fn shows_scene(&self) -> bool {
+        false
+    }
+}
+
+#[test]
+fn nothing_can_be_picked_in_an_image_that_does_not_show_the_scene() {
+    let mut worker = Worker::of_caller();
+    worker.begin(drawn_by(Elsewhere));
+    let frame = image(&mut worker).expect("drawn");
+    assert_eq!(frame.color.len(), 4 * 8 * 8, "its colours");
+    assert!(frame.depth.is_none(), "no distance");
+    assert!(frame.object_ids.is_none() && frame.face_ids.is_none(), "no object and no face");
+}
+
+/// Draws grey, perhaps with depths and ids of its own.
+struct Grey {
+    has_own: bool,
+}
+
+impl Drawer for Grey {
+    fn draw(&self, _: &Scene, _: &Camera, settings: &RenderSettings, _: &Cancel) -> Result<Frame, String> {
+        let RenderSettings { width, height, .. } = *settings;
+        let pixels = (width * height) as usize;
+        let ids = self.has_own.then(|| vec![3; pixels]);
+        Ok(Frame {
+            width,
+            height,
+            color: vec![7; 4 * pixels],
+            depth: self.has_own.then(|| vec![5.0; pixels]),
+            object_ids: ids.clone(),
+            face_ids: ids,
+            ..Frame::default()
+        })
+    }
+}
+
+/// An image by it, with these outputs and four samples per pixel.
+fn grey(has_own: bool, outputs: Outputs) -> Frame {
+    let mut job = drawn_by(Grey { has_own });
+    if let Task::Draw { settings, .. } = &mut job.task {
+        (settings.outputs, settings.samples_per_axis) = (outputs, 2);
+    }
+    let mut worker = Worker::of_caller();
+    worker.begin(job);
+    image(&mut worker).expect("drawn")
+}
+
+#[test]
+fn what_others_draw_gets_ids_unless_it_has_its_own() {
+    let mut scene = Scene::new();
+    scene.add_object("cube", primitives::cube(1.0), Material::default());
+    let all = Outputs { depth: true, ids: true, ..Outputs::default() };
+    let settings = RenderSettings { samples_per_axis: 1, outputs: all, ..RenderSettings::new(8, 8) };
+    let expected = render(&scene, &scene.overview(1.0), &settings).expect("drawn");
+    let found = grey(false, all);
+    assert!(found.color.iter().all(|&byte| byte == 7), "its colours");
+    assert!(found.object_ids.is_some() && found.object_ids == expected.object_ids, "the renderer's ids");
+    assert!(found.face_ids == expected.face_ids && found.depth == expected.depth);
+    let own = grey(true, all);
+    assert_eq!((own.object_ids, own.face_ids), (Some(vec![3; 64]), Some(vec![3; 64])), "its own");
+    assert_eq!(own.depth, Some(vec![5.0; 64]));
+    assert_eq!(grey(false, Outputs { ids: false, ..all }).object_ids, None, "nobody asked for any");
+}
+
+#[test]
+fn what_a_dropped_worker_was_drawing_is_cancelled() {
+    let (begun, has_begun) = channel();
+    let mut worker = Worker::of_runs(
+        || {},
+        || {
+            let begun = begun.clone();
+            move |Job { purpose, views, .. }, cancel: &Cancel| {
+                begun.send(cancel.clone()).expect("the test waits for it");
+                let product = Err(Unfinished::Cancelled);
+                Finished { purpose, views, took: Duration::ZERO, stages: StageTimes::default(), product }
+            }
+        },
+    );
+    worker.begin(job(8));
+    let cancel = has_begun.recv().expect("it has begun");
+    assert!(!cancel.is_cancelled(), "somebody waits for it");
+    drop(worker);
+    assert!(cancel.is_cancelled(), "and now nobody does");
 }
 
 /// Draws what it is given, once the gate is open, and tells that it has begun.

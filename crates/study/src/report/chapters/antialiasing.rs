@@ -20,7 +20,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         let error = way.error(star, &right);
         let row =
             Row::new(CASE, way.name()).sized([side; 2]).with(RMSE, error.rmse()).with(WORST, error.worst);
-        row.with(DELTA_E, error.delta_e()).timed(TIME, time.scaled(1.0 / (side * side) as f64))
+        row.with(DELTA_E, error.delta_e()).timed(TIME, time.per(side * side))
     };
     let rows: Vec<Row> = AntiAliasing::ALL.into_iter().zip(times).map(row).collect();
     Chapter {

@@ -20,7 +20,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     let row = |(mixing, time): (Mixing, Spread)| {
         let error = mixing.error();
         let row = Row::new(CASE, mixing.name()).with(WORST, error.worst).with(DELTA_E, error.delta_e());
-        row.timed(TIME, time.scaled(1.0 / 65536.0))
+        row.timed(TIME, time.per(256 * 256))
     };
     let rows: Vec<Row> = Mixing::ALL.into_iter().zip(times).map(row).collect();
     Chapter {

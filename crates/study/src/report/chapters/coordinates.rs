@@ -16,7 +16,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     });
     let row = |offset: f64, (way, time): (Coordinates, &Spread)| {
         let row = Row::new(case(offset), way.name()).with(ERROR, way.worst_error(offset));
-        row.timed(TIME, time.scaled(1.0 / (RUNS * POINTS) as f64))
+        row.timed(TIME, time.per(RUNS * POINTS))
     };
     let rows: Vec<Row> = offsets
         .iter()

@@ -67,7 +67,7 @@ fn on_road(effort: Effort) -> Vec<Row> {
     let times = nanoseconds(effort.rounds(), &DepthFormat::ALL, |format| road.repeated(format));
     let row = |(format, time): (DepthFormat, Spread)| {
         let row = Row::new(ROAD, format.name()).sized(road.size());
-        row.with(SHOWN, road.wrong_per_mille(format)).timed(PIXEL, time.scaled(1.0 / (width * height) as f64))
+        row.with(SHOWN, road.wrong_per_mille(format)).timed(PIXEL, time.per(width * height))
     };
     DepthFormat::ALL.into_iter().zip(times).map(row).collect()
 }
@@ -91,7 +91,7 @@ fn row(distance: f64, format: DepthFormat, time: Spread) -> Row {
         .with(WRONG, misordered_per_mille(format, distance, 1e-4))
         .with(RESOLVED, resolved_separation(format, distance))
         .with(BYTES, format.bytes() as f64)
-        .timed(TIME, time.scaled(1e-5))
+        .timed(TIME, time.per(100_000))
 }
 
 pub(super) fn headlines() -> Vec<Headline> {

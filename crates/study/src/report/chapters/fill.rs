@@ -65,7 +65,7 @@ fn of_case(case: Case, effort: Effort) -> Vec<Row> {
             .with(WRONG, errors.wrong_per_mille())
             .with(GAPS, per_mille(errors.gaps))
             .with(DOUBLES, per_mille(errors.doubles))
-            .timed(TIME, time.scaled(1.0 / triangles.len() as f64))
+            .timed(TIME, time.per(triangles.len()))
     };
     Fill::ALL.iter().zip(times).map(row).collect()
 }
@@ -93,7 +93,7 @@ fn growth(effort: Effort) -> Vec<(String, Vec<[f64; 2]>)> {
         let triangles = tiles(512, square, 1.0 / 256.0, 1);
         let times = times_of(&FILLS, &triangles, 512, effort);
         for ((_, line), time) in lines.iter_mut().zip(times) {
-            line.push([square, time.median / triangles.len() as f64]);
+            line.push([square, time.per(triangles.len()).median]);
         }
     }
     lines
@@ -121,7 +121,7 @@ fn image() -> ImageRow {
     ImageRow::new("errors", caption, fills.map(panel).to_vec())
 }
 
-fn findings(rows: &[Row]) -> Vec<String> {
+pub(super) fn findings(rows: &[Row]) -> Vec<String> {
     let [tiles, fan, lattice] = [Case::Tiles, Case::Fan, Case::Lattice].map(Case::name);
     let of = |case: &str, fill: Fill, quantity: &str| value(rows, case, fill.name(), quantity);
     let [float, exact] = [Fill::FloatFromCorners, Fill::Fixed8];
@@ -156,4 +156,27 @@ pub(super) fn headlines() -> Vec<Headline> {
             .meaning("The engine also sorts triangles into tiles and tests depth."),
         tiles([Fill::EdgesOnScreen, Fill::EdgesInBox]).meaning("The bounding box changes no pixel."),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Corners are on half pixels, so the engine is exact: each pixel has its owner's colour, darker.
+    #[test]
+    fn what_was_painted_by_its_owner_is_dark() {
+        let triangles = Case::Lattice.triangles(64, 2);
+        let owners = owners(&triangles, [64; 2]);
+        let panels = image().panels;
+        let engine = panels.last().expect("the engine's");
+        for (place, &owner) in owners.pixels() {
+            assert_eq!(engine[place], tint(owner).map(|part| part / 3), "{place:?}");
+        }
+        let count = |panel: usize, color: [u8; 3]| {
+            panels[panel].values().iter().filter(|&&found| found == color).count()
+        };
+        let (white, red) = ([255; 3], [230, 50, 40]);
+        assert!(count(0, red) > 100 && count(0, white) == 0, "strips take in all pixels at their ends");
+        assert!(count(3, red) > 10 && count(3, white) == 0, "inclusive edges paint shared pixels twice");
+    }
 }

@@ -31,8 +31,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     let size = effort.pick([120, 72], [480, 288]);
     let mut rows: Vec<Row> = Case::ALL.into_iter().flat_map(|case| front(case, size, effort)).collect();
     rows.extend(means(&rows, size));
-    let fronts: Vec<&str> = Case::ALL.into_iter().map(Case::name).chain([MEANS]).collect();
-    fronts.iter().for_each(|case| leave_out_what_is_beaten(&mut rows, case));
+    leave_out_what_is_beaten(&mut rows);
     rows.extend(Case::ALL.map(|case| flight(case, size, effort)));
     rows.extend(levels(size, effort));
     rows.extend(proofs(effort));
@@ -54,7 +53,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
             .zip(Case::ALL)
             .map(plot)
             .collect(),
-        images: vec![heat_image()],
+        images: vec![heat_image([256, 160])],
         rows,
     }
 }
@@ -78,14 +77,16 @@ fn front(case: Case, size: [u32; 2], effort: Effort) -> Vec<Row> {
     variants.iter().zip(errors).zip(times).map(row).collect()
 }
 
-/// Keeps only qualities on the front and presets in tables and plots.
-fn leave_out_what_is_beaten(rows: &mut [Row], case: &str) {
+/// Keeps only qualities on the front of each scene and presets in tables and plots.
+pub(super) fn leave_out_what_is_beaten(rows: &mut [Row]) {
     let point = |row: &Row| Some([row.value(TIME)?, row.value(RMSE)?]);
-    let points: Vec<[f64; 2]> = rows.iter().filter(|row| row.case == case).filter_map(point).collect();
-    let is_beaten = |[x, y]: [f64; 2]| points.iter().any(|&[u, v]| u <= x && v <= y && [u, v] != [x, y]);
-    for row in rows.iter_mut().filter(|row| row.case == case) {
-        let is_preset = row.variant.ends_with(')');
-        row.is_listed = is_preset || !point(row).is_some_and(is_beaten);
+    for case in Case::ALL.into_iter().map(Case::name).chain([MEANS]) {
+        let points: Vec<[f64; 2]> = rows.iter().filter(|row| row.case == case).filter_map(point).collect();
+        let is_beaten = |[x, y]: [f64; 2]| points.iter().any(|&[u, v]| u <= x && v <= y && [u, v] != [x, y]);
+        for row in rows.iter_mut().filter(|row| row.case == case) {
+            let is_preset = row.variant.ends_with(')');
+            row.is_listed = is_preset || !point(row).is_some_and(is_beaten);
+        }
     }
 }
 
@@ -96,7 +97,7 @@ fn whole(case: &str, variant: impl Into<String>, size: [u32; 2]) -> Row {
 }
 
 /// Each quality over all scenes.
-fn means(rows: &[Row], size: [u32; 2]) -> Vec<Row> {
+pub(super) fn means(rows: &[Row], size: [u32; 2]) -> Vec<Row> {
     let mean = |variant: &str, quantity: &str| {
         let values = Case::ALL.map(|case| value(rows, case.name(), variant, quantity));
         elementary::pow(values.iter().product(), 1.0 / values.len() as f64)
@@ -182,10 +183,9 @@ fn proofs(effort: Effort) -> Vec<Row> {
 }
 
 /// The presets on the scene with shadows, and where each is wrong.
-fn heat_image() -> ImageRow {
-    const SIZE: [u32; 2] = [256, 160];
+fn heat_image(size: [u32; 2]) -> ImageRow {
     let draw = |preset: Preset| {
-        let mut repeated = Repeated::new(Case::Shadows, SIZE, preset.quality());
+        let mut repeated = Repeated::new(Case::Shadows, size, preset.quality());
         repeated.draw(0.0).map(|frame| frame.color.clone()).unwrap_or_default()
     };
     let best = draw(Preset::Reference);
@@ -196,7 +196,7 @@ fn heat_image() -> ImageRow {
             / 3.0
     };
     let field = |pixel: &dyn Fn(usize) -> [u8; 3]| {
-        Field::from_fn(SIZE.map(|side| side as usize), |[x, y]| pixel(y * SIZE[0] as usize + x))
+        Field::from_fn(size.map(|side| side as usize), |[x, y]| pixel(y * size[0] as usize + x))
     };
     let mut panels = vec![field(&|at| [best[4 * at], best[4 * at + 1], best[4 * at + 2]])];
     for preset in [Preset::Draft, Preset::Standard, Preset::High] {
@@ -207,7 +207,7 @@ fn heat_image() -> ImageRow {
     ImageRow::new("presets", caption, panels)
 }
 
-fn findings(rows: &[Row]) -> Vec<String> {
+pub(super) fn findings(rows: &[Row]) -> Vec<String> {
     let flight = |case: Case, quantity: &str| number(value(rows, FLIGHT, case.name(), quantity));
     let list = |quantity: &str| Case::ALL.map(|case| flight(case, quantity)).join(", ");
     let certified = [Workload::KnotPhong, Workload::Cubes]
@@ -261,4 +261,39 @@ pub(super) fn headlines() -> Vec<Headline> {
         proven(Workload::KnotPhong),
         proven(Workload::Cubes),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An image of a preset, drawn on its own.
+    fn drawn(preset: Preset, size: [u32; 2]) -> Vec<u8> {
+        let mut repeated = Repeated::new(Case::Shadows, size, preset.quality());
+        repeated.draw(0.0).expect("the size is in range").color.clone()
+    }
+
+    #[test]
+    fn presets_are_shown_with_five_times_their_error() {
+        let panels = heat_image([12, 8]).panels;
+        assert_eq!(panels.len(), 4, "the reference and three presets");
+        let best = drawn(Preset::Reference, [12, 8]);
+        let light = |color: &[u8]| {
+            let channels = [color[0], color[1], color[2]].map(trigon_math::color::srgb8_to_linear);
+            f64::from(channels[0]) + f64::from(channels[1]) + f64::from(channels[2])
+        };
+        let mut wrong = 0;
+        for (preset, panel) in [Preset::Draft, Preset::Standard, Preset::High].into_iter().zip(&panels[1..]) {
+            let color = drawn(preset, [12, 8]);
+            for (i, (found, right)) in color.chunks(4).zip(best.chunks(4)).enumerate() {
+                let place = [i % 12, i / 12];
+                assert_eq!(panels[0][place], right[..3], "the reference at {place:?}");
+                let error = (light(found) - light(right)).abs() / 3.0;
+                let differs = panel[place].into_iter().zip(heat(5.0 * error)).map(|(a, b)| a.abs_diff(b));
+                assert!(differs.max() <= Some(1), "{preset:?} at {place:?}");
+                wrong += usize::from(panel[place] != [0; 3]);
+            }
+        }
+        assert!(wrong > 10, "no preset is the reference: {wrong} pixels");
+    }
 }

@@ -12,12 +12,12 @@ const CASE: &str = "a wall of two triangles";
 pub(super) fn measure(effort: Effort) -> Chapter {
     let width = effort.pick(320, 640);
     let (wall, size) = (&Wall::new(width), [width, width * 3 / 4]);
-    let pixels = Interpolation::Affine.draw(wall).values().iter().flatten().count() as f64;
+    let pixels = Interpolation::Affine.draw(wall).values().iter().flatten().count();
     let times = nanoseconds(effort.rounds(), &Interpolation::ALL, |way| way.repeated(wall));
     let row = |(way, time): (Interpolation, Spread)| {
         let errors = way.errors(wall);
         let row = Row::new(CASE, way.name()).sized(size).with(RMS, errors.rms).with(WORST, errors.worst);
-        row.timed(TIME, time.scaled(1.0 / pixels))
+        row.timed(TIME, time.per(pixels))
     };
     let rows: Vec<Row> = Interpolation::ALL.into_iter().zip(times).map(row).collect();
     Chapter {

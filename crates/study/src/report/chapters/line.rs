@@ -40,7 +40,7 @@ fn of_lines(effort: Effort) -> Vec<Row> {
         let row = Row::new(CASE, line.name()).sized(SIZE).with(RMSE, errors.rmse());
         let is_sharp = ![Line::Wu, Line::EngineSmooth].contains(&line);
         let row = if is_sharp { row.with(WRONG, errors.wrong_per_mille()) } else { row };
-        row.timed(TIME, time.scaled(1.0 / (lines.len() as f64 * f64::from(RADIUS))))
+        row.timed(TIME, time.per(lines.len() * RADIUS as usize))
     };
     Line::ALL.iter().zip(times).map(row).collect()
 }
@@ -89,7 +89,7 @@ pub(super) fn headlines() -> Vec<Headline> {
     ]
 }
 
-fn findings(rows: &[Row]) -> Vec<String> {
+pub(super) fn findings(rows: &[Row]) -> Vec<String> {
     let of = |line: Line, quantity: &str| value(rows, CASE, line.name(), quantity);
     let outside = |outline: Outline| number(value(rows, OUTLINES, outline.name(), OUTSIDE));
     vec![

@@ -25,6 +25,9 @@ use super::image_row::{ImageRow, grey, heat, tint, tinted};
 use super::plot::Plot;
 use crate::measure::{Spread, interleaved, nanoseconds};
 
+#[cfg(test)]
+mod recorded;
+
 /// The chapters in their order.
 pub(super) const CHAPTERS: [Question; 17] = [
     Question { name: "fill", measure: fill::measure, headlines: fill::headlines },

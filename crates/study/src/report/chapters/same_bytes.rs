@@ -24,7 +24,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
             .with(RMSE, error.rmse())
             .with(WORST, error.worst)
             .with(OTHER, rules.other_bytes_per_mille())
-            .timed(TIME, time.scaled(1.0 / (IMAGES * PIXELS) as f64))
+            .timed(TIME, time.per(IMAGES * PIXELS))
     };
     Chapter {
         name: "same-bytes",

@@ -15,7 +15,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         (1..=4).map(|subdivisions| (case(subdivisions), Ball::new(side, subdivisions))).collect();
     let mut rows = Vec::new();
     for (name, ball) in &cases {
-        let pixels = Shading::Flat.draw(ball).values().iter().flatten().count() as f64;
+        let pixels = Shading::Flat.draw(ball).values().iter().flatten().count();
         let times = nanoseconds(effort.rounds(), &Shading::ALL, |shading| shading.repeated(ball));
         for (shading, time) in Shading::ALL.into_iter().zip(times) {
             let error = shading.error(ball);
@@ -23,7 +23,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
                 .sized([side; 2])
                 .with(RMSE, error.rmse())
                 .with(WORST, error.worst);
-            rows.push(row.with(DELTA_E, error.delta_e()).timed(TIME, time.scaled(1.0 / pixels)));
+            rows.push(row.with(DELTA_E, error.delta_e()).timed(TIME, time.per(pixels)));
         }
     }
     Chapter {

@@ -25,7 +25,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     let row = |(shadow, (ready, time)): (Shadow, (Spread, Spread))| {
         let row = Row::new(CASE, shadow.name()).sized([side; 2]);
         row.with(RMSE, error(&draw(side, &*shadow.ready()), &right).rmse())
-            .timed(TIME, time.scaled(1.0 / (side * side) as f64))
+            .timed(TIME, time.per(side * side))
             .timed(READY, ready.scaled(1e-6))
     };
     let mut rows: Vec<Row> = Shadow::ALL.into_iter().zip(ready.into_iter().zip(times)).map(row).collect();
@@ -62,8 +62,7 @@ fn of_engine(side: usize, right: &Field<f64>, effort: Effort) -> Vec<Row> {
         let mut drawer = Drawer::new(shadows, side);
         drawer.draw();
         let row = Row::new(CASE, name).sized([side; 2]);
-        row.with(RMSE, error(&drawer.light(), right).rmse())
-            .timed(TIME, time.scaled(1.0 / (side * side) as f64))
+        row.with(RMSE, error(&drawer.light(), right).rmse()).timed(TIME, time.per(side * side))
     };
     ENGINE.into_iter().zip(times).map(row).collect()
 }

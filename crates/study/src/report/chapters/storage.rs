@@ -60,10 +60,9 @@ fn of_ball(ball: &Triangles, effort: Effort) -> Vec<Row> {
             let (storage, repeats) = (&*made[index], repeats(reads[index]));
             Box::new(move || (0..repeats).for_each(|_| ask(storage)))
         });
-        let share = 1.0 / asked.len() as f64;
         for ((row, time), reads) in rows.iter_mut().zip(times).zip(reads) {
-            let time = time.scaled(share / f64::from(repeats(reads)));
-            *row = row.clone().timed(time_name, time).with(reads_name, reads as f64 * share);
+            let time = time.per(asked.len() * repeats(reads) as usize);
+            *row = row.clone().timed(time_name, time).with(reads_name, reads as f64 / asked.len() as f64);
         }
     }
     rows
@@ -93,7 +92,7 @@ fn walk(storage: &dyn Storage, _: &Triangles, vertex: u32) {
     black_box(storage.neighbours(vertex));
 }
 
-fn findings() -> Vec<String> {
+pub(super) fn findings() -> Vec<String> {
     vec![
         "Source D rejects vertex lists and face lists for want of edges, and winged edges as redundant.".to_owned(),
         "Faces with edges have no way from a vertex to its faces. An editor that drags vertices of large meshes derives it \
@@ -112,4 +111,36 @@ pub(super) fn headlines() -> Vec<Headline> {
         large([own, faces], PICK),
         large([own, corners], MOVE),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_are_those_of_one_question() {
+        let ball = Triangles::ball(1);
+        let rows = of_ball(&ball, Effort::Once);
+        let of = |way: &str, quantity: &str| value(&rows, &case(80), way, quantity);
+        // A face of theirs is three indices.
+        assert_eq!(of("face lists", PICK_READS), 3.0, "the edge nearest to a point on a face");
+        // Theirs are the neighbours of each vertex, so each of 120 edges is two indices.
+        assert_eq!(of("vertex lists", PICK_READS), 240.0, "all edges, without faces");
+        // 80 faces have 42 vertices of 12 bytes, and three indices each.
+        let least = (42.0 * 12.0 + 80.0 * 12.0) / 80.0;
+        for way in REPRESENTATIONS {
+            let bytes = of(way.name, BYTES);
+            assert!((least..10.0 * least).contains(&bytes), "{}: {bytes} bytes per face", way.name);
+            let walk = of(way.name, WALK_READS);
+            assert!(walk >= 5.0, "{}: {walk} reads for five or six neighbours", way.name);
+        }
+    }
+
+    #[test]
+    fn what_is_soon_answered_is_asked_again() {
+        let expected = [(0, 1000), (1, 1000), (1 << 15, 32), (1 << 20, 1), (1 << 30, 1)];
+        for (reads, times) in expected {
+            assert_eq!(repeats(reads), times, "{reads} reads");
+        }
+    }
 }

@@ -15,7 +15,7 @@ const CASE: &str = "a checkered floor";
 pub(super) fn measure(effort: Effort) -> Chapter {
     let ground = &Ground::new(effort.pick(256, 512));
     let right = exact(ground);
-    let pixels = right.values().len() as f64;
+    let pixels = right.values().len();
     // The floor without its texture comes first.
     let ways: Vec<Option<TextureFilter>> = [None].into_iter().chain(TextureFilter::ALL.map(Some)).collect();
     let times = nanoseconds(effort.rounds(), &ways, |way| -> Box<dyn FnMut()> {
@@ -25,7 +25,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
             None => drawer.draw_plain(),
         })
     });
-    let times: Vec<Spread> = times.into_iter().map(|time| time.scaled(1.0 / pixels)).collect();
+    let times: Vec<Spread> = times.into_iter().map(|time| time.per(pixels)).collect();
     let plain = Row::new(CASE, "no texture").sized(ground.size()).timed(TIME, times[0]);
     let row = |(filter, &time): (TextureFilter, &Spread)| {
         let error = filter.error(ground, &right);

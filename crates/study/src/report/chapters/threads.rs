@@ -116,3 +116,35 @@ pub(super) fn headlines() -> Vec<Headline> {
     let two = |case: &str| Headline::within(case, ["2", "1"], [TIME]);
     vec![two(THEIRS), two(OURS), two(WORKLOAD)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_fastest_count_of_threads_is_told() {
+        let times = |count: usize, fastest: usize| -> Vec<Spread> {
+            let time = |i: usize| if i == fastest { 1.0 } else { 2.0 + i as f64 };
+            (0..count).map(|i| Spread { low: 0.5, median: time(i), high: 99.0 }).collect()
+        };
+        for fastest in 0..OUR_THREADS.len() {
+            let said = &findings(&times(THREADS.len(), fastest + 1), &times(OUR_THREADS.len(), fastest))[0];
+            let expected =
+                format!("with {} threads, the engine with {}.", THREADS[fastest + 1], OUR_THREADS[fastest]);
+            assert!(said.contains(&expected), "{said}");
+        }
+        assert_eq!([0, 1, 4].map(place), [0.5, 1.0, 4.0], "on a logarithmic axis none is left of one");
+    }
+
+    #[test]
+    fn rows_name_their_threads() {
+        let time = Spread { low: 1e3, median: 2e3, high: 3e3 };
+        let rows = [their_row(0, time), their_row(4, time), our_row(OURS, SQUARE, 4, time)];
+        let names = rows.each_ref().map(|row| (row.variant.as_str(), row.conditions.threads));
+        assert_eq!(names, [("none", 1), ("4", 4), ("4", 4)], "without threads there is one");
+        for row in rows {
+            let value = &row.values[0];
+            assert_eq!((value.value, value.range), (2.0, Some([1.0, 3.0])), "{}: in µs", row.variant);
+        }
+    }
+}

@@ -122,19 +122,22 @@ fn errors_image() -> ImageRow {
 
 /// Hidden lines by Roberts.
 fn lines_image() -> ImageRow {
-    let panel = |case: Case| {
-        let mut ink = Field::new([256; 2], 0.0);
-        let lines = visible_lines(&case.scene(256)).map(|lines| lines.lines).unwrap_or_default();
-        let end = |[x, y, _]: [f64; 3]| [x, y].map(|part| (part / 256.0).floor() as i32);
-        let segments: Vec<_> = lines.into_iter().map(|line| line.map(end)).collect();
-        Line::Wu.paint(&segments, &mut ink);
-        ink.map(|&ink| grey(1.0 - f64::from(ink).min(1.0)))
-    };
+    let panel =
+        |case: Case| drawn(visible_lines(&case.scene(256)).map(|lines| lines.lines).unwrap_or_default());
     let caption = "Hidden lines by Roberts' algorithm: 40 balls, three bodies in a ring, balls that stick in each other";
     ImageRow::new("lines", caption, [Case::Balls, Case::Ring, Case::Crossing].map(panel).to_vec())
 }
 
-fn findings(rows: &[Row], by_time: &Lines) -> Vec<String> {
+/// Lines between points in 1/256 pixel, black on white.
+fn drawn(lines: Vec<[[f64; 3]; 2]>) -> Field<[u8; 3]> {
+    let mut ink = Field::new([256; 2], 0.0);
+    let end = |[x, y, _]: [f64; 3]| [x, y].map(|part| (part / 256.0).floor() as i32);
+    let segments: Vec<_> = lines.into_iter().map(|line| line.map(end)).collect();
+    Line::Wu.paint(&segments, &mut ink);
+    ink.map(|&ink| grey(1.0 - f64::from(ink).min(1.0)))
+}
+
+pub(super) fn findings(rows: &[Row], by_time: &Lines) -> Vec<String> {
     let painter = |case: Case| number(value(rows, case.name(), Visibility::Painter.name(), WRONG));
     vec![
         crossover(by_time),
@@ -184,5 +187,56 @@ fn crossover(by_time: &Lines) -> String {
         }
         (None, Some(last)) => format!("Up to {} triangles the answer does not change.", last[0] * 80.0),
         (None, None) => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_black_where_they_were_found() {
+        let found = drawn(vec![
+            [[10.5, 20.25, 3.0], [70.0, 20.75, -5.0]].map(|point| point.map(|part| part * 256.0)),
+        ]);
+        for (place, &color) in found.pixels() {
+            let is_line = place[1] == 20 && (10..=70).contains(&place[0]);
+            assert_eq!(color, if is_line { [0; 3] } else { [255; 3] }, "{place:?}");
+        }
+    }
+
+    #[test]
+    fn rays_are_faster_from_the_first_count_on_at_which_they_take_less() {
+        let lines = |rays: &[f64]| {
+            let line = |times: &[f64]| (1..).zip(times).map(|(i, &time)| [f64::from(10 * i), time]).collect();
+            vec![
+                (Visibility::Painter.name().to_owned(), line(&[0.0; 3])),
+                (Visibility::TreeRays.name().to_owned(), line(rays)),
+                (Visibility::ZBuffer.name().to_owned(), line(&[1.0, 2.0, 4.0])),
+            ]
+        };
+        // A ball has 80 triangles.
+        assert!(crossover(&lines(&[1.5, 1.9, 3.0])).starts_with("From 1600 triangles on rays"));
+        assert!(crossover(&lines(&[1.5, 2.0, 3.0])).starts_with("From 2400 triangles on rays"));
+        assert_eq!(crossover(&lines(&[1.5, 2.5, 4.0])), "Up to 2400 triangles the answer does not change.");
+        assert_eq!(crossover(&Lines::new()), "", "nothing was measured");
+    }
+
+    #[test]
+    fn growth_has_a_point_for_each_count_of_balls() {
+        let (times, tests) = growth(16, &[2, 4], Effort::Once);
+        assert_eq!(times.len(), Visibility::ALL.len(), "a line for each algorithm");
+        for (name, line) in &times {
+            assert_eq!(line.iter().map(|point| point[0]).collect::<Vec<_>>(), [2.0, 4.0], "{name}");
+        }
+        for (name, line) in &tests {
+            let way = Visibility::ALL.into_iter().find(|way| way.name() == name).expect("it is one of them");
+            for &[count, counted] in line {
+                let scene = balls(16, count as usize, 0.8, 5);
+                let drawing = way.draw(&scene).expect("balls are convex");
+                assert_eq!(counted, drawing.tests as f64, "{name}, {count} balls");
+            }
+        }
+        assert!(tests.len() > 3 && tests.iter().all(|(_, line)| line.len() == 2), "those that count tests");
     }
 }
