@@ -14,7 +14,7 @@ use crate::{FlatFaces, Mesh, MorphTarget, RenderLinks, SkinWeights, Triangulatio
 pub struct RenderMesh {
     /// Metres.
     pub positions: Vec<Vec3>,
-    /// Of unit length.
+    /// Of unit length. None in a mesh of [`RenderMesh::from_flat_mesh`].
     pub normals: Vec<Vec3>,
     /// See [`Attributes::corner_tangents`](crate::Attributes::corner_tangents).
     pub tangents: Option<Vec<Vec4>>,
@@ -48,7 +48,16 @@ impl RenderMesh {
         Self::from_welded(mesh, &normals, &weld(mesh, &normals))
     }
 
-    /// The same, with the data to follow changes of the mesh later; `None` if a pose can deform the
+    /// The same for a mesh whose polygons are all flat, with the normal of each polygon instead of normals of
+    /// vertices: corners at one vertex are welded unless other values differ, where
+    /// [`RenderMesh::from_mesh`] needs a vertex for each corner. `None` if a corner has a normal of its own, a
+    /// polygon is smooth, or a pose can deform the mesh.
+    pub fn from_flat_mesh(mesh: &Mesh) -> Option<(RenderMesh, Vec<Vec3>)> {
+        let normals = mesh.flat_normals()?;
+        Some((Self::from_welded(mesh, &[], &weld(mesh, &[])), normals))
+    }
+
+    /// The same as [`RenderMesh::from_mesh`], with the data to follow changes of the mesh later; `None` if a pose can deform the
     /// mesh, which must be rebuilt after a change.
     pub fn with_links(mesh: &Mesh) -> (RenderMesh, Option<RenderLinks>) {
         let normals = mesh.shading_normals_or_given();
@@ -77,7 +86,7 @@ impl RenderMesh {
         let slot = |&face: &u32| slots.map_or(0, |slots| slots[face as usize]);
         RenderMesh {
             positions: corners.iter().map(position).collect(),
-            normals: pick(normals, corners),
+            normals: if normals.is_empty() { Vec::new() } else { pick(normals, corners) },
             tangents: attributes.corner_tangents.as_ref().map(|tangents| pick(tangents, corners)),
             uv_sets: attributes.uv_sets.iter().map(|set| pick(set, corners)).collect(),
             colors: attributes.corner_colors.as_ref().map(|c| pick(c, corners)),

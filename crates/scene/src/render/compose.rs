@@ -15,7 +15,7 @@ use super::placement::{Eye, Placement};
 use super::prepared_scene::PreparedScene;
 use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles};
 use super::shapes::{Shape, Shapes};
-use super::surface::{BoundMaterial, MaterialContext, Surface};
+use super::surface::{BoundMaterial, Drawn, Illumination, MaterialContext, Surface};
 use super::vertex_list::VertexList;
 use super::wire::{HiddenLine, Wire, WireMarks};
 use crate::display::Display;
@@ -233,6 +233,10 @@ impl<'s> Composer<'s> {
             None => object.geometry,
         };
         let bound = BoundMaterial::new(material, &geometry.columns, &self.context());
+        let geometry = match bound.illumination {
+            Illumination::AtVertices => geometry.with_vertex_normals(object.asset.mesh()),
+            _ => geometry,
+        };
         let draw = Run { slot: run.slot, triangles: run.triangles.clone() };
         let shows_edges = self.shows_edges();
         let masked = matches!(material.alpha_mode, AlphaMode::Mask { .. });
@@ -288,9 +292,12 @@ impl<'s> Composer<'s> {
         's: 'c,
     {
         let shows_edges = self.shows_edges();
-        let triangles = &geometry.triangles[run.triangles.clone()];
-        let mesh = (&geometry.columns, triangles);
-        let pipeline = Surface::<FLAT>::new(mesh, object.place, bound, &self.context());
+        let drawn = Drawn {
+            columns: &geometry.columns,
+            triangles: &geometry.triangles[run.triangles.clone()],
+            faces: &geometry.faces[run.triangles.clone()],
+        };
+        let pipeline = Surface::<FLAT>::new(drawn, object.place, bound, &self.context());
         let flags = shows_edges.then(|| &self.edge_flags(object)[run.triangles.clone()]);
         Box::new(Triangles {
             pipeline,

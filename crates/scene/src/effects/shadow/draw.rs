@@ -12,7 +12,7 @@ use crate::effects::casters::{Caster, Casters};
 use crate::material::{AlphaMode, Material, Shading};
 use crate::render::placement::Eye;
 use crate::render::placement::Rays;
-use crate::render::surface::{BoundMaterial, MaterialContext, Surface};
+use crate::render::surface::{BoundMaterial, Drawn, MaterialContext, Surface};
 use crate::scene::Scene;
 use crate::settings::{Reflection, ShadingModel};
 
@@ -81,16 +81,12 @@ fn shape<'a>(
         to_world: Mat3::IDENTITY,
     };
     let place = eye.place(&caster.shadow.place, &caster.geometry.bounds());
+    let drawn = Drawn { columns, triangles: &[], faces: &[] };
     if masked {
-        Shape::Masked(Surface::new(
-            (columns, &[]),
-            place,
-            BoundMaterial::new(&material, columns, &context),
-            &context,
-        ))
+        Shape::Masked(Surface::new(drawn, place, BoundMaterial::new(&material, columns, &context), &context))
     } else {
         let mut bound = BoundMaterial::new(&material, columns, &context);
         bound.strip();
-        Shape::Whole(Surface::new((columns, &[]), place, bound, &context))
+        Shape::Whole(Surface::new(drawn, place, bound, &context))
     }
 }
