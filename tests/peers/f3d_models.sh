@@ -21,6 +21,8 @@ for levels in 3 5; do
 { "op": "leave_edit_mode" } ] }
 EOF
     for ending in ply stl off obj glb; do
-        "$editor" --quiet --run "$script" --triangulate --accept-losses --output "$folder/smooth$levels.$ending" "$model"
+        # A GLB of the editor holds the polygons, too, unless it is exported with an up axis.
+        "$editor" --quiet --run "$script" --triangulate --accept-losses --up +Y \
+            --output "$folder/smooth$levels.$ending" "$model"
     done
 done

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Draws models with trigon and with F3D in turns, both with one sample for each pixel, and writes for each model the
-# best time and the peak memory of both, and their images side by side.
+# middle, the shortest and the longest time and the peak memory of both, and their images side by side.
 #
 #   tests/peers/f3d_pairs.sh FOLDER [REPETITIONS] MODELS...
 #
@@ -38,9 +38,13 @@ run() {
     shift
     /usr/bin/time -a -o "$into" -f '%e %M' "$@" > /dev/null 2> "$into.said" || echo "$*: $(tail -n 1 "$into.said")" >&2
 }
-best() { grep -E '^[0-9.]+ [0-9]+$' "$1" | sort -n | awk 'NR == 1 { s = $1 } $2 > k { k = $2 } END { printf "%s,%d", s, k / 1024 }'; }
+# The middle, the shortest and the longest time, and the peak of all runs.
+summary() {
+    grep -E '^[0-9.]+ [0-9]+$' "$1" | sort -n | awk '{ s[NR] = $1 } $2 > k { k = $2 }
+        END { printf "%s,%s,%s,%d", s[int((NR + 1) / 2)], s[1], s[NR], k / 1024 }'
+}
 
-echo "model,trigon_s,trigon_MB,f3d_s,f3d_MB"
+echo "model,trigon_s,trigon_least,trigon_most,trigon_MB,f3d_s,f3d_least,f3d_most,f3d_MB"
 for model in "$@"; do
     name=$(basename "$(dirname "$model")")-$(basename "$model" | tr . -)
     ours=$folder/$name.trigon theirs=$folder/$name.f3d
@@ -54,7 +58,7 @@ for model in "$@"; do
         run "$theirs.times" f3d --dry-run "$size" "${view[@]}" --bg-color=0.2,0.2,0.2 --output="$theirs.png" "$model"
         [ "$turn" -gt 0 ] || rm -f "$ours.times" "$theirs.times"
     done
-    echo "$name,$(best "$ours.times"),$(best "$theirs.times")"
+    echo "$name,$(summary "$ours.times"),$(summary "$theirs.times")"
     if [ -f "$ours.png" ] && [ -f "$theirs.png" ]; then
         convert "$ours.png" "$theirs.png" +append "$folder/$name.pair.png"
     fi
