@@ -7,6 +7,7 @@ mod blocks;
 mod change;
 mod columns;
 mod edge_flags;
+mod mesh_vertices;
 mod side_edges;
 
 use std::mem::take;
@@ -23,6 +24,7 @@ use crate::work::{Work, note};
 pub(crate) use blocks::{BlockBox, Blocks};
 pub(crate) use columns::Columns;
 use edge_flags::flags_of_mesh;
+use mesh_vertices::mesh_vertices;
 use side_edges::{NO_EDGE, sides_of_mesh};
 
 /// The number of UV sets that can have tangents: as many as the glTF reader supports. Each set with a normal
@@ -52,6 +54,7 @@ pub(crate) struct Geometry {
     pub(crate) state: GeometryState,
     bounds: OnceLock<Bounds3>,
     blocks: OnceLock<Blocks>,
+    mesh_vertices: OnceLock<Vec<u32>>,
     edge_flags: OnceLock<Vec<EdgeFlags>>,
     /// Shared by poses.
     side_edges: OnceLock<Arc<Vec<[u32; 3]>>>,
@@ -144,6 +147,7 @@ impl Geometry {
             state: GeometryState::default(),
             bounds: OnceLock::new(),
             blocks: OnceLock::new(),
+            mesh_vertices: OnceLock::new(),
             edge_flags: OnceLock::new(),
             side_edges: OnceLock::new(),
             split: OnceLock::new(),
@@ -179,6 +183,7 @@ impl Geometry {
             state: GeometryState::default(),
             bounds: OnceLock::new(),
             blocks: OnceLock::new(),
+            mesh_vertices: OnceLock::new(),
             edge_flags: self.edge_flags.clone(),
             side_edges: self.side_edges.clone(),
             rest: None,
@@ -249,6 +254,15 @@ impl Geometry {
             let _ = self.blocks.set(Blocks::new(source, self));
         }
         self.blocks.get().expect("they were just made")
+    }
+
+    /// For each vertex of geometry at rest, a vertex of the mesh at the same position.
+    pub(crate) fn mesh_vertices(&self, source: &Mesh) -> &[u32] {
+        if self.mesh_vertices.get().is_none() {
+            // Without a lock, as above.
+            let _ = self.mesh_vertices.set(mesh_vertices(source, self));
+        }
+        self.mesh_vertices.get().expect("they were just found")
     }
 
     /// The mesh for a normal map on a UV set: with its own tangents, or else with tangents of that set. These

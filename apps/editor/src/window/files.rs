@@ -317,12 +317,21 @@ impl Editor {
                 self.file = OpenFile::opened(path);
                 self.file.changed();
                 left.discard();
-                self.message = Message::Info("Recovered unsaved work; save it now".into());
+                self.message = Message::Info(recovered(left).into());
                 self.show(stage);
                 navigation::frame_all(self, stage);
             }
             Err(error) => self.message = Message::Refusal(format!("Recovery: {error}")),
         }
+    }
+}
+
+/// What is said of a document that has come back.
+fn recovered(left: &Left) -> &'static str {
+    if left.is_cut_off {
+        "Recovered unsaved work except the last actions, which the recovery file lacks; save it now"
+    } else {
+        "Recovered unsaved work; save it now"
     }
 }
 

@@ -34,6 +34,8 @@ pub(crate) struct Left {
     pub(crate) document: Option<PathBuf>,
     /// How many actions can be recovered that its file does not hold.
     pub(crate) actions: usize,
+    /// Whether the last actions are missing because the end of the file is damaged or incomplete.
+    pub(crate) is_cut_off: bool,
     _held: File,
 }
 
@@ -146,11 +148,12 @@ impl Left {
         let mut held =
             File::options().read(true).write(true).create(true).truncate(false).open(&lock).ok()?;
         held.try_lock().ok()?;
-        let events = RecoveryLog::read(&fs::read(&file).ok()?).map(|log| log.events).unwrap_or_default();
+        // A file that cannot be read stays where it is: nobody has seen what it holds.
+        let RecoveryLog { events, is_cut_off, .. } = RecoveryLog::read(&fs::read(&file).ok()?).ok()?;
         let changes = |event: &&Event| !matches!(event, Event::Run(command) if command.is_selection());
         let (saved, document) = read_lock(&mut held).ok()?;
         let actions = events.iter().skip(saved).filter(changes).count();
-        let left = Self { file, lock, document, actions, _held: held };
+        let left = Self { file, lock, document, actions, is_cut_off, _held: held };
         if actions == 0 {
             left.discard();
             return None;
@@ -248,6 +251,37 @@ mod tests {
         assert_eq!(left.actions, 2, "those after the save");
         let (mut again, _) = left.recover().expect("it was written whole");
         assert_eq!(again.scene().nodes().len(), document.scene().nodes().len(), "and all are recovered");
+    }
+
+    #[test]
+    fn a_damaged_end_is_told_and_a_damaged_start_is_kept() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder.path();
+        let mut document = Document::default();
+        let mut recovery = Recovery::start(folder, &mut document, None).expect("it can be written");
+        for _ in 0..2 {
+            document
+                .run(command(r#"{"op":"add_object","object":{"shape":"cube","edge":2.0}}"#))
+                .expect("possible");
+        }
+        assert_eq!(recovery.follow(&mut document), None, "nothing goes wrong");
+        drop(recovery);
+        let file = {
+            let left = Left::find(folder);
+            assert!(!left[0].is_cut_off, "it was written whole");
+            left[0].file.clone()
+        };
+        let bytes = fs::read(&file).expect("it is there");
+        fs::write(&file, &bytes[..bytes.len() - 5]).expect("it can be written");
+        {
+            let left = Left::find(folder);
+            assert_eq!((left[0].actions, left[0].is_cut_off), (1, true), "the second cube is incomplete");
+        }
+        let mut damaged = bytes.clone();
+        damaged[20] ^= 1;
+        fs::write(&file, &damaged).expect("it can be written");
+        assert!(Left::find(folder).is_empty(), "there is nothing to offer");
+        assert_eq!(fs::read(&file).expect("it is still there"), damaged, "nothing was deleted");
     }
 
     #[test]

@@ -28,19 +28,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words[..] {
-        ["draw", subject, shot, frames] => draw(subject, shot.parse()?, frames.parse()?),
+        ["count", subject, shot] => draw_counted(subject, shot.parse()?),
         [folder] => write(Path::new(folder), false),
         [folder, "--instructions"] => write(Path::new(folder), true),
         _ => Err(USAGE.into()),
     }
 }
 
-/// Draws one image some times, so that its instructions can be counted.
-fn draw(name: &str, shot: usize, frames: usize) -> Result<(), Box<dyn Error>> {
+/// Draws one image for callgrind, within which this program then runs.
+fn draw_counted(name: &str, shot: usize) -> Result<(), Box<dyn Error>> {
     let (_, made) = SUBJECTS.into_iter().find(|(known, _)| *known == name).ok_or("there is no such scene")?;
     let subject = made();
     let (shots, _) = collect(&subject);
-    shots.draw(shot, &subject.camera, frames)
+    shots.draw_counted(shot, &subject.camera)
 }
 
 fn write(folder: &Path, is_counted: bool) -> Result<(), Box<dyn Error>> {

@@ -57,14 +57,14 @@ impl Shots {
         Ok(rounds)
     }
 
-    /// Draws one of them so many times: what is counted.
-    pub(crate) fn draw(&self, number: usize, camera: &Camera, frames: usize) -> Result<(), Box<dyn Error>> {
+    /// Draws one of them twice: a frame that fills caches, and one that callgrind counts.
+    pub(crate) fn draw_counted(&self, number: usize, camera: &Camera) -> Result<(), Box<dyn Error>> {
         let shot = self.0.get(number).ok_or("there is no such shot")?;
         let (mut renderer, mut frame) = (Renderer::new(shot.settings.clone()), Frame::default());
-        for _ in 0..frames {
-            renderer.render_into(&shot.scene, camera, &mut frame)?;
-        }
-        Ok(())
+        renderer.render_into(&shot.scene, camera, &mut frame)?;
+        switch_counting("on")?;
+        renderer.render_into(&shot.scene, camera, &mut frame)?;
+        switch_counting("off")
     }
 
     /// How many there are.
@@ -79,18 +79,22 @@ pub(crate) fn quarters(mut values: Vec<f64>) -> [f64; 3] {
     [1, 2, 3].map(|quarter| values[(values.len() - 1) * quarter / 4])
 }
 
-/// The instructions of one warm frame of a shot: of two frames without those of one, counted by callgrind, which knows no
-/// AVX-512, so that the level is AVX2.
+/// The instructions of one warm frame of a shot, counted by callgrind, which knows no AVX-512, so that the level is AVX2.
 pub(crate) fn instructions(subject: &str, number: usize) -> Result<f64, Box<dyn Error>> {
-    let count = |frames: &str| -> Result<f64, Box<dyn Error>> {
-        let program = std::env::current_exe()?;
-        let mut valgrind = Command::new("valgrind");
-        valgrind.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]).arg(program);
-        let output = valgrind.args(["draw", subject, &number.to_string(), frames]).output()?;
-        let text = String::from_utf8_lossy(&output.stderr).into_owned();
-        let counted =
-            text.lines().find_map(|line| line.split_once("Collected : ")).ok_or_else(|| text.clone())?;
-        Ok(counted.1.trim().parse()?)
-    };
-    Ok(count("2")? - count("1")?)
+    let mut valgrind = Command::new("valgrind");
+    // Making the subject takes far longer than drawing it, and is not counted.
+    valgrind.args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--instr-atstart=no"]);
+    valgrind.arg(std::env::current_exe()?).args(["count", subject, &number.to_string()]);
+    let output = valgrind.output()?;
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    let counted = text.lines().find_map(|line| line.split_once("Collected : "));
+    Ok(counted.ok_or_else(|| text.clone())?.1.trim().parse()?)
+}
+
+/// Tells callgrind, within which this process runs, to count or not.
+fn switch_counting(to: &str) -> Result<(), Box<dyn Error>> {
+    let process = std::process::id().to_string();
+    let output = Command::new("callgrind_control").args(["--instr", to, &process]).output()?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    if output.status.success() && text.contains("OK") { Ok(()) } else { Err(text.into_owned().into()) }
 }

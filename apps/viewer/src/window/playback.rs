@@ -229,29 +229,31 @@ impl Playback {
     fn choices(&mut self, ui: &mut egui::Ui, stage: &mut Stage) {
         let clips = (0..self.names.len()).map(Playing::One).chain([Playing::All, Playing::None]);
         let clips: Vec<_> = clips.map(|clip| (self.label(clip), clip)).collect();
-        let list = egui::ComboBox::from_id_salt("clip")
-            .selected_text(self.label(self.choice))
-            .width(120.0)
-            .truncate();
+        let shown = self.label(self.choice);
+        let list = egui::ComboBox::from_id_salt("clip").selected_text(&shown).width(120.0).truncate();
         let (list, choice) = choose(ui, list, &clips, &self.choice);
-        label(&list, "clip");
+        label(&list, "clip", &shown);
         if let Some(choice) = choice {
             self.choice = choice;
             self.rewind(stage);
         }
         let (sign, speed) = (self.speed.signum(), self.speed.abs());
         let speeds = SPEEDS.map(|speed| (format!("{speed}×"), speed));
-        let list = egui::ComboBox::from_id_salt("speed").selected_text(format!("{speed}×")).width(60.0);
+        let shown = format!("{speed}×");
+        let list = egui::ComboBox::from_id_salt("speed").selected_text(&shown).width(60.0);
         let (list, chosen) = choose(ui, list, &speeds, &speed);
-        label(&list, "speed");
+        label(&list, "speed", &shown);
         self.speed = chosen.map_or(self.speed, |speed| sign * speed);
         ui.checkbox(&mut self.loops, "Loop");
     }
 }
 
 /// For those who use a screen reader, and for tests.
-fn label(widget: &egui::Response, text: &str) {
-    widget.ctx.accesskit_node_builder(widget.id, |node| node.set_label(text));
+fn label(widget: &egui::Response, name: &str, value: &str) {
+    widget.ctx.accesskit_node_builder(widget.id, |node| {
+        node.set_label(name);
+        node.set_value(value);
+    });
 }
 
 #[cfg(test)]

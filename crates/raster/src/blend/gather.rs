@@ -37,8 +37,11 @@ impl Shape {
 
     /// The share that it covers at the samples of a group.
     #[inline(always)]
-    fn coverage(&self, group: SampleGroup) -> [f32; LANES] {
-        self.stroke.as_ref().map_or([1.0; LANES], |stroke| stroke.coverage(group.point))
+    fn coverage<S: Simd>(&self, simd: S, group: SampleGroup) -> [f32; LANES] {
+        match &self.stroke {
+            Some(stroke) => stroke.coverage(simd, group.point),
+            None => [1.0; LANES],
+        }
     }
 }
 
@@ -87,7 +90,7 @@ impl Layers {
             #[inline(always)]
             |group, seen, depth| {
                 blocks.insert(group.group / 8);
-                let coverage = shape.coverage(group);
+                let coverage = shape.coverage(simd, group);
                 let mut lanes = seen.to_bitmask();
                 if shape.stroke.is_some() {
                     lanes &= where_of(|lane| coverage[lane] > 0.0);
@@ -126,7 +129,7 @@ impl Beside {
         let Some((seen, _)) = tile.look(simd, self.shape.candidate(), group) else {
             return 0;
         };
-        let own = self.shape.coverage(group);
+        let own = self.shape.coverage(simd, group);
         seen.to_bitmask() & where_of(|lane| prevails((own[lane], self.is_later), coverage[lane]))
     }
 }

@@ -14,8 +14,9 @@
 //! of its size. Of a square point the exact area is taken: the product of the overlaps
 //! on both axes.
 
-use crate::simd::LANES;
+use crate::simd::{LANES, Simd, inlined, lanes_of, prelude::*};
 use crate::tile::lane_point;
+use fearless_simd::f64x8;
 
 /// What shape a stroke has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,10 +69,55 @@ impl Stroke {
     }
 
     /// What it covers of the pixels around eight samples, the first of which is
-    /// given.
-    #[inline]
-    pub(crate) fn coverage(&self, first: [i32; 2]) -> [f32; LANES] {
-        std::array::from_fn(|lane| self.coverage_at(lane_point(first, lane)) as f32)
+    /// given: [`Self::coverage_at`] of each.
+    #[inline(always)]
+    pub(crate) fn coverage<S: Simd>(&self, simd: S, first: [i32; 2]) -> [f32; LANES] {
+        let splat = inlined(
+            #[inline(always)]
+            |value: f64| f64x8::splat(simd, value),
+        );
+        let place = inlined(
+            #[inline(always)]
+            |axis: usize| {
+                let places: [f64; LANES] = lanes_of(
+                    #[inline(always)]
+                    |lane| f64::from(lane_point(first, lane)[axis] - self.start[axis]),
+                );
+                f64x8::simd_from(simd, places) * splat(1.0 / 256.0)
+            },
+        );
+        let (x, y) = (place(0), place(1));
+        let overlaps = match self.form {
+            Form::Square => self.overlaps(simd, x.abs()) * self.overlaps(simd, y.abs()),
+            Form::Line => self.overlaps(simd, self.distances(simd, [x, y])),
+            Form::Round => self.overlaps(simd, self.distances(simd, [x, y])) * splat(self.most()),
+        };
+        let overlaps: [f64; LANES] = overlaps.into();
+        lanes_of(
+            #[inline(always)]
+            |lane| overlaps[lane] as f32,
+        )
+    }
+
+    /// [`Self::distance`] of eight points.
+    #[inline(always)]
+    fn distances<S: Simd>(&self, simd: S, [x, y]: [f64x8<S>; 2]) -> f64x8<S> {
+        let [dx, dy] = self.direction;
+        let (along, across) = (x * dx + y * dy, x * dy - y * dx);
+        let (none, length) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, self.length));
+        let (is_before, is_past) = (along.simd_lt(none), along.simd_gt(length));
+        let beyond = is_before.select(along, along - length);
+        let around_end = (beyond * beyond + across * across).sqrt();
+        (is_before | is_past).select(around_end, across.abs())
+    }
+
+    /// [`Self::overlap`] at eight distances.
+    #[inline(always)]
+    fn overlaps<S: Simd>(&self, simd: S, distance: f64x8<S>) -> f64x8<S> {
+        let (none, most) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, self.most()));
+        let overlap = f64x8::splat(simd, 0.5 * (self.width + 1.0)) - distance;
+        let overlap = overlap.simd_gt(most).select(most, overlap);
+        overlap.simd_lt(none).select(none, overlap)
     }
 
     /// What it covers of the pixel around a sample, 0 to 1.
@@ -81,9 +127,7 @@ impl Stroke {
         match self.form {
             Form::Square => self.overlap(x.abs()) * self.overlap(y.abs()),
             Form::Line => self.overlap(self.distance([x, y])),
-            Form::Round => {
-                self.overlap(self.distance([x, y])) * if self.width < 1.0 { self.width } else { 1.0 }
-            }
+            Form::Round => self.overlap(self.distance([x, y])) * self.most(),
         }
     }
 
@@ -102,10 +146,16 @@ impl Stroke {
         (beyond * beyond + across * across).sqrt()
     }
 
+    /// The greatest overlap: no more than a pixel.
+    #[inline(always)]
+    fn most(&self) -> f64 {
+        if self.width < 1.0 { self.width } else { 1.0 }
+    }
+
     /// How long a part of a pixel at this distance lies within the width.
     #[inline(always)]
     fn overlap(&self, distance: f64) -> f64 {
-        let most = if self.width < 1.0 { self.width } else { 1.0 };
+        let most = self.most();
         let overlap = 0.5 * (self.width + 1.0) - distance;
         if overlap < 0.0 {
             0.0
@@ -120,9 +170,27 @@ impl Stroke {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fearless_simd::{Level, dispatch};
     use proptest::prelude::*;
 
     proptest! {
+        #[test]
+        fn eight_are_covered_like_each(
+            ends in prop::array::uniform2(prop::array::uniform2(-3000..3000_i32)),
+            first in prop::array::uniform2(-20..20_i32),
+            width in prop_oneof![0.0_f64..9.0, Just(1.0)],
+            form in prop_oneof![Just(Form::Line), Just(Form::Round), Just(Form::Square)],
+        ) {
+            let stroke = match form {
+                Form::Line => Stroke::line(ends, width),
+                Form::Round | Form::Square => Stroke::point(ends[0], width, form),
+            };
+            let first = first.map(|at| at * 128);
+            let eight = dispatch!(Level::new(), simd => stroke.coverage(simd, first));
+            let each = lanes_of(|lane| stroke.coverage_at(lane_point(first, lane)) as f32);
+            prop_assert_eq!(eight.map(f32::to_bits), each.map(f32::to_bits));
+        }
+
         /// Along an axis the line is the exact area, so pixels across it add up to
         /// its width wherever it lies.
         #[test]

@@ -61,6 +61,7 @@ impl Geometry {
         self.state = GeometryState::default();
         let bounds = self.bounds_without(&update.vertices);
         self.blocks = OnceLock::new();
+        self.mesh_vertices = OnceLock::new();
         self.tangential = places_for(&self.columns);
         let mut columns = take(&mut self.columns);
         let (triangles, ()) =

@@ -105,15 +105,19 @@ impl<'q> Nearby<'q> {
         let drawn = self.object.drawn()?;
         let near = match &self.near {
             Near::Few(few) => NearTriangles::Few(&few.triangles),
-            Near::All { .. } => NearTriangles::All(drawn.corner_sides(self.screen, self.area)),
+            Near::All { vertices, .. } => match drawn.corner_vertices(self.object) {
+                Some(corners) => NearTriangles::OfVertices { corners, sides: vertices.as_flattened() },
+                None => NearTriangles::All(drawn.corner_sides(self.screen, self.area)),
+            },
         };
-        Some(NearbyTriangles { drawn, screen: self.screen, near })
+        Some(NearbyTriangles { drawn, object: self.object, screen: self.screen, near })
     }
 }
 
 /// The triangles of an object beside an area.
 pub(super) struct NearbyTriangles<'q> {
     pub(super) drawn: &'q Drawn,
+    object: &'q Object<'q>,
     screen: &'q Screen,
     near: NearTriangles<'q>,
 }
@@ -121,7 +125,13 @@ pub(super) struct NearbyTriangles<'q> {
 enum NearTriangles<'q> {
     /// Those that may lie in it.
     Few(&'q [u32]),
-    /// The sides of all corners, and some more.
+    /// All of them, by the sides of the mesh's vertices.
+    OfVertices {
+        /// The vertex of each corner.
+        corners: &'q [u32],
+        sides: &'q [Sides],
+    },
+    /// All of them, by the sides of all corners, and some more.
     All(Vec<[Sides; LANES]>),
 }
 
@@ -133,7 +143,7 @@ impl NearbyTriangles<'_> {
                 let at = |end: usize| few.partition_point(|&triangle| (triangle as usize) < end);
                 at(triangles.start)..at(triangles.end)
             }
-            NearTriangles::All(_) => triangles,
+            NearTriangles::OfVertices { .. } | NearTriangles::All(_) => triangles,
         }
     }
 
@@ -142,7 +152,7 @@ impl NearbyTriangles<'_> {
     pub(super) fn number(&self, place: usize) -> usize {
         match &self.near {
             NearTriangles::Few(few) => few[place] as usize,
-            NearTriangles::All(_) => place,
+            NearTriangles::OfVertices { .. } | NearTriangles::All(_) => place,
         }
     }
 
@@ -151,16 +161,31 @@ impl NearbyTriangles<'_> {
     #[inline]
     pub(super) fn pieces(&self, place: usize, visit: impl FnMut(&[Spot; 3])) {
         let triangle = self.number(place);
-        let is_near = match &self.near {
-            NearTriangles::Few(_) => true,
+        let [a, b, c] = self.drawn.triangle(triangle);
+        // Not by `map`, which would be calls here.
+        let spots = match &self.near {
+            NearTriangles::Few(_) => {
+                let at = self.drawn.corners(self.screen);
+                [at(a), at(b), at(c)]
+            }
+            NearTriangles::OfVertices { corners, sides } => {
+                let [a, b, c] = [corners[a] as usize, corners[b] as usize, corners[c] as usize];
+                if Sides::is_beside(&[sides[a], sides[b], sides[c]]) {
+                    return;
+                }
+                let at = self.object.vertices(self.screen);
+                [at(a), at(b), at(c)]
+            }
             NearTriangles::All(sides) => {
                 let sides = sides.as_flattened();
-                !Sides::is_beside(&self.drawn.triangle(triangle).map(|corner| sides[corner]))
+                if Sides::is_beside(&[sides[a], sides[b], sides[c]]) {
+                    return;
+                }
+                let at = self.drawn.corners(self.screen);
+                [at(a), at(b), at(c)]
             }
         };
-        if is_near {
-            self.drawn.pieces(self.screen, triangle, visit);
-        }
+        self.drawn.pieces(self.screen, (triangle, spots), visit);
     }
 }
 

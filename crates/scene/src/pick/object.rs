@@ -191,6 +191,13 @@ impl Drawn {
         self.shape.geometry.triangles[triangle].map(|corner| corner as usize)
     }
 
+    /// For each corner a vertex of the mesh that lies at the same place of the screen; `None` if some may lie
+    /// elsewhere, as in a pose.
+    pub(super) fn corner_vertices(&self, object: &Object<'_>) -> Option<&[u32]> {
+        let is_at_rest = !self.shape.is_posed && self.map == object.map;
+        is_at_rest.then(|| self.shape.geometry.mesh_vertices(object.mesh()))
+    }
+
     /// On which sides of an area all corners lie; where they are is kept.
     pub(super) fn corner_sides(&self, screen: &Screen, area: &Area<'_>) -> Vec<[Sides; LANES]> {
         let columns = &self.shape.geometry.columns;
@@ -216,17 +223,18 @@ impl Drawn {
         )
     }
 
-    /// Calls `visit` with the triangle, or with those that the near plane leaves of it.
+    /// Calls `visit` with a triangle between these spots, or with those that the near plane leaves of it.
     #[inline]
-    pub(super) fn pieces(&self, screen: &Screen, triangle: usize, mut visit: impl FnMut(&[Spot; 3])) {
-        let corners @ [a, b, c] = self.triangle(triangle);
-        let at = self.corners(screen);
-        // Not by `map`, which would be a call here.
-        let spots = [at(a), at(b), at(c)];
+    pub(super) fn pieces(
+        &self,
+        screen: &Screen,
+        (triangle, spots): (usize, [Spot; 3]),
+        mut visit: impl FnMut(&[Spot; 3]),
+    ) {
         if spots.iter().all(Spot::is_somewhere) {
             visit(&spots);
         } else if spots.iter().any(Spot::is_somewhere) {
-            let points = corners.map(|corner| self.position(corner));
+            let points = self.triangle(triangle).map(|corner| self.position(corner));
             screen.cut_triangle(&self.map, points).triangles().for_each(|piece| visit(&piece));
         }
     }

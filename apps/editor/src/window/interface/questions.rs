@@ -79,6 +79,9 @@ fn content(ui: &mut Ui, question: &Question) -> Option<Answer> {
                 .as_ref()
                 .map_or("a document without a file".into(), |path| path.display().to_string());
             ui.label(format!("The editor ended without closing {name}, with {} changes.", left.actions));
+            if left.is_cut_off {
+                ui.label("The end of its recovery file is incomplete, so the last actions are missing.");
+            }
             buttons(ui, &[("Recover", Answer::Yes), ("Discard", Answer::No), ("Later", Answer::Cancel)])
         }
     }

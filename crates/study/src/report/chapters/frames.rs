@@ -28,7 +28,7 @@ const PROVEN: &str = "drawn and proven";
 const MEANS: &str = "all scenes, geometric means";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
-    let size = effort.pick([160, 96], [480, 288]);
+    let size = effort.pick([120, 72], [480, 288]);
     let mut rows: Vec<Row> = Case::ALL.into_iter().flat_map(|case| front(case, size, effort)).collect();
     rows.extend(means(&rows, size));
     let fronts: Vec<&str> = Case::ALL.into_iter().map(Case::name).chain([MEANS]).collect();

@@ -31,15 +31,15 @@ fn keys_tell_what_they_do_unless_nobody_wants_to_know() {
 #[test]
 fn the_bar_of_animations_has_more_or_less_in_it() {
     for (flags, texts) in [
-        ("", &["Play", "Walk", "Loop"][..]),
-        ("--animation-progress=advanced", &["Play", "Walk", "Loop"]),
+        ("", &["Play", "clip", "Loop"][..]),
+        ("--animation-progress=advanced", &["Play", "clip", "Loop"]),
         ("--animation-progress=default", &["Play"]),
         ("--animation-progress", &["Play"]),
         ("--animation-progress=none", &[]),
-        ("--animation-autoplay", &["Pause", "Walk", "Loop"]),
+        ("--animation-autoplay", &["Pause", "clip", "Loop"]),
     ] {
         let said = said_with(flags, &[]);
-        let all = ["Play", "Pause", "Walk", "Loop"];
+        let all = ["Play", "Pause", "clip", "Loop"];
         let shown: Vec<&str> = all.into_iter().filter(|text| said.iter().any(|said| said == text)).collect();
         assert_eq!(shown, texts, "{flags}: {said:?}");
     }
