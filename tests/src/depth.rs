@@ -39,7 +39,7 @@ fn coincident(keys: &[(u32, u32)], surface: BlendMode) -> TargetImages {
 }
 
 /// What the depth of a triangle is off by at most: half a unit of f32 of a depth below 1,
-/// what `tile/depth.rs` states for the plane in f64, and ten roundings of [`exact_depth`].
+/// what `primitive/depth.rs` states for the plane in f64, and ten roundings of [`exact_depth`].
 fn off(corners: [GridPoint; 3]) -> f64 {
     let plane = Plane { corners, depths: [0.0, 1.0, 1.0] };
     depth_plane::bound(&plane) + f64::from(f32::EPSILON) / 4.0 + 5.0 * f64::EPSILON

@@ -14,7 +14,7 @@ use trigon_study::oracle::coverage::sample_points;
 use trigon_study::oracle::depth::Plane;
 
 /// What the depth is off by at most before it is rounded to f32: the bound that
-/// `tile/depth.rs` states, `2^-50 Δz XY/A`, for the slopes; an eighth more and
+/// `primitive/depth.rs` states, `2^-50 Δz XY/A`, for the slopes; an eighth more and
 /// two roundings of depths in f64 for the two sums.
 pub(crate) fn bound(plane: &Plane) -> f64 {
     let [low, high] = plane.range().map(f64::from);

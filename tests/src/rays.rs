@@ -22,7 +22,7 @@ const NEAR: f32 = 0.25;
 /// those that cutting makes have been rounded before by less than what is left.
 ///
 /// Depths of at most 1 are rounded to f32 twice, those of the corners and their
-/// own, and `tile/depth.rs` adds its bound; together that is below 2^-22.
+/// own, and `primitive/depth.rs` adds its bound; together that is below 2^-22.
 const TOLERANCE: Tolerance = Tolerance { outline: 1.0 / 256.0, depth: 1.0 / (1 << 22) as f64 };
 
 type Triangle = [Vec4; 3];

@@ -191,7 +191,7 @@ pub(crate) fn fit_distance(
     aspect: f64,
     margin: f64,
 ) -> f64 {
-    let fill = 1.0 - if margin > 0.0 { smaller(margin, LARGEST_MARGIN) } else { 0.0 };
+    let fill = 1.0 - if margin.is_nan() { 0.0 } else { margin.clamp(0.0, LARGEST_MARGIN) };
     let map = shot.projection.clip_map(aspect);
     let (half, middle) = (fill / map.scale, map.shift / map.scale);
     let turn = shot.orientation.conjugate();
@@ -226,9 +226,4 @@ pub(crate) fn sight(projection: &Projection, distance: f64) -> DVec3 {
 /// The greater one; `b` if they cannot be compared.
 fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
-}
-
-/// The lesser one; `b` if they cannot be compared.
-fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
 }

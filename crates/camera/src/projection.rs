@@ -95,8 +95,8 @@ impl Projection {
     /// `vertical_fov` is not between 0 and π, or not `0 < near < far`.
     pub fn perspective(vertical_fov: f64, near: f64, far: Option<f64>) -> Result<Self, CameraError> {
         let half = elementary::tan(vertical_fov * 0.5);
-        let good = vertical_fov > 0.0
-            && vertical_fov < std::f64::consts::PI
+        // Of angles from 0 on, those near 0 and π have no normal tangent or none for its reciprocal.
+        let good = (0.0..std::f64::consts::PI).contains(&vertical_fov)
             && half.is_normal()
             && half.recip().is_normal();
         CameraError::check("the vertical field of view", vertical_fov, good, "between 0 and π, exclusive")?;

@@ -11,13 +11,14 @@ mod error;
 mod recovery;
 mod script;
 mod selection;
+mod state;
 mod storage;
 #[cfg(test)]
 mod tests;
 
 pub use command::*;
 pub use display::{DisplayMarks, PICK_RADIUS, Picks, X_RAY};
-pub use document::{Document, Entry, Event, History, SceneChange};
+pub use document::{Document, Entry, Event, History};
 pub use error::EditError;
 pub use recovery::{RecoveryLog, RecoveryStatus, RecoveryWriter, UnreadableRecovery};
 pub use script::{Script, ScriptProgress};
@@ -26,6 +27,7 @@ pub use selection::{
     edge_ring, face_loop, faces_of_material, faces_towards, non_manifold_edges, sharp_edges, shortest_path,
     similar,
 };
+pub use state::SceneChange;
 pub use storage::{Disk, SaveError, Storage, backup_path, save};
 
 /// Re-exports of the crates below, so that programs need no other dependency.

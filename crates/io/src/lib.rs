@@ -1,9 +1,9 @@
 //! Model and image files for trigon. It reads OBJ with MTL, glTF and GLB, PLY, STL, OFF, PNG, JPEG, WebP and
-//! Radiance, and writes OBJ, GLB, PLY, STL, OFF, PNG, OpenEXR and NumPy arrays. Captures store everything a
-//! frame was drawn from, and its image, in one file.
+//! Radiance HDR. It writes OBJ, GLB, PLY, STL, OFF, PNG, JPEG, WebP, OpenEXR and NumPy arrays, and sequences of
+//! images as APNG and GIF. A capture stores everything that a frame was drawn from, and its image, in one file.
 //!
 //! A file becomes a [`Scene`](trigon_scene::Scene) and a list of warnings; an unusable file is an
-//! error. Both name the file, the location in it, and a remedy, in one line. Files are untrusted:
+//! error. Warnings and errors are one line each, with the file, the location in it, and a remedy. Files are untrusted:
 //! nothing outside the model's folder is opened, every size is checked before memory is allocated
 //! for it, and no file makes the loader panic. This crate never draws and never prints.
 //!
@@ -32,8 +32,8 @@
 //! # Conventions
 //! Right-handed, +Y up, metres, counter-clockwise faces, as in glTF and OBJ. PLY, STL and OFF
 //! define neither the up axis nor the unit: their numbers are used as they are. In texture
-//! coordinates v = 0 is the top edge, and v grows downwards. Colours are linear light. Positions far from the origin
-//! are rebased, and the offset goes into the node. One node of the file is one node of the scene.
+//! coordinates v = 0 is the top edge, and v grows downwards. Colours are linear light. A model far from the
+//! origin is moved to the origin, and its node gets the offset. One node of the file is one node of the scene.
 
 mod capture;
 mod compare;
@@ -50,6 +50,7 @@ mod limits;
 mod load;
 mod loss;
 mod lossy;
+mod native_document;
 mod numbers;
 mod options;
 mod outputs;
@@ -71,15 +72,16 @@ pub use capture::{Capture, Mismatch, PixelMismatch};
 pub use compare::{ImageDifference, SizeMismatch, compare_images};
 pub use environment::load_environment;
 pub use error::{LoadError, LoadErrorKind, Place};
-pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport, UpAxis, export};
+pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport, UpAxis};
 pub use format::{Format, Reader, Writer};
-pub use formats::gltf::{NativeDocument, NativeFile, encode_glb, write_glb};
-pub use formats::{readers, writers};
+pub use formats::gltf::{encode_glb, write_glb};
+pub use formats::{export, readers, writers};
 pub use gltf_source::GltfSource;
 pub use limits::Limits;
 pub use load::{Loaded, load, load_from_slice};
 pub use loss::Loss;
 pub use lossy::{encode_jpeg, encode_webp, write_jpeg, write_webp};
+pub use native_document::{NativeDocument, NativeFile};
 pub use options::{LoadOptions, LoadStage, Progress, ProgressHook, SceneChoice};
 pub use outputs::{
     Output, UnknownOutput, encode_exr, encode_npy, encode_png16, write_exr, write_npy, write_png16,

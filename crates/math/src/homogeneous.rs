@@ -100,7 +100,7 @@ impl HomogeneousPoint {
 
 /// Whether two vectors are multiples of one vector: every 2×2 minor is exactly zero.
 fn proportional<const N: usize>(a: &[f64; N], b: &[f64; N]) -> bool {
-    (0..N).all(|i| (i + 1..N).all(|j| exact_product(a[i], b[j]) == exact_product(a[j], b[i])))
+    (0..N).all(|i| (0..i).all(|j| exact_product(a[i], b[j]) == exact_product(a[j], b[i])))
 }
 
 /// The product of two finite numbers without rounding, in a form in which equal values are equal:

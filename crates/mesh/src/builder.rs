@@ -5,8 +5,8 @@ use trigon_math::Vec3;
 use crate::mesh::Parts;
 use crate::{Mesh, MeshError};
 
-/// The maximum number of corners, faces and loose edges together: `u32::MAX` itself means "none" in
-/// buffers.
+/// The maximum number of vertices, and of corners, faces and loose edges together: `u32::MAX` itself
+/// means "none" in buffers.
 const LIMIT: u32 = u32::MAX - 1;
 
 /// Collects vertices, faces, loose edges and loose points, then builds a
@@ -173,16 +173,13 @@ impl MeshBuilder {
     /// Half-edges (corners and loose edges) are numbered together while edges are searched, so one
     /// limit applies to both; faces are fewer.
     fn check_room(&self, more: usize) -> Result<(), MeshError> {
-        check_room(self.corner_vertices.len() + self.loose_edges.len() + more)
+        check_room("corners and loose edges", self.corner_vertices.len() + self.loose_edges.len() + more)
     }
 }
 
-/// Whether this many corners and loose edges can be numbered.
-pub(crate) fn check_room(half_edges: usize) -> Result<(), MeshError> {
-    if half_edges > LIMIT as usize {
-        return Err(MeshError::TooMany { what: "corners and loose edges", limit: LIMIT });
-    }
-    Ok(())
+/// Whether so many elements of a kind can be numbered.
+pub(crate) fn check_room(what: &'static str, count: usize) -> Result<(), MeshError> {
+    if count > LIMIT as usize { Err(MeshError::TooMany { what, limit: LIMIT }) } else { Ok(()) }
 }
 
 /// Counts distinct vertices, but stops at three.
@@ -201,5 +198,36 @@ impl Default for Mesh {
     /// An empty mesh.
     fn default() -> Self {
         MeshBuilder::new().build()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn as_many_as_can_be_numbered_are_not_too_many() {
+        // 0xffff_ffff is no index, so the last one is 0xffff_fffd, and there are 0xffff_fffe.
+        for (count, fits) in [(0, true), (0xffff_fffe, true), (0xffff_ffff, false), (usize::MAX, false)] {
+            assert_eq!(check_room("vertices", count).is_ok(), fits, "{count}");
+        }
+        let message = check_room("vertices", usize::MAX).expect_err("too many").to_string();
+        assert!(message.contains("vertices") && message.contains("4294967294"), "{message}");
+    }
+
+    #[test]
+    fn vertices_are_counted_up_to_three_different_ones() {
+        let lists: [(&[u32], usize); 7] = [
+            (&[], 0),
+            (&[7], 1),
+            (&[7, 7, 7], 1),
+            (&[7, 5], 2),
+            (&[7, 5, 5, 7], 2),
+            (&[7, 5, 7, 0], 3),
+            (&[1, 2, 3, 4], 3),
+        ];
+        for (vertices, count) in lists {
+            assert_eq!(distinct_up_to_3(vertices), count, "{vertices:?}");
+        }
     }
 }

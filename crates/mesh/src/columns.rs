@@ -1,4 +1,4 @@
-//! A mesh as plain lists, as in files: checked as a whole, so that millions of faces do not need
+//! A mesh as plain lists, as in files. They are checked as a whole, so that millions of faces do not need
 //! one call each.
 
 use trigon_math::Vec3;
@@ -46,10 +46,8 @@ impl Mesh {
     /// than indices can count.
     pub fn from_columns(columns: MeshColumns) -> Result<Self, MeshError> {
         let MeshColumns { positions, face_sizes, corner_vertices, loose_edges, mut loose_points } = columns;
-        check_room(corner_vertices.len() + loose_edges.len())?;
-        if positions.len() >= u32::MAX as usize {
-            return Err(MeshError::TooMany { what: "vertices", limit: u32::MAX - 1 });
-        }
+        check_room("corners and loose edges", corner_vertices.len() + loose_edges.len())?;
+        check_room("vertices", positions.len())?;
         let face_starts = face_starts(&face_sizes, corner_vertices.len())?;
         for (face, ends) in face_starts.windows(2).enumerate() {
             let vertices = &corner_vertices[ends[0] as usize..ends[1] as usize];

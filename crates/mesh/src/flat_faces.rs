@@ -1,6 +1,5 @@
-//! Polygons that are shaded flat. No map turns their normals rightly: in a pose they
-//! are those of the posed polygons (glTF 2.0 specification, section 3.7.2.1: flat
-//! normals where none are given).
+//! Polygons that are shaded flat. Transforming their old normals would be wrong in a pose: their normals are
+//! those of the posed polygons (glTF 2.0 specification, section 3.7.2.1: flat normals where none are given).
 
 use std::ops::Range;
 

@@ -1,6 +1,6 @@
-//! Tangents by MikkTSpace, which normal maps are baked for (M. S. Mikkelsen,
-//! "Simulation of Wrinkled Surfaces Revisited", 2008), computed by the crate
-//! `bevy_mikktspace` with an arc cosine that is the same everywhere.
+//! Tangents by MikkTSpace, for which normal maps are baked (M. S. Mikkelsen, "Simulation of Wrinkled
+//! Surfaces Revisited", 2008), computed by the crate `bevy_mikktspace` with an arc cosine that is the same
+//! on every machine.
 
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use trigon_math::{Vec3, Vec4, elementary};

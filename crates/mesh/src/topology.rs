@@ -1,4 +1,4 @@
-//! Topology, which bending does not change, and size.
+//! Topology (what stays the same when a surface is bent), and size.
 
 use trigon_math::DVec3;
 

@@ -1,4 +1,4 @@
-//! Ending a drawing before it is done, and how much of it is done.
+//! Cancelling a drawing, and its progress.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};

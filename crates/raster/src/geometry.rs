@@ -1,4 +1,4 @@
-//! What was recorded, without the pipeline: indices and ids.
+//! The geometry of a recorded draw: indices and ids, without the pipeline.
 
 use crate::simd::{Each, LANES};
 use crate::{BlendMode, Culling, EdgeFlags, MarkedPoints, Marks, PointShape, Smoothing};

@@ -69,11 +69,12 @@
 //! # The stages of a frame
 //! `vertex` → `clip` → `setup` (with `line` and `point`) → `bin`, then for each
 //! tile `tile` (coverage, depth, visibility) → `shade` → `blend` → `resolve`.
-//! Each stage is a folder of that name.
+//! Each stage is a module of that name. `primitive`, `tile_buffer`, `fragments`
+//! and `pipeline` hold the types that the stages pass on.
 //!
 //! # Wireframes
-//! A line drawn along the edge of a surface differs in depth from the surface
-//! everywhere but on its exact middle, so the two flicker (z-fighting). Edges of
+//! A line drawn along the edge of a surface has the surface's depth only on its
+//! exact middle, so the two flicker (z-fighting). Edges of
 //! visible faces are therefore best painted by the pass itself: [`Pass::edges`]
 //! paints them over what is visible, and [`Draw::edge_flags`] distinguishes edges
 //! from diagonals. For hidden-line images, shade the surface in the background's
@@ -95,18 +96,22 @@ mod clip;
 mod clock;
 mod counts;
 mod draw;
+mod draw_view;
 mod explain;
 mod fragment;
+mod fragments;
 mod frame;
 mod geometry;
 mod ink;
 mod line;
 mod marks;
+mod outer_ink;
 pub mod paint2d;
 mod pass;
 mod pipeline;
 mod point;
 mod pool;
+mod primitive;
 mod rasterizer;
 mod resolve;
 mod samples;
@@ -118,6 +123,7 @@ mod stats;
 mod target;
 mod texture;
 mod tile;
+mod tile_buffer;
 mod ulps;
 mod varyings;
 mod vertex;
@@ -131,6 +137,7 @@ pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
 };
 pub use fragment::{EdgeFlags, Fragment};
+pub use fragments::FragmentLanes;
 pub use frame::{DrawChange, Redraw};
 pub use ink::FaceEdges;
 pub use marks::{MarkColors, Marks};
@@ -139,7 +146,6 @@ pub use pass::{Background, Pass};
 pub use pipeline::{LanePipeline, Pipeline, VertexOutput};
 pub use rasterizer::Rasterizer;
 pub use settings::{DepthTest, ExecuteSettings, TileSize};
-pub use shade::FragmentLanes;
 pub use stats::{StageTimes, Stats};
 pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Target, TargetError, TargetImages};
 pub use texture::{

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Geometry, PointSizes, Shape};
 use crate::paint2d::Rect;
-use crate::shade::AnyPipeline;
+use crate::pipeline::AnyPipeline;
 use crate::{Draw, FaceEdges, LanePipeline, Lines, MarkColors, Points, Target};
 use trigon_math::{UVec2, Vec4};
 

@@ -1,4 +1,4 @@
-//! Threads: workers that stay, and take their share of each stage.
+//! The thread pool: workers that persist between frames and share each stage.
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::num::NonZeroUsize;

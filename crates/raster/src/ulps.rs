@@ -1,4 +1,4 @@
-//! Numbers counted in units of the last place.
+//! Floats counted in units in the last place.
 
 /// The place of a number among all f32, so that neighbours differ by 1; both zeros
 /// are 0.

@@ -32,7 +32,7 @@ impl Viewport {
     /// `None` if it is out of the grid's range.
     ///
     /// In f64, so that the only rounding that matters is the one to the grid: to nearest, ties to
-    /// even, with the same bits as `snap` in `vertex/run.rs`, which snaps vertices that are not cut.
+    /// even, with the same bits as `snap` in `vertex/snap.rs`, which snaps vertices that are not cut.
     #[inline]
     pub(crate) fn snap(self, position: Vec4) -> Option<FixedPoint> {
         let inverse_w = 1.0 / f64::from(position.w);

@@ -34,23 +34,32 @@ mod background;
 mod check;
 mod display;
 mod effect;
+mod effect_settings;
 mod effects;
 mod elements;
+mod environment;
 mod frame;
 mod geometry;
+mod lanes;
 mod light;
+mod lighting;
 mod marks;
 mod material;
 mod mesh_asset;
 mod node;
 mod outputs;
 mod pick;
+mod placement;
+mod plan;
+mod prepare;
 pub mod quality;
 mod render;
 mod scene;
 mod settings;
+mod shadow_maps;
+mod shapes;
 mod showcase;
-mod skin;
+mod surface;
 mod texture_asset;
 mod transform;
 pub mod views;
@@ -62,11 +71,12 @@ pub use background::Background;
 pub use check::{Finding, Severity};
 pub use display::Display;
 pub use effect::Effect;
-pub use effects::{
-    Absence, AmbientOcclusion, Cause, Decision, EffectCounts, EffectPlan, EffectSettings, Environment,
-    EnvironmentError, Fog, MetalReflection, Named, Outline, Shadows, Sky, ToneMapping,
+pub use effect_settings::{
+    AmbientOcclusion, EffectSettings, Fog, MetalReflection, Outline, Shadows, ToneMapping,
 };
+pub use effects::EffectCounts;
 pub use elements::ElementSet;
+pub use environment::{Environment, EnvironmentError, Sky};
 /// The bit set inside [`ElementSet`].
 pub use fixedbitset::FixedBitSet;
 pub use frame::{Frame, Hit};
@@ -77,13 +87,13 @@ pub use material::{
     Occlusion, ParameterField, Shading, TextureBinding,
 };
 pub use mesh_asset::{MeshAsset, MeshId};
-pub use node::{Node, NodeId};
+pub use node::{Node, NodeId, Skin, SkinId};
 pub use pick::{Nearest, Pick, Picker, Reach, Region, Snap, SnapElement};
+pub use plan::{Absence, Cause, Decision, EffectPlan, Named};
 pub use render::{RenderError, Renderer, RendererBuilder, render};
 pub use scene::{NodePose, Pose, Scene, SceneError, SceneParts, SkinPose};
 pub use settings::{Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style};
 pub use showcase::showcase;
-pub use skin::{Skin, SkinId};
 pub use texture_asset::{TextureAsset, TextureId};
 pub use transform::Transform;
 pub use trigon_raster::simd::{SimdLevel, SimdLevelError};

@@ -8,7 +8,7 @@ use trigon_math::{DVec3, Vec3};
 
 use crate::background::Background;
 use crate::display::Display;
-use crate::effects::EffectSettings;
+use crate::effect_settings::EffectSettings;
 use crate::marks::{Marks, VertexPoints};
 
 /// The largest width or height of an image, in pixels.

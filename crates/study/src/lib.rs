@@ -1,9 +1,9 @@
 //! Measures what the trigon renderer costs and how accurate it is.
 //!
-//! - A module for each question, in which classical algorithms are compared with the engine; each has a file of its
-//!   own that cites its source: [`fill`], [`visibility`], [`mod@line`], [`shading`], [`interpolation`], [`depth`],
+//! - A module for each question: [`fill`], [`visibility`], [`mod@line`], [`shading`], [`interpolation`], [`depth`],
 //!   [`antialiasing`], [`texture`], [`transparency`], [`shadow`], [`color`], [`coordinates`], [`same_bytes`],
-//!   [`storage`], [`threads`]; [`frames`] for whole images; [`rivals`] for those of other renderers.
+//!   [`storage`], [`threads`]. Each compares classical algorithms with the engine. Every algorithm has a file of its own
+//!   that cites its source. [`frames`] compares whole images, [`rivals`] images of other renderers.
 //! - Exact results to compare with: [`oracle`].
 //! - The report: [`report`].
 //! - [`workloads`] that other renderers draw, too, and the code that times them. The bench `limits` measures what

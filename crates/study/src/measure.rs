@@ -30,10 +30,22 @@ impl Spread {
     }
 }
 
+/// Rounds in a row for the same memory.
+const SITTING: usize = 4;
+
+/// The most that memory is allocated anew.
+const MOST_SITTINGS: usize = 3;
+
 /// The nanoseconds of each candidate. All run once in each round, so that other load on the machine affects
 /// all of them alike. An uncounted first round fills caches.
 pub fn interleaved(rounds: usize, candidates: &mut [Box<dyn FnMut() + '_>]) -> Vec<Spread> {
     let mut times = vec![Vec::new(); candidates.len()];
+    run_rounds(rounds, candidates, &mut times);
+    times.into_iter().map(Spread::of).collect()
+}
+
+/// Appends the nanoseconds of each candidate in each round but the first.
+fn run_rounds(rounds: usize, candidates: &mut [Box<dyn FnMut() + '_>], times: &mut [Vec<f64>]) {
     for round in 0..=rounds.max(1) {
         for (times, candidate) in times.iter_mut().zip(&mut *candidates) {
             let start = Instant::now();
@@ -43,27 +55,54 @@ pub fn interleaved(rounds: usize, candidates: &mut [Box<dyn FnMut() + '_>]) -> V
             }
         }
     }
-    times.into_iter().map(Spread::of).collect()
 }
 
 /// The nanoseconds that each variant takes, in turn.
+///
+/// Where a variant's memory lies changes its time by up to a third, from one run of the program to the next. So many
+/// rounds are shared among variants that are made two or three times, in other memory each time.
 pub(crate) fn nanoseconds<'a, V: Copy>(
     rounds: usize,
     variants: &[V],
     mut run: impl FnMut(V) -> Box<dyn FnMut() + 'a>,
 ) -> Vec<Spread> {
-    let mut candidates: Vec<Box<dyn FnMut() + 'a>> = variants.iter().map(|&variant| run(variant)).collect();
-    interleaved(rounds, &mut candidates)
+    let sittings = (rounds / SITTING).clamp(1, MOST_SITTINGS);
+    let mut times = vec![Vec::new(); variants.len()];
+    // Those of the last sitting still hold their memory while the next ones are made.
+    let mut candidates: Vec<Box<dyn FnMut() + 'a>> = Vec::new();
+    for _ in 0..sittings {
+        candidates = {
+            let next = variants.iter().map(|&variant| run(variant)).collect();
+            drop(candidates);
+            next
+        };
+        run_rounds(rounds.div_ceil(sittings), &mut candidates, &mut times);
+    }
+    times.into_iter().map(Spread::of).collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use super::*;
 
     #[test]
     fn quarters_of_the_runs_are_shorter_and_longer() {
         let spread = Spread::of(vec![5.0, 1.0, 4.0, 2.0, 3.0]);
         assert_eq!(spread, Spread { low: 2.0, median: 3.0, high: 4.0 }, "of five values");
+    }
+
+    #[test]
+    fn many_rounds_are_shared_among_variants_made_anew() {
+        for (rounds, made, counted) in [(1, 1, 1), (5, 1, 5), (8, 2, 8), (15, 3, 15)] {
+            let (sittings, runs) = (Cell::new(0), Cell::new(0));
+            nanoseconds(rounds, &[()], |()| {
+                sittings.set(sittings.get() + 1);
+                Box::new(|| runs.set(runs.get() + 1))
+            });
+            assert_eq!((sittings.get(), runs.get()), (made, counted + made), "of {rounds} rounds");
+        }
     }
 
     #[test]

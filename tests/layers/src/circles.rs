@@ -43,35 +43,45 @@ pub fn circles(of: &Crate) -> Vec<Circle> {
     circles
 }
 
-/// The circles of a crate's top-level modules, each with all that lies in it: their names, the largest circle first. The
-/// crate's root is left out.
+/// The circles among the parts of each folder. A part is a file or a folder with all that lies in it; the head of a folder
+/// (`mod.rs`, and `lib.rs` or `main.rs` in the crate's own) is left out. In the crate's own folder no parts may need each other; in
+/// others only files may, which [`circles`] lists.
 #[must_use]
-pub fn module_circles(of: &Crate) -> Vec<Vec<String>> {
-    let name = |file: usize| {
-        let first = of.files[file].components().next()?;
-        let name = Path::new(first.as_os_str()).file_stem()?.to_string_lossy().into_owned();
-        (file != 0).then_some(name)
-    };
-    let mut graph = DiGraph::<String, ()>::new();
-    let mut nodes = BTreeMap::new();
-    for (from, to) in needs(of).into_keys() {
-        let (Some(from), Some(to)) = (name(from), name(to)) else { continue };
-        let [from, to] =
-            [from, to].map(|name| *nodes.entry(name.clone()).or_insert_with(|| graph.add_node(name)));
-        graph.update_edge(from, to, ());
+pub fn folder_circles(of: &Crate) -> Vec<String> {
+    let needs = needs(of);
+    let folders: BTreeSet<&Path> = of.files.iter().flat_map(|file| file.ancestors().skip(1)).collect();
+    let mut found = Vec::new();
+    for folder in folders {
+        let mut graph = DiGraph::<&str, ()>::new();
+        let mut nodes = BTreeMap::new();
+        for &(from, to) in needs.keys() {
+            let [from, to] = [from, to].map(|file| of.part(file, folder));
+            let (Some(from), Some(to)) = (from, to) else { continue };
+            let [from, to] =
+                [from, to].map(|name| *nodes.entry(name).or_insert_with(|| graph.add_node(name)));
+            graph.update_edge(from, to, ());
+        }
+        for circle in tarjan_scc(&graph).into_iter().filter(|circle| circle.len() > 1) {
+            let mut names: Vec<&str> = circle.into_iter().map(|node| graph[node]).collect();
+            names.sort_unstable();
+            let is_folder = |name: &&str| of.root.join(folder).join(name).is_dir();
+            if folder.as_os_str().is_empty() || names.iter().any(is_folder) {
+                found.push(format!("{}: {}", folder.display(), names.join(" ")));
+            }
+        }
     }
-    let mut circles: Vec<Vec<String>> = tarjan_scc(&graph)
-        .into_iter()
-        .filter(|circle| circle.len() > 1)
-        .map(|circle| circle.into_iter().map(|node| graph[node].clone()).collect())
-        .collect();
-    circles.iter_mut().for_each(|circle| circle.sort());
-    circles.sort_by(|a, b| b.len().cmp(&a.len()).then_with(|| a.cmp(b)));
-    circles
+    found
 }
 
 impl Crate {
-    /// Every item that a file needs of another, as `tile/area.rs -> simd.rs (Simd)`, sorted.
+    /// The part of a folder that a file belongs to: a file without its extension, or a folder.
+    fn part(&self, file: usize, folder: &Path) -> Option<&str> {
+        let within = self.files[file].strip_prefix(folder).ok()?;
+        let name = Path::new(within.components().next()?.as_os_str()).file_stem()?.to_str()?;
+        (file != 0 && name != "mod").then_some(name)
+    }
+
+    /// Every item that a file needs of another, as `tile_buffer/area.rs -> simd.rs (Simd)`, sorted.
     #[must_use]
     pub fn needs(&self) -> Vec<String> {
         let mut needs = BTreeSet::new();

@@ -12,7 +12,7 @@ mod resolve;
 mod signatures;
 mod workspace;
 
-pub use circles::{Circle, circles, module_circles};
+pub use circles::{Circle, circles, folder_circles};
 pub use module::Crate;
 pub use patch::{FilePatch, Patch};
 pub use signatures::long_signatures;

@@ -4,7 +4,7 @@ use crate::draw::{Drawn, Dropped, Sample, draw, shuffle};
 use crate::error::{Error, Result, at};
 use crate::list::{Mutant, list};
 use crate::sites::{Blame, blame, next_arm};
-use crate::{CRATES, Folder, copy, process, workspace};
+use crate::{Folder, copy, process, workspace};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fs;
@@ -37,15 +37,15 @@ struct Place {
     is_primary: bool,
 }
 
-/// Copies the workspace with `size` mutants of every crate, and builds the tests.
-pub(crate) fn build(folder: &Folder, size: usize) -> Result<()> {
+/// Copies the workspace with `size` mutants of every one of these crates, and builds the tests.
+pub(crate) fn build(folder: &Folder, size: usize, crates: &[&'static str]) -> Result<()> {
     let state = folder.state("");
     at(&state, fs::create_dir_all(&state))?;
     let path = folder.state("sample.json");
     let mut sample = Sample::load(&path)?;
     sample.commit = copy::git(&["rev-parse", "HEAD"])?.trim().to_owned();
     let mut lists: Vec<Vec<Mutant>> = Vec::new();
-    for krate in CRATES {
+    for &krate in crates {
         let mut mutants = list(&workspace(), krate)?;
         sample.listed.insert(krate.to_owned(), mutants.len());
         shuffle(&mut mutants);
@@ -54,7 +54,7 @@ pub(crate) fn build(folder: &Folder, size: usize) -> Result<()> {
     loop {
         let drawn = lists.iter().flat_map(|list| draw(list, size, &sample.dropped));
         let drawn: Vec<(u32, &Mutant)> = (1..).zip(drawn).collect();
-        let dropped = round(folder, &drawn)?;
+        let dropped = round(folder, crates, &drawn)?;
         if dropped.is_empty() {
             let drawn = drawn.iter().map(|(_, mutant)| Drawn {
                 identity: mutant.identity.clone(),
@@ -71,16 +71,16 @@ pub(crate) fn build(folder: &Folder, size: usize) -> Result<()> {
         sample.dropped.extend(dropped);
         sample.save(&path)?;
     }
-    process::build_tests(folder)
+    process::build_tests(folder, crates)
 }
 
 /// Compiles the workspace with these mutants; returns those that cannot stay.
-fn round(folder: &Folder, drawn: &[(u32, &Mutant)]) -> Result<BTreeMap<u32, Dropped>> {
+fn round(folder: &Folder, crates: &[&str], drawn: &[(u32, &Mutant)]) -> Result<BTreeMap<u32, Dropped>> {
     let unplaced = copy::copy(folder, drawn)?;
     if !unplaced.is_empty() {
         return Ok(unplaced.into_iter().map(|number| (number, Dropped::CannotBeSwitched)).collect());
     }
-    let output = process::check(folder)?;
+    let output = process::check(folder, crates)?;
     let messages = output.lines().filter_map(|line| serde_json::from_str::<Message>(line).ok());
     let diagnostics: Vec<Diagnostic> = messages.filter_map(|message| message.message).collect();
     let errors: Vec<&Diagnostic> = diagnostics.iter().filter(|found| found.level == "error").collect();

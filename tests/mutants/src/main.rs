@@ -31,7 +31,9 @@ use std::process::ExitCode;
 const CRATES: [&str; 9] = ["math", "mesh", "camera", "raster", "scene", "io", "edit", "study", "window"];
 
 const USAGE: &str = "usage:
-  trigon-mutants build DIR [SIZE]   copy the workspace to DIR and build it with SIZE mutants (60) of every crate
+  trigon-mutants build DIR [SIZE] [CRATE]...
+                                    copy the workspace to DIR and build it with SIZE mutants (60) of every crate,
+                                    or of these alone, and only their own tests
   trigon-mutants run DIR [CRATE]... test the mutants of these crates that have no result yet, or survived
   trigon-mutants again DIR [CRATE]... forget the results of these crates
   trigon-mutants report DIR         the tables of docs/mutation.md, and tests/mutants/results.csv
@@ -75,10 +77,10 @@ fn work(arguments: &[String]) -> Result<()> {
     };
     let folder = Folder(PathBuf::from(folder));
     match (command.as_str(), rest) {
-        ("build", []) => check::build(&folder, 60),
-        ("build", [size]) => {
-            let size = size.parse().map_err(|_| Error::Usage(format!("{size} is no number of mutants")))?;
-            check::build(&folder, size)
+        ("build", rest) => {
+            let size = rest.first().and_then(|size| size.parse().ok());
+            let crates = crates_of(if size.is_some() { &rest[1..] } else { rest })?;
+            check::build(&folder, size.unwrap_or(60), &crates)
         }
         ("run", names) => crates_of(names)?.into_iter().try_for_each(|name| run::run(&folder, name)),
         ("again", names) => crates_of(names)?.into_iter().try_for_each(|name| results::forget(&folder, name)),

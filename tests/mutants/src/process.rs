@@ -4,11 +4,10 @@ use crate::error::{Error, Result, at};
 use crate::tests_of::Test;
 use crate::{CRATES, Folder};
 use std::fs::File;
-use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Progress, for the person who waits.
 #[expect(clippy::print_stderr, reason = "a program that says what it is doing")]
@@ -16,12 +15,15 @@ pub(crate) fn say(text: &str) {
     eprintln!("{text}");
 }
 
-/// A cargo command in the copy. Warnings of all mutants are in its output, so it is not shown.
-fn cargo(folder: &Folder, command: &str) -> Command {
+/// A cargo command for these crates in the copy. Warnings of all mutants are in its output, so it is not shown.
+fn cargo(folder: &Folder, command: &str, crates: &[&str]) -> Command {
     let mut cargo = Command::new("cargo");
     cargo.args([command, "--message-format=json", "--quiet", "--lib"]);
-    for krate in CRATES {
+    for krate in crates {
         cargo.args(["-p", &format!("trigon-{krate}")]);
+    }
+    if crates.contains(&"window") {
+        cargo.args(["--features", "trigon-window/kittest"]);
     }
     cargo.current_dir(folder.tree()).env("CARGO_TARGET_DIR", folder.target()).env("CARGO_INCREMENTAL", "0");
     cargo
@@ -37,17 +39,19 @@ fn output(mut cargo: Command, errors: &Path) -> Result<(String, bool)> {
 }
 
 /// The compiler's messages about the mutated crates.
-pub(crate) fn check(folder: &Folder) -> Result<String> {
-    let mut command = cargo(folder, "check");
-    command.args(["--keep-going", "--features", "trigon-window/kittest"]);
+pub(crate) fn check(folder: &Folder, crates: &[&str]) -> Result<String> {
+    let mut command = cargo(folder, "check", crates);
+    command.arg("--keep-going");
     Ok(output(command, &folder.state("cargo.log"))?.0)
 }
 
-/// Builds all test programs, and keeps cargo's list of them.
-pub(crate) fn build_tests(folder: &Folder) -> Result<()> {
-    let mut command = cargo(folder, "test");
-    command.args(["--no-run", "--bins", "--tests", "-p", "trigon-tests"]);
-    command.args(["--features", "trigon-window/kittest"]);
+/// Builds the crates' test programs, for all crates also those of the workspace, and keeps cargo's list of them.
+pub(crate) fn build_tests(folder: &Folder, crates: &[&str]) -> Result<()> {
+    let mut command = cargo(folder, "test", crates);
+    command.args(["--no-run", "--bins", "--tests"]);
+    if crates.len() == CRATES.len() {
+        command.args(["-p", "trigon-tests"]);
+    }
     let log = folder.state("cargo.log");
     let (messages, succeeds) = output(command, &log)?;
     if !succeeds {
@@ -68,10 +72,10 @@ pub(crate) enum End {
 
 /// Runs one test alone, with a variable that says what the switches do.
 pub(crate) fn run_test(test: &Test, variable: (&str, &str), limit: Duration) -> Result<(End, Duration)> {
-    let start = Instant::now();
     let failed = |error: std::io::Error| Error::File { path: test.program.clone(), error };
     // Mutants that allocate without end must not take the machine with them.
-    let mut child = Command::new("sh")
+    let mut command = Command::new("sh");
+    command
         .args(["-c", "ulimit -v 16000000; exec \"$0\" \"$@\""])
         .arg(&test.program)
         .args(["--exact", &test.name, "--test-threads=1"])
@@ -84,33 +88,36 @@ pub(crate) fn run_test(test: &Test, variable: (&str, &str), limit: Duration) -> 
         .env(variable.0, variable.1)
         .stdin(Stdio::null())
         .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .process_group(0)
-        .spawn()
-        .map_err(failed)?;
-    let status = wait(&mut child, start + limit).map_err(failed)?;
+        .stderr(Stdio::null());
+    // A group that can be ended with all that the test starts. Elsewhere the program is built, but cannot run.
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(&mut command, 0);
+    let mut child = command.spawn().map_err(failed)?;
+    let (status, time) = wait(&mut child, limit).map_err(failed)?;
     let end = match status {
         Some(status) if status.success() => End::Passed,
         Some(_) => End::Failed,
         None => End::TimedOut,
     };
-    Ok((end, start.elapsed()))
+    Ok((end, time))
 }
 
-/// `None` after the limit; then the test and all that it started are ended.
-fn wait(child: &mut Child, limit: Instant) -> std::io::Result<Option<ExitStatus>> {
-    let mut pause = Duration::from_millis(1);
+/// How the child ended, and after how long; `None` after the limit: then the test and all that it started are
+/// ended. Pauses are added up instead of looking at a clock, which goes on while the machine sleeps.
+fn wait(child: &mut Child, limit: Duration) -> std::io::Result<(Option<ExitStatus>, Duration)> {
+    let (mut pause, mut waited) = (Duration::from_millis(1), Duration::ZERO);
     loop {
         if let Some(status) = child.try_wait()? {
-            return Ok(Some(status));
+            return Ok((Some(status), waited));
         }
-        if Instant::now() > limit {
+        if waited > limit {
             let group = format!("-{}", child.id());
             Command::new("kill").args(["-KILL", "--", &group]).status()?;
             child.wait()?;
-            return Ok(None);
+            return Ok((None, waited));
         }
         thread::sleep(pause);
+        waited += pause;
         pause = (pause * 2).min(Duration::from_millis(20));
     }
 }

@@ -82,25 +82,26 @@ fn percent(part: usize, whole: usize) -> String {
 fn scores(sample: &Sample, rows: &[Row], reasons: &BTreeMap<String, (bool, String)>) -> String {
     let mut text = format!(
         "\n## Score\nAt commit `{}`.\n\n\
-         | crate | listed | sample | caught | timed out | survived | of these equivalent | score | before |\n\
-         |---|---|---|---|---|---|---|---|---|\n",
+         | crate | listed | sample | caught | timed out | survived | of these equivalent | score | without equivalent | before |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n",
         sample.commit.get(..8).unwrap_or_default()
     );
     for krate in CRATES {
         let own: Vec<&Row> = rows.iter().filter(|row| row.krate == krate).collect();
         let count = |is: &dyn Fn(&Row) -> bool| own.iter().filter(|row| is(row)).count();
         let detected = count(&|row| row.outcome.is_detected());
-        let equivalent = |row: &Row| reasons.get(row.identity).is_some_and(|reason| reason.0);
+        let is_equivalent = |row: &Row| reasons.get(row.identity).is_some_and(|reason| reason.0);
+        let equivalent = count(&|row| !row.outcome.is_detected() && is_equivalent(row));
         let _ = writeln!(
             text,
-            "| {krate} | {} | {} | {} | {} | {} | {} | **{}** | {} |",
+            "| {krate} | {} | {} | {} | {} | {} | {equivalent} | **{}** | {} | {} |",
             sample.listed.get(krate).copied().unwrap_or_default(),
             own.len(),
             count(&|row| row.outcome == Outcome::Caught),
             count(&|row| row.outcome == Outcome::TimedOut),
             own.len() - detected,
-            count(&|row| !row.outcome.is_detected() && equivalent(row)),
             percent(detected, own.len()),
+            percent(detected, own.len() - equivalent),
             percent(count(&|row| row.outcome.is_detected() && !row.survived_before), own.len()),
         );
     }

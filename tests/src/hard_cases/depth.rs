@@ -21,7 +21,7 @@ fn images(vertices: Vec<Vec4>, triangles: &[[u32; 3]]) -> TargetImages {
 }
 
 /// Half a unit of the last place of a depth below 1 is 2^-25. What the plane in f64
-/// is off before that, `2^-50 Δz XY/A` and an eighth (see `tile/depth.rs`), is at most
+/// is off before that, `2^-50 Δz XY/A` and an eighth (see `primitive/depth.rs`), is at most
 /// a 32nd of that as long as XY/A is below 2^19.
 const ROUNDED: f64 = (1.0 + 1.0 / 32.0) / (1 << 25) as f64;
 

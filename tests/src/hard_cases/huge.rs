@@ -73,7 +73,7 @@ pub(super) fn far_corner() -> impl Strategy<Value = Vec4> {
 /// is 1/512, too; and cut from coordinates of up to 10⁹ pixels, at another corner's w
 /// 32 times as much, with 2^-44 of that (see `clipping::vertices`), 1/549. Together,
 /// over both axes, less than 1/90. Depths of at most 1 are rounded twice, and what
-/// `tile/depth.rs` adds is less.
+/// `primitive/depth.rs` adds is less.
 const TOLERANCE: Tolerance = Tolerance { outline: 1.0 / 90.0, depth: 1.0 / (1 << 22) as f64 };
 
 proptest! {

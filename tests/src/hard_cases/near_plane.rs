@@ -13,7 +13,7 @@ use trigon_study::oracle::ray::Tolerance;
 /// been rounded to f32 before, coordinate and w, each by 2^-24 of at most 32768
 /// pixels, which is 1/512, too; and cut from coordinates of up to 1e3/1e-4 times w,
 /// with 2^-44 of that (see `clipping::vertices`). Together, over both axes, less than
-/// 1/120. Depths of at most 1 are rounded twice, and what `tile/depth.rs` adds is less.
+/// 1/120. Depths of at most 1 are rounded twice, and what `primitive/depth.rs` adds is less.
 const TOLERANCE: Tolerance = Tolerance { outline: 1.0 / 120.0, depth: 1.0 / (1 << 22) as f64 };
 
 /// Distances about the near plane, about zero, and on either side.

@@ -28,6 +28,7 @@ mod targets;
 #[cfg(test)]
 mod tests;
 mod transform;
+mod transform_kind;
 mod translate;
 mod view;
 
@@ -41,5 +42,6 @@ pub(crate) use pivot::Pivot;
 pub(crate) use selected::Selected;
 pub(crate) use snap::{SnapSettings, SnapSource, SnapTarget};
 pub(crate) use state::{Tool, ToolMarks, ToolState};
-pub(crate) use transform::{TransformKind, TransformSettings, TransformTool};
+pub(crate) use transform::{TransformSettings, TransformTool};
+pub(crate) use transform_kind::TransformKind;
 pub(crate) use view::ToolView;

@@ -5,7 +5,7 @@ use trigon_edit::mesh::math::{DVec2, DVec3};
 use trigon_window::{Hands, Input};
 
 use super::modal::Modal;
-use super::transform::TransformKind;
+use super::transform_kind::TransformKind;
 use super::view::ToolView;
 
 /// A tool that runs.

@@ -11,11 +11,11 @@ use super::click::Click;
 use super::editor::Editor;
 use super::loading::Loading;
 use super::open_file::{Answer, Next};
+use super::panels::Popup;
 use super::panes::pane_of;
-use super::pick;
 use super::running::Running;
 use super::saving::Saving;
-use super::{files, interface};
+use super::{files, interface, pick};
 use crate::request::{FileAction, FileRequest, Request};
 
 impl Handler for Editor {
@@ -93,7 +93,7 @@ impl Editor {
                 self.place_cursor(stage, hands)
             }
             Input::Clicked(PointerButton::Right) => {
-                self.popup = Some(interface::Popup::new(CONTEXT_MENU));
+                self.popup = Some(Popup::new(CONTEXT_MENU));
                 Taken::Yes
             }
             Input::FocusLost => {

@@ -21,6 +21,7 @@ mod modal;
 mod navigation;
 mod onto_stage;
 mod open_file;
+mod panels;
 mod panes;
 mod pick;
 mod placing;

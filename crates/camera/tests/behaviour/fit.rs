@@ -154,3 +154,42 @@ fn planes_follow_a_camera_inside_the_bounds() {
     let away = Camera::look_at(DVec3::X * 5.0, DVec3::X * 6.0, DVec3::Y).with_clip_planes(&bounds);
     assert!(away.projection.near() > 0.0, "a camera that looks away keeps a near plane");
 }
+
+/// Seen along −z from a height of ten: a cube from 9 to 11, a square, and a cube so far away that its own size is
+/// below the rounding of distances.
+#[test]
+fn planes_keep_a_hundredth_of_the_bounds_away_from_them() {
+    let square = Bounds3 { min: DVec3::new(-1.0, -1.0, 0.0), max: DVec3::new(1.0, 1.0, 0.0) };
+    let cube = |z: f64| Bounds3 { min: DVec3::new(-1.0, -1.0, z - 1.0), max: DVec3::new(1.0, 1.0, z + 1.0) };
+    // A hundredth of the depth and of half of the diagonal, and a milliardth of the distance.
+    let of_cube = 0.02 + 0.01 * 3f64.sqrt();
+    let cases = [
+        (square, 10.0, 10.0, 0.01 * 2f64.sqrt() + 1e-8),
+        (cube(0.0), 9.0, 11.0, of_cube + 1.1e-8),
+        (cube(10.0 - 1e9), 1e9 - 1.0, 1e9 + 1.0, of_cube + 1.0),
+    ];
+    let camera = Camera::look_at(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y);
+    let perspective = Projection::perspective(1.0, 0.1, Some(5.0)).expect("valid");
+    let parallel = Projection::orthographic(3.0, 0.1, 5.0).expect("valid");
+    for (bounds, nearest, farthest, room) in cases {
+        for projection in [perspective, parallel] {
+            let projection = camera.with_projection(projection).with_clip_planes(&bounds).projection;
+            let (near, far) = (projection.near(), projection.far().expect("it stays finite"));
+            assert!((near - (nearest - room)).abs() < 1e-6, "{near} instead of {nearest} - {room}");
+            assert!((far - (farthest + room)).abs() < 1e-6, "{far} instead of {farthest} + {room}");
+        }
+    }
+    let inside = camera.with_projection(perspective).with_clip_planes(&cube(10.0)).projection;
+    let far = 1.0 + of_cube + 1e-9;
+    assert!(
+        (inside.near() - 1e-5 * far).abs() < 1e-9,
+        "a hundred-thousandth of the farthest: {}",
+        inside.near()
+    );
+    let infinite = Projection::perspective(1.0, 0.1, None).expect("valid");
+    assert_eq!(
+        camera.with_projection(infinite).with_clip_planes(&square).projection.far(),
+        None,
+        "it stays infinite"
+    );
+}

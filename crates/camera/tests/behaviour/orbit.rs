@@ -202,3 +202,49 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn an_orbit_tells_its_axis_and_the_height_of_its_window() {
+    let mut orbit = Orbit::new(DVec3::new(0.0, 0.0, 3.0));
+    assert!(orbit.up().distance(DVec3::Z) < 1e-12, "of unit length: {}", orbit.up());
+    orbit.set_projection(Projection::perspective(FRAC_PI_2, 0.1, None).expect("valid"));
+    orbit.set_distance(3.0);
+    assert!((orbit.height_at_target() - 6.0).abs() < 1e-12, "45° up and down");
+    // The distance at which the perspective shows as much as the parallel window.
+    orbit.set_projection(Projection::orthographic(8.0, 0.1, 10.0).expect("valid"));
+    assert!(orbit.is_orthographic() && (orbit.distance() - 4.0).abs() < 1e-12, "{}", orbit.distance());
+}
+
+#[test]
+fn distances_that_are_not_positive_are_ignored() {
+    let mut orbit = Orbit::new(DVec3::Y);
+    for distance in [0.0, -0.0, -1.0, f64::NAN] {
+        orbit.set_distance(distance);
+        assert_eq!(orbit.distance(), 5.0, "{distance}");
+    }
+}
+
+#[test]
+fn fitting_looks_at_the_middle_and_fills_the_image() {
+    let bounds = Bounds3 { min: DVec3::new(1.0, 2.0, 3.0), max: DVec3::new(3.0, 6.0, 3.0) };
+    let mut orbit = Orbit::new(DVec3::Y);
+    orbit.set_projection(Projection::perspective(FRAC_PI_2, 0.1, None).expect("valid"));
+    orbit.fit(&bounds, 1.0, 0.0);
+    assert_eq!(orbit.target(), DVec3::new(2.0, 4.0, 3.0), "the middle");
+    // Half of the height of 4, seen from the front at 45°.
+    assert!((orbit.distance() - 2.0).abs() < 1e-12, "{}", orbit.distance());
+}
+
+#[test]
+fn a_trackball_turns_by_the_angle() {
+    let mut orbit = Orbit::new(DVec3::Y);
+    orbit.set_style(OrbitStyle::Trackball);
+    orbit.orbit(FRAC_PI_2, 0.0);
+    let forward = orbit.camera(&BOX).forward();
+    assert!(forward.distance(DVec3::NEG_X) < 1e-12, "from the right side: {forward}");
+    orbit.orbit(0.0, FRAC_PI_2);
+    let forward = orbit.camera(&BOX).forward();
+    assert!(forward.distance(DVec3::NEG_Y) < 1e-12, "from above: {forward}");
+    orbit.orbit(f64::NAN, f64::INFINITY);
+    assert_eq!(orbit.camera(&BOX).forward(), forward, "what is not finite turns nothing");
+}

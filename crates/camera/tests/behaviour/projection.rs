@@ -126,3 +126,44 @@ fn constructors_refuse_and_name_the_number() {
         assert!(error.contains(name), "{error:?} should name {name}");
     }
 }
+
+/// A window of 4 by 2 on the near plane at 0.5 is four times as large at a distance of 2.
+#[test]
+fn windows_grow_with_distance_and_keep_their_aspect() {
+    let frustum = Projection::frustum(-1.0, 3.0, 0.0, 2.0, 0.5, None).expect("valid");
+    assert_eq!((frustum.own_aspect(), frustum.height_at(2.0)), (Some(2.0), 8.0));
+    // A tall pixel of 640 by 480: one metre at a distance of one is 400 pixels wide and 300 high.
+    let focal = DVec2::new(400.0, 300.0);
+    let center = DVec2::new(320.0, 240.0);
+    let pinhole = Projection::pinhole(focal, center, IMAGE, PixelCenters::AtHalves, 0.1).expect("valid");
+    assert_eq!((pinhole.own_aspect(), pinhole.height_at(2.0)), (Some(1.0), 3.2));
+    let quarter = Projection::perspective(std::f64::consts::FRAC_PI_2, 0.1, None).expect("valid");
+    assert!(
+        quarter.own_aspect().is_none() && (quarter.height_at(3.0) - 6.0).abs() < 1e-12,
+        "45° up and down"
+    );
+    let parallel = Projection::orthographic(5.0, 0.0, 1.0).expect("valid");
+    assert_eq!((parallel.own_aspect(), parallel.height_at(7.0)), (None, 5.0), "at any distance");
+}
+
+#[test]
+fn a_parallel_projection_takes_over_planes_or_a_far_one() {
+    let quarter = |far| Projection::perspective(std::f64::consts::FRAC_PI_2, 0.5, far).expect("valid");
+    let parallel = quarter(None).to_orthographic(2.0).expect("in range");
+    assert_eq!((parallel.near(), parallel.far()), (0.5, Some(2.5e6)), "a million times as far");
+    let parallel = quarter(Some(9.0)).to_orthographic(2.0).expect("in range");
+    assert_eq!((parallel.near(), parallel.far()), (0.5, Some(9.0)), "kept");
+}
+
+#[test]
+fn a_projector_has_the_camera_it_was_made_for() {
+    let camera = Camera::look_at(DVec3::new(1.0, 2.0, 3.0), DVec3::ZERO, DVec3::Z);
+    assert_eq!(Projector::new(&camera, IMAGE).camera(), &camera);
+}
+
+#[test]
+fn an_image_without_area_counts_as_square() {
+    for (width, height, aspect) in [(0, 0, 1.0), (0, 5, 1.0), (5, 0, 1.0), (3, 2, 1.5)] {
+        assert_eq!(Viewport { width, height }.aspect(), aspect, "{width}×{height}");
+    }
+}

@@ -1,8 +1,8 @@
 //! What all commands have in common.
 
 use super::outcome::Outcome;
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// The implementation of a command.
 pub(crate) trait Action {

@@ -9,8 +9,8 @@ use trigon_scene::{MeshId, NodeId};
 use super::scene::named_or_selected;
 use super::set_transform::transform_of;
 use super::{Action, Outcome, Rotation, SetTransform, TransformSpace};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Applies the placement of the selected objects to their vertices and clears it, so that nothing moves in the
 /// image and lengths in the mesh are those in the world. Child objects stay where they are.

@@ -6,9 +6,9 @@ use trigon_mesh::edit;
 use trigon_mesh::edit::BevelSettings;
 
 use super::{Action, Outcome};
-use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::Elements;
+use crate::state::{AfterEdit, Change};
 
 /// Replaces the selected edges or vertices with new faces.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

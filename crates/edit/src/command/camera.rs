@@ -8,8 +8,8 @@ use trigon_scene::{Node, Transform};
 
 use super::scene::select_only;
 use super::{Action, Outcome, Rotation};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Adds a camera and selects it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

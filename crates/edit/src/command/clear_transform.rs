@@ -6,8 +6,8 @@ use trigon_mesh::math::DVec3;
 
 use super::scene::named_or_selected;
 use super::{Action, Outcome, Rotation, SetTransform, TransformSpace};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Clears the location, rotation or scale of the selected objects relative to their parent.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

@@ -7,9 +7,9 @@ use trigon_mesh::math::{DAffine3, DVec3};
 
 use super::space::TransformSpace;
 use super::{Action, ObjectName, Outcome};
-use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::Elements;
+use crate::state::{AfterEdit, Change};
 
 const CUTTING: &str = "cutting a loop";
 const EDGES: &str = "at least one selected edge";

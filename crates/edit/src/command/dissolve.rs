@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 use trigon_mesh::edit::LimitedDissolve;
 
 use super::{Action, Outcome};
-use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::{ElementKind, Elements};
+use crate::state::{AfterEdit, Change};
 
 /// Removes the selected elements and leaves the surface that they divided as larger faces.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

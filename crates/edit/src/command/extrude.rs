@@ -9,9 +9,9 @@ use trigon_mesh::math::{DAffine3, DVec3};
 
 use super::space::TransformSpace;
 use super::{Action, Outcome};
-use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::Elements;
+use crate::state::{AfterEdit, Change};
 
 /// Extrudes the selection: faces as a region; without faces, edges become faces, and vertices at none of
 /// these edges become edges. The extruded elements are selected and moved.

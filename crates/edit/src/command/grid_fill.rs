@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 use trigon_mesh::edit::GridSides;
 
 use super::{Action, Outcome};
-use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::Elements;
+use crate::state::{AfterEdit, Change};
 
 /// Fills the selected loop, which needs an even number of edges, with a grid of quads.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

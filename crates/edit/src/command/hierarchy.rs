@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::scene::named_or_selected;
 use super::set_transform::transform_of;
 use super::{Action, ObjectName, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Sets or clears the parent of objects.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use trigon_io::{LoadOptions, Loaded, load};
 
 use super::{Action, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Adds the objects of a file in any readable format, placed as they are there, and selects them. The file is
 /// read again whenever the command runs again, in a script or from a recovery file.

@@ -7,8 +7,8 @@ use trigon_mesh::math::DAffine3;
 use trigon_scene::{Material, MaterialId, MeshId, NodeId, Scene, Transform};
 
 use super::{Action, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Moves the meshes of the selected objects into that of the active one, keeping their positions. The other
 /// objects are removed; their children stay in place and move to the removed object's parent.

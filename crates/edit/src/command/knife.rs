@@ -6,9 +6,9 @@ use trigon_mesh::edit::{EdgeId, FaceId, KnifePoint, VertexId};
 use trigon_mesh::math::Vec3;
 
 use super::{Action, ObjectName, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
 use crate::selection::Elements;
+use crate::state::Change;
 
 /// Cuts faces along a path of points, and selects the edges of the cut. Consecutive points must belong to the
 /// same face; the path begins and ends at vertices or on edges.

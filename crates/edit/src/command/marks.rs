@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Action, Outcome};
-use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::ElementKind;
+use crate::state::{AfterEdit, Change};
 
 const EDGES: &str = "at least one selected edge";
 const FACES: &str = "at least one selected face";

@@ -7,8 +7,8 @@ use trigon_scene::{AlphaMode, Material, MaterialId, MetallicRoughness, Scene, Sh
 
 use super::set_transform::named_or_active;
 use super::{Action, ObjectName, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// A material by its number, or by its name: the first one with that name.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

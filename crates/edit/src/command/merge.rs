@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 use trigon_mesh::edit::VertexId;
 
 use super::{Action, Outcome};
-use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::{ElementKind, Elements};
+use crate::state::{AfterEdit, Change};
 
 /// Where vertices are merged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

@@ -6,9 +6,9 @@ use trigon_mesh::edit::Refusal;
 use trigon_mesh::math::{DVec3, Plane};
 
 use super::{Action, Outcome};
-use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::Elements;
+use crate::state::{AfterEdit, Change};
 
 /// A plane in the space of the mesh.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Action, ObjectName, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
 use crate::selection::{ElementKind, ElementKinds};
+use crate::state::Change;
 
 /// Enters edit mode, in which vertices, edges and faces of the objects' meshes can be selected.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

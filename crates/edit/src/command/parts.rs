@@ -7,9 +7,9 @@ use trigon_mesh::math::{DAffine3, DVec3};
 
 use super::space::TransformSpace;
 use super::{Action, Outcome};
-use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::{ElementKind, Elements};
+use crate::state::{AfterEdit, Change};
 
 const FACES: &str = "at least one selected face";
 

@@ -11,8 +11,8 @@ use super::space::{
 };
 use super::transform::{Proportional, VERTICES};
 use super::{Action, Outcome};
-use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
+use crate::state::{AfterEdit, Change};
 
 /// Moves the selection.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

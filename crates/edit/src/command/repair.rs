@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Action, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Repairs the selected kinds of faults in the edited meshes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -10,8 +10,8 @@ use super::place::Placing;
 use super::space::TransformSpace;
 use super::transform::Proportional;
 use super::{Action, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Scales the selection about a centre, along three axes.
 ///

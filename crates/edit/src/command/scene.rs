@@ -8,8 +8,8 @@ use trigon_mesh::math::{DVec3, Vec3};
 use trigon_scene::{Light, Material, Node, NodeId};
 
 use super::{Action, ObjectName, Outcome, Shape};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Adds a standard object and selects it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

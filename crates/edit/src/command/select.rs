@@ -9,9 +9,9 @@ use trigon_scene::MeshId;
 
 use super::select_related::change_selections;
 use super::{Action, ObjectName, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
 use crate::selection::ElementKind;
+use crate::state::Change;
 
 /// How a selection combines with the previous one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

@@ -7,8 +7,8 @@ use trigon_scene::MeshId;
 
 use super::select::check_element;
 use super::{Action, ObjectName, Outcome, SelectAction};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Selects elements of edited objects in bulk: none of them becomes active.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

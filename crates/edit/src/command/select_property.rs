@@ -6,12 +6,12 @@ use trigon_mesh::math::DVec3;
 
 use super::select_related::change_selections;
 use super::{Action, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
 use crate::selection::{
     ElementKind, Elements, Similarity, border_edges, faces_of_material, faces_towards, non_manifold_edges,
     sharp_edges, similar,
 };
+use crate::state::Change;
 
 /// Selects exactly the edges that have one face only.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 use trigon_mesh::edit::{EdgeId, EditMesh, Refusal};
 
 use super::{Action, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
 use crate::selection::{
     ElementKind, Elements, MeshSelection, edge_loop, edge_ring, face_loop, shortest_path,
 };
+use crate::state::Change;
 
 /// Changes the selection of each mesh that is edited.
 pub(super) fn change_selections(

@@ -6,8 +6,8 @@ use trigon_mesh::math::DVec3;
 
 use super::select_related::change_selections;
 use super::{Action, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Selects the elements whose centre (the mean of their vertices) lies within a box, boundary included.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

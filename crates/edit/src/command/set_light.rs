@@ -7,8 +7,8 @@ use trigon_scene::{Light, LightKind};
 
 use super::set_transform::named_or_active;
 use super::{Action, LightShape, ObjectName, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Changes an object's light. Parameters that are not given keep their values.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

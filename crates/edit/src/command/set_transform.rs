@@ -7,8 +7,8 @@ use trigon_scene::{NodeId, Transform};
 
 use super::space::TransformSpace;
 use super::{Action, ObjectName, Outcome, Rotation};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Sets an object's exact placement. Parameters that are not given keep their values.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

@@ -8,9 +8,9 @@ use trigon_mesh::edit::{EditMesh, Refusal, VertexId};
 use trigon_mesh::math::{DAffine3, DMat3, DVec3};
 use trigon_scene::{MeshId, NodeId, Scene};
 
-use crate::document::Change;
 use crate::error::EditError;
 use crate::selection::{ElementKind, MeshSelection};
+use crate::state::Change;
 
 /// The space in which offsets, axes and centres are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

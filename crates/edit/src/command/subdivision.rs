@@ -6,8 +6,8 @@ use trigon_scene::MeshId;
 
 use super::whole_meshes::{remake, whole_meshes};
 use super::{Action, Outcome};
-use crate::document::{Change, shown_levels};
 use crate::error::EditError;
+use crate::state::{Change, shown_levels};
 
 /// Shows meshes as their Catmull-Clark surfaces, while their own elements, the cage, go on to be edited: the meshes that
 /// are edited, or those of the selected objects. Edges with a crease stay sharp. The file of the document keeps

@@ -6,9 +6,9 @@ use trigon_mesh::edit::QuadLimits;
 
 use super::whole_meshes::{remake, whole_meshes};
 use super::{Action, Outcome};
-use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::{ElementKind, Elements};
+use crate::state::{AfterEdit, Change};
 
 const FACES: &str = "at least one selected face";
 

@@ -9,8 +9,8 @@ use trigon_scene::{Scene, Texture, TextureBinding, TextureFormat, TextureId};
 
 use super::material::named_or_first;
 use super::{Action, MaterialName, Outcome, TextureSlot};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// The source of a texture.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

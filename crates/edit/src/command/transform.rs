@@ -8,8 +8,8 @@ use trigon_mesh::math::DVec3;
 
 use super::space::middle;
 use super::{Action, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Also moves elements near the selection, less with greater distance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

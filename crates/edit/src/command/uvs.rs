@@ -6,8 +6,8 @@ use trigon_mesh::edit::{BoxProjection, PlanarProjection};
 use trigon_mesh::math::DVec3;
 
 use super::{Action, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 const FACES: &str = "at least one selected face";
 

@@ -8,8 +8,8 @@ use trigon_scene::NodeId;
 
 use super::scene::named_or_selected;
 use super::{Action, Outcome};
-use crate::document::Change;
 use crate::error::EditError;
+use crate::state::Change;
 
 /// Hides all objects except the selected ones and their ancestors.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

@@ -3,9 +3,9 @@
 use trigon_mesh::edit::EditMesh;
 use trigon_scene::MeshId;
 
-use crate::document::Change;
 use crate::error::EditError;
 use crate::selection::ElementKind;
+use crate::state::Change;
 
 /// The meshes that are edited, or those of the selected objects. `command` names the command in the error
 /// if there are none.

@@ -1,15 +1,9 @@
 //! An open document: a scene, its edited meshes, the selection, the history.
 
-mod change;
 mod event;
 mod history;
-mod marked;
 mod preview;
 mod scene;
-mod scene_change;
-mod shown;
-mod state;
-mod visible;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -25,14 +19,10 @@ use trigon_scene::{MeshId, Scene};
 use crate::command::{Command, ImportFile, Outcome};
 use crate::error::EditError;
 use crate::selection::Selection;
+use crate::state::{Change, State};
 
-pub(crate) use change::{AfterEdit, Change};
 pub use event::Event;
 pub use history::{Entry, History};
-pub(crate) use marked::MarkedElements;
-pub use scene_change::SceneChange;
-use state::State;
-pub(crate) use visible::shown_levels;
 
 /// A scene that commands edit.
 ///

@@ -5,10 +5,7 @@ use trigon_mesh::edit::{ElementMap, ElementNumbers};
 use trigon_scene::{MeshId, Scene};
 
 use super::Document;
-use super::MarkedElements;
-use super::scene_change::SceneChange;
-use super::shown::{Outdated, Untold};
-use super::state::State;
+use crate::state::{MarkedElements, Outdated, SceneChange, State, Untold};
 
 impl Document {
     /// The scene as it is now, for drawing. Its meshes follow the edits since the last call: in

@@ -21,7 +21,7 @@ pub struct Export {
     /// The files in the order in which they are to be written: the model comes last, after the files that it
     /// refers to.
     pub files: Vec<ExportedFile>,
-    pub(super) losses: Vec<Loss>,
+    pub(crate) losses: Vec<Loss>,
 }
 
 impl Export {

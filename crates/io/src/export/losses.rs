@@ -34,7 +34,7 @@ pub(crate) struct Holds {
 }
 
 /// Adds what will not be in the file.
-pub(super) fn add(gathered: &mut Gathered<'_>, holds: &Holds) {
+pub(crate) fn add_losses(gathered: &mut Gathered<'_>, holds: &Holds) {
     let scene = gathered.scene;
     add_of_nodes(gathered);
     let mut losses = Vec::new();
@@ -76,7 +76,7 @@ pub(super) fn add(gathered: &mut Gathered<'_>, holds: &Holds) {
 }
 
 /// What is missing in a file that holds everything of a scene except polygons.
-pub(super) fn of_whole(scene: &Scene, options: &ExportOptions<'_>) -> Vec<Loss> {
+pub(crate) fn losses_of_whole(scene: &Scene, options: &ExportOptions<'_>) -> Vec<Loss> {
     let is_wanted = |id: NodeId| options.nodes.as_ref().is_none_or(|wanted| wanted.contains(&id));
     let mesh = |node: &Node| scene.meshes().get(node.mesh?).map(|asset| asset.mesh());
     let mut meshes = scene.nodes().iter().filter(|(id, _)| is_wanted(*id)).filter_map(|(_, node)| mesh(node));

@@ -1,6 +1,7 @@
 //! The model formats, one row for each: how it is read and written, and how it is recognized, by its name, or
 //! by its first bytes if the name has no known extension.
 
+mod export_scene;
 pub(crate) mod gltf;
 mod obj;
 mod off;
@@ -17,6 +18,8 @@ use crate::export::{ExportOptions, ExportedFile, Gathered, HeldPoints, Holds};
 use crate::format::{Format, Reader, Writer};
 use crate::import::Import;
 use crate::write::WriteError;
+
+pub use export_scene::export;
 
 /// Everything that loader and exporter know about a format.
 pub(crate) struct FormatRow {

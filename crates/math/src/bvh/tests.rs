@@ -250,3 +250,36 @@ fn the_same_triangles_many_times_do_not_make_a_deep_tree() {
     let hit = bvh.nearest(&ray, 0.0..f32::INFINITY).expect("in the way");
     assert_eq!(hit.triangle, 0, "the smallest number of equals");
 }
+
+/// Heaps of four triangles, numbered across, far apart along one axis: a leaf that held triangles of two heaps would
+/// be met by all rays between them.
+#[test]
+fn leaves_hold_what_lies_together() {
+    const HEAPS: u32 = 32;
+    for axis in 0..3 {
+        let place = |number: u32| {
+            let mut place = Vec3::splat((number / HEAPS) as f32 * 0.1);
+            // Any order: 13 has no divisor in common with the number of heaps.
+            place[axis] += 10.0 * (number * 13 % HEAPS) as f32;
+            place
+        };
+        let triangle = |number: u32| {
+            [Vec3::ZERO, Vec3::new(1.0, 0.5, 0.0), Vec3::new(0.0, 1.0, 0.5)]
+                .map(|corner| corner + place(number))
+        };
+        let triangles: Vec<[Vec3; 3]> = (0..4 * HEAPS).map(triangle).collect();
+        let tree = Bvh::new(&triangles);
+        let mut held = 0;
+        for leaf in &tree.leaves {
+            let numbers: Vec<u32> =
+                leaf.numbers.iter().copied().filter(|&number| number != u32::MAX).collect();
+            held += numbers.len();
+            let heap = |number: &u32| number * 13 % HEAPS;
+            assert!(
+                numbers.iter().all(|number| heap(number) == heap(&numbers[0])),
+                "axis {axis}: {numbers:?}"
+            );
+        }
+        assert_eq!(held, triangles.len(), "each triangle once");
+    }
+}

@@ -36,11 +36,8 @@ impl Bvh {
         let mut nearest: Option<RayHit> = None;
         let mut end = range.end;
         self.visit(ray, range.start, &mut end, |hit, end| {
-            let nearer = nearest.is_none_or(|best| {
-                hit.distance < best.distance
-                    || (hit.distance == best.distance && hit.triangle < best.triangle)
-            });
-            if nearer {
+            let order = |hit: RayHit| (hit.distance, hit.triangle);
+            if nearest.is_none_or(|best| order(hit) < order(best)) {
                 *end = hit.distance;
                 nearest = Some(hit);
             }
@@ -65,7 +62,7 @@ impl Bvh {
     fn leaving(&self, ray: &ShearedRay) -> f32 {
         let sides = self.nodes.last().map_or([0.0; 2], |root| root.sides[ray.axis()].map(|side| side[0]));
         let [low, high] = sides.map(|side| ray.distance_along(side).abs());
-        if low > high { low } else { high }
+        low.max(high)
     }
 
     /// Calls `found` with the hits of the ray, in some order, until it stops the traversal; it may

@@ -1,5 +1,5 @@
-//! What a morph target adds, stored where it adds something: the smile of a
-//! face moves few of its vertices.
+//! What a morph target adds, stored only for the vertices that it moves. The smile of a face moves few of
+//! its vertices.
 
 use std::collections::HashMap;
 

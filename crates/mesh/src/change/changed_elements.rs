@@ -1,4 +1,4 @@
-//! Which elements of a mesh were changed, when their values are in the mesh itself.
+//! A set of changed elements. Their new values are in the mesh itself.
 
 use super::MeshChange;
 use crate::Mesh;

@@ -1,5 +1,5 @@
-//! Normals of faces and the angles at their corners, which normals of vertices are made of:
-//! kept, as most of what a vertex asks for is of faces that no change has touched.
+//! Normals of faces and the angles at their corners, from which normals of vertices are computed. They are
+//! kept: a change touches few faces, and the normals of the other faces around a vertex are still valid.
 
 use std::ops::Range;
 

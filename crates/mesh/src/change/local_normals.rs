@@ -1,5 +1,5 @@
-//! Shading normals of the corners at one vertex: the bits of
-//! [`Mesh::shading_normals`], without the rest of the mesh.
+//! Shading normals of the corners at one vertex: the bits of [`Mesh::shading_normals`], without computing
+//! the rest of the mesh.
 
 use trigon_math::{DVec3, Vec3};
 

@@ -1,4 +1,4 @@
-//! Sets of elements, of which few are in one.
+//! Sets that contain few of many elements.
 
 /// A bit for each element.
 pub(super) struct Marks(Vec<u64>);

@@ -1,4 +1,4 @@
-//! Other values for some elements of a mesh.
+//! New values for some elements of a mesh.
 
 use thiserror::Error;
 use trigon_math::{Vec2, Vec3, Vec4};

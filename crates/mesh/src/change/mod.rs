@@ -1,11 +1,11 @@
-//! Changes of a mesh whose vertices, edges and faces stay what they are, and what a
-//! renderer has to do anew after one.
+//! Changes of values in a mesh whose vertices, edges and faces stay the same, and the updates that a
+//! renderer needs after such a change.
 //!
-//! A [`MeshChange`] gives some elements other values; [`Mesh::change`](crate::Mesh::change)
-//! takes it over. [`RenderLinks`] know which vertices of a
-//! [`RenderMesh`](crate::RenderMesh) come from which corners, so that a change of few
-//! elements costs what lies around these and not the whole mesh. The values that they give are, to the
-//! bit, those of a [`RenderMesh`](crate::RenderMesh) made from the changed mesh.
+//! A [`MeshChange`] lists new values for some elements; [`Mesh::change`](crate::Mesh::change) writes them.
+//! [`RenderLinks`] map the vertices of a [`RenderMesh`](crate::RenderMesh) to the corners that they come
+//! from. The cost of a change of few elements therefore depends on their neighbourhood and not on the whole
+//! mesh. The updated values are, to the bit, those of a [`RenderMesh`](crate::RenderMesh) made from the
+//! changed mesh.
 
 mod changed_elements;
 mod corner_faces;

@@ -1,5 +1,4 @@
-//! How the vertices of a render mesh come from its mesh, kept so that changes can be
-//! followed.
+//! The links between the vertices of a render mesh and its mesh, kept so that changes can be followed.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What a change of a mesh means for the render mesh that was made of it.
+//! What a change of a mesh changes in the render mesh that was made from it.
 
 use trigon_math::Vec3;
 

@@ -1,4 +1,4 @@
-//! What the corners at a vertex show, and which of them can still be one render vertex.
+//! The values of the corners at a vertex, and which of these corners can still be one render vertex.
 
 use trigon_math::Vec3;
 

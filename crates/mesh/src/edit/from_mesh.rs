@@ -1,4 +1,4 @@
-//! From a mesh that is shown and saved to one that can be edited.
+//! Converts a mesh that is shown and saved to an editable one.
 
 use trigon_math::Vec3;
 

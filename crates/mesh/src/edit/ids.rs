@@ -1,5 +1,4 @@
-//! The names of elements: one type for each kind, so that a vertex cannot be taken for a
-//! face.
+//! The ids of elements. Each kind has its own type, so that a vertex cannot be used as a face.
 
 use std::fmt;
 

@@ -1,5 +1,5 @@
-//! The values that vertices and corners carry besides their places: texture coordinates,
-//! colours, normals, skin weights, morph targets.
+//! The values of vertices and corners besides positions: texture coordinates, colours, normals, skin
+//! weights, morph targets.
 
 use trigon_math::{DVec2, DVec3, DVec4, Vec2, Vec3, Vec4};
 

@@ -1,6 +1,6 @@
-//! What an editing mesh holds and a [`Mesh`] does not, as plain lists: first positions,
-//! marks of edges, what is hidden. With the mesh of [`EditMesh::to_mesh`] they are all of it,
-//! so a file that holds both loses nothing.
+//! The data of an editable mesh that a [`Mesh`] does not have, as plain lists: original positions, marks of
+//! edges, hidden elements. Together with the mesh of [`EditMesh::to_mesh`] they are complete, so a file that
+//! holds both loses nothing.
 
 use thiserror::Error;
 use trigon_math::Vec3;

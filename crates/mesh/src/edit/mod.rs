@@ -21,6 +21,7 @@ mod inspect;
 mod layers;
 mod marks;
 mod measure;
+mod numbering;
 mod operations;
 mod records;
 mod refusal;

@@ -1,6 +1,6 @@
-//! Joining elements to the rings of their neighbours, one by one, and taking them out. (Whole
-//! meshes and steps that move many corners write their rings themselves: `from_mesh`, `euler`.)
-//! The order within a ring has no geometric meaning.
+//! Adds elements to the rings of their neighbours one by one, and removes them. (Conversions of whole meshes
+//! and steps that move many corners write their rings themselves: `from_mesh`, `euler`.) The order within a
+//! ring has no geometric meaning.
 
 use super::edit_mesh::EditMesh;
 use super::ids::NONE;

@@ -1,8 +1,8 @@
 //! Normals of corners at sharp edges.
 //!
-//! A [`Mesh`](crate::Mesh) blends over all smooth faces at a vertex. Where one of its edges is
-//! sharp, the corners there get normals of their own, one for each fan of smooth faces between
-//! sharp edges. Only these corners: all others keep the zero that stands for "computed".
+//! A [`Mesh`](crate::Mesh) blends normals over all smooth faces at a vertex. If an edge of the vertex is
+//! sharp, the corners there get normals of their own, one for each fan of smooth faces between sharp edges.
+//! All other corners keep the value zero, which stands for "computed".
 
 use smallvec::SmallVec;
 use trigon_math::{DVec3, Vec3};

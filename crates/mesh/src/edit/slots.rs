@@ -1,5 +1,5 @@
-//! Making and freeing slots. What is freed last is used first, so that a mesh that is edited
-//! for long does not grow, and the same steps give the same ids.
+//! Allocates and frees slots. The slot that was freed last is reused first, so that a mesh does not grow
+//! while it is edited for a long time, and the same steps give the same ids.
 
 use trigon_math::Vec3;
 

@@ -1,5 +1,5 @@
-//! The smooth surface of a mesh that is edited: how many levels of it are shown, and what a view shows of
-//! it, with the mesh itself over it as its cage.
+//! The subdivision surface of an editable mesh: how many levels of it are shown, and what a view shows. In
+//! edit mode the mesh itself is shown over the surface, as its cage.
 
 use super::edit_mesh::EditMesh;
 use super::ids::{EdgeId, FaceId, NONE, VertexId};

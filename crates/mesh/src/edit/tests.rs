@@ -270,3 +270,23 @@ fn a_difference_that_only_adds_is_not_empty() {
     let ((), nothing) = mesh.transaction(|_| Ok::<(), Refusal>(())).expect("nothing is done");
     assert!(nothing.is_empty(), "nothing was done");
 }
+
+#[test]
+fn marks_of_any_element_are_changes_and_positions_are_none() {
+    type Change = fn(&mut EditMesh, u32);
+    let mut mesh = EditMesh::from_mesh(&primitives::cube(1.0)).0;
+    let changes: [(&str, Change, bool); 4] = [
+        ("a vertex", |mesh, index| mesh.set_vertex_hidden(VertexId::new(index), true), true),
+        ("an edge", |mesh, index| mesh.set_sharp(EdgeId::new(index), true), true),
+        ("a face", |mesh, index| mesh.set_smooth(FaceId::new(index), true), true),
+        ("a place", |mesh, index| mesh.set_position(VertexId::new(index), Vec3::ZERO), false),
+    ];
+    for (what, change, is_mark) in changes {
+        let done = mesh.transaction(|mesh| {
+            change(mesh, 0);
+            Ok::<_, Refusal>(())
+        });
+        let (_, difference) = done.expect("it is not refused");
+        assert_eq!(difference.changes_marks(), is_mark, "{what}");
+    }
+}

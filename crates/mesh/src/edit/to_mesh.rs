@@ -1,5 +1,4 @@
-//! From a mesh that was edited to one that is shown and saved: without free slots, in the
-//! order of indices.
+//! Converts an editable mesh to one that is shown and saved: without free slots, in the order of indices.
 
 use trigon_math::Vec3;
 

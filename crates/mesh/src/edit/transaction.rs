@@ -1,4 +1,4 @@
-//! Changes that happen as a whole or not at all, and that can be undone to the same bytes.
+//! Transactions: changes that happen as a whole or not at all, and that can be undone to the same bytes.
 
 use trigon_math::Vec3;
 

@@ -1,4 +1,4 @@
-//! Whether a mesh keeps the rules of its structure: for tests, and for whoever suspects a fault.
+//! Checks whether a mesh satisfies the rules of its structure, for tests and for debugging.
 
 use super::edit_mesh::EditMesh;
 use super::ids::{EdgeId, FaceId, NONE, VertexId};

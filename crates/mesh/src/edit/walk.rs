@@ -1,4 +1,4 @@
-//! From an element to its neighbours.
+//! Navigation from an element to its neighbours.
 
 use super::edit_mesh::EditMesh;
 use super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};

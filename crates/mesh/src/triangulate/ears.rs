@@ -1,16 +1,16 @@
-//! Cutting ears off a polygon in the plane, by exact orientation.
+//! Cuts ears off a polygon in the plane, by exact orientation.
 //!
-//! The classical method (Meisters 1975; the treatment of touching corners
-//! follows the questions that Held's FIST, 2001, asks): an ear is a convex
-//! corner whose triangle nothing else of the polygon enters. Two things are
-//! particular here. Corners that lie on the new diagonal block an ear, so a
-//! corner in the middle of a straight side is kept and used. And an outline
-//! may touch itself (bridges to holes): at a corner in the same place as one
-//! of the ear's, it is the direction of the two sides there that decides.
+//! This is the classical method (Meisters 1975; the treatment of touching corners follows Held's FIST,
+//! 2001). An ear is a convex corner whose triangle contains nothing else of the polygon. Two things are
+//! particular here:
+//! - Corners that lie on the new diagonal block an ear, so a corner in the middle of a straight side is kept
+//!   and used.
+//! - An outline may touch itself, for example along bridges to holes. If a corner has the same position as a
+//!   corner of the ear, the direction of its two sides decides whether it blocks the ear.
 //!
-//! Corners wait in a queue and come up again only when a neighbour of theirs
-//! went, so ears go all round the polygon in turns (which gives well-shaped
-//! triangles on convex polygons) and there are at most three tests per corner.
+//! Corners wait in a queue and are tested again only after a neighbour was removed. Ears are therefore cut
+//! all around the polygon in turn, which gives well-shaped triangles on convex polygons, and there are at
+//! most three tests per corner.
 
 use std::collections::VecDeque;
 
@@ -266,4 +266,38 @@ fn is_spike(a: DVec2, b: DVec2, c: DVec2) -> bool {
 fn refill<T>(buffer: &mut Vec<T>, values: impl Iterator<Item = T>) {
     buffer.clear();
     buffer.extend(values);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the usual way and that for crossing polygons say about the second of some points.
+    fn verdicts(points: &[DVec2]) -> [char; 2] {
+        let mut cutter = EarCutter::default();
+        cutter.start(points);
+        let letter = |verdict: Verdict| match verdict {
+            Verdict::Ear => 'E',
+            Verdict::Needless => 'N',
+            Verdict::Keep => 'K',
+        };
+        [cutter.verdict(points, [0, 1, 2]), cutter.verdict_when_crossing(points, [0, 1, 2])].map(letter)
+    }
+
+    #[test]
+    fn corners_that_cross_are_cut_whatever_is_in_the_way() {
+        type Corners = [[f64; 2]; 4];
+        let cases: [(&str, Corners, [char; 2]); 7] = [
+            ("a square", [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], ['E', 'E']),
+            ("a corner within", [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [1.0, 1.0]], ['K', 'E']),
+            ("a corner on the diagonal", [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [0.0, 2.0]], ['K', 'E']),
+            ("clockwise", [[0.0, 0.0], [0.0, 4.0], [4.0, 0.0], [5.0, 5.0]], ['K', 'K']),
+            ("within a side", [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 2.0]], ['K', 'N']),
+            ("the end of a spike", [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [0.0, 2.0]], ['N', 'N']),
+            ("twice in one place", [[0.0, 0.0], [2.0, 0.0], [2.0, 0.0], [0.0, 2.0]], ['N', 'N']),
+        ];
+        for (what, points, expected) in cases {
+            assert_eq!(verdicts(&points.map(DVec2::from)), expected, "{what}");
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! Points of the plane in square cells, to ask which ones are near a triangle.
+//! Points of the plane in square cells, to find those near a triangle.
 
 use trigon_math::DVec2;
 

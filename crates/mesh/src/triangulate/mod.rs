@@ -1,21 +1,18 @@
 //! Polygons to triangles.
 //!
-//! A face of a model may be anything: concave, with holes that are joined to
-//! the outline by bridge edges, with collinear or repeated corners, not
-//! planar, crossing itself. The polygon is projected along the axis in which
-//! its area vector is longest, which is exact (a coordinate is dropped), and
-//! cut into ears there by exact orientation tests.
+//! A face of a model may be anything: concave, with holes that are joined to the outline by bridge edges,
+//! with collinear or repeated corners, not planar, crossing itself. The polygon is projected along the axis
+//! in which its area vector is longest. This is exact, because a coordinate is dropped. Ears are then cut
+//! off in the plane by exact orientation tests.
 //!
-//! What holds for every polygon whose projection does not cross itself:
-//! exactly n − 2 triangles (less one for each corner that repeats the one
-//! before it or ends a spike of no width), none turned over, none outside, and **every
-//! corner is used**, also one in the middle of a straight side, so that a
-//! neighbouring face that shares this corner leaves no crack.
+//! For every polygon whose projection does not cross itself, there are exactly n − 2 triangles (less one for
+//! each corner that repeats the one before it or ends a spike of no width). None is reversed, none lies
+//! outside, and **every corner is used**, also one in the middle of a straight side, so that a neighbouring
+//! face that shares this corner leaves no crack.
 //!
-//! The last point, and a time bound that hostile input cannot break, are why
-//! this is not the `earcut` crate: that drops collinear corners, and searches
-//! diagonals in cubic time once a polygon crosses itself. The tests hold our
-//! areas against it.
+//! The crate `earcut` is not used for two reasons: it drops collinear corners, and it searches diagonals in
+//! cubic time if a polygon crosses itself, which a hostile file could exploit. The tests compare our areas
+//! with its areas.
 
 mod ears;
 mod grid;

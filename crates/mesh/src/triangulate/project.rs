@@ -1,4 +1,4 @@
-//! From a polygon in space to one in a plane.
+//! Projects a polygon in space onto a plane.
 
 use trigon_math::{DVec2, DVec3, Vec3};
 

@@ -15,6 +15,14 @@ fn builder(vertices: u32) -> MeshBuilder {
 }
 
 #[test]
+fn a_builder_counts_what_it_was_given() {
+    let mut builder = builder(5);
+    assert_eq!(builder.vertex_count(), 5, "whether faces use them or not");
+    builder.push_face(&[0, 1, 2]).expect("a triangle");
+    assert_eq!((builder.vertex_count(), builder.face_count()), (5, 1), "a face adds no vertex");
+}
+
+#[test]
 fn faces_that_bound_nothing_are_refused() {
     let mut builder = builder(3);
     let refused = |result, face, distinct| {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use trigon_math::{DVec2, Vec3, elementary};
+use trigon_math::{DVec2, Orientation, Vec3, elementary, orientation};
 use trigon_mesh::Mesh;
 
 pub(crate) type Outline = Vec<DVec2>;
@@ -104,4 +104,42 @@ pub(crate) fn mesh(positions: &[Vec3], faces: &[&[u32]]) -> Mesh {
         builder.push_face(face).expect("the test's face is a polygon");
     }
     builder.build()
+}
+
+/// A triangle that grows: each point goes between the first two neighbours that it can stand between without the
+/// outline touching itself, counted from the side that is given with it. Points that cannot stand anywhere are left
+/// out. The result has bays within bays, whose ears are in each other's way.
+pub(crate) fn grown(points: &[(DVec2, usize)]) -> Outline {
+    let mut outline = outline(&[(0.0, 0.0), (16.0, 0.0), (0.0, 16.0)]);
+    for &(point, first) in points {
+        let count = outline.len();
+        let fits = |&side: &usize| fits_between(&outline, side, point);
+        if let Some(side) = (first..first + count).map(|side| side % count).find(fits) {
+            outline.insert(side + 1, point);
+        }
+    }
+    outline
+}
+
+/// Whether the outline stays simple if it goes over a point instead of along a side.
+fn fits_between(outline: &[DVec2], side: usize, point: DVec2) -> bool {
+    let count = outline.len();
+    let at = |index: usize| outline[index % count];
+    let ends = [at(side), at(side + 1)];
+    let is_on = |p: DVec2, [a, b]: [DVec2; 2]| {
+        orientation(a, b, p) == Orientation::Collinear && a.min(b).cmple(p).all() && a.max(b).cmpge(p).all()
+    };
+    let crosses = |[a, b]: [DVec2; 2], [c, d]: [DVec2; 2]| {
+        orientation(a, b, c) != orientation(a, b, d) && orientation(c, d, a) != orientation(c, d, b)
+    };
+    (0..count).all(|other| {
+        let others = [at(other), at(other + 1)];
+        let free = |end: DVec2| {
+            let new = [end, point];
+            let shared = others.contains(&end);
+            let touches = others.iter().any(|&p| p != end && is_on(p, new));
+            !touches && (shared || !crosses(new, others) && !is_on(end, others))
+        };
+        !is_on(point, others) && (other == side || ends.into_iter().all(free))
+    })
 }

@@ -229,3 +229,30 @@ fn round_objects_touch_their_bounds() {
         );
     }
 }
+
+/// The disc, and both ends of the cylinder, show the circle that fits in the image, +x to the right and −z up
+/// as seen from outside.
+#[test]
+fn flat_ends_show_the_circle_in_the_image() {
+    let disc = primitives::disc(2.0, 16);
+    for (uv, vertex) in disc.attributes().uv_sets[0].iter().zip(disc.face_vertices(0)) {
+        let place = disc.positions()[*vertex as usize];
+        let expected = [0.5 + 0.25 * place.x, 0.5 + 0.25 * place.z];
+        assert!(uv.distance(expected.into()) < 1e-6, "{place} is at {uv} of the image, not {expected:?}");
+    }
+    let cylinder = primitives::cylinder(2.0, 1.0, 16);
+    let mut start = 0;
+    for face in 0..cylinder.face_count() {
+        let corners = cylinder.face_vertices(face);
+        if corners.len() == 16 {
+            let uvs = &cylinder.attributes().uv_sets[0][start..start + 16];
+            for (uv, vertex) in uvs.iter().zip(corners) {
+                let place = cylinder.positions()[*vertex as usize];
+                let from_center = uv.distance([0.5, 0.5].into());
+                assert!((from_center - 0.5).abs() < 1e-6, "{place} is at {uv}, not on the circle");
+                assert!((uv.x - 0.5 - 0.25 * place.x).abs() < 1e-6, "{place} is at {uv}: +x is to the right");
+            }
+        }
+        start += corners.len();
+    }
+}

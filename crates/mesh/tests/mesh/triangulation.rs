@@ -244,6 +244,18 @@ proptest! {
         prop_assert!((earcut_area(&points) - area).abs() <= 1e-9 * area, "earcut disagrees");
     }
 
+    /// Earcut does not promise a triangulation of every simple outline, so only the promises are asked for.
+    #[test]
+    fn random_outlines(
+        points in prop::collection::vec((0u8..=16, 0u8..=16, any::<usize>()), 1..60),
+    ) {
+        let points: Vec<(DVec2, usize)> = points
+            .iter()
+            .map(|&(x, y, side)| (DVec2::new(f64::from(x), f64::from(y)), side % 64))
+            .collect();
+        check(&grown(&points));
+    }
+
     #[test]
     fn random_skylines(heights in prop::collection::vec(0u8..4, 1..60)) {
         check(&skyline(&heights));

@@ -1,12 +1,10 @@
-//! A run of the frame's primitives, set up and sorted into tiles.
+//! A chunk: consecutive primitives of the frame, set up and sorted into tiles.
 
 use super::earlier::primitives_of;
 use super::triangle_ref::{Entry, Listed, TriangleRef};
 use super::{EarlierEntries, Grid, TileRange};
-use crate::line::Stroke;
-use crate::setup::{Corners, CutWeights, DetailIndex, Quad, QuadDetail, SetupTriangle};
+use crate::primitive::{Corners, CutWeights, DetailIndex, Edge, Quad, QuadDetail, SetupTriangle, Stroke};
 use crate::simd::{Each, LANES, Mask, Simd, U32, append, prelude::*};
-use crate::tile::Edge;
 use crate::{BlendMode, Stats};
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! What a chunk's tiles listed before some of its primitives were moved.
+//! What the tiles of a chunk listed before some of its primitives were moved.
 
 use super::triangle_ref::Entry;
 use std::mem::swap;

@@ -1,9 +1,8 @@
 //! The tiles of a frame, and which of them a triangle may have samples in.
 
+use crate::primitive::{Edge, SetupTriangle};
 use crate::samples::SamplePattern;
-use crate::setup::SetupTriangle;
 use crate::simd::{F32, I32, Simd, prelude::*};
-use crate::tile::Edge;
 use crate::viewport::Viewport;
 use std::ops::Range;
 

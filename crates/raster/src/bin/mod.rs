@@ -1,7 +1,7 @@
-//! Which triangles each tile has to look at, in order.
+//! Binning: lists for each tile the triangles that may cover its samples, in order.
 //!
-//! The frame's primitives are cut into chunks; each chunk is set up and sorted
-//! into tiles by one worker, and a tile visits the chunks in order.
+//! The frame's primitives are cut into chunks. One worker sets up a chunk and sorts it into tiles. A tile then
+//! reads the chunks in order.
 
 mod chunk;
 mod earlier;

@@ -1,4 +1,4 @@
-//! How chunks and tiles name what is drawn: in as few bytes as they can, as there are many.
+//! References to what is drawn, for chunks and tiles. There are many, so each takes 4 or 8 bytes.
 
 /// What a tile of a chunk lists: a triangle that is drawn as it is, a point that is drawn from its
 /// vertex, one of the triangles made from a cut one, or a line or a point that is two triangles.

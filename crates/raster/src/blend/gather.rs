@@ -1,10 +1,10 @@
-//! Which layers lie at each sample, in front of those that have been laid.
+//! Collects at each sample the layers in front of those that are already blended.
 
 use super::joints::prevails;
 use super::order::DepthOrder;
 use super::runs::{Layer, Order};
 use super::{Layers, Round};
-use crate::line::Stroke;
+use crate::primitive::Stroke;
 use crate::simd::{LANES, Simd, at_level, prelude::*};
 use crate::tile::{Blocks, Candidate, SampleGroup, TileTriangle, TileView, single};
 use std::ops::Range;

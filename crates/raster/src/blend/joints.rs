@@ -1,10 +1,10 @@
-//! Where translucent segments meet: of those that share a vertex only one
-//! paints a sample, so that a polyline draws each joint once.
+//! Joints of translucent segments: of the segments that share a vertex only one paints a sample, so that a
+//! polyline does not blend its joints twice.
 
 use crate::bin::TriangleRef;
 use crate::geometry::Shape;
 use crate::pass::Recorded;
-use crate::setup::SetupTriangle;
+use crate::primitive::SetupTriangle;
 use crate::tile::TileView;
 use crate::view::FrameView;
 use std::ops::Range;

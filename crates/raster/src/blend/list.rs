@@ -1,8 +1,7 @@
-//! The fragments of some layers, each listed once for its triangle and pixel, and
-//! by triangle: what shading works off.
+//! The fragments of some layers, one for each triangle and pixel, sorted by triangle, as shading needs them.
 
 use super::runs::Layer;
-use crate::shade::{Job, ShadePoint};
+use crate::fragments::{Job, ShadePoint};
 
 /// Fragments that are to be shaded.
 #[derive(Default)]

@@ -1,22 +1,18 @@
-//! Translucent fragments, blended from back to front at each sample in the order of
-//! (depth, object, face).
+//! Blends translucent fragments from back to front at each sample, in the order of (depth, object, face).
 //!
-//! The order is total, so it depends neither on the order of draws nor on
-//! threads. Each sample keeps the farthest layers that it has room for; they are
-//! shaded, laid, and the next are looked for in front of the last one, until none
-//! is left: depth peeling with k layers at a time (L. Bavoil et al., "Multi-Fragment
-//! Effects on the GPU using the k-Buffer", 2007; C. Everitt, "Interactive
-//! Order-Independent Transparency", 2001), but from the back, where what has been
-//! laid is final. So any number of layers is exact in bounded memory, and the
+//! The order is total, so it depends neither on the order of draws nor on threads. Each sample keeps its farthest
+//! layers, as many as it has room for. They are shaded and blended; then the next layers in front of the last one are
+//! collected, until none is left. This is depth peeling with k layers at a time (L. Bavoil et al., "Multi-Fragment
+//! Effects on the GPU using the k-Buffer", 2007; C. Everitt, "Interactive Order-Independent Transparency", 2001), but
+//! from the back, where a blended layer is final. Any number of layers is therefore exact in bounded memory, and the
 //! result does not depend on the bound.
 //!
-//! With one sample per pixel the first round looks at the whole tile at once, otherwise at as
-//! many blocks as have room for eight layers of each sample. Blocks where that was not enough get
-//! rounds of their own, few enough at a time that all that waits has room, down to single blocks.
+//! With one sample per pixel the first round covers the whole tile. With more samples it covers as many blocks as have
+//! room for eight layers of each sample. Blocks with more layers get further rounds: as many blocks at a time as their
+//! layers have room, down to a single block.
 //!
-//! With several samples a fragment is shaded once for its triangle and pixel (and
-//! round), like an opaque one, and laid over each sample that it covers and that
-//! nothing hides; it stores no depth and no ids.
+//! With several samples a fragment is shaded once for its triangle, pixel and round, like an opaque one. It is
+//! blended over each sample that it covers and where nothing hides it. It stores no depth and no ids.
 
 mod gather;
 mod joints;
@@ -30,7 +26,8 @@ pub(crate) use joints::leaves;
 use crate::resolve::saturated;
 use crate::shade::{JobList, Shading, shade_jobs};
 use crate::simd::LANES;
-use crate::tile::{Blocks, TileArea, TileState, TileView};
+use crate::tile::{Blocks, TileState, TileView};
+use crate::tile_buffer::TileArea;
 use crate::view::FrameView;
 use gather::Beside;
 use joints::Joints;

@@ -1,4 +1,4 @@
-//! In which order layers are laid.
+//! The order in which layers are blended.
 
 use super::runs::{Layer, Order};
 use crate::tile::TileView;

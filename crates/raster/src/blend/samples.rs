@@ -1,10 +1,9 @@
-//! Between the colours of pixels and those of samples: where something
-//! translucent is laid over, every sample needs one of its own.
+//! Copies colours of pixels to their samples, where a translucent fragment is blended over single samples.
 
 use crate::resolve::mean;
 use crate::shade::{BEHIND, Shading};
 use crate::simd::LANES;
-use crate::tile::{NO_TRIANGLE, TileArea, VisibilityBuffer};
+use crate::tile_buffer::{NO_TRIANGLE, TileArea, VisibilityBuffer};
 use crate::view::FrameView;
 use trigon_math::Vec4;
 

@@ -1,4 +1,4 @@
-//! Which contenders each tile has to look at.
+//! Lists for each tile the contenders that may be visible there.
 
 use super::contender::{Contenders, extent};
 use crate::view::FrameView;

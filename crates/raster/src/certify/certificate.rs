@@ -1,8 +1,8 @@
-//! What is proven of each pixel.
+//! The result: what is proven of each pixel.
 
 use super::codes::Codes;
 use super::tile::TileCertainty;
-use crate::tile::TileArea;
+use crate::tile_buffer::TileArea;
 use crate::view::FrameView;
 use trigon_math::Vec4;
 

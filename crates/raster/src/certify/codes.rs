@@ -1,7 +1,7 @@
-//! Whether a colour that is a little off is encoded the same.
+//! Whether a colour has the same bytes if it is off by a given bound.
 
 use crate::Target;
-use crate::shade::Encoding;
+use crate::fragments::Encoding;
 use trigon_math::{Vec4, color};
 
 /// The encodings of a target, and by how much colours may be off.

@@ -1,4 +1,4 @@
-//! Primitives as far as their place is known.
+//! A contender: a primitive that may be visible, with the bounds of its position.
 
 use super::outline::Outline;
 use crate::BlendMode;

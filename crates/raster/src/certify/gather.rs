@@ -1,16 +1,13 @@
-//! Lists everything that may be seen if vertices are off, also what the frame
-//! itself has dropped.
+//! Lists every primitive that may be visible if vertices are off, also those that the frame itself has dropped.
 
 use super::contender::{Contender, Contenders, Corner};
 use super::outline::{area_slack, doubled_area};
 use super::tolerance::Tolerance;
-use crate::clip;
 use crate::geometry::Shape;
 use crate::line::half_size;
-use crate::ulps;
 use crate::vertex::{DrawVertices, ScreenVertex, nearer};
 use crate::view::{DrawPlan, FrameView};
-use crate::{BlendMode, Culling, PointShape, Smoothing};
+use crate::{BlendMode, Culling, PointShape, Smoothing, clip, ulps};
 use trigon_math::{ClipVolume, Fixed, FixedPoint, clip_segment};
 
 /// Everything that may be visible.

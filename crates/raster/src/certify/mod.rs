@@ -1,63 +1,52 @@
-//! Certified pixels: those that are proven to stay as they are when everything
-//! that the image was made from is off by no more than stated bounds.
+//! Certified pixels: those that provably keep their bytes if everything that the image was made from is off by
+//! no more than given bounds.
 //!
 //! # What is proven
-//! Let a second pass differ from the first so that
-//! - each vertex lies within [`Tolerance::position`] of its place on the screen,
-//!   on each axis, before it is snapped; of a primitive that is cut this is said
-//!   of the corners that it has after that, and a vertex that lies beyond the near
-//!   plane, or too far outside to be drawn whole, stays there;
-//! - each vertex's depth, as the vertex stage computes it, is within
-//!   [`Tolerance::depth_ulps`] units in the last place;
-//! - each pixel's linear colour, before it is encoded, is within
-//!   [`Tolerance::color`] in each component *if* the pixel still sees the same
-//!   fragments (what they look like is the pipelines' business, and bounding it
-//!   theirs, too). The mean of samples is off by no more than the samples are. The
-//!   background is exact;
-//! - masks answer as they like; indices, ids, surfaces, sizes and the target are
-//!   the same.
+//! Let a second pass differ from the first only in these ways:
+//! - Each vertex lies within [`Tolerance::position`] of its position on the screen, on each axis, before it is
+//!   snapped. If a primitive is cut, this holds for the corners that it has after the cut. A vertex that lies
+//!   beyond the near plane, or so far outside that its primitive is cut, is beyond it in the second pass, too.
+//! - Each vertex's depth, as the vertex stage computes it, is within [`Tolerance::depth_ulps`] units in the last
+//!   place.
+//! - If a pixel shows the same fragments, its linear colour before encoding is within [`Tolerance::color`] in each
+//!   component. (How far colours can be off for other reasons depends on the pipelines, which must bound it
+//!   themselves.) The background is exact.
+//! - Alpha masks may give any result. Indices, ids, kinds of surfaces, sizes and the target are the same.
 //!
-//! Then a certified pixel has the same winner at each of its samples, the same
-//! translucent layers in the same order, and the same bytes.
+//! Then a certified pixel has in both passes the same visible triangle at each of its samples, the same translucent
+//! layers in the same order, and the same bytes.
 //!
 //! # How
-//! Snapped vertices move by at most `D = ⌊256 · position⌋ + 1` units of the grid,
-//! as rounding adds less than one. So at each sample a primitive
-//! - *may cover* it, if the sample lies within `D`, on both axes, of a side of the
-//!   outline;
-//! - *certainly covers* or *misses* it, else, as it does unmoved: however the
-//!   corners move there, no side ever runs over the sample, so the outline keeps
-//!   winding around it once or not at all, and so do the triangles that it is cut
-//!   into.
+//! Snapping adds less than one unit of the grid, so snapped vertices differ by at most
+//! `D = ⌊256 · position⌋ + 1` units. Two cases are possible for a primitive at a sample:
+//! - It *may cover* the sample, if the sample lies within `D`, on both axes, of a side of the outline.
+//! - Otherwise it *certainly covers* it or *certainly misses* it, as in the first pass. No side passes over the
+//!   sample however the corners move within `D`. The outline therefore still winds around the sample once or not at
+//!   all, and so do the triangles into which it is cut.
 //!
-//! A primitive whose facing may turn over, or that a plane may come to cut, is
-//! never certain to cover, but may still hide others. So do lines, by all that is
-//! near them.
+//! A primitive whose facing may change, or that a plane may cut in one pass only, never certainly covers, but may
+//! hide others. The same holds for lines, at all samples near them.
 //!
-//! Where it covers the sample, its depth there is a convex combination of its
-//! vertices' depths. The same weights belong to a point of the unmoved primitive
-//! that is at most `D` away on each axis. So with `Z` the plane of the unmoved
-//! depths, the new depth is within `D (|Z_x| + |Z_y|)` plus what the vertices'
-//! depths are off, and within the range of the vertices' depths. To that the
-//! rounding of the engine's own planes is added, for which
-//! `DepthPlane` states a bound.
+//! If the primitive covers the sample, its depth there is a convex combination of its vertices' depths. In the
+//! unmoved primitive the same weights belong to a point that is at most `D` away on each axis. With `Z` the plane of
+//! the unmoved depths, the new depth therefore differs by at most `D (|Z_x| + |Z_y|)` plus the difference of the
+//! vertices' depths. It also stays within the range of the vertices' depths. The rounding of the engine's own planes,
+//! for which `DepthPlane` states a bound, is added.
 //!
-//! A sample's winner is proven if it certainly covers the sample, is opaque, and
-//! lies wholly nearer than all that may cover it, be it opaque or masked. A
-//! translucent layer in front of the winner must certainly cover the sample, and
-//! the ranges of the layers must not meet. With several samples a fragment is
-//! shaded at the centre or else at a sample that it covers, so what is seen must
-//! be certain about the centre, too, and no diagonal along which an outline is cut
-//! into triangles may come near the pixel. Bytes are proven if both ends of the
-//! range of colours are encoded the same.
+//! The visible triangle of a sample is proven if it certainly covers the sample, is opaque, and lies wholly nearer
+//! than every opaque or masked primitive that may cover the sample. A translucent layer in front of it must certainly
+//! cover the sample, and the depth ranges of the layers must not overlap. With several samples a fragment is shaded
+//! at the centre or at a sample that it covers. Then the centre must be certain, too, and no diagonal along which an
+//! outline is cut into triangles may lie near the pixel. Bytes are proven if both ends of the range of colours have
+//! the same bytes.
 //!
-//! Where a pass paints edges of faces, a pixel shows the edges of what pixels around it see,
-//! too, so all of those must be proven.
+//! Where a pass paints edges of faces, a pixel also shows edges of faces that are visible in pixels around it, so all
+//! of those pixels must be proven.
 //!
 //! # What is never certified
-//! Pixels that show masked fragments or lines, or whose samples lie near an edge
-//! that may be visible, also one between two triangles of a face; and where
-//! surfaces lie in each other.
+//! - pixels that show masked fragments or lines,
+//! - pixels with a sample near an edge that may be visible, also an edge between two triangles of one face,
+//! - pixels where surfaces intersect or coincide.
 
 mod bins;
 mod certificate;

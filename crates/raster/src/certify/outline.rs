@@ -1,10 +1,8 @@
-//! What is certain about a primitive at a sample when its corners may be off. The
-//! proofs are in the module above.
+//! What is certain about a primitive at a sample if its corners are off. The proofs are in the module above.
 
 use super::contender::{Contender, Corner, extent};
 use crate::BlendMode;
-use crate::setup::SetupTriangle;
-use crate::tile::DepthPlane;
+use crate::primitive::{DepthPlane, SetupTriangle};
 
 /// Whether a primitive covers a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,9 @@
-//! What is certain in one tile: first the nearest primitive that certainly covers
-//! each sample, then everything that may be seen in front of it.
+//! What is certain in one tile: first the nearest primitive that certainly covers each sample, then everything
+//! that may be visible in front of it.
 
 use super::outline::{Cover, Outline};
 use crate::BlendMode;
-use crate::tile::{BEHIND_ALL, TileArea};
+use crate::tile_buffer::{BEHIND_ALL, TileArea};
 use crate::view::FrameView;
 
 /// Which pixels of a tile are doubtful, and which show anything at all.

@@ -1,4 +1,4 @@
-//! How much may be off.
+//! By how much positions, depths and colours may be off.
 
 /// The most that a position may be off, in pixels: far less than the range of
 /// the grid, so that sums with it cannot overflow.

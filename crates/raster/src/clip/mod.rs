@@ -1,9 +1,9 @@
-//! Cuts what reaches beyond the near plane, w > 0, or the guard band; most
-//! primitives never come here.
+//! Cuts primitives that reach beyond the near plane, w > 0, or the guard band. Most primitives do not and are never
+//! passed to this module.
 //!
-//! The far plane cuts nothing: samples behind it are dropped by their depth.
-//! The sides of the view cut nothing: the tiles end there. The cutting itself,
-//! with its guarantees for shared edges, is [`trigon_math::clip_triangle`].
+//! The far plane cuts nothing: samples behind it are dropped by their depth. The sides of the view cut nothing,
+//! because the tiles end there. The cutting itself, with its guarantees for shared edges, is
+//! [`trigon_math::clip_triangle`].
 
 mod outcode;
 

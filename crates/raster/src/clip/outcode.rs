@@ -1,4 +1,4 @@
-//! Which planes a vertex lies beyond: decides without arithmetic what is
+//! Outcodes: which planes a vertex lies beyond. They tell without further arithmetic whether a primitive is
 //! dropped, kept whole, or cut.
 
 use trigon_math::{Band, Vec4};

@@ -1,9 +1,10 @@
-//! Asks a triangle's pipeline about one pixel.
+//! Runs a triangle's pipeline for one pixel.
 
 use crate::bin::TriangleRef;
-use crate::ink::OuterInk;
-use crate::shade::{Job, JobList, ShadePoint, Shading, mask_jobs, shade_jobs_with};
-use crate::tile::TileArea;
+use crate::fragments::{Job, ShadePoint};
+use crate::outer_ink::OuterInk;
+use crate::shade::{JobList, Shading, mask_jobs, shade_jobs_with};
+use crate::tile_buffer::TileArea;
 use crate::view::FrameView;
 use trigon_math::Vec4;
 

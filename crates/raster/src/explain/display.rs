@@ -1,4 +1,4 @@
-//! Explanations for people to read.
+//! Explanations as text.
 
 use super::{FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict};
 use std::fmt::{Display, Formatter, Result};

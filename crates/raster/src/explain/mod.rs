@@ -1,10 +1,9 @@
-//! Explained pixels: every triangle that touched one, its exact edge values, its
-//! depth, and which one is visible by what margin.
+//! Explained pixels: every triangle that reaches the pixel, its exact edge values, its depth, and which one
+//! is visible by what margin.
 //!
-//! Nothing is computed in a second way: vertices, set-up, edge functions, coverage,
-//! depth, masks, colours and the order of layers come from the stages that draw.
-//! Only the comparison of depths is repeated, sample by sample, so that its outcome
-//! can be reported.
+//! The values come from the stages that draw: vertices, set-up, edge functions, coverage, depth, masks, colours and
+//! the order of layers. Only the comparison of depths is repeated, sample by sample, so that its outcome can be
+//! reported.
 
 mod ask;
 mod display;

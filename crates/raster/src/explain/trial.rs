@@ -1,18 +1,17 @@
-//! The competition at a sample, with every step kept.
+//! The comparison of all triangles at a sample, with every step recorded.
 
 use super::ask::{self, PixelInTile};
 use super::{EdgeExplanation, FragmentExplanation, PrimitiveKind, SampleExplanation, Verdict};
-use crate::BlendMode;
 use crate::bin::TriangleRef;
 use crate::blend::leaves;
 use crate::frame::outer_ink;
-use crate::ink::OuterInk;
-use crate::line::{Form, Stroke};
+use crate::outer_ink::OuterInk;
+use crate::primitive::{Corners, Edge, Form, Kind, SetupTriangle, Stroke};
 use crate::resolve::saturated;
-use crate::setup::{Corners, Kind, SetupTriangle};
-use crate::tile::{BEHIND_ALL, Edge, TileTriangle};
-use crate::ulps;
+use crate::tile::TileTriangle;
+use crate::tile_buffer::BEHIND_ALL;
 use crate::view::FrameView;
+use crate::{BlendMode, ulps};
 use std::cmp::Ordering;
 use trigon_math::Vec4;
 

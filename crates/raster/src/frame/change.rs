@@ -1,10 +1,9 @@
-//! What follows from few vertices of a pass having other values than in the last frame:
-//! which vertices are run again, which chunks are set up again, and which tiles may look
-//! different.
+//! Which parts of a frame change if few vertices of a pass have other values than in the last frame: which vertices
+//! run again, which chunks are set up again, and which tiles may look different.
 //!
-//! A tile is a function of the triangles that it lists, in their order, and of the other
-//! triangles of their faces, whose edges it may paint. So it keeps its image if no triangle
-//! that it lists, or listed, has a vertex with other values, nor has one of its face.
+//! A tile's image follows from the triangles that it lists, in their order. Where it paints edges, it also follows from
+//! the other triangles of their faces. A tile therefore keeps its image unless a vertex with new values belongs to a
+//! triangle that it lists or listed before, or to a face of such a triangle.
 
 use super::layout::Layout;
 use crate::bin::{Chunk, Grid};

@@ -1,13 +1,13 @@
-//! What is settled about a frame before any vertex is run.
+//! The parts of a frame that are known before any vertex runs: tiles, grid, ink.
 
 use super::options::FrameOptions;
 use crate::Target;
 use crate::bin::Grid;
+use crate::fragments::Encoding;
 use crate::geometry::Geometry;
 use crate::ink::Ink;
 use crate::pass::Pass;
-use crate::shade::Encoding;
-use crate::tile::MAX_SIDE;
+use crate::tile_buffer::MAX_SIDE;
 use crate::view::RequestedOutputs;
 use crate::viewport::Viewport;
 

@@ -1,4 +1,4 @@
-//! A frame from its plan to its tiles.
+//! Draws a frame: runs all stages, from the plan to the finished tiles.
 
 mod change;
 mod layout;

@@ -1,4 +1,4 @@
-//! How a frame is drawn: nothing in here changes a byte of it.
+//! How a frame is drawn. No option changes a byte of it.
 
 use crate::Cancel;
 use crate::pool::Workers;

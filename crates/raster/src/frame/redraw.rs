@@ -1,4 +1,4 @@
-//! Frames that follow from the last one: few vertices are run again, and few tiles drawn.
+//! Redraws a frame after a small change: few vertices run again, and few tiles are drawn.
 
 use super::change::{DirtyTiles, Signature, can_follow};
 use super::layout::Layout;

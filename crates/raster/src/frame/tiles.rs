@@ -1,9 +1,9 @@
-//! A tile in one visit: visibility, shading, blending, resolve.
+//! Draws one tile: visibility, shading, blending, resolve.
 
 use crate::Stats;
 use crate::blend::{Layers, blend_translucent};
 use crate::clock::Clock;
-use crate::ink::OuterInk;
+use crate::outer_ink::OuterInk;
 use crate::resolve::{Strip, TileColors, resolve, store_visibility};
 use crate::shade::{Shading, list_visible, shade_tile};
 use crate::target::Bands;

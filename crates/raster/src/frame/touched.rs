@@ -1,11 +1,11 @@
-//! The vertices of a pass that have other values than in the last frame: they are run again,
-//! and the triangles are found that look different by them.
+//! Runs the vertices of a pass that have new values since the last frame, and finds the triangles that look different
+//! as a result.
 
 use super::change::DrawChange;
 use super::options::{FrameOptions, VERTICES};
 use crate::bin::Chunk;
 use crate::geometry::{Geometry, Shape};
-use crate::ink::parts;
+use crate::outer_ink::parts;
 use crate::pass::Recorded;
 use crate::simd::Token;
 use crate::vertex::{ScreenVertex, Slots};

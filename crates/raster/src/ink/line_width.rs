@@ -50,13 +50,13 @@ impl<S: Simd> LineColumns<S> {
 
 /// The point of an edge that is nearest to another point.
 #[derive(Clone, Copy)]
-pub(super) struct EdgePoint {
+pub(crate) struct EdgePoint {
     /// In pixels.
-    pub(super) distance: f64,
+    pub(crate) distance: f64,
     /// In 1/256 pixel.
-    pub(super) point: [f64; 2],
-    pub(super) depth: f64,
-    pub(super) mark: u8,
+    pub(crate) point: [f64; 2],
+    pub(crate) depth: f64,
+    pub(crate) mark: u8,
 }
 
 /// The lines on one face, as they show beyond it.
@@ -70,7 +70,7 @@ pub(crate) struct FaceLine {
 
 impl FaceLine {
     /// What it covers of a pixel along an edge.
-    pub(super) fn overlap(self, edge: &EdgePoint) -> Overlap {
+    pub(crate) fn overlap(self, edge: &EdgePoint) -> Overlap {
         Overlap { share: self.coverage(edge.distance), mark: edge.mark }
     }
 

@@ -1,29 +1,23 @@
 //! Edges of faces, painted from what is visible: no line is drawn for them.
 //!
 //! A pixel shows an edge in one of two ways.
-//! - **Own ink**: the edges of the triangle that it sees. Shading knows the distances to
-//!   them already, and lays the line over the triangle's colour.
-//! - **Outer ink**: the edges of triangles that other pixels close by see. They show the
-//!   half of a line that lies beyond its face: outside of a silhouette, around a corner,
-//!   beyond a diagonal. [`outer`] finds it before a tile is shaded. It needs to know what
-//!   is visible around a tile, so tiles see a margin of [`Ink::reach`] pixels that their
-//!   neighbours draw.
+//! - **Own ink**: the edges of the triangle that is visible in the pixel. Shading already knows the distances to
+//!   these edges, and paints the line over the triangle's colour.
+//! - **Outer ink**: the edges of triangles that are visible in other pixels close by. These give the half of a line
+//!   that lies beyond its face: outside a silhouette, around a corner, beyond a diagonal.
+//!   [`outer_ink`](crate::outer_ink) computes it before a tile is shaded. To know what is visible around a tile,
+//!   each tile also determines visibility in a margin of [`Ink::reach`] pixels, which its neighbours draw.
 //!
-//! Both cover what an anti-aliased line does ([`crate::line`]): at a distance of d from a
-//! line of width w, `min(w, 1, w/2 + 1/2 - d)` of a pixel. A pixel shows the larger one.
+//! Both have the coverage of an anti-aliased line ([`crate::line`]): at a distance of d from a line of width w,
+//! `min(w, 1, w/2 + 1/2 - d)` of a pixel. A pixel shows the larger of the two.
 
-mod edged_face;
 mod line_width;
-mod outer;
 #[cfg(test)]
 mod tests;
 mod visible_faces;
-mod visible_rows;
 
-pub(crate) use edged_face::parts;
-pub(crate) use line_width::{FaceLine, LineColumns};
-pub(crate) use outer::OuterInk;
-pub(crate) use visible_faces::{DepthRange, VisibleFaces};
+pub(crate) use line_width::{EdgePoint, FaceLine, LineColumns};
+pub(crate) use visible_faces::{DepthRange, LARGE, VisibleFaces};
 
 use crate::marks::{MarkColors, Overlap};
 use crate::simd::{Each, F32, LANES, Simd, U32, prelude::*};

@@ -3,7 +3,7 @@
 use super::FaceLine;
 
 /// Triangles whose faces have at least this inner radius, in pixels, are large.
-pub(super) const LARGE: f32 = 3.0;
+pub(crate) const LARGE: f32 = 3.0;
 
 /// The depths of a visible triangle.
 #[derive(Clone, Copy)]
@@ -15,24 +15,24 @@ pub(crate) struct DepthRange {
 }
 
 impl DepthRange {
-    pub(super) const EMPTY: Self = Self { least: f32::NEG_INFINITY, greatest: f32::NEG_INFINITY };
+    pub(crate) const EMPTY: Self = Self { least: f32::NEG_INFINITY, greatest: f32::NEG_INFINITY };
 }
 
 /// The visible triangles of a tile, by their numbers among the tile's, and one more entry for the
 /// background.
 #[derive(Default)]
 pub(crate) struct VisibleFaces {
-    pub(super) depths: Vec<DepthRange>,
-    pub(super) lines: Vec<FaceLine>,
+    pub(crate) depths: Vec<DepthRange>,
+    pub(crate) lines: Vec<FaceLine>,
     /// Whether any of them shows lines.
-    pub(super) has_lines: bool,
+    pub(crate) has_lines: bool,
     /// Whether any of them is large.
-    pub(super) has_large: bool,
+    pub(crate) has_large: bool,
 }
 
 impl VisibleFaces {
     /// Starts a tile with this many triangles.
-    pub(super) fn begin(&mut self, triangle_count: usize) {
+    pub(crate) fn begin(&mut self, triangle_count: usize) {
         (self.has_lines, self.has_large) = (false, false);
         // Triangles that are not visible keep old values, which are not read.
         if self.depths.len() < triangle_count + 1 {

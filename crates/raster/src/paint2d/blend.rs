@@ -1,10 +1,8 @@
-//! Painting over: source + destination · (1 − source alpha), for all four
-//! channels, on their stored (gamma) values.
+//! Blending: source + destination · (1 − source alpha), for all four channels, on their stored (gamma) values.
 //!
-//! Everything is a number of levels, 0 to 255, and rounded once, to the nearest,
-//! when it is stored; sums beyond 255 are 255. Before rounding, f32 is off the
-//! exact value by less than 1/1000 level. If the source is a whole number of
-//! levels, the exact value is at least 1/510 from where rounding changes: so
+//! A value is a number of levels from 0 to 255. It is rounded once, to the nearest, when it is stored; sums above 255
+//! become 255. Before rounding, the f32 result differs from the exact value by less than 1/1000 level. If the source
+//! is a whole number of levels, the exact value is at least 1/510 away from a point where rounding changes, so
 //! [`over`] and the integers of [`super::flat`] give the same bytes.
 
 use crate::simd::prelude::*;

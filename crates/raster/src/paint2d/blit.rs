@@ -1,4 +1,4 @@
-//! Texels to pixels one to one: glyphs, icons, and the image of a 3D view.
+//! Copies texels to pixels one to one: glyphs, icons, and the image of a 3D view.
 
 use super::blend::{multiply, over, unpack};
 use super::{Canvas, Image, Rect, eight};

@@ -1,4 +1,4 @@
-//! What is painted on.
+//! The canvas: the caller's pixels.
 
 use super::Rect;
 use std::ops::Range;

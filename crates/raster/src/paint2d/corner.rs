@@ -1,4 +1,4 @@
-//! A vertex on the sub-pixel grid, and triangles of them from a mesh's indices.
+//! A vertex on the sub-pixel grid, and the triangles of a mesh made of such vertices.
 
 use super::{Mesh, Vertex};
 use trigon_math::{Fixed, FixedPoint};

@@ -1,9 +1,8 @@
-//! Which pixels a triangle covers: for each row one span, in exact integers.
+//! Which pixels a triangle covers: one span in each row, in exact integers.
 //!
-//! Both borders of a span are found by the same function of an edge: the first
-//! pixel whose centre is at the edge or to its right. The span starts with that
-//! of the left edge and ends before that of the right one. This is the top-left
-//! rule, and triangles that share an edge share the bound: no gap, no overlap.
+//! Both ends of a span are computed by the same function of an edge: the first pixel whose centre is on the edge or to
+//! its right. The span begins at that pixel of the left edge and ends before that pixel of the right edge. This is the
+//! top-left rule. Triangles that share an edge share this pixel, so there is no gap and no overlap.
 
 use super::Rect;
 use std::ops::Range;

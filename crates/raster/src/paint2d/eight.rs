@@ -1,4 +1,4 @@
-//! Eight pixels at a time, also where a row has fewer.
+//! Eight pixels at a time, also at the end of a row, where fewer are left.
 
 use crate::simd::prelude::*;
 use crate::simd::{I32, LANES, U32, lane_numbers};

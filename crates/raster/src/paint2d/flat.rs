@@ -1,4 +1,4 @@
-//! One colour over runs of pixels, in integers: what most of an interface is.
+//! Runs of pixels in one colour, in integers. Most of a user interface is painted by this.
 
 use crate::simd::prelude::*;
 use crate::simd::{LANES, U32};

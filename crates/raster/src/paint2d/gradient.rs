@@ -1,10 +1,9 @@
-//! Colours and places in an image that change across a triangle.
+//! Colours and image coordinates that change across a triangle.
 //!
-//! In each row, values are computed at the first covered pixel, whether that is
-//! seen or not, as weighted means of the corners' values, the weights by exact
-//! areas. From there they change by a constant for each pixel. So a value is
-//! between those of the corners (f32 leaves it within 1/1000 level), however
-//! thin the triangle is, and the scissor cannot change it.
+//! In each row, values at the first covered pixel are weighted means of the corners' values, with weights from exact
+//! areas; they are computed even if the scissor hides that pixel. From there they change by a constant for each pixel.
+//! A value therefore lies between those of the corners (f32 stays within 1/1000 level), however thin the triangle is,
+//! and the scissor cannot change it.
 
 use super::blend::{Channels, multiply, over};
 use super::coverage::{Triangle, centre};

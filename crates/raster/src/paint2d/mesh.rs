@@ -1,5 +1,4 @@
-//! What is painted: triangles with a colour and a place in an image at each
-//! corner.
+//! Meshes to paint: triangles with a colour and image coordinates at each corner.
 
 use super::{Image, Rect};
 

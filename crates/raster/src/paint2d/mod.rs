@@ -1,5 +1,5 @@
-//! Painting in two dimensions: coloured and textured triangles with a scissor,
-//! one over the other in the order given. Good enough for a user interface.
+//! Painting in two dimensions, for user interfaces: coloured and textured triangles
+//! with a scissor, one over the other in the given order.
 //!
 //! A [`Painter`] paints [`Mesh`]es on a [`Canvas`], which borrows the caller's
 //! pixels. It knows no depth, no perspective and no linear light: colours are
@@ -30,31 +30,31 @@
 //! # Ok::<(), SizeError>(())
 //! ```
 //!
-//! # What holds
+//! # Guarantees
 //! - Positions are rounded to 1/256 pixel, to the nearest, ties to even. Which
-//!   pixels a triangle covers is then decided in integers, without error; a
-//!   centre on an edge belongs to the triangle to the right of it, or below it
-//!   where it is horizontal. So neighbours paint each pixel once, and no seam
-//!   shows in what is translucent.
+//!   pixels a triangle covers is then decided in integers, without error. A
+//!   pixel centre on an edge belongs to the triangle to the right of the edge, or
+//!   below it if the edge is horizontal. Neighbours therefore paint each pixel
+//!   once, and translucent surfaces show no seam.
 //! - A pixel becomes vertex colour × texel + pixel · (1 − alpha), at most 255,
-//!   rounded to the nearest for each triangle. Before rounding, it is off the
-//!   exact value by less than 1/1000 level, and by less than 1/8 level more
-//!   where an image is filtered linearly: so it is never more than one level
-//!   off what exact arithmetic paints over the same pixel.
-//! - Colours and places in images are linear across a triangle, and exactly
-//!   constant where its corners' are equal.
-//! - Nothing that is out of the scissor is touched, nor does the scissor change
-//!   what is inside. The order of a triangle's vertices and the level of
-//!   instructions do not change a byte.
-//! - Any vertex, any index is safe: what cannot be painted is left out and
+//!   rounded to the nearest for each triangle. Before rounding, it differs from
+//!   the exact value by less than 1/1000 level, and by less than 1/8 level more
+//!   where an image is filtered linearly. After rounding it is therefore at most
+//!   one level off the exact result over the same pixel.
+//! - Colours and image coordinates are linear across a triangle, and exactly
+//!   constant if those of its corners are equal.
+//! - Pixels outside the scissor are not touched, and the scissor does not change
+//!   pixels inside. The order of a triangle's vertices and the SIMD level do not
+//!   change a byte.
+//! - Any vertex and any index is safe: what cannot be painted is left out and
 //!   counted, see [`Painted`].
 //!
 //! # What is fast
-//! Two triangles in a row that are the halves of an upright rectangle are painted
-//! at once, if they have one colour, or one colour and texels one to one, as
-//! glyphs have. Runs of one colour are painted in integers, opaque ones just
-//! filled. A triangle costs a few divisions, its rows none. All of
-//! this gives the bytes of the general way.
+//! If two consecutive triangles are the halves of an upright rectangle, they are
+//! painted at once, provided that they have one colour, or one colour and one
+//! texel per pixel, as glyphs have. Runs of one colour are painted in integers, and
+//! opaque ones are simply filled. A triangle costs a few divisions, its rows none.
+//! These paths give the same bytes as the general one.
 
 mod blend;
 mod blit;

@@ -1,4 +1,4 @@
-//! Paints meshes on a canvas in the order that they are given.
+//! Paints meshes on a canvas in the given order.
 
 use super::corner::{Corner, snap, triangles};
 use super::coverage::Triangle;

@@ -1,5 +1,4 @@
-//! Two triangles that are an upright rectangle of one colour: panels, and the
-//! quads of glyphs and images.
+//! Two triangles that form an upright rectangle of one colour: panels, and the quads of glyphs and images.
 
 use super::corner::Corner;
 use super::coverage::first_centre;

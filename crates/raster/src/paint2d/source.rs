@@ -1,4 +1,4 @@
-//! What a triangle is painted with, by what of it really varies.
+//! The source colours of a triangle, divided by what varies across it.
 
 use super::Image;
 use super::corner::Corner;

@@ -1,9 +1,8 @@
-//! From a place in an image to its colour.
+//! From a position in an image to its colour.
 //!
-//! Places are fixed-point numbers of texels with 32 bits behind the point. They
-//! are rounded to 1/4096 texel before anything is decided: a place that is meant
-//! to be the middle of a texel is, whichever way it was computed. A linearly
-//! filtered channel is off by less than 1/16 level for that.
+//! Positions are fixed-point numbers of texels with 32 bits after the point. They are first rounded to 1/4096 texel, so
+//! that a position computed with a small error still counts as the middle of its texel. This changes a linearly
+//! filtered channel by less than 1/16 level.
 
 use super::Image;
 use super::blend::{Channels, unpack};

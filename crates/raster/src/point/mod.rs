@@ -1,13 +1,14 @@
-//! Points are squares; for a disc the tile looks at the distance from the centre, and for
-//! anti-aliased ones at what they cover (see [`Stroke`]). Most are drawn from their vertices
-//! ([`PlainPoints`]), all others get one record each.
+//! Points are squares. For a disc, tiles also compare the distance from the centre; for an anti-aliased point, they
+//! compute its coverage (see [`Stroke`](crate::primitive::Stroke)). Most points are drawn from their vertices
+//! ([`PlainPoints`]); each of the others gets a record.
 
 mod plain;
 
 pub(crate) use plain::{PlainPoints, sampled_pixels};
 
-use crate::line::{Form, Stroke, half_size, smooth_size};
-use crate::setup::{DetailIndex, Ends, Kind, Quad, QuadDetail, Setup};
+use crate::line::{half_size, smooth_size};
+use crate::primitive::{DetailIndex, Ends, Form, Kind, Quad, QuadDetail, Stroke};
+use crate::setup::Setup;
 use crate::vertex::{ScreenVertex, nearer};
 use crate::{PointShape, Smoothing};
 

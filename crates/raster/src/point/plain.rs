@@ -1,10 +1,11 @@
-//! Points that are drawn from their vertices: of a dense mesh there are as many as vertices, and a
-//! record for each would take longer to write and to read than the point to draw.
+//! Plain points, drawn from their vertices without a record. A dense mesh has as many points as vertices, and writing
+//! and reading a record would take longer than drawing the point.
 
 use super::PointStyle;
 use crate::bin::Entry;
 use crate::geometry::{Geometry, PointSizes, Shape};
-use crate::setup::{Column, Kind, Quad, Setup};
+use crate::primitive::{Column, Kind, Quad};
+use crate::setup::Setup;
 use crate::simd::{Each, I32, LANES, Mask, Simd, inlined, lane_numbers, lanes_of, prelude::*};
 use crate::vertex::ScreenVertex;
 use crate::{BlendMode, Smoothing};

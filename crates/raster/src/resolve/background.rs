@@ -1,13 +1,13 @@
 //! The background, where nothing is drawn.
 
-use super::background_row::finite;
-use crate::ink::OuterInk;
+use crate::fragments::Encoding;
+use crate::outer_ink::OuterInk;
 use crate::pass::Background;
-use crate::shade::{EmptyGroup, Encoding, Shading};
+use crate::shade::{EmptyGroup, Shading};
 use crate::simd::LANES;
 use crate::target::{Band, Bands};
-use crate::tile::TileArea;
-use crate::view::FrameView;
+use crate::tile_buffer::TileArea;
+use crate::view::{FrameView, finite_color};
 use std::ops::Range;
 use trigon_math::{UVec2, Vec4};
 
@@ -32,11 +32,11 @@ impl FrameView<'_> {
     /// The background at a pixel of the target.
     fn background_of(&self, pixel: UVec2) -> Vec4 {
         match self.background {
-            Background::Color(color) => finite(color),
+            Background::Color(color) => finite_color(color),
             Background::PerRow(_) => {
                 self.background_rows.get(pixel.y as usize).map_or(Vec4::ZERO, |row| row.color)
             }
-            Background::PerPixel(function) => finite(function(pixel)),
+            Background::PerPixel(function) => finite_color(function(pixel)),
         }
     }
 }
@@ -126,7 +126,7 @@ pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, shading: &mut Sh
     let encode = |color| u32::from_le_bytes(encoding.encode(color));
     let Shading { empty_groups, codes, outer, .. } = shading;
     let one_code = match frame.background {
-        Background::Color(color) => encode(finite(color)),
+        Background::Color(color) => encode(finite_color(color)),
         Background::PerRow(_) | Background::PerPixel(_) => 0,
     };
     for &EmptyGroup { number, lanes } in empty_groups.iter() {

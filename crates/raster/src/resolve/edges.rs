@@ -1,10 +1,11 @@
-//! The means of pixels whose samples see different triangles.
+//! The mean colours of pixels whose samples show different triangles.
 
 use super::mean;
+use crate::fragments::Encoding;
 use crate::pass::Background;
-use crate::shade::{BEHIND, EdgeGroup, Encoding, Shading};
+use crate::shade::{BEHIND, EdgeGroup, Shading};
 use crate::simd::{LANES, Mask, Simd, U32, at_level, channels, inlined, prelude::*};
-use crate::tile::TileArea;
+use crate::tile_buffer::TileArea;
 use crate::view::FrameView;
 use fearless_simd::{f32x4, mask32x4};
 use trigon_math::Vec4;

@@ -1,20 +1,19 @@
-//! Pixels of a tile go to the target: mean in linear light, transfer function,
-//! ids.
+//! Writes the pixels of a tile to the target: averages samples in linear light, encodes colours, writes ids.
 
 mod background;
-mod background_row;
 mod edges;
 mod mean;
 mod strip;
 
-pub(crate) use background_row::BackgroundRow;
 pub(crate) use mean::{mean, saturated};
 pub(crate) use strip::Strip;
 
-use crate::shade::{Encoding, Shading};
+use crate::fragments::Encoding;
+use crate::shade::Shading;
 use crate::simd::at_level;
 use crate::target::{Band, Bands};
-use crate::tile::{NO_TRIANGLE, TileArea, TileState};
+use crate::tile::TileState;
+use crate::tile_buffer::{NO_TRIANGLE, TileArea};
 use crate::view::FrameView;
 use background::fill_background;
 use trigon_math::Vec4;

@@ -1,10 +1,10 @@
-//! Neighbouring tiles are written to the target together, both finished and empty ones: a
-//! processor writes long rows of memory faster than short ones, because it prefetches.
+//! Writes neighbouring tiles to the target together, finished and empty ones, because long rows of memory are written
+//! faster than short ones: the processor prefetches them.
 
 use super::fill_background;
 use crate::simd::{Each, LANES};
 use crate::target::Bands;
-use crate::tile::{PIXELS, TileArea};
+use crate::tile_buffer::{PIXELS, TileArea};
 use crate::view::FrameView;
 use std::mem::swap;
 

@@ -1,8 +1,7 @@
-//! Cuts the polygon that clipping and snapping left into triangles.
+//! Cuts the polygon that is left after clipping and snapping into triangles.
 //!
-//! Snapping can dent a convex polygon or fold a corner flat. A fixed fan would
-//! then cover samples twice or leave some out; ears chosen by exact orientation
-//! do not.
+//! Snapping can make a convex polygon concave or fold a corner flat. A fixed fan would then cover samples twice or leave
+//! some out. Ears that are chosen by exact orientation do not.
 
 use crate::clip::MOST_VERTICES;
 use crate::vertex::ScreenVertex;

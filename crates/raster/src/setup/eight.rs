@@ -3,9 +3,10 @@
 //! Triangles that need cutting, or whose edge functions need more than 32 bits, are handled one
 //! by one instead ([`Setup::triangle`]).
 
-use super::{SMALL, Setup};
+use super::Setup;
 use crate::Culling;
 use crate::bin::Entry;
+use crate::primitive::SMALL;
 use crate::simd::{Each, I32, LANES, Mask, Simd, lane_numbers, lanes_of, prelude::*, transposed};
 use crate::vertex::ScreenVertex;
 

@@ -1,7 +1,7 @@
 //! Set-up: primitives become triangles that are ready for the tiles. They are culled and entered in
 //! the bins of the tiles that they touch.
 //!
-//! Vertices come snapped from the vertex stage (`vertex/run.rs`). A vertex in front of the near
+//! Vertices come snapped from the vertex stage (`vertex/snap.rs`). A vertex in front of the near
 //! plane or outside the guard band has no point on the grid. Triangles with such a vertex are cut here,
 //! and all corners of the result are snapped here (`Setup::snap`): a corner that was a vertex gets the
 //! same point as in the vertex stage, so no gap opens beside a neighbour that is not cut.
@@ -11,34 +11,23 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `eight` | culls and bins whole triangles, eight at a time; most triangles need only this file |
-//! | `columns` | eight triangles in lanes, their vertices sorted; the limit of small triangles |
 //! | `mod` | one triangle at a time ([`Setup::triangle`]): cuts it, snaps the result, culls, bins |
 //! | `ears` | cuts the snapped polygon into triangles |
-//! | `triangle` | the record of a triangle for the tiles |
-//! | `quad` | the record of a line or a point |
 //!
 //! Triangles that need no cutting and are small are culled and binned by `eight`. The others go through
-//! [`Setup::triangle`] one by one. Vertices of a triangle are sorted by (y, x)
-//! before anything is computed from them, so that no result depends on the order in which
-//! corners are listed (`triangle`, and `columns` for eight at a time).
+//! [`Setup::triangle`] one by one. The result is a record of [`primitive`](crate::primitive).
 
-mod columns;
 mod ears;
 mod eight;
-mod quad;
 #[cfg(test)]
 mod tests;
-mod triangle;
 
-pub(crate) use columns::{Column, SMALL, small_lanes, sorted_columns};
 pub(crate) use ears::{cut_ears, doubled_area};
-pub(crate) use quad::{DetailIndex, Ends, Quad, QuadDetail};
-pub(crate) use triangle::{Corners, CutWeights, Kind, SetupTriangle, sorted};
 
-use crate::Culling;
 use crate::bin::{Chunk, Entry, Grid};
-use crate::clip;
+use crate::primitive::{Corners, CutWeights, Kind, Quad, SetupTriangle, sorted};
 use crate::vertex::{DrawVertices, ScreenVertex};
+use crate::{Culling, clip};
 use trigon_math::{ClipVertex, ClipVolume};
 
 /// Sets up primitives of one draw into a chunk.
@@ -126,7 +115,7 @@ impl Setup<'_> {
     }
 
     /// Snaps the corners of a cut triangle to the sub-pixel grid, the original corners among them
-    /// too. Those get the same bits as in the vertex stage (`snap` in `vertex/run.rs` says why), so
+    /// too. Those get the same bits as in the vertex stage (`snap` in `vertex/snap.rs` says why), so
     /// that no gap opens to a neighbour that is not cut. `None` if nothing is left, or a corner lies
     /// outside the grid.
     fn snap<'p>(

@@ -1,9 +1,8 @@
 //! What set-up makes of triangles, as frames and their counts tell.
 
-use super::{SMALL, SetupTriangle};
 use crate::bin::Grid;
+use crate::primitive::{Edge, SMALL, SetupTriangle};
 use crate::samples::SamplePattern;
-use crate::tile::Edge;
 use crate::viewport::Viewport;
 use crate::{
     Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rasterizer, Stats, Target, TileSize,

@@ -1,9 +1,8 @@
-//! Pixels whose samples see different triangles.
+//! Edge pixels: pixels whose samples show different triangles.
 
-use super::ShadePoint;
-use super::fragments::FragmentList;
+use crate::fragments::{FragmentList, ShadePoint};
 use crate::simd::{LANES, Mask, Simd, U32, lane_numbers, prelude::*};
-use crate::tile::{NO_TRIANGLE, PIXELS};
+use crate::tile_buffer::{NO_TRIANGLE, PIXELS};
 
 /// The place of the colour behind all triangles.
 pub(crate) const BEHIND: usize = PIXELS;

@@ -1,9 +1,8 @@
-//! The context of a draw, from the frame that it belongs to.
+//! Makes the context for shading a draw.
 
-use super::ShadeContext;
-use super::context::DrawVaryings;
 use crate::bin::TriangleRef;
-use crate::tile::TileArea;
+use crate::fragments::{DrawVaryings, ShadeContext};
+use crate::tile_buffer::TileArea;
 use crate::view::FrameView;
 
 impl<'f> FrameView<'f> {

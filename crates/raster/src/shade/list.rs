@@ -1,10 +1,10 @@
-//! Fragments by the triangle: those that wait for their mask, or to be blended.
+//! Shades lists of fragments, sorted by triangle: masks to be evaluated, and layers to be blended.
 
-use super::task::Task;
-use super::{Job, ShadeContext, ShadeOutput, ShadePoint, Shading};
+use super::Shading;
 use crate::bin::TriangleRef;
+use crate::fragments::{Job, ShadeContext, ShadeOutput, ShadePoint, Task};
 use crate::marks::Overlap;
-use crate::tile::TileArea;
+use crate::tile_buffer::TileArea;
 use crate::view::FrameView;
 
 /// So many triangles at most are ready at a time, to bound memory.

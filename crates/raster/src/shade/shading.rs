@@ -1,13 +1,9 @@
-//! What shading keeps from tile to tile.
+//! Memory that shading keeps from tile to tile.
 
-use super::Records;
-use super::columns::Columns;
 use super::edges::Edges;
-use super::fragments::FragmentList;
-use super::layout::RecordShape;
-use super::task::Group;
-use crate::ink::OuterInk;
-use crate::tile::PIXELS;
+use crate::fragments::{Columns, FragmentList, Group, RecordShape, Records};
+use crate::outer_ink::OuterInk;
+use crate::tile_buffer::PIXELS;
 use std::ops::Range;
 
 /// What is visible of one draw.

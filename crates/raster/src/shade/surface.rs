@@ -1,14 +1,11 @@
-//! Shades every visible triangle of a tile once at every pixel that sees it.
+//! Shades a tile: every visible triangle once at every pixel where it is visible.
 
-use super::fragments::FragmentSlice;
-use super::output::Codes;
 use super::shading::{Run, Shading};
-use super::task::Task;
 use super::visible::{divide, list};
-use super::{Encoding, ShadeContext, ShadeOutput, ShadePoint};
 use crate::bin::TriangleRef;
+use crate::fragments::{Codes, Encoding, FragmentSlice, ShadeContext, ShadeOutput, ShadePoint, Task};
 use crate::simd::{LANES, at_level};
-use crate::tile::{TileArea, VisibilityBuffer};
+use crate::tile_buffer::{TileArea, VisibilityBuffer};
 use crate::view::FrameView;
 
 /// Shades all pixels of a tile: to bytes if an encoding is given, else in linear

@@ -1,12 +1,10 @@
 //! Which triangles of a tile are visible, and at which pixels.
 
-use super::ShadePoint;
-use super::fragments::FragmentList;
 use super::shading::{EmptyGroup, Run, Shading};
-use super::task::Group;
 use crate::bin::TriangleRef;
+use crate::fragments::{FragmentList, Group, ShadePoint};
 use crate::simd::{LANES, Mask, Simd, U32, prelude::*};
-use crate::tile::{NO_TRIANGLE, VisibilityBuffer};
+use crate::tile_buffer::{NO_TRIANGLE, VisibilityBuffer};
 use crate::view::FrameView;
 
 /// Groups with fewer pixels than this that see anything share vectors with others.

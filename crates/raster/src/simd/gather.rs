@@ -1,5 +1,5 @@
-//! Rows become columns of eight lanes, and columns rows. There is no gather
-//! without `unsafe`; loads and a transposition are as fast.
+//! Transposes rows into columns of eight lanes, and columns into rows. Without `unsafe` there are no gather instructions;
+//! loads and a transposition are as fast.
 
 use super::{Each, F32, I32, Simd, U32, is_avx512};
 use fearless_simd::prelude::*;

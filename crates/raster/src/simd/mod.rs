@@ -1,8 +1,8 @@
 //! Vectors of eight lanes at every SIMD level, and what we need on top of them
 //! that gives the same bits everywhere.
 //!
-//! A vector has eight lanes on every machine: narrow levels take two registers
-//! for it. So nothing that is computed can depend on the lane width.
+//! A vector has eight lanes on every machine; narrow levels use two registers
+//! for it. No result can therefore depend on the lane width.
 
 mod each;
 mod gather;

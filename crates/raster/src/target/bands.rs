@@ -1,6 +1,5 @@
-//! Cuts a target into bands of rows: disjoint mutable slices, each behind a lock
-//! that is held only while a finished tile is copied in. So tiles can be drawn in
-//! any order on any thread, without `unsafe`.
+//! Cuts a target into bands of rows: disjoint mutable slices, each behind a lock that is held only while a finished tile
+//! is copied in. Tiles can thus be drawn in any order on any thread, without `unsafe`.
 
 use super::Target;
 use std::sync::{Mutex, MutexGuard, PoisonError};

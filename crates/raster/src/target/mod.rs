@@ -1,4 +1,4 @@
-//! Where a pass lands: row-major images, one for each output asked for.
+//! The target of a pass: row-major images, one for each requested output.
 
 mod bands;
 mod plane;

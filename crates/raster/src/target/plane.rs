@@ -1,4 +1,4 @@
-//! One image of a target: not there, its own, or the caller's.
+//! One image of a target. It is absent, owned by the target, or borrowed from the caller.
 
 /// An image, row-major.
 pub(super) enum Plane<'a, T> {

@@ -1,14 +1,12 @@
-//! One axis of a look-up: from a coordinate to a texel and the weight of the
-//! next one, for one point and for lanes.
+//! One axis of a look-up: from a coordinate to a texel and the weight of the next texel, for one point and for eight
+//! lanes.
 //!
-//! A coordinate is first reduced to its period while it is still precise, and
-//! only then multiplied by the size of a level. From the coordinate given to
-//! the position in texels the error is at most `size · 2⁻²³`, however far from
-//! zero the coordinate is: less than 1/500 of a texel for the largest size.
+//! A coordinate is first reduced to its period, while it is still precise, and then multiplied by the size of a mip
+//! level. From the coordinate to the position in texels the error is at most `size · 2⁻²³`, however far from zero the
+//! coordinate is: less than 1/500 of a texel for the largest size.
 //!
-//! Both forms do the same operations in the same order, so they agree in every
-//! bit. `floor` is written as a conversion to an integer and back: that is exact
-//! for the numbers here, and x86-64's own instructions have no other.
+//! Both forms do the same operations in the same order, so they agree in every bit. `floor` is written as a conversion
+//! to an integer and back. This is exact for the numbers here, and baseline x86-64 has no instruction for `floor`.
 
 use super::{Filter, Wrap};
 use crate::simd::prelude::*;

@@ -1,4 +1,4 @@
-//! How a texture is looked up.
+//! The settings of a texture look-up.
 
 /// The most probes that [`MipFilter::Anisotropic`] takes.
 pub const MAX_ANISOTROPY: u8 = 16;

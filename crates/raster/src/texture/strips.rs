@@ -1,15 +1,13 @@
-//! Where texels lie in memory: every mip level in strips of 8 columns, each with
-//! a border, one level after the other.
+//! Where texels lie in memory: every mip level is stored in strips of 8 columns, each with a border, one level after the
+//! other.
 //!
-//! A strip stores rows of 9 texels: its own, and the one that follows; and below
-//! the last row the one that follows that. So the 2 by 2 texels of a bilinear
-//! look-up whose first lies in the strip are two short runs of it, wherever the
-//! first is: no look-up meets an edge, and neighbours in the image share cache
-//! lines in both directions. The border costs an eighth of memory and a row.
+//! A row of a strip has 9 texels: its own 8, and the one to their right. Below the last row there is one more row, the
+//! next one of the image. The 2 by 2 texels of a bilinear look-up whose first texel lies in the strip are therefore two
+//! short runs in that strip, wherever the first texel is. No look-up needs a special case at an edge, and neighbours in
+//! the image share cache lines in both directions. The border costs an eighth of the memory, and one row.
 //!
-//! What follows the last column or row is the first, as [`Wrap::Repeat`] needs.
-//! The other modes never use it: they clamp the position to the centres of the
-//! outermost texels, where the weight of what follows is 0.
+//! After the last column or row the first one follows, as [`Wrap::Repeat`] needs. The other modes never read it: they
+//! clamp the position to the centres of the outermost texels, where the next texel has weight 0.
 //!
 //! [`Wrap::Repeat`]: super::Wrap::Repeat
 

@@ -1,7 +1,6 @@
 //! Sets of a tile's blocks of 8 by 8 pixels.
 
-use super::TileArea;
-use super::area::BLOCKS;
+use crate::tile_buffer::{BLOCKS, TileArea};
 
 /// Some blocks of a tile: bit `8 · row + column` for each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

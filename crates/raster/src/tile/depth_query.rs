@@ -3,10 +3,10 @@
 //! gets the visible lanes and their depths. The depth test is that of `TileRasterizer::visible_lanes`.
 
 use super::blocks::Blocks;
-use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
-use super::{Ties, TileArea, TileTriangle};
+use super::{Ties, TileTriangle};
 use crate::bin::TriangleRef;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
+use crate::tile_buffer::{NO_TRIANGLE, TileArea, VisibilityBuffer};
 use crate::view::FrameView;
 
 /// A tile whose opaque triangles are drawn.

@@ -3,10 +3,11 @@
 //! A triangle is small if its sides are below 64 pixels ([`small_lanes`]): then its edge functions
 //! fit in 32 bits anywhere in the tile.
 
-use super::{DepthPlane, TileArea, TileTriangle, owns_boundary};
+use super::TileTriangle;
+use crate::primitive::{Column, DepthPlane, owns_boundary, small_lanes, sorted_columns};
 use crate::samples::{MAX_SAMPLES, SamplePattern};
-use crate::setup::{Column, small_lanes, sorted_columns};
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lesser, prelude::*, widened};
+use crate::tile_buffer::TileArea;
 use crate::vertex::ScreenVertex;
 use fearless_simd::f64x4;
 
@@ -255,7 +256,7 @@ fn range<S: Simd>(
 }
 
 /// The steps of the planes of depth, by the formula of
-/// [`slopes`](super::depth::slopes). The sides of small triangles are exact in
+/// `slopes` in `primitive/depth.rs`. The sides of small triangles are exact in
 /// f32, so converting them to f64 by way of f32 is exact.
 #[inline(always)]
 fn depth_slopes<S: Simd>(simd: S, [a, b, c]: [Column<S>; 3]) -> [[f64; LANES]; 2] {
@@ -285,7 +286,7 @@ fn depth_slopes<S: Simd>(simd: S, [a, b, c]: [Column<S>; 3]) -> [[f64; LANES]; 2
 mod tests {
     use super::*;
     use crate::bin::Grid;
-    use crate::setup::SetupTriangle;
+    use crate::primitive::SetupTriangle;
     use crate::simd::{SimdLevel, at_level};
     use crate::viewport::Viewport;
     use proptest::prelude::*;

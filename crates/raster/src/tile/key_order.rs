@@ -1,7 +1,7 @@
 //! A tile's triangles in the order of their keys, which [`FrameView::compare`] defines.
 
-use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
 use crate::bin::TriangleRef;
+use crate::tile_buffer::{NO_TRIANGLE, VisibilityBuffer};
 use crate::view::FrameView;
 
 /// A triangle of a tile: its object, its face, its number among the tile's.

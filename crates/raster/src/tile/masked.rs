@@ -1,13 +1,14 @@
 //! Masked triangles: first all samples where the triangle would be visible are collected, then the
 //! mask is evaluated, then depth is tested again.
 
+use super::TileState;
 use super::blocks::Blocks;
-use super::buffer::NO_TRIANGLE;
 use super::depth_query::{Candidate, TileView};
 use super::single::single;
-use super::{TileArea, TileState};
-use crate::shade::{Job, JobList, ShadePoint, Shading, mask_jobs};
+use crate::fragments::{Job, ShadePoint};
+use crate::shade::{JobList, Shading, mask_jobs};
 use crate::simd::{LANES, Simd, at_level, prelude::*};
+use crate::tile_buffer::{NO_TRIANGLE, TileArea};
 use crate::view::FrameView;
 use crate::{BlendMode, Stats};
 use std::ops::Range;

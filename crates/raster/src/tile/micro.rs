@@ -10,14 +10,13 @@
 //!
 //! The depth test is that of `TileRasterizer::visible_lanes`, for one pixel.
 
-use super::area::{BLOCKS, GROUPS};
-use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
 use super::eight::{EightTriangles, MICRO};
 use super::rasterizer::TileRasterizer;
 use crate::counts::Counts;
 use crate::simd::{
     Each, F32, I32, LANES, Mask, Simd, U32, greater, lane_numbers, lesser, prelude::*, widened,
 };
+use crate::tile_buffer::{BLOCKS, GROUPS, NO_TRIANGLE, VisibilityBuffer};
 use fearless_simd::f64x4;
 
 /// Depths of the lanes' triangles along a row of pixels: lane `i` belongs to triangle `i`.
@@ -143,7 +142,7 @@ impl TileRasterizer<'_> {
     }
 
     /// The planes of depth at a row of each lane: the formula of
-    /// [`DepthPlane`](super::DepthPlane).
+    /// [`DepthPlane`](crate::primitive::DepthPlane).
     #[inline(always)]
     fn depths<S: Simd>(&self, simd: S, eight: &EightTriangles, y: I32<S>) -> Depths<S> {
         let dy = self.steps(simd, (y, 1), &eight.anchor);
@@ -226,7 +225,7 @@ impl TileRasterizer<'_> {
 }
 
 /// The indices of pixels in the tile: see
-/// [`TileArea::index_of`](super::TileArea::index_of).
+/// [`TileArea::index_of`](crate::tile_buffer::TileArea::index_of).
 #[inline(always)]
 fn index_of<S: Simd>(x: I32<S>, y: I32<S>) -> I32<S> {
     // Blocks of 8×8 pixels row by row; in each block eight groups of 4×2, two to a row.
@@ -245,7 +244,7 @@ fn doubles<S: Simd>(simd: S, values: &[f64; LANES]) -> [f64x4<S>; 2] {
 mod tests {
     use super::*;
     use crate::simd::{SimdLevel, at_level};
-    use crate::tile::TileArea;
+    use crate::tile_buffer::TileArea;
 
     #[test]
     fn numbers_of_pixels_agree() {

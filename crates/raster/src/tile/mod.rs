@@ -6,8 +6,11 @@
 //! equal depth the triangle with the smaller key is visible:
 //! [`FrameView::compare`](crate::view::FrameView::compare) is that rule.
 //!
-//! Values are kept for pixels in the order of [`TileArea`]: groups of 4×2 pixels, one pixel in each
-//! lane, in blocks of 8×8.
+//! Depth and visible triangle of each sample are kept in a
+//! [`VisibilityBuffer`](crate::tile_buffer::VisibilityBuffer), for pixels in the order of
+//! [`TileArea`](crate::tile_buffer::TileArea): groups of 4×2 pixels, one pixel in each lane, in blocks
+//! of 8×8. Edge functions with the top-left rule, and planes of depths, are those of
+//! [`primitive`](crate::primitive).
 //!
 //! In the order in which a triangle passes through:
 //!
@@ -15,13 +18,11 @@
 //! |---|---|
 //! | `surfaces` | lists the tile's triangles: opaque, masked, overlay, translucent |
 //! | `state` | what a worker keeps from tile to tile |
-//! | `area`, `blocks` | where a tile and its pixels lie; sets of its blocks |
+//! | `blocks` | sets of a tile's blocks |
 //! | `visibility` | **the order of the kinds of surface, and which kernel draws a triangle** |
 //! | `eight` | eight small triangles prepared together, and the limits of the kernels |
 //! | `edge_origins` | the edge functions of those eight at each one's first 4×2 group, for `tiny` and `multisample` |
 //! | `triangle`, `single` | one triangle prepared for the tile, whatever its size |
-//! | `edge` | edge functions in i64, and **the top-left rule** (`Edge::bias`, `owns_boundary`) |
-//! | `depth` | the plane of a triangle's depths |
 //! | `micro` | kernel: up to eight small triangles of at most 4×4 pixels each, one sample per pixel |
 //! | `tiny` | kernel: one small triangle of at most 24×24 pixels, one sample per pixel |
 //! | `multisample` | the same with several samples per pixel |
@@ -29,18 +30,14 @@
 //! | `quad` | kernel: lines and points |
 //! | `points` | kernel: plain points, from their vertices |
 //! | `masked`, `depth_query` | masked triangles; where a masked or translucent triangle would be visible |
-//! | `buffer`, `store` | depth and visible triangle of each sample, with the depth bounds of blocks; writing to it |
+//! | `store` | writing to the visibility buffer |
 //! | `ties`, `key_order` | the tile's budget for equal depths; its triangles sorted by key |
 //!
 //! The sizes in pixels count the part of a triangle's bounding box that lies in the tile.
 //! `docs/architecture.md`, "Coverage kernels", compares the kernels.
 
-mod area;
 mod blocks;
-mod buffer;
-mod depth;
 mod depth_query;
-mod edge;
 mod edge_origins;
 mod eight;
 mod key_order;
@@ -61,12 +58,8 @@ mod tiny;
 mod triangle;
 mod visibility;
 
-pub(crate) use area::{MAX_SIDE, PIXELS, TileArea, lane_point};
 pub(crate) use blocks::Blocks;
-pub(crate) use buffer::{BEHIND_ALL, NO_TRIANGLE, VisibilityBuffer};
-pub(crate) use depth::DepthPlane;
 pub(crate) use depth_query::{Candidate, SampleGroup, TileView};
-pub(crate) use edge::{Edge, owns_boundary};
 pub(crate) use single::single;
 pub(crate) use state::TileState;
 pub(crate) use surfaces::Surfaces;

@@ -11,13 +11,12 @@
 //! skipped. That branch pays here, unlike in the kernel for one sample,
 //! because it saves up to sixteen samples.
 
-use super::area::TileArea;
-use super::buffer::VisibilityBuffer;
 use super::edge_origins::EdgeOrigins;
 use super::store::name_where;
 use super::tiny::Tiny;
 use crate::samples::MAX_SAMPLES;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lesser, prelude::*};
+use crate::tile_buffer::{TileArea, VisibilityBuffer};
 use fearless_simd::{f64x4, f64x8};
 
 /// What each sample of one triangle's pixels adds, copied to all lanes.

@@ -4,18 +4,16 @@
 //! A square is the pixels from one column and row to another, and a disc those whose samples are
 //! near enough to its centre, so no edge functions are needed.
 
-use super::TileArea;
-use super::area::GROUPS;
-use super::buffer::VisibilityBuffer;
 use super::rasterizer::TileRasterizer;
 use super::store::store_where;
 use crate::bin::TriangleRef;
 use crate::counts::Counts;
 use crate::geometry::Shape;
 use crate::point::{PlainPoints, sampled_pixels};
+use crate::primitive::Column;
 use crate::samples::SamplePattern;
-use crate::setup::Column;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
+use crate::tile_buffer::{GROUPS, TileArea, VisibilityBuffer};
 use crate::vertex::nearer_lanes;
 use crate::view::FrameView;
 

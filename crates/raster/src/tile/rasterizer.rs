@@ -16,13 +16,12 @@
 //! key ([`FrameView::precedes`](crate::view::FrameView::precedes)). The kernels `tiny`, `multisample`
 //! and `micro` and the queries of `depth_query` repeat it in the form that suits them.
 
-use super::area::{BLOCKS, TileArea};
-use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
 use super::store::{store, store_where};
 use super::ties::Ties;
 use super::triangle::TileTriangle;
 use crate::counts::Counts;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
+use crate::tile_buffer::{BLOCKS, NO_TRIANGLE, TileArea, VisibilityBuffer};
 
 /// What all triangles of a tile have in common, for all coverage kernels.
 #[derive(Clone, Copy)]

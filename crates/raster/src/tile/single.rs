@@ -1,8 +1,9 @@
 //! One triangle prepared for one tile.
 
-use super::{TileArea, TileTriangle};
+use super::TileTriangle;
 use crate::bin::TriangleRef;
-use crate::setup::SetupTriangle;
+use crate::primitive::SetupTriangle;
+use crate::tile_buffer::TileArea;
 use crate::view::FrameView;
 
 /// One triangle of the tile.

@@ -1,13 +1,12 @@
 //! What a worker keeps from tile to tile for the visibility stage.
 
-use super::area::TileArea;
-use super::buffer::VisibilityBuffer;
 use super::depth_query::TileView;
 use super::key_order::KeyOrder;
 use super::masked::MaskQueue;
 use super::surfaces::Surfaces;
 use super::ties::Ties;
 use crate::bin::TriangleRef;
+use crate::tile_buffer::{TileArea, VisibilityBuffer};
 use crate::view::FrameView;
 
 /// The triangles of a tile, and which of them is visible at each sample.

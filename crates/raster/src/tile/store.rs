@@ -1,7 +1,7 @@
 //! Writing lanes to the visibility buffer.
 
-use super::buffer::VisibilityBuffer;
 use crate::simd::{F32, LANES, Mask, Simd, U32, blended, prelude::*};
+use crate::tile_buffer::VisibilityBuffer;
 
 /// Writes one triangle to all lanes.
 #[inline(always)]

@@ -9,9 +9,9 @@ mod points;
 mod quick;
 mod small;
 
-use super::{BEHIND_ALL, DepthPlane};
-use crate::setup::SetupTriangle;
+use crate::primitive::{DepthPlane, SetupTriangle};
 use crate::simd::SimdLevel;
+use crate::tile_buffer::BEHIND_ALL;
 use crate::vertex::ScreenVertex;
 use crate::{
     BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rasterizer,

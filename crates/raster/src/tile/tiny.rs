@@ -16,8 +16,6 @@
 //!
 //! With several samples per pixel, the same steps use the loops of `multisample`.
 
-use super::area::{BLOCKS, TileArea};
-use super::buffer::{NO_TRIANGLE, VisibilityBuffer};
 use super::edge_origins::EdgeOrigins;
 use super::eight::EightTriangles;
 use super::multisample;
@@ -25,6 +23,7 @@ use super::rasterizer::TileRasterizer;
 use super::store::name_where;
 use crate::counts::Counts;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser, prelude::*};
+use crate::tile_buffer::{BLOCKS, NO_TRIANGLE, TileArea, VisibilityBuffer};
 use fearless_simd::f64x4;
 
 /// The farthest depth of a block is computed again after this many triangles were written to

@@ -1,10 +1,10 @@
 //! A triangle prepared for one tile: which samples it covers, and at which depths.
 
-use super::{DepthPlane, Edge, TileArea, lane_point};
 use crate::bin::Grid;
+use crate::primitive::{DepthPlane, Edge, Kind, SetupTriangle};
 use crate::samples::MAX_SAMPLES;
-use crate::setup::{Kind, SetupTriangle};
 use crate::simd::{I32, LANES, Mask, Simd, lanes_of, prelude::*};
+use crate::tile_buffer::{MAX_SIDE, TileArea, lane_point};
 
 /// What coverage needs of a triangle in one tile.
 ///
@@ -148,7 +148,7 @@ impl TileTriangle {
     fn edge(&mut self, k: usize, edge: &Edge, grid: &Grid, area: &TileArea) -> Option<bool> {
         let corner = area.origin.map(|v| v * 256);
         let [low, high] = grid.pattern.reach();
-        let last = (super::MAX_SIDE as i32 - 1) * 256;
+        let last = (MAX_SIDE as i32 - 1) * 256;
         let [least, greatest] = edge.range(corner.map(|v| v + low), corner.map(|v| v + last + high));
         if greatest + edge.bias() < 0 {
             return None;

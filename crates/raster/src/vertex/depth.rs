@@ -1,6 +1,6 @@
-//! One vertex on the screen, position and depth, and the range of depths.
+//! A single vertex: its position and depth on the screen, and the range of depths.
 //!
-//! `run` does the same for eight vertices at once, with the same bits.
+//! `snap` does the same for eight vertices at once, with the same bits.
 
 use super::ScreenVertex;
 use crate::simd::{F32, Simd, prelude::*};

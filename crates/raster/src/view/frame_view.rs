@@ -1,16 +1,17 @@
-//! A frame on its way: what the stages leave for the tiles.
+//! A frame before its tiles are drawn: everything that the earlier stages have produced for the tiles.
 
-use super::{DrawView, Plan, RequestedOutputs};
+use super::background_row::BackgroundRow;
+use super::{Plan, RequestedOutputs};
 use crate::StageTimes;
 use crate::bin::{Chunk, Grid, TileRange, TriangleRef};
+use crate::draw_view::DrawView;
 use crate::ink::Ink;
 use crate::paint2d::Rect;
 use crate::pass::{Background, Recorded};
-use crate::resolve::BackgroundRow;
-use crate::setup::SetupTriangle;
-use crate::shade::AnyPipeline;
+use crate::pipeline::AnyPipeline;
+use crate::primitive::SetupTriangle;
 use crate::simd::Token;
-use crate::tile::TileArea;
+use crate::tile_buffer::TileArea;
 use crate::vertex::{DrawVertices, ScreenVertex};
 use std::cmp::Ordering;
 use std::ops::Range;

@@ -1,11 +1,11 @@
 //! What the stages that draw tiles read of a frame: its plan, its draws, and the outputs of the stages before.
 
-mod draw_view;
+mod background_row;
 mod frame_view;
 mod outputs;
 mod plan;
 
-pub(crate) use draw_view::DrawView;
+pub(crate) use background_row::{BackgroundRow, finite_color};
 pub(crate) use frame_view::FrameView;
 pub(crate) use outputs::RequestedOutputs;
 pub(crate) use plan::{DrawPlan, Plan};

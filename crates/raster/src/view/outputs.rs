@@ -1,6 +1,6 @@
-//! What a frame leaves behind.
+//! Which outputs a frame is to have.
 
-use crate::shade::Encoding;
+use crate::fragments::Encoding;
 
 /// What a frame is to leave behind.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! In which order a frame's draws are set up, and where their vertices go.
+//! The plan: in which order a frame's draws are set up, and where their vertices are stored.
 
 use crate::BlendMode;
 use crate::bin::Chunk;

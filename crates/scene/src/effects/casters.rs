@@ -8,8 +8,8 @@ use trigon_raster::Texture;
 use crate::geometry::{Geometry, GeometryState};
 use crate::material::{AlphaMode, Material};
 use crate::node::Node;
-use crate::render::{Shape, Shapes};
 use crate::scene::{Place, Scene};
+use crate::shapes::{Shape, Shapes};
 
 /// All shadow casters of a scene.
 #[derive(Debug)]

@@ -4,8 +4,8 @@ use crate::work::{Work, note};
 use trigon_math::Vec3;
 use trigon_raster::simd::{Simd, prelude::*};
 
-use super::Fog;
-use crate::render::lanes::{V3, dot, exp2, mix, splat};
+use crate::effect_settings::Fog;
+use crate::lanes::{V3, dot, exp2, mix, splat};
 
 /// Precomputed fog.
 #[derive(Clone, Copy, Debug)]

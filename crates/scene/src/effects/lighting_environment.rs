@@ -4,13 +4,13 @@
 use trigon_math::Vec3;
 use trigon_raster::simd::{F32, Simd, prelude::*};
 
-use super::environment::Surroundings;
 use super::fog::Mist;
 use super::metal_sky::{MetalSky, SkyOnMetal};
 use super::rays::{AmbientRays, RayScene};
 use super::shadow::ShadowMaps;
-use crate::render::lanes::{V3, dot, splat};
-use crate::render::lighting::{Arriving, Lamp, Lights, LitPoints, Microfacets};
+use crate::environment::Surroundings;
+use crate::lanes::{V3, dot, splat};
+use crate::lighting::{Arriving, Lamp, Lights, LitPoints, Microfacets};
 use crate::work::{Work, note};
 
 /// The lighting environment of all surfaces in a frame.

@@ -3,7 +3,7 @@
 //! Metals show hardly anything but reflections: under lamps alone they are black except for their highlights.
 //! The sky is the same all around, so what a metal reflects depends on two numbers: the elevation of the
 //! reflected direction, and the roughness. The table of both takes 14 kB and is made for the first metal, in
-//! a few milliseconds. An [`Environment`](super::Environment) of the same sky would hold maps of all
+//! a few milliseconds. An [`Environment`](crate::Environment) of the same sky would hold maps of all
 //! directions.
 //!
 //! The sky is fixed to the world, as environments are, while the studio's lamps move with the camera.
@@ -14,9 +14,9 @@ use std::sync::LazyLock;
 use trigon_math::{Mat3, Vec3, elementary};
 use trigon_raster::simd::{Each, F32, LANES, Simd, inlined, lanes_of, prelude::*};
 
-use super::Sky;
-use crate::render::lanes::{V3, dot, mix, mixed, splat, table_step};
-use crate::render::lighting::LitPoints;
+use crate::environment::Sky;
+use crate::lanes::{V3, dot, mix, mixed, splat, table_step};
+use crate::lighting::LitPoints;
 
 /// Directions of the table, from straight down to straight up in equal steps of height. One of them
 /// is the horizon, where the sky changes abruptly.
@@ -161,7 +161,7 @@ mod tests {
     use trigon_math::DVec3;
 
     use super::*;
-    use crate::effects::Environment;
+    use crate::environment::Environment;
 
     /// Not at the fold of octahedral maps.
     fn direction(height: f32) -> Vec3 {

@@ -3,7 +3,7 @@
 use crate::work::{Work, note};
 use trigon_math::color;
 
-use super::Outline;
+use crate::effect_settings::Outline;
 
 /// The widest line in pixels.
 const WIDEST: u32 = 16;

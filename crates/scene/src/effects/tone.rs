@@ -8,7 +8,7 @@ use crate::work::{Work, note};
 use trigon_math::{Vec3, Vec4, color};
 use trigon_raster::Rasterizer;
 
-use super::ToneMapping;
+use crate::effect_settings::ToneMapping;
 use crate::settings::RenderSettings;
 
 /// Converts an image in linear light, premultiplied, without background, to sRGB bytes on its

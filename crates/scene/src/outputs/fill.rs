@@ -8,7 +8,7 @@ use super::facet::Beam;
 use super::seen::Seen;
 use super::source::{Point, Source, Triangle};
 use crate::frame::Frame;
-use crate::render::PreparedScene;
+use crate::prepare::PreparedScene;
 
 /// Rows per task: enough to be worth a worker's while.
 const ROWS: usize = 8;

@@ -8,10 +8,11 @@ use super::facet::{Beam, Facet, mixed, mixed2, vertex};
 use crate::geometry::Geometry;
 use crate::material::{Material, Shading, TextureBinding};
 use crate::node::Node;
-use crate::render::placement::normal_matrix;
-use crate::render::{PreparedScene, Shape};
+use crate::placement::normal_matrix;
+use crate::prepare::PreparedScene;
 use crate::scene::Scene;
 use crate::settings::{Outputs, Style};
+use crate::shapes::Shape;
 
 /// An object that may be visible.
 pub(super) struct Source<'s> {

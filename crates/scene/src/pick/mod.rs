@@ -1,11 +1,21 @@
-//! Picking: what is under a pixel or in a region of an image, down to the faces, edges and vertices
-//! of polygons.
+//! Picking: what is under a pixel or in a region of an image, down to the faces, edges and vertices of polygons.
 //!
-//! [`Picker`] defines the rule. Visible faces are read from an image's ids (`search`); everything else is
-//! decided in f64: `screen` and `object` locate the points of elements, `nearby` (by `sides`; in small regions
-//! `few`, `beyond`) finds what may lie in a region (`region`, `lasso`), `kind` what does, `hiding` (with
-//! `occluders`, `probes` and `forms`) which of these a face hides, and `covering` which pixel centres a face
-//! covers.
+//! [`Picker`] defines the rule. Visible faces are read from an image's ids. Everything else is decided in f64.
+//!
+//! | file | what it does |
+//! |---|---|
+//! | `picker`, `search` | the public picker; how it visits pixels, triangles and points |
+//! | `nearest`, `snap` | the elements nearest to a point; points of the scene that a pointer snaps to |
+//! | `region`, `lasso`, `outline` | which points lie in a region; the even-odd rule; distances from a polygon |
+//! | `screen`, `object` | screen positions of an object's points |
+//! | `nearby` | the objects near an area, and which of their elements may lie in it |
+//! | `sides` | for large areas: one byte per point, which side of the area it is on |
+//! | `few`, `beyond` | for small areas: skips whole boxes of triangles |
+//! | `kind` | vertices and edges: the points that must be visible |
+//! | `hiding` | **which points a face hides** |
+//! | `occluders`, `probes`, `forms` | the triangles and the points of that test; a quick proof in f32 that a point is not hidden |
+//! | `covering` | the pixel centres that a face covers |
+//! | `elements` | sets of elements |
 
 mod beyond;
 mod covering;

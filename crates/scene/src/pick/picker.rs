@@ -62,8 +62,8 @@ pub enum Reach {
 /// # What it costs
 /// It computes the screen positions of all vertices when a large region first needs them, and keeps
 /// them: use one picker as long as scene and camera stay the same. For a small region, such as
-/// around a cursor, it skips most of a mesh in boxes of 64 triangles, which the scene keeps until
-/// the mesh changes.
+/// around a cursor, it skips most of a mesh in boxes of 64 triangles, and in boxes of 8 within
+/// them. The scene keeps these boxes until the mesh changes.
 ///
 /// ```
 /// use trigon_scene::math::DVec2;

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::Quality;
-use crate::effects::Shadows;
+use crate::effect_settings::Shadows;
 use crate::settings::{RenderSettings, ShadingModel};
 
 /// The units of work that make up a frame's time: the frame itself (its vertices and triangles),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::effects::Shadows;
+use crate::effect_settings::Shadows;
 use crate::settings::{RenderSettings, ShadingModel};
 
 /// The settings that trade accuracy for time.
@@ -124,7 +124,7 @@ impl fmt::Display for Quality {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::{AmbientOcclusion, EffectSettings};
+    use crate::effect_settings::{AmbientOcclusion, EffectSettings};
     use crate::quality::Preset;
 
     fn asking_for_all() -> RenderSettings {

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::Quality;
-use crate::effects::Shadows;
+use crate::effect_settings::Shadows;
 use crate::settings::{RenderSettings, ShadingModel};
 
 /// A named quality. Each takes two to five times as long as the one before it.

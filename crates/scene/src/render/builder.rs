@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 
 use super::renderer::Renderer;
 use crate::background::Background;
-use crate::effects::EffectSettings;
+use crate::effect_settings::EffectSettings;
 use crate::settings::{Outputs, RenderSettings, Style};
 
 /// The default size of an image in pixels: the viewer's, and F3D's.

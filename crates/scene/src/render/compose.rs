@@ -9,13 +9,7 @@ use trigon_camera::Camera;
 use trigon_math::{Mat3, Vec3};
 use trigon_raster::{Culling, EdgeFlags};
 
-use super::backdrop::Backdrop;
-use super::placement::Rays;
-use super::placement::{Eye, Placement};
-use super::prepared_scene::PreparedScene;
 use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles};
-use super::shapes::{Shape, Shapes};
-use super::surface::{BoundMaterial, Drawn, Illumination, MaterialContext, Surface};
 use super::vertex_list::VertexList;
 use super::wire::{HiddenLine, Wire, WireMarks};
 use crate::display::Display;
@@ -25,10 +19,13 @@ use crate::geometry::{Geometry, Run};
 use crate::marks;
 use crate::material::{AlphaMode, Material, Shading};
 use crate::mesh_asset::MeshAsset;
-use crate::node::Node;
-use crate::node::NodeId;
+use crate::node::{Node, NodeId};
+use crate::placement::{Eye, Placement, Rays};
+use crate::prepare::{Backdrop, PreparedScene};
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, Style};
+use crate::shapes::{Shape, Shapes};
+use crate::surface::{BoundMaterial, Drawn, Illumination, MaterialContext, Surface};
 
 /// The size of loose points, in line widths.
 const POINT_TO_LINE: f32 = 3.0;

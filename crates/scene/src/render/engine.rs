@@ -8,19 +8,19 @@ use trigon_raster::{
 };
 
 use super::RenderError;
-use super::backdrop::Backdrop;
 use super::compose::Composer;
 use super::depth_image::paint_depth;
 use super::kept::{Destination, Kept};
 use super::last_frame::{LastFrame, Step};
-use super::placement::DepthToDistance;
-use super::prepared_scene::PreparedScene;
 use super::record::Record;
 use crate::display::Display;
 use crate::effect::Effect;
-use crate::effects::{Counts, EffectCounts, EffectPlan, LightingEnvironment};
+use crate::effects::{Counts, EffectCounts, LightingEnvironment};
 use crate::frame::Frame;
 use crate::outputs::{self, Needed};
+use crate::placement::DepthToDistance;
+use crate::plan::EffectPlan;
+use crate::prepare::{Backdrop, PreparedScene};
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, Style};
 

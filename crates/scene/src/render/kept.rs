@@ -3,15 +3,18 @@
 use trigon_math::Vec4;
 use trigon_raster::{Pass, Rasterizer, Stats, Target, TargetError};
 
-use super::prepared_scene::PreparedScene;
 use crate::effect::Effect;
+use crate::effect_settings::Shadows;
 use crate::effects::{
-    AmbientRays, Casters, Counts, EffectPlan, LampPose, LightingEnvironment, Mist, RayCache, ShadowCache,
-    Shadows, draw_outline, lay_on_background, map_tones,
+    AmbientRays, Casters, Counts, LampPose, LightingEnvironment, Mist, RayCache, draw_outline,
+    lay_on_background, map_tones,
 };
 use crate::frame::{Frame, resize};
 use crate::outputs::{Needed, Seen};
+use crate::plan::EffectPlan;
+use crate::prepare::PreparedScene;
 use crate::settings::RenderSettings;
+use crate::shadow_maps::ShadowCache;
 
 /// What a renderer keeps from frame to frame. It never changes a byte.
 #[derive(Default)]

@@ -12,18 +12,19 @@ use trigon_camera::Camera;
 use trigon_raster::{DrawChange, Pass, Rasterizer, Rect, Stats, Target, TargetError, Texture};
 
 use self::marked::{MarkOrigin, MarkPalette, MarkedPrimitives};
-use super::placement::{DepthToDistance, Placement};
-use super::prepared_scene::PreparedScene;
 use super::record::{Record, Source};
 use crate::arena::Arena;
 use crate::effect::Effect;
-use crate::effects::{EffectPlan, Environment};
+use crate::environment::Environment;
 use crate::frame::{Frame, resize};
 use crate::geometry::GeometryState;
 use crate::marks::Marks;
 use crate::material::Material;
 use crate::node::Node;
 use crate::outputs::{Needed, Seen};
+use crate::placement::{DepthToDistance, Placement};
+use crate::plan::EffectPlan;
+use crate::prepare::PreparedScene;
 use crate::settings::RenderSettings;
 use crate::texture_asset::TextureId;
 

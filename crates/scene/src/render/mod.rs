@@ -3,30 +3,26 @@
 //!
 //! A frame is a pure function of scene, camera and settings.
 
-mod backdrop;
 mod builder;
 mod compose;
 mod depth_image;
 mod engine;
 mod kept;
-pub(crate) mod lanes;
 mod last_frame;
-pub(crate) mod lighting;
-pub(crate) mod placement;
-mod prepared_scene;
 mod record;
 mod renderer;
-mod shapes;
-pub(crate) mod surface;
 #[cfg(test)]
 mod tests;
 mod vertex_list;
 mod wire;
 
 pub use builder::RendererBuilder;
-pub(crate) use prepared_scene::PreparedScene;
 pub use renderer::Renderer;
-pub(crate) use shapes::{Onlookers, Shape, Shapes};
+/// For picking.
+pub(crate) use {
+    crate::placement,
+    crate::shapes::{Onlookers, Shape, Shapes},
+};
 
 use thiserror::Error;
 use trigon_camera::Camera;

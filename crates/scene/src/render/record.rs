@@ -8,9 +8,9 @@ use trigon_raster::{
     BlendMode, Culling, Draw, EdgeFlags, LanePipeline, Lines, MarkedPoints, Marks, Pass, Points,
 };
 
-use super::placement::Placement;
 use super::wire::Wire;
 use crate::geometry::Geometry;
+use crate::placement::Placement;
 
 /// A draw that owns its pipeline, whatever its type, and can be recorded.
 pub(super) trait Record {

@@ -7,8 +7,9 @@ use super::RenderError;
 use super::builder::RendererBuilder;
 use super::engine::Engine;
 use crate::effect::Effect;
-use crate::effects::{EffectCounts, EffectPlan};
+use crate::effects::EffectCounts;
 use crate::frame::Frame;
+use crate::plan::EffectPlan;
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 

@@ -6,9 +6,9 @@ use trigon_math::{UVec2, Vec3, Vec4};
 use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
 use trigon_raster::{Fragment, FragmentLanes, LanePipeline, MarkColors, Pipeline, VertexLanes, VertexOutput};
 
-use super::backdrop::Backdrop;
-use super::placement::Placement;
 use crate::geometry::Columns;
+use crate::placement::Placement;
+use crate::prepare::Backdrop;
 
 /// Vertices of a mesh in one colour, unlit.
 pub(super) struct Wire<'a> {

@@ -4,8 +4,7 @@ use super::{NodeId, Scene};
 use crate::animation::{Animation, Channel};
 use crate::arena::{Arena, Id};
 use crate::material::Material;
-use crate::node::Node;
-use crate::skin::Skin;
+use crate::node::{Node, Skin};
 
 impl Scene {
     /// Adds everything that another scene holds, placed as it is there. Meshes

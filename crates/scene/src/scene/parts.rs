@@ -4,8 +4,7 @@
 use crate::animation::Animation;
 use crate::arena::Arena;
 use crate::material::Material;
-use crate::node::Node;
-use crate::skin::Skin;
+use crate::node::{Node, Skin};
 
 use super::{NodeId, Scene, TextureAsset};
 

@@ -91,8 +91,7 @@ fn narrowed(map: &DAffine3) -> Affine3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::node::Node;
-    use crate::skin::Skin;
+    use crate::node::{Node, Skin};
 
     #[test]
     fn a_skin_far_from_the_origin_keeps_its_joints_apart() {

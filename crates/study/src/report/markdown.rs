@@ -20,7 +20,7 @@ pub(super) fn report(effort: Effort, answers: &[Answer]) -> String {
     let _ = writeln!(
         text,
         "Made by `{command}`. Errors are the same on every machine (but those of fused operations and estimated reciprocals, which are the processor's, and how well times and errors are foreseen, which follows from measured times) and held by tests; times were measured by that \
-         command on {}: medians of runs in turn, one thread unless told otherwise. The algorithms and their sources \
+         command on {}: medians of runs in turn, with memory allocated anew up to three times; one thread unless told otherwise. The algorithms and their sources \
          are in `crates/study/src`, a folder for each question.\n",
         processor()
     );

@@ -5,7 +5,8 @@ use trigon_edit::{Command, PushPull, ShrinkFatten, ToSphere};
 
 use super::super::snap::rounded;
 use super::super::view::ToolView;
-use super::{TransformKind, TransformTool};
+use super::TransformTool;
+use crate::tool::TransformKind;
 
 /// Logical pixels from 0 to a whole sphere.
 const WHOLE_SPHERE: f64 = 200.0;

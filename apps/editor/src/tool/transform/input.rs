@@ -12,7 +12,8 @@ use super::super::slide::Slide;
 use super::super::snap::{SnapTarget, nearest_on_screen};
 use super::super::targets::SnapTargets;
 use super::super::view::ToolView;
-use super::{TransformKind, TransformTool};
+use super::TransformTool;
+use crate::tool::TransformKind;
 
 impl TransformTool {
     /// The same as a slide along edges, from the beginning.

@@ -3,7 +3,6 @@
 
 mod deform;
 mod input;
-mod kind;
 mod slide;
 
 use trigon_edit::mesh::math::{DVec2, DVec3};
@@ -19,10 +18,9 @@ use super::selected::Selected;
 use super::slide::Slide;
 use super::snap::SnapSettings;
 use super::targets::SnapTargets;
+use super::transform_kind::TransformKind;
 use super::view::ToolView;
 use super::{Tool, ToolMarks, ToolState};
-
-pub(crate) use kind::TransformKind;
 
 /// What the editor's bars say about transforms.
 #[derive(Debug, Clone, PartialEq, Default)]

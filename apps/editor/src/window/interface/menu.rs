@@ -6,10 +6,10 @@ use trigon_window::egui::{
     Align, Area, Button, Context, Frame, Id, Key, Layout, MenuBar, Order, Response, RichText, Ui,
 };
 
-use super::state::Popup;
 use super::widgets::{focus_first, label};
 use crate::window::actions::{self, Action, CONTEXT_MENU, MENUS};
 use crate::window::editor::Editor;
+use crate::window::panels::Popup;
 
 /// In points.
 const POPUP_WIDTH: f32 = 220.0;

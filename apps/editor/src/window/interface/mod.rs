@@ -7,7 +7,6 @@ mod overlays;
 mod questions;
 mod search;
 mod side;
-mod state;
 mod status;
 mod view;
 mod widgets;
@@ -17,8 +16,6 @@ use trigon_window::egui::{Panel, Ui};
 
 use super::editor::Editor;
 use crate::request::Request;
-
-pub(crate) use state::{Panels, Popup, Rename, Search};
 
 /// Shows all of it; returns what is to be done.
 pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<Request> {

@@ -4,11 +4,11 @@
 use trigon_window::Stage;
 use trigon_window::egui::{self, Align2, Context, Id, Panel, Rect, ScrollArea, Ui};
 
-use super::state::Tab;
 use crate::panel::{self, DrawnView};
 use crate::request::Request;
 use crate::window::actions;
 use crate::window::editor::Editor;
+use crate::window::panels::Tab;
 
 /// In points.
 const WIDTH: f32 = 280.0;

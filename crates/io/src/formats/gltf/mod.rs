@@ -53,8 +53,8 @@ use mesh::{BuiltMesh, Needs};
 use native::Extras;
 use reader::Reader;
 
-pub(crate) use write::mime_type;
-pub use write::{NativeDocument, NativeFile, encode_glb, write_glb};
+pub(crate) use write::{GlbFile, Input, KeptFile, exported, mime_type, write_scene};
+pub use write::{encode_glb, write_glb};
 
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::import::Import;

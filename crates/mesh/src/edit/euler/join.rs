@@ -1,4 +1,4 @@
-//! Two edges become one, two faces become one: what undoes a split.
+//! Joins two edges into one, and two faces into one: the inverse of a split.
 
 use smallvec::SmallVec;
 

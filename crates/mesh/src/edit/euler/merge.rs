@@ -1,12 +1,12 @@
-//! Several vertices become one.
+//! Merges several vertices into one.
 
 use smallvec::SmallVec;
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::operations::numbering::{Numbering, sorted_once};
 use super::super::refusal::Refusal;
 use super::add::check_outline;
+use crate::edit::numbering::{Numbering, sorted_once};
 
 /// What takes the place of each vertex that goes.
 struct Targets {

@@ -1,8 +1,9 @@
-//! The elementary changes of structure, from which all operations are made. Each leaves a mesh
-//! that keeps every rule of [`EditMesh`](super::EditMesh), or refuses and changes nothing.
+//! The elementary changes of structure, of which all operations consist. After each change the mesh
+//! satisfies every rule of [`EditMesh`](super::EditMesh); otherwise the change is refused and nothing
+//! happens.
 //!
-//! They are called after Leonhard Euler, whose formula they keep (Baumgart, "Winged edge
-//! polyhedron representation", 1972); the set here follows Blender's BMesh.
+//! They are named after Leonhard Euler, because they preserve his formula (Baumgart, "Winged edge polyhedron
+//! representation", 1972). The set follows Blender's BMesh.
 
 mod add;
 mod join;

@@ -1,4 +1,4 @@
-//! A face gets other vertices, or turns over.
+//! Gives a face other vertices, or reverses it.
 
 use smallvec::SmallVec;
 

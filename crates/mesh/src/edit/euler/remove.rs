@@ -1,4 +1,4 @@
-//! Taking elements away, with all that cannot be without them.
+//! Removes elements, and with them all elements that cannot exist without them.
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};

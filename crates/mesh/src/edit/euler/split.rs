@@ -1,4 +1,4 @@
-//! One edge becomes two, one face becomes two.
+//! Splits an edge into two, and a face into two.
 
 use smallvec::SmallVec;
 

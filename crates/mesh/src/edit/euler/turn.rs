@@ -1,4 +1,4 @@
-//! Many faces turn over at once.
+//! Reverses many faces at once.
 
 use fixedbitset::FixedBitSet;
 

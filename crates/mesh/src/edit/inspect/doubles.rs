@@ -1,4 +1,4 @@
-//! Findings about what is there twice: vertices at one place, faces over the same vertices.
+//! Findings about duplicates: vertices at the same position, faces over the same vertices.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;

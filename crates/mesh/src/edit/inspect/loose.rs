@@ -1,4 +1,5 @@
-//! Findings about what belongs to nothing else: vertices without edges, edges without faces, parts.
+//! Findings about loose elements: vertices without edges, edges without faces; and the number of separate
+//! parts.
 
 use fixedbitset::FixedBitSet;
 

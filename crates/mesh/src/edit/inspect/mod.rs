@@ -1,10 +1,9 @@
-//! What may be wrong with a model, as for printing it: findings that name elements, and repairs.
+//! What may be wrong with a model, for example for 3D printing: findings that name elements, and repairs.
 //!
-//! None of it breaks the structure ([`EditMesh::check_structure`] does not look for it): such meshes
-//! are ordinary here, and other programs have trouble with them. Each finding is a method of
-//! its own; [`EditMesh::inspect`] gives all of them. The repairs are methods, too; of two
-//! findings they are operations: merging by distance for doubled vertices, and recalculating
-//! normals for inconsistent winding.
+//! None of these faults breaks the structure, so [`EditMesh::check_structure`] does not look for them. Such
+//! meshes are valid here, but other programs have trouble with them. Each finding is a method of its own;
+//! [`EditMesh::inspect`] returns all of them. Most repairs are methods, too. Two findings are repaired by
+//! operations: doubled vertices by merging by distance, inconsistent winding by recalculating normals.
 
 mod doubles;
 mod edges;

@@ -1,4 +1,4 @@
-//! Repairs: each mends one kind of finding and says how many it mended.
+//! Repairs: each fixes one kind of finding and returns how many it has fixed.
 
 use smallvec::SmallVec;
 

@@ -1,4 +1,4 @@
-//! Findings about faces that touch or cross faces that they are not joined to.
+//! Findings about faces that touch or cross other faces without being joined to them.
 
 use trigon_math::{DVec3, Vec3};
 

@@ -1,4 +1,4 @@
-//! Which triangles have boxes that overlap: a tree of boxes that is held against itself.
+//! Finds the pairs of triangles whose boxes overlap: a tree of boxes, compared with itself.
 
 use trigon_math::Vec3;
 

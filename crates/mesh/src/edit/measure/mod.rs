@@ -1,4 +1,4 @@
-//! Measures of what is edited: normals, areas, lengths, angles, bounds, volume.
+//! Measures of an editable mesh: normals, areas, lengths, angles, bounds, volume.
 
 mod faces;
 mod lengths;

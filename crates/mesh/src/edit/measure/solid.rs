@@ -1,4 +1,4 @@
-//! Measures of the whole: bounds, volume, centre of mass.
+//! Measures of the whole mesh: bounds, volume, centre of mass.
 
 use trigon_math::{Bounds3, DVec3};
 

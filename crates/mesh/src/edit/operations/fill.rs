@@ -7,8 +7,8 @@ use super::super::edit_mesh::EditMesh;
 use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
 use super::super::refusal::Refusal;
 use super::delete::require;
-use super::numbering::{Numbering, sorted_once};
 use super::outlines::Chain;
+use crate::edit::numbering::{Numbering, sorted_once};
 
 /// The new elements.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

@@ -1,8 +1,7 @@
-//! The operations, one file each: what a user of a modeller knows by name.
+//! The operations of a modeller, one file each.
 //!
-//! Each is a method of [`EditMesh`](super::EditMesh) that takes ids and parameters, in time
-//! proportional to what it changes, and returns what it made. Ids given twice count once. On an
-//! error the mesh is unchanged.
+//! Each is a method of [`EditMesh`](super::EditMesh) that takes ids and parameters, in time proportional to
+//! what it changes, and returns what it made. Ids given twice count once. On an error the mesh is unchanged.
 
 mod bevel;
 mod bridge;
@@ -26,7 +25,6 @@ mod loop_cut;
 mod marks;
 mod merge;
 mod mirror;
-pub(super) mod numbering;
 mod outlines;
 mod parts;
 mod project_uvs;

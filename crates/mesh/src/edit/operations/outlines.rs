@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{CornerId, EdgeId, VertexId};
 use super::super::refusal::Refusal;
-use super::numbering::sorted_once;
+use crate::edit::numbering::sorted_once;
 
 /// Connected edges in order.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,5 +1,5 @@
-//! Texture coordinates by projection: along one direction, or along the axis that each face mostly
-//! faces.
+//! Texture coordinates by projection: along one direction, or for each face along the axis that is closest
+//! to its normal.
 
 use trigon_math::{DVec2, DVec3, Vec2};
 

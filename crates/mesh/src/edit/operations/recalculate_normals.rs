@@ -6,6 +6,7 @@ use trigon_math::DVec3;
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::FaceId;
 use super::super::refusal::Refusal;
+use crate::edit::numbering::is_more_than_one_of;
 
 /// A part whose volume is less than this fraction of its area times its size counts as flat: that
 /// is what rounding to f32 makes of a plane, with some margin.
@@ -38,9 +39,9 @@ impl EditMesh {
 
     /// Flips faces, each of which is given once.
     fn flip_each(&mut self, faces: &[FaceId]) -> Result<(), Refusal> {
-        /// From this fraction of the faces on, one pass over all of them costs less than one flip each.
+        /// From one face of so many on, one pass over all of them costs less than one flip each.
         const MANY: usize = 8;
-        if faces.len() > self.face_count() / MANY {
+        if is_more_than_one_of(MANY, faces.len(), self.face_count()) {
             self.flip_together(&faces.iter().map(|face| face.0 as usize).collect());
             return Ok(());
         }

@@ -1,8 +1,8 @@
 //! A region of faces: its neighbourhood, and how its border separates from the outside.
 //!
-//! Extruding, insetting and splitting have this in common: the region keeps its vertices and edges,
-//! so that the selection stays selected; the outside gets new ones along the border (the base), and
-//! walls connect both. Few elements are written then, and none inside the region.
+//! Extruding, insetting and splitting have this in common. The region keeps its vertices and edges, so that
+//! the selection stays selected. The outside gets new ones along the border (the base), and walls connect
+//! both. Few elements are written this way, and none inside the region.
 
 use smallvec::SmallVec;
 

@@ -8,8 +8,8 @@ use super::super::ids::{EdgeId, FaceId, VertexId};
 use super::super::refusal::Refusal;
 use super::super::slots::Room;
 use super::delete::require;
-use super::numbering::sorted_once;
 use super::parts::{Divided, PartPoint, Parts};
+use crate::edit::numbering::sorted_once;
 use crate::triangulate::Triangulator;
 
 /// The result of a triangulation.
@@ -143,6 +143,7 @@ fn clip_any(points: &[PartPoint], parts: &mut Parts) {
 mod tests {
     use proptest::prelude::*;
 
+    use super::super::super::ids::CornerId;
     use super::super::super::tests::{check_operation, keeps_affine_values, meshes, with_affine_values};
     use super::*;
     use crate::primitives;
@@ -206,7 +207,36 @@ mod tests {
         assert_eq!((counts(&mesh), made.left.len()), ([3, 3, 2], 0), "two over the same vertices");
     }
 
+    /// The number of different vertices at these points.
+    fn different(points: &[PartPoint], places: &[u32]) -> usize {
+        sorted_once(places.iter().map(|&place| points[place as usize].vertex).collect()).len()
+    }
+
     proptest! {
+        /// Round a few vertices again and again: no part may lie between two, and together they are the polygon.
+        #[test]
+        fn every_part_of_any_polygon_has_three_vertices(
+            walk in prop::collection::vec(0..6_u32, 3..24)
+        ) {
+            let mut walk = walk;
+            walk.dedup();
+            while walk.len() > 1 && walk.first() == walk.last() {
+                walk.pop();
+            }
+            let point = |&vertex: &u32| PartPoint { vertex: VertexId(vertex), corner: CornerId(0), is_taken: false };
+            let points: Vec<PartPoint> = walk.iter().map(point).collect();
+            let all: Vec<u32> = (0..points.len() as u32).collect();
+            prop_assume!(different(&points, &all) >= 3);
+            let mut parts = Parts::default();
+            clip_any(&points, &mut parts);
+            for part in parts.iter() {
+                prop_assert!(different(&points, part) >= 3, "{walk:?}: {part:?}");
+            }
+            let cut = parts.iter().take(parts.len() - 1);
+            prop_assert!(cut.clone().all(|part| part.len() == 3 && different(&points, part) == 3), "{parts:?}");
+            prop_assert_eq!(parts.iter().map(|part| part.len() - 2).sum::<usize>(), walk.len() - 2, "{:?}", parts);
+        }
+
         #[test]
         fn triangulating_keeps_every_rule(start in meshes(), chosen in any::<u64>()) {
             let (mesh, _) = EditMesh::from_mesh(&start);

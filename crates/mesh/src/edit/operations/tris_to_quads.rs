@@ -10,7 +10,7 @@ use super::super::layers::{LayerKind, LayerValues};
 use super::super::records::{SEAM, SHARP};
 use super::super::refusal::Refusal;
 use super::delete::require;
-use super::numbering::{Numbering, sorted_once};
+use crate::edit::numbering::{Numbering, sorted_once};
 
 /// Which pairs of triangles may become quads.
 #[derive(Debug, Clone, Copy, PartialEq)]

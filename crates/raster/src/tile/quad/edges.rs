@@ -1,9 +1,9 @@
 //! The edge functions of a line or a point in a tile, in 32 bits.
 
+use crate::primitive::{Edge, Quad, SMALL, owns_boundary};
 use crate::samples::{MAX_SAMPLES, SamplePattern};
-use crate::setup::{Quad, SMALL};
 use crate::simd::{Each, I32, LANES, Row, Simd, lane_numbers, prelude::*};
-use crate::tile::{Edge, TileArea, owns_boundary};
+use crate::tile_buffer::TileArea;
 
 /// The last of the edges: not one of the outline.
 pub(super) const DIAGONAL: usize = 4;

@@ -14,15 +14,13 @@ mod strip;
 
 pub(super) use edges::QuadEdges;
 
-use super::area::GROUPS;
-use super::buffer::VisibilityBuffer;
 use super::rasterizer::TileRasterizer;
 use super::store::store_places_where;
-use super::{DepthPlane, TileArea};
 use crate::counts::Counts;
+use crate::primitive::{DepthPlane, Kind, Quad};
 use crate::samples::SamplePattern;
-use crate::setup::{Kind, Quad};
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, U32, inlined, lane_numbers, prelude::*};
+use crate::tile_buffer::{GROUPS, TileArea, VisibilityBuffer};
 use edges::{DIAGONAL, EDGES, QuadPosition};
 use strip::{SHIFT, Strip};
 

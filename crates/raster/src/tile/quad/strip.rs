@@ -1,8 +1,8 @@
 //! Which groups of a tile an outline may cross.
 
+use crate::primitive::Quad;
 use crate::samples::SamplePattern;
-use crate::setup::Quad;
-use crate::tile::TileArea;
+use crate::tile_buffer::TileArea;
 
 /// Between which pixels across the major axis an outline may lie, group by group along it.
 pub(super) struct Strip {

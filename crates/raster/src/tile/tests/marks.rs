@@ -3,9 +3,9 @@
 
 use super::{Rasterizer, SIZE, settings};
 use crate::clip::{self, Outcode};
+use crate::primitive::{DepthPlane, SetupTriangle};
 use crate::samples::SamplePattern;
-use crate::setup::SetupTriangle;
-use crate::tile::{BEHIND_ALL, DepthPlane};
+use crate::tile_buffer::BEHIND_ALL;
 use crate::vertex::{ScreenVertex, nearer};
 use crate::viewport::Viewport;
 use crate::{

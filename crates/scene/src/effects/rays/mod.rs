@@ -3,24 +3,23 @@
 
 mod cache;
 mod occlusion;
-mod sight;
 mod surface_hit;
 
 pub(crate) use cache::RayCache;
 pub(crate) use occlusion::AmbientRays;
-pub(crate) use surface_hit::Optics;
+pub(crate) use surface_hit::{Optics, SurfaceHit};
 
 use crate::work::{Work, note};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use surface_hit::{CasterSurfaces, SurfaceHit};
+use surface_hit::CasterSurfaces;
 use trigon_math::{Bvh, DAffine3, DMat4, DVec3, Mat4, Ray, Vec3};
 use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
 
 use crate::effects::casters::Casters;
-use crate::render::lanes::{V3, moved, turned};
-use crate::render::lighting::{Arriving, Lamp, LitPoints, Source};
+use crate::lanes::{V3, moved, turned};
+use crate::lighting::{Arriving, Lamp, LitPoints, Source};
 use crate::scene::Scene;
 
 /// The triangles of all casters, around the middle of their box.
@@ -73,9 +72,9 @@ pub(crate) struct RayScene {
     /// From camera space to the triangles'.
     to_scene: Mat4,
     /// And back.
-    from_scene: Mat4,
+    pub(super) from_scene: Mat4,
     /// Shadow, occlusion and sight rays.
-    cast: [AtomicU64; 3],
+    pub(super) cast: [AtomicU64; 3],
 }
 
 impl RayScene {
@@ -87,7 +86,7 @@ impl RayScene {
     }
 
     /// The first hit of a ray, if appearances are known.
-    fn met(&self, ray: &Ray) -> Option<SurfaceHit> {
+    pub(super) fn met(&self, ray: &Ray) -> Option<SurfaceHit> {
         note(Work::SightRay);
         let hit = self.triangles.bvh.nearest(ray, 0.0..f32::INFINITY)?;
         Some(self.triangles.surfaces.as_ref()?.at(&hit, ray.at(hit.distance)))
@@ -136,12 +135,12 @@ impl RayScene {
     }
 
     /// From camera directions to the triangles'.
-    fn turn(&self) -> trigon_math::Mat3 {
+    pub(super) fn turn(&self) -> trigon_math::Mat3 {
         trigon_math::Mat3::from_mat4(self.to_scene)
     }
 
     /// Camera directions as the triangles have them.
-    fn turned_rows<S: Simd>(&self, simd: S, directions: V3<S>) -> [[f32; LANES]; 3] {
+    pub(super) fn turned_rows<S: Simd>(&self, simd: S, directions: V3<S>) -> [[f32; LANES]; 3] {
         simd.vectorize(
             #[inline(always)]
             || rows(turned(&self.turn(), directions)),
@@ -149,7 +148,7 @@ impl RayScene {
     }
 
     /// The start of rays: off the surface by the possible rounding error.
-    fn origins<S: Simd>(&self, simd: S, points: &LitPoints<S>) -> [Vec3; LANES] {
+    pub(super) fn origins<S: Simd>(&self, simd: S, points: &LitPoints<S>) -> [Vec3; LANES] {
         let [x, y, z] = simd.vectorize(
             #[inline(always)]
             || rows(moved(&self.to_scene, points.position)),
@@ -162,7 +161,7 @@ impl RayScene {
     }
 
     /// A point next to a surface, on the side to which a unit vector points.
-    fn off(&self, at: Vec3, side: Vec3) -> Vec3 {
+    pub(super) fn off(&self, at: Vec3, side: Vec3) -> Vec3 {
         /// In units in the last place of the largest coordinate.
         const OFF: f32 = 64.0 * f32::EPSILON;
         let largest = at.abs().max_element();
@@ -172,7 +171,7 @@ impl RayScene {
 }
 
 #[inline(always)]
-fn rows<S: Simd>(vector: V3<S>) -> [[f32; LANES]; 3] {
+pub(super) fn rows<S: Simd>(vector: V3<S>) -> [[f32; LANES]; 3] {
     vector.each(
         #[inline(always)]
         |axis| axis.into(),

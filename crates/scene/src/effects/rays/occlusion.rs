@@ -12,8 +12,8 @@ use trigon_math::{Ray, Vec2, Vec3, elementary};
 use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
 
 use super::RayScene;
-use crate::effects::AmbientOcclusion;
-use crate::render::lighting::LitPoints;
+use crate::effect_settings::AmbientOcclusion;
+use crate::lighting::LitPoints;
 
 /// The maximum number of rays per pixel.
 const MOST: u32 = 256;

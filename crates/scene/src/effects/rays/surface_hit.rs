@@ -9,7 +9,7 @@ use trigon_raster::Texture;
 use crate::effects::casters::{Caster, Casters};
 use crate::geometry::Geometry;
 use crate::material::{Material, Shading, TextureBinding};
-use crate::render::placement::normal_matrix;
+use crate::placement::normal_matrix;
 use crate::scene::Scene;
 
 /// Surfaces from which sight rays continue.

@@ -12,23 +12,23 @@ const WIDEST: f64 = 2.2;
 
 /// A lamp's camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct View {
-    pub(super) camera: Camera,
+pub(crate) struct View {
+    pub(crate) camera: Camera,
     /// Width over height.
-    pub(super) aspect: f64,
+    pub(crate) aspect: f64,
     /// Its width in metres where w is 1, in its longer direction.
-    pub(super) width_at_one: f64,
+    pub(crate) width_at_one: f64,
 }
 
 impl View {
     /// From the world to clip space.
-    pub(super) fn world_to_clip(&self) -> DMat4 {
+    pub(crate) fn world_to_clip(&self) -> DMat4 {
         self.camera.view_projection(self.aspect)
     }
 }
 
 /// The views of a lamp; none if there is nothing that it could see.
-pub(super) fn views(pose: &LampPose, casters: &Casters) -> Vec<View> {
+pub(crate) fn views(pose: &LampPose, casters: &Casters) -> Vec<View> {
     if casters.bounds.is_empty() {
         return Vec::new();
     }

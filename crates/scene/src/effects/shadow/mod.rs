@@ -1,4 +1,4 @@
-//! Shadow maps: depth images seen from each lamp (L. Williams, "Casting Curved Shadows on Curved
+//! Shadow maps in use: depth images seen from each lamp (L. Williams, "Casting Curved Shadows on Curved
 //! Surfaces", 1978).
 //!
 //! **View.** A map depends on its lamp, all casters and its size, never on the camera: parallel
@@ -13,13 +13,12 @@
 //! that axis, not to the ray.) No constant is added to depths. A shadow therefore begins at most 1.7
 //! texels away from its caster.
 //!
-//! Four depths around a point are compared, and the results mixed bilinearly.
+//! Four depths around a point are compared, and the results mixed bilinearly. [`shadow_maps`](crate::shadow_maps) draws
+//! the maps.
 
-mod cache;
-mod draw;
 mod fit;
 
-pub(crate) use cache::ShadowCache;
+pub(crate) use fit::{View, views};
 
 use crate::work::{Work, note};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -28,29 +27,28 @@ use std::sync::Arc;
 use trigon_math::{DAffine3, DMat4, DVec3, DVec4, Mat4, Vec3};
 use trigon_raster::simd::{F32, I32, LANES, Simd, greater, inlined, lanes_of, lesser, prelude::*};
 
-use crate::render::lanes::{V3, dot, mapped, mix, positive, scaled, splat, sum};
-use crate::render::lighting::LitPoints;
-use fit::View;
+use crate::lanes::{V3, dot, mapped, mix, positive, scaled, splat, sum};
+use crate::lighting::LitPoints;
 
 /// The casters' depth as seen from a lamp.
 #[derive(Clone, Debug)]
 pub(crate) struct ShadowMap {
-    view: View,
-    resolution: u32,
+    pub(crate) view: View,
+    pub(crate) resolution: u32,
     /// Reversed depth, 0 where nothing is; row by row.
-    depths: Vec<f32>,
+    pub(crate) depths: Vec<f32>,
 }
 
 /// The shadow maps of a frame.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ShadowMaps {
     /// For each lamp its views; none where it casts no shadow.
-    lamps: Vec<Vec<PlacedMap>>,
+    pub(crate) lamps: Vec<Vec<PlacedMap>>,
 }
 
 /// A shadow map and its map from the frame's camera.
 #[derive(Clone, Debug)]
-struct PlacedMap {
+pub(crate) struct PlacedMap {
     map: Arc<ShadowMap>,
     /// From camera space to texels, depth and w.
     to_texels: Mat4,
@@ -62,7 +60,7 @@ struct PlacedMap {
 }
 
 impl PlacedMap {
-    fn new(map: Arc<ShadowMap>, camera_to_world: &DAffine3) -> Self {
+    pub(crate) fn new(map: Arc<ShadowMap>, camera_to_world: &DAffine3) -> Self {
         let half = f64::from(map.resolution) / 2.0;
         // From -1…1, y up, to 0…resolution, y down.
         let to_texels = DMat4::from_cols(

@@ -2,7 +2,7 @@
 //! given these normals has them at vertices, and must draw the same bytes.
 
 use super::*;
-use crate::{Display, Outputs, Shadows};
+use crate::{Display, Outputs};
 
 /// Enough corners for it.
 const PIECES: u32 = 130;

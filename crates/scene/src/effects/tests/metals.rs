@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::effect::Effect;
-use crate::render::lighting::{Lamp, Lights, Source};
+use crate::lighting::{Lamp, Lights, Source};
 use crate::{Outputs, SimdLevel};
 
 fn in_the_studio(metal_reflection: MetalReflection) -> RenderSettings {

@@ -22,9 +22,10 @@ use trigon_raster::{Texture, TextureFormat};
 
 use super::*;
 use crate::{
-    AlphaMode, Background, Frame, Light, LightKind, Lighting, Material, MetallicRoughness, Node, NormalMap,
-    Occlusion, RenderSettings, Renderer, Scene, Shading, ShadingModel, Style, TextureBinding, Transform,
-    render,
+    AlphaMode, AmbientOcclusion, Background, Decision, EffectPlan, EffectSettings, Environment, Fog, Frame,
+    Light, LightKind, Lighting, Material, MetalReflection, MetallicRoughness, Node, NormalMap, Occlusion,
+    Outline, RenderSettings, Renderer, Scene, Shading, ShadingModel, Shadows, Sky, Style, TextureBinding,
+    ToneMapping, Transform, render,
 };
 
 const SIDE: u32 = 128;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::Outputs;
-use crate::render::lighting::{Lights, Source};
+use crate::lighting::{Lights, Source};
 
 fn rough() -> Shading {
     Shading::MetallicRoughness(MetallicRoughness { metallic: 0.0, roughness: 1.0, ..Default::default() })

@@ -5,19 +5,19 @@ use std::borrow::Cow;
 use std::io::{self, Write};
 
 /// A GLB in parts.
-pub(super) struct GlbFile<'a> {
+pub(crate) struct GlbFile<'a> {
     /// Padded to 4 bytes.
-    pub(super) json: Vec<u8>,
-    pub(super) segments: Vec<Cow<'a, [u8]>>,
+    pub(crate) json: Vec<u8>,
+    pub(crate) segments: Vec<Cow<'a, [u8]>>,
     /// The total size of the segments.
-    pub(super) binary: usize,
+    pub(crate) binary: usize,
 }
 
 impl GlbFile<'_> {
     /// Of the file and its two chunks.
-    pub(super) const HEADERS: usize = 12 + 8 + 8;
+    pub(crate) const HEADERS: usize = 12 + 8 + 8;
 
-    pub(super) fn write_to(&self, writer: &mut dyn Write) -> io::Result<()> {
+    pub(crate) fn write_to(&self, writer: &mut dyn Write) -> io::Result<()> {
         let has_binary = self.binary > 0;
         let without = if has_binary { 0 } else { 8 };
         let length = Self::HEADERS - without + self.json.len() + self.binary;
@@ -37,7 +37,7 @@ impl GlbFile<'_> {
         Ok(())
     }
 
-    pub(super) fn to_bytes(&self) -> Vec<u8> {
+    pub(crate) fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(Self::HEADERS + self.json.len() + self.binary);
         self.write_to(&mut bytes).expect("memory takes every byte");
         bytes

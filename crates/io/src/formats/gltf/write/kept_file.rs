@@ -9,8 +9,8 @@ use crate::gltf_source::GltfSource;
 
 /// A file, and the scene as loaded: whatever is unchanged in a scene is unchanged in the file.
 #[derive(Debug)]
-pub(super) struct KeptFile {
-    pub(super) source: GltfSource,
-    pub(super) scene: Scene,
-    pub(super) marks: BTreeMap<MeshId, Marks>,
+pub(crate) struct KeptFile {
+    pub(crate) source: GltfSource,
+    pub(crate) scene: Scene,
+    pub(crate) marks: BTreeMap<MeshId, Marks>,
 }

@@ -58,7 +58,7 @@ impl<'a> Shape<'a> {
 ///
 /// # Errors
 /// The surface is too large.
-pub(super) fn exported(asset: &MeshAsset, edited: &EditMesh) -> Result<Mesh, Refusal> {
+pub(crate) fn exported(asset: &MeshAsset, edited: &EditMesh) -> Result<Mesh, Refusal> {
     let mut mesh = edited.to_subdivided_mesh(edited.subdivision())?;
     name_targets(&mut mesh, asset);
     Ok(mesh)

@@ -15,7 +15,6 @@ mod kept_file;
 mod materials;
 mod meshes;
 mod movement;
-mod native_document;
 mod nodes;
 mod raw;
 mod scene;
@@ -25,8 +24,10 @@ use std::path::Path;
 
 use trigon_scene::Scene;
 
-pub use native_document::{NativeDocument, NativeFile};
-use scene::{Input, write_scene};
+pub(crate) use glb_file::GlbFile;
+pub(crate) use kept_file::KeptFile;
+pub(crate) use meshes::exported;
+pub(crate) use scene::{Input, write_scene};
 pub(crate) use textures::mime_type;
 
 use crate::export::ExportOptions;

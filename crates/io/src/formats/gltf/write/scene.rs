@@ -28,31 +28,31 @@ use crate::write::WriteError;
 use choice::{Choice, unchanged_copies};
 
 /// What is to be written.
-pub(super) struct Input<'a> {
-    pub(super) scene: &'a Scene,
+pub(crate) struct Input<'a> {
+    pub(crate) scene: &'a Scene,
     /// With it, the file is trigon's own: these meshes are saved in place of the scene's.
-    pub(super) edited: Option<&'a BTreeMap<MeshId, EditMesh>>,
+    pub(crate) edited: Option<&'a BTreeMap<MeshId, EditMesh>>,
     /// The file that the scene came from, if it is to be written back.
-    pub(super) kept: Option<&'a KeptFile>,
+    pub(crate) kept: Option<&'a KeptFile>,
     /// Where encoded images are.
-    pub(super) images: Option<&'a GltfSource>,
+    pub(crate) images: Option<&'a GltfSource>,
     /// Those to write; all unless given.
-    pub(super) nodes: Option<&'a [NodeId]>,
+    pub(crate) nodes: Option<&'a [NodeId]>,
     /// A map of everything.
-    pub(super) root: Option<DAffine3>,
+    pub(crate) root: Option<DAffine3>,
 }
 
 /// What came of it.
-pub(super) struct WrittenScene<'a> {
-    pub(super) file: GlbFile<'a>,
-    pub(super) losses: Vec<Loss>,
+pub(crate) struct WrittenScene<'a> {
+    pub(crate) file: GlbFile<'a>,
+    pub(crate) losses: Vec<Loss>,
 }
 
 /// Writes a scene.
 ///
 /// # Errors
 /// The file would have more bytes than the format can count.
-pub(super) fn write_scene<'a>(input: &Input<'a>) -> Result<WrittenScene<'a>, WriteError> {
+pub(crate) fn write_scene<'a>(input: &Input<'a>) -> Result<WrittenScene<'a>, WriteError> {
     let draft = input.kept.map_or_else(Draft::new, |kept| draft_of(&kept.source));
     let mut writer = SceneWriter {
         scene: input.scene,

@@ -1,4 +1,4 @@
-//! What comes after a bevel: marks of its rims, and normals with which the old faces look as before.
+//! The last step of a bevel: marks its rims, and sets normals with which the old faces look as before.
 
 use trigon_math::Vec3;
 

@@ -1,4 +1,4 @@
-//! Miters: where two rims meet in one face, a curve or a patch in place of a point.
+//! Miters: where two rims meet in one face, a curve or a patch replaces the point.
 
 use smallvec::SmallVec;
 use trigon_math::DVec3;

@@ -86,8 +86,8 @@ impl<'m> Nodes<'m> {
         let mut lessen = |edge: EdgeId, distance: f64| {
             let width = length(edge) / distance;
             // An edge without length would stop everything.
-            if width > 0.0 && width < limit {
-                limit = width;
+            if width > 0.0 {
+                limit = limit.min(width);
             }
         };
         for &(edge, distance) in &self.slides {

@@ -1,4 +1,4 @@
-//! How far rims are from the old edges, and new vertices from old ones, for a width of 1: what
+//! The distance of rims from the old edges, and of new vertices from old ones, for a width of 1: what
 //! [`BevelWidth`] measures.
 
 use trigon_math::DVec3;

@@ -64,12 +64,17 @@ pub(super) struct Plan<'m> {
 
 /// Refuses what 32-bit indices cannot name.
 pub(super) fn check_size(mesh: &EditMesh, laid: &Laid, segments: usize) -> Result<(), Refusal> {
-    let segments = segments as u64;
-    let strips = laid.ends.len() as u64 * segments;
-    let round = |round: &Round| (round.nodes[1] - round.nodes[0]) as u64 * (segments + 1) * (segments + 1);
-    let corners = 4 * (strips + laid.rounds.iter().map(round).sum::<u64>());
+    let nodes = laid.rounds.iter().map(|round| (round.nodes[1] - round.nodes[0]) as u64);
+    let corners = most_corners(laid.ends.len() as u64, nodes, segments as u64);
     let most = u64::from(u32::MAX / 2);
     if mesh.corner_capacity() as u64 + corners < most { Ok(()) } else { Err(Refusal::TooMany) }
+}
+
+/// At least as many as there will be new corners: four for each segment of an edge, and for each point of a grid
+/// at each node.
+fn most_corners(edges: u64, nodes: impl Iterator<Item = u64>, segments: u64) -> u64 {
+    let grid = (segments + 1) * (segments + 1);
+    4 * (edges * segments + nodes.sum::<u64>() * grid)
 }
 
 impl<'m> Plan<'m> {
@@ -327,4 +332,16 @@ impl Blueprint {
 fn curve_weights(profile: &Profile, step: usize) -> [f64; 3] {
     let point = profile.point(step);
     [1.0 - point.y, 1.0 - point.x, point.x + point.y - 1.0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::most_corners;
+
+    #[test]
+    fn corners_are_counted_before_they_are_made() {
+        assert_eq!(most_corners(3, std::iter::empty(), 5), 60, "four in each of fifteen strips");
+        assert_eq!(most_corners(0, [2, 3].into_iter(), 4), 500, "four at each of five grids of 25 points");
+        assert_eq!(most_corners(3, std::iter::once(2), 1), 44, "three strips and two grids of four points");
+    }
 }

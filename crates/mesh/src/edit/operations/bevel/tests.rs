@@ -544,3 +544,22 @@ proptest! {
         prop_assert!(mesh == first, "undone");
     }
 }
+
+/// Two edges of a cube that meet in a corner: at the corner's third edge both bevels end at the same distance,
+/// the width, since all faces are at right angles.
+#[test]
+fn two_bevels_at_a_corner_meet_on_its_third_edge() {
+    for width in [0.25, 0.5] {
+        let mut cube = EditMesh::from_mesh(&primitives::cube(2.0)).0;
+        let at = |mesh: &EditMesh, place: Vec3| {
+            mesh.vertices().find(|&vertex| mesh.position(vertex) == place).expect("a corner")
+        };
+        let corner = at(&cube, Vec3::ONE);
+        let ends = [Vec3::new(-1.0, 1.0, 1.0), Vec3::new(1.0, -1.0, 1.0)].map(|place| at(&cube, place));
+        let edges = ends.map(|end| cube.find_edge(corner, end).expect("an edge of the cube"));
+        cube.bevel_edges(&edges, &settings(width, 1, 0.5)).expect("it is possible");
+        let expected = Vec3::new(1.0, 1.0, 1.0 - width as f32);
+        let nearest = cube.vertices().map(|vertex| cube.position(vertex).distance(expected));
+        assert!(nearest.fold(f32::INFINITY, f32::min) < 1e-6, "a vertex at {expected}");
+    }
+}

@@ -3,7 +3,7 @@
 use super::super::super::edit_mesh::EditMesh;
 use super::super::super::ids::FaceId;
 use super::super::super::records::ALIVE;
-use super::super::numbering::sorted_once;
+use crate::edit::numbering::sorted_once;
 
 /// The elements of one kind that live, numbered without gaps by index.
 pub(super) struct Ranks {

@@ -9,7 +9,7 @@ use super::super::edit_mesh::EditMesh;
 use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
 use super::super::refusal::Refusal;
 use super::delete::require;
-use super::numbering::{Numbering, sorted_once};
+use crate::edit::numbering::{Numbering, sorted_once};
 
 /// What joins vertices.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

@@ -120,3 +120,27 @@ proptest! {
         }
     }
 }
+
+/// A side far from a cut, whose line the cut crosses without crossing the side itself.
+#[test]
+fn a_cut_that_crosses_only_the_line_of_a_side_is_made() {
+    let places = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let (mut mesh, vertices) = polygon(&places);
+    let connected = mesh.connect_vertices(&[vertices[0], vertices[2]]).expect("within the L");
+    assert_eq!((counts(&mesh), connected.edges.len()), ([6, 7, 2], 1), "cut in two");
+}
+
+/// Between opposite corners of three by three squares, the path meets the inner vertices of the diagonal exactly.
+#[test]
+fn a_path_through_vertices_makes_no_others() {
+    for [x, z] in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
+        let mut mesh = editable(primitives::grid(3.0, 3.0, 3, 3));
+        let at = |mesh: &EditMesh, scale: f32| {
+            let place = Vec3::new(1.5 * x * scale, 0.0, 1.5 * z * scale);
+            mesh.vertices().find(|&vertex| mesh.position(vertex) == place).expect("a corner")
+        };
+        let ends = [at(&mesh, 1.0), at(&mesh, -1.0)];
+        let connected = mesh.connect_vertices(&ends).expect("a straight path");
+        assert_eq!((counts(&mesh), connected.edges.len()), ([16, 27, 12], 3), "towards {x}, {z}");
+    }
+}

@@ -10,7 +10,7 @@ use super::super::edit_mesh::EditMesh;
 use super::super::ids::{EdgeId, VertexId};
 use super::super::refusal::Refusal;
 use super::delete::require;
-use super::numbering::{Numbering, sorted_once};
+use crate::edit::numbering::{Numbering, sorted_once};
 use near::NearPoints;
 
 /// The result of merging vertices.

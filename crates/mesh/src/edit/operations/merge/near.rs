@@ -1,8 +1,8 @@
-//! Which points are near one another: a k-d tree (Bentley, "Multidimensional binary search trees
-//! used for associative searching", 1975), balanced and stored without pointers.
+//! Which points are near one another: a k-d tree (Bentley, "Multidimensional binary search trees used for
+//! associative searching", 1975), balanced and stored without pointers.
 //!
-//! A tree because its time does not depend on how points are spread: a grid is slow where most of
-//! them lie in one cell, sorting along a line where they lie across it.
+//! The time of a tree does not depend on how the points are distributed. A grid would be slow if most points
+//! lay in one cell, and sorting along an axis if most points had nearly the same coordinate on it.
 
 use trigon_math::{DVec3, Vec3};
 

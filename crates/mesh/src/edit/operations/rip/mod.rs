@@ -1,6 +1,6 @@
-//! Ripping: a mesh opens along edges or at vertices, and one side comes loose (a modeller's V).
+//! Ripping: opens a mesh along edges or at vertices, and detaches one side (a modeller's V).
 //!
-//! `sides` finds which corners lie on which side of the edges; here one side gets new vertices and edges.
+//! `sides` finds which corners lie on which side of the edges. Here one side gets new vertices and edges.
 
 mod sides;
 #[cfg(test)]
@@ -14,7 +14,7 @@ use trigon_math::DVec3;
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
 use super::super::refusal::Refusal;
-use super::numbering::sorted_once;
+use crate::edit::numbering::sorted_once;
 use sides::Sides;
 
 const RIPPING: &str = "ripping";

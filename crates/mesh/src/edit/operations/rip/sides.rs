@@ -1,4 +1,4 @@
-//! The sides of edges along which a mesh opens, and which of them comes loose.
+//! The sides of the edges along which a mesh opens, and which side is detached.
 
 use std::collections::{BTreeMap, BTreeSet};
 

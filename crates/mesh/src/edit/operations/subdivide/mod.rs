@@ -12,8 +12,8 @@ use super::super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 use super::super::refusal::Refusal;
 use super::super::slots::Room;
 use super::delete::require;
-use super::numbering::{Numbering, sorted_once};
 use super::parts::{Divided, PartPoint, are_faces};
+use crate::edit::numbering::{Numbering, sorted_once};
 use crate::triangulate::area_vector;
 use patterns::{Interior, Outline, Pattern};
 

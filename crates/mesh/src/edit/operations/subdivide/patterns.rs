@@ -1,4 +1,4 @@
-//! How a face is divided, by which of its sides are cut. See the table at
+//! How a face is divided, depending on which of its sides are cut. See the table at
 //! [`EditMesh::subdivide`](super::EditMesh::subdivide).
 
 use smallvec::{SmallVec, smallvec};

@@ -1,4 +1,4 @@
-//! The shortest paths along edges from any of some vertices to all near them.
+//! The shortest paths along edges from any of several vertices to all vertices near them.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -1,4 +1,4 @@
-//! Proportional falloff: vertices near the moved ones follow in part.
+//! Proportional falloff: vertices near the moved ones move by a fraction.
 
 use fixedbitset::FixedBitSet;
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! What can be done to places, and where it takes a point.
+//! The kinds of movements, and where each moves a point.
 
 use trigon_math::{DAffine3, DMat3, DVec3, elementary};
 

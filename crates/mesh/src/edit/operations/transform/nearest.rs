@@ -1,8 +1,8 @@
 //! The distance to the nearest of many points.
 //!
-//! A tree of boxes over the points, each box halved by number along its longest side. Searches
-//! that follow each other start from the point that the last one found: neighbours in a mesh
-//! are mostly near each other, so most of the tree is passed over at once.
+//! The points are in a tree of boxes; each box is divided into two with equally many points along its
+//! longest side. A search starts from the result of the previous one. Neighbours in a mesh are mostly near
+//! each other, so most of the tree is skipped at once.
 
 use trigon_math::{DVec3, Vec3};
 

@@ -1,4 +1,4 @@
-//! Back to where vertices were made.
+//! Moves vertices back to their original positions.
 
 use super::super::super::edit_mesh::EditMesh;
 use super::super::super::ids::VertexId;

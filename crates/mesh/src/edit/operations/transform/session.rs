@@ -11,6 +11,7 @@ use super::super::delete::require;
 use super::falloff::{Falloff, Weighted};
 use super::given_normals::GivenNormals;
 use super::kind::{Prepared, Transform};
+use crate::edit::numbering::is_more_than_one_of;
 
 /// Vertices that move, from where they were at the start.
 ///
@@ -139,7 +140,7 @@ impl MoveSession {
 
     fn write(&self, mesh: &mut EditMesh, places: &[Vec3]) {
         let moved = self.vertices.iter().zip(places);
-        if self.vertices.len() > mesh.vertex_capacity() / 2 {
+        if is_more_than_one_of(2, self.vertices.len(), mesh.vertex_capacity()) {
             // One copy of the old list takes less time and memory than a note for each.
             let positions = mesh.positions.write_all();
             moved.for_each(|(vertex, &place)| positions[vertex.0 as usize] = place);

@@ -349,3 +349,44 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_session_tells_how_much_each_vertex_follows() {
+    let grid = editable(&primitives::grid(4.0, 4.0, 8, 8));
+    let middle = all(&grid).into_iter().find(|&v| grid.position(v) == Vec3::ZERO).expect("a vertex there");
+    let falloff = Falloff { shape: FalloffShape::Linear, radius: 2.0, ..Falloff::default() };
+    let session = MoveSession::with_falloff(&grid, &[middle], &falloff).expect("possible");
+    for (place, &vertex) in session.vertices().iter().enumerate() {
+        let expected = 1.0 - grid.position(vertex).as_dvec3().length() / 2.0;
+        assert!((session.weight(place) - expected).abs() < 1e-12, "{:?}", grid.position(vertex));
+    }
+    let whole = MoveSession::new(&grid, &[middle]).expect("possible");
+    assert_eq!(whole.weight(0), 1.0, "moved wholly");
+}
+
+#[test]
+fn given_tangents_turn_with_whole_faces() {
+    let mut square = primitives::plane(2.0, 2.0);
+    let attributes = crate::Attributes {
+        corner_normals: Some(vec![Vec3::Y; 4]),
+        corner_tangents: Some(vec![trigon_math::Vec4::new(1.0, 0.0, 0.0, -1.0); 4]),
+        ..square.attributes().clone()
+    };
+    square.set_attributes(attributes).expect("one for each corner");
+    let mut mesh = editable(&square);
+    let vertices = all(&mesh);
+    // A quarter turn about y takes x to −z.
+    let turn = Transform::Rotate {
+        center: DVec3::ZERO,
+        axis: DVec3::Y,
+        angle: FRAC_PI_2,
+        orientation: DMat3::IDENTITY,
+    };
+    mesh.transform_vertices(&vertices, &turn, None).expect("possible");
+    let (turned, _) = mesh.to_mesh();
+    let tangents = turned.attributes().corner_tangents.as_ref().expect("they stay");
+    for tangent in tangents {
+        let expected = trigon_math::Vec4::new(0.0, 0.0, -1.0, -1.0);
+        assert!(tangent.distance(expected) < 1e-6, "{tangent}, not {expected}");
+    }
+}

@@ -1,0 +1,276 @@
+//! The records of eight pixels' triangles, transposed into columns: lane `i` of every column
+//! belongs to the triangle that pixel `i` shows.
+//!
+//! Neighbouring pixels mostly show one to four triangles. Then the columns are made by selecting
+//! between broadcast numbers of these few records instead of gathering eight.
+
+use super::context::ShadeContext;
+use super::layout::{CutColumns, RecordShape, cold, hot, lined};
+use super::placed::Placed;
+use super::records::Records;
+use super::task::FragmentBatch;
+use crate::MAX_VARYINGS;
+use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};
+
+/// The records of the triangles of eight pixels, and the lanes of all but the first.
+enum Seen<S: Simd> {
+    One([u32; 1]),
+    Two([u32; 2], [Mask<S>; 1]),
+    Three([u32; 3], [Mask<S>; 2]),
+    Four([u32; 4], [Mask<S>; 3]),
+    /// Any number.
+    Many([u32; LANES]),
+}
+
+impl<S: Simd> Seen<S> {
+    /// Finds how many different triangles the eight lanes show. The processor cannot predict the
+    /// count, so it should be known early: the first and the last of the lanes that differ from
+    /// lane 0 are compared at the same time, not one after the other.
+    #[inline(always)]
+    fn find(simd: S, vector: &FragmentBatch<'_, S>) -> Self {
+        let lanes = vector.names;
+        let names: [u32; LANES] = lanes.into();
+        let of = inlined(
+            #[inline(always)]
+            |name: u32| lanes.simd_eq(U32::splat(simd, name)),
+        );
+        let slot = inlined(
+            #[inline(always)]
+            |name: u32| vector.slot(name),
+        );
+        let first = names[0];
+        let others = !of(first).to_bitmask() as u32 & 0xff;
+        if others == 0 {
+            return Self::One([slot(first)]);
+        }
+        let second = names[others.trailing_zeros() as usize % LANES];
+        let last = names[others.ilog2() as usize % LANES];
+        let masks = [of(second), of(last)];
+        let rest = others & !(masks[0] | masks[1]).to_bitmask() as u32;
+        if rest == 0 {
+            return match second == last {
+                true => Self::Two([slot(first), slot(second)], [masks[0]]),
+                false => Self::Three([slot(first), slot(second), slot(last)], masks),
+            };
+        }
+        let third = names[rest.trailing_zeros() as usize % LANES];
+        let mask = of(third);
+        if rest & !mask.to_bitmask() as u32 == 0 {
+            let slots = [slot(first), slot(second), slot(last), slot(third)];
+            return Self::Four(slots, [masks[0], masks[1], mask]);
+        }
+        Self::Many(vector.slots())
+    }
+}
+
+/// Rows for the longest record, in whole records' rows.
+const ROWS: usize = (hot::COUNT + 3 * MAX_VARYINGS + lined::COUNT + 1).next_multiple_of(LANES);
+
+/// Aligned so that no row crosses the end of a cache line.
+#[repr(align(64))]
+struct AlignedRows([Row; ROWS]);
+
+/// A row of eight numbers for each column of a record, the triangles of eight
+/// pixels side by side.
+pub(crate) struct Columns {
+    rows: Box<AlignedRows>,
+    /// Whether a triangle is wide or cut.
+    is_special: bool,
+    /// Filled only then.
+    special: Special,
+    /// The one triangle that all lanes hold.
+    uniform: Option<u32>,
+    /// Where the pixels lie in their triangles.
+    pub(crate) placed: Placed,
+}
+
+/// What only vectors with a wide or cut triangle need.
+pub(crate) struct Special {
+    pub(crate) cold: [Row; cold::COUNT],
+    /// Twice the areas.
+    pub(crate) areas: [f64; LANES],
+    cut: CutColumns,
+    /// Whether one of them is cut.
+    is_cut: bool,
+}
+
+impl Special {
+    /// The corners' weights at the vertices, if a triangle is cut.
+    #[inline(always)]
+    pub(crate) fn cut(&self) -> Option<&CutColumns> {
+        self.is_cut.then_some(&self.cut)
+    }
+}
+
+impl Columns {
+    pub(crate) fn new() -> Self {
+        let (cold, cut) = ([[0; LANES]; cold::COUNT], [[[0.0; LANES]; 3]; 3]);
+        Self {
+            rows: Box::new(AlignedRows([[0; LANES]; ROWS])),
+            is_special: false,
+            special: Special { cold, areas: [0.0; LANES], cut, is_cut: false },
+            uniform: None,
+            placed: Placed::default(),
+        }
+    }
+
+    /// Forgets what it held: records have changed.
+    pub(crate) fn reset(&mut self) {
+        self.uniform = None;
+    }
+
+    /// The columns of the hot row.
+    #[inline(always)]
+    pub(crate) fn hot(&self) -> &[Row; hot::COUNT] {
+        self.rows.0.first_chunk().expect("there is room for the longest record")
+    }
+
+    /// The `count` varyings of each vertex.
+    #[inline(always)]
+    pub(crate) fn varyings(&self, count: usize) -> [&[Row]; 3] {
+        let (first, others) = self.rows.0[hot::COUNT..].split_at(count);
+        let (second, others) = others.split_at(count);
+        [first, second, &others[..count]]
+    }
+
+    /// The columns of lines, of a draw whose edges are painted.
+    #[inline(always)]
+    pub(crate) fn lines(&self, shape: RecordShape) -> Option<&[Row; lined::COUNT]> {
+        self.rows.0[shape.lines?..].first_chunk()
+    }
+
+    /// The column of marks, of a draw that has any.
+    #[inline(always)]
+    pub(crate) fn marks(&self, shape: RecordShape) -> Option<&Row> {
+        Some(&self.rows.0[shape.marks?])
+    }
+
+    /// What is special, if a triangle is wide or cut.
+    #[inline(always)]
+    pub(crate) fn special(&self) -> Option<&Special> {
+        self.is_special.then_some(&self.special)
+    }
+
+    /// Loads the records of eight pixels.
+    #[inline(always)]
+    pub(crate) fn load<S: Simd>(
+        &mut self,
+        simd: S,
+        context: &ShadeContext<'_>,
+        records: &Records,
+        vector: &FragmentBatch<'_, S>,
+    ) {
+        let (before, rows) = (self.uniform.take(), records.selected());
+        let of = inlined(
+            #[inline(always)]
+            |slot: u32| rows.of(slot),
+        );
+        match Seen::find(simd, vector) {
+            Seen::One(slots) => {
+                self.uniform = Some(slots[0]);
+                if self.uniform == before {
+                    return;
+                }
+                self.mix(simd, slots.each(of), []);
+            }
+            Seen::Two(slots, masks) => self.mix(simd, slots.each(of), masks),
+            Seen::Three(slots, masks) => self.mix(simd, slots.each(of), masks),
+            Seen::Four(slots, masks) => self.mix(simd, slots.each(of), masks),
+            Seen::Many(slots) => self.gather_apart(simd, records, slots),
+        }
+        self.is_special = self.any_special(simd);
+        if self.is_special {
+            self.special.cold = records.cold(simd, context, vector.slots());
+            self.special.load(context);
+        }
+    }
+
+    /// Whether a triangle is wide or cut: no other has steps of 0.
+    #[inline(always)]
+    fn any_special<S: Simd>(&self, simd: S) -> bool {
+        let hot = self.hot();
+        let steps = I32::simd_from(simd, hot[hot::STEPS]) | I32::simd_from(simd, hot[hot::STEPS + 1]);
+        steps.simd_eq(I32::splat(simd, 0)).any_true()
+    }
+
+    /// Columns from the first record in all lanes, replaced by each other record in the lanes of
+    /// its mask.
+    #[inline(always)]
+    fn mix<S: Simd, const COUNT: usize, const OTHERS: usize>(
+        &mut self,
+        simd: S,
+        records: [&[Row]; COUNT],
+        masks: [Mask<S>; OTHERS],
+    ) {
+        let columns = self.rows.0.as_chunks_mut::<LANES>().0.iter_mut();
+        for (number, columns) in columns.take(records[0].len()).enumerate() {
+            let mut rows = [&records[0][number]; COUNT];
+            for (row, record) in rows.iter_mut().zip(records) {
+                *row = &record[number];
+            }
+            for (index, column) in columns.iter_mut().enumerate() {
+                let mut values = I32::splat(simd, rows[0][index]);
+                for (row, mask) in rows[1..].iter().zip(masks) {
+                    values = mask.select(I32::splat(simd, row[index]), values);
+                }
+                *column = values.into();
+            }
+        }
+    }
+
+    /// A separate function, so that it takes no registers elsewhere.
+    #[inline(always)]
+    fn gather_apart<S: Simd>(&mut self, simd: S, records: &Records, slots: [u32; LANES]) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.gather(simd, records, slots),
+        );
+    }
+
+    /// The records of any triangles.
+    #[inline(always)]
+    fn gather<S: Simd>(&mut self, simd: S, records: &Records, slots: [u32; LANES]) {
+        let sources = slots.each(
+            #[inline(always)]
+            |slot| records.of(slot),
+        );
+        let columns = self.rows.0.as_chunks_mut::<LANES>().0.iter_mut().take(records.shape().loaded);
+        for (number, columns) in columns.enumerate() {
+            let rows = sources.each(
+                #[inline(always)]
+                |source| &source[number],
+            );
+            transpose(simd, rows, columns);
+        }
+    }
+}
+
+impl Special {
+    /// The rest, from the cold columns.
+    #[cold]
+    fn load(&mut self, context: &ShadeContext<'_>) {
+        self.areas = std::array::from_fn(|lane| {
+            let side = |column: usize| f64::from(self.cold[column][lane]);
+            let [right, down] = [cold::RIGHT, cold::DOWN];
+            (side(right) * side(down + 1) - side(right + 1) * side(down)).abs()
+        });
+        self.load_cuts(context);
+    }
+
+    /// The corners' weights at the vertices of cut triangles; the vertices are the
+    /// corners in all other lanes.
+    fn load_cuts(&mut self, context: &ShadeContext<'_>) {
+        self.is_cut = false;
+        for lane in 0..LANES {
+            let place = context.triangles[self.cold[cold::PLACE][lane] as usize];
+            let cut = place.part().and_then(|_| context.draw.chunk_of(place).weights_of(place));
+            self.is_cut |= cut.is_some();
+            let weights = cut.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+            for (columns, weights) in self.cut.iter_mut().zip(weights) {
+                for (column, weight) in columns.iter_mut().zip(weights) {
+                    column[lane] = weight;
+                }
+            }
+        }
+    }
+}

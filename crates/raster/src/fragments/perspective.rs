@@ -1,0 +1,31 @@
+//! The factors that make weights perspective-correct.
+
+use crate::simd::{Each, F32, Simd, U32, greater, prelude::*};
+
+/// The largest ratio of w within a triangle: the 1/w of a vertex is clamped to at least the greatest
+/// one divided by this. Keeps all quotients finite.
+const RATIO_MAX: f32 = (1_u64 << 60) as f32;
+
+/// The vertices' 1/w divided by the largest power of two not above the greatest of them, and that power
+/// of two.
+///
+/// Weights are quotients in which a common factor cancels. Scaling by a power of two rounds
+/// nothing, and prevents overflow and underflow in products and sums.
+#[inline(always)]
+pub(crate) fn perspective<S: Simd>(simd: S, inverse_w: [F32<S>; 3]) -> ([F32<S>; 3], F32<S>) {
+    let scale = power_of_two(simd, greater(greater(inverse_w[0], inverse_w[1]), inverse_w[2]));
+    let least = F32::splat(simd, 1.0 / RATIO_MAX);
+    let inverse = F32::splat(simd, 1.0) / scale;
+    let q = inverse_w.each(
+        #[inline(always)]
+        |q| greater(q * inverse, least),
+    );
+    (q, scale)
+}
+
+/// The largest power of two not above a normal positive number.
+#[inline(always)]
+fn power_of_two<S: Simd>(simd: S, value: F32<S>) -> F32<S> {
+    let bits: U32<S> = value.bitcast();
+    (bits & U32::splat(simd, 0x7f80_0000)).bitcast()
+}

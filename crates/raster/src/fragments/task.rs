@@ -1,0 +1,160 @@
+//! What is to be shaded of one draw in a tile: whole groups of pixels, and fragments of a list.
+
+use super::context::ShadePoint;
+use super::list::FragmentSlice;
+use super::records::Records;
+use crate::simd::{Each, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
+
+/// A group of pixels, some of which show triangles of one draw.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Group {
+    /// The record of one of its triangles.
+    pub(crate) slot: u32,
+    pub(crate) number: u32,
+    /// The pixels whose first samples see the draw, by their lanes.
+    pub(crate) lanes: u32,
+    /// Those of them whose other samples do not all see the same.
+    pub(crate) edges: u32,
+}
+
+/// What is to be shaded of one draw in a tile.
+pub(crate) struct Task<'t> {
+    pub(crate) records: &'t Records,
+    /// The number of the first record.
+    pub(crate) base: u32,
+    pub(crate) groups: &'t [Group],
+    /// The triangles that the pixels of groups show, and the distance from group to group.
+    pub(crate) visible: (&'t [u32], usize),
+    /// The records of the tile's triangles.
+    pub(crate) slots: &'t [u32],
+    pub(crate) fragments: FragmentSlice<'t>,
+}
+
+/// Where the colours of a vector go.
+#[derive(Clone, Copy)]
+pub(crate) enum Destination<'t> {
+    /// To eight places from this one on, and whether some are edge pixels, which are needed in
+    /// linear light. Lanes that are not active write as well; their places are overwritten later.
+    Group(usize, bool),
+    /// To the places listed, one for each active lane.
+    Listed(&'t [u32]),
+}
+
+/// Eight pixels or fragments to be shaded together, one in each lane.
+pub(crate) struct FragmentBatch<'t, S: Simd> {
+    /// The names of the records of the triangles that the lanes show. Unused lanes repeat an
+    /// active one, so that every lane is safe to compute.
+    pub(crate) names: U32<S>,
+    named: Names<'t>,
+    pub(crate) spots: U32<S>,
+    /// The lanes whose results are used.
+    pub(crate) active: u64,
+    pub(crate) destination: Destination<'t>,
+}
+
+/// How records are named.
+#[derive(Clone, Copy)]
+enum Names<'t> {
+    /// By their numbers.
+    Slots,
+    /// By the visible triangles, whose slots are listed; and the number of the first
+    Visible(&'t [u32], u32),
+}
+
+impl<'t, S: Simd> FragmentBatch<'t, S> {
+    /// The number of the record that a name refers to.
+    #[inline(always)]
+    pub(crate) fn slot(&self, name: u32) -> u32 {
+        match self.named {
+            Names::Slots => name,
+            Names::Visible(slots, base) => slots[name as usize] - base,
+        }
+    }
+
+    /// The numbers of the lanes' records.
+    #[inline(always)]
+    pub(crate) fn slots(&self) -> [u32; LANES] {
+        <[u32; LANES]>::from(self.names).each(
+            #[inline(always)]
+            |name| self.slot(name),
+        )
+    }
+
+    /// Where the results of a list's fragments go; none for a group.
+    #[inline(always)]
+    pub(crate) fn outputs(&self) -> &'t [u32] {
+        match self.destination {
+            Destination::Group(..) => &[],
+            Destination::Listed(outputs) => outputs,
+        }
+    }
+}
+
+impl<'t> Task<'t> {
+    /// A list of fragments.
+    pub(crate) fn of_fragments(records: &'t Records, base: u32, fragments: FragmentSlice<'t>) -> Self {
+        Self { records, base, groups: &[], visible: (&[], 0), slots: &[], fragments }
+    }
+
+    /// How many vectors there are.
+    #[inline(always)]
+    pub(crate) fn vectors(&self) -> usize {
+        self.groups.len() + self.fragments.len().div_ceil(LANES)
+    }
+
+    /// One of the vectors.
+    #[inline(always)]
+    pub(crate) fn vector<S: Simd>(&self, simd: S, number: usize) -> FragmentBatch<'t, S> {
+        match self.groups.get(number) {
+            Some(group) => self.group(simd, group),
+            None => self.listed(simd, (number - self.groups.len()) * LANES),
+        }
+    }
+
+    #[inline(always)]
+    fn group<S: Simd>(&self, simd: S, group: &Group) -> FragmentBatch<'t, S> {
+        let (visible, step) = self.visible;
+        let visible =
+            visible[group.number as usize * step..].first_chunk().expect("a group has eight pixels");
+        let active = u64::from(group.lanes);
+        let spare = U32::splat(simd, visible[group.lanes.trailing_zeros() as usize % LANES]);
+        let names = Mask::from_bitmask(simd, active).select(U32::simd_from(simd, *visible), spare);
+        let pixel = group.number as usize * LANES;
+        let mut spots = (lane_numbers(simd) + pixel as i32).bitcast();
+        if group.edges != 0 {
+            spots = Mask::from_bitmask(simd, u64::from(group.edges))
+                .select(ShadePoint::covering_lanes(spots, 0), spots);
+        }
+        FragmentBatch {
+            names,
+            named: Names::Visible(self.slots, self.base),
+            spots,
+            active,
+            destination: Destination::Group(pixel, group.edges != 0),
+        }
+    }
+
+    #[inline(always)]
+    fn listed<S: Simd>(&self, simd: S, first: usize) -> FragmentBatch<'t, S> {
+        let FragmentSlice { slots, spots, outputs } = self.fragments.part(first..first + LANES);
+        FragmentBatch {
+            names: U32::simd_from(simd, eight(slots)) - self.base,
+            named: Names::Slots,
+            spots: U32::simd_from(simd, eight(spots)),
+            active: (1 << outputs.len()) - 1,
+            destination: Destination::Listed(outputs),
+        }
+    }
+}
+
+/// Up to eight numbers as lanes; unused lanes repeat the first.
+#[inline(always)]
+fn eight(numbers: &[u32]) -> [u32; LANES] {
+    match numbers.first_chunk() {
+        Some(eight) => *eight,
+        None => lanes_of(
+            #[inline(always)]
+            |lane| *numbers.get(lane).unwrap_or(&numbers[0]),
+        ),
+    }
+}

@@ -1,0 +1,175 @@
+//! The triangles of eight pixels: their edge functions at any points, and the raw weights of their
+//! corners.
+//!
+//! These edge functions have no bias and are not divided by 256, unlike those of the same name in
+//! `tile`: they are zero on the edge. They are exact as integers, and then rounded once to f32.
+
+use super::columns::Columns;
+use super::layout::{CutColumns, cold, hot};
+use super::small::Small;
+use crate::primitive::owns_boundary;
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, inlined, prelude::*};
+
+/// The triangle of each lane, from its record: what all its points have in common.
+pub(crate) struct TriangleLanes<'c, S: Simd> {
+    small: Small<S>,
+    /// Steps of the edge functions opposite vertices 1 and 2, both through
+    /// vertex 0.
+    pub(crate) right: [I32<S>; 2],
+    pub(crate) down: [I32<S>; 2],
+    /// Replaces `small` if one of the triangles is wide or cut.
+    wide: Option<Wide<'c, S>>,
+    /// 1/w of the vertices, divided by the largest power of two not above the greatest of them.
+    q: [F32<S>; 3],
+    cut: Option<&'c CutColumns>,
+}
+
+/// The numbers that for wide triangles may not fit 16 bits, or 32.
+struct Wide<'c, S: Simd> {
+    /// The first of the sorted vertices, from the tile's corner.
+    point: [I32<S>; 2],
+    /// Twice the areas.
+    areas: &'c [f64; LANES],
+}
+
+impl<'c, S: Simd> TriangleLanes<'c, S> {
+    /// Loads the columns of records. A lane's result does not depend on whether others are wide or
+    /// cut.
+    #[inline(always)]
+    pub(crate) fn load(simd: S, columns: &'c Columns) -> Self {
+        let column = inlined(
+            #[inline(always)]
+            |column: usize| I32::simd_from(simd, columns.hot()[column]),
+        );
+        let low = inlined(
+            #[inline(always)]
+            |both: I32<S>| (both << 16) >> 16,
+        );
+        let steps = [column(hot::STEPS), column(hot::STEPS + 1)];
+        let small = Self {
+            small: Small { point: column(hot::POINT), steps },
+            right: [low(steps[0]), low(steps[1])],
+            down: [steps[0] >> 16, steps[1] >> 16],
+            wide: None,
+            q: [0, 1, 2].each(
+                #[inline(always)]
+                |vertex| column(hot::Q + vertex).bitcast(),
+            ),
+            cut: None,
+        };
+        let Some(special) = columns.special() else { return small };
+        let column = inlined(
+            #[inline(always)]
+            |column: usize| I32::simd_from(simd, special.cold[column]),
+        );
+        let point = [column(cold::POINT), column(cold::POINT + 1)];
+        Self {
+            right: [column(cold::RIGHT), column(cold::RIGHT + 1)],
+            down: [column(cold::DOWN), column(cold::DOWN + 1)],
+            wide: Some(Wide { point, areas: &special.areas }),
+            cut: special.cut(),
+            ..small
+        }
+    }
+
+    /// Which of the points lie in their triangles, by the top-left rule.
+    #[inline(always)]
+    pub(crate) fn covers(&self, simd: S, point: [I32<S>; 2]) -> Mask<S> {
+        let (b, c) = ([self.right[0], self.down[0]], [self.right[1], self.down[1]]);
+        let owned = [[-(b[0] + c[0]), -(b[1] + c[1])], b, c].each(
+            #[inline(always)]
+            |[right, down]: [I32<S>; 2]| owns_boundary(right, down),
+        );
+        if self.wide.is_some() {
+            let (edges, _) = self.edges(simd, point);
+            return is_inside(edges[0], owned[0])
+                & is_inside(edges[1], owned[1])
+                & is_inside(edges[2], owned[2]);
+        }
+        let ([a, b, c], _) = self.small.edges(point);
+        // One less where the edge itself is not inside: then the signs decide.
+        let [i, j, k] = owned.each(
+            #[inline(always)]
+            |owned| owned.select(I32::splat(simd, 0), I32::splat(simd, -1)),
+        );
+        ((a + i) | (b + j) | (c + k)).simd_ge(I32::splat(simd, 0))
+    }
+
+    /// The edge functions and twice the area, each exact up to one rounding to f32.
+    #[inline(always)]
+    pub(crate) fn edges(&self, simd: S, point: [I32<S>; 2]) -> ([F32<S>; 3], F32<S>) {
+        let Some(Wide { point: vertex, areas }) = self.wide else {
+            let (edges, area) = self.small.edges(point);
+            return (edges.each(SimdCvt::to_f32), area.to_f32());
+        };
+        let [dx, dy]: [[i32; LANES]; 2] = [(point[0] - vertex[0]).into(), (point[1] - vertex[1]).into()];
+        let mut edges = [[0.0_f32; LANES]; 3];
+        let right: [[i32; LANES]; 2] = self.right.each(Into::into);
+        let down: [[i32; LANES]; 2] = self.down.each(Into::into);
+        for lane in 0..LANES {
+            // Whole numbers below 2^53: exact.
+            let (x, y) = (f64::from(dx[lane]), f64::from(dy[lane]));
+            let b = f64::from(right[0][lane]) * x + f64::from(down[0][lane]) * y;
+            let c = f64::from(right[1][lane]) * x + f64::from(down[1][lane]) * y;
+            edges[0][lane] = (areas[lane] - b - c) as f32;
+            edges[1][lane] = b as f32;
+            edges[2][lane] = c as f32;
+        }
+        let area = areas.each(
+            #[inline(always)]
+            |area| area as f32,
+        );
+        let edges = edges.each(
+            #[inline(always)]
+            |edge| F32::simd_from(simd, edge),
+        );
+        (edges, F32::simd_from(simd, area))
+    }
+
+    /// The raw weights of the corners for values of the edge functions: perspective-correct weights
+    /// before they are divided by their sum.
+    #[inline(always)]
+    pub(crate) fn raw_weights(&self, edges: [F32<S>; 3]) -> [F32<S>; 3] {
+        let [a, b, c] = [edges[0] * self.q[0], edges[1] * self.q[1], edges[2] * self.q[2]];
+        match &self.cut {
+            None => [a, b, c],
+            Some(cut) => [0, 1, 2].each(
+                #[inline(always)]
+                |k| {
+                    let [m, n, o] = cut.each_ref().each(
+                        #[inline(always)]
+                        |vertex| F32::simd_from(a.token(), vertex[k]),
+                    );
+                    a * m + b * n + c * o
+                },
+            ),
+        }
+    }
+
+    /// The steps of the raw weights for 1/256 pixel.
+    #[inline(always)]
+    pub(crate) fn raw_weight_steps(&self, steps: [I32<S>; 2]) -> [F32<S>; 3] {
+        let [b, c] = steps;
+        self.raw_weights([-(b + c), b, c].each(SimdCvt::to_f32))
+    }
+}
+
+/// In which lanes a point is inside an edge, given the edge function there and whether points on the
+/// edge belong to the triangle. Rounding keeps the sign, and whether it is zero.
+#[inline(always)]
+fn is_inside<S: Simd>(edge: F32<S>, owned: Mask<S>) -> Mask<S> {
+    let zero = F32::splat(edge.token(), 0.0);
+    edge.simd_gt(zero) | (edge.simd_eq(zero) & owned)
+}
+
+/// Conversion that rounds to nearest, named so that it can be passed on.
+trait SimdCvt<S: Simd> {
+    fn to_f32(self) -> F32<S>;
+}
+
+impl<S: Simd> SimdCvt<S> for I32<S> {
+    #[inline(always)]
+    fn to_f32(self) -> F32<S> {
+        self.to_float()
+    }
+}

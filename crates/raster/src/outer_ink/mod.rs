@@ -1,0 +1,313 @@
+//! Outer ink: what the edges of a face cover of pixels in which the face is not visible.
+//!
+//! Let T be the triangle visible in a pixel (the farthest one, if its samples show several), and U a triangle visible
+//! in another pixel, no farther away than a line reaches. The pixel shows the edges of U if both conditions hold:
+//! 1. The pixel shows the background; or all of U lies in front of all of T; or T or U is large. Otherwise they are
+//!    neighbours in a dense mesh: the edge between them is an edge of both, and each paints its half.
+//! 2. The point of the edge that is nearest to the pixel lies in front of the plane of T; or their faces have a vertex
+//!    in common and T does not cover that point.
+//!
+//! All triangles of U's face count, because some may be slivers that cover no sample. The same holds for T's own
+//! face.
+//!
+//! To find the pixels for which this is possible, rows of pixels are tested at once against the greatest depth around
+//! each. Only these pixels look at their neighbours one by one. The result depends on what is visible around a pixel,
+//! and not on tiles.
+
+mod edged_face;
+mod visible_rows;
+
+pub(crate) use edged_face::parts;
+
+use crate::bin::TriangleRef;
+use crate::ink::{Ink, LARGE, VisibleFaces};
+use crate::marks::Overlap;
+use crate::simd::{LANES, Simd, at_level};
+use crate::tile_buffer::{MAX_SIDE, NO_TRIANGLE, PIXELS, TileArea, VisibilityBuffer};
+use crate::view::FrameView;
+use edged_face::EdgedFace;
+use std::ops::Range;
+use visible_rows::{VisibleRows, beside_large, in_front};
+
+/// Triangles that are kept ready: neighbouring pixels ask for the same ones.
+const READY: usize = 16;
+
+/// What outer halves of lines cover in a tile.
+#[derive(Default)]
+pub(crate) struct OuterInk {
+    /// By the number of the pixel.
+    covered: Vec<Overlap>,
+    /// The pixels that something covers.
+    touched: Vec<u32>,
+    /// The triangles in the tile and its margin.
+    faces: VisibleFaces,
+    /// `None` until edges are painted.
+    rows: Option<Box<VisibleRows>>,
+    /// The lanes of each group that the tile draws itself.
+    own: Vec<u8>,
+    own_part: [Range<usize>; 2],
+    /// Faces whose edges are examined, and faces over which they lie.
+    ready: [Ready; 2],
+}
+
+/// Faces that are kept for the next pixels, with the places of their triangles.
+#[derive(Default)]
+struct Ready(Vec<(u32, EdgedFace)>);
+
+impl OuterInk {
+    /// Starts a tile with this many triangles.
+    pub(crate) fn begin(&mut self, triangle_count: usize) {
+        self.covered.resize(PIXELS, Overlap::default());
+        for pixel in self.touched.drain(..) {
+            self.covered[pixel as usize] = Overlap::default();
+        }
+        self.faces.begin(triangle_count);
+    }
+
+    /// Where the triangles of the tile and its margin are recorded.
+    pub(crate) fn faces_mut(&mut self) -> &mut VisibleFaces {
+        &mut self.faces
+    }
+
+    /// The lanes of each group of a tile that the tile draws itself; all that is beside is
+    /// drawn by its neighbours.
+    pub(crate) fn own_lanes(&mut self, frame: &FrameView<'_>, area: &TileArea) -> &[u8] {
+        let part = frame.own_part(area);
+        if self.own.is_empty() || self.own_part != part {
+            let [columns, rows] = &part;
+            let lanes = |group: usize| {
+                (0..LANES).fold(0, |lanes, lane| {
+                    let [x, y] = TileArea::pixel_at(group * LANES + lane);
+                    lanes | u8::from(columns.contains(&x) && rows.contains(&y)) << lane
+                })
+            };
+            self.own.clear();
+            self.own.extend((0..PIXELS / LANES).map(lanes));
+            self.own_part = part;
+        }
+        &self.own
+    }
+
+    /// Whether anything is covered.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.touched.is_empty()
+    }
+
+    /// What is covered, by the number of the pixel; `None` if nothing is.
+    pub(crate) fn covered(&self) -> Option<&[Overlap]> {
+        (!self.is_empty()).then_some(&self.covered)
+    }
+
+    /// What is covered of a pixel by its number.
+    #[inline(always)]
+    pub(crate) fn at(&self, pixel: usize) -> Overlap {
+        if self.is_empty() { Overlap::default() } else { self.covered[pixel] }
+    }
+
+    /// Finds what lines cover beyond their triangles. All visible triangles must have been noted.
+    pub(crate) fn find(
+        &mut self,
+        frame: &FrameView<'_>,
+        (ink, area): (&Ink, &TileArea),
+        buffer: &VisibilityBuffer,
+        triangles: &[TriangleRef],
+    ) {
+        if !self.faces.has_lines {
+            return;
+        }
+        self.own_lanes(frame, area);
+        let reach = ink.reach() as usize;
+        let mut rows = self.rows.take().unwrap_or_else(VisibleRows::new);
+        self.spread(area, (buffer, triangles.len()), &mut rows);
+        let found = at_level!(frame.token, simd => self.candidates(simd, area, &rows, reach));
+        self.ready.iter_mut().for_each(Ready::clear);
+        for y in self.own_part[1].clone() {
+            let mut rest = found[y];
+            while rest != 0 {
+                let x = rest.trailing_zeros() as usize;
+                rest &= rest - 1;
+                self.cover(frame, area, (triangles, &rows), ([x, y], reach));
+            }
+        }
+        self.rows = Some(rows);
+    }
+
+    /// The pixels that lines of others may cover: a bit for each column of each row.
+    #[inline(always)]
+    fn candidates<S: Simd>(
+        &self,
+        simd: S,
+        area: &TileArea,
+        visible: &VisibleRows,
+        reach: usize,
+    ) -> [u64; MAX_SIDE] {
+        let [columns, rows] = self.own_part.clone();
+        let own = (u64::MAX >> (MAX_SIDE - columns.len())) << columns.start;
+        let mut found = [0; MAX_SIDE];
+        for y in rows {
+            let around = y.saturating_sub(reach)..(y + reach + 1).min(area.size[1]);
+            let mut bits = in_front(simd, visible, (y, around.clone()), reach);
+            if self.faces.has_large {
+                bits |= beside_large(simd, visible, (y, around), reach);
+            }
+            found[y] = bits & own;
+        }
+        found
+    }
+
+    /// Lays what pixels see out in rows.
+    fn spread(
+        &self,
+        area: &TileArea,
+        (buffer, triangle_count): (&VisibilityBuffer, usize),
+        rows: &mut VisibleRows,
+    ) {
+        if area.padded() != [MAX_SIDE; 2] {
+            rows.least.fill([f32::NEG_INFINITY; MAX_SIDE]);
+            rows.large.fill([0.0; MAX_SIDE]);
+            rows.nearest.fill([NO_TRIANGLE; MAX_SIDE]);
+        }
+        let [columns, height] = area.padded();
+        for (y, x) in (0..height).flat_map(|y| (0..columns).step_by(4).map(move |x| (y, x))) {
+            let first = TileArea::index_of([x, y]);
+            for lane in 0..4 {
+                let [near, far] = ends(buffer, first + lane);
+                let depths = self.faces.depths[(near as usize).min(triangle_count)];
+                rows.least[y][x + lane] = depths.least;
+                rows.nearest[y][x + lane] = near;
+                rows.farthest[y][x + lane] = far;
+                rows.greatest[y][x + lane] = match near == far {
+                    true => depths.greatest,
+                    false => self.faces.depths[(far as usize).min(triangle_count)].greatest,
+                };
+                if self.faces.has_large {
+                    let is_large = self.faces.lines[(near as usize).min(triangle_count)].radius >= LARGE;
+                    rows.large[y][x + lane] = f32::from(u8::from(is_large));
+                }
+            }
+        }
+    }
+
+    /// Finds what lines of others cover of a pixel.
+    fn cover(
+        &mut self,
+        frame: &FrameView<'_>,
+        area: &TileArea,
+        (triangles, rows): (&[TriangleRef], &VisibleRows),
+        ([x, y], reach): ([usize; 2], usize),
+    ) {
+        let own = rows.farthest[y][x];
+        let point = area.point([x as i32, y as i32], [128, 128]);
+        let mut most = self.cover_by_own(frame, triangles, own, point);
+        let mut last = own;
+        let columns = x.saturating_sub(reach)..(x + reach + 1).min(area.size[0]);
+        for row in y.saturating_sub(reach)..(y + reach + 1).min(area.size[1]) {
+            for column in columns.clone() {
+                let other = rows.nearest[row][column];
+                // Most often the same as before.
+                if other == last || other == own || other == NO_TRIANGLE {
+                    continue;
+                }
+                last = other;
+                let covered = self.cover_by(frame, triangles, [other, own], point);
+                most = most.or(covered);
+            }
+        }
+        if most.share > 0.0 {
+            let pixel = TileArea::index_of([x, y]);
+            self.covered[pixel] = most;
+            self.touched.push(pixel as u32);
+        }
+    }
+
+    /// The coverage of a pixel by lines of its own face, other than those of its visible triangle: only if
+    /// that is large, as for other triangles.
+    fn cover_by_own(
+        &mut self,
+        frame: &FrameView<'_>,
+        triangles: &[TriangleRef],
+        own: u32,
+        point: [i32; 2],
+    ) -> Overlap {
+        if own == NO_TRIANGLE || self.faces.lines[own as usize].radius < LARGE {
+            return Overlap::default();
+        }
+        let line = self.faces.lines[own as usize];
+        let ground = self.ready[1].face(frame, triangles, own);
+        if !ground.has_parts() {
+            return Overlap::default();
+        }
+        ground.nearest(point).map(|edge| line.overlap(&edge)).fold(Overlap::default(), Overlap::or)
+    }
+
+    /// The coverage of a pixel by lines of a triangle other than its visible one.
+    fn cover_by(
+        &mut self,
+        frame: &FrameView<'_>,
+        triangles: &[TriangleRef],
+        [other, own]: [u32; 2],
+        point: [i32; 2],
+    ) -> Overlap {
+        let index = |place: u32| (place as usize).min(triangles.len());
+        let [ours, theirs] = [own, other].map(|place| self.faces.lines[index(place)]);
+        let least = self.faces.depths[index(other)].least;
+        let is_before = least > self.faces.depths[index(own)].greatest;
+        let is_large = ours.radius >= LARGE || theirs.radius >= LARGE;
+        if !(is_before || (is_large && least > f32::NEG_INFINITY)) {
+            return Overlap::default();
+        }
+        let [others, grounds] = &mut self.ready;
+        let lined = others.face(frame, triangles, other);
+        let ground = (own != NO_TRIANGLE).then(|| grounds.face(frame, triangles, own));
+        let are_joined = ground.is_some_and(|ground| ground.shares_a_vertex(lined));
+        let line = if are_joined { theirs.narrower(ours) } else { theirs };
+        lined.nearest(point).fold(Overlap::default(), |most, edge| {
+            let covered = line.overlap(&edge);
+            let is_seen = || {
+                ground.is_none_or(
+                    |ground| {
+                        if are_joined { !ground.hides(&edge) } else { ground.is_behind(&edge) }
+                    },
+                )
+            };
+            if covered.is_above(most) && is_seen() { covered } else { most }
+        })
+    }
+}
+
+impl Ready {
+    /// Forgets all, and keeps their memory.
+    fn clear(&mut self) {
+        self.0.resize_with(READY, || (NO_TRIANGLE, EdgedFace::default()));
+        self.0.iter_mut().for_each(|(place, _)| *place = NO_TRIANGLE);
+    }
+
+    /// The face of a triangle of the tile.
+    fn face(&mut self, frame: &FrameView<'_>, triangles: &[TriangleRef], place: u32) -> &EdgedFace {
+        let (of, face) = &mut self.0[place as usize % READY];
+        if *of != place {
+            face.set(frame, triangles[place as usize]);
+            *of = place;
+        }
+        face
+    }
+}
+
+/// The nearest and the farthest triangle that the samples of a pixel see.
+#[inline(always)]
+fn ends(buffer: &VisibilityBuffer, pixel: usize) -> [u32; 2] {
+    let first = buffer.index(pixel, 0);
+    let mut ends = [buffer.visible[first]; 2];
+    let mut depths = [buffer.depth[first]; 2];
+    for sample in 1..buffer.samples {
+        let index = first + sample * LANES;
+        let (visible, depth) = (buffer.visible[index], buffer.depth[index]);
+        if depth > depths[0] {
+            (ends[0], depths[0]) = (visible, depth);
+        }
+        if depth < depths[1] {
+            (ends[1], depths[1]) = (visible, depth);
+        }
+    }
+    ends
+}

@@ -1,0 +1,167 @@
+//! The loop over the fragments of one draw, in full vectors: a vector's pixels may show different triangles.
+
+use crate::LanePipeline;
+use crate::fragments::{
+    Columns, FragmentBatch, FragmentLanes, Records, ShadeContext, ShadeOutput, ShadePoint, Spots, Task,
+    TriangleLanes, finite,
+};
+use crate::simd::{Each, I32, Simd, U32, prelude::*};
+
+/// Writes the colours of all pixels.
+#[inline(always)]
+pub(super) fn shade<S: Simd, P: LanePipeline>(
+    simd: S,
+    pipeline: &P,
+    context: &ShadeContext<'_>,
+    (task, columns): (&Task<'_>, &mut [Columns; 2]),
+    output: &mut ShadeOutput<'_>,
+) {
+    for_each_vector(
+        simd,
+        context,
+        (task, columns),
+        #[inline(always)]
+        |fragments, _| output.write(fragments, finite(simd, pipeline.fragments(simd, fragments))),
+    );
+}
+
+/// Writes for each fragment of a list whether it exists.
+#[inline(always)]
+pub(super) fn mask<S: Simd, P: LanePipeline>(
+    simd: S,
+    pipeline: &P,
+    context: &ShadeContext<'_>,
+    (task, columns): (&Task<'_>, &mut [Columns; 2]),
+    kept: &mut [u8],
+) {
+    for_each_vector(
+        simd,
+        context,
+        (task, columns),
+        #[inline(always)]
+        |fragments, vector| {
+            let mask = pipeline.masks(simd, fragments).to_bitmask();
+            for (lane, &output) in vector.outputs().iter().enumerate() {
+                kept[output as usize] = (mask >> lane & 1) as u8;
+            }
+        },
+    );
+}
+
+/// Calls `visit` with vectors that cover all pixels.
+#[inline(always)]
+pub(super) fn for_each_vector<S: Simd>(
+    simd: S,
+    context: &ShadeContext<'_>,
+    (task, columns): (&Task<'_>, &mut [Columns; 2]),
+    mut visit: impl FnMut(&FragmentLanes<'_, S>, &FragmentBatch<'_, S>),
+) {
+    let [mut next, mut now] = columns.each_mut();
+    next.reset();
+    now.reset();
+    let count = task.vectors();
+    for number in 0..count + 1 {
+        if number < count {
+            // A separate function, so that it is compiled once for all pipelines.
+            simd.vectorize(
+                #[inline(always)]
+                || prepare(simd, context, (task, &mut *next), number),
+            );
+        }
+        if number > 0 {
+            let vector = task.vector(simd, number - 1);
+            visit(&fragments(simd, context, (task.records, now), &vector), &vector);
+        }
+        std::mem::swap(&mut next, &mut now);
+    }
+}
+
+/// Loads a vector's triangles, and the positions of its pixels in them.
+#[inline(always)]
+fn prepare<S: Simd>(
+    simd: S,
+    context: &ShadeContext<'_>,
+    (task, columns): (&Task<'_>, &mut Columns),
+    number: usize,
+) {
+    let vector = task.vector(simd, number);
+    columns.load(simd, context, task.records, &vector);
+    let point = points(simd, context, columns, vector.spots);
+    columns.placed = TriangleLanes::load(simd, columns).weigh(simd, point);
+}
+
+/// The fragments of a vector.
+#[inline(always)]
+fn fragments<'v, S: Simd>(
+    simd: S,
+    context: &'v ShadeContext<'v>,
+    (records, columns): (&'v Records, &'v Columns),
+    vector: &'v FragmentBatch<'_, S>,
+) -> FragmentLanes<'v, S> {
+    FragmentLanes {
+        simd,
+        varyings: columns.varyings(records.shape().varyings),
+        columns,
+        barycentrics: TriangleLanes::load(simd, columns).at(simd, &columns.placed),
+        point: columns.placed.point(simd),
+        vector,
+        records,
+        context,
+    }
+}
+
+/// Where up to eight pixels are shaded, in 1/256 pixel from the tile's corner: at a
+/// given sample, or else at their centre, or at the lowest-numbered sample that their
+/// triangle covers if it does not cover the centre.
+#[inline(always)]
+fn points<S: Simd>(simd: S, context: &ShadeContext<'_>, columns: &Columns, spots: U32<S>) -> [I32<S>; 2] {
+    let (corners, elsewhere) = ShadePoint::corners(spots);
+    let Some(spots) = elsewhere else {
+        return corners.each(
+            #[inline(always)]
+            |column| column + 128,
+        );
+    };
+    // A separate function that borrows nothing from this one: borrowed values would have to live in memory,
+    // even where pixels have one sample.
+    let [x, y] = simd.vectorize(
+        #[inline(always)]
+        move || sample_points(simd, context, &TriangleLanes::load(simd, columns), (corners, &spots)),
+    );
+    [x, y]
+}
+
+/// The same where some pixels may be shaded elsewhere than at their centres.
+#[inline(always)]
+fn sample_points<S: Simd>(
+    simd: S,
+    context: &ShadeContext<'_>,
+    triangle: &TriangleLanes<'_, S>,
+    (corners, spots): ([I32<S>; 2], &Spots<S>),
+) -> [I32<S>; 2] {
+    let Spots { partly, samples } = *spots;
+    let mut points = corners.each(
+        #[inline(always)]
+        |column| column + 128,
+    );
+    let asked = samples.simd_gt(I32::splat(simd, 0)) & !partly;
+    let beside = partly & !triangle.covers(simd, points);
+    let mut pending = asked | beside;
+    for (index, offset) in context.pattern.offsets().iter().enumerate() {
+        if !pending.any_true() {
+            break;
+        }
+        let sample = [corners[0] + offset[0], corners[1] + offset[1]];
+        let mut here = pending & samples.simd_eq(I32::splat(simd, index as i32 + 1));
+        // Most often all pixels see their triangles at their first samples.
+        if (pending & !here).any_true() {
+            here |= pending & beside & triangle.covers(simd, sample);
+        }
+        points = [0, 1].each(
+            #[inline(always)]
+            |axis| here.select(sample[axis], points[axis]),
+        );
+        pending &= !here;
+    }
+    points
+}

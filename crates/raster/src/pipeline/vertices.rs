@@ -1,0 +1,113 @@
+//! The loop over the vertices of a draw: runs the pipeline, eight vertices at a time, and snaps the results to the
+//! sub-pixel grid.
+
+use super::traits::{LanePipeline, ScalarPipeline};
+use crate::MAX_VARYINGS;
+use crate::simd::{Each, F32, LANES, Simd, Token, at_level, prelude::*};
+use crate::vertex::{ScreenVertex, Slots, VertexLanes, VertexProgram, to_screen};
+use crate::viewport::Viewport;
+use std::ops::Range;
+use trigon_math::Vec4;
+
+/// The distance in f32 from one vertex's varyings to the next one's: see [`VertexProgram::stride`].
+const fn stride(varyings: usize) -> usize {
+    if varyings < 3 { varyings } else { varyings.next_multiple_of(4) }
+}
+
+impl<P: LanePipeline> VertexProgram for P {
+    fn vertex_count(&self) -> usize {
+        P::vertex_count(self)
+    }
+
+    fn stride(&self) -> usize {
+        let varyings = P::varyings(self);
+        assert!(varyings <= MAX_VARYINGS, "a pipeline has at most {MAX_VARYINGS} varyings, not {varyings}");
+        stride(varyings)
+    }
+
+    fn varyings(&self) -> usize {
+        P::varyings(self)
+    }
+
+    fn run_vertices(
+        &self,
+        token: Token,
+        used: Slots<'_>,
+        slots: Range<usize>,
+        viewport: Viewport,
+        out: (&mut [ScreenVertex], &mut [f32]),
+    ) {
+        // The other branch is not compiled.
+        if P::SCALAR {
+            let pipeline = self.as_scalar().expect("a scalar pipeline");
+            run_scalar(token, (pipeline, stride(P::VARYINGS)), (used, slots), viewport, out);
+        } else {
+            at_level!(token, simd => run(simd, self, (used, slots), viewport, out));
+        }
+    }
+
+    fn position(&self, token: Token, vertex: usize) -> Vec4 {
+        let mut varyings = [0.0; MAX_VARYINGS];
+        if P::SCALAR {
+            let pipeline = self.as_scalar().expect("a scalar pipeline");
+            Vec4::from_array(pipeline.run_vertex(vertex, &mut varyings))
+        } else {
+            at_level!(token, simd => position(simd, self, vertex, &mut varyings[..P::varyings(self)]))
+        }
+    }
+}
+
+/// Runs some of the vertices that a draw uses: computes their screen vertices and varyings.
+#[inline(always)]
+fn run<S: Simd, P: LanePipeline>(
+    simd: S,
+    pipeline: &P,
+    (used, slots): (Slots<'_>, Range<usize>),
+    viewport: Viewport,
+    (vertices, mut varyings): (&mut [ScreenVertex], &mut [f32]),
+) {
+    let (guard, stride) = (viewport.guard(), stride(pipeline.varyings()));
+    // Listed vertices do not lie side by side.
+    let together = if used.are_consecutive() { LANES } else { 1 };
+    for (group, vertices) in vertices.chunks_mut(together).enumerate() {
+        let first = used.index(slots.start + group * together);
+        let (rows, rest) = std::mem::take(&mut varyings).split_at_mut(vertices.len() * stride);
+        varyings = rest;
+        let mut lanes = VertexLanes::new(first, vertices.len(), rows, stride);
+        let position = pipeline.vertices(simd, &mut lanes);
+        to_screen(simd, position, viewport, guard, vertices);
+    }
+}
+
+/// As [`run`], one vertex after the other; compiled once for all pipelines.
+fn run_scalar(
+    token: Token,
+    (pipeline, stride): (&dyn ScalarPipeline, usize),
+    (used, slots): (Slots<'_>, Range<usize>),
+    viewport: Viewport,
+    (vertices, mut varyings): (&mut [ScreenVertex], &mut [f32]),
+) {
+    let guard = viewport.guard();
+    for (group, vertices) in vertices.chunks_mut(LANES).enumerate() {
+        let mut columns = [[0.0; LANES]; 4];
+        for lane in 0..vertices.len() {
+            let (row, rest) = std::mem::take(&mut varyings).split_at_mut(stride);
+            varyings = rest;
+            let position = pipeline.run_vertex(used.index(slots.start + group * LANES + lane), row);
+            for (column, value) in columns.iter_mut().zip(position) {
+                column[lane] = value;
+            }
+        }
+        at_level!(token, simd => {
+            to_screen(simd, columns.each(#[inline(always)] |column| F32::simd_from(simd, column)), viewport, guard, vertices);
+        });
+    }
+}
+
+/// The clip-space position of one vertex.
+#[inline(always)]
+fn position<S: Simd, P: LanePipeline>(simd: S, pipeline: &P, vertex: usize, varyings: &mut [f32]) -> Vec4 {
+    let mut lanes = VertexLanes::new(vertex, 1, varyings, pipeline.varyings());
+    let [x, y, z, w] = pipeline.vertices(simd, &mut lanes);
+    Vec4::new(x[0], y[0], z[0], w[0])
+}

@@ -1,0 +1,228 @@
+//! A tile's visibility buffer: depth and visible triangle of each sample, with bounds of
+//! the depths over blocks and over the whole tile. A greater depth is nearer.
+
+use super::area::{BLOCKS, GROUPS, TileArea};
+use crate::simd::{F32, LANES, Simd, lesser, prelude::*};
+
+/// No triangle: the background.
+pub(crate) const NO_TRIANGLE: u32 = u32::MAX;
+
+/// The depth of the background: slightly below 0, the depth of the far plane, so that a
+/// triangle in the far plane is visible.
+pub(crate) const BEHIND_ALL: f32 = -f32::MIN_POSITIVE;
+
+/// Bounds of the depths in a block. They may be wider than necessary, never
+/// narrower.
+#[derive(Clone, Copy)]
+pub(crate) struct BlockBounds {
+    pub(crate) farthest: f32,
+    pub(crate) nearest: f32,
+    /// How many triangles may have been written since `farthest` was found.
+    pub(crate) writes: u32,
+}
+
+/// Depth and visible triangle of each sample of a tile: group by group, sample by sample,
+/// eight lanes.
+pub(crate) struct VisibilityBuffer {
+    pub(crate) depth: Vec<f32>,
+    /// The index of the visible triangle among the tile's triangles, or [`NO_TRIANGLE`].
+    pub(crate) visible: Vec<u32>,
+    pub(crate) blocks: [BlockBounds; BLOCKS * BLOCKS],
+    /// No sample lies further away.
+    pub(crate) farthest: f32,
+    stale: bool,
+    /// All samples hold this depth and triangle, but the arrays are not filled yet.
+    fill: Option<(f32, u32)>,
+    pub(crate) samples: usize,
+    span: usize,
+    /// Blocks in a row that the tile has a pixel of.
+    columns: usize,
+}
+
+impl VisibilityBuffer {
+    pub(crate) fn new() -> Self {
+        let bounds = BlockBounds { farthest: 0.0, nearest: 0.0, writes: 0 };
+        Self {
+            depth: Vec::new(),
+            visible: Vec::new(),
+            blocks: [bounds; BLOCKS * BLOCKS],
+            farthest: 0.0,
+            stale: false,
+            fill: None,
+            samples: 1,
+            span: 0,
+            columns: 0,
+        }
+    }
+
+    /// Empties it for a tile.
+    pub(crate) fn clear(&mut self, area: &TileArea, samples: usize) {
+        self.span = area.span();
+        self.columns = area.padded()[0] / 8;
+        self.samples = samples;
+        let length = self.span * samples;
+        if self.depth.len() < length {
+            self.depth.resize(length, 0.0);
+            self.visible.resize(length, NO_TRIANGLE);
+        }
+        self.fill_with(BEHIND_ALL, NO_TRIANGLE);
+    }
+
+    /// Gives all samples one depth and triangle. Only a note is made; the arrays are filled when they
+    /// are needed (`settle`).
+    pub(crate) fn fill_with(&mut self, depth: f32, visible: u32) {
+        self.fill = Some((depth, visible));
+        (self.farthest, self.stale) = (depth, false);
+    }
+
+    /// The depth of all samples while a fill is pending.
+    pub(crate) fn nearest(&self) -> Option<f32> {
+        self.fill.map(|(depth, _)| depth)
+    }
+
+    /// Writes a pending fill to the arrays. Samples beside the tile's blocks get no triangle.
+    #[inline(always)]
+    pub(crate) fn settle(&mut self) {
+        // Called for each triangle, so this part is inlined.
+        if let Some(fill) = self.fill.take() {
+            self.settle_fill(fill);
+        }
+    }
+
+    #[inline(never)]
+    fn settle_fill(&mut self, (depth, visible): (f32, u32)) {
+        let length = self.span * self.samples;
+        self.depth[..length].fill(depth);
+        let block = GROUPS * LANES * self.samples;
+        for row in self.visible[..length].chunks_mut(BLOCKS * block) {
+            let (within, beside) = row.split_at_mut(self.columns * block);
+            within.fill(visible);
+            beside.fill(NO_TRIANGLE);
+        }
+        self.blocks.fill(BlockBounds { farthest: depth, nearest: depth, writes: 0 });
+    }
+
+    /// Notes that any sample may have been written, at any depth.
+    pub(crate) fn forget_nearest(&mut self) {
+        for bounds in &mut self.blocks {
+            (bounds.nearest, bounds.writes) = (f32::INFINITY, 1);
+        }
+    }
+
+    /// Removes the triangles of samples outside the image.
+    pub(crate) fn blank_outside(&mut self, area: &TileArea) {
+        if area.size == area.padded() {
+            return;
+        }
+        for pixel in (0..self.span).filter(|&pixel| !area.contains(TileArea::pixel_at(pixel))) {
+            for sample in 0..self.samples {
+                let index = self.index(pixel, sample);
+                self.visible[index] = NO_TRIANGLE;
+            }
+        }
+    }
+
+    /// The index in the arrays of a pixel's sample.
+    #[inline(always)]
+    pub(crate) fn index(&self, pixel: usize, sample: usize) -> usize {
+        (pixel / LANES * self.samples + sample) * LANES + pixel % LANES
+    }
+
+    /// The visible triangles: group by group, sample by sample, eight lanes.
+    pub(crate) fn visible(&self) -> &[u32] {
+        &self.visible[..self.span * self.samples]
+    }
+
+    pub(crate) fn visible_mut(&mut self) -> &mut [u32] {
+        &mut self.visible[..self.span * self.samples]
+    }
+
+    /// The number of samples at which a triangle is visible.
+    pub(crate) fn seen(&self) -> usize {
+        self.visible().iter().filter(|&&visible| visible != NO_TRIANGLE).count()
+    }
+
+    /// How many pixels the arrays hold.
+    pub(crate) fn span(&self) -> usize {
+        self.span
+    }
+
+    /// Notes that samples of a block were written, none nearer than `nearest`.
+    #[inline(always)]
+    pub(crate) fn note_write(&mut self, block: usize, nearest: f32) {
+        let bounds = &mut self.blocks[block];
+        bounds.writes = bounds.writes.wrapping_add(1);
+        bounds.nearest = if nearest > bounds.nearest { nearest } else { bounds.nearest };
+    }
+
+    /// Notes that all samples of a block lie at least as near as `farthest`.
+    #[inline(always)]
+    pub(crate) fn note_cover(&mut self, block: usize, farthest: f32) {
+        let bounds = &mut self.blocks[block];
+        if farthest > bounds.farthest {
+            bounds.farthest = farthest;
+            self.stale = true;
+        }
+    }
+
+    /// The farthest depth of a block, recomputed if something was written since.
+    #[inline(always)]
+    pub(crate) fn farthest_in<S: Simd>(&mut self, simd: S, block: usize) -> f32 {
+        if self.blocks[block].writes > 0 {
+            self.refresh(simd, block);
+        }
+        self.blocks[block].farthest
+    }
+
+    /// Recomputes the farthest depth of each block of a tile where that may help.
+    #[inline(always)]
+    pub(crate) fn refresh_all<S: Simd>(&mut self, simd: S, area: &TileArea) {
+        let [columns, rows] = area.padded().map(|side| side / 8);
+        for row in 0..rows {
+            for block in row * BLOCKS..row * BLOCKS + columns {
+                self.farthest_in(simd, block);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn refresh<S: Simd>(&mut self, simd: S, block: usize) {
+        let length = GROUPS * self.samples;
+        let depths = &self.depth.as_chunks::<LANES>().0[block * length..(block + 1) * length];
+        // Four independent chains, so that few comparisons wait for the one before.
+        let mut least = [F32::splat(simd, f32::INFINITY); GROUPS / 2];
+        for groups in depths.as_chunks::<{ GROUPS / 2 }>().0 {
+            for (least, group) in least.iter_mut().zip(groups) {
+                *least = lesser(F32::simd_from(simd, *group), *least);
+            }
+        }
+        let [a, b, c, d] = least;
+        let farthest = least_of(lesser(lesser(a, b), lesser(c, d)).into());
+        self.stale |= farthest > self.blocks[block].farthest;
+        self.blocks[block] = BlockBounds { farthest, writes: 0, ..self.blocks[block] };
+    }
+
+    /// The farthest depth of the tile, recomputed from the blocks' if one of
+    /// them has changed. Blocks outside the image count like all others.
+    #[inline(always)]
+    pub(crate) fn farthest_of_all(&mut self, area: &TileArea) -> f32 {
+        if self.stale {
+            self.stale = false;
+            let [columns, rows] = area.size.map(|side| side.div_ceil(8));
+            let blocks = (0..rows).flat_map(|row| (0..columns).map(move |column| row * BLOCKS + column));
+            self.farthest = blocks.fold(f32::INFINITY, |least, block| {
+                let farthest = self.blocks[block].farthest;
+                if farthest < least { farthest } else { least }
+            });
+        }
+        self.farthest
+    }
+}
+
+/// The least of eight, in a tree of three levels of comparisons.
+#[inline(always)]
+fn least_of([a, b, c, d, e, f, g, h]: [f32; LANES]) -> f32 {
+    let lesser = |a: f32, b: f32| if a < b { a } else { b };
+    let [a, b, c, d] = [lesser(a, e), lesser(b, f), lesser(c, g), lesser(d, h)];
+    lesser(lesser(a, c), lesser(b, d))
+}

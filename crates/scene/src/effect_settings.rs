@@ -1,0 +1,117 @@
+//! Effects that a frame may have beyond directly lit surfaces. All except the sky that metals
+//! mirror are off by default, and effects that are off cost nothing.
+
+use std::sync::Arc;
+
+use trigon_math::Vec3;
+
+use crate::environment::Environment;
+use crate::node::NodeId;
+
+/// Effects that a frame may have beyond directly lit surfaces.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EffectSettings {
+    /// Whether lamps cast shadows, and how these are computed.
+    pub shadows: Shadows,
+    /// Darkens ambient light near other surfaces.
+    pub ambient_occlusion: Option<AmbientOcclusion>,
+    /// Ambient light from an environment; it replaces the scene's ambient lights.
+    pub environment: Option<Arc<Environment>>,
+    /// What metals mirror if neither an environment nor ambient light in the scene defines their
+    /// surroundings.
+    pub metal_reflection: MetalReflection,
+    /// The maximum number of reflections at mirrors (metals without roughness) and refractions
+    /// through glass (transmission), 0 (none) to 16.
+    pub bounces: u32,
+    /// Fog between the eye and surfaces.
+    pub fog: Option<Fog>,
+    /// Factor on the image's light, in stops: 1 is twice as bright.
+    pub exposure: f32,
+    /// How light brighter than the display's white is mapped.
+    pub tone_mapping: ToneMapping,
+    /// Drawn around nodes.
+    pub outline: Option<Outline>,
+}
+
+/// How shadows are computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shadows {
+    /// There are none.
+    #[default]
+    Off,
+    /// By depth images drawn from each lamp; `docs/effects.md` explains how surfaces are kept from
+    /// shadowing themselves.
+    Maps {
+        /// Width and height of each in texels, 16 to 8192.
+        resolution: u32,
+    },
+    /// By a ray from each pixel to each lamp: exact, and sharp.
+    Rays,
+}
+
+/// What metals mirror if neither an environment nor ambient light in the scene defines their
+/// surroundings. It is weighted by metalness; dielectrics look the same either way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MetalReflection {
+    /// The built-in sky, [`Sky::default`](crate::Sky::default), +Y of the world up.
+    /// [`Lighting::Scene`](crate::Lighting::Scene) leaves it out.
+    #[default]
+    Sky,
+    /// The ambient light, as for dielectrics: apart from the highlights of lamps, metals are nearly
+    /// black.
+    Ambient,
+}
+
+/// Ambient light reduced by nearby surfaces, computed with rays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AmbientOcclusion {
+    /// Rays per pixel, 1 to 256: more are smoother.
+    pub rays: u32,
+    /// The distance within which surfaces count, in metres.
+    pub distance: f32,
+}
+
+/// Fog that hides distant surfaces: a surface at distance d keeps `exp(−density · d)` of its
+/// colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fog {
+    /// Linear RGB of the fog.
+    pub color: Vec3,
+    /// Per metre, at least 0.
+    pub density: f32,
+}
+
+/// How light brighter than the display's white is mapped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToneMapping {
+    /// As white.
+    #[default]
+    None,
+    /// By Khronos PBR Neutral: colours up to 0.8 are unchanged, and brighter ones are compressed
+    /// and desaturated.
+    KhronosPbrNeutral,
+}
+
+/// A line around nodes, such as the selected ones.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// Around their common silhouette, where it is visible.
+    pub nodes: Vec<NodeId>,
+    /// Linear RGB.
+    pub color: Vec3,
+    /// Pixels, 1 to 16.
+    pub width: u32,
+}
+
+impl EffectSettings {
+    /// The factor of the exposure.
+    pub(crate) fn exposure_factor(&self) -> f32 {
+        let factor = trigon_math::elementary::exp2_f32(self.exposure);
+        if factor.is_finite() { factor } else { 1.0 }
+    }
+
+    /// Whether colours are changed after shading.
+    pub(crate) fn maps_tones(&self) -> bool {
+        self.tone_mapping != ToneMapping::None || self.exposure_factor() != 1.0
+    }
+}

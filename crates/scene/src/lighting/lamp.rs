@@ -1,0 +1,162 @@
+//! Lamps in camera space, and how much of their light arrives at a point.
+
+use trigon_math::{DAffine3, DVec3, Vec3};
+use trigon_raster::simd::{F32, Simd, prelude::*};
+
+use crate::lanes::{V3, difference, dot, inverse_root, lesser_of, positive, saturated, scaled, splat};
+use crate::light::{Light, LightKind};
+
+/// The largest light that arrives. It keeps products with reflectances, and sums over thousands of lamps,
+/// finite: infinity times zero would be NaN, and show as black in the brightest light.
+pub(crate) const BRIGHTEST: f32 = (1_u64 << 60) as f32;
+
+/// A light with a direction, in camera space: differences of large world
+/// coordinates never appear.
+#[derive(Clone, Debug)]
+pub(crate) struct Lamp {
+    pub(crate) source: Source,
+    /// The linear RGB of a white surface in this light; for a point or spot light, at one metre.
+    pub(crate) radiance: Vec3,
+    /// Its node.
+    pub(crate) node: Option<u32>,
+}
+
+/// The direction from which light comes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Source {
+    /// Parallel; the unit vector points towards the light.
+    Directional(Vec3),
+    /// From a point, perhaps within a cone.
+    Point {
+        position: Vec3,
+        /// One over the range in metres, squared; 0 for none.
+        inverse_range_squared: f32,
+        cone: Option<Cone>,
+    },
+}
+
+/// The cone of a spot light; see [`Light::cone`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Cone {
+    /// The unit vector from a lit point to the lamp.
+    backwards: Vec3,
+    scale: f32,
+    offset: f32,
+}
+
+/// Light as it arrives at eight points.
+pub(crate) struct Arriving<S: Simd> {
+    /// Unit vectors towards the lamp; zero where there is no direction.
+    pub(crate) towards: V3<S>,
+    /// The fraction of the lamp's radiance that arrives; 1 at one metre.
+    pub(crate) share: F32<S>,
+}
+
+impl Lamp {
+    /// A light of the scene; `None` for ambient light, which is no lamp.
+    pub(crate) fn new(light: &Light, node: u32, to_camera: &DAffine3) -> Option<Self> {
+        let backwards = to_camera.transform_vector3(DVec3::Z).normalize_or_zero().as_vec3();
+        let position = to_camera.translation.as_vec3();
+        let inverse_range = if light.range > 0.0 { 1.0 / light.range } else { 0.0 };
+        let inverse_range_squared = inverse_range * inverse_range;
+        let source = match light.kind {
+            LightKind::Ambient => return None,
+            LightKind::Directional => Source::Directional(backwards),
+            LightKind::Point => Source::Point { position, inverse_range_squared, cone: None },
+            LightKind::Spot { .. } => {
+                let (scale, offset) = light.cone();
+                let cone = Some(Cone { backwards, scale, offset });
+                Source::Point { position, inverse_range_squared, cone }
+            }
+        };
+        Some(Self { source, radiance: light.radiance(), node: Some(node) })
+    }
+
+    /// Parallel light of the studio.
+    pub(crate) fn studio(towards: Vec3, radiance: f32) -> Self {
+        let source = Source::Directional(towards.normalize());
+        Self { source, radiance: Vec3::splat(radiance), node: None }
+    }
+
+    /// Whether the light depends on a surface's position, and not only on its normal.
+    pub(crate) fn needs_position(&self) -> bool {
+        matches!(self.source, Source::Point { .. })
+    }
+
+    /// Whether its light is grey.
+    pub(crate) fn is_grey(&self) -> bool {
+        self.radiance.x == self.radiance.y && self.radiance.y == self.radiance.z
+    }
+
+    /// The light that arrives at points in camera space, by the formulas of [`Light::falloff`] and
+    /// [`Light::cone`].
+    #[inline(always)]
+    pub(crate) fn arriving<S: Simd>(&self, simd: S, position: V3<S>) -> Arriving<S> {
+        match &self.source {
+            Source::Directional(towards) => {
+                Arriving { towards: splat(simd, *towards), share: F32::splat(simd, 1.0) }
+            }
+            Source::Point { position: lamp, inverse_range_squared, cone } => {
+                let offset = difference(splat(simd, *lamp), position);
+                let squared = dot(offset, offset);
+                let inverse = inverse_root(squared);
+                let towards = scaled(offset, inverse);
+                let relative = squared * *inverse_range_squared;
+                let falloff = positive(1.0 - relative * relative) * (inverse * inverse);
+                let falloff = lesser_of(falloff, BRIGHTEST);
+                let share = match cone {
+                    None => falloff,
+                    Some(cone) => falloff * cone.share(simd, towards),
+                };
+                Arriving { towards, share }
+            }
+        }
+    }
+}
+
+impl Cone {
+    #[inline(always)]
+    fn share<S: Simd>(&self, simd: S, towards: V3<S>) -> F32<S> {
+        let cosine = dot(splat(simd, self.backwards), towards);
+        let linear = saturated(cosine * self.scale + self.offset);
+        linear * linear
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fearless_simd::Fallback;
+    use trigon_math::elementary;
+
+    fn share(light: &Light, at: Vec3) -> f32 {
+        let simd = Fallback::new();
+        let lamp = Lamp::new(light, 0, &DAffine3::IDENTITY).expect("a lamp");
+        lamp.arriving(simd, splat(simd, at)).share[0]
+    }
+
+    #[test]
+    fn light_falls_off_as_the_light_says() {
+        let light = Light::point(1.0).with_range(4.0);
+        for distance in [0.5_f32, 1.0, 3.0, 3.999, 4.0, 7.0] {
+            let (given, expected) = (share(&light, Vec3::X * distance), light.falloff(distance * distance));
+            assert!((given - expected).abs() <= 1e-6 * expected.abs() + 1e-9, "{distance}: {given}");
+        }
+        assert_eq!(share(&light, Vec3::ZERO), 0.0, "no direction, no light");
+    }
+
+    /// The formula of KHR_lights_punctual, in f64.
+    #[test]
+    fn a_spot_fades_as_the_specification_says() {
+        let (inner, outer) = (0.2, 0.5);
+        let light = Light { kind: LightKind::Spot { inner, outer }, ..Light::spot(1.0) };
+        for angle in [0.0_f64, 0.1, 0.25, 0.35, 0.45, 0.6, 2.0] {
+            let at = DVec3::new(elementary::sin(angle), 0.0, -elementary::cos(angle)) * 2.0;
+            let (near, far) = (elementary::cos(f64::from(inner)), elementary::cos(f64::from(outer)));
+            let linear = ((elementary::cos(angle) - far) / (near - far)).clamp(0.0, 1.0);
+            let expected = linear * linear / 4.0;
+            let given = f64::from(share(&light, at.as_vec3()));
+            assert!((given - expected).abs() < 1e-5, "at {angle}: {given}, not {expected}");
+        }
+    }
+}

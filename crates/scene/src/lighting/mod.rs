@@ -1,0 +1,148 @@
+//! The lights of an image, gathered once per frame, and the shading of surfaces by them.
+
+mod brdf;
+mod lamp;
+mod points;
+mod reflectance;
+mod studio;
+
+pub(crate) use brdf::Microfacets;
+pub(crate) use lamp::{Arriving, BRIGHTEST, Lamp, Source};
+pub(crate) use points::{Brdf, LitPoints, Reflected};
+
+use trigon_math::{DAffine3, Vec3};
+
+use crate::light::LightKind;
+use crate::placement::Eye;
+use crate::scene::Scene;
+use crate::settings::{Lighting, RenderSettings};
+
+/// The ambient light that is added if a scene has lamps but no ambient light. The lamps decide how bright the
+/// scene is; this only makes shapes visible that they do not reach.
+const ADDED_AMBIENT: Vec3 = Vec3::splat(0.1);
+
+/// All lights of an image.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lights {
+    /// Ambient light, linear RGB.
+    pub(crate) ambient: Vec3,
+    /// The number of ambient lights in the scene.
+    pub(crate) own_ambient: usize,
+    pub(crate) lamps: Vec<Lamp>,
+}
+
+impl Lights {
+    /// Collects the lights that the settings and the scene require. `transforms` is the scene's table of
+    /// visible nodes.
+    pub(crate) fn gather(
+        scene: &Scene,
+        transforms: &[Option<DAffine3>],
+        eye: &Eye,
+        settings: &RenderSettings,
+    ) -> Self {
+        let lighting = settings.lighting();
+        let lights = Self::of_scene(scene, transforms, eye, lighting);
+        match lighting {
+            Lighting::Studio => Self::studio(),
+            // An environment is light, too.
+            Lighting::Automatic if settings.effects.environment.is_some() => lights,
+            Lighting::Automatic if lights.is_dark() => Self::studio(),
+            // glTF and other formats have no ambient light. Without any, sides that no lamp reaches would be
+            // black.
+            Lighting::Automatic if lights.ambient == Vec3::ZERO => {
+                Self { ambient: ADDED_AMBIENT, own_ambient: 0, ..lights }
+            }
+            Lighting::Automatic | Lighting::Scene => lights,
+        }
+        .scaled(settings.light_factor())
+    }
+
+    fn of_scene(scene: &Scene, transforms: &[Option<DAffine3>], eye: &Eye, lighting: Lighting) -> Self {
+        let mut lights = Self::default();
+        if lighting != Lighting::Studio {
+            for (id, node) in scene.nodes().iter() {
+                let (Some(light), Some(world)) = (&node.light, &transforms[id.index()]) else { continue };
+                if light.kind == LightKind::Ambient {
+                    lights.ambient += light.radiance();
+                    lights.own_ambient += 1;
+                }
+                lights.lamps.extend(Lamp::new(light, id.index() as u32, &eye.to_camera(world)));
+            }
+        }
+        lights
+    }
+
+    fn is_dark(&self) -> bool {
+        self.ambient == Vec3::ZERO && self.lamps.is_empty()
+    }
+
+    /// Multiplies the intensity of every light; a factor that is not positive turns them off.
+    pub(crate) fn scaled(mut self, factor: f32) -> Self {
+        self.ambient *= factor;
+        self.lamps.iter_mut().for_each(|lamp| lamp.radiance *= factor);
+        self
+    }
+
+    /// Whether the light depends on a surface's position, and not only on its normal.
+    pub(crate) fn need_position(&self) -> bool {
+        self.lamps.iter().any(Lamp::needs_position)
+    }
+
+    /// Whether all light is grey.
+    pub(crate) fn are_grey(&self) -> bool {
+        let Vec3 { x, y, z } = self.ambient;
+        x == y && y == z && self.lamps.iter().all(Lamp::is_grey)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::LightingEnvironment;
+    use crate::lanes::{V3, splat};
+    use crate::light::Light;
+    use fearless_simd::Fallback;
+    use trigon_math::DVec3;
+
+    /// The value of a white Lambertian surface two metres away, lit and seen head-on.
+    fn shown(lights: &Lights) -> Vec3 {
+        let simd = Fallback::new();
+        let at = |vector| -> V3<Fallback> { splat(simd, vector) };
+        let [position, normal] = [at(Vec3::NEG_Z * 2.0), at(Vec3::Z)];
+        let points = LitPoints { position, normal, facing: normal, view: normal };
+        let lighting = LightingEnvironment { lights: lights.clone(), ..LightingEnvironment::default() };
+        let reflected = lighting.reflected(simd, &points, &Brdf::Lambert);
+        Vec3::from(reflected.diffuse.map(|channel| channel[0]))
+    }
+
+    fn lamp(light: Light, to_camera: DAffine3) -> Lights {
+        Lights { lamps: Lamp::new(&light, 0, &to_camera).into_iter().collect(), ..Lights::default() }
+    }
+
+    #[test]
+    fn a_white_surface_head_on_shows_the_intensity() {
+        let shown_by = |light| shown(&lamp(light, DAffine3::IDENTITY));
+        assert_eq!(shown_by(Light::directional(0.5)), Vec3::splat(0.5), "directional");
+        assert_eq!(shown_by(Light::point(1.0)), Vec3::splat(0.25), "a quarter at two metres");
+    }
+
+    #[test]
+    fn intensity_is_a_factor_for_every_light() {
+        let shown = |factor| shown(&Lights::studio().scaled(factor));
+        assert_eq!(shown(2.0), shown(1.0) * 2.0, "twice as bright");
+        let broken = RenderSettings { light_intensity: f32::NAN, ..RenderSettings::new(1, 1) };
+        assert_eq!(broken.light_factor(), 0.0, "no number, no light");
+    }
+
+    #[test]
+    fn a_light_on_the_surface_gives_no_nan() {
+        let there = DAffine3::from_translation(DVec3::new(0.0, 0.0, -2.0));
+        assert_eq!(shown(&lamp(Light::point(1.0), there)), Vec3::ZERO, "no direction, no light");
+    }
+
+    #[test]
+    fn light_from_behind_does_not_reach_the_surface() {
+        let turned = DAffine3::from_quat(trigon_math::DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0));
+        assert_eq!(shown(&lamp(Light::directional(1.0), turned)), Vec3::ZERO, "from behind");
+    }
+}

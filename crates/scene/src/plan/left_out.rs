@@ -1,0 +1,62 @@
+//! Frames without one of their effects, to see what the effect adds and what it costs.
+
+use trigon_math::Vec3;
+
+use crate::background::Background;
+use crate::effect::Effect;
+use crate::effect_settings::{MetalReflection, Shadows, ToneMapping};
+use crate::material::{Material, MaterialTexture};
+use crate::scene::Scene;
+use crate::settings::{Reflection, RenderSettings, Style};
+
+impl Effect {
+    /// The same scene and settings without the effect; `None` for an effect that is part of the
+    /// scene itself.
+    pub fn left_out(self, scene: &Scene, settings: &RenderSettings) -> Option<(Scene, RenderSettings)> {
+        let (mut scene, mut settings) = (scene.clone(), settings.clone());
+        let effects = &mut settings.effects;
+        match self {
+            Self::Highlights => settings.reflection = Reflection::Lambert,
+            Self::Environment => {
+                effects.environment = None;
+                if settings.background == Background::Environment {
+                    settings.background = Background::default();
+                }
+            }
+            Self::MetalSky => effects.metal_reflection = MetalReflection::Ambient,
+            Self::ShadowMaps | Self::ShadowRays => effects.shadows = Shadows::Off,
+            Self::AmbientOcclusion => effects.ambient_occlusion = None,
+            Self::Reflection | Self::Refraction => effects.bounces = 0,
+            Self::Fog => effects.fog = None,
+            Self::ToneMapping => (effects.exposure, effects.tone_mapping) = (0.0, ToneMapping::None),
+            Self::Outline => effects.outline = None,
+            Self::Edges => settings.style = Style::Surface,
+            Self::Textures => each_material(&mut scene, strip_textures),
+            Self::NormalMaps => each_material(&mut scene, |material| material.normal_map = None),
+            Self::OcclusionMaps => each_material(&mut scene, |material| material.occlusion = None),
+            Self::Emission => each_material(&mut scene, |material| {
+                (material.emissive, material.emissive_texture) = (Vec3::ZERO, None);
+            }),
+            Self::Lamps
+            | Self::AmbientLight
+            | Self::VertexColors
+            | Self::Masks
+            | Self::Transparency
+            | Self::Poses => return None,
+        }
+        Some((scene, settings))
+    }
+}
+
+fn each_material(scene: &mut Scene, change: impl Fn(&mut Material)) {
+    scene.materials.iter_mut().for_each(|(_, material)| change(material));
+}
+
+/// Removes all textures except normal and occlusion maps, which are separate effects.
+fn strip_textures(material: &mut Material) {
+    for place in MaterialTexture::ALL {
+        if !matches!(place.row().effect, Effect::NormalMaps | Effect::OcclusionMaps) {
+            material.set_texture(place, None);
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! The plan of a frame: which effects the scene needs, as far as the camera sees it, and why. The
+//! renderer does what the plan says.
+
+mod left_out;
+mod reason;
+mod survey;
+
+pub use reason::{Absence, Cause, Decision, Named};
+
+use std::fmt;
+
+use trigon_camera::Camera;
+use trigon_math::Vec3;
+
+use crate::background::Background;
+use crate::display::Display;
+use crate::effect::Effect;
+use crate::effect_settings::{MetalReflection, Shadows};
+use crate::effects::Mist;
+use crate::prepare::PreparedScene;
+use crate::scene::Scene;
+use crate::settings::{RenderSettings, ShadingModel, Style};
+use survey::{Survey, has_ambient};
+
+/// The effects of a frame, and why.
+///
+/// ```
+/// use trigon_scene::{Effect, EffectPlan, RenderSettings, showcase};
+///
+/// let scene = showcase();
+/// let plan = EffectPlan::new(&scene, &scene.cameras()[0].1, &RenderSettings::new(100, 60));
+/// assert!(plan.is_on(Effect::Lamps));
+/// assert_eq!(plan.decision(Effect::Fog).to_string(), "off, because the settings do not request it");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EffectPlan {
+    /// In the order of [`Effect::ALL`].
+    decisions: Vec<Decision>,
+}
+
+impl EffectPlan {
+    /// Examines the scene and what the camera can see of it.
+    #[must_use]
+    pub fn new(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Self {
+        Self::of_prepared(&PreparedScene::new(scene, camera, settings))
+    }
+
+    pub(crate) fn of_prepared(prepared: &PreparedScene<'_>) -> Self {
+        let survey = Survey::new(prepared);
+        Self { decisions: Effect::ALL.iter().map(|&effect| decide(effect, prepared, &survey)).collect() }
+    }
+
+    /// Whether an effect is on, and why.
+    #[must_use]
+    pub fn decision(&self, effect: Effect) -> &Decision {
+        &self.decisions[effect as usize]
+    }
+
+    /// Whether an effect is on.
+    #[must_use]
+    pub fn is_on(&self, effect: Effect) -> bool {
+        matches!(self.decision(effect), Decision::On(_))
+    }
+
+    /// All effects with their decisions.
+    pub fn iter(&self) -> impl Iterator<Item = (Effect, &Decision)> {
+        Effect::ALL.into_iter().zip(&self.decisions)
+    }
+}
+
+impl fmt::Display for EffectPlan {
+    /// A line for each effect.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.iter().try_for_each(|(effect, decision)| writeln!(f, "{effect}: {decision}"))
+    }
+}
+
+fn decide(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> Decision {
+    let outcome = match effect {
+        _ if !prepared.settings.outputs.of_light() && !shapes(effect) => Err(Absence::NoColor),
+        _ if let Some(absence) = not_displayed(effect, prepared.settings) => Err(absence),
+        Effect::Lamps => lamps(prepared, survey),
+        Effect::AmbientLight => ambient_light(prepared, survey),
+        Effect::Environment => environment(prepared, survey),
+        Effect::MetalSky => metal_sky(prepared, survey),
+        Effect::ShadowMaps => {
+            shadows(matches!(prepared.settings.effects.shadows, Shadows::Maps { .. }), prepared, survey)
+        }
+        Effect::ShadowRays => shadows(prepared.settings.effects.shadows == Shadows::Rays, prepared, survey),
+        Effect::AmbientOcclusion => ambient_occlusion(prepared, survey),
+        Effect::Fog => asked(prepared.settings.effects.fog.as_ref().and_then(Mist::new).is_some()),
+        Effect::ToneMapping => asked(prepared.settings.effects.maps_tones()),
+        Effect::Outline => {
+            asked(prepared.settings.effects.outline.as_ref().is_some_and(|outline| !outline.nodes.is_empty()))
+        }
+        Effect::Edges => asked(prepared.settings.style != Style::Surface),
+        Effect::Reflection | Effect::Refraction if prepared.settings.effects.bounces == 0 => {
+            Err(Absence::NotAsked)
+        }
+        Effect::OcclusionMaps => occlusion_maps(prepared, survey),
+        Effect::NormalMaps | Effect::Reflection | Effect::Refraction => of_pixels(effect, prepared, survey),
+        Effect::Highlights
+        | Effect::Textures
+        | Effect::Emission
+        | Effect::VertexColors
+        | Effect::Masks
+        | Effect::Transparency
+        | Effect::Poses => of_objects(effect, prepared, survey),
+    };
+    match outcome {
+        Ok(cause) => Decision::On(cause),
+        Err(absence) => Decision::Off(absence),
+    }
+}
+
+/// Why an effect is off where surfaces are displayed otherwise than in light.
+fn not_displayed(effect: Effect, settings: &RenderSettings) -> Option<Absence> {
+    let is_background = effect == Effect::Environment && settings.background == Background::Environment;
+    let is_kept = is_background || effect == Effect::Outline || shapes(effect);
+    let is_clay = matches!(effect, Effect::Lamps | Effect::AmbientLight | Effect::Highlights);
+    let is_shown = match settings.display {
+        Display::Shaded => true,
+        Display::Matcap => is_kept || is_clay,
+        _ => is_kept,
+    };
+    (!is_shown).then_some(Absence::Display)
+}
+
+/// Whether an effect concerns the position of surfaces, and not their appearance.
+fn shapes(effect: Effect) -> bool {
+    match effect {
+        Effect::Masks | Effect::Poses | Effect::Edges => true,
+        Effect::Lamps
+        | Effect::AmbientLight
+        | Effect::Highlights
+        | Effect::Textures
+        | Effect::NormalMaps
+        | Effect::OcclusionMaps
+        | Effect::Emission
+        | Effect::VertexColors
+        | Effect::Transparency
+        | Effect::Environment
+        | Effect::MetalSky
+        | Effect::ShadowMaps
+        | Effect::ShadowRays
+        | Effect::AmbientOcclusion
+        | Effect::Reflection
+        | Effect::Refraction
+        | Effect::Fog
+        | Effect::ToneMapping
+        | Effect::Outline => false,
+    }
+}
+
+type Outcome = Result<Cause, Absence>;
+
+fn asked(asked: bool) -> Outcome {
+    if asked { Ok(Cause::Asked) } else { Err(Absence::NotAsked) }
+}
+
+/// Whether light is evaluated at all.
+fn check_lit(prepared: &PreparedScene<'_>, survey: &Survey) -> Result<(), Absence> {
+    match prepared.settings.style {
+        Style::Wireframe | Style::HiddenLine => Err(Absence::NoFaces),
+        Style::Surface | Style::SurfaceWithEdges if survey.lit == 0 => Err(Absence::NothingLit),
+        Style::Surface | Style::SurfaceWithEdges => Ok(()),
+    }
+}
+
+fn lamps(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    check_lit(prepared, survey)?;
+    let lamps = &prepared.lights.lamps;
+    match (lamps.len(), lamps.first().and_then(|lamp| lamp.node)) {
+        (0, _) => Err(Absence::Nowhere),
+        (_, None) => Ok(Cause::Studio),
+        (count, Some(_)) => Ok(Cause::Lights(count)),
+    }
+}
+
+fn ambient_light(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    check_lit(prepared, survey)?;
+    if prepared.settings.effects.environment.is_some() {
+        return Err(Absence::Environment);
+    }
+    match (prepared.lights.ambient == Vec3::ZERO, prepared.lights.own_ambient) {
+        (true, _) => Err(Absence::Nowhere),
+        (false, 0) => Ok(Cause::Studio),
+        (false, count) => Ok(Cause::Lights(count)),
+    }
+}
+
+fn environment(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    if prepared.settings.effects.environment.is_none() {
+        return Err(Absence::NotAsked);
+    }
+    if prepared.settings.background == Background::Environment {
+        return Ok(Cause::Background);
+    }
+    check_lit(prepared, survey)?;
+    Ok(Cause::Asked)
+}
+
+fn metal_sky(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    match prepared.settings.effects.metal_reflection {
+        MetalReflection::Ambient => return Err(Absence::NotAsked),
+        MetalReflection::Sky => {}
+    }
+    check_lit(prepared, survey)?;
+    let [metals, _] = survey.of(Effect::MetalSky);
+    if metals.count == 0 {
+        return Err(Absence::NoMetal);
+    }
+    if prepared.settings.effects.environment.is_some() {
+        return Err(Absence::Environment);
+    }
+    match (prepared.lights.ambient == Vec3::ZERO, prepared.lights.own_ambient) {
+        (true, _) => Err(Absence::NoAmbientLight),
+        (false, 0) => Ok(Cause::Metals(metals.clone())),
+        (false, _) => Err(Absence::OwnAmbientLight),
+    }
+}
+
+fn shadows(asked: bool, prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    if !asked {
+        return Err(Absence::NotAsked);
+    }
+    check_lit(prepared, survey)?;
+    match (prepared.lights.lamps.len(), survey.casters) {
+        (0, _) => Err(Absence::NoLamp),
+        (_, 0) => Err(Absence::NoCaster),
+        (lamps, casters) => Ok(Cause::Shadows { lamps, casters }),
+    }
+}
+
+fn ambient_occlusion(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    if prepared.settings.effects.ambient_occlusion.is_none() {
+        return Err(Absence::NotAsked);
+    }
+    check_lit(prepared, survey)?;
+    if prepared.settings.shading != ShadingModel::Phong {
+        return Err(Absence::ShadingModel);
+    }
+    match (has_ambient(prepared), survey.casters) {
+        (false, _) => Err(Absence::NoAmbientLight),
+        (true, 0) => Err(Absence::NoCaster),
+        (true, _) => Ok(Cause::Asked),
+    }
+}
+
+/// Occlusion maps dim ambient light alone.
+fn occlusion_maps(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    let cause = of_pixels(Effect::OcclusionMaps, prepared, survey)?;
+    if has_ambient(prepared) { Ok(cause) } else { Err(Absence::NoAmbientLight) }
+}
+
+/// Effects of objects that require per-pixel lighting.
+fn of_pixels(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    let cause = of_objects(effect, prepared, survey)?;
+    match prepared.settings.shading {
+        ShadingModel::Flat | ShadingModel::Gouraud => Err(Absence::ShadingModel),
+        ShadingModel::Phong => Ok(cause),
+    }
+}
+
+fn of_objects(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    let [in_view, elsewhere] = survey.of(effect);
+    let faces = matches!(prepared.settings.style, Style::Surface | Style::SurfaceWithEdges);
+    match (in_view.count, elsewhere.count) {
+        (0, 0) => Err(Absence::Nowhere),
+        (0, _) => Err(Absence::OutOfView(elsewhere.clone())),
+        _ if !faces && effect != Effect::Poses => Err(Absence::NoFaces),
+        _ => Ok(Cause::Objects(in_view.clone())),
+    }
+}

@@ -1,0 +1,90 @@
+//! The scene as one frame sees it.
+
+use trigon_camera::Camera;
+use trigon_math::{DAffine3, DMat3, DVec3};
+
+use super::backdrop::Backdrop;
+use crate::effect_settings::Shadows;
+use crate::effects::{LampPose, MetalSky};
+use crate::environment::Surroundings;
+use crate::light::LightKind;
+use crate::lighting::{Lamp, Lights, Source};
+use crate::placement::Eye;
+use crate::scene::Scene;
+use crate::settings::RenderSettings;
+use crate::shapes::{Onlookers, Shape, Shapes};
+
+/// The scene as one frame sees it: the camera, the settings, the shapes and the lights.
+pub(crate) struct PreparedScene<'s> {
+    pub(crate) scene: &'s Scene,
+    pub(crate) settings: &'s RenderSettings,
+    transforms: Vec<Option<DAffine3>>,
+    pub(crate) camera_to_world: DAffine3,
+    pub(crate) eye: Eye,
+    pub(crate) backdrop: Backdrop,
+    pub(crate) shapes: Shapes,
+    pub(crate) lights: Lights,
+}
+
+impl<'s> PreparedScene<'s> {
+    pub(crate) fn new(scene: &'s Scene, camera: &Camera, settings: &'s RenderSettings) -> Self {
+        let places = scene.visible_places();
+        let transforms = places.iter().map(|place| Some(place.as_ref()?.world)).collect::<Vec<_>>();
+        let eye = Eye::new(camera, settings.aspect());
+        let effects = &settings.effects;
+        let rays = effects.ambient_occlusion.is_some() || effects.bounces > 0;
+        let all = rays || effects.shadows != Shadows::Off;
+        let onlookers = if all { Onlookers::All } else { Onlookers::Camera(&eye) };
+        let shapes = Shapes::new(scene, &places, onlookers);
+        let lights = Lights::gather(scene, &transforms, &eye, settings);
+        let turn = DMat3::from_quat(camera.orientation);
+        let camera_to_world = DAffine3::from_mat3_translation(turn, camera.position);
+        let backdrop = Backdrop::new(camera, settings);
+        Self { scene, settings, transforms, camera_to_world, eye, backdrop, shapes, lights }
+    }
+
+    /// Whether some of a shape's faces may be in view.
+    pub(crate) fn may_show(&self, shape: &Shape) -> bool {
+        self.eye.may_see(&shape.geometry.bounds(), &shape.place.world)
+    }
+
+    /// The transform of a lamp.
+    pub(crate) fn pose(&self, lamp: &Lamp) -> LampPose {
+        let world = lamp.node.and_then(|node| self.transforms[node as usize]);
+        let along = world.map_or_else(
+            || match lamp.source {
+                Source::Directional(towards) => -self.camera_to_world.transform_vector3(towards.as_dvec3()),
+                Source::Point { .. } => DVec3::NEG_Z,
+            },
+            |world| world.transform_vector3(DVec3::NEG_Z).normalize_or_zero(),
+        );
+        match lamp.source {
+            Source::Directional(_) => LampPose::Directional(along),
+            Source::Point { .. } => {
+                let position = world.map_or(DVec3::ZERO, |world| world.translation);
+                LampPose::Point { position, cone: self.cone(lamp).map(|half| (along, half)) }
+            }
+        }
+    }
+
+    pub(crate) fn surroundings(&self) -> Option<Surroundings> {
+        Some(Surroundings {
+            environment: self.settings.effects.environment.clone()?,
+            to_world: self.camera_to_world.matrix3.as_mat3(),
+            intensity: self.settings.light_factor(),
+        })
+    }
+
+    pub(crate) fn metal_sky(&self) -> MetalSky {
+        MetalSky::new(&self.camera_to_world.matrix3.as_mat3(), self.settings.light_factor())
+    }
+
+    /// Half the angle of a spot light's cone.
+    fn cone(&self, lamp: &Lamp) -> Option<f64> {
+        let node = self.scene.nodes().id_at(lamp.node? as usize)?;
+        match self.scene.node(node)?.light?.kind {
+            LightKind::Spot { outer, .. } => Some(f64::from(outer)),
+            LightKind::Ambient | LightKind::Directional | LightKind::Point => None,
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Draws a shadow map: depth only.
+
+use crate::work::{Work, note};
+use trigon_math::Mat3;
+use trigon_raster::{Culling, Draw, Pass, Rasterizer, Target, TargetError};
+
+use crate::display::Display;
+use crate::effects::{Caster, Casters, LightingEnvironment, ShadowMap, View};
+use crate::material::{AlphaMode, Material, Shading};
+use crate::placement::{Eye, Rays};
+use crate::scene::Scene;
+use crate::settings::{Reflection, ShadingModel};
+use crate::surface::{BoundMaterial, Drawn, MaterialContext, Surface};
+
+/// The parameters of a run of triangles.
+enum Shape<'a> {
+    Whole(Surface<'a, true>),
+    /// With holes.
+    Masked(Surface<'a, false>),
+}
+
+/// Draws the casters' depth as a lamp sees it.
+pub(super) fn draw(
+    view: View,
+    resolution: u32,
+    (scene, casters): (&Scene, &Casters),
+    rasterizer: &mut Rasterizer,
+) -> Result<ShadowMap, TargetError> {
+    note(Work::ShadowMap);
+    let dark = LightingEnvironment::default();
+    let eye = Eye::new(&view.camera, view.aspect);
+    let mut shapes = Vec::new();
+    for caster in &casters.list {
+        for (run, material) in caster.geometry.runs.iter().zip(&caster.shadow.materials) {
+            let Some(material) = material else { continue };
+            shapes.push((caster, run.triangles.clone(), shape(scene, &dark, &eye, caster, material)));
+        }
+    }
+    let mut pass = Pass::new();
+    for (caster, triangles, shape) in &shapes {
+        let triangles = &caster.geometry.triangles[triangles.clone()];
+        match shape {
+            Shape::Whole(surface) => {
+                pass.triangles(Draw { culling: Culling::None, ..Draw::new(surface, triangles) })
+            }
+            Shape::Masked(surface) => pass.triangles(Draw {
+                culling: Culling::None,
+                blend_mode: trigon_raster::BlendMode::Masked,
+                ..Draw::new(surface, triangles)
+            }),
+        };
+    }
+    let mut depths = vec![0.0; resolution as usize * resolution as usize];
+    let mut target = Target::new(resolution, resolution, &[])?.with_depth(&mut depths)?;
+    rasterizer.draw(&pass, &mut target);
+    drop(target);
+    Ok(ShadowMap { view, resolution, depths })
+}
+
+fn shape<'a>(
+    scene: &'a Scene,
+    dark: &'a LightingEnvironment,
+    eye: &Eye,
+    caster: &'a Caster,
+    material: &Material,
+) -> Shape<'a> {
+    let masked = matches!(material.alpha_mode, AlphaMode::Mask { .. });
+    let material = Material { shading: Shading::Unlit, ..material.clone() };
+    let columns = &caster.geometry.columns;
+    let context = MaterialContext {
+        scene,
+        lighting: dark,
+        rays: Rays::Parallel,
+        shading: ShadingModel::Flat,
+        reflection: Reflection::Material,
+        display: Display::Shaded,
+        to_world: Mat3::IDENTITY,
+    };
+    let place = eye.place(&caster.shadow.place, &caster.geometry.bounds());
+    let drawn = Drawn { columns, triangles: &[], faces: &[] };
+    if masked {
+        Shape::Masked(Surface::new(drawn, place, BoundMaterial::new(&material, columns, &context), &context))
+    } else {
+        let mut bound = BoundMaterial::new(&material, columns, &context);
+        bound.strip();
+        Shape::Whole(Surface::new(drawn, place, bound, &context))
+    }
+}

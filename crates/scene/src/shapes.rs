@@ -1,0 +1,106 @@
+//! The current shape of every visible node: its mesh in the pose that its joints and morph weights give it.
+//!
+//! Only meshes with a pose are deformed, and of these only what is in the view of the camera or of a lamp
+//! that casts shadows.
+
+use std::sync::Arc;
+
+use trigon_math::glam::Affine3;
+use trigon_math::{Bounds3, DAffine3, is_mirroring};
+
+use crate::geometry::Geometry;
+use crate::mesh_asset::MeshAsset;
+use crate::node::{Node, NodeId};
+use crate::placement::Eye;
+use crate::scene::{Place, Scene};
+
+/// A placed mesh.
+#[derive(Clone, Debug)]
+pub(crate) struct Shape {
+    pub(crate) geometry: Arc<Geometry>,
+    pub(crate) place: Place,
+    /// Whether a pose changed it.
+    pub(crate) is_posed: bool,
+}
+
+/// The shapes of all visible nodes, by their indices.
+#[derive(Debug, Default)]
+pub(crate) struct Shapes(Vec<Option<Shape>>);
+
+/// From where shapes are seen.
+#[derive(Clone, Copy)]
+pub(crate) enum Onlookers<'a> {
+    /// The camera alone: poses beyond its view are not computed.
+    Camera(&'a Eye),
+    /// The camera, lamps, rays.
+    All,
+}
+
+impl Shapes {
+    /// `places` is the scene's table of visible nodes.
+    pub(crate) fn new(scene: &Scene, places: &[Option<Place>], onlookers: Onlookers<'_>) -> Self {
+        let mut shapes = vec![None; places.len()];
+        for (id, node) in scene.nodes().iter() {
+            let (Some(place), Some(mesh)) = (places[id.index()], node.mesh) else { continue };
+            let Some(asset) = scene.meshes().get(mesh) else { continue };
+            shapes[id.index()] = shape(scene, (id, node), asset, place, onlookers);
+        }
+        Self(shapes)
+    }
+
+    /// The shape of a node; `None` where nothing is drawn of it.
+    pub(crate) fn get(&self, index: usize) -> Option<&Shape> {
+        self.0.get(index)?.as_ref()
+    }
+
+    /// Removes and returns the shape of a node.
+    pub(crate) fn take(&mut self, index: usize) -> Option<Shape> {
+        self.0.get_mut(index)?.take()
+    }
+
+    /// The bytes of deformed vertices.
+    pub(crate) fn posed_bytes(&self) -> usize {
+        let posed = self.0.iter().flatten().filter(|shape| shape.is_posed);
+        posed.map(|shape| shape.geometry.columns.byte_count()).sum()
+    }
+}
+
+fn shape(
+    scene: &Scene,
+    (id, node): (NodeId, &Node),
+    asset: &MeshAsset,
+    place: Place,
+    onlookers: Onlookers<'_>,
+) -> Option<Shape> {
+    let rest = Shape { geometry: Arc::clone(asset.geometry()), place, is_posed: false };
+    let Some(bend) = scene.bend(id, asset) else { return Some(rest) };
+    // Joints may have moved the mesh elsewhere.
+    let place = bend
+        .joints
+        .as_ref()
+        .map_or(place, |pose| Place { world: pose.world, is_mirrored: is_mirroring(&pose.world.matrix3) });
+    if let (Onlookers::Camera(eye), false) = (onlookers, bend.is_morphed)
+        && !eye.may_see(&reach(&asset.bounds(), bend.palette()), &place.world)
+    {
+        return None;
+    }
+    let geometry = asset.geometry().posed(&node.morph_weights, bend.palette());
+    let posed = geometry.map(|geometry| Shape { geometry: Arc::new(geometry), place, is_posed: true });
+    Some(posed.unwrap_or(rest))
+}
+
+/// A box around everything that joints can make of a box: weights only blend their maps.
+fn reach(rest: &Bounds3, palette: &[Affine3]) -> Bounds3 {
+    palette.iter().fold(*rest, |reach, joint| {
+        let matrix = joint.matrix3;
+        let joint = DAffine3::from_mat3_translation(
+            trigon_math::DMat3::from_cols(
+                matrix.x_axis.as_dvec3(),
+                matrix.y_axis.as_dvec3(),
+                matrix.z_axis.as_dvec3(),
+            ),
+            joint.translation.as_dvec3(),
+        );
+        reach.union(rest.transformed(&joint))
+    })
+}

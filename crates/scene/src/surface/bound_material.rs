@@ -1,0 +1,221 @@
+//! Binds a material to a mesh: decides which values are interpolated, which textures are read, and whether
+//! light is computed per pixel or per vertex. Parts that the material lacks, or that the mesh has no data
+//! for, are left out.
+
+use trigon_math::glam::Affine2;
+use trigon_math::{Mat3, Vec3, Vec4};
+
+use super::reflection::f0;
+use super::{Coverage, Illumination, Layout, LightSlots, Map, Maps, MaterialParams, MicrofacetModel, Model};
+use crate::display::Display;
+use crate::effects::{LightingEnvironment, Optics};
+use crate::geometry::Columns;
+use crate::material::{AlphaMode, DrawnIf, Material, MaterialTexture, Shading, TextureBinding};
+use crate::placement::Rays;
+use crate::scene::Scene;
+use crate::settings::{Reflection, ShadingModel};
+
+/// What a draw's material depends on.
+#[derive(Clone, Copy)]
+pub(crate) struct MaterialContext<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) lighting: &'a LightingEnvironment,
+    pub(crate) rays: Rays,
+    pub(crate) shading: ShadingModel,
+    pub(crate) reflection: Reflection,
+    pub(crate) display: Display,
+    /// From camera space.
+    pub(crate) to_world: Mat3,
+}
+
+/// A material bound to a mesh.
+pub(crate) struct BoundMaterial<'a> {
+    pub(crate) params: MaterialParams<'a>,
+    pub(crate) layout: Layout,
+    pub(crate) illumination: Illumination,
+}
+
+impl<'a> BoundMaterial<'a> {
+    pub(crate) fn new(material: &Material, columns: &Columns, context: &MaterialContext<'a>) -> Self {
+        let mut fitting = Fitting { context, columns, layout: Layout::default() };
+        let optics = Optics::of(material);
+        let may_trace = context.lighting.bounces > 0 && context.shading == ShadingModel::Phong;
+        let (shading, illumination) = shown(material, context, optics.is_some() && may_trace);
+        let mut material = Material { shading, ..material.clone() };
+        if illumination == Illumination::None && shading != Shading::Unlit {
+            // Without any light.
+            material.base_color *= Vec4::W;
+        }
+        let in_pixels = illumination == Illumination::InPixels;
+        let shows = |display| in_pixels || illumination == Illumination::Value(display);
+        let optics = optics.filter(|_| in_pixels && context.lighting.bounces > 0);
+        let is_shown = |texture: MaterialTexture| {
+            shown_as(texture).iter().any(|&display| illumination == Illumination::Value(display))
+        };
+        let is_drawn = |texture: MaterialTexture| match texture.row().drawn_if {
+            DrawnIf::Always => true,
+            DrawnIf::LightInPixels => in_pixels || is_shown(texture),
+            DrawnIf::AmbientLightInPixels => in_pixels && context.lighting.has_ambient() || is_shown(texture),
+            DrawnIf::TangentsInPixels => shows(Display::Normal) && columns.tangents.is_some(),
+            DrawnIf::Refracting => matches!(optics, Some(Optics::Glass { .. })),
+        };
+        let maps = Maps::new(|texture| {
+            let binding = material.texture(texture).filter(|_| is_drawn(texture))?;
+            if (texture.row().matters)(&material) { fitting.map(texture, &binding) } else { None }
+        });
+        let params = MaterialParams {
+            model: model(&material),
+            maps,
+            optics,
+            cutoff: cutoff(material.alpha_mode),
+            coverage: coverage(material.alpha_mode),
+            material,
+        };
+        fitting.add_values(&params, illumination);
+        Self { params, layout: fitting.layout, illumination }
+    }
+
+    /// Whether a triangle has a single colour.
+    pub(crate) fn is_flat(&self) -> bool {
+        let is_even = self.params.maps.places().next().is_none();
+        let per_triangle = matches!(self.illumination, Illumination::None | Illumination::OnFacets);
+        per_triangle && is_even && self.layout.count == 0
+    }
+
+    /// Removes everything but the shape.
+    pub(crate) fn strip(&mut self) {
+        self.layout = Layout::default();
+        self.params.maps = Maps::default();
+    }
+}
+
+/// A material that is being bound.
+struct Fitting<'o, 'a> {
+    context: &'o MaterialContext<'a>,
+    columns: &'o Columns,
+    layout: Layout,
+}
+
+impl<'a> Fitting<'_, 'a> {
+    /// A texture that exists, with texture coordinates that the mesh has.
+    fn map(&mut self, place: MaterialTexture, binding: &TextureBinding) -> Option<Map<'a>> {
+        let texture = &self.context.scene.textures.get(binding.texture)?.texture;
+        self.columns.uv_sets.get(binding.uv_set)?;
+        let at = self.layout.add_coordinates(binding.uv_set, binding.transform);
+        Some(Map { texture, sampler: binding.sampler, at, place })
+    }
+
+    /// Adds the varyings that the material and its lighting need in each pixel.
+    fn add_values(&mut self, params: &MaterialParams<'_>, illumination: Illumination) {
+        let Self { context, columns, layout } = self;
+        if columns.colors.is_some() {
+            layout.color = Some(layout.add(4));
+        }
+        let highlights = !matches!(params.model, Model::Lambert);
+        if context.lighting.mist.is_some() {
+            layout.position = Some(layout.add(3));
+        }
+        match illumination {
+            Illumination::None | Illumination::OnFacets => {}
+            Illumination::AtVertices => {
+                let grey = context.lighting.are_grey() && !matches!(params.model, Model::Microfacets(_));
+                let grey = grey && has_grey_highlights(&params.model);
+                let channels = if grey { 1 } else { 3 };
+                let two_sided = params.material.double_sided;
+                let mut slots = LightSlots { at: 0, channels, specular: highlights, two_sided };
+                slots.at = layout.add(slots.len());
+                layout.light = Some(slots);
+            }
+            Illumination::InPixels => {
+                layout.normal = columns.face_normals.is_none().then(|| layout.add(3));
+                let towards_eye = highlights && context.rays == Rays::Meeting;
+                let needed = towards_eye || context.lighting.needs_position();
+                if needed && layout.position.is_none() {
+                    layout.position = Some(layout.add(3));
+                }
+                if params.maps.get(MaterialTexture::Normal).is_some() {
+                    layout.tangent = Some(layout.add(4));
+                }
+            }
+            Illumination::Value(Display::Normal) => {
+                layout.normal = columns.face_normals.is_none().then(|| layout.add(3));
+                layout.tangent = params.maps.get(MaterialTexture::Normal).map(|_| layout.add(4));
+            }
+            Illumination::Value(Display::TextureCoordinates) if !columns.uv_sets.is_empty() => {
+                layout.shown_uv = Some(layout.add_coordinates(0, Affine2::IDENTITY));
+            }
+            Illumination::Value(_) => {}
+        }
+    }
+}
+
+/// The texture that a displayed value needs.
+fn shown_as(texture: MaterialTexture) -> &'static [Display] {
+    match texture {
+        MaterialTexture::MetallicRoughness => &[Display::Metallic, Display::Roughness],
+        MaterialTexture::Occlusion => &[Display::Occlusion],
+        _ => &[],
+    }
+}
+
+/// The reflection model of a material, and where its light is computed: nowhere if there is no light, unless
+/// sight rays continue from it. Surfaces that show their metalness or roughness get the model that has them.
+fn shown(material: &Material, context: &MaterialContext<'_>, is_traced: bool) -> (Shading, Illumination) {
+    let shading = context.reflection.of(material);
+    match context.display {
+        Display::Shaded | Display::Matcap if context.lighting.is_dark() && !is_traced => {
+            (shading, Illumination::None)
+        }
+        Display::Shaded | Display::Matcap => (shading, illumination(&shading, context.shading)),
+        Display::Metallic | Display::Roughness => {
+            (Reflection::MetallicRoughness.of(material), Illumination::Value(context.display))
+        }
+        display => (shading, Illumination::Value(display)),
+    }
+}
+
+fn has_grey_highlights(model: &Model) -> bool {
+    match model {
+        Model::BlinnPhong { specular, .. } => specular.x == specular.y && specular.y == specular.z,
+        Model::Lambert | Model::Microfacets(_) => true,
+    }
+}
+
+fn model(material: &Material) -> Model {
+    match &material.shading {
+        Shading::Unlit | Shading::Lambert => Model::Lambert,
+        Shading::BlinnPhong { specular, .. } if *specular == Vec3::ZERO => Model::Lambert,
+        Shading::BlinnPhong { specular, shininess, .. } => {
+            Model::BlinnPhong { specular: *specular, shininess: *shininess }
+        }
+        Shading::MetallicRoughness(model) => Model::Microfacets(MicrofacetModel {
+            metallic: model.metallic,
+            roughness: model.roughness,
+            f0: f0(material.ior) * model.specular_color,
+            specular: model.specular,
+        }),
+    }
+}
+
+fn illumination(shading: &Shading, model: ShadingModel) -> Illumination {
+    match (shading, model) {
+        (Shading::Unlit, _) => Illumination::None,
+        (_, ShadingModel::Flat) => Illumination::OnFacets,
+        (_, ShadingModel::Gouraud) => Illumination::AtVertices,
+        (_, ShadingModel::Phong) => Illumination::InPixels,
+    }
+}
+
+fn cutoff(mode: AlphaMode) -> f32 {
+    match mode {
+        AlphaMode::Mask { cutoff } => cutoff,
+        AlphaMode::Opaque | AlphaMode::Blend => 0.0,
+    }
+}
+
+fn coverage(mode: AlphaMode) -> Coverage {
+    match mode {
+        AlphaMode::Opaque | AlphaMode::Mask { .. } => Coverage::Opaque,
+        AlphaMode::Blend => Coverage::Translucent,
+    }
+}

@@ -1,0 +1,225 @@
+//! The pipeline that draws faces, eight pixels at a time.
+//!
+//! One pipeline serves all materials. A part that a material or its lighting does not need costs one branch
+//! for each group of eight pixels; its values are neither fetched nor interpolated. A second variant of the
+//! pipeline, `FLAT`, is evaluated once for each visible triangle, for faces of one colour.
+
+mod bound_material;
+mod facet;
+mod illumination;
+mod layout;
+mod light;
+mod material_params;
+mod points;
+mod reflection;
+mod tally;
+mod traced;
+mod value;
+mod values;
+
+pub(crate) use bound_material::{BoundMaterial, MaterialContext};
+pub(crate) use illumination::Illumination;
+pub(crate) use layout::{Layout, LightSlots};
+pub(crate) use material_params::{Coverage, Map, Maps, MaterialParams, MicrofacetModel, Model};
+pub(crate) use values::{Values, three};
+
+use crate::work::{Work, note};
+use trigon_math::{Mat3, Vec3};
+use trigon_raster::simd::{Each, F32, Mask, Simd, prelude::*};
+use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
+
+use crate::effects::LightingEnvironment;
+use crate::geometry::Columns;
+use crate::lanes::{V3, normalized, saturated, splat, sum, turned};
+use crate::lighting::Reflected;
+use crate::material::MaterialTexture;
+use crate::placement::{Placement, Rays};
+
+/// The triangles of a draw.
+#[derive(Clone, Copy)]
+pub(crate) struct Drawn<'a> {
+    pub(crate) columns: &'a Columns,
+    /// All of them, and the polygon of each; draws without light need neither.
+    pub(crate) triangles: &'a [[u32; 3]],
+    pub(crate) faces: &'a [u32],
+}
+
+/// Faces of one mesh in one material.
+pub(crate) struct Surface<'a, const FLAT: bool> {
+    pub(crate) columns: &'a Columns,
+    /// The whole draw, for flat faces.
+    pub(crate) triangles: &'a [[u32; 3]],
+    /// The polygon of each triangle.
+    pub(crate) faces: &'a [u32],
+    pub(crate) place: Placement,
+    pub(crate) layout: Layout,
+    pub(crate) params: MaterialParams<'a>,
+    pub(crate) illumination: Illumination,
+    /// Whether the projection is perspective or orthographic.
+    pub(crate) rays: Rays,
+    pub(crate) lighting: &'a LightingEnvironment,
+    /// From camera space.
+    pub(crate) to_world: Mat3,
+}
+
+impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
+    /// The layout, made with the draw.
+    const VARYINGS: usize = 0;
+    const FLAT: bool = FLAT;
+    const MASKED: bool = !FLAT;
+
+    #[inline(always)]
+    fn varyings(&self) -> usize {
+        self.layout.count
+    }
+
+    fn vertex_count(&self) -> usize {
+        self.columns.vertex_count()
+    }
+
+    #[inline(always)]
+    fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
+        let position = load(simd, vertices, &self.columns.positions);
+        // Flat faces interpolate nothing: the rest is not even compiled.
+        if !FLAT && self.layout.count > 0 {
+            self.set_varyings(simd, vertices, position);
+        }
+        self.place.clip(simd, position)
+    }
+
+    #[inline(always)]
+    fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        if FLAT { self.facet_color(simd, fragments) } else { self.color(simd, fragments) }
+    }
+
+    #[inline(always)]
+    fn masks<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> Mask<S> {
+        note(Work::Mask);
+        let alpha = self.params.albedo(simd, self.layout.color, fragments)[3];
+        alpha.simd_ge(F32::splat(simd, self.params.cutoff))
+    }
+}
+
+impl<'a, const FLAT: bool> Surface<'a, FLAT> {
+    /// Triangles of a placed mesh in one material.
+    pub(crate) fn new(
+        Drawn { columns, triangles, faces }: Drawn<'a>,
+        place: Placement,
+        bound: BoundMaterial<'a>,
+        context: &MaterialContext<'a>,
+    ) -> Self {
+        let BoundMaterial { params, layout, illumination } = bound;
+        let MaterialContext { rays, lighting, to_world, .. } = *context;
+        Self { columns, triangles, faces, place, layout, params, illumination, rays, lighting, to_world }
+    }
+
+    #[inline(always)]
+    fn set_varyings<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>, position: V3<S>) {
+        let Self { layout, columns, place, .. } = self;
+        for coordinates in &layout.coordinates {
+            let [u, v] = load(simd, vertices, &columns.uv_sets[coordinates.uv_set]);
+            let (matrix, offset) = (coordinates.transform.matrix2, coordinates.transform.translation);
+            vertices.set(coordinates.at, u * matrix.x_axis.x + v * matrix.y_axis.x + offset.x);
+            vertices.set(coordinates.at + 1, u * matrix.x_axis.y + v * matrix.y_axis.y + offset.y);
+        }
+        if let Some(at) = layout.position {
+            set(vertices, at, place.camera(simd, position));
+        }
+        if let Some(at) = layout.normal {
+            let normal = load(simd, vertices, &columns.normals);
+            set(vertices, at, normalized(turned(&place.normal_to_camera, normal)));
+        }
+        if let (Some(at), Some([x, y, z, sign])) = (layout.tangent, &columns.tangents) {
+            note(Work::Tangents);
+            let tangent = [x, y, z].each(
+                #[inline(always)]
+                |column| vertices.load(simd, column),
+            );
+            set(vertices, at, normalized(turned(&place.tangent_to_camera(), tangent)));
+            vertices.set(at + 3, vertices.load(simd, sign) * place.handedness());
+        }
+        if let (Some(at), Some(colors)) = (layout.color, &columns.colors) {
+            set(vertices, at, load(simd, vertices, colors));
+        }
+        if let Some(slots) = layout.light {
+            self.set_light(simd, vertices, slots, position);
+        }
+    }
+
+    /// The colour of eight pixels.
+    #[inline(always)]
+    fn color<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        let [r, g, b, alpha] = self.params.albedo(simd, self.layout.color, fragments);
+        let shaded = match self.illumination {
+            Illumination::None => [r, g, b],
+            Illumination::AtVertices => self.interpolated(fragments, [r, g, b]),
+            Illumination::InPixels => self.lit(simd, fragments, [r, g, b]),
+            Illumination::OnFacets => self.lit_facets(simd, fragments, [r, g, b]),
+            Illumination::Value(display) => {
+                let value = self.value(simd, fragments, display, [r, g, b, alpha]);
+                return self.finished(simd, value, alpha);
+            }
+        };
+        let mut shaded = self.with_emission(simd, fragments, shaded);
+        if let (Some(mist), Some(at)) = (&self.lighting.mist, self.layout.position) {
+            shaded = mist.over(simd, three(fragments, at), shaded);
+        }
+        self.finished(simd, shaded, alpha)
+    }
+
+    #[inline(always)]
+    fn with_emission<S: Simd>(&self, simd: S, values: &impl Values<S>, shaded: V3<S>) -> V3<S> {
+        let emissive = self.params.material.emissive;
+        if emissive != Vec3::ZERO {
+            note(Work::Emission);
+        }
+        match self.params.maps.get(MaterialTexture::Emissive) {
+            Some(map) => {
+                let [r, g, b, _] = map.look_up_apart(simd, values);
+                sum(shaded, [r * emissive.x, g * emissive.y, b * emissive.z])
+            }
+            None if emissive == Vec3::ZERO => shaded,
+            None => sum(shaded, splat(simd, emissive)),
+        }
+    }
+
+    /// With its alpha, premultiplied.
+    #[inline(always)]
+    fn finished<S: Simd>(&self, simd: S, [r, g, b]: V3<S>, alpha: F32<S>) -> [F32<S>; 4] {
+        match self.params.coverage {
+            Coverage::Opaque => [r, g, b, F32::splat(simd, 1.0)],
+            Coverage::Translucent => {
+                note(Work::Blend);
+                let alpha = saturated(alpha);
+                [r * alpha, g * alpha, b * alpha, alpha]
+            }
+        }
+    }
+}
+
+/// Sums of linear light.
+#[inline(always)]
+fn shown<S: Simd>(reflected: &Reflected<S>, [r, g, b]: V3<S>) -> V3<S> {
+    let [[dr, dg, db], [sr, sg, sb]] = [reflected.diffuse, reflected.specular];
+    [r * dr + sr, g * dg + sg, b * db + sb]
+}
+
+#[inline(always)]
+fn load<S: Simd, const N: usize>(
+    simd: S,
+    vertices: &VertexLanes<'_>,
+    columns: &[Vec<f32>; N],
+) -> [F32<S>; N] {
+    let mut values = [F32::splat(simd, 0.0); N];
+    for (value, column) in values.iter_mut().zip(columns) {
+        *value = vertices.load(simd, column);
+    }
+    values
+}
+
+#[inline(always)]
+fn set<S: Simd, const N: usize>(vertices: &mut VertexLanes<'_>, at: usize, values: [F32<S>; N]) {
+    for (index, value) in values.into_iter().enumerate() {
+        vertices.set(at + index, value);
+    }
+}
