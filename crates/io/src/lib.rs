@@ -64,6 +64,7 @@ mod sequence;
 mod texture_request;
 mod textures;
 mod uri;
+mod vertex_table;
 mod warning;
 mod write;
 

@@ -59,6 +59,12 @@ impl MeshBuilder {
         }
     }
 
+    /// The positions of the vertices pushed so far.
+    #[must_use]
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
     /// The number of vertices pushed so far.
     #[must_use]
     pub fn vertex_count(&self) -> usize {

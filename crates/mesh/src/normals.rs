@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 
 use trigon_math::{DVec3, Vec3};
 
-use crate::Mesh;
 use crate::triangulate::area_vector;
+use crate::{Attributes, Mesh};
 
 impl Mesh {
     /// The area vector of a face: its direction is the face's normal (on the side from which the
@@ -65,6 +65,17 @@ impl Mesh {
             Some(given) if given.iter().all(is_kept) => Cow::Borrowed(given),
             _ => Cow::Owned(self.shading_normals()),
         }
+    }
+
+    /// The shading normals of the polygons, if those of all corners are the same: no corner has its own, no
+    /// polygon is smooth, and no pose deforms the mesh.
+    pub(crate) fn flat_normals(&self) -> Option<Vec<Vec3>> {
+        let Attributes { corner_normals, face_smooth, skin, morph_targets, .. } = self.attributes();
+        let is_smooth = face_smooth.iter().flatten().any(|&smooth| smooth);
+        if corner_normals.is_some() || is_smooth || skin.is_some() || !morph_targets.is_empty() {
+            return None;
+        }
+        Some((0..self.face_count()).map(|face| or_if_zero(self.face_normal(face), Vec3::Y)).collect())
     }
 
     /// Shading normals from the faces alone.

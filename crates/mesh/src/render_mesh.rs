@@ -14,7 +14,7 @@ use crate::{FlatFaces, Mesh, MorphTarget, RenderLinks, SkinWeights, Triangulatio
 pub struct RenderMesh {
     /// Metres.
     pub positions: Vec<Vec3>,
-    /// Of unit length.
+    /// Of unit length. None in a mesh of [`RenderMesh::from_flat_mesh`].
     pub normals: Vec<Vec3>,
     /// See [`Attributes::corner_tangents`](crate::Attributes::corner_tangents).
     pub tangents: Option<Vec<Vec4>>,
@@ -44,21 +44,37 @@ impl RenderMesh {
     /// (of faces without area) still count. Vertices without faces are left out, as are loose edges
     /// and points. The normals are those of [`Mesh::shading_normals`].
     pub fn from_mesh(mesh: &Mesh) -> RenderMesh {
-        let normals = mesh.shading_normals_or_given();
-        Self::from_welded(mesh, &normals, &weld(mesh, &normals))
+        let (normals, welded) = Self::welded_normals(mesh);
+        Self::from_welded(mesh, normals, &welded)
     }
 
-    /// The same, with the data to follow changes of the mesh later; `None` if a pose can deform the
+    /// The same for a mesh whose polygons are all flat, with the normal of each polygon instead of normals of
+    /// vertices: corners at one vertex are welded unless other values differ, where
+    /// [`RenderMesh::from_mesh`] needs a vertex for each corner. `None` if a corner has a normal of its own, a
+    /// polygon is smooth, or a pose can deform the mesh.
+    pub fn from_flat_mesh(mesh: &Mesh) -> Option<(RenderMesh, Vec<Vec3>)> {
+        let normals = mesh.flat_normals()?;
+        Some((Self::from_welded(mesh, Vec::new(), &weld(mesh, &[])), normals))
+    }
+
+    /// The same as [`RenderMesh::from_mesh`], with the data to follow changes of the mesh later; `None` if a pose can deform the
     /// mesh, which must be rebuilt after a change.
     pub fn with_links(mesh: &Mesh) -> (RenderMesh, Option<RenderLinks>) {
-        let normals = mesh.shading_normals_or_given();
-        let welded = weld(mesh, &normals);
-        let render_mesh = Self::from_welded(mesh, &normals, &welded);
+        let (normals, welded) = Self::welded_normals(mesh);
+        let render_mesh = Self::from_welded(mesh, normals, &welded);
         let links = (!render_mesh.is_deformable()).then(|| RenderLinks::new(mesh, welded));
         (render_mesh, links)
     }
 
-    fn from_welded(mesh: &Mesh, normals: &[Vec3], welded: &Welded) -> RenderMesh {
+    /// The normals of the welded vertices. Those of the corners, which are many, are needed no longer.
+    fn welded_normals(mesh: &Mesh) -> (Vec<Vec3>, Welded) {
+        let normals = mesh.shading_normals_or_given();
+        let welded = weld(mesh, &normals);
+        (pick(&normals, &welded.corner_of_vertex), welded)
+    }
+
+    /// `normals` are those of the welded vertices.
+    fn from_welded(mesh: &Mesh, normals: Vec<Vec3>, welded: &Welded) -> RenderMesh {
         let Triangulation { mut triangles, triangle_faces } = mesh.triangulation();
         let attributes = mesh.attributes();
         for triangle in &mut triangles {
@@ -77,7 +93,7 @@ impl RenderMesh {
         let slot = |&face: &u32| slots.map_or(0, |slots| slots[face as usize]);
         RenderMesh {
             positions: corners.iter().map(position).collect(),
-            normals: pick(normals, corners),
+            normals,
             tangents: attributes.corner_tangents.as_ref().map(|tangents| pick(tangents, corners)),
             uv_sets: attributes.uv_sets.iter().map(|set| pick(set, corners)).collect(),
             colors: attributes.corner_colors.as_ref().map(|c| pick(c, corners)),

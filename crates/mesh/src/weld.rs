@@ -22,9 +22,12 @@ pub(crate) struct Welded {
 }
 
 /// Welds corners at the same vertex whose values agree, with
-/// these normals in place of the mesh's own.
+/// these normals in place of the mesh's own, or without any.
 pub(crate) fn weld(mesh: &Mesh, normals: &[Vec3]) -> Welded {
     let compare = Comparison::new(mesh, normals);
+    if compare.is_trivial() {
+        return number_vertices(mesh);
+    }
     let corners = mesh.corner_vertices().iter().copied().zip(0u32..);
     let mut groups = Groups::new(mesh.vertex_count(), corners);
     let mut first_alike = vec![0u32; mesh.corner_count()];
@@ -35,6 +38,24 @@ pub(crate) fn weld(mesh: &Mesh, normals: &[Vec3]) -> Welded {
         }
     }
     number(first_alike)
+}
+
+/// Corners without values: the vertices that have corners, in order of first use.
+fn number_vertices(mesh: &Mesh) -> Welded {
+    /// Not used yet.
+    const NONE: u32 = u32::MAX;
+    let mut numbers = vec![NONE; mesh.vertex_count()];
+    let mut corner_of_vertex = Vec::new();
+    let number = |(corner, &vertex): (u32, &u32)| {
+        let number = &mut numbers[vertex as usize];
+        if *number == NONE {
+            *number = corner_of_vertex.len() as u32;
+            corner_of_vertex.push(corner);
+        }
+        *number
+    };
+    let vertex_of_corner = (0..).zip(mesh.corner_vertices()).map(number).collect();
+    Welded { corner_of_vertex, vertex_of_corner }
 }
 
 /// Turns "the first equal corner" into numbers in order of first use.
@@ -83,6 +104,7 @@ fn link_large(group: &mut [u32], compare: &Comparison, first_alike: &mut [u32]) 
 /// All values of all corners, compared by their bits (NaN equals itself and the two zeros are
 /// equal).
 struct Comparison<'a> {
+    /// Empty if they do not count.
     normals: &'a [Vec3],
     others: AttributeComparison<'a>,
 }
@@ -105,15 +127,22 @@ impl<'a> Comparison<'a> {
         Self { normals, others: AttributeComparison::new(mesh) }
     }
 
+    /// Whether corners have no values.
+    fn is_trivial(&self) -> bool {
+        self.normals.is_empty() && self.others.is_trivial()
+    }
+
+    fn normal(&self, corner: u32) -> [f32; 3] {
+        self.normals.get(corner as usize).map_or([0.0; 3], |normal| normal.to_array())
+    }
+
     fn equal(&self, a: u32, b: u32) -> bool {
-        let [normal_a, normal_b] = [a, b].map(|corner| self.normals[corner as usize].to_array());
-        bits(normal_a) == bits(normal_b) && self.others.equal(a, b)
+        bits(self.normal(a)) == bits(self.normal(b)) && self.others.equal(a, b)
     }
 
     /// A total order in which only equal corners compare equal.
     fn order(&self, a: u32, b: u32) -> Ordering {
-        let [normal_a, normal_b] = [a, b].map(|corner| self.normals[corner as usize].to_array());
-        by_bits(normal_a, normal_b).then_with(|| self.others.order(a, b))
+        by_bits(self.normal(a), self.normal(b)).then_with(|| self.others.order(a, b))
     }
 }
 
@@ -130,6 +159,12 @@ impl<'a> AttributeComparison<'a> {
             },
             flat: flat_classes(mesh),
         }
+    }
+
+    /// Whether corners have no values.
+    fn is_trivial(&self) -> bool {
+        let has_no_vectors = self.colors.is_empty() && self.tangents.is_empty();
+        self.uv_sets.is_empty() && has_no_vectors && self.morphs.is_empty() && self.flat.is_empty()
     }
 
     pub(crate) fn equal(&self, a: u32, b: u32) -> bool {

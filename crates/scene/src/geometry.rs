@@ -31,6 +31,10 @@ use side_edges::{NO_EDGE, sides_of_mesh};
 /// map takes as much memory as the mesh, and a file may have thousands.
 const MOST_TANGENT_SETS: usize = 8;
 
+/// With so many corners a mesh of flat polygons has normals of polygons instead of vertices: a vertex for each
+/// corner would take 24 bytes in the mesh and up to 48 in the memory of each frame. Less does not matter.
+const MANY_CORNERS: usize = 1 << 16;
+
 /// A mesh as drawn.
 #[derive(Debug)]
 pub(crate) struct Geometry {
@@ -59,6 +63,8 @@ pub(crate) struct Geometry {
     /// For each of the first UV sets the same with its tangents, created when a normal map on that
     /// set needs them.
     tangential: Vec<OnceLock<Box<Geometry>>>,
+    /// The same with normals of vertices, if it has those of polygons and a draw needs the others.
+    split: OnceLock<Box<Geometry>>,
     /// How a posed mesh without tangents was deformed, to compute them later.
     pose: Option<Pose>,
     /// The data needed to follow changes of the mesh; `None` until the first one.
@@ -108,10 +114,18 @@ pub(crate) struct Run {
 
 impl Geometry {
     pub(crate) fn new(source: &Mesh) -> Self {
-        Self::of(RenderMesh::from_mesh(source))
+        let is_large = source.corner_count() >= MANY_CORNERS;
+        match is_large.then(|| RenderMesh::from_flat_mesh(source)).flatten() {
+            Some((mesh, normals)) => Self::with(mesh, |mesh| Columns::of_flat_faces(mesh, &normals)),
+            None => Self::of(RenderMesh::from_mesh(source)),
+        }
     }
 
-    fn of(mut mesh: RenderMesh) -> Self {
+    fn of(mesh: RenderMesh) -> Self {
+        Self::with(mesh, Columns::new)
+    }
+
+    fn with(mut mesh: RenderMesh, columns: impl Fn(&RenderMesh) -> Columns) -> Self {
         let order = sorted_by_slot(&mesh.triangle_materials);
         if let Some(order) = &order {
             permute(&mut mesh.triangles, order);
@@ -120,7 +134,7 @@ impl Geometry {
         }
         let runs = runs(&mesh.triangle_materials);
         let (triangles, faces) = (take(&mut mesh.triangles), take(&mut mesh.triangle_faces));
-        let columns = Columns::new(&mesh);
+        let columns = columns(&mesh);
         Self {
             tangential: places_for(&columns),
             columns,
@@ -136,6 +150,7 @@ impl Geometry {
             mesh_vertices: OnceLock::new(),
             edge_flags: OnceLock::new(),
             side_edges: OnceLock::new(),
+            split: OnceLock::new(),
             pose: None,
             links: None,
             change: None,
@@ -173,6 +188,7 @@ impl Geometry {
             side_edges: self.side_edges.clone(),
             rest: None,
             tangential: places_for(&columns),
+            split: OnceLock::new(),
             columns,
             pose: None,
             links: None,
@@ -267,6 +283,14 @@ impl Geometry {
             mesh.set_attributes(attributes).expect("there is a tangent for each corner");
             Box::new(Self::new(&mesh).filled_like(self))
         })
+    }
+
+    /// The mesh with normals of vertices, for light that is computed at these.
+    pub(crate) fn with_vertex_normals(&self, source: &Mesh) -> &Self {
+        if self.columns.face_normals.is_none() {
+            return self;
+        }
+        self.split.get_or_init(|| Box::new(Self::of(RenderMesh::from_mesh(source)).filled_like(self)))
     }
 
     /// For each triangle, which of its sides are edges of its polygon. Computed only for frames

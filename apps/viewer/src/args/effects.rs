@@ -2,7 +2,7 @@
 //! follow F3D where it has them.
 
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use clap::ValueEnum;
 use trigon_math::Vec3;
@@ -140,6 +140,13 @@ pub(crate) enum Explanation {
     Time,
 }
 
+/// Light from a clear sky, made once: keys and scripts change flags often.
+fn clear_sky() -> Arc<Environment> {
+    static SKY: LazyLock<Arc<Environment>> =
+        LazyLock::new(|| Arc::new(Environment::from_sky(&Sky::default())));
+    Arc::clone(&SKY)
+}
+
 impl EffectArgs {
     /// The environment behind the model, if it lights it.
     pub(crate) fn skybox(&self) -> Result<Option<Background>, String> {
@@ -210,7 +217,7 @@ impl EffectArgs {
                 rays: self.ambient_occlusion_rays.unwrap_or(USUAL_OCCLUSION_RAYS),
                 distance: self.ambient_occlusion_distance,
             }),
-            environment: self.is_lit_by_sky().then(|| Arc::new(Environment::from_sky(&Sky::default()))),
+            environment: self.is_lit_by_sky().then(clear_sky),
             metal_reflection: match self.metal_reflection {
                 MetalReflectionArg::Sky => MetalReflection::Sky,
                 MetalReflectionArg::Ambient => MetalReflection::Ambient,

@@ -266,6 +266,9 @@ fn most_examples_work_and_only_those_of_cards_and_plugins_are_warned_of() {
     let (all, warned_count) = (rows().count(), warned.len());
     let same = all - refused - warned_count;
     assert!(same * 10 >= all * 7, "{same} of {all} are the same");
+    let said = format!("{same} of {all} are the same, {refused} are refused, {warned_count} are warned of");
+    let guide = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/viewer.md"));
+    assert!(guide.expect("the guide").contains(&said), "docs/viewer.md does not say: {said}");
     for (name, _, words, _) in warned {
         // Only cards draw volumes.
         let cards = ["plugins", "rendering-backend", "raytracing", "volume", "-r", "-d", "-v", "-i"];

@@ -93,7 +93,7 @@ static ROWS: &[FormatRow] = &[
             reads: GLTF,
         },
         sniff: |bytes| bytes.starts_with(b"glTF"),
-        import: |import, bytes| gltf::import_glb(import, &bytes),
+        import: gltf::import_glb,
         writing: Writing::Scene(gltf::encode_glb),
     },
     FormatRow {

@@ -1,7 +1,7 @@
 //! Textures: which pixel ends up where, and what stands in for broken ones.
 
 use serde_json::json;
-use trigon_io::{Limits, LoadOptions, Loaded, Pixels, encode_png, load, load_image, write_png};
+use trigon_io::{Limits, LoadOptions, Loaded, Pixels, encode_png, encode_webp, load, load_image, write_png};
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_scene::{AlphaMode, Shading, TextureBinding, Wrap};
 
@@ -109,6 +109,21 @@ fn broken_and_foreign_images_become_a_checkerboard() {
         warns_once(&loaded, "\"the image\"");
         assert_eq!(color_at(&loaded, Vec2::splat(0.01)), Vec3::new(1.0, 0.0, 1.0), "magenta");
     }
+}
+
+#[test]
+fn a_webp_image_is_a_texture() {
+    let mut doc = textured_square();
+    let mut bytes = Vec::new();
+    encode_webp(&mut bytes, 1, 1, &[255, 0, 0, 255]).expect("memory takes it");
+    let view = doc.view(&bytes);
+    doc.json["images"] = json!([{"bufferView": view, "mimeType": "image/webp"}]);
+    doc.json["textures"] = json!([{"extensions": {"EXT_texture_webp": {"source": 0}}}]);
+    doc.json["extensionsUsed"] = json!(["EXT_texture_webp"]);
+    doc.json["extensionsRequired"] = json!(["EXT_texture_webp"]);
+    let loaded = doc.load();
+    assert_eq!(warnings(&loaded), Vec::<String>::new(), "nothing is wrong with it");
+    assert_eq!(color_at(&loaded, Vec2::splat(0.5)), Vec3::X, "red");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use trigon_math::{Vec2, Vec3, Vec4};
-use trigon_mesh::{Attributes, Mesh, MeshBuilder, RenderMesh, primitives};
+use trigon_mesh::{Attributes, Mesh, MeshBuilder, MorphTarget, RenderMesh, primitives};
 
 fn with(mut mesh: Mesh, attributes: Attributes) -> RenderMesh {
     mesh.set_attributes(attributes).expect("one value each");
@@ -23,6 +23,33 @@ fn a_flat_cube_has_24_vertices_and_a_smooth_one_8() {
     let uv_sets = vec![vec![Vec2::ZERO; 24], (0..24).map(|i| Vec2::splat(i as f32)).collect()];
     let mapped = with(cube(), Attributes { uv_sets, ..smooth });
     assert_eq!((mapped.positions.len(), mapped.uv_sets.len()), (24, 2), "the second set differs everywhere");
+}
+
+#[test]
+fn a_cube_with_normals_of_polygons_has_8_vertices() {
+    let flat = |attributes: Attributes| {
+        let mut cube = primitives::cube(1.0);
+        cube.set_attributes(attributes).expect("one value each");
+        RenderMesh::from_flat_mesh(&cube)
+    };
+    let (shared, normals) = flat(Attributes::default()).expect("all is flat");
+    assert_eq!((shared.positions.len(), shared.normals.len(), normals.len()), (8, 0, 6), "no normals there");
+    let split = with(primitives::cube(1.0), Attributes::default());
+    for (triangle, (one, other)) in shared.triangles.iter().zip(&split.triangles).enumerate() {
+        let [one, other] = [(&shared, one), (&split, other)]
+            .map(|(mesh, triangle)| triangle.map(|vertex| mesh.positions[vertex as usize]));
+        assert_eq!(one, other, "triangle {triangle} is at the same place");
+        let of_vertex = split.normals[split.triangles[triangle][0] as usize];
+        assert_eq!(normals[shared.triangle_faces[triangle] as usize], of_vertex, "triangle {triangle}");
+    }
+    let mut colors = vec![Vec4::ONE; 24];
+    colors[7] = Vec4::X;
+    let colored = flat(Attributes { corner_colors: Some(colors), ..Attributes::default() });
+    assert_eq!(colored.expect("it is flat").0.positions.len(), 9, "other values still divide vertices");
+    let smooth = Attributes { face_smooth: Some(vec![true; 6]), ..Attributes::default() };
+    let given = Attributes { corner_normals: Some(vec![Vec3::Y; 24]), ..Attributes::default() };
+    let moving = Attributes { morph_targets: vec![MorphTarget::default()], ..Attributes::default() };
+    assert!([smooth, given, moving].map(flat).iter().all(Option::is_none), "those need normals of vertices");
 }
 
 #[test]

@@ -3,12 +3,15 @@
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Deformed, Mesh, RenderMesh, UpdatedVertex};
 
-/// The vertex values of a mesh. All columns have the same length.
+/// The vertex values of a mesh. All columns have the same length, but that of normals may be empty.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Columns {
     pub(crate) positions: [Vec<f32>; 3],
-    /// Of unit length.
+    /// Of unit length. Empty if `face_normals` exist.
     pub(crate) normals: [Vec<f32>; 3],
+    /// The normals of polygons, of unit length, where all are flat. Vertices then need no normals, and
+    /// neighbouring polygons can share them.
+    pub(crate) face_normals: Option<[Vec<f32>; 3]>,
     /// Of unit length, and the handedness of the bitangent.
     pub(crate) tangents: Option<[Vec<f32>; 4]>,
     pub(crate) uv_sets: Vec<[Vec<f32>; 2]>,
@@ -21,10 +24,16 @@ impl Columns {
         Self {
             positions: turned(&mesh.positions, Vec3::to_array),
             normals: turned(&mesh.normals, Vec3::to_array),
+            face_normals: None,
             tangents: mesh.tangents.as_deref().map(|tangents| turned(tangents, Vec4::to_array)),
             uv_sets: mesh.uv_sets.iter().map(|set| turned(set, Vec2::to_array)).collect(),
             colors: mesh.colors.as_deref().map(|colors| turned(colors, Vec4::to_array)),
         }
+    }
+
+    /// Of a mesh without normals, whose polygons have these.
+    pub(crate) fn of_flat_faces(mesh: &RenderMesh, normals: &[Vec3]) -> Self {
+        Self { face_normals: Some(turned(normals, Vec3::to_array)), ..Self::new(mesh) }
     }
 
     /// The same vertices in a pose.
@@ -40,7 +49,7 @@ impl Columns {
     /// Writes the values of vertices that a change of the mesh has affected; new vertices are appended in
     /// order.
     pub(crate) fn update(&mut self, mesh: &Mesh, vertices: &[UpdatedVertex]) {
-        let Self { positions, normals, tangents, uv_sets, colors } = self;
+        let Self { positions, normals, face_normals: _, tangents, uv_sets, colors } = self;
         let attributes = mesh.attributes();
         let position = |of: &UpdatedVertex| {
             mesh.positions()[mesh.corner_vertices()[of.corner as usize] as usize].to_array()
@@ -71,6 +80,15 @@ impl Columns {
     pub(crate) fn position(&self, vertex: u32) -> Option<Vec3> {
         let [x, y, z] = self.positions.each_ref().map(|column| column.get(vertex as usize).copied());
         Some(Vec3::new(x?, y?, z?))
+    }
+
+    /// The normal at a vertex of a polygon.
+    pub(crate) fn normal(&self, vertex: usize, face: u32) -> Vec3 {
+        let (columns, at) = match &self.face_normals {
+            Some(columns) => (columns, face as usize),
+            None => (&self.normals, vertex),
+        };
+        Vec3::from_array(columns.each_ref().map(|column| column[at]))
     }
 
     pub(crate) fn vertex_count(&self) -> usize {

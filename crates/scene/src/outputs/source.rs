@@ -201,8 +201,9 @@ impl Triangle<'_> {
             let [u, v, w] = values.map(Vec3::as_dvec3);
             (u * point.weights.x + v * point.weights.y + w * point.weights.z).as_vec3()
         };
+        let face = self.look.geometry.faces[self.index];
         let turned =
-            |corner| (self.source.normal_to_world * vertex(&columns.normals, corner)).normalize_or_zero();
+            |corner| (self.source.normal_to_world * columns.normal(corner, face)).normalize_or_zero();
         let mut normal = mix([a, b, c].map(turned));
         if let (Some((map, scale)), Some(tangents)) = (&self.look.normal_map, &columns.tangents) {
             let turned =

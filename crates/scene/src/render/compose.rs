@@ -25,7 +25,7 @@ use crate::prepare::{Backdrop, PreparedScene};
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, Style};
 use crate::shapes::{Shape, Shapes};
-use crate::surface::{BoundMaterial, MaterialContext, Surface};
+use crate::surface::{BoundMaterial, Drawn, Illumination, MaterialContext, Surface};
 
 /// The size of loose points, in line widths.
 const POINT_TO_LINE: f32 = 3.0;
@@ -230,6 +230,10 @@ impl<'s> Composer<'s> {
             None => object.geometry,
         };
         let bound = BoundMaterial::new(material, &geometry.columns, &self.context());
+        let geometry = match bound.illumination {
+            Illumination::AtVertices => geometry.with_vertex_normals(object.asset.mesh()),
+            _ => geometry,
+        };
         let draw = Run { slot: run.slot, triangles: run.triangles.clone() };
         let shows_edges = self.shows_edges();
         let masked = matches!(material.alpha_mode, AlphaMode::Mask { .. });
@@ -285,9 +289,12 @@ impl<'s> Composer<'s> {
         's: 'c,
     {
         let shows_edges = self.shows_edges();
-        let triangles = &geometry.triangles[run.triangles.clone()];
-        let mesh = (&geometry.columns, triangles);
-        let pipeline = Surface::<FLAT>::new(mesh, object.place, bound, &self.context());
+        let drawn = Drawn {
+            columns: &geometry.columns,
+            triangles: &geometry.triangles[run.triangles.clone()],
+            faces: &geometry.faces[run.triangles.clone()],
+        };
+        let pipeline = Surface::<FLAT>::new(drawn, object.place, bound, &self.context());
         let flags = shows_edges.then(|| &self.edge_flags(object)[run.triangles.clone()]);
         Box::new(Triangles {
             pipeline,

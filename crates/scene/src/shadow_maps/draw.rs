@@ -10,7 +10,7 @@ use crate::material::{AlphaMode, Material, Shading};
 use crate::placement::{Eye, Rays};
 use crate::scene::Scene;
 use crate::settings::{Reflection, ShadingModel};
-use crate::surface::{BoundMaterial, MaterialContext, Surface};
+use crate::surface::{BoundMaterial, Drawn, MaterialContext, Surface};
 
 /// The parameters of a run of triangles.
 enum Shape<'a> {
@@ -77,16 +77,12 @@ fn shape<'a>(
         to_world: Mat3::IDENTITY,
     };
     let place = eye.place(&caster.shadow.place, &caster.geometry.bounds());
+    let drawn = Drawn { columns, triangles: &[], faces: &[] };
     if masked {
-        Shape::Masked(Surface::new(
-            (columns, &[]),
-            place,
-            BoundMaterial::new(&material, columns, &context),
-            &context,
-        ))
+        Shape::Masked(Surface::new(drawn, place, BoundMaterial::new(&material, columns, &context), &context))
     } else {
         let mut bound = BoundMaterial::new(&material, columns, &context);
         bound.strip();
-        Shape::Whole(Surface::new((columns, &[]), place, bound, &context))
+        Shape::Whole(Surface::new(drawn, place, bound, &context))
     }
 }

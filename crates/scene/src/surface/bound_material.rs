@@ -127,7 +127,7 @@ impl<'a> Fitting<'_, 'a> {
                 layout.light = Some(slots);
             }
             Illumination::InPixels => {
-                layout.normal = Some(layout.add(3));
+                layout.normal = columns.face_normals.is_none().then(|| layout.add(3));
                 let towards_eye = highlights && context.rays == Rays::Meeting;
                 let needed = towards_eye || context.lighting.needs_position();
                 if needed && layout.position.is_none() {
@@ -138,7 +138,7 @@ impl<'a> Fitting<'_, 'a> {
                 }
             }
             Illumination::Value(Display::Normal) => {
-                layout.normal = Some(layout.add(3));
+                layout.normal = columns.face_normals.is_none().then(|| layout.add(3));
                 layout.tangent = params.maps.get(MaterialTexture::Normal).map(|_| layout.add(4));
             }
             Illumination::Value(Display::TextureCoordinates) if !columns.uv_sets.is_empty() => {

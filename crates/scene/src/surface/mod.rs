@@ -35,11 +35,22 @@ use crate::lighting::Reflected;
 use crate::material::MaterialTexture;
 use crate::placement::{Placement, Rays};
 
+/// The triangles of a draw.
+#[derive(Clone, Copy)]
+pub(crate) struct Drawn<'a> {
+    pub(crate) columns: &'a Columns,
+    /// All of them, and the polygon of each; draws without light need neither.
+    pub(crate) triangles: &'a [[u32; 3]],
+    pub(crate) faces: &'a [u32],
+}
+
 /// Faces of one mesh in one material.
 pub(crate) struct Surface<'a, const FLAT: bool> {
     pub(crate) columns: &'a Columns,
     /// The whole draw, for flat faces.
     pub(crate) triangles: &'a [[u32; 3]],
+    /// The polygon of each triangle.
+    pub(crate) faces: &'a [u32],
     pub(crate) place: Placement,
     pub(crate) layout: Layout,
     pub(crate) params: MaterialParams<'a>,
@@ -92,14 +103,14 @@ impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
 impl<'a, const FLAT: bool> Surface<'a, FLAT> {
     /// Triangles of a placed mesh in one material.
     pub(crate) fn new(
-        (columns, triangles): (&'a Columns, &'a [[u32; 3]]),
+        Drawn { columns, triangles, faces }: Drawn<'a>,
         place: Placement,
         bound: BoundMaterial<'a>,
         context: &MaterialContext<'a>,
     ) -> Self {
         let BoundMaterial { params, layout, illumination } = bound;
         let MaterialContext { rays, lighting, to_world, .. } = *context;
-        Self { columns, triangles, place, layout, params, illumination, rays, lighting, to_world }
+        Self { columns, triangles, faces, place, layout, params, illumination, rays, lighting, to_world }
     }
 
     #[inline(always)]

@@ -2,10 +2,10 @@
 
 use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;
-use trigon_raster::simd::{F32, Mask, Simd, inlined, prelude::*};
+use trigon_raster::simd::{Each, F32, LANES, Mask, Simd, inlined, prelude::*};
 
 use super::{Map, Surface, three};
-use crate::lanes::{V3, cross, negated, normalized, scaled, select, splat, sum};
+use crate::lanes::{V3, cross, negated, normalized, scaled, select, splat, sum, turned};
 use crate::lighting::LitPoints;
 use crate::material::MaterialTexture;
 use crate::placement::{Rays, Side};
@@ -23,7 +23,11 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                 None => zero,
             },
         );
-        let (position, normal) = (or_zero(self.layout.position), or_zero(self.layout.normal));
+        let position = or_zero(self.layout.position);
+        let normal = match &self.columns.face_normals {
+            Some(normals) => self.normals_of_faces(simd, fragments.primitives(), normals),
+            None => or_zero(self.layout.normal),
+        };
         let facing = normalized(normal);
         let normal = match (self.params.maps.get(MaterialTexture::Normal), self.layout.tangent) {
             (Some(map), Some(at)) => {
@@ -40,6 +44,31 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             facing: select(front, facing, negated(facing)),
             view: self.view(simd, position),
         }
+    }
+
+    /// The normals of the polygons of eight triangles: what interpolation makes of the same normal at three
+    /// vertices.
+    fn normals_of_faces<S: Simd>(&self, simd: S, primitives: [u32; LANES], normals: &[Vec<f32>; 3]) -> V3<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let faces = primitives.each(
+                    #[inline(always)]
+                    |primitive| self.faces[primitive as usize] as usize,
+                );
+                let normal = normals.each_ref().each(
+                    #[inline(always)]
+                    |column| {
+                        let values = faces.each(
+                            #[inline(always)]
+                            |face| column[face],
+                        );
+                        F32::simd_from(simd, values)
+                    },
+                );
+                normalized(turned(&self.place.normal_to_camera, normal))
+            },
+        )
     }
 
     /// Unit vectors towards the eye.

@@ -28,9 +28,9 @@ const CORNERS_PER_BYTE: usize = 8;
 const CORNERS_ALWAYS: usize = 1 << 24;
 
 /// Reads accessors of one document.
-pub(crate) struct Accessors<'a, 'b> {
+pub(crate) struct Accessors<'a> {
     pub(crate) root: &'a Root,
-    pub(crate) buffers: &'a mut Buffers<'b>,
+    pub(crate) buffers: &'a mut Buffers,
     pub(crate) folder: &'a mut Folder,
     /// The maximum number of elements of one accessor.
     pub(crate) most: usize,
@@ -78,7 +78,7 @@ struct Layout {
     normalized: bool,
 }
 
-impl Accessors<'_, '_> {
+impl Accessors<'_> {
     /// The claimed number of elements.
     pub(crate) fn count(&self, index: usize) -> u64 {
         self.root.accessors[index].count.0

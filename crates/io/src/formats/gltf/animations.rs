@@ -20,7 +20,7 @@ const REMEDY: &str = "export the animation again";
 /// Adds the animations that move something in the scene.
 pub(crate) fn add_animations(
     import: &mut Import<'_>,
-    reader: &mut Reader<'_, '_>,
+    reader: &mut Reader<'_>,
     placed: &Placed<'_>,
 ) -> Result<(), LoadError> {
     for index in 0..reader.root.animations.len() {
@@ -45,7 +45,7 @@ pub(crate) fn add_animations(
 /// warning, and those of nodes that the scene does not show without one; none
 /// when nothing is left.
 fn read_animation(
-    accessors: &mut Accessors<'_, '_>,
+    accessors: &mut Accessors<'_>,
     placed: &Placed<'_>,
     index: usize,
     warnings: &mut Warnings,
@@ -78,7 +78,7 @@ fn read_animation(
 type Played = Result<(Property, Curve), String>;
 
 fn read_channel(
-    accessors: &mut Accessors<'_, '_>,
+    accessors: &mut Accessors<'_>,
     animation: usize,
     channel: &JsonChannel,
     width_of_weights: usize,
@@ -151,7 +151,7 @@ fn new_curve(
 
 /// Says when an accessor holds what glTF does not allow there.
 fn warn_of_formats(
-    accessors: &mut Accessors<'_, '_>,
+    accessors: &mut Accessors<'_>,
     used: [(usize, Usage); 2],
     place: &Place,
     warnings: &mut Warnings,

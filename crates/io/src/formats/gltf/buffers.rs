@@ -22,8 +22,9 @@ pub(crate) struct Unread {
     pub(crate) remedy: &'static str,
 }
 
-pub(crate) struct Buffers<'a> {
-    binary: Option<&'a [u8]>,
+pub(crate) struct Buffers {
+    /// That of a GLB.
+    binary: Option<Arc<[u8]>>,
     read: Vec<Option<Arc<[u8]>>>,
     /// The views that were compressed.
     decoded: HashMap<usize, Arc<[u8]>>,
@@ -32,8 +33,8 @@ pub(crate) struct Buffers<'a> {
 /// A buffer and the range of a view in it.
 pub(crate) type Bytes = (Arc<[u8]>, Range<usize>);
 
-impl<'a> Buffers<'a> {
-    pub(crate) fn new(root: &Root, binary: Option<&'a [u8]>) -> Self {
+impl Buffers {
+    pub(crate) fn new(root: &Root, binary: Option<Arc<[u8]>>) -> Self {
         Self { binary, read: vec![None; root.buffers.len()], decoded: HashMap::new() }
     }
 
@@ -94,12 +95,12 @@ impl<'a> Buffers<'a> {
         }
         let place = Place::Item("buffer", index);
         let claim = root.buffers[index].byte_length.0;
-        let bytes: Arc<[u8]> = match (&root.buffers[index].uri, self.binary) {
+        let bytes: Arc<[u8]> = match (&root.buffers[index].uri, &self.binary) {
             (Some(uri), _) => read_reference(uri, folder, Lookup::Exact)
                 .map_err(|unread| Unplaced(place.clone(), unread))?
                 .0
                 .into(),
-            (None, Some(binary)) if index == 0 => binary.into(),
+            (None, Some(binary)) if index == 0 => Arc::clone(binary),
             (None, _) => {
                 let what = "the buffer has no data".to_owned();
                 return Err(Unplaced(

@@ -37,7 +37,7 @@ impl Images {
     pub(crate) fn read(
         import: &mut Import<'_>,
         root: &Root,
-        buffers: &mut Buffers<'_>,
+        buffers: &mut Buffers,
         textures: &[SlotTexture],
     ) -> Result<Self, LoadError> {
         let wanted = wanted_images(import, root, textures);
@@ -114,7 +114,7 @@ fn image_name(root: &Root, image: usize) -> String {
 fn read_image(
     import: &mut Import<'_>,
     root: &Root,
-    buffers: &mut Buffers<'_>,
+    buffers: &mut Buffers,
     image: usize,
 ) -> Option<ImageBytes> {
     let place = Place::Item("image", image);
@@ -142,7 +142,7 @@ fn read_image(
 /// The bytes of an image; the second value is another spelling that was used for a file.
 pub(crate) fn fetch_image(
     root: &Root,
-    buffers: &mut Buffers<'_>,
+    buffers: &mut Buffers,
     folder: &mut Folder,
     image: usize,
 ) -> Result<(ImageBytes, Option<String>), Unread> {

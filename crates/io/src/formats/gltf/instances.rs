@@ -46,7 +46,7 @@ fn accessor(root: &Root, attributes: &Value, name: &str) -> Option<usize> {
 
 /// The placements of a node's instances, in the node's space.
 pub(crate) fn read_instances(
-    accessors: &mut Accessors<'_, '_>,
+    accessors: &mut Accessors<'_>,
     node: usize,
     warnings: &mut Warnings,
 ) -> Result<Vec<Transform>, Unplaced> {

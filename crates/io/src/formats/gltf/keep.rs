@@ -63,12 +63,7 @@ pub(super) fn keep_scene(import: &mut Import<'_>, scene: Option<usize>) {
 
 /// Keeps the text and all buffers and images, and which skins are where. What cannot be kept
 /// is a warning: the scene can be shown without it.
-pub(super) fn keep_file(
-    import: &mut Import<'_>,
-    json: &[u8],
-    placed: &Placed<'_>,
-    buffers: &mut Buffers<'_>,
-) {
+pub(super) fn keep_file(import: &mut Import<'_>, json: &[u8], placed: &Placed<'_>, buffers: &mut Buffers) {
     let Some(mut draft) = import.source.take() else { return };
     let root = &placed.document.root;
     match parse_text(json) {
@@ -88,7 +83,7 @@ pub(super) fn keep_file(
 }
 
 /// Reads the images that no material uses.
-fn keep_images(draft: &mut SourceDraft, import: &mut Import<'_>, root: &Root, buffers: &mut Buffers<'_>) {
+fn keep_images(draft: &mut SourceDraft, import: &mut Import<'_>, root: &Root, buffers: &mut Buffers) {
     draft.image_count = root.images.len();
     // As many images as a file likes may name one and the same file.
     let mut read: HashMap<&str, Option<SharedBytes>> = HashMap::new();
@@ -111,7 +106,7 @@ fn keep_images(draft: &mut SourceDraft, import: &mut Import<'_>, root: &Root, bu
     }
 }
 
-fn keep_buffers(draft: &mut SourceDraft, import: &mut Import<'_>, root: &Root, buffers: &mut Buffers<'_>) {
+fn keep_buffers(draft: &mut SourceDraft, import: &mut Import<'_>, root: &Root, buffers: &mut Buffers) {
     for buffer in 0..root.buffers.len() {
         let bytes = match buffers.buffer(root, buffer, &mut import.folder) {
             Ok(bytes) => Some(bytes),

@@ -26,7 +26,7 @@ use crate::import::Import;
 pub(crate) fn add_materials(
     import: &mut Import<'_>,
     document: &Document,
-    buffers: &mut Buffers<'_>,
+    buffers: &mut Buffers,
     used: &[Option<usize>],
 ) -> Result<BTreeMap<Option<usize>, MaterialId>, LoadError> {
     let root = &document.root;

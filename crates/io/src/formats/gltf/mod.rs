@@ -39,7 +39,9 @@ mod slots;
 mod triangle_hash;
 mod write;
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use trigon_mesh::Mesh;
 
@@ -60,9 +62,12 @@ use crate::options::LoadStage;
 use crate::warning::Warnings;
 
 /// Reads a binary glTF into the scene.
-pub(crate) fn import_glb(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), LoadError> {
-    let container = container::open_glb(import.path, bytes, &mut import.warnings)?;
-    import_parts(import, container.json, container.binary)
+pub(crate) fn import_glb(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Result<(), LoadError> {
+    let container = container::open_glb(import.path, &bytes, &mut import.warnings)?;
+    let (json, binary) = (container.json.to_vec(), container.binary.map(Arc::from));
+    // Held once while meshes are made of it.
+    drop(bytes);
+    import_parts(import, &json, binary)
 }
 
 /// Reads a glTF that is plain JSON into the scene.
@@ -70,7 +75,7 @@ pub(crate) fn import_gltf(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), L
     import_parts(import, bytes, None)
 }
 
-fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<&[u8]>) -> Result<(), LoadError> {
+fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<Arc<[u8]>>) -> Result<(), LoadError> {
     let document = document::parse_document(import.path, json)?;
     let root = &document.root;
     extensions::check_extensions(import.path, root, &document.extensions, &mut import.warnings)?;
@@ -108,7 +113,7 @@ fn build_meshes(
     import: &mut Import<'_>,
     document: &Document,
     hierarchy: &Hierarchy,
-    buffers: &mut Buffers<'_>,
+    buffers: &mut Buffers,
     spent: &mut usize,
 ) -> Result<Vec<Option<BuiltMesh>>, LoadError> {
     let root = &document.root;
@@ -160,7 +165,7 @@ fn build_meshes(
 /// A mesh of a native file as it was modelled; none of others, and none, with a warning, if
 /// its triangles are to be used instead.
 fn native_mesh(
-    accessors: &mut Accessors<'_, '_>,
+    accessors: &mut Accessors<'_>,
     index: usize,
     extras: &Extras<native::Header>,
     target_names: &[String],

@@ -80,7 +80,7 @@ pub(crate) fn add_nodes<'d>(
 /// nothing. Copies come after all nodes of the file, whose indices stay theirs.
 pub(crate) fn add_instances(
     import: &mut Import<'_>,
-    reader: &mut Reader<'_, '_>,
+    reader: &mut Reader<'_>,
     placed: &Placed<'_>,
 ) -> Result<(), LoadError> {
     let root = &placed.document.root;

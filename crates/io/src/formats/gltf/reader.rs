@@ -10,19 +10,19 @@ use crate::import::Import;
 use crate::warning::Warnings;
 
 /// What accessors are read from.
-pub(crate) struct Reader<'r, 'b> {
+pub(crate) struct Reader<'r> {
     pub(crate) root: &'r Root,
-    pub(crate) buffers: Buffers<'b>,
+    pub(crate) buffers: Buffers,
     /// See [`Accessors::spent`].
     pub(crate) spent: usize,
 }
 
-impl Reader<'_, '_> {
+impl Reader<'_> {
     /// Calls back with accessors, and with the warnings to add to.
     pub(crate) fn read<T>(
         &mut self,
         import: &mut Import<'_>,
-        read: impl FnOnce(&mut Accessors<'_, '_>, &mut Warnings) -> Result<T, Unplaced>,
+        read: impl FnOnce(&mut Accessors<'_>, &mut Warnings) -> Result<T, Unplaced>,
     ) -> Result<T, LoadError> {
         let limits = &import.options.limits;
         let mut accessors = Accessors {

@@ -18,7 +18,7 @@ use crate::warning::{Warnings, counted};
 /// Reads the matrices of a skin, one for each joint; identity where the file
 /// has none or nonsense.
 fn read_bind_matrices(
-    accessors: &mut Accessors<'_, '_>,
+    accessors: &mut Accessors<'_>,
     index: usize,
     warnings: &mut Warnings,
 ) -> Result<Vec<DAffine3>, Unplaced> {
@@ -52,7 +52,7 @@ fn read_bind_matrices(
 /// Adds the skins that placed nodes use, and hands them to these nodes.
 pub(crate) fn add_skins(
     import: &mut Import<'_>,
-    reader: &mut Reader<'_, '_>,
+    reader: &mut Reader<'_>,
     placed: &Placed<'_>,
 ) -> Result<(), LoadError> {
     let root = &placed.document.root;

@@ -133,8 +133,13 @@ pub(super) fn read_faces<V: Values>(
     if roles.indices.is_none() {
         return skip(import, element, values);
     }
-    let room = element.count.min(values.progress().1 as u64) as usize;
-    polygons.face_sizes.reserve(room);
+    let bytes = values.progress().1 as u64;
+    polygons.face_sizes.reserve(element.count.min(bytes) as usize);
+    if let Some(Kind::List { item, .. }) = roles.indices.map(|index| element.properties[index].kind) {
+        // Of triangles, or as many as there may be.
+        let most = bytes / values.least_bytes(item);
+        polygons.corner_vertices.reserve(element.count.saturating_mul(3).min(most) as usize);
+    }
     let mut face = Face::default();
     for row in 0..element.count {
         report(import, row, values)?;

@@ -39,8 +39,9 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
     if triangles.len() > most_corners(import) / 3 {
         return Err(too_many_corners(import));
     }
-    let (mut solid, length) = (Solid::default(), triangles.len());
-    let mut colors = Colors::new(&bytes[..HEADER - 4], length);
+    let length = triangles.len();
+    let mut solid = Solid::with_room(length);
+    let mut colors = Colors::new(&bytes[..HEADER - 4]);
     for (index, triangle) in triangles.enumerate() {
         if index % STRIDE == 0 {
             import.options.report(import.path, LoadStage::Geometry, 0.9 * index as f32 / length as f32)?;
@@ -51,7 +52,8 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
         solid.push(import, &[corner(3), corner(6), corner(9)])?;
         colors.push(u16::from_le_bytes([rest[0], rest[1]]));
     }
-    solid.polygons.face_colors = colors.finish();
+    // One for each triangle, unless none has any.
+    solid.polygons.face_colors = colors.colors;
     Ok(solid.polygons)
 }
 
@@ -72,12 +74,14 @@ struct Colors {
     /// files the bit is set where there is none, and red is in the lowest bits; elsewhere the
     /// bit is set where there is one, and blue is.
     of_all: Option<Vec4>,
+    /// Empty until a triangle has one.
     colors: Vec<Vec4>,
-    any: bool,
+    /// The triangles so far.
+    count: usize,
 }
 
 impl Colors {
-    fn new(header: &[u8], triangles: usize) -> Self {
+    fn new(header: &[u8]) -> Self {
         const KEY: &[u8] = b"COLOR=";
         let start = header.windows(KEY.len()).position(|window| window == KEY);
         let bytes = start.and_then(|start| header.get(start + KEY.len()..start + KEY.len() + 4));
@@ -85,25 +89,22 @@ impl Colors {
             let [red, green, blue, alpha] = [0, 1, 2, 3].map(|at| f32::from(bytes[at]) / 255.0);
             linear([red, green, blue]).extend(alpha)
         });
-        Self { of_all, colors: Vec::with_capacity(triangles), any: of_all.is_some() }
+        Self { of_all, colors: Vec::new(), count: 0 }
     }
 
     fn push(&mut self, attribute: u16) {
         let channel = |shift: u16| f32::from((attribute >> shift) & 31) / 31.0;
         let flag = attribute & 0x8000 != 0;
         let color = match self.of_all {
-            Some(of_all) if flag => of_all,
-            Some(of_all) => linear([channel(0), channel(5), channel(10)]).extend(of_all.w),
-            None if flag => linear([channel(10), channel(5), channel(0)]).extend(1.0),
-            None => Vec4::ONE,
+            Some(of_all) if flag => Some(of_all),
+            Some(of_all) => Some(linear([channel(0), channel(5), channel(10)]).extend(of_all.w)),
+            None => flag.then(|| linear([channel(10), channel(5), channel(0)]).extend(1.0)),
         };
-        self.any |= flag;
-        self.colors.push(color);
-    }
-
-    /// One for each triangle; empty if none has any.
-    fn finish(self) -> Vec<Vec4> {
-        if self.any { self.colors } else { Vec::new() }
+        if color.is_some() || !self.colors.is_empty() {
+            self.colors.resize(self.count, Vec4::ONE);
+            self.colors.push(color.unwrap_or(Vec4::ONE));
+        }
+        self.count += 1;
     }
 }
 

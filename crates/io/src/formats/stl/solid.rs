@@ -1,32 +1,40 @@
 //! The triangles of a solid, with merged vertices.
 
-use std::collections::HashMap;
-
 use trigon_math::DVec3;
 
 use crate::error::LoadError;
 use crate::import::Import;
 use crate::polygons::{Polygons, check_vertices};
+use crate::vertex_table::VertexTable;
 
 /// The triangles of a solid, whose vertices are united.
 #[derive(Default)]
 pub(super) struct Solid {
     pub(super) polygons: Polygons,
     /// Vertices by the bits of their coordinates.
-    known: HashMap<[u64; 3], u32>,
+    known: VertexTable,
 }
 
 impl Solid {
     pub(super) fn named(name: String) -> Self {
-        Self { polygons: Polygons { name, ..Polygons::default() }, known: HashMap::new() }
+        Self { polygons: Polygons { name, ..Polygons::default() }, known: VertexTable::default() }
+    }
+
+    /// A solid with room for so many triangles.
+    pub(super) fn with_room(triangles: usize) -> Self {
+        let mut solid = Self::default();
+        solid.polygons.corner_vertices.reserve_exact(3 * triangles);
+        solid.polygons.face_sizes.reserve_exact(triangles);
+        solid
     }
 
     fn vertex(&mut self, place: DVec3) -> u32 {
         // Adding zero makes −0 and +0 the same.
-        let bits = (place + DVec3::ZERO).to_array().map(f64::to_bits);
-        *self.known.entry(bits).or_insert_with(|| {
-            self.polygons.positions.push(place);
-            self.polygons.positions.len() as u32 - 1
+        let bits = |place: DVec3| (place + DVec3::ZERO).to_array().map(f64::to_bits);
+        let positions = &mut self.polygons.positions;
+        self.known.number(&bits(place), |vertex| bits(positions[vertex as usize])).unwrap_or_else(|new| {
+            positions.push(place);
+            new
         })
     }
 

@@ -98,8 +98,11 @@ impl CasterSurfaces {
         let mixed = |column: &[f32]| {
             corners.iter().zip(hit.weights).map(|(&corner, weight)| column[corner] * weight).sum::<f32>()
         };
-        let [x, y, z] = &geometry.columns.normals;
-        let normal = (*normal_to_scene * Vec3::new(mixed(x), mixed(y), mixed(z))).normalize_or_zero();
+        let normals = corners.map(|corner| geometry.columns.normal(corner, geometry.faces[triangle]));
+        let axis = |axis: usize| -> f32 {
+            normals.iter().zip(hit.weights).map(|(normal, weight)| normal[axis] * weight).sum()
+        };
+        let normal = (*normal_to_scene * Vec3::new(axis(0), axis(1), axis(2))).normalize_or_zero();
         let (_, look) = &looks[looks.partition_point(|(triangles, _)| triangles.end <= triangle)];
         let texel = |map: &Option<(Arc<Texture>, TextureBinding)>| {
             let (texture, binding) = map.as_ref()?;

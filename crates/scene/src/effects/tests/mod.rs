@@ -2,6 +2,7 @@
 
 mod ambient;
 mod backdrop;
+mod flat_meshes;
 mod kept;
 mod metals;
 mod outline;

@@ -2,7 +2,7 @@
 //! panel covers another, and none leaves the window. With `TRIGON_REPLAY_IMAGES=FOLDER` a screenshot of each
 //! is written, to be looked at.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use trigon_camera::Camera;
 use trigon_io::{Pixels, write_png};
@@ -146,21 +146,30 @@ fn check_layers(window: &mut HeadlessWindow<'_>, what: &str) {
 }
 
 /// Draws nothing. Large windows are for where panels stand, and a drawn scene would take most of the time.
-struct Blank;
+#[derive(Default)]
+struct Blank(Mutex<Frame>);
 
 impl Drawer for Blank {
     fn draw(&self, _: &Scene, _: &Camera, settings: &RenderSettings, _: &Cancel) -> Result<Frame, String> {
-        let (width, height) = (settings.width, settings.height);
-        let count = width as usize * height as usize;
-        let (color, depth, ids) =
-            (vec![0; 4 * count], Some(vec![f32::INFINITY; count]), vec![u32::MAX; count]);
-        let (object_ids, face_ids) = (Some(ids.clone()), Some(ids));
-        Ok(Frame { width, height, color, depth, object_ids, face_ids, ..Frame::default() })
+        let mut last = self.0.lock().expect("nobody panics with it");
+        if [last.width, last.height] != [settings.width, settings.height] {
+            *last = blank(settings.width, settings.height);
+        }
+        Ok(last.clone())
     }
 
     fn draws_drafts(&self) -> bool {
         true
     }
+}
+
+/// A black image of nothing.
+fn blank(width: u32, height: u32) -> Frame {
+    let count = width as usize * height as usize;
+    let color = [0, 0, 0, u8::MAX].repeat(count);
+    let (depth, ids) = (Some(vec![f32::INFINITY; count]), vec![u32::MAX; count]);
+    let (object_ids, face_ids) = (Some(ids.clone()), Some(ids));
+    Frame { width, height, color, depth, object_ids, face_ids, ..Frame::default() }
 }
 
 /// A window that shows an animated model, and another one beside it. In large windows the scene is drawn only if
@@ -175,7 +184,7 @@ fn with_window(test: impl Fn(&mut HeadlessWindow<'_>, &str)) {
         let mut viewer = viewer(&flags, &files);
         let mut stage = stage(&viewer);
         if size != SIZE && !is_looked_at {
-            stage.drawer = Some(Arc::new(Blank));
+            stage.drawer = Some(Arc::new(Blank::default()));
         }
         let mut window = HeadlessWindow::open(stage, &mut viewer, size);
         loaded(&mut window);

@@ -6,6 +6,7 @@ mod broken_files;
 mod every_key;
 mod first_contact;
 mod flags;
+mod guide;
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

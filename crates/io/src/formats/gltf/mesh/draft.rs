@@ -9,14 +9,17 @@ use trigon_mesh::{Attributes, Deltas, MeshBuilder, MorphTarget, SkinWeights};
 use super::built::BuiltMesh;
 use super::movement::delta;
 use super::part::Part;
+use crate::formats::gltf::primitive::Elements;
+use crate::vertex_table::VertexTable;
 
 /// The mesh under construction.
 pub(super) struct Draft {
     builder: MeshBuilder,
-    /// The vertex at a position with a given movement.
-    welded: HashMap<([u32; 3], u32), u32>,
+    /// The vertices by position and movement.
+    welded: VertexTable,
     movements: Movements,
     attributes: Attributes,
+    /// Once there are several materials.
     face_materials: Vec<u32>,
     materials: Vec<Option<usize>>,
     slots: HashMap<Option<usize>, u32>,
@@ -41,10 +44,10 @@ impl Draft {
         };
         Self {
             builder: MeshBuilder::with_capacity(vertices, faces, 3 * faces),
-            welded: HashMap::with_capacity(vertices),
+            welded: VertexTable::with_capacity(vertices),
             movements: Movements::new(parts, target_names),
             attributes,
-            face_materials: Vec::with_capacity(faces),
+            face_materials: Vec::new(),
             materials: Vec::new(),
             slots: HashMap::new(),
             corners: Vec::new(),
@@ -53,64 +56,76 @@ impl Draft {
         }
     }
 
-    pub(super) fn add(&mut self, part: &Part) {
+    pub(super) fn add(&mut self, mut part: Part) {
         let slot = *self.slots.entry(part.material).or_insert_with(|| {
             self.materials.push(part.material);
             self.materials.len() as u32 - 1
         });
         let first_corner = self.builder.corner_count();
-        let vertices: Vec<Option<u32>> = (0..part.positions.len()).map(|v| self.weld(part, v)).collect();
+        let has_slots = self.materials.len() > 1;
+        if has_slots {
+            self.face_materials.resize(self.builder.face_count(), 0);
+        }
+        let vertices: Vec<u32> = (0..part.positions.len()).map(|vertex| self.weld(&part, vertex)).collect();
+        // Large, and not needed any more.
+        part.positions = Vec::new();
         for corners in &part.elements.triangles {
-            let [Some(a), Some(b), Some(c)] = corners.map(|corner| vertices[corner as usize]) else {
+            let face = corners.map(|corner| vertices[corner as usize]);
+            if face.contains(&NOWHERE) {
                 self.non_finite += 1;
                 continue;
-            };
-            match self.builder.push_face(&[a, b, c]) {
+            }
+            match self.builder.push_face(&face) {
                 Ok(_) => {
-                    self.face_materials.push(slot);
-                    corners.iter().for_each(|&corner| self.add_corner(part, corner as usize));
+                    if has_slots {
+                        self.face_materials.push(slot);
+                    }
+                    corners.iter().for_each(|&corner| self.add_corner(&part, corner as usize));
                 }
                 Err(_) => self.flat += usize::from(!part.is_strip),
             }
         }
         self.corners.push(first_corner..self.builder.corner_count());
-        self.add_loose(part, &vertices);
+        self.add_loose(&part.elements, &vertices);
     }
 
-    fn add_loose(&mut self, part: &Part, vertices: &[Option<u32>]) {
-        for edge in &part.elements.edges {
+    fn add_loose(&mut self, elements: &Elements, vertices: &[u32]) {
+        for edge in &elements.edges {
             match edge.map(|end| vertices[end as usize]) {
+                [NOWHERE, _] | [_, NOWHERE] => self.non_finite += 1,
                 // A line without length is invisible.
-                [Some(from), Some(to)] if from == to => {}
-                [Some(from), Some(to)] => {
+                [from, to] if from == to => {}
+                [from, to] => {
                     self.builder.push_loose_edge(from, to).expect("both vertices exist and differ");
                 }
-                _ => self.non_finite += 1,
             }
         }
-        for &point in &part.elements.points {
+        for &point in &elements.points {
             match vertices[point as usize] {
-                Some(vertex) => {
+                NOWHERE => self.non_finite += 1,
+                vertex => {
                     self.builder.push_loose_point(vertex).expect("the vertex exists");
                 }
-                None => self.non_finite += 1,
             }
         }
     }
 
-    /// The vertex at a position; `None` if the position is not finite.
-    fn weld(&mut self, part: &Part, vertex: usize) -> Option<u32> {
+    /// The vertex at a position; [`NOWHERE`] if the position is not finite.
+    fn weld(&mut self, part: &Part, vertex: usize) -> u32 {
         let position = part.positions[vertex];
         if !position.is_finite() {
-            return None;
+            return NOWHERE;
         }
         let way = self.movements.way(part, vertex);
-        let key = (position.to_array().map(bits), way);
-        Some(*self.welded.entry(key).or_insert_with(|| {
-            let new = self.builder.push_vertex(position);
-            self.movements.push_vertex(part, vertex, new);
+        let key = |position: Vec3, way| (position.to_array().map(bits), way);
+        let (places, ways) = (self.builder.positions(), &self.movements.of_vertices);
+        let known =
+            |vertex: u32| key(places[vertex as usize], ways.get(vertex as usize).copied().unwrap_or(0));
+        self.welded.number(&key(position, way), known).unwrap_or_else(|new| {
+            self.builder.push_vertex(position);
+            self.movements.push_vertex(part, vertex, (new, way));
             new
-        }))
+        })
     }
 
     fn add_corner(&mut self, part: &Part, corner: usize) {
@@ -145,6 +160,9 @@ impl Draft {
     }
 }
 
+/// Stands for a vertex that has no place.
+const NOWHERE: u32 = u32::MAX;
+
 /// Adding zero makes −0 and +0 equal.
 fn bits(value: f32) -> u32 {
     (value + 0.0).to_bits()
@@ -167,6 +185,8 @@ struct Movements {
     targets: Vec<Target>,
     /// A number for each movement; 0 means none.
     ways: HashMap<Vec<u32>, u32>,
+    /// The movement of each vertex up to the last that has one.
+    of_vertices: Vec<u32>,
 }
 
 #[derive(Default)]
@@ -190,6 +210,7 @@ impl Movements {
             weights: Vec::new(),
             targets: (0..count).map(target).collect(),
             ways: HashMap::new(),
+            of_vertices: Vec::new(),
         }
     }
 
@@ -213,7 +234,11 @@ impl Movements {
         *self.ways.entry(key).or_insert(next)
     }
 
-    fn push_vertex(&mut self, part: &Part, vertex: usize, new: u32) {
+    fn push_vertex(&mut self, part: &Part, vertex: usize, (new, way): (u32, u32)) {
+        if way != 0 {
+            self.of_vertices.resize(new as usize, 0);
+            self.of_vertices.push(way);
+        }
         let filled = self.joints.len() + self.per_vertex;
         for (joint, weight) in part.skin.iter().flat_map(|skin| skin.of_vertex(vertex)) {
             self.joints.push(joint);

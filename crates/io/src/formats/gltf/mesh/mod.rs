@@ -26,11 +26,11 @@ use crate::gltf_source::PrimitiveFaces;
 use crate::warning::Warnings;
 pub(super) use built::{BuiltMesh, Needs};
 use draft::Draft;
-use part::read_primitive;
+use part::{Part, read_primitive};
 
 /// Reads a mesh. `needs` returns what a material needs of it.
 pub(crate) fn build_mesh(
-    accessors: &mut Accessors<'_, '_>,
+    accessors: &mut Accessors<'_>,
     index: usize,
     target_names: &[String],
     needs: &dyn Fn(Option<usize>) -> Needs,
@@ -44,8 +44,9 @@ pub(crate) fn build_mesh(
             numbers.push(number);
         }
     }
+    let lacking: Vec<Option<u32>> = parts.iter().map(Part::lacks_tangents_of).collect();
     let mut draft = Draft::new(&parts, target_names);
-    for part in &parts {
+    for part in parts {
         draft.add(part);
     }
     let place = || Place::Item("mesh", index);
@@ -63,7 +64,7 @@ pub(crate) fn build_mesh(
     );
     let corners = std::mem::take(&mut draft.corners);
     let mut built = draft.finish();
-    tangents::complete(&mut built.mesh, &parts, &corners);
+    tangents::complete(&mut built.mesh, &lacking, &corners);
     let faces =
         |(primitive, corners): (usize, &Range<usize>)| PrimitiveFaces { primitive, end: corners.end / 3 };
     built.primitives = numbers.into_iter().zip(&corners).map(faces).collect();

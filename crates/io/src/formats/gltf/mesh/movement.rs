@@ -45,7 +45,7 @@ pub(super) fn delta(list: Option<&Vec<[f32; 3]>>, vertex: usize) -> Vec3 {
 }
 
 /// Reads joints and weights; `None` unless there is a set of both.
-pub(super) fn read_skin(from: &mut Optional<'_, '_, '_>) -> Result<Option<PartSkin>, Unplaced> {
+pub(super) fn read_skin(from: &mut Optional<'_, '_>) -> Result<Option<PartSkin>, Unplaced> {
     let mut sets = Vec::new();
     for set in 0..=MOST_SETS {
         if set == MOST_SETS {
@@ -92,7 +92,7 @@ pub(super) fn read_skin(from: &mut Optional<'_, '_, '_>) -> Result<Option<PartSk
 }
 
 /// Warns if there are more sets than were read.
-fn warn_of_later_sets(from: &mut Optional<'_, '_, '_>, read: u32) {
+fn warn_of_later_sets(from: &mut Optional<'_, '_>, read: u32) {
     let is_later = |key: &Checked<Semantic>| matches!(key, Checked::Valid(Semantic::Joints(set) | Semantic::Weights(set)) if *set >= read);
     if from.primitive.attributes.keys().any(is_later) {
         from.warn(format!(
@@ -108,7 +108,7 @@ fn are_sound(weights: &[f32]) -> bool {
 
 /// Reads the morph targets. Their tangents are read if the base has some.
 pub(super) fn read_targets(
-    from: &mut Optional<'_, '_, '_>,
+    from: &mut Optional<'_, '_>,
     with_tangents: bool,
 ) -> Result<Vec<PartTarget>, Unplaced> {
     let mut targets = Vec::new();

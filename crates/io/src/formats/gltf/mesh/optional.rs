@@ -19,15 +19,15 @@ pub(super) fn find(primitive: &Primitive, semantic: Semantic) -> Option<usize> {
 }
 
 /// Reads optional attributes of primitives.
-pub(super) struct Optional<'o, 'a, 'b> {
-    pub(super) accessors: &'o mut Accessors<'a, 'b>,
+pub(super) struct Optional<'o, 'a> {
+    pub(super) accessors: &'o mut Accessors<'a>,
     pub(super) primitive: &'o Primitive,
     pub(super) vertices: usize,
     pub(super) place: &'o Place,
     pub(super) warnings: &'o mut Warnings,
 }
 
-impl Optional<'_, '_, '_> {
+impl Optional<'_, '_> {
     pub(super) fn read<const N: usize>(
         &mut self,
         semantic: Semantic,

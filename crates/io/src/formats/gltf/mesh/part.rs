@@ -31,8 +31,15 @@ pub(super) struct Part {
     pub(super) is_strip: bool,
 }
 
+impl Part {
+    /// The UV set for which a material needs tangents, if the file has none.
+    pub(super) fn lacks_tangents_of(&self) -> Option<u32> {
+        self.needs.tangents_of.filter(|_| self.tangents.is_none())
+    }
+}
+
 pub(super) fn read_primitive(
-    accessors: &mut Accessors<'_, '_>,
+    accessors: &mut Accessors<'_>,
     primitive: &Primitive,
     place: Place,
     needs: &dyn Fn(Option<usize>) -> Needs,
@@ -86,7 +93,7 @@ pub(super) fn read_primitive(
 }
 
 /// The bounds of POSITION may be missing, but must have three numbers.
-fn check_bounds(accessors: &Accessors<'_, '_>, index: usize) -> Result<(), Unplaced> {
+fn check_bounds(accessors: &Accessors<'_>, index: usize) -> Result<(), Unplaced> {
     let accessor = &accessors.root.accessors[index];
     for (name, bound) in [("min", &accessor.min), ("max", &accessor.max)] {
         let Some(bound) = bound else { continue };
@@ -106,7 +113,7 @@ fn malformed(place: Place, what: String) -> Unplaced {
 
 /// The triangles, edges and points, all of whose indices exist.
 fn read_elements(
-    accessors: &mut Accessors<'_, '_>,
+    accessors: &mut Accessors<'_>,
     primitive: &Primitive,
     mode: Mode,
     vertices: usize,

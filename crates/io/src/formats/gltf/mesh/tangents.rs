@@ -6,14 +6,12 @@ use std::ops::Range;
 use trigon_math::Vec4;
 use trigon_mesh::Mesh;
 
-use super::part::Part;
-
 /// Generates the tangents that materials need and the file does not have, each for the UV set of
-/// its primitive's normal map. `corners` are those of each part; others are unchanged.
-pub(super) fn complete(mesh: &mut Mesh, parts: &[Part], corners: &[Range<usize>]) {
+/// its primitive's normal map: `lacking`, by parts. `corners` are those of each part; others are unchanged.
+pub(super) fn complete(mesh: &mut Mesh, lacking: &[Option<u32>], corners: &[Range<usize>]) {
     let mut missing: BTreeMap<u32, Vec<Range<usize>>> = BTreeMap::new();
-    for (part, corners) in parts.iter().zip(corners).filter(|(part, _)| part.tangents.is_none()) {
-        if let Some(set) = part.needs.tangents_of {
+    for (set, corners) in lacking.iter().zip(corners) {
+        if let Some(set) = *set {
             missing.entry(set).or_default().push(corners.clone());
         }
     }

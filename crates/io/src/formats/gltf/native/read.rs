@@ -27,7 +27,7 @@ pub(in crate::formats::gltf) struct NativeMesh {
 
 /// Reads the mesh that a header describes; an error in words if its triangles must be used instead.
 pub(in crate::formats::gltf) fn read_native_mesh(
-    accessors: &mut Accessors<'_, '_>,
+    accessors: &mut Accessors<'_>,
     index: usize,
     header: &Header,
 ) -> Result<Result<NativeMesh, String>, Unplaced> {
@@ -61,7 +61,7 @@ const CHANGED: &str = "another program changed its triangles";
 /// The bytes of all accessors of a mesh, by their index; `None` if another program wrote them,
 /// since trigon writes no gaps.
 fn fetch_triangles(
-    accessors: &mut Accessors<'_, '_>,
+    accessors: &mut Accessors<'_>,
     primitives: &[Primitive],
 ) -> Result<Option<HashMap<usize, TightBytes>>, Unplaced> {
     let mut found = HashMap::new();
@@ -120,7 +120,7 @@ fn hash_triangles(primitives: &[Primitive], bytes: &HashMap<usize, TightBytes>) 
 
 /// The bytes of all columns that a header names.
 fn fetch_columns(
-    accessors: &mut Accessors<'_, '_>,
+    accessors: &mut Accessors<'_>,
     index: usize,
     header: &Header,
 ) -> Result<Result<BTreeMap<String, Bytes>, String>, Unplaced> {
