@@ -267,7 +267,7 @@ fn most_examples_work_and_only_those_of_cards_and_plugins_are_warned_of() {
     let same = all - refused - warned_count;
     assert!(same * 10 >= all * 7, "{same} of {all} are the same");
     let said = format!("{same} of {all} are the same, {refused} are refused, {warned_count} are warned of");
-    let guide = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/viewer.md"));
+    let guide = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/viewer.md"));
     assert!(guide.expect("the guide").contains(&said), "docs/viewer.md does not say: {said}");
     for (name, _, words, _) in warned {
         // Only cards draw volumes.
