@@ -71,6 +71,19 @@ mod tests {
     }
 
     #[test]
+    fn fractions_are_the_upper_bits_of_the_numbers() {
+        let (mut random, mut numbers) = (SplitMix64::new(1_234_567), SplitMix64::new(1_234_567));
+        for _ in 0..1000 {
+            let fraction = (numbers.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0;
+            let mut other = random.clone();
+            assert_eq!(random.unit(), fraction, "of 53 bits");
+            assert_eq!(other.between(-3.0, 5.0), -3.0 + 8.0 * fraction, "so far from the lower end");
+        }
+        let first = SplitMix64::new(1_234_567).below(1000);
+        assert_eq!(first, 317, "the remainder of the first published number");
+    }
+
+    #[test]
     fn numbers_lie_in_their_ranges() {
         let mut random = SplitMix64::new(25);
         for _ in 0..1000 {

@@ -61,7 +61,7 @@ impl HalfSpace {
     /// `None` unless the minimum is a normal, positive, finite number.
     #[must_use]
     pub fn w_at_least(minimum: f32) -> Option<Self> {
-        (minimum.is_normal() && minimum > 0.0).then_some(Self(Kind::MinimalW(minimum)))
+        (minimum.is_normal() && minimum.is_sign_positive()).then_some(Self(Kind::MinimalW(minimum)))
     }
 
     /// `x >= -band·w`
