@@ -2,6 +2,8 @@
 
 pub(crate) mod commands;
 mod parts;
+mod single_commands;
+mod told;
 
 use proptest::prelude::*;
 use serde_json::json;
@@ -245,6 +247,10 @@ fn the_history_stays_within_its_budget() {
     let history = document.history();
     assert!(history.bytes() <= 2000, "{} bytes", history.bytes());
     assert!(history.dropped() > 0 && !history.done().is_empty(), "the oldest are gone, the newest not");
+    let sum: usize = history.done().iter().map(Entry::bytes).sum();
+    assert_eq!(history.bytes(), sum, "what is gone counts no more");
+    let largest = history.done().iter().map(Entry::bytes).max().unwrap_or(0);
+    assert!(history.bytes() + 2 * largest > 2000, "no more are gone than need be: {} bytes", history.bytes());
 }
 
 /// Each of ten thousand entries had a copy of what was selected, an eighth of a byte for each vertex of the mesh.

@@ -2,12 +2,12 @@
 //! reads; it ensures that nothing runs when nothing changes.
 //!
 //! - While something moves: drafts, at most 60 a second, as small as the frame budget requires.
-//! - At rest: a full image, then the further steps of refinement, each better than the one before,
-//!   and then nothing. If the first takes long, a draft comes before it; if that was not
-//!   predictable, it is abandoned for the draft.
+//! - At rest: a full image, then the further steps of refinement, each better than the one before, and then
+//!   nothing. If the full image is expected to take long, a draft is drawn first. If it takes long
+//!   unexpectedly, it is abandoned, and a draft is drawn.
 //! - Images are drawn on a worker thread, one at a time. A draft is always finished, so that a
 //!   movement shows; any other image that nobody will see is cancelled.
-//! - The interface over the image never waits for one.
+//! - The interface drawn over the image never waits for an image.
 
 mod budget;
 

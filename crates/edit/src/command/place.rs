@@ -169,8 +169,8 @@ impl Action for Rotate {
 /// Rotates an object about its origin; the axis is in the space into which `outward` maps.
 fn turn_object(node: &mut NodeTransform, outward: &DAffine3, inward: &DAffine3, axis: DVec3, angle: f64) {
     if keeps_angles(&outward.matrix3) {
-        let handedness = if outward.matrix3.determinant() < 0.0 { -1.0 } else { 1.0 };
-        return node.rotate(inward.matrix3 * axis, angle * handedness);
+        let is_mirrored = outward.matrix3.determinant() < 0.0;
+        return node.rotate(inward.matrix3 * axis, if is_mirrored { -angle } else { angle });
     }
     // Within an unevenly scaled parent the result is not a rotation, so only the whole map can be
     // kept.

@@ -76,3 +76,28 @@ fn bind_metallic_roughness(shading: &mut Shading, binding: Option<TextureBinding
         _ => {}
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use trigon_scene::{Scene, Texture};
+
+    use super::*;
+
+    #[test]
+    fn a_texture_of_metalness_leaves_the_factors_of_a_metal_as_they_are() {
+        let metal = MetallicRoughness { metallic: 0.25, roughness: 0.75, ..Default::default() };
+        let texture = Texture::new(1, 1, vec![[0, 128, 128, 255]], TextureFormat::Linear).expect("one texel");
+        let binding = TextureBinding::new(Scene::new().add_texture("metal", texture));
+        for (shading, factors) in
+            [(Shading::MetallicRoughness(metal), [0.25, 0.75]), (Shading::Lambert, [1.0, 1.0])]
+        {
+            let mut material = Material { shading, ..Material::default() };
+            TextureSlot::MetallicRoughness.bind(&mut material, Some(binding));
+            assert_eq!(TextureSlot::MetallicRoughness.of(&material), Some(binding), "{shading:?}");
+            let Shading::MetallicRoughness(model) = material.shading else {
+                panic!("{shading:?} has no metal")
+            };
+            assert_eq!([model.metallic, model.roughness], factors, "{shading:?}");
+        }
+    }
+}

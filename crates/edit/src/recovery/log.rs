@@ -120,6 +120,11 @@ mod tests {
         assert!(counts.is_sorted() && counts.first() == Some(&0) && counts.last() == Some(&4), "{counts:?}");
     }
 
+    #[test]
+    fn the_checksum_of_nothing_is_the_first_number_of_splitmix64() {
+        assert_eq!(checksum(b""), 0xe220_a839_7b1d_cdaf, "as published, for the seed 0");
+    }
+
     proptest! {
         #[test]
         fn damage_costs_what_comes_after_it_and_nothing_else(place in any::<prop::sample::Index>(), change in 1u8..) {

@@ -162,6 +162,7 @@ mod tests {
                 let mut many = MeshSelection::default();
                 many.set(bits(capacity, (0..capacity as u32).filter(|index| index % 7 != left_out)));
                 assert!(many.is_much_of(capacity), "{kind:?}: asked element by element");
+                assert!(!many.is_much_of(20 * capacity), "{kind:?}: few of a larger mesh");
                 let contains = |index: u32| many.contains(index);
                 let edges: Vec<EdgeId> = mesh
                     .edges()

@@ -36,3 +36,41 @@ impl MarkedElements {
         marked
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use trigon_mesh::edit::{FaceId, VertexId};
+    use trigon_mesh::primitives;
+
+    use super::*;
+
+    #[test]
+    fn each_mark_is_in_its_own_list() {
+        type Hide = fn(&mut EditMesh);
+        let (mut mesh, _) = EditMesh::from_mesh(&primitives::cube(1.0));
+        let of = |mesh: &EditMesh| {
+            let MarkedElements { sharp, seams, creases, has_hidden } = MarkedElements::of(mesh);
+            (
+                [sharp, seams, creases].map(|edges| edges.into_iter().map(EdgeId::index).collect::<Vec<_>>()),
+                has_hidden,
+            )
+        };
+        assert_eq!(of(&mesh), ([vec![], vec![], vec![]], false), "a cube has none");
+        mesh.set_sharp(EdgeId::new(2), true);
+        mesh.set_seam(EdgeId::new(3), true);
+        mesh.set_seam(EdgeId::new(5), true);
+        mesh.set_crease(EdgeId::new(7), 0.25);
+        let marked = [vec![2], vec![3, 5], vec![7]];
+        assert_eq!(of(&mesh), (marked.clone(), false), "one sharp, two seams, one crease");
+        let hide: [Hide; 3] = [
+            |mesh| mesh.set_vertex_hidden(VertexId::new(1), true),
+            |mesh| mesh.set_edge_hidden(EdgeId::new(1), true),
+            |mesh| mesh.set_face_hidden(FaceId::new(1), true),
+        ];
+        for hide in hide {
+            let mut mesh = mesh.clone();
+            hide(&mut mesh);
+            assert_eq!(of(&mesh), (marked.clone(), true), "one element is hidden");
+        }
+    }
+}

@@ -5,10 +5,9 @@
 //! with the reason why it did nothing. Within [`EditMesh::transaction`] it can be undone to the
 //! last byte.
 //!
-//! From low to high: `ids`, `column` (values with a record of changes), `records` and `layers` (the
-//! stored data), `edit_mesh` (all columns), `slots` and `rings` (elements and their
-//! adjacency, joined and taken out one by one), `walk` (navigation between elements), `euler` (elementary changes), and the
-//! operations.
+//! From low to high: `ids`, `column` (values with a record of changes), `records` and `layers` (the stored
+//! data), `edit_mesh` (all columns), `slots` (adds and removes single elements) and `rings` (links and
+//! unlinks them), `walk` (navigation between elements), `euler` (elementary changes), and the operations.
 
 mod blends;
 mod column;

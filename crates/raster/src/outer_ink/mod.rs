@@ -2,8 +2,9 @@
 //!
 //! Let T be the triangle visible in a pixel (the farthest one, if its samples show several), and U a triangle visible
 //! in another pixel, no farther away than a line reaches. The pixel shows the edges of U if both conditions hold:
-//! 1. The pixel shows the background; or all of U lies in front of all of T; or T or U is large. Otherwise they are
-//!    neighbours in a dense mesh: the edge between them is an edge of both, and each paints its half.
+//! 1. The pixel shows the background; or all of U lies in front of all of T; or T or U is large. If none of
+//!    these holds, T and U are small neighbours in a dense mesh: the edge between them belongs to both, and
+//!    each paints its own half.
 //! 2. The point of the edge that is nearest to the pixel lies in front of the plane of T; or their faces have a vertex
 //!    in common and T does not cover that point.
 //!

@@ -3,7 +3,7 @@
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, prelude::*, transposed};
 use crate::vertex::ScreenVertex;
 
-/// Triangles whose sides are shorter than this on both axes, in 1/256 pixel,
+/// Triangles whose bounding box is smaller than this on both axes, in 1/256 pixel,
 /// have areas and edge functions within 32 bits, also a tile away.
 pub(crate) const SMALL: i32 = 1 << 14;
 
@@ -78,7 +78,7 @@ pub(crate) fn sorted_columns<S: Simd>([a, b, c]: [Column<S>; 3]) -> ([Column<S>;
     ([a, b, c], first ^ second ^ third)
 }
 
-/// Which lanes hold a triangle whose sides are shorter than
+/// Which lanes hold a triangle whose bounding box is smaller than
 /// [`SMALL`] on both axes.
 #[inline(always)]
 pub(crate) fn small_lanes<S: Simd>(simd: S, [a, b, c]: &[Column<S>; 3]) -> Mask<S> {

@@ -32,7 +32,7 @@ pub(super) struct Footprint {
 
 impl Footprint {
     /// The footprint spanned by `ddx` and `ddy`, with at most the sampler's number
-    /// of probes; a point if the sampler does not need it.
+    /// of probes. If the sampler needs no footprint, `square` is 0.
     ///
     /// The number of probes is the ratio of the sides, rounded up, at most that of the sampler. Each
     /// look-up covers the longer side divided by the number of probes: the formula of
@@ -64,8 +64,7 @@ impl Footprint {
         Self { square: longer / (probes * probes), probes, axis }
     }
 
-    /// Where probe `index` of 1 up to `probes` lies, in parts of the longer side
-    /// from the middle.
+    /// Where probe `index`, from 1 to `probes`, lies along the longer side: 0 is its middle, ±1/2 its ends.
     #[inline]
     pub(super) fn offset(&self, index: f32) -> f32 {
         index / (self.probes + 1.0) - 0.5
@@ -134,11 +133,11 @@ fn squared_lanes<S: Simd>([width, height]: [F32<S>; 2], [u, v]: [F32<S>; 2]) -> 
 const LOWEST_EXPONENT_BIT: u32 = 1 << 23;
 
 /// The binary logarithm of the root of a finite `square` >= 0, as a whole number and a
-/// rest from 0 to 1 that is exact within 0.000025: the mip level of a look-up and the weight
+/// fraction from 0 to 1 whose error is below 0.000025: the mip level of a look-up and the weight
 /// of the next one. Below -50 for 0 and for numbers too small to matter.
 ///
 /// The whole number is half of the exponent, so that the level is known long before the
-/// weight is; all that follows waits for the level. The rest is a polynomial in the mantissa: only
+/// weight is; all that follows waits for the level. The fraction is a polynomial in the mantissa: only
 /// additions and multiplications, so the same on every machine. It interpolates log2(1 + t)
 /// at both ends; the inner coefficients are a least-squares fit, and their terms are added
 /// up by twos (G. Estrin, 1960).

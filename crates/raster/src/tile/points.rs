@@ -199,7 +199,7 @@ impl Walk {
         if self.is_round {
             return (x * x + y * y).simd_lt(I32::splat(simd, self.half * self.half));
         }
-        // From one side, which belongs to it, to the other: one comparison of numbers without a sign.
+        // −half <= way < half, in one comparison: as unsigned numbers, those below −half become the largest.
         let size = U32::splat(simd, 2 * self.half as u32);
         let within = [x, y].each(
             #[inline(always)]

@@ -172,8 +172,8 @@ impl TileRasterizer<'_> {
         }
     }
 
-    /// Whether all blocks that the triangle's box touches hide it. The bounds of those that do not are
-    /// widened as if the triangle were visible there, so that they need no second visit.
+    /// Whether all blocks that the triangle's box touches hide it. For a block that does not, a write of the
+    /// triangle's nearest depth is noted at once, so that drawing the triangle does not visit its bounds again.
     #[inline(always)]
     fn hides_tiny<S: Simd>(
         &self,

@@ -23,7 +23,8 @@ impl Strip {
         (major, group): (usize, i32),
     ) -> Self {
         const UNIT: f64 = (1 << 16) as f64;
-        // More than all that is rounded, a unit where the corners were, and less than one below.
+        // In 1/256 pixel: the corners were rounded to this grid, by at most one; all that is rounded below is
+        // less than one.
         const SLACK: i32 = 2;
         let minor = 1 - major;
         let pixels = 1 << SHIFT[major];
