@@ -295,3 +295,18 @@ fn joints_targets_and_animations() {
     scene.apply_pose(&pose);
     check("a pose", &scene, &scene.overview(1.5), &settings());
 }
+
+/// Marked elements are part of the settings: their sets come back.
+#[test]
+fn marked_elements_are_captured() {
+    let mut scene = Scene::new();
+    let node = scene.add_object("ball", primitives::icosphere(1.0, 1), Material::default());
+    let mut elements = trigon_scene::ElementSet::default();
+    let mut bits = trigon_scene::FixedBitSet::with_capacity(80);
+    bits.extend([0, 33, 79]);
+    elements.add(node, bits);
+    let mark = trigon_scene::Mark { elements: elements.into(), color: Vec3::X, opacity: 0.5 };
+    let mut settings = settings();
+    settings.marks.faces = vec![mark];
+    check("marks", &scene, &scene.overview(1.5), &settings);
+}

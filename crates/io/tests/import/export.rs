@@ -8,7 +8,9 @@ use trigon_io::{
 use trigon_math::{DQuat, DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder, primitives};
 use trigon_raster::{Texture, TextureFormat};
-use trigon_scene::{Light, Material, Node, Scene, TextureBinding, Transform};
+use trigon_scene::{
+    Light, Material, MetallicRoughness, Node, NormalMap, Scene, Shading, TextureBinding, Transform,
+};
 
 use crate::{loaded, warnings};
 
@@ -331,6 +333,70 @@ fn materials_and_images_lie_beside_an_obj() {
     assert_eq!(binding.transform, TextureBinding::new(binding.texture).transform, "in its place");
     let texture = &read.scene.textures.get(binding.texture).expect("it exists").texture;
     assert_eq!(texture.texels().next(), Some([255, 0, 0, 255]), "its texels");
+}
+
+/// What a material is shaded by, in the words of MTL and of its extension for metals.
+#[test]
+fn shading_and_the_strength_of_normals_are_written_to_mtl() {
+    let mtl = |material: Material| {
+        let mut scene = scene_of(seamed());
+        *scene.materials.iter_mut().next().expect("one").1 = material;
+        let export = written(&scene, FORMATS[0], &ExportOptions::default());
+        let text = |file: &trigon_io::ExportedFile| String::from_utf8_lossy(&file.bytes).into_owned();
+        export.files.iter().find(|file| file.name.ends_with(".mtl")).map(text).expect("a library")
+    };
+    let metal = MetallicRoughness { metallic: 0.25, roughness: 0.75, ..MetallicRoughness::default() };
+    let specular = Vec3::new(1.0, 0.0, 1.0);
+    let shadings = [
+        (Shading::Unlit, vec!["illum 0"]),
+        (Shading::Lambert, vec!["illum 1"]),
+        (
+            Shading::BlinnPhong { specular, shininess: 32.0, specular_texture: None },
+            vec!["illum 2", "Ks 1 0 1", "Ns 32"],
+        ),
+        (Shading::MetallicRoughness(metal), vec!["illum 2", "Pr 0.75", "Pm 0.25"]),
+    ];
+    for (shading, expected) in shadings {
+        let text = mtl(Material { shading, ..Material::default() });
+        for line in expected {
+            assert!(text.lines().any(|found| found == line), "{line}: {text}");
+        }
+    }
+}
+
+#[test]
+fn the_strength_of_normal_maps_is_written_to_mtl_unless_it_is_one() {
+    for (scale, line) in [(1.0, "norm "), (0.5, "norm -bm 0.5 ")] {
+        let mut scene = scene_of(seamed());
+        let texture = Texture::new(1, 1, vec![[128, 128, 255, 255]], TextureFormat::Linear).expect("one");
+        let binding = TextureBinding::new(scene.add_texture("bumps", texture));
+        scene.materials.iter_mut().next().expect("one").1.normal_map = Some(NormalMap { binding, scale });
+        let export = written(&scene, FORMATS[0], &ExportOptions::default());
+        let file = export.files.iter().find(|file| file.name.ends_with(".mtl")).expect("a library");
+        let text = String::from_utf8_lossy(&file.bytes);
+        let found = text.lines().find(|found| found.starts_with("norm ")).expect("a normal map");
+        assert!(found.starts_with(line) && found.contains("-bm") == (scale != 1.0), "{found}");
+    }
+}
+
+/// Each attribute alone: what is not there is not lost.
+#[test]
+fn only_what_the_mesh_has_is_lost() {
+    let square = primitives::plane(1.0, 1.0);
+    let uv_sets = square.attributes().uv_sets.clone();
+    for (attributes, expected) in [
+        (Attributes::default(), vec![]),
+        (Attributes { uv_sets, ..Attributes::default() }, vec!["texture coordinates"]),
+        (Attributes { corner_normals: Some(vec![Vec3::Y; 4]), ..Attributes::default() }, vec!["normals"]),
+    ] {
+        let mut mesh = square.clone();
+        mesh.set_attributes(attributes).expect("one value for each corner");
+        let export = written(&scene_of(mesh), FORMATS[3], &ExportOptions::default());
+        let lost: Vec<String> = export.what_would_be_lost().iter().map(ToString::to_string).collect();
+        let told = ["texture coordinates", "normals"].into_iter();
+        let lost: Vec<&str> = told.filter(|what| lost.iter().any(|loss| loss == what)).collect();
+        assert_eq!(lost, expected, "in OFF");
+    }
 }
 
 #[test]

@@ -430,6 +430,33 @@ fn instances_that_refer_to_nothing_are_said() {
 }
 
 #[test]
+fn instances_count_as_the_nodes_that_they_are() {
+    let mut doc = Doc::square();
+    let places = doc.floats("VEC3", &[0., 0., 0., 5., 0., 0., 9., 0., 0.]);
+    let attributes = json!({"attributes": {"TRANSLATION": places}});
+    doc.json["nodes"][0]["extensions"] = json!({"EXT_mesh_gpu_instancing": attributes});
+    push(&mut doc.json["nodes"], json!({"mesh": 0}));
+    push(&mut doc.json["nodes"], json!({"name": "empty"}));
+    let bytes = doc.glb();
+    let load = |nodes: usize, corners: usize| {
+        let mut options = LoadOptions::default();
+        (options.limits.nodes, options.limits.corners) = (nodes, corners);
+        load_from_slice("a.glb", &bytes, &options).map(|loaded| loaded.scene.nodes().len())
+    };
+    // Two triangles, three times and once.
+    let corners = 6 * 4;
+    assert_eq!(
+        load(6, corners).ok(),
+        Some(6),
+        "three copies below the node that they are of, and two others"
+    );
+    for (nodes, corners) in [(5, corners), (6, corners - 1)] {
+        let error = load(nodes, corners).expect_err("one fewer");
+        assert_eq!(error.kind, LoadErrorKind::Limit, "{error}");
+    }
+}
+
+#[test]
 fn a_weight_that_is_not_finite_leaves_the_others_where_they_are() {
     let mut doc = Doc::square();
     let target = doc.floats("VEC3", &[0.; 12]);

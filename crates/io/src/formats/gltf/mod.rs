@@ -214,7 +214,8 @@ fn check_placed(
     let (mut placed, mut copies, limit) = (0_usize, 0_usize, import.options.limits.corners);
     for &node in &hierarchy.order {
         let times = instances::instance_count(root, node);
-        copies = copies.saturating_add(times - 1);
+        // They are nodes of their own, below the file's.
+        copies = copies.saturating_add(if instances::has_instances(root, node) { times } else { 0 });
         let corners = root.nodes[node].mesh.map_or(0, |mesh| each[mesh.value()]);
         placed = placed.saturating_add(corners.saturating_mul(times));
         if placed > limit {

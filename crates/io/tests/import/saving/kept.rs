@@ -185,14 +185,21 @@ fn a_mesh_that_is_written_anew_leaves_nothing_behind() {
     assert!(grown < 3 * 4000, "three savings left {grown} bytes of {}", lengths[0]);
 }
 
-/// Copies that an extension makes are part of the file until one is changed.
-#[test]
-fn instances_stay_an_extension_until_one_is_moved() {
+/// Four copies of a square, of which the extension makes three.
+fn instanced() -> Doc {
     let mut doc = Doc::square();
     let places = doc.floats("VEC3", &[0., 0., 0., 5., 0., 0., 9., 0., 0.]);
     let attributes = json!({"attributes": {"TRANSLATION": places}});
     doc.json["nodes"][0]["extensions"] = json!({"EXT_mesh_gpu_instancing": attributes});
     doc.json["extensionsUsed"] = json!(["EXT_mesh_gpu_instancing"]);
+    push(&mut doc.json["nodes"], json!({"mesh": 0}));
+    doc
+}
+
+/// Copies that an extension makes are part of the file until one is changed.
+#[test]
+fn instances_stay_an_extension_until_one_is_moved() {
+    let doc = instanced();
     let (mut first, _) = document("a.glb", &doc.glb());
     assert_eq!(json_of(&saved(&first))["nodes"], doc.json["nodes"], "as it was");
     let copy = first.scene.nodes().iter().find(|(_, node)| node.mesh.is_some()).expect("a copy").0;
@@ -203,4 +210,81 @@ fn instances_stay_an_extension_until_one_is_moved() {
         shown.map(|(id, _)| scene.world_transform(id).translation).collect()
     };
     assert_eq!(places(&second.scene), places(&first.scene), "each where it was");
+}
+
+/// Everything that a copy can have of its own.
+#[test]
+fn whatever_changes_of_a_copy_is_saved() {
+    type Change = fn(&mut Scene, NodeId);
+    let changes: [(&str, Change); 8] = [
+        ("nothing", |_, _| {}),
+        ("name", |scene, id| scene.node_mut(id).expect("there").name = "renamed".to_owned()),
+        ("visibility", |scene, id| scene.node_mut(id).expect("there").visible = false),
+        ("light", |scene, id| scene.node_mut(id).expect("there").light = Some(Light::point(3.0))),
+        ("camera", |scene, id| {
+            let camera = trigon_camera::Projection::perspective(0.5, 0.25, Some(9.0)).expect("valid");
+            scene.node_mut(id).expect("there").camera = Some(camera);
+        }),
+        ("material", |scene, id| {
+            let red = scene.add_material(Material::from_color(Vec3::X));
+            scene.node_mut(id).expect("there").materials = vec![red];
+        }),
+        ("child", |scene, id| {
+            scene.add_child(id, Node::default().with_name("child").at(DVec3::Z)).expect("it is there");
+        }),
+        ("parent", |scene, id| scene.set_parent(id, None).expect("no circle")),
+    ];
+    let described = |scene: &Scene| -> Vec<String> {
+        let describe = |(id, node): (NodeId, &Node)| {
+            let place = scene.world_transform(id).translation;
+            let depth = std::iter::successors(node.parent(), |&id| scene.node(id)?.parent()).count();
+            let color = node.materials.first().and_then(|&id| scene.materials.get(id)).map(|m| m.base_color);
+            let has = (node.mesh.is_some(), node.visible, &node.light, &node.camera);
+            format!("{place} {depth} {:?} {has:?} {color:?}", node.name)
+        };
+        let mut all: Vec<String> = scene.nodes().iter().map(describe).collect();
+        all.sort();
+        all
+    };
+    for (what, change) in changes {
+        let (mut first, _) = document("a.glb", &instanced().glb());
+        let is_copy = |(_, node): &(NodeId, &Node)| node.mesh.is_some() && node.parent().is_some();
+        let copy = first.scene.nodes().iter().find(is_copy).expect("a copy").0;
+        change(&mut first.scene, copy);
+        let bytes = saved(&first);
+        let (second, _) = document("a.glb", &bytes);
+        assert_eq!(described(&second.scene), described(&first.scene), "{what}");
+        let uses = json_of(&bytes)["nodes"].to_string().contains("EXT_mesh_gpu_instancing");
+        assert_eq!(uses, what == "nothing", "{what}: the extension can say no more than places");
+    }
+}
+
+/// A mesh of two materials and of lines that have none of their own.
+#[test]
+fn an_object_in_another_material_keeps_the_mesh_of_the_file() {
+    let mut doc = Doc::square();
+    let plain = doc.primitive().clone();
+    let with = |material: usize| {
+        let mut primitive = plain.clone();
+        primitive["material"] = json!(material);
+        primitive
+    };
+    let unread = json!({"attributes": {"_HEAT": plain["indices"]}, "material": 0});
+    doc.json["meshes"][0]["primitives"] = json!([with(1), unread, with(0), with(1), plain.clone()]);
+    doc.json["materials"] = json!([{"name": "red"}, {"name": "blue"}]);
+    let (mut first, _) = document("a.glb", &doc.glb());
+    let green = first.scene.add_material(Material::default().with_name("green"));
+    let (id, node) = first.scene.nodes().iter().next().expect("the only one");
+    let is_blue = |&id: &_| first.scene.materials.get(id).is_some_and(|material| material.name == "blue");
+    let blue = node.materials.iter().position(is_blue).expect("a slot");
+    first.scene.node_mut(id).expect("just found").materials[blue] = green;
+    let now = json_of(&saved(&first));
+    let name = |primitive: &Value| -> Option<String> {
+        let material = primitive["material"].as_u64()? as usize;
+        now["materials"][material]["name"].as_str().map(str::to_owned)
+    };
+    let found: Vec<Option<String>> =
+        now["meshes"][0]["primitives"].as_array().expect("a list").iter().map(name).collect();
+    let expected = [Some("green"), Some("red"), Some("red"), Some("green"), None];
+    assert_eq!(found, expected.map(|name| name.map(str::to_owned)), "each primitive of blue is green");
 }

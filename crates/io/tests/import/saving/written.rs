@@ -48,6 +48,31 @@ fn places_that_are_not_finite_stay_in_the_native_file_only() {
     assert_eq!(json["accessors"][position as usize]["max"], json!([1.0, 1.0, 1.0]), "numbers for others");
 }
 
+/// The specification lets animations move a translation, rotation and scale, but no matrix.
+#[test]
+fn a_matrix_that_is_animated_is_written_in_parts() {
+    let turn = DQuat::from_rotation_z(0.5);
+    let map = DAffine3::from_scale_rotation_translation(DVec3::new(1.0, 2.0, 3.0), turn, DVec3::X);
+    for is_animated in [false, true] {
+        let mut scene = Scene::new();
+        let id = scene.add_object("cube", primitives::cube(1.0), Material::default());
+        scene.node_mut(id).expect("just added").transform = Transform::Affine(map);
+        if is_animated {
+            let curve = Curve::new(Interpolation::Step, 3, vec![0.5], vec![4.0, 5.0, 6.0]).expect("a curve");
+            let channels = vec![Channel { node: id, property: Property::Translation, curve }];
+            scene.animations.push(Animation { name: "move".into(), channels });
+        }
+        let bytes = glb(&scene);
+        let node = &json_of(&bytes)["nodes"][0];
+        let parts = ["matrix", "translation", "rotation", "scale"].map(|name| node.get(name).is_some());
+        let expected = if is_animated { [false, true, true, true] } else { [true, false, false, false] };
+        assert_eq!(parts, expected, "animated: {is_animated}");
+        let again = loaded("a.glb", &bytes);
+        let placed = again.scene.world_transform(node_named(&again.scene, "cube"));
+        assert!(placed.abs_diff_eq(map, 1e-6), "animated: {is_animated}: {placed:?}");
+    }
+}
+
 /// Triangles of a scene, in its world, sorted.
 fn triangles(scene: &Scene) -> Vec<[[u32; 3]; 3]> {
     let mut all = Vec::new();

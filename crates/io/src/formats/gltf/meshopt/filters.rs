@@ -81,7 +81,7 @@ fn each_of_words(bytes: &mut [u8], change: impl Fn([u16; 4]) -> [i32; 4]) {
     }
 }
 
-/// The nearest integer, halves away from zero; in range for all callers.
+/// The nearest integer, halves away from zero; in range for all callers. 0 for what is no number.
 fn rounded(value: f64) -> i32 {
     (if value < 0.0 { value - 0.5 } else { value + 0.5 }) as i32
 }
@@ -95,7 +95,7 @@ fn octahedral([x, y, one, rest]: [i32; 4], most: f64) -> [i32; 4] {
     x -= fold.copysign(x);
     y -= fold.copysign(y);
     let length = (x * x + y * y + z * z).sqrt();
-    let unit = |value: f64| if length > 0.0 { rounded(value / length * most) } else { 0 };
+    let unit = |value: f64| rounded(value / length * most);
     [unit(x), unit(y), unit(z), rest]
 }
 

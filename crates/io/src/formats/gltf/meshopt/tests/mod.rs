@@ -240,3 +240,14 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn triangles_come_in_threes() {
+    let table = [0x00, 0x12, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    let stream = [&[0xe1, 0xf0][..], &table].concat();
+    for count in [1, 2, 4, 5] {
+        let decoded = decode(&layout(Mode::Triangles, count, 4), &stream);
+        assert_eq!(decoded, Err("the indices are not whole triangles"), "{count}");
+    }
+    assert!(decode(&layout(Mode::Triangles, 3, 4), &stream).is_ok(), "one triangle");
+}
