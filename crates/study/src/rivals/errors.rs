@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn what_is_right_is_not_wrong() {
         let found = [0, 51, 51, 51, 153].map(grey);
-        let Errors { image, centres } = Errors::new(&self::image(), &found, true, true);
+        let Errors { image, centres } = Errors::new(&image(), &found, true, true);
         assert!(image < 1e-9, "{image}");
         let Centres { wrong_at_outlines, wrong_within, within, worst_within } = centres.expect("asked for");
         assert_eq!((wrong_at_outlines, wrong_within), (0.0, 0.0));
