@@ -21,7 +21,7 @@
 //! | `blocks` | sets of a tile's blocks |
 //! | `visibility` | **the order of the kinds of surface, and which kernel draws a triangle** |
 //! | `eight` | eight small triangles prepared together, and the limits of the kernels |
-//! | `edge_origins` | the edge functions of those eight at each one's first 4×2 group, for `tiny` and `multisample` |
+//! | `edge_origins` | for the triangles that `eight` prepares: the edge functions of each at its first 4×2 group; for `tiny` and `multisample` |
 //! | `triangle`, `single` | one triangle prepared for the tile, whatever its size |
 //! | `micro` | kernel: up to eight small triangles of at most 4×4 pixels each, one sample per pixel |
 //! | `tiny` | kernel: one small triangle of at most 24×24 pixels, one sample per pixel |

@@ -184,6 +184,3 @@ impl Keymap {
         possible.max_by_key(|click| click.modifiers.count()).map(|click| click.action)
     }
 }
-
-#[cfg(test)]
-mod tests;

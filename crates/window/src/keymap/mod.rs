@@ -6,6 +6,8 @@ mod defaults;
 mod held;
 mod sheet;
 mod synonyms;
+#[cfg(test)]
+mod tests;
 
 pub use action::{Action, CameraMotion, ClickAction, DragAction, Motion, ObjectMotion};
 pub use binding::{Binding, ClickBinding, DragBinding, Keymap, MenuEntry};

@@ -59,11 +59,19 @@ fn rows(question: &str) -> Vec<Row> {
     rows
 }
 
-/// The part of the report about a question: all of its lines.
+/// The part of the report about a question: all of its lines but empty rows of tables.
 fn chapter(title: &str) -> String {
     let text = read("accuracy.md");
     let (_, text) = text.split_once(&format!("\n## {title}\n")).unwrap();
-    text.split("\n## ").next().unwrap().to_owned()
+    // What refuses a scene has a row in the table, but no figure to record.
+    let is_recorded =
+        |line: &&str| !(line.starts_with("| ") && line.split('|').skip(2).all(is_dash_or_blank));
+    let lines = text.split("\n## ").next().unwrap().lines().filter(is_recorded);
+    lines.map(|line| line.to_owned() + "\n").collect()
+}
+
+fn is_dash_or_blank(cell: &str) -> bool {
+    matches!(cell.trim(), "–" | "")
 }
 
 /// The title of each question that has rows, from the list at the top of the report.

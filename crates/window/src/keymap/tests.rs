@@ -1,7 +1,7 @@
 //! Tables of bindings.
 
 use super::*;
-use crate::input::Key;
+use crate::input::{Chord, Key, Modifiers, PointerButton};
 
 fn names(keymap: &Keymap) -> Vec<&str> {
     keymap.bindings().iter().map(|binding| &*binding.name).collect()
