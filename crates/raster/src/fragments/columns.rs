@@ -315,8 +315,11 @@ mod tests {
             let count = (30..34).filter(|slot| slots.contains(slot)).count();
             let (found, told) = seen(slots);
             assert_eq!(told, slots, "{slots:?}");
-            // One of three may be named twice.
-            assert!(found == count || (found, count) == (4, 3), "{found} of {slots:?}");
+            // The first and the last of the others are compared with them at once. If both are one triangle, more than
+            // two are told apart in a longer way.
+            let mut others = slots.iter().filter(|&&slot| slot != slots[0]);
+            let is_exact = count < 3 || others.next() != others.next_back();
+            assert!(if is_exact { found == count } else { found > count }, "{found} of {slots:?}");
         }
         assert_eq!(seen([4, 9, 4, 2, 7, 7, 1, 0]).1, [4, 9, 4, 2, 7, 7, 1, 0], "and more are gathered");
     }
