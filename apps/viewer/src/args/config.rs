@@ -28,6 +28,7 @@ struct Block {
     /// `None` for all files.
     files: Option<Regex>,
     options: Vec<Setting>,
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
     bindings: Vec<KeyBinding>,
 }
 
