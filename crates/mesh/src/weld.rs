@@ -1,17 +1,20 @@
 //! Welding: which corners of a mesh form one render vertex.
 
 use std::cmp::Ordering;
+use std::collections::{BTreeMap, HashMap};
 
 use trigon_math::{Vec2, Vec3, Vec4};
 
 use crate::Mesh;
 use crate::attributes::classes;
 use crate::flat_faces::flat_classes;
-use crate::groups::Groups;
 
-/// Groups of up to this many corners are compared pairwise; larger ones (the centre of a large fan,
-/// the pole of a fine sphere) are sorted, so that no mesh takes quadratic time.
-const SMALL_GROUP: usize = 24;
+/// So many welded vertices at one vertex of the mesh are compared in turn; more (at the centre of a large fan, at
+/// the pole of a fine sphere) are kept in a tree, so that no mesh takes quadratic time.
+const FEW: u32 = 24;
+
+/// No welded vertex.
+const NONE: u32 = u32::MAX;
 
 /// The result of welding, in both directions.
 pub(crate) struct Welded {
@@ -23,83 +26,96 @@ pub(crate) struct Welded {
 
 /// Welds corners at the same vertex whose values agree, with
 /// these normals in place of the mesh's own, or without any.
+/// The welded vertices are numbered in order of first use.
 pub(crate) fn weld(mesh: &Mesh, normals: &[Vec3]) -> Welded {
     let compare = Comparison::new(mesh, normals);
-    if compare.is_trivial() {
-        return number_vertices(mesh);
-    }
-    let corners = mesh.corner_vertices().iter().copied().zip(0u32..);
-    let mut groups = Groups::new(mesh.vertex_count(), corners);
-    let mut first_alike = vec![0u32; mesh.corner_count()];
-    for group in groups.iter_mut() {
-        match group.len() {
-            0..=SMALL_GROUP => link_small(group, &compare, &mut first_alike),
-            _ => link_large(group, &compare, &mut first_alike),
-        }
-    }
-    number(first_alike)
-}
-
-/// Corners without values: the vertices that have corners, in order of first use.
-fn number_vertices(mesh: &Mesh) -> Welded {
-    /// Not used yet.
-    const NONE: u32 = u32::MAX;
-    let mut numbers = vec![NONE; mesh.vertex_count()];
-    let mut corner_of_vertex = Vec::new();
-    let number = |(corner, &vertex): (u32, &u32)| {
-        let number = &mut numbers[vertex as usize];
-        if *number == NONE {
-            *number = corner_of_vertex.len() as u32;
-            corner_of_vertex.push(corner);
-        }
-        *number
-    };
+    let mut welding = Welding::new(mesh.vertex_count());
+    let number = |(corner, &vertex): (u32, &u32)| welding.number(&compare, vertex, corner);
     let vertex_of_corner = (0..).zip(mesh.corner_vertices()).map(number).collect();
-    Welded { corner_of_vertex, vertex_of_corner }
+    Welded { corner_of_vertex: welding.corner_of_vertex, vertex_of_corner }
 }
 
-/// Turns "the first equal corner" into numbers in order of first use.
-fn number(mut first_alike: Vec<u32>) -> Welded {
-    let mut corner_of_vertex = Vec::new();
-    for corner in 0..first_alike.len() {
-        let first = first_alike[corner] as usize;
-        first_alike[corner] = if first == corner {
-            corner_of_vertex.push(corner as u32);
-            corner_of_vertex.len() as u32 - 1
-        } else {
-            // An earlier corner, which has its number already.
-            first_alike[first]
-        };
-    }
-    Welded { corner_of_vertex, vertex_of_corner: first_alike }
+/// The welded vertices so far.
+struct Welding<'a> {
+    /// The first corner of each welded vertex.
+    corner_of_vertex: Vec<u32>,
+    /// The first welded vertex at each vertex of the mesh.
+    first: Vec<u32>,
+    /// For each welded vertex the next one at the same vertex of the mesh. Shorter than the list of welded vertices if
+    /// the last of them have none.
+    next: Vec<u32>,
+    /// Those beyond [`FEW`], by their vertices of the mesh.
+    others: HashMap<u32, BTreeMap<OrderedCorner<'a>, u32>>,
 }
 
-fn link_small(group: &mut [u32], compare: &Comparison, first_alike: &mut [u32]) {
-    let mut distinct = 0;
-    for i in 0..group.len() {
-        let corner = group[i];
-        let known = group[..distinct].iter().find(|&&other| compare.equal(corner, other));
-        first_alike[corner as usize] = match known {
-            Some(&first) => first,
-            None => {
-                // Corners after `i` are still to come; those before it that are not distinct are
-                // finished.
-                group[distinct] = corner;
-                distinct += 1;
-                corner
-            }
-        };
-    }
+/// A corner, compared by its values.
+struct OrderedCorner<'a> {
+    corner: u32,
+    compare: &'a Comparison<'a>,
 }
 
-fn link_large(group: &mut [u32], compare: &Comparison, first_alike: &mut [u32]) {
-    group.sort_unstable_by(|&a, &b| compare.order(a, b).then(a.cmp(&b)));
-    for alike in group.chunk_by(|&a, &b| compare.equal(a, b)) {
-        for &corner in alike {
-            first_alike[corner as usize] = alike[0];
+impl<'a> Welding<'a> {
+    fn new(vertices: usize) -> Self {
+        Self {
+            corner_of_vertex: Vec::new(),
+            first: vec![NONE; vertices],
+            next: Vec::new(),
+            others: HashMap::new(),
         }
     }
+
+    /// The welded vertex of a corner at a vertex of the mesh.
+    fn number(&mut self, compare: &'a Comparison<'a>, vertex: u32, corner: u32) -> u32 {
+        let new = self.corner_of_vertex.len() as u32;
+        let mut at = self.first[vertex as usize];
+        if at == NONE {
+            self.first[vertex as usize] = new;
+            self.corner_of_vertex.push(corner);
+            return new;
+        }
+        let mut passed = 1;
+        loop {
+            if compare.equal(corner, self.corner_of_vertex[at as usize]) {
+                return at;
+            }
+            match self.next.get(at as usize) {
+                Some(&next) if next != NONE => (at, passed) = (next, passed + 1),
+                _ if passed == FEW => break,
+                _ => {
+                    self.next.resize(self.next.len().max(at as usize + 1), NONE);
+                    self.next[at as usize] = new;
+                    self.corner_of_vertex.push(corner);
+                    return new;
+                }
+            }
+        }
+        let known = self.others.entry(vertex).or_default();
+        *known.entry(OrderedCorner { corner, compare }).or_insert_with(|| {
+            self.corner_of_vertex.push(corner);
+            new
+        })
+    }
 }
+
+impl Ord for OrderedCorner<'_> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.compare.order(self.corner, other.corner)
+    }
+}
+
+impl PartialOrd for OrderedCorner<'_> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for OrderedCorner<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for OrderedCorner<'_> {}
 
 /// All values of all corners, compared by their bits (NaN equals itself and the two zeros are
 /// equal).
@@ -125,11 +141,6 @@ pub(crate) struct AttributeComparison<'a> {
 impl<'a> Comparison<'a> {
     fn new(mesh: &'a Mesh, normals: &'a [Vec3]) -> Self {
         Self { normals, others: AttributeComparison::new(mesh) }
-    }
-
-    /// Whether corners have no values.
-    fn is_trivial(&self) -> bool {
-        self.normals.is_empty() && self.others.is_trivial()
     }
 
     fn normal(&self, corner: u32) -> [f32; 3] {
@@ -159,12 +170,6 @@ impl<'a> AttributeComparison<'a> {
             },
             flat: flat_classes(mesh),
         }
-    }
-
-    /// Whether corners have no values.
-    fn is_trivial(&self) -> bool {
-        let has_no_vectors = self.colors.is_empty() && self.tangents.is_empty();
-        self.uv_sets.is_empty() && has_no_vectors && self.morphs.is_empty() && self.flat.is_empty()
     }
 
     pub(crate) fn equal(&self, a: u32, b: u32) -> bool {

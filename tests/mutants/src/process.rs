@@ -62,6 +62,9 @@ pub(crate) fn build_tests(folder: &Folder, crates: &[&str]) -> Result<()> {
     at(&path, std::fs::write(&path, artifacts.collect::<Vec<_>>().join("\n")))
 }
 
+/// So many times its limit of processor time a test may take on the clock.
+const PATIENCE: u32 = 10;
+
 /// How a test ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum End {
@@ -70,13 +73,16 @@ pub(crate) enum End {
     TimedOut,
 }
 
-/// Runs one test alone, with a variable that says what the switches do.
+/// Runs one test alone, with a variable that says what the switches do. The limit is one of processor time, so a loaded
+/// machine ends no test that would pass. A test that waits for ever uses none: after [`PATIENCE`] times the limit it is
+/// ended, too.
 pub(crate) fn run_test(test: &Test, variable: (&str, &str), limit: Duration) -> Result<(End, Duration)> {
     let failed = |error: std::io::Error| Error::File { path: test.program.clone(), error };
     // Mutants that allocate without end must not take the machine with them.
     let mut command = Command::new("sh");
     command
-        .args(["-c", "ulimit -v 16000000; exec \"$0\" \"$@\""])
+        .args(["-c", "ulimit -v 16000000; ulimit -t \"$0\"; exec \"$@\""])
+        .arg(limit.as_secs().to_string())
         .arg(&test.program)
         .args(["--exact", &test.name, "--test-threads=1"])
         .current_dir(&test.home)
@@ -93,13 +99,25 @@ pub(crate) fn run_test(test: &Test, variable: (&str, &str), limit: Duration) -> 
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
     let mut child = command.spawn().map_err(failed)?;
-    let (status, time) = wait(&mut child, limit).map_err(failed)?;
+    let (status, time) = wait(&mut child, limit * PATIENCE).map_err(failed)?;
     let end = match status {
         Some(status) if status.success() => End::Passed,
+        Some(status) if has_run_out(status) => End::TimedOut,
         Some(_) => End::Failed,
         None => End::TimedOut,
     };
     Ok((end, time))
+}
+
+/// Whether a program was ended because it had used its processor time.
+fn has_run_out(status: ExitStatus) -> bool {
+    /// SIGXCPU on Linux and macOS.
+    const OUT_OF_TIME: i32 = 24;
+    #[cfg(unix)]
+    let signal = std::os::unix::process::ExitStatusExt::signal(&status);
+    #[cfg(not(unix))]
+    let (signal, _) = (None, status);
+    signal == Some(OUT_OF_TIME)
 }
 
 /// How the child ended, and after how long; `None` after the limit: then the test and all that it started are

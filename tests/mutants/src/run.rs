@@ -15,7 +15,7 @@ use std::time::Duration;
 /// Tests that run at the same time.
 const WORKERS: usize = 2;
 
-/// How long a test may take that takes `usual` without a mutant.
+/// How much processor time a test may use that takes `usual` without a mutant.
 fn limit(usual: Duration) -> Duration {
     Duration::from_secs(20) + usual * 10
 }

@@ -1,4 +1,4 @@
-//! Selecting by position: scripts use this where a user would draw a box.
+//! Selecting by position in space, for scripts. The boxes that users draw on the image are in `display/pick.rs`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -4,7 +4,8 @@
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `picker`, `search` | the public picker; how it visits pixels, triangles and points |
+//! | `picker` | the public picker |
+//! | `search` | **which faces a point or a region hits**; how pixels, triangles and points are visited |
 //! | `nearest`, `snap` | the elements nearest to a point; points of the scene that a pointer snaps to |
 //! | `region`, `lasso`, `outline` | which points lie in a region; the even-odd rule; distances from a polygon |
 //! | `screen`, `object` | screen positions of an object's points |

@@ -1,4 +1,4 @@
-//! How a picker traverses pixels, triangles and points.
+//! Which faces, vertices and edges a point or a region hits: how a picker visits pixels, triangles and points.
 
 use std::collections::VecDeque;
 use std::ops::{ControlFlow, Range};
