@@ -63,7 +63,7 @@ proptest! {
         let faces = images.faces.expect("asked for");
         prop_assert_eq!((objects[inside], faces[inside]), *least);
         let seen = objects.iter().zip(&faces).filter(|(object, _)| **object != u32::MAX);
-        prop_assert!(seen.clone().all(|(&object, &face)| (object, face) == *least), "one winner all over");
+        prop_assert!(seen.clone().all(|(&object, &face)| (object, face) == *least), "one visible triangle all over");
     }
 
     /// Two triangles in random planes against exact depths in f64.

@@ -1,4 +1,4 @@
-//! Explained pixels against drawn ones: winner, depth and colour to the bit, and
+//! Explained pixels against drawn ones: visible triangle, depth and colour to the bit, and
 //! edge values against exact integers.
 
 use crate::coverage_support::{Samples, rasterizer};

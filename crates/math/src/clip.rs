@@ -22,14 +22,17 @@
 //! its weights place it within `2⁻²²·m + 2⁻⁴⁴·(m + b·w)`, with `m` the largest magnitude of that
 //! coordinate and `w` that of `w` among the corners, and `b` the largest [`Band`] (1 for depth).
 //!
-//! # Why All arithmetic is in `f64`, with one cast to `f32` at the end. A cut goes from the vertex inside to
-//! the vertex outside, `p = s·inside + t·outside`, and then sets the coordinate that the plane fixes: `w` to
-//! its minimum, `z` to `w` or 0, `x` or `y` to a band times `w`. With the same `s` and `t >= 0` for all
-//! coordinates, and because rounding is monotone, `z <= w` at both ends gives `z <= w` at the cut; because
-//! bands are powers of two, the same holds for `x` against `b·w`; and the cast preserves both. So a cut never
-//! pushes a vertex out of an earlier half-space. If both ends of an edge lie on one side of a later
-//! half-space, so does the cut. Setting `w` to its minimum could do so by rounding, so there the side is
-//! restored. Of the corners of a triangle at most two neighbouring pairs differ in side; cuts add none, so
+//! # Why
+//! All arithmetic is in `f64`, with one cast to `f32` at the end. A cut goes from the vertex inside
+//! to the vertex outside, `p = s·inside + t·outside`, and then sets the coordinate that the plane
+//! fixes: `w` to its minimum, `z` to `w` or 0, `x` or `y` to a band times `w`. With the same `s` and
+//! `t >= 0` for all coordinates, and because rounding is monotone, `z <= w` at both ends gives
+//! `z <= w` at the cut; because bands are powers of two, the same holds for `x` against `b·w`; and
+//! the cast preserves both. So a cut never pushes a vertex out of an earlier half-space.
+//!
+//! If both ends of an edge lie on one side of a later half-space, so does the cut. Setting `w` to
+//! its minimum rounds, which could move the cut to the other side, so there the side is restored. Of
+//! the corners of a triangle at most two neighbouring pairs differ in side; cuts add none, so
 //! property 4 needs no tolerance.
 //!
 //! Polygons of more than three corners are not supported: a rounded quadrilateral is rarely planar,

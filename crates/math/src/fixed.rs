@@ -15,9 +15,9 @@ impl Fixed {
     pub const ONE: Self = Self(1 << Self::FRACTION_BITS);
     /// Fractional bits: 8, as Direct3D 11 requires and Vulkan requests of devices.
     pub const FRACTION_BITS: u32 = 8;
-    /// The largest magnitude in pixels: 2²². The differences of two raw values then fit into 32
-    /// bits and twice the area of any triangle into `i64`. The clipper's guard band (±32768 px) is
-    /// far inside.
+    /// The largest magnitude in pixels: 2²². The difference of two raw values is then within ±2³¹, and
+    /// twice the area of any triangle fits into `i64`. The clipper's guard band (±32768 px) is far
+    /// inside.
     pub const LIMIT: i32 = 1 << 22;
 
     /// Rounds a coordinate in pixels to the grid: to nearest, ties to even, the

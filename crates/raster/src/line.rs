@@ -147,8 +147,7 @@ fn by_index<T>(indices: [u32; 2], [a, b]: [T; 2]) -> [T; 2] {
     if indices[0] > indices[1] { [b, a] } else { [a, b] }
 }
 
-/// For each end of a segment the corners before it and behind it, across: x and y in 1/256
-/// pixel.
+/// The two corners of each end of a segment, in the order of [`Quad::corners`].
 type Corners = [[[i32; 2]; 2]; 2];
 
 /// The corners of the parallelogram around a segment, across the minor direction. `None` if one

@@ -24,12 +24,13 @@ impl Outcode {
     pub(crate) const GUARD: [Self; 4] = [Self(1 << 7), Self(1 << 8), Self(1 << 9), Self(1 << 10)];
     pub(crate) const INVALID: Self = Self(1 << 11);
 
-    /// A triangle with all its vertices beyond one of these planes is invisible.
+    /// A triangle or a line that reaches beyond one of these planes (w, near, the guard band) is cut;
+    /// a point whose centre lies beyond is not drawn.
     const CUTTING: u16 = 0b0111_1000_0011;
-    /// Beyond one of these with all its vertices, a triangle is not seen.
+    /// A triangle with all its vertices beyond one of these planes is invisible.
     const HIDING: u16 = 0b0111_1111_1111;
-    /// The same for lines and points, which reach over the sides of the view by
-    /// their width.
+    /// The same for lines and points. The sides of the view are not among them, because a line or a
+    /// point extends beyond its vertices by half its width.
     const HIDING_WIDE: u16 = 0b0111_1000_0111;
 
     /// The planes that `position` lies beyond, exactly.

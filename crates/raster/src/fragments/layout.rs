@@ -56,9 +56,10 @@ pub(crate) mod flag {
     pub(crate) const BACK: i32 = 1 << 6;
     /// It has edges to measure a distance to.
     pub(crate) const EDGES: i32 = 1 << 7;
-    /// It needs more than 32 bits.
+    /// Its bounding box is at least [`SMALL`](crate::primitive::SMALL) on an axis, so its edge
+    /// functions may need more than 32 bits.
     pub(crate) const WIDE: i32 = 1 << 8;
-    /// Its vertices were made by a cut.
+    /// Its vertices are not the corners of its primitive: it was cut, or it is half of a line.
     pub(crate) const CUT: i32 = 1 << 9;
 }
 

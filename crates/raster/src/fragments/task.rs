@@ -57,7 +57,7 @@ pub(crate) struct FragmentBatch<'t, S: Simd> {
 enum Names<'t> {
     /// By their numbers.
     Slots,
-    /// By the visible triangles, whose slots are listed; and the number of the first
+    /// By the visible triangles, whose slots are listed; and the number of the first record.
     Visible(&'t [u32], u32),
 }
 

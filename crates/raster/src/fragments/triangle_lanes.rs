@@ -33,8 +33,11 @@ struct Wide<'c, S: Simd> {
 }
 
 impl<'c, S: Simd> TriangleLanes<'c, S> {
-    /// Loads the columns of records. A lane's result does not depend on whether others are wide or
-    /// cut.
+    /// Loads the columns of records.
+    ///
+    /// A lane's result does not depend on whether others are wide or cut. With and without `wide`, edge
+    /// functions are exact integers before they are rounded to f32. With `cut`, the weights at the
+    /// vertices of a triangle that is not cut are 1 and 0, and a · 1 + b · 0 + c · 0 = a.
     #[inline(always)]
     pub(crate) fn load(simd: S, columns: &'c Columns) -> Self {
         let column = inlined(

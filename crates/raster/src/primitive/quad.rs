@@ -15,8 +15,8 @@ use crate::vertex::ScreenVertex;
 /// first end to the second of the other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Quad {
-    /// For each end the corner before it and the one behind it, across: x and y in 1/256
-    /// pixel.
+    /// x and y in 1/256 pixel, the two corners of each end: `[[a, b], [d, c]]`. Once around, their
+    /// order is a, b, c, d, so that a and d lie on one side of the segment, b and c on the other.
     pub(crate) corners: [[[i32; 2]; 2]; 2],
     /// Reversed depths of the ends.
     pub(crate) depths: [f32; 2],

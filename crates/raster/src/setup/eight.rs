@@ -18,8 +18,8 @@ struct ScreenTriangles<S: Simd> {
     extent: [[I32<S>; 2]; 2],
     /// Twice the signed area, where small.
     area: I32<S>,
-    /// The lanes whose triangles can be handled here: all vertices are snapped, and both sides are
-    /// small.
+    /// The lanes whose triangles can be handled here: all vertices are snapped, and the bounding box is
+    /// smaller than [`SMALL`] on both axes.
     plain: Mask<S>,
 }
 

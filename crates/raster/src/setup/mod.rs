@@ -4,7 +4,8 @@
 //! Vertices come snapped from the vertex stage (`vertex/snap.rs`). A vertex on the eye's side of
 //! the near plane or outside the guard band has no point on the grid. Triangles with such a vertex are cut here,
 //! and all corners of the result are snapped here (`Setup::snap`): a corner that was a vertex gets the
-//! same point as in the vertex stage, so no gap opens beside a neighbour that is not cut.
+//! same point as in the vertex stage, so no gap opens beside a neighbour that is not cut. If the shared
+//! edge itself is cut, one of its vertices has no point on the grid, so the neighbour is cut as well.
 //!
 //! In the order in which a triangle passes through:
 //!

@@ -1,7 +1,8 @@
 //! The shade stage: computes the colour of the visible triangles at each pixel.
 //!
 //! It finds out which pixels show which triangles. [`fragments`](crate::fragments) makes records of these
-//! triangles, and [`pipeline`](crate::pipeline) runs the pipelines. In the order of the work on a tile:
+//! triangles and computes the weights of their corners at the pixels, and [`pipeline`](crate::pipeline)
+//! runs the pipelines. In the order of the work on a tile:
 //!
 //! | file | what it does |
 //! |---|---|

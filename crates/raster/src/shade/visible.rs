@@ -96,8 +96,8 @@ fn mark_all(marks: &mut [u32], rows: &[[u32; LANES]], triangle_count: usize) {
     }
 }
 
-/// Numbers the triangles that are marked in their order, and gives what was listed the
-/// numbers instead of the winners.
+/// Numbers the triangles that are marked, in their order. In what was listed, these numbers replace
+/// the indices of the visible triangles.
 #[inline(always)]
 fn number(triangle_count: usize, shading: &mut Shading) {
     let Shading { slots, seen, groups, fragments, parts, .. } = shading;

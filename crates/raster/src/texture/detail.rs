@@ -55,7 +55,8 @@ impl Footprint {
             return Self { square: longer, probes: 1.0, axis };
         }
         let ratio = (longer / shorter).sqrt();
-        // If both sides are zero the ratio is NaN, and the comparison is false.
+        // If only the shorter side is zero, the ratio is infinite and becomes the sampler's number of
+        // probes. If both are zero it is NaN, the first comparison is false, and it becomes 1.
         let ratio = if ratio > 1.0 { ratio } else { 1.0 };
         let ratio = if ratio < most_probes { ratio } else { most_probes };
         // Rounded up.
@@ -65,6 +66,9 @@ impl Footprint {
     }
 
     /// Where probe `index`, from 1 to `probes`, lies along the longer side: 0 is its middle, ±1/2 its ends.
+    ///
+    /// Probes are 1/(N + 1) of the side apart, but each covers 1/N of it: neighbours overlap a little.
+    /// Both are the formulas of EXT_texture_filter_anisotropic.
     #[inline]
     pub(super) fn offset(&self, index: f32) -> f32 {
         index / (self.probes + 1.0) - 0.5
@@ -137,10 +141,10 @@ const LOWEST_EXPONENT_BIT: u32 = 1 << 23;
 /// of the next one. Below -50 for 0 and for numbers too small to matter.
 ///
 /// The whole number is half of the exponent, so that the level is known long before the
-/// weight is; all that follows waits for the level. The fraction is a polynomial in the mantissa: only
-/// additions and multiplications, so the same on every machine. It interpolates log2(1 + t)
-/// at both ends; the inner coefficients are a least-squares fit, and their terms are added
-/// up by twos (G. Estrin, 1960).
+/// weight is; all that follows waits for the level. The fraction is a polynomial in the mantissa 1 + t:
+/// only additions and multiplications, so the same on every machine. It approximates
+/// log2(1 + t) / 2, plus 1/2 where the exponent is odd, and is exact for t = 0 and t = 1; the inner
+/// coefficients are a least-squares fit, and their terms are added up by twos (G. Estrin, 1960).
 pub(super) fn log2_of_root(square: f32) -> (i32, f32) {
     let bits = square.to_bits();
     // Half of the exponent, rounded down: its bias is odd.

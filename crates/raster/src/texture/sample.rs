@@ -68,6 +68,8 @@ impl<'a> Lookup<'a> {
     fn new(texture: &'a Texture, uv: Vec2, square: f32, sampler: &'a Sampler) -> Self {
         let last = texture.strips.last_level;
         let (whole, rest) = log2_of_root(square);
+        // A level that is clamped to the texture's range has no next level: at the last one nothing
+        // follows, and below 0 the base level is magnified.
         let (level, rest) = match u32::try_from(whole) {
             Ok(level) if level < last => (level, rest),
             Ok(_) => (last, 0.0),

@@ -1,7 +1,7 @@
 //! Up to eight small triangles of a tile, prepared at once: one triangle in each lane.
 //!
-//! A triangle is small if its sides are below 64 pixels ([`small_lanes`]): then its edge functions
-//! fit in 32 bits anywhere in the tile.
+//! A triangle is small if its bounding box is less than 64 pixels wide and high ([`small_lanes`]):
+//! then its edge functions fit in 32 bits anywhere in the tile.
 
 use super::TileTriangle;
 use crate::primitive::{Column, DepthPlane, owns_boundary, small_lanes, sorted_columns};

@@ -7,7 +7,7 @@
 //! row, lanes 4 to 7 the lower one.
 //!
 //! Three cases differ. A triangle of one depth that covers the whole tile, in front of everything
-//! there, is only noted ([`VisibilityBuffer::fill_with`]). For a box of less than 8 pixels each way,
+//! there, is only noted ([`VisibilityBuffer::fill_with`]). For a box of at most 8 pixels each way,
 //! blocks are not tested against edges. Triangles with [`Special`](super::triangle::Special) coverage
 //! are decided lane by lane in i64.
 //!
@@ -119,7 +119,7 @@ impl TileRasterizer<'_> {
         );
         let walk = Walk { covering, lanes, place };
         let [columns, rows] = [covering.columns, covering.rows];
-        // For a box smaller than a block, testing blocks against edges costs more than it saves.
+        // For a box of at most 8 pixels each way, testing blocks against edges costs more than it saves.
         let small = columns[1] - columns[0] < 8 && rows[1] - rows[0] < 8;
         for block_y in rows[0] >> 3..(rows[1] >> 3) + 1 {
             for block_x in columns[0] >> 3..(columns[1] >> 3) + 1 {

@@ -115,6 +115,9 @@ impl TileTriangle {
             return [false, false];
         }
         let (mut outside, mut inside) = (false, true);
+        // `grow` and `shrink` lead from the block's first pixel to those with the greatest and the least
+        // value; its last pixels are 7 steps away. `range` makes both bounds hold at every sample. Sums
+        // may wrap around, but each result is a value of the edge in the tile, which fits 32 bits.
         for k in 0..3 {
             let (right, down) = (self.right[k], self.down[k]);
             let at = right.wrapping_mul(x).wrapping_add(down.wrapping_mul(y));

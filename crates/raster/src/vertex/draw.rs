@@ -28,8 +28,9 @@ impl<'a> DrawVertices<'a> {
         self.get(index).outcode()
     }
 
-    /// The position of a vertex in clip space. The pipeline computes it again, because few
-    /// triangles are cut.
+    /// The position of a vertex in clip space. It is not kept, because few triangles are cut: the
+    /// pipeline computes it again. Pipelines must then return the same bits as in the vertex stage, or
+    /// cracks would open to neighbours that are not cut.
     pub(crate) fn position(&self, index: u32) -> Vec4 {
         self.pipeline.position(self.token, index as usize)
     }

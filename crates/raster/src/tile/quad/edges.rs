@@ -99,6 +99,9 @@ impl QuadEdges {
                 return QuadPosition::Beside;
             }
             if is_outside || value + fall >= 0 {
+                // All of the tile lies on one side of the edge, so a constant with the right sign is
+                // enough: 0 inside, −1 outside. Only the diagonal can be outside here; then all samples
+                // are in the second triangle.
                 self.set(k, [0; 2], |_| if is_outside { -1 } else { 0 });
             } else if (rise - fall) >> 8 >= i64::from(i32::MAX) {
                 return QuadPosition::TooLong;

@@ -101,6 +101,8 @@ impl TileRasterizer<'_> {
             return true;
         }
         let [[a, b], [d, c]] = quad.corners;
+        // The two corners of one end differ only along the minor axis. That holds for sharp outlines;
+        // anti-aliased ones are translucent and never come here.
         let major = usize::from(a[0] != b[0]);
         let minor = 1 - major;
         if (b[minor] - a[minor]).max(c[minor] - d[minor]) >= WIDE {

@@ -42,11 +42,11 @@ impl Tally {
     }
 }
 
-/// What a pixel's centre is covered by: for each face that may win it, or cover it, whether
-/// it does.
+/// What covers a pixel's centre: for each face that may be visible there, or cover it, whether it
+/// is or does.
 #[derive(Default)]
 struct Pixel {
-    winners: Vec<(usize, u32, Answer)>,
+    visible: Vec<(usize, u32, Answer)>,
     covering: Vec<(usize, u32, Answer)>,
 }
 
@@ -80,7 +80,7 @@ fn pixel(oracle: &Oracle, [x, y]: [u32; 2]) -> Pixel {
     met.retain(|met| met.near <= limit);
     let alone = met.iter().all(|one| (one.object, one.face) == (met[0].object, met[0].face));
     let answer = if certain(&met).next().is_some() && alone { Answer::Yes } else { Answer::Open };
-    pixel.winners = met.iter().map(|met| (met.object, met.face, answer)).collect();
+    pixel.visible = met.iter().map(|met| (met.object, met.face, answer)).collect();
     pixel
 }
 
@@ -107,7 +107,7 @@ fn faces(oracle: &Oracle, pixels: &[Pixel], region: &Region, reach: Reach) -> Ve
         if inside == Answer::No {
             continue;
         }
-        let faces = if reach == Reach::Visible { &pixel.winners } else { &pixel.covering };
+        let faces = if reach == Reach::Visible { &pixel.visible } else { &pixel.covering };
         for &(object, face, answer) in faces {
             let known = &mut answers[object][face as usize];
             *known = (*known).max(answer.min(inside));
