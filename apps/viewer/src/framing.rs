@@ -97,14 +97,13 @@ impl Framing {
         if let Eye::Exact(ExactCamera { camera, distance }) = self.eye {
             return Ok(Shot { camera, distance });
         }
-        let points: Vec<_> = scene.visible_points().collect();
-        let bounds = Bounds3::from_points(points.iter().copied().filter(|point| point.is_finite()));
+        let bounds = scene.tight_bounds();
         let center = self.focal_point.unwrap_or_else(|| Extent::new(&bounds).center());
         let shot = match self.eye {
             Eye::Position(position) => self.standing(position, center)?,
             Eye::SceneCamera(index) => self.borrowed(scene, index, center)?,
             Eye::Default | Eye::Direction(_) | Eye::Side(_) | Eye::Exact(_) => {
-                self.fitted(points, center, aspect)?
+                self.fitted(scene.visible_points().collect(), center, aspect)?
             }
         };
         let shot = self.scripted(shot);

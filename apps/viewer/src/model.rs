@@ -66,7 +66,7 @@ impl Model {
     /// The model, or an error when nothing in it can be drawn.
     pub(crate) fn new(mut scene: Scene, source: Source, request: &Request) -> Result<Self, Failure> {
         request.look.apply(&mut scene)?;
-        let bounds = Bounds3::from_points(scene.visible_points());
+        let bounds = scene.tight_bounds();
         if bounds.is_empty() {
             return Err(Failure::Empty(format!(
                 "{}: nothing to draw: there is no face, line or point in it; check that the right file was exported, with its meshes",
@@ -80,7 +80,7 @@ impl Model {
     /// The model of a scene that is shown already.
     #[cfg(feature = "window")]
     pub(crate) fn shown(scene: Scene, source: Source) -> Self {
-        let bounds = Bounds3::from_points(scene.visible_points());
+        let bounds = scene.tight_bounds();
         Self { scene, source, scene_names: Vec::new(), files: Vec::new(), odd: None, bounds }
     }
 

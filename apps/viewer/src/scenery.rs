@@ -80,7 +80,10 @@ impl Scenery {
 
     /// Adds lines to a scene; returns their nodes.
     pub(crate) fn add_to(&self, scene: &mut Scene) -> Vec<NodeId> {
-        let bounds = Bounds3::from_points(scene.visible_points());
+        if self.normals.is_none() && !self.bones && !self.shows_grid {
+            return Vec::new();
+        }
+        let bounds = scene.tight_bounds();
         let Some(center) = bounds.center() else { return Vec::new() };
         let diagonal = bounds.size().length();
         let mut added = Vec::new();
@@ -101,7 +104,7 @@ impl Scenery {
     /// Adds the grid of a model to a scene; returns its node.
     #[cfg(feature = "window")]
     pub(crate) fn add_grid(&self, scene: &mut Scene, model: &Scene) -> NodeId {
-        self.grid.add_to(scene, &Bounds3::from_points(model.visible_points()))
+        self.grid.add_to(scene, &model.tight_bounds())
     }
 }
 
@@ -306,7 +309,7 @@ mod tests {
         let faces: usize =
             scene.meshes().iter().last().map(|(_, asset)| asset.mesh().face_count()).expect("balls");
         assert_eq!(faces, 8 * 80, "a ball of 80 faces at each corner");
-        let size = Bounds3::from_points(scene.visible_points()).size();
+        let size = scene.tight_bounds().size();
         assert!((size.x - 3.5).abs() < 0.05, "half a metre larger: {size}");
     }
 }

@@ -32,18 +32,20 @@ pub(crate) fn read_numbers<const MOST: usize>(line: &[u8]) -> Result<Numbers<MOS
             numbers.surplus = true;
             return Ok(numbers);
         }
-        let rest = &line[at..];
-        let (value, length) = match plain(rest) {
-            Some(found) => found,
-            None => {
-                let word = first_word(rest);
-                (unusual(word)?, word.len())
-            }
-        };
+        let (value, length) = first_number(&line[at..])?;
         numbers.values[numbers.count] = value;
         numbers.count += 1;
         at += length;
     }
+}
+
+/// The word at the start of a text as a number, and its length.
+pub(crate) fn first_number(text: &[u8]) -> Result<(f64, usize), String> {
+    if let Some(found) = plain(text) {
+        return Ok(found);
+    }
+    let word = first_word(text);
+    Ok((unusual(word)?, word.len()))
 }
 
 /// A word as a number.

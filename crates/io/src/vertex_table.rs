@@ -1,7 +1,13 @@
 //! A table of vertices by what tells them apart, such as their places. It holds their numbers alone, 8 to 16 bytes
 //! for each; a `HashMap` with the places as keys would take several times as much, while a large file is read.
 
-use std::hash::{BuildHasher, Hash, RandomState};
+use std::hash::{BuildHasher, Hash};
+use std::hint::black_box;
+
+use foldhash::quality::RandomState;
+
+/// So many keys are best hashed at once: enough to wait for memory only once, and few enough to stay in the cache.
+pub(crate) const AT_ONCE: usize = 64;
 
 /// An empty slot. There are fewer vertices.
 const EMPTY: u32 = u32::MAX;
@@ -9,7 +15,8 @@ const EMPTY: u32 = u32::MAX;
 /// The numbers of vertices, 0, 1, 2 and so on, in the order in which they came.
 #[derive(Debug, Default)]
 pub(crate) struct VertexTable {
-    /// A file must not choose which keys collide.
+    /// Seeded anew for each table: a file must not choose which keys collide. All bits of its hashes count, of which the
+    /// lowest are used here. The hash of the standard library takes most of the time of a large STL file.
     hasher: RandomState,
     /// A power of two of them, at most half of them filled: a number is in the first free slot from that of
     /// its hash on.
@@ -23,13 +30,27 @@ impl VertexTable {
         Self { slots: vec![EMPTY; slot_count(vertices)], ..Self::default() }
     }
 
-    /// The number of the vertex with a key, or as an error that of a new one, which is in the table then.
+    /// The hashes of some keys, at best [`AT_ONCE`] of them. Their slots are read, too: the processor fetches all of
+    /// them at the same time, and not one after the other when each is needed.
+    pub(crate) fn hash_all<K: Hash>(&self, keys: impl Iterator<Item = K>, hashes: &mut Vec<u64>) {
+        hashes.clear();
+        hashes.extend(keys.map(|key| self.hasher.hash_one(key)));
+        let slots = hashes.iter().filter_map(|&hash| self.slots.get(self.first_slot(hash)));
+        black_box(slots.fold(0, |all, slot| all ^ slot));
+    }
+
+    /// The number of the vertex with a key and its hash, or as an error that of a new one, which is in the table then.
     /// `key_of` returns the key of each number before.
-    pub(crate) fn number<K: Hash + Eq>(&mut self, key: &K, key_of: impl Fn(u32) -> K) -> Result<u32, u32> {
+    pub(crate) fn number<K: Hash + Eq>(
+        &mut self,
+        key: &K,
+        hash: u64,
+        key_of: impl Fn(u32) -> K,
+    ) -> Result<u32, u32> {
         if 2 * self.count as usize >= self.slots.len() {
             self.grow(&key_of);
         }
-        let slot = self.slot_of(key, |number| key_of(number) == *key);
+        let slot = self.slot_of(hash, |number| key_of(number) == *key);
         match self.slots[slot] {
             EMPTY => {
                 self.slots[slot] = self.count;
@@ -40,10 +61,14 @@ impl VertexTable {
         }
     }
 
-    /// The slot of a key: that of its number, or an empty one.
-    fn slot_of<K: Hash>(&self, key: &K, is_it: impl Fn(u32) -> bool) -> usize {
+    fn first_slot(&self, hash: u64) -> usize {
+        hash as usize & self.slots.len().wrapping_sub(1)
+    }
+
+    /// The slot of a key with a hash: that of its number, or an empty one.
+    fn slot_of(&self, hash: u64, is_it: impl Fn(u32) -> bool) -> usize {
         let last = self.slots.len() - 1;
-        let mut slot = self.hasher.hash_one(key) as usize & last;
+        let mut slot = self.first_slot(hash);
         while self.slots[slot] != EMPTY && !is_it(self.slots[slot]) {
             slot = (slot + 1) & last;
         }
@@ -56,7 +81,7 @@ impl VertexTable {
         self.slots = Vec::new();
         self.slots = vec![EMPTY; length];
         for number in 0..self.count {
-            let slot = self.slot_of(&key_of(number), |_| false);
+            let slot = self.slot_of(self.hasher.hash_one(key_of(number)), |_| false);
             self.slots[slot] = number;
         }
     }
@@ -75,10 +100,12 @@ mod tests {
     fn the_same_key_has_the_same_number() {
         for room in [0, 5, 10_000] {
             let (mut table, mut keys) = (VertexTable::with_capacity(room), Vec::new());
+            let mut hashes = Vec::new();
             for step in 0..5000_u32 {
                 let key = step * 7919 % 1000;
+                table.hash_all([key].into_iter(), &mut hashes);
                 let expected = keys.iter().position(|known| *known == key).map(|number| number as u32);
-                let found = table.number(&key, |number| keys[number as usize]);
+                let found = table.number(&key, hashes[0], |number| keys[number as usize]);
                 assert_eq!(found, expected.ok_or(keys.len() as u32), "step {step}");
                 if found.is_err() {
                     keys.push(key);
@@ -87,6 +114,8 @@ mod tests {
             assert_eq!(keys.len(), 1000, "each once");
         }
         let mut table = VertexTable::default();
-        assert_eq!(table.number(&"a", |_| ""), Err(0), "the first");
+        let mut hashes = Vec::new();
+        table.hash_all(["a"].into_iter(), &mut hashes);
+        assert_eq!(table.number(&"a", hashes[0], |_| ""), Err(0), "the first, in a table without slots");
     }
 }

@@ -59,10 +59,11 @@ impl Mesh {
 
     /// The same, without a copy where all are used as they were given.
     pub(crate) fn shading_normals_or_given(&self) -> Cow<'_, [Vec3]> {
-        let bits = |normal: Vec3| normal.to_array().map(f32::to_bits);
-        let is_kept = |&normal: &Vec3| normal != Vec3::ZERO && bits(unit_keeping(normal)) == bits(normal);
+        let is_kept = |&normal: &Vec3| is_unit(normal);
+        // Without a way out after each of them, several are tested at a time.
+        let are_kept = |some: &[Vec3]| some.iter().fold(true, |kept, normal| kept & is_kept(normal));
         match &self.attributes().corner_normals {
-            Some(given) if given.iter().all(is_kept) => Cow::Borrowed(given),
+            Some(given) if given.chunks(1024).all(are_kept) => Cow::Borrowed(given),
             _ => Cow::Owned(self.shading_normals()),
         }
     }
@@ -232,7 +233,11 @@ const UNIT_TOLERANCE: f64 = 1e-6;
 /// Like [`unit_or_zero`], but a unit vector keeps its bits.
 pub(crate) fn unit_keeping(normal: Vec3) -> Vec3 {
     let wide = normal.as_dvec3();
-    if (wide.length_squared() - 1.0).abs() <= UNIT_TOLERANCE { normal } else { unit_or_zero(wide).as_vec3() }
+    if is_unit(normal) { normal } else { unit_or_zero(wide).as_vec3() }
+}
+
+fn is_unit(normal: Vec3) -> bool {
+    (normal.as_dvec3().length_squared() - 1.0).abs() <= UNIT_TOLERANCE
 }
 
 pub(crate) fn or_if_zero(normal: Vec3, other: Vec3) -> Vec3 {

@@ -54,7 +54,7 @@ impl RenderMesh {
     /// polygon is smooth, or a pose can deform the mesh.
     pub fn from_flat_mesh(mesh: &Mesh) -> Option<(RenderMesh, Vec<Vec3>)> {
         let normals = mesh.flat_normals()?;
-        Some((Self::from_welded(mesh, Vec::new(), &weld(mesh, &[])), normals))
+        Some((Self::from_welded(mesh, Vec::new(), &weld(mesh, &[]).0), normals))
     }
 
     /// The same as [`RenderMesh::from_mesh`], with the data to follow changes of the mesh later; `None` if a pose can deform the
@@ -68,9 +68,8 @@ impl RenderMesh {
 
     /// The normals of the welded vertices. Those of the corners, which are many, are needed no longer.
     fn welded_normals(mesh: &Mesh) -> (Vec<Vec3>, Welded) {
-        let normals = mesh.shading_normals_or_given();
-        let welded = weld(mesh, &normals);
-        (pick(&normals, &welded.corner_of_vertex), welded)
+        let (welded, normals) = weld(mesh, &mesh.shading_normals_or_given());
+        (normals, welded)
     }
 
     /// `normals` are those of the welded vertices.
@@ -89,8 +88,8 @@ impl RenderMesh {
             normals: target.normals.reordered(mesh.corner_count(), corners.iter().copied()),
             tangents: target.tangents.reordered(mesh.corner_count(), corners.iter().copied()),
         };
-        let slots = attributes.face_materials.as_deref();
-        let slot = |&face: &u32| slots.map_or(0, |slots| slots[face as usize]);
+        let slots_of = |slots: &[u32]| triangle_faces.iter().map(|&face| slots[face as usize]).collect();
+        let slots = attributes.face_materials.as_deref().map(slots_of);
         RenderMesh {
             positions: corners.iter().map(position).collect(),
             normals,
@@ -100,7 +99,7 @@ impl RenderMesh {
             skin: attributes.skin.as_ref().map(|skin| skin.reordered(corners.iter().map(vertex))),
             morph_targets: attributes.morph_targets.iter().map(morph).collect(),
             flat_faces: FlatFaces::of(mesh, &welded.vertex_of_corner),
-            triangle_materials: triangle_faces.iter().map(slot).collect(),
+            triangle_materials: slots.unwrap_or_else(|| vec![0; triangle_faces.len()]),
             triangles,
             triangle_faces,
         }

@@ -26,19 +26,21 @@ pub(crate) struct Welded {
 
 /// Welds corners at the same vertex whose values agree, with
 /// these normals in place of the mesh's own, or without any.
-/// The welded vertices are numbered in order of first use.
-pub(crate) fn weld(mesh: &Mesh, normals: &[Vec3]) -> Welded {
-    let compare = Comparison::new(mesh, normals);
+/// The welded vertices are numbered in order of first use; they come with their normals.
+pub(crate) fn weld(mesh: &Mesh, normals: &[Vec3]) -> (Welded, Vec<Vec3>) {
+    let compare = Comparison { normals, others: AttributeComparison::new(mesh) };
     let mut welding = Welding::new(mesh.vertex_count());
     let number = |(corner, &vertex): (u32, &u32)| welding.number(&compare, vertex, corner);
     let vertex_of_corner = (0..).zip(mesh.corner_vertices()).map(number).collect();
-    Welded { corner_of_vertex: welding.corner_of_vertex, vertex_of_corner }
+    (Welded { corner_of_vertex: welding.corner_of_vertex, vertex_of_corner }, welding.normals)
 }
 
 /// The welded vertices so far.
 struct Welding<'a> {
     /// The first corner of each welded vertex.
     corner_of_vertex: Vec<u32>,
+    /// Their normals, next to each other: those of the corners are scattered over several times as much memory.
+    normals: Vec<Vec3>,
     /// The first welded vertex at each vertex of the mesh.
     first: Vec<u32>,
     /// For each welded vertex the next one at the same vertex of the mesh. Shorter than the list of welded vertices if
@@ -58,6 +60,7 @@ impl<'a> Welding<'a> {
     fn new(vertices: usize) -> Self {
         Self {
             corner_of_vertex: Vec::new(),
+            normals: Vec::new(),
             first: vec![NONE; vertices],
             next: Vec::new(),
             others: HashMap::new(),
@@ -66,16 +69,14 @@ impl<'a> Welding<'a> {
 
     /// The welded vertex of a corner at a vertex of the mesh.
     fn number(&mut self, compare: &'a Comparison<'a>, vertex: u32, corner: u32) -> u32 {
-        let new = self.corner_of_vertex.len() as u32;
         let mut at = self.first[vertex as usize];
         if at == NONE {
-            self.first[vertex as usize] = new;
-            self.corner_of_vertex.push(corner);
-            return new;
+            self.first[vertex as usize] = self.corner_of_vertex.len() as u32;
+            return self.push(compare, corner);
         }
         let mut passed = 1;
         loop {
-            if compare.equal(corner, self.corner_of_vertex[at as usize]) {
+            if self.is(compare, at, corner) {
                 return at;
             }
             match self.next.get(at as usize) {
@@ -83,17 +84,34 @@ impl<'a> Welding<'a> {
                 _ if passed == FEW => break,
                 _ => {
                     self.next.resize(self.next.len().max(at as usize + 1), NONE);
-                    self.next[at as usize] = new;
-                    self.corner_of_vertex.push(corner);
-                    return new;
+                    self.next[at as usize] = self.corner_of_vertex.len() as u32;
+                    return self.push(compare, corner);
                 }
             }
         }
-        let known = self.others.entry(vertex).or_default();
-        *known.entry(OrderedCorner { corner, compare }).or_insert_with(|| {
-            self.corner_of_vertex.push(corner);
-            new
-        })
+        let key = OrderedCorner { corner, compare };
+        if let Some(&known) = self.others.get(&vertex).and_then(|others| others.get(&key)) {
+            return known;
+        }
+        let new = self.push(compare, corner);
+        self.others.entry(vertex).or_default().insert(key, new);
+        new
+    }
+
+    /// Whether a corner at the same vertex of the mesh has the values of a welded vertex.
+    fn is(&self, compare: &Comparison<'_>, welded: u32, corner: u32) -> bool {
+        let has_normal = match compare.normals.get(corner as usize) {
+            Some(normal) => bits(normal.to_array()) == bits(self.normals[welded as usize].to_array()),
+            None => true,
+        };
+        has_normal && compare.others.equal(corner, self.corner_of_vertex[welded as usize])
+    }
+
+    /// A new welded vertex with the values of a corner.
+    fn push(&mut self, compare: &Comparison<'_>, corner: u32) -> u32 {
+        self.normals.extend(compare.normals.get(corner as usize));
+        self.corner_of_vertex.push(corner);
+        self.corner_of_vertex.len() as u32 - 1
     }
 }
 
@@ -138,17 +156,9 @@ pub(crate) struct AttributeComparison<'a> {
     flat: Vec<u32>,
 }
 
-impl<'a> Comparison<'a> {
-    fn new(mesh: &'a Mesh, normals: &'a [Vec3]) -> Self {
-        Self { normals, others: AttributeComparison::new(mesh) }
-    }
-
+impl Comparison<'_> {
     fn normal(&self, corner: u32) -> [f32; 3] {
         self.normals.get(corner as usize).map_or([0.0; 3], |normal| normal.to_array())
-    }
-
-    fn equal(&self, a: u32, b: u32) -> bool {
-        bits(self.normal(a)) == bits(self.normal(b)) && self.others.equal(a, b)
     }
 
     /// A total order in which only equal corners compare equal.

@@ -92,15 +92,17 @@ impl MeshAsset {
 
     /// What is drawn of it; made, or brought up to date, at the first use.
     pub(crate) fn geometry(&self) -> &Arc<Geometry> {
-        self.derived.geometry.get_or_init(|| {
-            Arc::new(match self.derived.take_outdated() {
-                None => Geometry::new(&self.mesh),
-                Some(Outdated { geometry: None, .. }) => Geometry::that_follows(&self.mesh),
-                Some(Outdated { geometry: Some(before), changed }) => {
+        if let Some(outdated) = self.derived.take_outdated() {
+            // All threads work on it, so there is no lock: while a thread waits for the others, it may be given work that
+            // needs the same geometry. Another caller may build its own at the same time; the first one stays.
+            let _ = self.derived.geometry.set(Arc::new(match outdated {
+                Outdated { geometry: None, .. } => Geometry::that_follows(&self.mesh),
+                Outdated { geometry: Some(before), changed } => {
                     Geometry::after_change(before, &self.mesh, &changed)
                 }
-            })
-        })
+            }));
+        }
+        self.derived.geometry.get_or_init(|| Arc::new(Geometry::new(&self.mesh)))
     }
 
     /// See [`Scene::change_mesh`](crate::Scene::change_mesh).

@@ -304,6 +304,14 @@ impl Scene {
         self.placed_meshes().fold(Bounds3::EMPTY, around)
     }
 
+    /// The smallest box around [`Scene::visible_points`]; coordinates that are not finite do not count. [`Scene::bounds`]
+    /// visits no vertices, and is larger where nodes rotate.
+    #[must_use]
+    pub fn tight_bounds(&self) -> Bounds3 {
+        let around = |bounds: Bounds3, mesh: PlacedMesh<'_>| bounds.union(mesh.tight_bounds());
+        self.placed_meshes().fold(Bounds3::EMPTY, around)
+    }
+
     /// The cameras in the scene, in the order of their nodes, for a viewer to choose from. A
     /// camera's scale is ignored.
     #[must_use]

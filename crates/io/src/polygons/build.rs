@@ -1,8 +1,10 @@
 //! Builds a mesh from lists: invalid faces are left out, and vertex values are copied to corners.
 
+use std::mem::take;
 use std::ops::Range;
 
-use trigon_math::{DVec3, Vec2, Vec4};
+use rayon::prelude::*;
+use trigon_math::{DVec3, Vec4};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 
 use super::{Polygons, most_corners, too_many_corners};
@@ -56,7 +58,7 @@ pub(super) fn build(
     push_edges(import, &polygons, &local, &mut builder, &mut left_out)?;
     warn(import, &left_out);
     let mut mesh = builder.build();
-    mesh.set_attributes(attributes(&polygons, &kept)).expect("one value per accepted corner");
+    mesh.set_attributes(attributes(polygons, &kept)).expect("one value per accepted corner");
     Ok(mesh)
 }
 
@@ -77,20 +79,20 @@ impl Kept {
         }
     }
 
-    /// Of all so many faces, or corners, those that were accepted.
+    /// Of all so many faces those that were accepted.
     fn faces(&self, count: usize) -> impl Iterator<Item = usize> {
-        listed(self.0.as_ref().map(|(faces, _)| faces.as_slice()), count)
+        let list = self.0.as_ref().map(|(faces, _)| faces.as_slice());
+        let all = 0..list.map_or(count, <[u32]>::len);
+        all.map(move |index| list.map_or(index, |list| list[index] as usize))
     }
 
-    fn corners(&self, count: usize) -> impl Iterator<Item = usize> {
-        listed(self.0.as_ref().map(|(_, corners)| corners.as_slice()), count)
+    /// Of values at all corners those at the corners that were accepted.
+    fn at_corners<T: Copy>(&self, values: Vec<T>) -> Vec<T> {
+        match &self.0 {
+            None => values,
+            Some((_, corners)) => corners.iter().map(|&corner| values[corner as usize]).collect(),
+        }
     }
-}
-
-/// The numbers of a list, or all up to a count.
-fn listed(list: Option<&[u32]>, count: usize) -> impl Iterator<Item = usize> {
-    let all = 0..list.map_or(count, <[u32]>::len);
-    all.map(move |index| list.map_or(index, |list| list[index] as usize))
 }
 
 /// Stands for a vertex that has no place.
@@ -193,27 +195,28 @@ fn warn(import: &mut Import<'_>, left_out: &LeftOut) {
     );
 }
 
-fn attributes(polygons: &Polygons, kept: &Kept) -> Attributes {
-    let corners = || kept.corners(polygons.corner_vertices.len());
-    let vertices = || corners().map(|corner| polygons.corner_vertices[corner] as usize);
-    let normals =
-        (!polygons.normals.is_empty()).then(|| vertices().map(|vertex| polygons.normals[vertex]).collect());
-    let uvs: Option<Vec<Vec2>> = if !polygons.corner_uvs.is_empty() {
-        Some(corners().map(|corner| polygons.corner_uvs[corner]).collect())
-    } else {
-        (!polygons.uvs.is_empty()).then(|| vertices().map(|vertex| polygons.uvs[vertex]).collect())
+/// The values at the corners of the faces that were accepted.
+fn attributes(mut polygons: Polygons, kept: &Kept) -> Attributes {
+    let vertices = kept.at_corners(take(&mut polygons.corner_vertices));
+    let normals = of_vertices(&polygons.normals, &vertices);
+    let uvs = match polygons.corner_uvs.is_empty() {
+        true => of_vertices(&polygons.uvs, &vertices),
+        false => Some(kept.at_corners(take(&mut polygons.corner_uvs))),
     };
-    let colors = if !polygons.colors.is_empty() {
-        Some(vertices().map(|vertex| polygons.colors[vertex]).collect())
-    } else {
-        (!polygons.face_colors.is_empty()).then(|| colors_of_faces(polygons, kept))
-    };
+    let colors = of_vertices(&polygons.colors, &vertices);
+    let of_faces = || (!polygons.face_colors.is_empty()).then(|| colors_of_faces(&polygons, kept));
     Attributes {
         corner_normals: normals,
         uv_sets: uvs.into_iter().collect(),
-        corner_colors: colors,
+        corner_colors: colors.or_else(of_faces),
         ..Attributes::default()
     }
+}
+
+/// The values of the vertices at corners, if vertices have values. All threads write them.
+fn of_vertices<T: Copy + Send + Sync>(values: &[T], vertices: &[u32]) -> Option<Vec<T>> {
+    let of = |&vertex: &u32| values[vertex as usize];
+    (!values.is_empty()).then(|| vertices.par_iter().map(of).collect())
 }
 
 /// The colour of its face at each corner of the faces that were accepted.

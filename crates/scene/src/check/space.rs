@@ -16,7 +16,7 @@ const FAR: f64 = 131_072.0;
 pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
     not_finite(scene, findings);
     flattened(scene, findings);
-    let bounds = Bounds3::from_points(scene.visible_points().filter(|point| point.is_finite()));
+    let bounds = scene.tight_bounds();
     if bounds.is_empty() {
         findings.push(Finding {
             severity: Severity::Error,

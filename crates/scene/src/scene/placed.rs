@@ -100,6 +100,18 @@ impl<'s> PlacedMesh<'s> {
         local.transformed(&self.world)
     }
 
+    /// The smallest box in the world around the vertices that faces, edges or points use.
+    pub(crate) fn tight_bounds(self) -> Bounds3 {
+        let bounds = self.bounds();
+        let is_finite = bounds.is_empty() || (bounds.min.is_finite() && bounds.max.is_finite());
+        // Then each coordinate in the world follows from one of the mesh, and the extremes stay the extremes.
+        if is_finite && keeps_axes(&self.world) {
+            return bounds;
+        }
+        let finite = |point: DVec3| DVec3::select(point.is_finite_mask(), point, DVec3::NAN);
+        Bounds3::from_points(self.into_used_points().map(finite))
+    }
+
     /// The map from the positions into the world.
     pub(crate) fn world(&self) -> &DAffine3 {
         &self.world
@@ -108,5 +120,73 @@ impl<'s> PlacedMesh<'s> {
     /// Where each vertex is in its pose.
     pub(crate) fn positions(&self) -> &[Vec3] {
         self.posed.as_deref().unwrap_or(self.asset.mesh().positions())
+    }
+}
+
+/// Whether a map takes each axis to an axis, or to nothing.
+fn keeps_axes(map: &DAffine3) -> bool {
+    let has_one = |row: DVec3| row.to_array().into_iter().filter(|&entry| entry != 0.0).count() <= 1;
+    let rows = map.matrix3.transpose();
+    [rows.x_axis, rows.y_axis, rows.z_axis].into_iter().all(has_one)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use trigon_math::DQuat;
+    use trigon_mesh::primitives;
+
+    use super::*;
+    use crate::{Material, Node, Transform};
+
+    /// Turns that keep axes, and others.
+    fn turns() -> impl Strategy<Value = DQuat> {
+        let quarter = (0..3_usize, 0..4_u8).prop_map(|(axis, quarters)| {
+            DQuat::from_axis_angle(DVec3::AXES[axis], f64::from(quarters) * std::f64::consts::FRAC_PI_2)
+        });
+        let any = prop::array::uniform3(-3.0..3.0)
+            .prop_map(|[x, y, z]| DQuat::from_scaled_axis(DVec3::new(x, y, z)));
+        prop_oneof![Just(DQuat::IDENTITY), quarter, any]
+    }
+
+    proptest! {
+        #[test]
+        fn the_tight_box_is_that_of_all_visible_points(
+            nodes in prop::collection::vec(
+                (turns(), prop::array::uniform3(-3.0..3.0), prop::array::uniform3(-1e3..1e3), prop::option::of(0..3_u8)),
+                0..5,
+            ),
+        ) {
+            let mut scene = Scene::new();
+            let mut last: Option<NodeId> = None;
+            for (turn, scale, place, parent) in nodes {
+                let id = scene.add_object("torus", primitives::torus(1.0, 0.4, 7, 5), Material::default());
+                let node: &mut Node = scene.node_mut(id).expect("just added");
+                node.transform = Transform::from_scale_rotation_translation(
+                    DVec3::from_array(scale),
+                    turn,
+                    DVec3::from_array(place),
+                );
+                if let (Some(last), Some(0)) = (last, parent) {
+                    scene.set_parent(id, Some(last)).expect("no circle");
+                }
+                last = Some(id);
+            }
+            let expected = Bounds3::from_points(scene.visible_points());
+            prop_assert_eq!(scene.tight_bounds(), expected);
+        }
+    }
+
+    #[test]
+    fn coordinates_that_are_not_finite_do_not_count() {
+        let mut scene = Scene::new();
+        let mut torus = primitives::torus(1.0, 0.4, 7, 5);
+        let clean = torus.bounds();
+        torus.positions_mut()[3].x = f32::INFINITY;
+        torus.positions_mut()[5].y = f32::NAN;
+        scene.add_object("torus", torus, Material::default());
+        let bounds = scene.tight_bounds();
+        assert!(bounds.min.is_finite() && bounds.max.is_finite(), "{bounds:?}");
+        assert!(bounds.min.cmpge(clean.min).all() && bounds.max.cmple(clean.max).all(), "{bounds:?}");
     }
 }

@@ -1,7 +1,6 @@
 //! Rows of numbers.
 
-use crate::numbers::number;
-use crate::rows::words;
+use crate::numbers::first_number;
 
 /// The numbers of a row.
 #[derive(Default)]
@@ -12,8 +11,11 @@ pub(super) struct Numbers {
 impl Numbers {
     pub(super) fn read(&mut self, line: &[u8]) -> Result<(), String> {
         self.values.clear();
-        for word in words(line) {
-            self.values.push(number(word)?);
+        let mut rest = line.trim_ascii_start();
+        while !rest.is_empty() {
+            let (value, length) = first_number(rest)?;
+            self.values.push(value);
+            rest = rest[length..].trim_ascii_start();
         }
         Ok(())
     }

@@ -14,8 +14,11 @@ pub(super) const HEADER: usize = 84;
 /// A normal, three vertices and the attribute, in bytes.
 pub(super) const TRIANGLE: usize = 50;
 
-/// So many triangles are read before the caller is asked again whether to go on.
+/// So many triangles are read before the caller is asked again whether to go on: a multiple of the next number.
 const STRIDE: usize = 1 << 16;
+
+/// So many triangles are read before their vertices are looked up: a good number of corners for the table.
+const AT_ONCE: usize = crate::vertex_table::AT_ONCE / 2;
 
 /// How many triangles the file claims; none if it is too short to say.
 fn claimed(bytes: &[u8]) -> Option<u32> {
@@ -34,23 +37,28 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
         let what = format!("it has {} bytes, and neither the start of text nor a binary header", bytes.len());
         return Err(LoadError::malformed(import.path, what, "copy or export the file again"));
     };
-    let triangles = bytes[HEADER..].chunks_exact(TRIANGLE).take(count as usize);
-    warn_of_size(import, bytes, count, triangles.len());
-    if triangles.len() > most_corners(import) / 3 {
+    let length = ((bytes.len() - HEADER) / TRIANGLE).min(count as usize);
+    warn_of_size(import, bytes, count, length);
+    if length > most_corners(import) / 3 {
         return Err(too_many_corners(import));
     }
-    let length = triangles.len();
     let mut solid = Solid::with_room(length);
     let mut colors = Colors::new(&bytes[..HEADER - 4]);
-    for (index, triangle) in triangles.enumerate() {
-        if index % STRIDE == 0 {
-            import.options.report(import.path, LoadStage::Geometry, 0.9 * index as f32 / length as f32)?;
+    let mut places = Vec::new();
+    for (index, some) in bytes[HEADER..][..length * TRIANGLE].chunks(AT_ONCE * TRIANGLE).enumerate() {
+        let first = index * AT_ONCE;
+        if first.is_multiple_of(STRIDE) {
+            import.options.report(import.path, LoadStage::Geometry, 0.9 * first as f32 / length as f32)?;
         }
-        let (numbers, rest) = triangle.as_chunks::<4>();
-        let number = |at: usize| f64::from(f32::from_le_bytes(numbers[at]));
-        let corner = |at: usize| DVec3::new(number(at), number(at + 1), number(at + 2));
-        solid.push(import, &[corner(3), corner(6), corner(9)])?;
-        colors.push(u16::from_le_bytes([rest[0], rest[1]]));
+        places.clear();
+        for triangle in some.chunks_exact(TRIANGLE) {
+            let (numbers, rest) = triangle.as_chunks::<4>();
+            let number = |at: usize| f64::from(f32::from_le_bytes(numbers[at]));
+            let corner = |at: usize| DVec3::new(number(at), number(at + 1), number(at + 2));
+            places.push([corner(3), corner(6), corner(9)]);
+            colors.push(u16::from_le_bytes([rest[0], rest[1]]));
+        }
+        solid.push_triangles(import, &places)?;
     }
     // One for each triangle, unless none has any.
     solid.polygons.face_colors = colors.colors;

@@ -13,37 +13,55 @@ pub(super) struct Solid {
     pub(super) polygons: Polygons,
     /// Vertices by the bits of their coordinates.
     known: VertexTable,
+    /// Of the corners that are added.
+    hashes: Vec<u64>,
 }
 
 impl Solid {
     pub(super) fn named(name: String) -> Self {
-        Self { polygons: Polygons { name, ..Polygons::default() }, known: VertexTable::default() }
+        Self { polygons: Polygons { name, ..Polygons::default() }, ..Self::default() }
     }
 
-    /// A solid with room for so many triangles.
+    /// A solid with room for so many triangles, and half as many vertices, as in a closed surface.
     pub(super) fn with_room(triangles: usize) -> Self {
-        let mut solid = Self::default();
+        let mut solid = Self { known: VertexTable::with_capacity(triangles / 2), ..Self::default() };
         solid.polygons.corner_vertices.reserve_exact(3 * triangles);
         solid.polygons.face_sizes.reserve_exact(triangles);
         solid
     }
 
-    fn vertex(&mut self, place: DVec3) -> u32 {
-        // Adding zero makes −0 and +0 the same.
-        let bits = |place: DVec3| (place + DVec3::ZERO).to_array().map(f64::to_bits);
-        let positions = &mut self.polygons.positions;
-        self.known.number(&bits(place), |vertex| bits(positions[vertex as usize])).unwrap_or_else(|new| {
-            positions.push(place);
-            new
-        })
-    }
-
+    /// Adds a face.
     pub(super) fn push(&mut self, import: &Import<'_>, corners: &[DVec3]) -> Result<(), LoadError> {
-        for &corner in corners {
-            let vertex = self.vertex(corner);
-            self.polygons.corner_vertices.push(vertex);
-        }
+        self.push_corners(corners);
         self.polygons.face_sizes.push(corners.len() as u32);
         check_vertices(import, self.polygons.positions.len() as u64)
+    }
+
+    /// Adds triangles, at best some dozens of them.
+    pub(super) fn push_triangles(
+        &mut self,
+        import: &Import<'_>,
+        triangles: &[[DVec3; 3]],
+    ) -> Result<(), LoadError> {
+        self.push_corners(triangles.as_flattened());
+        let faces = &mut self.polygons.face_sizes;
+        faces.resize(faces.len() + triangles.len(), 3);
+        check_vertices(import, self.polygons.positions.len() as u64)
+    }
+
+    fn push_corners(&mut self, corners: &[DVec3]) {
+        // Adding zero makes −0 and +0 the same.
+        let bits = |place: &DVec3| (*place + DVec3::ZERO).to_array().map(f64::to_bits);
+        self.known.hash_all(corners.iter().map(bits), &mut self.hashes);
+        for (corner, &hash) in corners.iter().zip(&self.hashes) {
+            let positions = &mut self.polygons.positions;
+            let known = |vertex: u32| bits(&positions[vertex as usize]);
+            let vertex = self.known.number(&bits(corner), hash, known);
+            let vertex = vertex.unwrap_or_else(|new| {
+                positions.push(*corner);
+                new
+            });
+            self.polygons.corner_vertices.push(vertex);
+        }
     }
 }

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use rayon::prelude::*;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Deltas, MeshBuilder, MorphTarget, SkinWeights};
 
@@ -10,7 +11,7 @@ use super::built::BuiltMesh;
 use super::movement::delta;
 use super::part::Part;
 use crate::formats::gltf::primitive::Elements;
-use crate::vertex_table::VertexTable;
+use crate::vertex_table::{AT_ONCE, VertexTable};
 
 /// The mesh under construction.
 pub(super) struct Draft {
@@ -66,25 +67,23 @@ impl Draft {
         if has_slots {
             self.face_materials.resize(self.builder.face_count(), 0);
         }
-        let vertices: Vec<u32> = (0..part.positions.len()).map(|vertex| self.weld(&part, vertex)).collect();
+        let vertices = self.weld(&part);
         // Large, and not needed any more.
         part.positions = Vec::new();
-        for corners in &part.elements.triangles {
+        part.elements.triangles.retain(|corners| {
             let face = corners.map(|corner| vertices[corner as usize]);
             if face.contains(&NOWHERE) {
                 self.non_finite += 1;
-                continue;
+                return false;
             }
-            match self.builder.push_face(&face) {
-                Ok(_) => {
-                    if has_slots {
-                        self.face_materials.push(slot);
-                    }
-                    corners.iter().for_each(|&corner| self.add_corner(&part, corner as usize));
-                }
-                Err(_) => self.flat += usize::from(!part.is_strip),
-            }
+            let is_accepted = self.builder.push_face(&face).is_ok();
+            self.flat += usize::from(!is_accepted && !part.is_strip);
+            is_accepted
+        });
+        if has_slots {
+            self.face_materials.resize(self.builder.face_count(), slot);
         }
+        self.add_corners(&part);
         self.corners.push(first_corner..self.builder.corner_count());
         self.add_loose(&part.elements, &vertices);
     }
@@ -110,42 +109,53 @@ impl Draft {
         }
     }
 
-    /// The vertex at a position; [`NOWHERE`] if the position is not finite.
-    fn weld(&mut self, part: &Part, vertex: usize) -> u32 {
-        let position = part.positions[vertex];
-        if !position.is_finite() {
-            return NOWHERE;
+    /// The vertices at the positions of a part; [`NOWHERE`] where one is not finite.
+    fn weld(&mut self, part: &Part) -> Vec<u32> {
+        let mut vertices = Vec::with_capacity(part.positions.len());
+        let (mut keys, mut hashes) = (Vec::new(), Vec::new());
+        for positions in part.positions.chunks(AT_ONCE) {
+            let first = vertices.len();
+            let key = |(vertex, &position)| Key::new(position, self.movements.way(part, vertex));
+            keys.clear();
+            keys.extend((first..).zip(positions).map(key));
+            self.welded.hash_all(keys.iter(), &mut hashes);
+            let found = keys.iter().zip(&hashes).zip(positions).enumerate();
+            vertices.extend(found.map(|(index, ((&key, &hash), &position))| {
+                if position.is_finite() { self.vertex(part, first + index, key, hash) } else { NOWHERE }
+            }));
         }
-        let way = self.movements.way(part, vertex);
-        let key = |position: Vec3, way| (position.to_array().map(bits), way);
+        vertices
+    }
+
+    /// The vertex of a vertex of a part.
+    fn vertex(&mut self, part: &Part, vertex: usize, key: Key, hash: u64) -> u32 {
         let (places, ways) = (self.builder.positions(), &self.movements.of_vertices);
         let known =
-            |vertex: u32| key(places[vertex as usize], ways.get(vertex as usize).copied().unwrap_or(0));
-        self.welded.number(&key(position, way), known).unwrap_or_else(|new| {
-            self.builder.push_vertex(position);
-            self.movements.push_vertex(part, vertex, (new, way));
+            |vertex: u32| Key::new(places[vertex as usize], ways.get(vertex as usize).copied().unwrap_or(0));
+        self.welded.number(&key, hash, known).unwrap_or_else(|new| {
+            self.builder.push_vertex(part.positions[vertex]);
+            self.movements.push_vertex(part, vertex, (new, key.way));
             new
         })
     }
 
-    fn add_corner(&mut self, part: &Part, corner: usize) {
-        self.movements.push_corner(part, corner);
-        if let Some(list) = &mut self.attributes.corner_normals {
-            let normal = part.normals.as_ref().map_or(Vec3::ZERO, |normals| Vec3::from(normals[corner]));
-            list.push(if normal.is_finite() { normal } else { Vec3::ZERO });
+    /// Adds the values at the corners of the accepted triangles.
+    fn add_corners(&mut self, part: &Part) {
+        let corners = part.elements.triangles.as_flattened();
+        self.movements.push_corners(part, corners);
+        let Attributes { corner_normals, corner_tangents, corner_colors, uv_sets, .. } = &mut self.attributes;
+        if let Some(list) = corner_normals {
+            add(list, corners, part.normals.as_deref(), Vec3::ZERO, |value| sound(value, Vec3::is_finite));
         }
-        if let Some(list) = &mut self.attributes.corner_tangents {
-            let tangent = part.tangents.as_ref().map_or(Vec4::ZERO, |tangents| Vec4::from(tangents[corner]));
-            list.push(sound_tangent(tangent));
+        if let Some(list) = corner_tangents {
+            add(list, corners, part.tangents.as_deref(), Vec4::ZERO, sound_tangent);
         }
-        if let Some(list) = &mut self.attributes.corner_colors {
-            let color = part.colors.as_ref().map_or(Vec4::ONE, |colors| Vec4::from(colors[corner]));
-            list.push(if color.is_finite() { color.clamp(Vec4::ZERO, Vec4::ONE) } else { Vec4::ONE });
+        if let Some(list) = corner_colors {
+            add(list, corners, part.colors.as_deref(), Vec4::ONE, sound_color);
         }
-        for (set, list) in self.attributes.uv_sets.iter_mut().enumerate() {
-            let values = part.uv_sets.get(set).and_then(|values| values.get(corner));
-            let uv = values.map_or(Vec2::ZERO, |&uv| Vec2::from(uv));
-            list.push(if uv.is_finite() { uv } else { Vec2::ZERO });
+        for (set, list) in uv_sets.iter_mut().enumerate() {
+            let values = part.uv_sets.get(set).map(Vec::as_slice);
+            add(list, corners, values, Vec2::ZERO, |value| sound(value, Vec2::is_finite));
         }
     }
 
@@ -160,12 +170,54 @@ impl Draft {
     }
 }
 
+/// What tells vertices apart.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Key {
+    position: [u32; 3],
+    /// The number of its movement.
+    way: u32,
+}
+
+impl Key {
+    fn new(position: Vec3, way: u32) -> Self {
+        Self { position: position.to_array().map(bits), way }
+    }
+}
+
 /// Stands for a vertex that has no place.
 const NOWHERE: u32 = u32::MAX;
 
 /// Adding zero makes −0 and +0 equal.
 fn bits(value: f32) -> u32 {
     (value + 0.0).to_bits()
+}
+
+/// Adds the values at corners, or as often the same if there are none. All threads write them.
+fn add<T: Copy + Send + Sync, const N: usize>(
+    list: &mut Vec<T>,
+    corners: &[u32],
+    values: Option<&[[f32; N]]>,
+    missing: T,
+    sound: impl Fn(T) -> T + Sync,
+) where
+    [f32; N]: Into<T>,
+{
+    match values {
+        None => list.resize(list.len() + corners.len(), missing),
+        Some(values) => {
+            list.par_extend(corners.par_iter().map(|&corner| sound(values[corner as usize].into())));
+        }
+    }
+}
+
+/// Zero instead of what is not finite.
+fn sound<T: Copy + Default>(value: T, is_finite: fn(T) -> bool) -> T {
+    if is_finite(value) { value } else { T::default() }
+}
+
+/// White instead of what is not finite.
+fn sound_color(color: Vec4) -> Vec4 {
+    if color.is_finite() { color.clamp(Vec4::ZERO, Vec4::ONE) } else { Vec4::ONE }
 }
 
 /// A unit vector with a handedness, or zero.
@@ -251,13 +303,15 @@ impl Movements {
         }
     }
 
-    fn push_corner(&mut self, part: &Part, vertex: usize) {
+    fn push_corners(&mut self, part: &Part, vertices: &[u32]) {
         for (index, to) in self.targets.iter_mut().enumerate() {
-            let corner = to.corner_count;
-            to.corner_count += 1;
+            let first = to.corner_count;
+            to.corner_count += vertices.len() as u32;
             let Some(from) = part.targets.get(index) else { continue };
-            push(&mut to.normals, corner, delta(from.normals.as_ref(), vertex));
-            push(&mut to.tangents, corner, delta(from.tangents.as_ref(), vertex));
+            for (corner, &vertex) in (first..).zip(vertices) {
+                push(&mut to.normals, corner, delta(from.normals.as_ref(), vertex as usize));
+                push(&mut to.tangents, corner, delta(from.tangents.as_ref(), vertex as usize));
+            }
         }
     }
 
