@@ -14,7 +14,7 @@
 //! have (0, 0) in the upper left corner of the image.
 //!
 //! # Example
-//! A square with a square hole, as one face: the outline is connected to the hole by one edge, which it
+//! A rectangle with a rectangular hole, as one face: the outline is connected to the hole by one edge, which it
 //! follows in both directions. Its triangles leave the hole open, as the output shows:
 //!
 //! ```

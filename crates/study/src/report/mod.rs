@@ -13,6 +13,8 @@ mod markdown;
 mod plot;
 
 #[cfg(test)]
+mod published;
+#[cfg(test)]
 mod tests;
 
 pub use chapter::Effort;

@@ -112,6 +112,7 @@ fn the_readme_and_the_report_show_the_published_rivals() {
 /// The report that is published, with all rows behind it.
 mod published {
     use super::*;
+    use crate::report::published::{fields, read};
     use std::collections::BTreeMap;
 
     /// A row of the file: its conditions, and its values by quantity.
@@ -119,24 +120,6 @@ mod published {
     struct Recorded {
         conditions: Vec<String>,
         values: BTreeMap<String, f64>,
-    }
-
-    fn read(name: &str) -> String {
-        let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
-        fs::read_to_string(docs.join(name)).unwrap()
-    }
-
-    /// A line of fields, of which some are quoted.
-    fn fields(line: &str) -> Vec<String> {
-        let (mut fields, mut is_quoted) = (vec![String::new()], false);
-        for letter in line.chars() {
-            match letter {
-                '"' => is_quoted = !is_quoted,
-                ',' if !is_quoted => fields.push(String::new()),
-                _ => fields.last_mut().unwrap().push(letter),
-            }
-        }
-        fields
     }
 
     /// All rows by question, table and name.

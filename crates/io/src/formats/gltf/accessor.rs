@@ -388,10 +388,18 @@ fn read_vectors<'e, const N: usize>(
 }
 
 fn read_indices(bytes: &[u8], layout: &Layout) -> Vec<u32> {
-    let size = layout.component.size();
+    match layout.component.size() {
+        1 => read_each(bytes, layout, |[byte]| u32::from(byte)),
+        2 => read_each(bytes, layout, |bytes| u32::from(u16::from_le_bytes(bytes))),
+        _ => read_each(bytes, layout, u32::from_le_bytes),
+    }
+}
+
+/// Numbers of `N` bytes.
+fn read_each<const N: usize>(bytes: &[u8], layout: &Layout, number: fn([u8; N]) -> u32) -> Vec<u32> {
     let one = |index: usize| {
         let start = layout.start + index * layout.stride;
-        bytes[start..start + size].iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte))
+        number(*bytes[start..].first_chunk().expect("checked against the view"))
     };
     (0..layout.count).map(one).collect()
 }

@@ -36,8 +36,8 @@ pub(crate) fn elements(mode: Mode, indices: &[u32]) -> Elements {
     match mode {
         Mode::Points => elements.points = indices.to_vec(),
         Mode::Lines => {
-            elements.edges = indices.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
-            elements.left_over = indices.len() % 2;
+            let (edges, rest) = indices.as_chunks();
+            (elements.edges, elements.left_over) = (edges.to_vec(), rest.len());
         }
         Mode::LineStrip => elements.edges = strip_edges(indices),
         Mode::LineLoop => {
@@ -47,9 +47,8 @@ pub(crate) fn elements(mode: Mode, indices: &[u32]) -> Elements {
             }
         }
         Mode::Triangles => {
-            elements.triangles =
-                indices.chunks_exact(3).map(|corner| [corner[0], corner[1], corner[2]]).collect();
-            elements.left_over = indices.len() % 3;
+            let (triangles, rest) = indices.as_chunks();
+            (elements.triangles, elements.left_over) = (triangles.to_vec(), rest.len());
         }
         Mode::TriangleStrip => {
             let turned = |(index, corner): (usize, &[u32])| {

@@ -1,5 +1,7 @@
 //! The triangles of a solid, with merged vertices.
 
+use std::hash::{Hash, Hasher};
+
 use trigon_math::DVec3;
 
 use crate::error::LoadError;
@@ -50,18 +52,34 @@ impl Solid {
     }
 
     fn push_corners(&mut self, corners: &[DVec3]) {
-        // Adding zero makes −0 and +0 the same.
-        let bits = |place: &DVec3| (*place + DVec3::ZERO).to_array().map(f64::to_bits);
-        self.known.hash_all(corners.iter().map(bits), &mut self.hashes);
+        self.known.hash_all(corners.iter().map(Key::new), &mut self.hashes);
         for (corner, &hash) in corners.iter().zip(&self.hashes) {
             let positions = &mut self.polygons.positions;
-            let known = |vertex: u32| bits(&positions[vertex as usize]);
-            let vertex = self.known.number(&bits(corner), hash, known);
+            let known = |vertex: u32| Key::new(&positions[vertex as usize]);
+            let vertex = self.known.number(&Key::new(corner), hash, known);
             let vertex = vertex.unwrap_or_else(|new| {
                 positions.push(*corner);
                 new
             });
             self.polygons.corner_vertices.push(vertex);
         }
+    }
+}
+
+/// What tells vertices apart: the bits of their coordinates.
+#[derive(PartialEq, Eq)]
+struct Key([u64; 3]);
+
+impl Key {
+    fn new(place: &DVec3) -> Self {
+        // Adding zero makes −0 and +0 the same.
+        Self((*place + DVec3::ZERO).to_array().map(f64::to_bits))
+    }
+}
+
+impl Hash for Key {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        // As three numbers, which takes half as long as 24 bytes.
+        self.0.iter().for_each(|&bits| state.write_u64(bits));
     }
 }

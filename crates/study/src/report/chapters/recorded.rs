@@ -3,36 +3,15 @@
 use super::*;
 use crate::report::chapter::Answer;
 use crate::report::markdown::{write_csv, write_table};
+use crate::report::published::{fields, read};
 use std::fs;
-use std::path::{Path, PathBuf};
-
-fn docs() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
-}
-
-fn read(name: &str) -> String {
-    fs::read_to_string(docs().join(name)).unwrap()
-}
-
-/// A line of fields, of which some are quoted.
-fn fields(line: &str) -> [String; 12] {
-    let (mut fields, mut is_quoted) = (vec![String::new()], false);
-    for letter in line.chars() {
-        match letter {
-            '"' => is_quoted = !is_quoted,
-            ',' if !is_quoted => fields.push(String::new()),
-            _ => fields.last_mut().unwrap().push(letter),
-        }
-    }
-    fields.try_into().unwrap()
-}
 
 /// The rows of a question as they were recorded.
 fn rows(question: &str) -> Vec<Row> {
     let mut rows: Vec<Row> = Vec::new();
     for line in read("accuracy.csv").lines().skip(1) {
         let [of, case, variant, algorithm, threads, geometry, resolution, warmth, quantity, value, low, high] =
-            fields(line);
+            <[String; 12]>::try_from(fields(line)).expect("as the report is written");
         if of != question {
             continue;
         }

@@ -125,7 +125,9 @@ fn read_elements(
         None => (0..vertices as u32).collect(),
     };
     accessors.spend(vertices.max(corner_count(mode, indices.len())), place)?;
-    if let Some(beyond) = indices.iter().find(|&&vertex| vertex as usize >= vertices) {
+    // Without a way out, the compiler compares many at a time.
+    let all_exist = indices.iter().fold(true, |exist, &vertex| exist & ((vertex as usize) < vertices));
+    if let Some(beyond) = indices.iter().find(|&&vertex| !all_exist && vertex as usize >= vertices) {
         let has = counted(vertices, "vertex");
         let what = format!("index {beyond} does not exist; the primitive has {has}");
         return Err(malformed(place.clone(), what));
