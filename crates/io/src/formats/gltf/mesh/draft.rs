@@ -154,7 +154,8 @@ impl Draft {
             add(list, corners, part.colors.as_deref(), Vec4::ONE, sound_color);
         }
         for (set, list) in uv_sets.iter_mut().enumerate() {
-            let values = part.uv_sets.get(set).map(Vec::as_slice);
+            // A set that is missing before others is empty.
+            let values = part.uv_sets.get(set).map(Vec::as_slice).filter(|values| !values.is_empty());
             add(list, corners, values, Vec2::ZERO, |value| sound(value, Vec2::is_finite));
         }
     }
