@@ -1,4 +1,5 @@
-//! Blends translucent fragments from back to front at each sample, in the order of (depth, object, face).
+//! Blends translucent fragments from back to front at each sample, in the order of (depth, object, face). Colours
+//! are premultiplied by alpha.
 //!
 //! The order is total, so it depends neither on the order of draws nor on threads. Each sample keeps its farthest
 //! layers, as many as it has room for. They are shaded and blended; then the next layers in front of the last one are
@@ -207,7 +208,8 @@ impl Layers {
     }
 }
 
-/// A colour under layers, the first of which lies behind.
+/// A colour under layers, the first of which lies behind. All are premultiplied: a layer
+/// is multiplied by its coverage alone, and what lies below by one minus the resulting alpha.
 #[inline(always)]
 fn laid_over(behind: Vec4, layers: &[Layer], colors: &[[f32; 4]]) -> Vec4 {
     let over = |below: Vec4, layer: &Layer| {

@@ -1,5 +1,5 @@
-//! Cuts primitives that reach beyond the near plane, w > 0, or the guard band. Most primitives do not and are never
-//! passed to this module.
+//! Cuts primitives that reach beyond w = [`W_MIN`], the near plane or the guard band. Most primitives do not and are
+//! never passed to this module.
 //!
 //! The far plane cuts nothing: samples behind it are dropped by their depth. The sides of the view cut nothing,
 //! because the tiles end there. The cutting itself, with its guarantees for shared edges, is
@@ -19,7 +19,7 @@ pub(crate) fn volume(viewport: Viewport) -> ClipVolume {
     before_the_eye.with(HalfSpace::NEAR).with_bands(horizontal, vertical)
 }
 
-/// The most vertices that are left of a triangle: one more for w > 0, the near
+/// The most vertices that are left of a triangle: one more for w >= [`W_MIN`], the near
 /// plane and each side of the guard band.
 pub(crate) const MOST_VERTICES: usize = 3 + 6;
 

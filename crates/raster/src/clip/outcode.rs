@@ -9,7 +9,7 @@ use trigon_math::{Band, Vec4};
 pub(crate) const W_MIN: f32 = 1.0 / (1_u128 << 80) as f32;
 
 /// Coordinates beyond this drop their triangle: it leaves room for every sum
-/// and product on the way to the sub-sample grid.
+/// and product on the way to the sub-pixel grid.
 pub(crate) const COORDINATE_MAX: f32 = (1_u128 << 100) as f32;
 
 /// A set of planes that a vertex lies beyond.

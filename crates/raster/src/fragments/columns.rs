@@ -23,9 +23,10 @@ enum Seen<S: Simd> {
 }
 
 impl<S: Simd> Seen<S> {
-    /// Finds how many different triangles the eight lanes show. The processor cannot predict the
+    /// Finds the different triangles that the eight lanes show. The processor cannot predict their
     /// count, so it should be known early: the first and the last of the lanes that differ from
-    /// lane 0 are compared at the same time, not one after the other.
+    /// lane 0 are compared at the same time, not one after the other. If these two show one
+    /// triangle and another lane a third, that one triangle is counted twice.
     #[inline(always)]
     fn find(simd: S, vector: &FragmentBatch<'_, S>) -> Self {
         let lanes = vector.names;

@@ -35,7 +35,8 @@ impl<S: Simd> FragmentLanes<'_, S> {
     }
 
     /// The varying `index`, perspective-correct, within the range of the
-    /// vertices' values and exactly constant where those are equal.
+    /// corners' values (also if the triangle was cut) and exactly constant where
+    /// those are equal.
     #[inline(always)]
     pub fn varying(&self, index: usize) -> F32<S> {
         let [a, b, c] = self.corners(index);

@@ -2,8 +2,8 @@
 
 use crate::simd::{Each, F32, Simd, U32, greater, prelude::*};
 
-/// The largest ratio of w within a triangle: the 1/w of a vertex is clamped to at least the greatest
-/// one divided by this. Keeps all quotients finite.
+/// Bounds the ratio of w within a triangle: the 1/w of a vertex is clamped to at least the largest
+/// power of two not above the greatest one, divided by this. Keeps all quotients finite.
 const RATIO_MAX: f32 = (1_u64 << 60) as f32;
 
 /// The vertices' 1/w divided by the largest power of two not above the greatest of them, and that power

@@ -42,8 +42,9 @@ pub(crate) enum Destination<'t> {
 
 /// Eight pixels or fragments to be shaded together, one in each lane.
 pub(crate) struct FragmentBatch<'t, S: Simd> {
-    /// The names of the records of the triangles that the lanes show. Unused lanes repeat an
-    /// active one, so that every lane is safe to compute.
+    /// The names of the records of the triangles that the lanes show. Unused lanes repeat the name
+    /// of an active one, so that every lane has a record. In a group they keep their own pixels, which
+    /// the triangle may not cover: their values are arbitrary.
     pub(crate) names: U32<S>,
     named: Names<'t>,
     pub(crate) spots: U32<S>,

@@ -1,7 +1,7 @@
 //! Cuts the polygon that is left after clipping and snapping into triangles.
 //!
 //! Snapping can make a convex polygon concave or fold a corner flat. A fixed fan would then cover samples twice or leave
-//! some out. Ears that are chosen by exact orientation do not.
+//! some out. Ears that are chosen by exact orientation do not, unless the polygon crosses itself (see [`cut_ears`]).
 
 use crate::clip::MOST_VERTICES;
 use crate::vertex::ScreenVertex;
@@ -17,8 +17,11 @@ fn doubled(points: &[ScreenVertex], [a, b, c]: [usize; 3]) -> i64 {
 }
 
 /// Calls `ear` with the indices of each triangle of the polygon, in the
-/// polygon's own winding; together they cover it once. Triangles without area
-/// are left out.
+/// polygon's own winding. Triangles without area are left out.
+///
+/// If the polygon does not cross itself, the triangles together cover it once. Snapping can make a
+/// convex polygon cross itself where it is about a step wide or less: (0, 0), (109, 3.95), (110, 4),
+/// (10, 3), for example. Then triangles may overlap or leave parts out.
 pub(crate) fn cut_ears(points: &[ScreenVertex], mut ear: impl FnMut([usize; 3])) {
     let sign = doubled_area(points).signum();
     if sign == 0 {

@@ -21,8 +21,8 @@ const COARSEST: f32 = (1_u64 << 60) as f32;
 
 /// What one fragment covers of a texture.
 pub(super) struct Footprint {
-    /// The square of the side that one look-up covers, in texels of the base level:
-    /// below 1 where a texel is larger than an internal pixel; finite.
+    /// The square of the side that one look-up covers (the longer side, divided by the number of
+    /// probes), in texels of the base level: below 1 where a texel is larger than it; finite.
     pub(super) square: f32,
     /// How many probes, an integer from 1.
     pub(super) probes: f32,

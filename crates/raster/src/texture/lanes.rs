@@ -95,7 +95,8 @@ impl<S: Simd> Probes<'_, S> {
 
     /// The mean of the values at all probes of each lane's footprint. Lanes have different numbers
     /// of probes: the loop runs as often as the largest needs, and lanes that are done keep their
-    /// sum.
+    /// sum. A lane with one probe gets the bits of a plain look-up: its offset 1 / 2 - 0.5 is exactly
+    /// 0, and its sum is divided by 1.
     #[inline(always)]
     fn mean<T: Texels>(&self, footprint: &FootprintLanes<S>) -> Channels<S> {
         let zero = F32::splat(self.simd, 0.0);
@@ -135,7 +136,7 @@ impl<'a, S: Simd> Lookup<'a, S> {
     fn new(of: &Probes<'a, S>, uv: [F32<S>; 2], square: F32<S>) -> Self {
         let Probes { simd, texture, sampler, .. } = *of;
         let (zero, nought) = (F32::splat(simd, 0.0), I32::splat(simd, 0));
-        // Lanes in which a texel is smaller than an internal pixel.
+        // Lanes in which a texel is smaller than the side that one look-up covers.
         let minified = square.simd_gt(1.0);
         let (whole, rest) = log2_of_root_lanes(square);
         let last = I32::splat(simd, texture.strips.last_level as i32);

@@ -48,7 +48,8 @@ pub struct Sampler {
     pub wrap_u: Wrap,
     /// Beyond the top and bottom edge.
     pub wrap_v: Wrap,
-    /// Filter where a texel is larger than an internal pixel.
+    /// Filter where a texel is larger than an internal pixel; with several probes, than the part of
+    /// it that one of them covers.
     pub magnification: Filter,
     /// Filter within a level where it is smaller.
     pub minification: Filter,

@@ -1,9 +1,9 @@
 //! The multisample kernel: the tiny kernel's loops for pixels with several samples.
 //!
 //! A vector holds one sample of each pixel in a group of 4×2. Sample `s` of all eight pixels
-//! lies at the same offset from its pixel, so its edge functions differ from those of sample 0 by
-//! one constant. All samples of a group are processed before the next group, so that the group's
-//! address is computed once.
+//! lies at the same offset from its pixel, so each of its edge functions differs from that of
+//! sample 0 by a constant. All samples of a group are processed before the next group, so that the
+//! group's address is computed once.
 //!
 //! Each edge function is kept as its greatest value at any sample plus a difference (zero or
 //! negative) for each sample. The greatest values of the three edges may belong to different samples,

@@ -188,7 +188,8 @@ impl TileRasterizer<'_> {
 }
 
 impl Walk {
-    /// Which pixels of a group have the sample at this offset in the square or the disc.
+    /// Which pixels of a group have the sample at this offset in the square or the disc. Samples
+    /// exactly on the circle are not in the disc.
     #[inline(always)]
     fn covers<S: Simd>(&self, simd: S, first: [i32; 2], offset: [i32; 2]) -> Mask<S> {
         let lanes = [lane_numbers(simd) & 3, lane_numbers(simd) >> 2];

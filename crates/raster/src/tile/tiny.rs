@@ -26,8 +26,8 @@ use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lane_numb
 use crate::tile_buffer::{BLOCKS, NO_TRIANGLE, TileArea, VisibilityBuffer};
 use fearless_simd::f64x4;
 
-/// The farthest depth of a block is computed again after this many triangles were written to
-/// it: a few small triangles seldom cover enough of a block to change it.
+/// The farthest depth of a block is computed again after this many writes to it
+/// (`BlockBounds::writes`): a few small triangles seldom cover enough of a block to change it.
 const WRITES: u32 = 4;
 
 /// The fixed cost of testing a triangle's samples one by one, in units of

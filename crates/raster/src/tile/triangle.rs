@@ -11,8 +11,11 @@ use crate::tile_buffer::{MAX_SIDE, TileArea, lane_point};
 /// Edge functions, with the bias of the top-left rule ([`Edge::bias`]), are divided by 256 and
 /// rounded down, which keeps every sign. The values of one sample in different pixels differ by
 /// multiples of 256 (a pixel is 256 steps), so the divided ones differ exactly by the steps for
-/// 1/256 pixel. Where an edge crosses the tile, its values in the tile then fit 32 bits. An edge with the
-/// whole tile on its inner side is dropped: its values and steps stay zero, which is inside.
+/// 1/256 pixel. Where an edge crosses the tile, its values in the tile then fit 32 bits: within the
+/// guard band an edge spans at most 2^24 steps on each axis, and a tile's samples at most 63.94 pixels,
+/// so values differ by at most (2^24 + 2^24) · 63.94 < 2^31. Only wide lines can exceed that
+/// ([`Special`]). An edge with the whole tile on its inner side is dropped: its values and steps stay
+/// zero, which is inside.
 pub(crate) struct TileTriangle {
     /// For each sample of a pixel the edge functions at the tile's first pixel.
     pub(crate) starts: [[i32; 3]; MAX_SAMPLES],
@@ -71,6 +74,7 @@ impl Disc {
             .then_some(Self { centre: [left + right, top + bottom], diameter: right - left })
     }
 
+    /// Whether a point is in the disc. Points exactly on the circle are not.
     fn covers(&self, point: [i32; 2]) -> bool {
         let [dx, dy] = [0, 1].map(|axis| 2 * i64::from(point[axis]) - self.centre[axis]);
         dx * dx + dy * dy < self.diameter * self.diameter

@@ -1,10 +1,17 @@
 //! glTF 2.0 and GLB.
 //!
-//! `container` (the GLB) → `preview`, `document` (JSON) → `extensions`, `references`,
-//! `hierarchy` (all checks), `contradictions` → `mesh` with `accessor`, `buffers` and `meshopt` →
-//! `materials` with `slots` and `images` → `nodes` with `instances` → `skins`
-//! and `animations`; [`gltf_source`](crate::gltf_source) keeps the file itself on request. Everything is checked before it is followed, and nothing is
-//! recursive.
+//! A file passes through these modules in this order:
+//!
+//! 1. `container` takes a GLB apart; `document` parses the JSON, after a first look by `preview`.
+//! 2. `extensions`, `references` and `hierarchy` check the document and may refuse it;
+//!    `contradictions` only warns.
+//! 3. `mesh` reads the meshes, with `accessor`, `buffers` and `meshopt`; `native` reads those of the
+//!    editor's files.
+//! 4. `materials` reads the materials, with `slots` and `images`.
+//! 5. `nodes` adds the nodes, with `instances`; then come `skins` and `animations`.
+//!
+//! [`gltf_source`](crate::gltf_source) keeps the file itself on request. Everything is checked before
+//! it is followed, and nothing is recursive.
 
 mod accessor;
 mod animations;

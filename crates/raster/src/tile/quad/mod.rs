@@ -1,13 +1,14 @@
 //! The quad kernel: lines and points, both triangles at once, only in groups that the outline
 //! crosses. A lane is one pixel of a group of 4×2.
 //!
-//! A line's outline has two ends along an axis and two sides that climb by no more than a
-//! pixel in each pixel of the other, the major axis (see [`line`](crate::line)). So the groups
-//! are visited along the major axis, four columns or two rows at a time, and across it only
-//! from one side to the other: four or five groups for twelve pixels of a thin line, whatever its
-//! length. As for triangles, edge functions decide exactly which samples of a group the outline
-//! contains. The diagonal decides which of the two triangles a sample belongs to, because that
-//! triangle gives its depth and colour.
+//! The outline of a line has two ends, parallel to one axis, and two sides that run along the other,
+//! the major axis: for each pixel along it they climb by at most one pixel (see
+//! [`line`](crate::line)). So the groups are visited along the major axis, four columns or two rows at
+//! a time, and across it only from one side to the other: four or five groups for twelve pixels of a
+//! thin line, whatever its length. As for triangles, edge functions decide exactly which samples of a
+//! group the outline contains; for a disc, the outline is its square, and the distances of samples from
+//! the centre are compared as well. The diagonal decides which of the two triangles a sample belongs
+//! to, because that triangle gives its depth and colour.
 
 mod edges;
 mod strip;
@@ -44,7 +45,8 @@ impl Disc {
         Self { centre: [left + right - x, top + bottom - y], square_of_diameter: diameter * diameter }
     }
 
-    /// Which pixels of a group have the sample at this offset in the disc.
+    /// Which pixels of a group have the sample at this offset in the disc. Samples exactly on the
+    /// circle are not in it.
     #[inline(always)]
     fn covers<S: Simd>(&self, simd: S, first: [i32; 2], offset: [i32; 2]) -> Mask<S> {
         let lanes = [lane_numbers(simd) & 3, lane_numbers(simd) >> 2];
