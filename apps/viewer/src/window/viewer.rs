@@ -99,6 +99,8 @@ pub(super) struct Viewer {
     recent: RecentFiles,
     /// If the model that is shown has animations.
     playback: Option<Playback>,
+    /// Whether the environment lights the model only because a key has shown it as the background.
+    is_lit_by_skybox: bool,
     /// What went wrong last, until it is dismissed or put right.
     failure: Option<String>,
     /// Whether it is asked if objects that were moved may go back.
@@ -139,6 +141,7 @@ impl Viewer {
             classics: Classics::default(),
             recent: RecentFiles::load(state_folder().map(|folder| folder.join("recent"))),
             playback: None,
+            is_lit_by_skybox: false,
             failure: None,
             asks_to_load_again: false,
             hint: Hint::default(),

@@ -84,6 +84,7 @@ impl Viewer {
 
     /// Lights the model from all around, or no longer. What is shown behind it lights it.
     pub(super) fn toggle_environment(&mut self, stage: &mut Stage) {
+        self.is_lit_by_skybox = false;
         let is_on = stage.settings.effects.environment.is_some();
         let flags: &[&str] =
             if is_on { &["--hdri-skybox=false", "--hdri-ambient=false"] } else { &["--hdri-ambient=true"] };
@@ -92,9 +93,15 @@ impl Viewer {
 
     pub(super) fn toggle_skybox(&mut self, stage: &mut Stage) {
         let flags: &[&str] = match stage.settings.background {
+            Background::Environment if std::mem::take(&mut self.is_lit_by_skybox) => {
+                &["--hdri-skybox=false", "--hdri-ambient=false"]
+            }
             Background::Environment => &["--hdri-skybox=false"],
             // It would contradict the other flag.
-            _ if self.request.line.is_off("hdri-ambient") => &["--hdri-ambient=true", "--hdri-skybox=true"],
+            _ if self.request.line.is_off("hdri-ambient") => {
+                self.is_lit_by_skybox = true;
+                &["--hdri-ambient=true", "--hdri-skybox=true"]
+            }
             _ => &["--hdri-skybox=true"],
         };
         self.set_flags(stage, flags);

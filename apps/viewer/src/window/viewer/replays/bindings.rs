@@ -104,6 +104,23 @@ fn keys_change_flags_and_keep_what_other_keys_and_panels_have_set() {
 }
 
 #[test]
+fn a_sky_that_is_shown_and_hidden_again_leaves_the_light_as_it_was() {
+    let (_folder, mut viewer) = simple();
+    let mut window = open(&mut viewer, SMALL);
+    let has_light = |window: &HeadlessWindow<'_>| window.stage().settings.effects.environment.is_some();
+    for (before, is_lit) in [("", false), ("F", true), ("F", false), ("F", true)] {
+        if !before.is_empty() {
+            key(&mut window, before);
+        }
+        assert_eq!(has_light(&window), is_lit, "after {before:?}");
+        key(&mut window, "J");
+        assert!(has_light(&window), "a sky lights what stands in it");
+        key(&mut window, "J");
+        assert_eq!(has_light(&window), is_lit, "after {before:?}, J and J");
+    }
+}
+
+#[test]
 fn the_down_arrow_goes_through_the_folder() {
     let folder = tempfile::tempdir().expect("a folder");
     let names = ["a.obj", "b.obj", "c.obj"];
