@@ -194,3 +194,26 @@ fn influences(skin: &SkinWeights, left_out: &mut LeftOut) -> LayerValues {
     };
     LayerValues::Influences(Column::with_room((0..skin.vertex_count()).map(of_vertex)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_kind_of_what_is_left_out_has_a_warning_and_what_is_not_has_none() {
+        let warnings = |repeated_corners, skinned_vertices| -> Vec<String> {
+            LeftOut { repeated_corners, skinned_vertices }.warnings("cloth").collect()
+        };
+        assert!(warnings(0, 0).is_empty(), "nothing was left out");
+        let [corners, skinned] = [warnings(3, 0), warnings(0, 5)];
+        assert!(
+            corners.len() == 1 && corners[0].starts_with("cloth") && corners[0].contains('3'),
+            "{corners:?}"
+        );
+        assert!(
+            skinned.len() == 1 && skinned[0].starts_with("cloth") && skinned[0].contains('5'),
+            "{skinned:?}"
+        );
+        assert_eq!(warnings(3, 5), [corners, skinned].concat(), "both");
+    }
+}
