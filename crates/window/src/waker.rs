@@ -61,4 +61,14 @@ mod tests {
         waker.wake();
         assert_eq!(rings.load(Ordering::Relaxed), 2, "and at every wake from then on");
     }
+
+    /// Whatever holds a waker may be printed at any time, also from within what the waking does.
+    #[test]
+    fn a_waker_is_printed_by_its_name_while_it_wakes() {
+        let (waker, text) = (Waker::default(), Arc::new(Mutex::new(String::new())));
+        let (own, written) = (waker.clone(), Arc::clone(&text));
+        waker.connect(move || *written.lock().expect("nobody panics with it") = format!("{own:?}"));
+        waker.wake();
+        assert_eq!(*text.lock().expect("nobody panics with it"), "Waker { .. }");
+    }
 }

@@ -1,6 +1,7 @@
 //! What the report claims of filling, and that each algorithm is what it says.
 
 use super::*;
+use crate::field::Field;
 use trigon_math::{Vec2, elementary};
 
 const SIDE: usize = 256;
@@ -185,4 +186,24 @@ fn needles_of_a_fan_go_round_once() {
             assert!(off.abs() <= 0.401, "needle {number} at step {steps}");
         }
     }
+}
+
+/// Two halves, side by side, with a pixel that both paint and one that neither does.
+#[test]
+fn errors_are_counted_against_the_owners_and_told_for_a_thousand_edge_pixels() {
+    let owners = Field::from_fn([4, 4], |[x, _]| u32::from(x >= 2));
+    let [left, right] = [Vec2::ZERO, Vec2::X].map(|corner| [corner; 3]);
+    let mut canvas = Canvas::new([4, 4]);
+    canvas.each(&[left, right], |half, canvas| {
+        let columns = if half == &left { 0..3 } else { 2..4 };
+        let pixels = columns.flat_map(|x| (0..4).map(move |y| [x, y]));
+        let is_painted = |[x, y]: &[i32; 2]| match x {
+            2 => half == &right || *y == 0,
+            _ => [*x, *y] != [3, 3],
+        };
+        pixels.filter(is_painted).for_each(|[x, y]| canvas.paint(x, y));
+    });
+    let errors = FillErrors::of(&canvas, &owners);
+    assert_eq!(errors, FillErrors { edge_pixels: 4, wrong: 2, gaps: 1, doubles: 1 }, "four rows meet");
+    assert_eq!(errors.wrong_per_mille(), 500.0, "two of four");
 }

@@ -51,3 +51,16 @@ fn outlines_leave_the_fill_unless_the_face_paints_them() {
     assert_eq!(faces, 0, "edges painted by the face are on the face");
     assert!(sums[2].outline > 1000, "and there are {} of them", sums[2].outline);
 }
+
+#[test]
+fn flat_lines_of_the_naive_form_are_as_good_as_others() {
+    let mut sum = LineErrors::default();
+    for segment in star(SIZE[0], 120) {
+        let [from, to] = segment;
+        if (to[0] - from[0]).abs() >= (to[1] - from[1]).abs() {
+            sum += LineErrors::of(Line::Naive, segment, SIZE);
+        }
+    }
+    assert!(sum.steps > 1000, "half of the lines are flat: {sum:?}");
+    assert_eq!((sum.gaps, sum.strays), (0, 0), "in {} steps", sum.steps);
+}

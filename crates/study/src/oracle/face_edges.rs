@@ -175,6 +175,7 @@ fn is_inked(faces: &[&Face], at: DVec2) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     /// A square of 8 by 8 pixels in the middle of 16 by 16.
     #[test]
@@ -186,5 +187,36 @@ mod tests {
         let row: Vec<f64> = (0..16).map(|x| found[8 * 16 + x]).collect();
         let expected = [0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0];
         assert_eq!(row, expected, "a pixel on either side");
+    }
+
+    /// Half the image's height is one at the eye's distance: eight pixels.
+    #[test]
+    fn what_lies_above_and_to_the_right_is_shown_there() {
+        let view = View { eye: DVec3::Z, target: DVec3::ZERO, half_height: 1.0, size: [16, 16] };
+        let corners = [[0.25, 0.5], [0.5, 0.5], [0.5, 0.75], [0.25, 0.75]];
+        let positions = corners.map(|[x, y]| DVec3::new(x, y, 0.0));
+        let found = coverage(&view, &positions, &[vec![0, 1, 2, 3]], 1.0);
+        let inked: Vec<_> =
+            (0..16 * 16).filter(|&pixel| found[pixel] > 0.0).map(|pixel| (pixel % 16, pixel / 16)).collect();
+        // Its outline lies on the borders of four pixels, between the second and the fourth row from the top.
+        let expected: Vec<_> = (1..5).flat_map(|y| (9..13).map(move |x| (x, y))).collect();
+        assert_eq!(inked, expected, "columns and rows");
+    }
+
+    proptest! {
+        /// Exactly the points that lie on the same side of all three lines.
+        #[test]
+        fn a_triangle_contains_what_lies_between_its_sides(
+            places in prop::array::uniform3(prop::array::uniform2(-9.0..9.0_f64)),
+            at in prop::array::uniform2(-9.0..9.0_f64),
+        ) {
+            let (places, at) = (places.map(DVec2::from_array), DVec2::from_array(at));
+            let corners = places.map(|place| Corner { place, nearness: 1.0, vertex: 0 }).to_vec();
+            let face = Face { corners, plane: DVec3::X, half_width: 0.0 };
+            let sides = [0, 1, 2].map(|i| (places[(i + 1) % 3] - places[i]).perp_dot(at - places[i]));
+            prop_assume!(sides.iter().all(|side| side.abs() > 1e-6));
+            let is_inside = sides.iter().all(|side| *side > 0.0) || sides.iter().all(|side| *side < 0.0);
+            prop_assert_eq!(face.contains(at), is_inside, "{} in {:?}", at, places);
+        }
     }
 }

@@ -57,7 +57,8 @@ pub(super) fn exact(side: usize) -> Field<f64> {
         });
         let [columns, rows] = [0, 1].map(|axis| {
             let [low, high] = crate::fill::range([a[axis], b[axis], c[axis]]);
-            low.ceil().max(0.0) as usize..=high.floor().clamp(0.0, side as f64 - 1.0) as usize
+            // Within the image: the whole shadow falls on the floor, and numbers below zero become zero.
+            low.ceil() as usize..=high.floor() as usize
         });
         for [x, y] in rows.flat_map(|y| columns.clone().map(move |x| [x, y])) {
             let turn = |p: [f64; 2], q: [f64; 2]| {

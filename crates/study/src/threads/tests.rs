@@ -1,6 +1,7 @@
 //! Threads change no pixel.
 
 use super::*;
+use trigon_math::DVec3;
 
 const SIZE: [usize; 2] = [300, 200];
 
@@ -38,5 +39,17 @@ fn the_nearer_of_two_crossing_faces_is_seen() {
             assert_eq!(drawn[[x, y]], expected as u32, "{x}, {y}");
         }
         assert_eq!(drawn[[3, 20]], u32::MAX, "beside both");
+    }
+}
+
+#[test]
+fn the_faces_of_the_square_lie_in_one_tilted_plane_and_share_a_diagonal() {
+    for size in [SIZE, [64, 64]] {
+        let [[a, b, c], [d, e, f]] = square(size).map(|face| face.map(DVec3::from_array));
+        assert_eq!((a, c), (d, e), "the diagonal");
+        let normal = (b - a).cross(c - a);
+        let off = normal.normalize().dot(f - a);
+        assert!(off.abs() < 1e-9, "the fourth corner lies {off} beside the plane of the others");
+        assert!(a.z < b.z.min(f.z) && c.z > b.z.max(f.z), "it recedes from the upper left");
     }
 }

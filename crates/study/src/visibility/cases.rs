@@ -70,7 +70,7 @@ pub fn sheets(side: usize, tilt: i32) -> Scene {
     let side_px = side as i32;
     let sheet = |i: i32| {
         let corner = |j: i32, x: i32, y: i32| {
-            let depth = side_px * 3 / 2 + i * side_px / 64 + ((i * 7 + j) % 3 - 1) * tilt;
+            let depth = side_px * 3 / 2 + i * side_px / 64 + ((i + j) % 3 - 1) * tilt;
             [x * side_px, y * side_px, depth].map(|part| part * STEPS)
         };
         // Its far side is a point behind its middle.

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::handler::Closures;
-use crate::input::PointerButton;
+use crate::input::{Chord, Key, PointerButton};
 use trigon_mesh::primitives;
 use trigon_scene::Material;
 
@@ -62,4 +62,19 @@ fn a_drag_turns_the_camera_and_what_is_done_is_recorded() {
     assert_ne!(window.stage().orbit, before.0, "it turned");
     assert!(window.pixels() != before.1, "which is to be seen");
     assert!(!window.take_recorded().is_empty(), "and can be played again");
+}
+
+#[test]
+fn keys_type_what_they_stand_for_into_the_field_that_has_the_keyboard() {
+    let mut text = String::new();
+    {
+        let mut application = application(&mut text);
+        let mut window = HeadlessWindow::open(stage(), &mut application, SIZE);
+        // Into the interface, and from the button to the field.
+        let ways = [Key::Function(6), Key::Tab];
+        let typed = [Key::Character('a'), Key::Space, Key::Numpad('7'), Key::Left, Key::Space];
+        ways.into_iter().chain(typed).for_each(|key| window.key(key.into()));
+        window.key(Chord::new(Modifiers::CTRL, Key::Character('j')));
+    }
+    assert_eq!(text, "a  7", "what is held with Ctrl is no text, and arrows are none");
 }

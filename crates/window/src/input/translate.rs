@@ -344,4 +344,13 @@ mod tests {
             assert_eq!(place(code), Some(Key::Character(typed)), "{typed} stands for the row's");
         }
     }
+
+    #[test]
+    fn files_are_told_while_they_are_held_over_the_window_and_when_they_are_let_go() {
+        let told = |event| translate(&event, 1.0);
+        let path = std::path::PathBuf::from("a.obj");
+        assert_eq!(told(WindowEvent::HoveredFile(path.clone())), Some(InputEvent::FileHovered(path.clone())));
+        assert_eq!(told(WindowEvent::HoveredFileCancelled), Some(InputEvent::HoverEnded), "taken away again");
+        assert_eq!(told(WindowEvent::DroppedFile(path.clone())), Some(InputEvent::FileDropped(path)));
+    }
 }

@@ -217,4 +217,44 @@ mod tests {
         assert_eq!(text, "12.5 ms, 80 fps", "the whole frame counts");
         assert_eq!(frame_time(FrameReport::default()), "- ms", "before the first frame");
     }
+
+    /// Before anything is written it is decided by these widths what has to be wrapped.
+    #[test]
+    fn lines_with_their_backdrop_are_as_wide_as_foreseen() {
+        let context = Context::default();
+        let free = egui::Rect::from_min_size(egui::Pos2::ZERO, vec2(800.0, 400.0));
+        for lines in [vec!["short", "a line that is longer"], vec!["i"], vec!["", "12 faces", "-"]] {
+            let lines: Vec<String> = lines.into_iter().map(String::from).collect();
+            let (mut foreseen, mut written) = (0.0, egui::Rect::NOTHING);
+            // An area has its size from the second pass on.
+            for _ in 0..2 {
+                let input = egui::RawInput { screen_rect: Some(free), ..egui::RawInput::default() };
+                let mut output = context.run_ui(input, |ui| {
+                    foreseen = natural_width(ui.ctx(), &lines);
+                    let place = place(Corner::TopLeft, free, [foreseen, 0.0, 0.0, 0.0, 0.0]);
+                    written = write(ui.ctx(), place, Corner::TopLeft, &lines);
+                });
+                output.textures_delta.clear();
+            }
+            let spare = foreseen - written.width();
+            assert!((-0.1..=1.1).contains(&spare), "{lines:?}: {foreseen}, and {} taken", written.width());
+        }
+    }
+
+    #[test]
+    fn the_time_of_a_frame_is_told_with_its_stages_and_without_them() {
+        let told = |frame_time, stage_times| {
+            let mut stage = Stage::new("test");
+            (stage.frame_time, stage.stage_times) = (frame_time, stage_times);
+            times(&stage)
+        };
+        let (shown, hidden) = (Visibility::Shown, Visibility::Hidden);
+        assert!(told(hidden, hidden).is_empty(), "nobody wants to know");
+        assert_eq!(told(shown, hidden), ["- ms"], "only the whole");
+        for frame_time in [hidden, shown] {
+            let lines = told(frame_time, shown);
+            assert_eq!((lines.len(), lines[0].as_str()), (8, "- ms"), "seven stages below the whole");
+            assert!(lines[1].starts_with("vertices") && lines[7].starts_with("interface"), "{lines:?}");
+        }
+    }
 }

@@ -242,4 +242,22 @@ mod tests {
             assert!(free, "{} may mean something to F3D's users", binding.chord);
         }
     }
+
+    #[test]
+    fn in_a_second_a_key_moves_an_object_by_half_an_image_or_turns_it_by_a_quarter() {
+        let (mut moves, mut turns) = (Vec::new(), Vec::new());
+        for binding in objects() {
+            match binding.action {
+                Action::Hold(Motion::Object(ObjectMotion::Move(by))) => moves.push(by),
+                Action::Hold(Motion::Object(ObjectMotion::Turn(by))) => turns.push(by),
+                _ => {}
+            }
+        }
+        for (found, speed) in [(moves, 0.5), (turns, FRAC_PI_2)] {
+            assert_eq!(found.len(), 6, "two keys to an axis of the image: {found:?}");
+            for by in DVec3::AXES.into_iter().flat_map(|axis| [axis * speed, axis * -speed]) {
+                assert!(found.contains(&by), "no key for {by}: {found:?}");
+            }
+        }
+    }
 }

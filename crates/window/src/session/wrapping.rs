@@ -87,4 +87,19 @@ mod tests {
         }
         assert_eq!(other_side(DVec2::ZERO, DVec2::splat(10.0)), DVec2::ZERO, "no room");
     }
+
+    #[test]
+    fn borders_are_as_wide_at_the_right_and_below_as_at_the_left_and_above() {
+        for side in [32.0, 33.0, 200.0] {
+            let (size, last) = (DVec2::splat(side), DVec2::splat(side - 1.0));
+            let places = (0..side as u32).map(|at| DVec2::new(at.into(), 5.0));
+            let (mut moved, mut kept) = (Vec::new(), 0);
+            for at in places {
+                let place = other_side(at, size);
+                assert_eq!(other_side(last - at, size), last - place, "{at} of {side}");
+                if place == at { kept += 1 } else { moved.push(at.x) }
+            }
+            assert_eq!(moved, [0.0, 1.0, side - 2.0, side - 1.0], "two at each end, not the other {kept}");
+        }
+    }
 }

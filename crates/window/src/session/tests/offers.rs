@@ -224,3 +224,20 @@ fn an_application_with_a_keymap_of_its_own_has_none_of_the_windows() {
     assert_eq!((session.stage.orbit, session.stage.settings.style), (view, style), "nothing changed");
     assert_eq!((session.stage.selection, session.stage.cheat_sheet), (None, Visibility::Hidden), "at all");
 }
+
+#[test]
+fn a_pinch_magnifies_the_view_unless_the_application_takes_it() {
+    let takers: [(fn(&Input, Hands) -> bool, f64); 2] =
+        [(|_, _| false, std::f64::consts::E), (|input, _| matches!(input, Input::Pinch(_)), 1.0)];
+    for (takes, larger) in takers {
+        let mut handler = Tool::new(takes);
+        let mut session = opened(&mut handler);
+        move_to(&mut session, VIEW, ms(1000));
+        let before = session.stage.orbit.distance();
+        session.event(InputEvent::Pinch(1.0), ms(2000));
+        let found = before / session.stage.orbit.distance();
+        assert!((found - larger).abs() < 1e-9, "{found} times as large, not {larger}");
+        drop(session);
+        assert_eq!(handler.inputs().last(), Some(&Input::Pinch(1.0)), "it was asked first");
+    }
+}

@@ -191,3 +191,24 @@ fn screen_readers_learn_names_and_press_buttons() {
     drop(session);
     assert_eq!(handler.clicks, 1, "as if it had been clicked");
 }
+
+/// A loader's progress, for example: nothing happens in the window itself.
+#[test]
+fn what_another_thread_has_changed_in_the_interface_is_shown_when_it_asks_for_that() {
+    let text = std::cell::Cell::new("10 %");
+    let interface = |_: &mut Stage, ui: &mut egui::Ui| {
+        egui::Panel::top("progress").show(ui, |ui| ui.label(text.get()));
+    };
+    let mut handler = crate::handler::Closures { interface: Some(Box::new(interface)), ..Default::default() };
+    let mut session = Session::new(stage(), &mut handler, Worker::of_caller());
+    session.event(InputEvent::Resized { width: SIZE.width, height: SIZE.height }, ms(0));
+    session.start(ms(0));
+    run(&mut session, ms(0));
+    let (before, image) = (session.canvas().pixels().to_vec(), session.shown.clone());
+    text.set("90 %");
+    assert_eq!(session.next(ms(1000)), Wake::Never, "nobody knows");
+    session.interface_asked(ms(1000));
+    assert_eq!(run(&mut session, ms(1000)), [ms(1000)], "one frame");
+    assert!(session.canvas().pixels() != before, "the other text is there");
+    assert!(session.shown == image, "over the same image");
+}

@@ -153,3 +153,46 @@ fn each_of_four_views_shows_and_picks_the_scene_from_its_side() {
     }
     assert_eq!(session.stage.pick(SIZE.size() * 0.5), None, "between them is nothing");
 }
+
+#[test]
+fn distances_are_those_of_surfaces_along_the_line_of_sight() {
+    let mut handler = Recorder::default();
+    let session = begun(&mut handler);
+    let camera = session.stage.camera();
+    let projector = Projector::new(&camera, SIZE);
+    // The eye looks straight at the fronts of both cubes, half a metre before their middles.
+    for middle in [DVec3::ZERO, DVec3::X * 2.0] {
+        let at = projector.to_screen(middle + DVec3::Z * 0.5).expect("before the eye");
+        let distance = session.stage.distance_at(at).expect("a cube");
+        assert!((distance - (camera.position.z - 0.5)).abs() < 1e-5, "{distance} at {at}");
+    }
+    for at in [DVec2::ONE, DVec2::new(-1.0, 32.0), DVec2::new(70.0, 64.0)] {
+        assert_eq!(session.stage.distance_at(at), None, "nothing is seen at {at}");
+    }
+}
+
+/// What was known of the scene's size before put it in front of the near plane, or beyond the far one.
+#[test]
+fn what_is_added_before_or_behind_all_else_is_seen() {
+    for (depth, has_parallel_lines) in [(3.0, false), (3.0, true), (-500.0, false), (-500.0, true)] {
+        let mut handler = Recorder::default();
+        let mut session = begun(&mut handler);
+        if has_parallel_lines {
+            session.stage.orbit.toggle_orthographic();
+            session.note(ms(1000));
+            run(&mut session, ms(1000));
+        }
+        assert!(session.stage.camera().position.z > 3.5, "the eye is farther away");
+        let between = SIZE.size() * 0.5;
+        assert_eq!(session.stage.pick(between), None, "between the cubes is nothing");
+        let side = if depth > 0.0 { 0.2 } else { 200.0 };
+        let added = session.stage.scene.add_object("added", primitives::cube(side), Material::default());
+        let place = DVec3::new(1.0, 0.0, depth - side as f64 * 0.5);
+        session.stage.scene.node_mut(added).expect("just added").transform.translate(place);
+        session.note(ms(2000));
+        run(&mut session, ms(2000));
+        let (name, point) = picked(&session, between).expect("it is seen");
+        assert_eq!(name, "added", "at {depth}");
+        assert!((point.z - depth).abs() < 0.01, "its front at {depth}: {point}");
+    }
+}
