@@ -267,3 +267,55 @@ fn selections_of_elements_are_replaced_added_removed_toggled_and_intersected() {
         assert_eq!(found, expected, "{action}");
     }
 }
+
+#[test]
+fn edits_say_what_they_need_if_nothing_is_selected() {
+    let mut document = edited(primitives::grid(4.0, 3.0, 4, 3), "face");
+    run_all(&mut document, &[json!({ "op": "select_none" })]);
+    let before = mesh(&document).clone();
+    for op in ["extrude", "delete", "subdivide", "flip_normals", "dissolve", "hide"] {
+        let refused = document.run(command(json!({ "op": op })));
+        let Err(EditError::NothingSelected { needed, .. }) = refused else { panic!("{op}: {refused:?}") };
+        assert!(!needed.is_empty(), "{op}: the remedy");
+        assert_eq!(mesh(&document), &before, "{op}");
+    }
+}
+
+/// A linked copy has the same mesh, any other one a mesh of its own, edited before or not.
+#[test]
+fn copies_of_objects_are_edited_alone_unless_they_are_linked() {
+    for is_edited_before in [false, true] {
+        for linked in [false, true] {
+            let mut document = shown(primitives::cube(1.0));
+            if is_edited_before {
+                run_all(
+                    &mut document,
+                    &[
+                        json!({ "op": "edit_objects", "objects": ["object"] }),
+                        json!({ "op": "leave_edit_mode" }),
+                        json!({ "op": "select", "objects": ["object"] }),
+                    ],
+                );
+            }
+            run_all(&mut document, &[json!({ "op": "duplicate_objects", "linked": linked })]);
+            let copy = document.selection().active.expect("the copy");
+            let original = document.nodes().nodes().iter().map(|(id, _)| id).find(|id| *id != copy);
+            let pair = [original.expect("the first object"), copy];
+            let of = |document: &Document, node| document.nodes().node(node)?.mesh;
+            let [one, other] = pair.map(|node| of(&document, node).expect("both have a mesh"));
+            assert_eq!(one == other, linked);
+            run_all(
+                &mut document,
+                &[
+                    json!({ "op": "edit_objects" }),
+                    json!({ "op": "set_element_kind", "kind": "face" }),
+                    json!({ "op": "select_all" }),
+                    json!({ "op": "subdivide" }),
+                ],
+            );
+            let faces = |id| document.mesh(id).map_or(6, EditMesh::face_count);
+            assert_eq!(faces(other), 24, "each of six in four");
+            assert_eq!(faces(one), if linked { 24 } else { 6 }, "edited before: {is_edited_before}");
+        }
+    }
+}

@@ -50,6 +50,8 @@ fn the_faces_of_the_square_lie_in_one_tilted_plane_and_share_a_diagonal() {
         let normal = (b - a).cross(c - a);
         let off = normal.normalize().dot(f - a);
         assert!(off.abs() < 1e-9, "the fourth corner lies {off} beside the plane of the others");
+        let is_before_the_eye = |corner: DVec3| (2.0..4.0).contains(&corner.z);
+        assert!([a, b, c, f].into_iter().all(is_before_the_eye), "between two and four metres away");
         assert!(a.z < b.z.min(f.z) && c.z > b.z.max(f.z), "it recedes from the upper left");
     }
 }

@@ -431,3 +431,73 @@ fn clicks_on_a_subdivision_surface_lead_to_its_cage() {
     let edge = edge.expect("a cube has it").index();
     assert_eq!(clicked("edge", DVec3::new(1.0, 1.0, 0.3)), [edge], "the cage's, beside the surface");
 }
+
+/// Of several kinds the first one holds the selection: a face is its vertices.
+#[test]
+fn a_click_on_a_face_beside_vertices_selects_and_toggles_all_of_its_vertices() {
+    let mut scene = Scene::new();
+    scene.add_object("grid", primitives::grid(2.0, 2.0, 2, 2), Material::default());
+    let mut document = Document::new(scene);
+    run(&mut document, json!({ "op": "edit_objects", "objects": ["grid"] }));
+    let mut view = View::new(document);
+    set_kind(&mut view, ElementKind::Vertex);
+    let both = crate::SetElementKind { kind: ElementKind::Face, extend: true };
+    view.document.run(both.into()).expect("always possible");
+    let mesh = view.document.mesh(view.mesh_id()).expect("it is edited").clone();
+    let projector = Projector::new(&view.camera, SIZE);
+    for face in mesh.faces() {
+        let center = projector.to_screen(mesh.face_center(face)).expect("it is in the image");
+        let corners: BTreeSet<_> =
+            mesh.face_vertices(face).map(|v| place([mesh.position(v)].into_iter())).collect();
+        let mut click = |action| {
+            view.select(Reach::Visible, |picks| picks.click(center, 4.0, action));
+            view.selected()
+        };
+        assert_eq!(click(SelectAction::Replace), corners, "face {face:?}");
+        assert!(click(SelectAction::Toggle).is_empty(), "all were selected: now none is");
+        // With one of its vertices selected before, the others come to it.
+        let vertex = mesh.face_vertices(face).next().expect("four of them");
+        let at = projector.to_screen(mesh.position(vertex).as_dvec3()).expect("it is in the image");
+        view.select(Reach::Visible, |picks| picks.click(at, 4.0, SelectAction::Replace));
+        assert_eq!(view.selected().len(), 1, "a vertex");
+        view.select(Reach::Visible, |picks| picks.click(center, 4.0, SelectAction::Toggle));
+        assert_eq!(view.selected(), corners, "face {face:?}");
+    }
+}
+
+/// By this test's own projection, also where something that is not edited is nearer to the pointer.
+#[test]
+fn of_several_vertices_in_reach_the_nearest_is_selected() {
+    let mut others_are_nearer = 0;
+    for document in documents() {
+        let mut view = View::new(document);
+        set_kind(&mut view, ElementKind::Vertex);
+        let projector = Projector::new(&view.camera, SIZE);
+        for (x, y) in (4..96).step_by(5).flat_map(|x| (3..72).step_by(5).map(move |y| (x, y))) {
+            let (point, radius) = (DVec2::new(f64::from(x), f64::from(y)), 12.0);
+            let set = view
+                .picked(|picker| picker.vertices(&Region::Circle { center: point, radius }, Reach::Through));
+            let near = view.found(ElementKind::Vertex, &set);
+            if near.is_empty() {
+                continue;
+            }
+            let node = view.document.nodes().nodes().iter().find(|(_, node)| node.name == "model");
+            let world = view.document.nodes().world_transform(node.expect("it is there").0);
+            let distance = |bits: &Vec<[u32; 3]>| {
+                let position = Vec3::from(bits[0].map(f32::from_bits)).as_dvec3();
+                projector.to_screen(world.transform_point3(position)).expect("it is seen").distance(point)
+            };
+            let nearest = near.iter().map(&distance).fold(f64::INFINITY, f64::min);
+            let very_nearest = view.picked(|picker| picker.nearest(point, radius, Reach::Through).vertex);
+            let is_others = very_nearest.is_some_and(|(other, _)| {
+                view.document.nodes().node(other).is_some_and(|node| node.name == "ball")
+            });
+            others_are_nearer += usize::from(is_others && near.len() > 1);
+            view.select(Reach::Through, |picks| picks.click(point, radius, SelectAction::Replace));
+            let selected: Vec<f64> = view.selected().iter().map(&distance).collect();
+            assert_eq!(selected.len(), 1, "at {point}");
+            assert!(selected[0] < nearest + 1e-3, "at {point}: {} instead of {nearest}", selected[0]);
+        }
+    }
+    assert!(others_are_nearer > 20, "{others_are_nearer} times the ball was nearer");
+}

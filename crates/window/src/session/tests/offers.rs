@@ -227,10 +227,12 @@ fn an_application_with_a_keymap_of_its_own_has_none_of_the_windows() {
 
 #[test]
 fn a_pinch_magnifies_the_view_unless_the_application_takes_it() {
-    let takers: [(fn(&Input, Hands) -> bool, f64); 2] =
-        [(|_, _| false, std::f64::consts::E), (|input, _| matches!(input, Input::Pinch(_)), 1.0)];
-    for (takes, larger) in takers {
-        let mut handler = Tool::new(takes);
+    for is_taken in [false, true] {
+        let mut handler = Tool::new(|_, _| false);
+        if is_taken {
+            handler.takes = |input, _| matches!(input, Input::Pinch(_));
+        }
+        let larger = if is_taken { 1.0 } else { std::f64::consts::E };
         let mut session = opened(&mut handler);
         move_to(&mut session, VIEW, ms(1000));
         let before = session.stage.orbit.distance();
