@@ -244,4 +244,22 @@ mod tests {
         assert!((light / expected).truncate().distance(Vec2::ONE) < 0.7, "{light}, not {expected}");
         assert_eq!(light.z, 0.0, "what is no light gives none");
     }
+
+    /// The middles of its two pixels lie on the edge of the square, or a rounding error beside it.
+    #[test]
+    fn an_image_of_two_pixels_lights_each_half_in_its_color() {
+        let (left, right) = (Vec3::new(3.0, 0.0, 1.0), Vec3::new(0.0, 2.0, 1.0));
+        for size in [2, 4, 5, 8] {
+            let map = Octahedral::from_equirectangular(size, (2, 1), &[left.to_array(), right.to_array()]);
+            let mut counts = [0, 0];
+            for (towards, _, light) in map.iter() {
+                // Where both meet it is either.
+                if towards.x.abs() > 1e-6 {
+                    assert_eq!(light, if towards.x < 0.0 { left } else { right }, "{towards} of {size}");
+                    counts[usize::from(towards.x > 0.0)] += 1;
+                }
+            }
+            assert!(counts[0] == counts[1] && counts[0] >= size * (size - 1) / 2, "{counts:?} of {size}");
+        }
+    }
 }

@@ -545,3 +545,38 @@ fn after_anything_else_everything_is_drawn() {
         assert_eq!(share(&view, &redraw.parts), 1.0, "number {number}");
     }
 }
+
+/// A triangle that is cut by the near plane and faces away is counted as cut and as culled, but leaves nothing
+/// else: its chunk looks like one without it.
+#[test]
+fn triangles_that_were_cut_and_culled_still_count_after_a_change() {
+    let sheet = |shift: f32| {
+        let mut sheet = Model::sheet(BlendMode::Opaque, 0.0);
+        sheet.vertices[34].0.x += shift;
+        // Three corners of its own: one of them behind the eye.
+        let corners = [[-0.5, 0.5, 1.0], [0.5, 0.5, 1.0], [0.0, -0.5, -1.0]];
+        let first = sheet.vertices.len() as u32;
+        sheet.vertices.extend(corners.map(|[x, y, w]| (Vec4::new(x, y, 0.3, w), Vec4::ONE)));
+        sheet.triangles.push([first, first + 1, first + 2]);
+        sheet
+    };
+    let view = plain(&[Output::Srgb8]);
+    let (before, after) = (sheet(0.0), sheet(0.05));
+    fn record(sheet: &Model, culling: Culling) -> Pass<'_> {
+        let mut pass = Pass::new();
+        pass.triangles(Draw { culling, ..Draw::new(sheet, &sheet.triangles) });
+        pass
+    }
+    let mut clipped = [0, 0];
+    for (culling, clipped) in [Culling::Back, Culling::Front].into_iter().zip(&mut clipped) {
+        let (mut rasterizer, mut target, mut fresh) = (Rasterizer::default(), view.target(), view.target());
+        rasterizer.redraw(&record(&before, culling), &mut target, None);
+        let change = DrawChange { vertices: &[34], ..DrawChange::default() };
+        let redraw = rasterizer.redraw(&record(&after, culling), &mut target, Some(&[change]));
+        let stats = Rasterizer::default().draw(&record(&after, culling), &mut fresh);
+        assert_eq!(up_to_tiles(&redraw.stats), up_to_tiles(&stats), "{culling:?}");
+        assert!(target.srgb8() == fresh.srgb8(), "{culling:?}");
+        *clipped = stats.clipped;
+    }
+    assert_eq!(clipped, [1, 1], "it is cut, whichever side is drawn");
+}

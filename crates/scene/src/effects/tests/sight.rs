@@ -87,3 +87,20 @@ fn a_texture_says_how_much_passes() {
         assert!((half - whole).abs().max_element() > 0.05, "{half} is not {whole}");
     }
 }
+
+/// In a room of one colour everything that a ray reaches is that light, times the factor for all lights.
+#[test]
+fn a_traced_mirror_shows_the_surroundings_as_bright_as_the_lights_are_set() {
+    let room = Vec3::new(0.1, 0.2, 0.3);
+    let mut scene = Scene::new();
+    scene.add_object("ball", primitives::uv_sphere(1.5, 64, 32), metal(1.0));
+    for light_intensity in [0.5, 1.0, 3.0] {
+        let environment = Some(Arc::new(Environment::uniform(room)));
+        let effects = EffectSettings { bounces: 2, environment, ..EffectSettings::default() };
+        let settings = RenderSettings { light_intensity, ..settings(effects) };
+        let frame = render(&scene, &from_front(), &settings).expect("drawn");
+        let [r, g, b, _] = frame.pixel(SIDE / 2, SIDE / 2);
+        let shown = Vec3::from([r, g, b].map(color::srgb8_to_linear));
+        assert!((shown / (room * light_intensity) - 1.0).abs().max_element() < 0.03, "{shown}");
+    }
+}

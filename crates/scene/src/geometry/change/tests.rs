@@ -383,3 +383,21 @@ fn a_polygon_may_lose_its_area_and_get_it_back() {
     }
     assert_eq!(counts, [0, 36], "nothing, and twelve pentagons");
 }
+
+/// What is drawn again follows from that: whoever drags a vertex changes places only.
+#[test]
+fn triangles_are_told_only_if_they_have_other_corners_or_edges() {
+    let mut scene = scene_of(primitives::icosphere(1.0, 2));
+    is_in_place(&mut scene, &MeshChange::default());
+    let (_, first) = asset(&scene);
+    let geometry = first.geometry();
+    let (flags, sides) = (geometry.edge_flags(first.mesh()).len(), geometry.side_edges(first.mesh()).len());
+    assert_eq!((flags, sides), (320, 320), "both are known for each triangle");
+    for vertex in [0, 7, 161] {
+        let change = moved(&scene, vertex);
+        assert!(is_in_place(&mut scene, &change));
+        let told = asset(&scene).1.geometry().change.as_ref().expect("it followed");
+        assert!(!told.vertices.is_empty(), "vertex {vertex} moved");
+        assert_eq!(told.triangles, [0; 0], "and no triangle is another one");
+    }
+}
