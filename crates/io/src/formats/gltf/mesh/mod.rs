@@ -5,11 +5,12 @@
 //! normal or texture coordinate is discontinuous, and the shape would fall apart into loose pieces.
 //!
 //! `part` (one primitive, decoded) with `movement` (its skin and morph targets) → `draft` (all of
-//! them welded) → `tangents` (if normal maps need them and the file has none).
+//! them welded) with `movements` (the skin and morph targets of all) → `tangents` (if normal maps need them and the file has none).
 
 mod built;
 mod draft;
 mod movement;
+mod movements;
 mod optional;
 mod part;
 mod soundness;

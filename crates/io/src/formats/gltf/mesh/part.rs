@@ -125,9 +125,10 @@ fn read_elements(
         None => (0..vertices as u32).collect(),
     };
     accessors.spend(vertices.max(corner_count(mode, indices.len())), place)?;
-    // Without a way out, the compiler compares many at a time.
-    let all_exist = indices.iter().fold(true, |exist, &vertex| exist & ((vertex as usize) < vertices));
-    if let Some(beyond) = indices.iter().find(|&&vertex| !all_exist && vertex as usize >= vertices) {
+    // The compiler finds the greatest of many at a time. The first one that does not exist is needed only if there is one.
+    let is_beyond = |vertex: &u32| *vertex as usize >= vertices;
+    let greatest = indices.iter().copied().max().filter(is_beyond);
+    if let Some(beyond) = greatest.and_then(|_| indices.iter().copied().find(is_beyond)) {
         let has = counted(vertices, "vertex");
         let what = format!("index {beyond} does not exist; the primitive has {has}");
         return Err(malformed(place.clone(), what));
