@@ -26,7 +26,7 @@ use super::plot::Plot;
 use crate::measure::{Spread, interleaved, nanoseconds};
 
 #[cfg(test)]
-mod recorded;
+mod tests;
 
 /// The chapters in their order.
 pub(super) const CHAPTERS: [Question; 17] = [
