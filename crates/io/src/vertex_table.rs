@@ -6,7 +6,8 @@ use std::hint::black_box;
 
 use foldhash::quality::RandomState;
 
-/// So many keys are best hashed at once: enough to wait for memory only once, and few enough to stay in the cache.
+/// The number of keys that are best hashed at once: their slots are fetched side by side, and are still in the cache when
+/// they are used.
 pub(crate) const AT_ONCE: usize = 64;
 
 /// An empty slot. There are fewer vertices.
@@ -15,8 +16,8 @@ const EMPTY: u32 = u32::MAX;
 /// The numbers of vertices, 0, 1, 2 and so on, in the order in which they came.
 #[derive(Debug, Default)]
 pub(crate) struct VertexTable {
-    /// Seeded anew for each table: a file must not choose which keys collide. All bits of its hashes count, of which the
-    /// lowest are used here. The hash of the standard library takes most of the time of a large STL file.
+    /// Has a random seed: a file must not choose which keys collide. Of its hashes the lowest bits are used, so that all
+    /// bits must be good. It takes less time than the hash of the standard library.
     hasher: RandomState,
     /// A power of two of them, at most half of them filled: a number is in the first free slot from that of
     /// its hash on.

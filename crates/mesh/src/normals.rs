@@ -59,9 +59,8 @@ impl Mesh {
 
     /// The same, without a copy where all are used as they were given.
     pub(crate) fn shading_normals_or_given(&self) -> Cow<'_, [Vec3]> {
-        let is_kept = |&normal: &Vec3| is_unit(normal);
-        // Without a way out after each of them, several are tested at a time.
-        let are_kept = |some: &[Vec3]| some.iter().fold(true, |kept, normal| kept & is_kept(normal));
+        // Without a way out after each normal, the compiler tests several at a time.
+        let are_kept = |some: &[Vec3]| some.iter().fold(true, |kept, &normal| kept & is_unit(normal));
         match &self.attributes().corner_normals {
             Some(given) if given.chunks(1024).all(are_kept) => Cow::Borrowed(given),
             _ => Cow::Owned(self.shading_normals()),

@@ -305,7 +305,7 @@ impl Scene {
     }
 
     /// The smallest box around [`Scene::visible_points`]; coordinates that are not finite do not count. [`Scene::bounds`]
-    /// visits no vertices, and is larger where nodes rotate.
+    /// follows from the boxes of the meshes alone, and is larger where nodes rotate them.
     #[must_use]
     pub fn tight_bounds(&self) -> Bounds3 {
         let around = |bounds: Bounds3, mesh: PlacedMesh<'_>| bounds.union(mesh.tight_bounds());

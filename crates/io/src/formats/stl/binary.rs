@@ -14,11 +14,11 @@ pub(super) const HEADER: usize = 84;
 /// A normal, three vertices and the attribute, in bytes.
 pub(super) const TRIANGLE: usize = 50;
 
-/// So many triangles are read before the caller is asked again whether to go on: a multiple of the next number.
+/// So many triangles are read before the caller is asked again whether to go on: a multiple of [`AT_ONCE`].
 const STRIDE: usize = 1 << 16;
 
-/// So many triangles are read before their vertices are looked up: a good number of corners for the table.
-const AT_ONCE: usize = crate::vertex_table::AT_ONCE / 2;
+/// So many triangles are read before their 96 corners are looked up together.
+const AT_ONCE: usize = 32;
 
 /// How many triangles the file claims; none if it is too short to say.
 fn claimed(bytes: &[u8]) -> Option<u32> {
