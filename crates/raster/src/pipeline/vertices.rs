@@ -11,7 +11,7 @@ use trigon_math::Vec4;
 
 /// The distance in f32 from one vertex's varyings to the next one's: see [`VertexProgram::stride`].
 const fn stride(varyings: usize) -> usize {
-    if varyings < 3 { varyings } else { varyings.next_multiple_of(4) }
+    if varyings < 3 { varyings } else { varyings.next_multiple_of(2) }
 }
 
 impl<P: LanePipeline> VertexProgram for P {

@@ -10,8 +10,8 @@ use trigon_math::Vec4;
 pub(crate) trait VertexProgram: Sync {
     fn vertex_count(&self) -> usize;
 
-    /// The distance in f32 from one vertex's varyings to the next one's: a multiple of 4, so that
-    /// four are copied at a time; fewer than 4 if there are fewer than 3.
+    /// The distance in f32 from one vertex's varyings to the next one's: a multiple of 2, so that
+    /// two are copied at a time; one if there is one.
     fn stride(&self) -> usize;
 
     /// How many f32 are interpolated.
