@@ -2,6 +2,7 @@
 
 use trigon_math::Vec3;
 
+use crate::face_starts::FaceStarts;
 use crate::mesh::Parts;
 use crate::{Mesh, MeshError};
 
@@ -26,7 +27,9 @@ const LIMIT: u32 = u32::MAX - 1;
 #[derive(Debug, Clone)]
 pub struct MeshBuilder {
     positions: Vec<Vec3>,
-    face_starts: Vec<u32>,
+    face_starts: FaceStarts,
+    /// The number of faces that are expected.
+    face_room: usize,
     corner_vertices: Vec<u32>,
     loose_edges: Vec<[u32; 2]>,
     loose_points: Vec<u32>,
@@ -48,11 +51,10 @@ impl MeshBuilder {
     /// A builder with reserved memory for this many vertices, faces and corners.
     #[must_use]
     pub fn with_capacity(vertices: usize, faces: usize, corners: usize) -> Self {
-        let mut face_starts = Vec::with_capacity(faces + 1);
-        face_starts.push(0);
         Self {
             positions: Vec::with_capacity(vertices),
-            face_starts,
+            face_starts: FaceStarts::default(),
+            face_room: faces,
             corner_vertices: Vec::with_capacity(corners),
             loose_edges: Vec::new(),
             loose_points: Vec::new(),
@@ -74,7 +76,7 @@ impl MeshBuilder {
     /// The number of accepted faces.
     #[must_use]
     pub fn face_count(&self) -> usize {
-        self.face_starts.len() - 1
+        self.face_starts.len()
     }
 
     /// The number of corners of the accepted faces: the required length of per-corner attributes.
@@ -107,15 +109,25 @@ impl MeshBuilder {
     /// indices can count. Nothing was added then.
     pub fn push_face(&mut self, vertices: &[u32]) -> Result<u32, MeshError> {
         let face = self.face_count();
-        self.check_vertices("face", face, vertices)?;
-        let distinct = distinct_up_to_3(vertices);
-        if distinct < 3 {
-            return Err(MeshError::TooFewVertices { face, distinct });
-        }
+        check_face(face, vertices, self.positions.len())?;
         self.check_room(vertices.len())?;
         self.corner_vertices.extend_from_slice(vertices);
-        self.face_starts.push(self.corner_vertices.len() as u32);
+        self.face_starts.push(vertices.len(), self.face_room);
         Ok(face as u32)
+    }
+
+    /// Adds triangles, as [`push_face`](Self::push_face) does each: all of them or none.
+    ///
+    /// # Errors
+    ///
+    /// One of them has fewer than three distinct vertices or a vertex that does not exist, or there are more
+    /// corners than indices can count. Nothing was added then.
+    pub fn push_triangles(&mut self, triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+        check_triangles(triangles, self.face_count(), self.positions.len())?;
+        self.check_room(3 * triangles.len())?;
+        self.corner_vertices.extend_from_slice(triangles.as_flattened());
+        self.face_starts.push_triangles(triangles.len());
+        Ok(())
     }
 
     /// Adds an edge that need not belong to a face. If a face also has it, it is the face's edge,
@@ -127,7 +139,7 @@ impl MeshBuilder {
     /// can count. Nothing was added then.
     pub fn push_loose_edge(&mut self, from: u32, to: u32) -> Result<(), MeshError> {
         let index = self.loose_edges.len();
-        self.check_vertices("loose edge", index, &[from, to])?;
+        check_vertices("loose edge", index, &[from, to], self.positions.len())?;
         if from == to {
             let vertex = from;
             return Err(MeshError::EdgeWithoutLength { index, vertex });
@@ -143,7 +155,7 @@ impl MeshBuilder {
     ///
     /// The vertex does not exist.
     pub fn push_loose_point(&mut self, vertex: u32) -> Result<(), MeshError> {
-        self.check_vertices("loose point", self.loose_points.len(), &[vertex])?;
+        check_vertices("loose point", self.loose_points.len(), &[vertex], self.positions.len())?;
         self.loose_points.push(vertex);
         Ok(())
     }
@@ -162,19 +174,51 @@ impl MeshBuilder {
         })
     }
 
-    fn check_vertices(&self, element: &'static str, index: usize, vertices: &[u32]) -> Result<(), MeshError> {
-        let vertex_count = self.positions.len();
-        match vertices.iter().find(|&&v| v as usize >= vertex_count) {
-            None => Ok(()),
-            Some(&vertex) => Err(MeshError::VertexOutOfRange { element, index, vertex, vertex_count }),
-        }
-    }
-
     /// Half-edges (corners and loose edges) are numbered together while edges are searched, so one
     /// limit applies to both; faces are fewer.
     fn check_room(&self, more: usize) -> Result<(), MeshError> {
         check_room("corners and loose edges", self.corner_vertices.len() + self.loose_edges.len() + more)
     }
+}
+
+/// Whether vertices exist. `index` is that of their element.
+pub(crate) fn check_vertices(
+    element: &'static str,
+    index: usize,
+    vertices: &[u32],
+    vertex_count: usize,
+) -> Result<(), MeshError> {
+    match vertices.iter().find(|&&vertex| vertex as usize >= vertex_count) {
+        None => Ok(()),
+        Some(&vertex) => Err(MeshError::VertexOutOfRange { element, index, vertex, vertex_count }),
+    }
+}
+
+/// Whether a face is one: its vertices exist, and three of them differ.
+pub(crate) fn check_face(face: usize, vertices: &[u32], vertex_count: usize) -> Result<(), MeshError> {
+    check_vertices("face", face, vertices, vertex_count)?;
+    match distinct_up_to_3(vertices) {
+        3 => Ok(()),
+        distinct => Err(MeshError::TooFewVertices { face, distinct }),
+    }
+}
+
+/// Whether all of some triangles are faces, the first of which has a number.
+pub(crate) fn check_triangles(
+    triangles: &[[u32; 3]],
+    first: usize,
+    vertex_count: usize,
+) -> Result<(), MeshError> {
+    let is_face = |&[a, b, c]: &[u32; 3]| {
+        let exist = a.max(b).max(c) < u32::try_from(vertex_count).unwrap_or(u32::MAX);
+        exist & (a != b) & (b != c) & (c != a)
+    };
+    // The compiler checks several at a time. Which one is wrong is needed only if one is.
+    if triangles.iter().fold(true, |all, triangle| all & is_face(triangle)) {
+        return Ok(());
+    }
+    let mut numbered = (first..).zip(triangles);
+    numbered.try_for_each(|(face, triangle)| check_face(face, triangle, vertex_count))
 }
 
 /// Whether so many elements of a kind can be numbered.

@@ -3,7 +3,8 @@
 
 use trigon_math::Vec3;
 
-use crate::builder::{check_room, distinct_up_to_3};
+use crate::builder::{check_face, check_room, check_triangles, check_vertices};
+use crate::face_starts::FaceStarts;
 use crate::mesh::Parts;
 use crate::{Mesh, MeshError};
 
@@ -37,26 +38,20 @@ pub struct MeshColumns {
     pub loose_points: Vec<u32>,
 }
 
-impl Mesh {
-    /// The mesh with these elements, in this order.
+impl MeshColumns {
+    /// Whether [`Mesh::from_columns`] takes them.
     ///
     /// # Errors
-    /// A face with fewer than three different vertices, a vertex that does not exist, sizes that do
-    /// not add up to the number of corners, a loose edge from a vertex to itself, or more elements
-    /// than indices can count.
-    pub fn from_columns(columns: MeshColumns) -> Result<Self, MeshError> {
-        let MeshColumns { positions, face_sizes, corner_vertices, loose_edges, mut loose_points } = columns;
+    /// Those of [`Mesh::from_columns`].
+    pub fn check(&self) -> Result<(), MeshError> {
+        let Self { positions, face_sizes, corner_vertices, loose_edges, loose_points } = self;
         check_room("corners and loose edges", corner_vertices.len() + loose_edges.len())?;
         check_room("vertices", positions.len())?;
-        let face_starts = face_starts(&face_sizes, corner_vertices.len())?;
-        for (face, ends) in face_starts.windows(2).enumerate() {
-            let vertices = &corner_vertices[ends[0] as usize..ends[1] as usize];
-            check_vertices("face", face, vertices, positions.len())?;
-            let distinct = distinct_up_to_3(vertices);
-            if distinct < 3 {
-                return Err(MeshError::TooFewVertices { face, distinct });
-            }
+        let expected = face_sizes.iter().map(|&size| u64::from(size)).sum();
+        if expected != corner_vertices.len() as u64 {
+            return Err(MeshError::CornerCount { expected, found: corner_vertices.len() });
         }
+        self.check_faces()?;
         for (index, ends) in loose_edges.iter().enumerate() {
             check_vertices("loose edge", index, ends, positions.len())?;
             if ends[0] == ends[1] {
@@ -66,44 +61,42 @@ impl Mesh {
         for (index, point) in loose_points.iter().enumerate() {
             check_vertices("loose point", index, std::slice::from_ref(point), positions.len())?;
         }
+        Ok(())
+    }
+
+    /// The sizes add up to the number of corners.
+    fn check_faces(&self) -> Result<(), MeshError> {
+        let vertex_count = self.positions.len();
+        if self.face_sizes.iter().all(|&size| size == 3) {
+            let (triangles, _) = self.corner_vertices.as_chunks();
+            return check_triangles(triangles, 0, vertex_count);
+        }
+        let mut rest = self.corner_vertices.as_slice();
+        for (face, &size) in self.face_sizes.iter().enumerate() {
+            let (vertices, after) = rest.split_at(size as usize);
+            check_face(face, vertices, vertex_count)?;
+            rest = after;
+        }
+        Ok(())
+    }
+}
+
+impl Mesh {
+    /// The mesh with these elements, in this order.
+    ///
+    /// # Errors
+    /// A face with fewer than three different vertices, a vertex that does not exist, sizes that do
+    /// not add up to the number of corners, a loose edge from a vertex to itself, or more elements
+    /// than indices can count.
+    pub fn from_columns(columns: MeshColumns) -> Result<Self, MeshError> {
+        columns.check()?;
+        let MeshColumns { positions, face_sizes, corner_vertices, loose_edges, mut loose_points } = columns;
+        let face_starts = FaceStarts::of_sizes(&face_sizes);
         if !loose_points.is_empty() {
             let mut seen = vec![false; positions.len()];
             loose_points.retain(|&point| !std::mem::replace(&mut seen[point as usize], true));
         }
         Ok(Self::from_parts(Parts { positions, face_starts, corner_vertices, loose_edges, loose_points }))
-    }
-}
-
-/// The first corner of each face, and the number of corners at the end.
-fn face_starts(face_sizes: &[u32], corners: usize) -> Result<Vec<u32>, MeshError> {
-    let mut starts = Vec::with_capacity(face_sizes.len() + 1);
-    starts.push(0);
-    let mut end = 0u64;
-    for &size in face_sizes {
-        end += u64::from(size);
-        if end > corners as u64 {
-            break;
-        }
-        // Corners have been counted: there are fewer than `u32::MAX`.
-        starts.push(end as u32);
-    }
-    let expected = face_sizes.iter().map(|&size| u64::from(size)).sum();
-    if expected == corners as u64 {
-        Ok(starts)
-    } else {
-        Err(MeshError::CornerCount { expected, found: corners })
-    }
-}
-
-fn check_vertices(
-    element: &'static str,
-    index: usize,
-    vertices: &[u32],
-    vertex_count: usize,
-) -> Result<(), MeshError> {
-    match vertices.iter().find(|&&vertex| vertex as usize >= vertex_count) {
-        None => Ok(()),
-        Some(&vertex) => Err(MeshError::VertexOutOfRange { element, index, vertex, vertex_count }),
     }
 }
 

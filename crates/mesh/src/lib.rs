@@ -52,6 +52,7 @@ mod deformed;
 mod edges;
 pub mod edit;
 mod error;
+mod face_starts;
 mod flat_faces;
 mod groups;
 mod mesh;
@@ -65,6 +66,7 @@ mod transform;
 mod triangulate;
 mod triangulation;
 mod weld;
+mod welded_mesh;
 
 pub use attributes::{Attributes, Deltas, MorphTarget, SkinWeights};
 pub use builder::MeshBuilder;
@@ -78,6 +80,7 @@ pub use mesh::Mesh;
 pub use render_mesh::RenderMesh;
 pub use triangulate::triangulate_polygon;
 pub use triangulation::Triangulation;
+pub use welded_mesh::WeldedMesh;
 
 /// Re-export of the crate below, so that points and vectors need no other dependency.
 pub use trigon_math as math;

@@ -11,6 +11,7 @@ use std::sync::OnceLock;
 use trigon_math::{Bounds3, Vec3, Vec4};
 
 use crate::edges::{Edges, NO_EDGE, find_edges};
+use crate::face_starts::FaceStarts;
 use crate::{Attributes, MeshError};
 
 /// A polygon mesh with explicit vertices, edges and faces.
@@ -28,8 +29,7 @@ use crate::{Attributes, MeshError};
 #[derive(Debug, Clone)]
 pub struct Mesh {
     positions: Vec<Vec3>,
-    /// The first corner of each face, and the corner count at the end.
-    face_starts: Vec<u32>,
+    face_starts: FaceStarts,
     corner_vertices: Vec<u32>,
     /// As given: some may be edges of faces.
     loose_edges: Vec<[u32; 2]>,
@@ -41,7 +41,7 @@ pub struct Mesh {
 /// The checked data from a builder.
 pub(crate) struct Parts {
     pub(crate) positions: Vec<Vec3>,
-    pub(crate) face_starts: Vec<u32>,
+    pub(crate) face_starts: FaceStarts,
     pub(crate) corner_vertices: Vec<u32>,
     pub(crate) loose_edges: Vec<[u32; 2]>,
     pub(crate) loose_points: Vec<u32>,
@@ -103,7 +103,7 @@ impl Mesh {
 
     /// The number of polygons.
     pub fn face_count(&self) -> usize {
-        self.face_starts.len() - 1
+        self.face_starts.len()
     }
 
     /// The number of edges, including loose ones.
@@ -131,18 +131,22 @@ impl Mesh {
     ///
     /// The face does not exist.
     pub fn face_corners(&self, face: usize) -> Range<usize> {
-        self.face_starts[face] as usize..self.face_starts[face + 1] as usize
+        self.face_starts.corners(face)
     }
 
-    /// The face of a corner, by binary search.
+    /// The face of a corner.
     pub(crate) fn face_at(&self, corner: u32) -> usize {
-        self.face_starts.partition_point(|&start| start <= corner) - 1
+        self.face_starts.face_at(corner)
+    }
+
+    /// Whether no face has more than three corners.
+    pub(crate) fn has_only_triangles(&self) -> bool {
+        self.face_starts.are_triangles()
     }
 
     /// The corners of every face, in order.
     pub fn faces(&self) -> impl ExactSizeIterator<Item = Range<usize>> + Clone + '_ {
-        let starts = self.face_starts.windows(2);
-        starts.map(|ends| ends[0] as usize..ends[1] as usize)
+        self.face_starts.iter()
     }
 
     /// The vertex at each corner of every face.
@@ -258,8 +262,7 @@ impl Mesh {
         let mut order: Vec<u32> = (0..self.corner_count() as u32).collect();
         self.found_edges();
         let edges = self.edges.get_mut().expect("they were just found");
-        for ends in self.face_starts.windows(2) {
-            let corners = ends[0] as usize..ends[1] as usize;
+        for corners in self.face_starts.iter() {
             order[corners.clone()][1..].reverse();
             edges.corner_edges[corners].reverse();
         }

@@ -4,6 +4,7 @@
 use std::borrow::Cow;
 use std::f64::consts::PI;
 
+use rayon::prelude::*;
 use trigon_math::{DVec3, Vec3};
 
 use crate::triangulate::area_vector;
@@ -62,7 +63,7 @@ impl Mesh {
         // Without a way out after each normal, the compiler tests several at a time.
         let are_kept = |some: &[Vec3]| some.iter().fold(true, |kept, &normal| kept & is_unit(normal));
         match &self.attributes().corner_normals {
-            Some(given) if given.chunks(1024).all(are_kept) => Cow::Borrowed(given),
+            Some(given) if given.par_chunks(1024).with_min_len(16).all(are_kept) => Cow::Borrowed(given),
             _ => Cow::Owned(self.shading_normals()),
         }
     }
@@ -75,7 +76,8 @@ impl Mesh {
         if corner_normals.is_some() || is_smooth || skin.is_some() || !morph_targets.is_empty() {
             return None;
         }
-        Some((0..self.face_count()).map(|face| or_if_zero(self.face_normal(face), Vec3::Y)).collect())
+        let faces = (0..self.face_count()).into_par_iter().with_min_len(1 << 12);
+        Some(faces.map(|face| or_if_zero(self.face_normal(face), Vec3::Y)).collect())
     }
 
     /// Shading normals from the faces alone.

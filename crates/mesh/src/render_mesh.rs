@@ -6,7 +6,7 @@
 use trigon_math::{Vec2, Vec3, Vec4};
 
 use crate::weld::{Welded, weld};
-use crate::{FlatFaces, Mesh, MorphTarget, RenderLinks, SkinWeights, Triangulation};
+use crate::{FlatFaces, Mesh, MorphTarget, RenderLinks, SkinWeights, WeldedMesh};
 
 /// A mesh as triangles over welded corners. All lists of vertex values have the same length, and so
 /// have all lists of triangles.
@@ -14,7 +14,7 @@ use crate::{FlatFaces, Mesh, MorphTarget, RenderLinks, SkinWeights, Triangulatio
 pub struct RenderMesh {
     /// Metres.
     pub positions: Vec<Vec3>,
-    /// Of unit length. None in a mesh of [`RenderMesh::from_flat_mesh`].
+    /// Of unit length.
     pub normals: Vec<Vec3>,
     /// See [`Attributes::corner_tangents`](crate::Attributes::corner_tangents).
     pub tangents: Option<Vec<Vec4>>,
@@ -33,8 +33,8 @@ pub struct RenderMesh {
     pub triangles: Vec<[u32; 3]>,
     /// The polygon that each triangle is part of.
     pub triangle_faces: Vec<u32>,
-    /// The material slot of each triangle, 0 if the mesh has none.
-    pub triangle_materials: Vec<u32>,
+    /// The material slot of each triangle; `None` if the mesh has no slots, which means slot 0.
+    pub triangle_materials: Option<Vec<u32>>,
 }
 
 impl RenderMesh {
@@ -45,23 +45,14 @@ impl RenderMesh {
     /// and points. The normals are those of [`Mesh::shading_normals`].
     pub fn from_mesh(mesh: &Mesh) -> RenderMesh {
         let (normals, welded) = Self::welded_normals(mesh);
-        Self::from_welded(mesh, normals, &welded)
-    }
-
-    /// The same for a mesh whose polygons are all flat, with the normal of each polygon instead of normals of
-    /// vertices: corners at one vertex are welded unless other values differ, where
-    /// [`RenderMesh::from_mesh`] needs a vertex for each corner. `None` if a corner has a normal of its own, a
-    /// polygon is smooth, or a pose can deform the mesh.
-    pub fn from_flat_mesh(mesh: &Mesh) -> Option<(RenderMesh, Vec<Vec3>)> {
-        let normals = mesh.flat_normals()?;
-        Some((Self::from_welded(mesh, Vec::new(), &weld(mesh, &[]).0), normals))
+        Self::from_welded(mesh, normals, welded)
     }
 
     /// The same as [`RenderMesh::from_mesh`], with the data to follow changes of the mesh later; `None` if a pose can deform the
     /// mesh, which must be rebuilt after a change.
     pub fn with_links(mesh: &Mesh) -> (RenderMesh, Option<RenderLinks>) {
         let (normals, welded) = Self::welded_normals(mesh);
-        let render_mesh = Self::from_welded(mesh, normals, &welded);
+        let render_mesh = Self::from_welded(mesh, normals, welded.clone());
         let links = (!render_mesh.is_deformable()).then(|| RenderLinks::new(mesh, welded));
         (render_mesh, links)
     }
@@ -73,13 +64,11 @@ impl RenderMesh {
     }
 
     /// `normals` are those of the welded vertices.
-    fn from_welded(mesh: &Mesh, normals: Vec<Vec3>, welded: &Welded) -> RenderMesh {
-        let Triangulation { mut triangles, triangle_faces } = mesh.triangulation();
+    fn from_welded(mesh: &Mesh, normals: Vec<Vec3>, welded: Welded) -> RenderMesh {
+        let flat_faces = FlatFaces::of(mesh, welded.vertex_of_corner.as_slice());
+        let welded = WeldedMesh::new(mesh, normals, welded);
         let attributes = mesh.attributes();
-        for triangle in &mut triangles {
-            *triangle = triangle.map(|corner| welded.vertex_of_corner[corner as usize]);
-        }
-        let corners = &welded.corner_of_vertex;
+        let corners = &welded.corners;
         let vertex = |&corner: &u32| mesh.corner_vertices()[corner as usize];
         let position = |corner: &u32| mesh.positions()[vertex(corner) as usize];
         let morph = |target: &MorphTarget| MorphTarget {
@@ -88,20 +77,18 @@ impl RenderMesh {
             normals: target.normals.reordered(mesh.corner_count(), corners.iter().copied()),
             tangents: target.tangents.reordered(mesh.corner_count(), corners.iter().copied()),
         };
-        let slots_of = |slots: &[u32]| triangle_faces.iter().map(|&face| slots[face as usize]).collect();
-        let slots = attributes.face_materials.as_deref().map(slots_of);
         RenderMesh {
             positions: corners.iter().map(position).collect(),
-            normals,
             tangents: attributes.corner_tangents.as_ref().map(|tangents| pick(tangents, corners)),
             uv_sets: attributes.uv_sets.iter().map(|set| pick(set, corners)).collect(),
             colors: attributes.corner_colors.as_ref().map(|c| pick(c, corners)),
             skin: attributes.skin.as_ref().map(|skin| skin.reordered(corners.iter().map(vertex))),
             morph_targets: attributes.morph_targets.iter().map(morph).collect(),
-            flat_faces: FlatFaces::of(mesh, &welded.vertex_of_corner),
-            triangle_materials: slots.unwrap_or_else(|| vec![0; triangle_faces.len()]),
-            triangles,
-            triangle_faces,
+            flat_faces,
+            normals: welded.normals,
+            triangles: welded.triangles,
+            triangle_faces: welded.triangle_faces,
+            triangle_materials: welded.triangle_materials,
         }
     }
 }

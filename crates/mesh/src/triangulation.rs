@@ -19,8 +19,7 @@ impl Mesh {
     /// Triangulates all faces.
     pub fn triangulation(&self) -> Triangulation {
         let faces = self.face_count() as u32;
-        // No face has fewer corners, so all are triangles.
-        if self.corner_count() == 3 * self.face_count() {
+        if self.has_only_triangles() {
             let corners = |face| [3 * face, 3 * face + 1, 3 * face + 2];
             let (triangles, triangle_faces) = ((0..faces).map(corners).collect(), (0..faces).collect());
             return Triangulation { triangles, triangle_faces };

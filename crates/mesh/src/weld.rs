@@ -17,22 +17,81 @@ const FEW: u32 = 24;
 const NONE: u32 = u32::MAX;
 
 /// The result of welding, in both directions.
+#[derive(Clone)]
 pub(crate) struct Welded {
     /// The first corner of each welded vertex.
     pub(crate) corner_of_vertex: Vec<u32>,
     /// The welded vertex of each corner.
-    pub(crate) vertex_of_corner: Vec<u32>,
+    pub(crate) vertex_of_corner: OfCorners,
+}
+
+/// A number for each corner: in threes if all faces are triangles, which those of a render mesh are made of.
+#[derive(Clone)]
+pub(crate) enum OfCorners {
+    Triangles(Vec<[u32; 3]>),
+    Polygons(Vec<u32>),
+}
+
+impl OfCorners {
+    /// In the order of the corners.
+    fn new(mesh: &Mesh, mut number: impl FnMut((u32, &u32)) -> u32) -> Self {
+        let numbered = (0..).zip(mesh.corner_vertices());
+        if !mesh.has_only_triangles() {
+            return Self::Polygons(numbered.map(number).collect());
+        }
+        let (triangles, _) = mesh.corner_vertices().as_chunks();
+        let of = |(first, [a, b, c]): (u32, &[u32; 3])| {
+            [number((first, a)), number((first + 1, b)), number((first + 2, c))]
+        };
+        Self::Triangles((0..).step_by(3).zip(triangles).map(of).collect())
+    }
+
+    pub(crate) fn as_slice(&self) -> &[u32] {
+        match self {
+            Self::Triangles(triangles) => triangles.as_flattened(),
+            Self::Polygons(numbers) => numbers,
+        }
+    }
+
+    pub(crate) fn into_vec(self) -> Vec<u32> {
+        match self {
+            Self::Triangles(triangles) => triangles.into_flattened(),
+            Self::Polygons(numbers) => numbers,
+        }
+    }
 }
 
 /// Welds corners at the same vertex whose values agree, with
 /// these normals in place of the mesh's own, or without any.
 /// The welded vertices are numbered in order of first use; they come with their normals.
 pub(crate) fn weld(mesh: &Mesh, normals: &[Vec3]) -> (Welded, Vec<Vec3>) {
-    let compare = Comparison { normals, others: AttributeComparison::new(mesh) };
+    let compare = Comparison {
+        normals,
+        others: Some(AttributeComparison::new(mesh)).filter(AttributeComparison::has_any),
+    };
+    if compare.tells_nothing() {
+        return (weld_all(mesh), Vec::new());
+    }
     let mut welding = Welding::new(mesh.vertex_count());
     let number = |(corner, &vertex): (u32, &u32)| welding.number(&compare, vertex, corner);
-    let vertex_of_corner = (0..).zip(mesh.corner_vertices()).map(number).collect();
+    let vertex_of_corner = OfCorners::new(mesh, number);
     (Welded { corner_of_vertex: welding.corner_of_vertex, vertex_of_corner }, welding.normals)
+}
+
+/// Welds all corners at each vertex.
+fn weld_all(mesh: &Mesh) -> Welded {
+    let mut corner_of_vertex = Vec::with_capacity(mesh.vertex_count());
+    let mut welded = vec![NONE; mesh.vertex_count()];
+    let number = |(corner, &vertex): (u32, &u32)| {
+        let number = &mut welded[vertex as usize];
+        if *number == NONE {
+            *number = corner_of_vertex.len() as u32;
+            corner_of_vertex.push(corner);
+        }
+        *number
+    };
+    let vertex_of_corner = OfCorners::new(mesh, number);
+    Welded { corner_of_vertex, vertex_of_corner }
 }
 
 /// The welded vertices so far.
@@ -59,8 +118,9 @@ struct OrderedCorner<'a> {
 impl<'a> Welding<'a> {
     fn new(vertices: usize) -> Self {
         Self {
-            corner_of_vertex: Vec::new(),
-            normals: Vec::new(),
+            // Most meshes have about as many.
+            corner_of_vertex: Vec::with_capacity(vertices),
+            normals: Vec::with_capacity(vertices),
             first: vec![NONE; vertices],
             next: Vec::new(),
             others: HashMap::new(),
@@ -104,7 +164,9 @@ impl<'a> Welding<'a> {
             Some(normal) => bits(normal.to_array()) == bits(self.normals[welded as usize].to_array()),
             None => true,
         };
-        has_normal && compare.others.equal(corner, self.corner_of_vertex[welded as usize])
+        let has_others =
+            |others: &AttributeComparison<'_>| others.equal(corner, self.corner_of_vertex[welded as usize]);
+        has_normal && compare.others.as_ref().is_none_or(has_others)
     }
 
     /// A new welded vertex with the values of a corner.
@@ -140,7 +202,8 @@ impl Eq for OrderedCorner<'_> {}
 struct Comparison<'a> {
     /// Empty if they do not count.
     normals: &'a [Vec3],
-    others: AttributeComparison<'a>,
+    /// None if there are none.
+    others: Option<AttributeComparison<'a>>,
 }
 
 /// The same without normals.
@@ -157,13 +220,19 @@ pub(crate) struct AttributeComparison<'a> {
 }
 
 impl Comparison<'_> {
+    /// Whether all corners at a vertex are equal.
+    fn tells_nothing(&self) -> bool {
+        self.normals.is_empty() && self.others.is_none()
+    }
+
     fn normal(&self, corner: u32) -> [f32; 3] {
         self.normals.get(corner as usize).map_or([0.0; 3], |normal| normal.to_array())
     }
 
     /// A total order in which only equal corners compare equal.
     fn order(&self, a: u32, b: u32) -> Ordering {
-        by_bits(self.normal(a), self.normal(b)).then_with(|| self.others.order(a, b))
+        let others = || self.others.as_ref().map_or(Ordering::Equal, |others| others.order(a, b));
+        by_bits(self.normal(a), self.normal(b)).then_with(others)
     }
 }
 
@@ -180,6 +249,13 @@ impl<'a> AttributeComparison<'a> {
             },
             flat: flat_classes(mesh),
         }
+    }
+
+    /// Whether there are any values.
+    fn has_any(&self) -> bool {
+        let Self { uv_sets, colors, tangents, morphs, flat } = self;
+        let is_empty = uv_sets.is_empty() && colors.is_empty() && tangents.is_empty();
+        !(is_empty && morphs.is_empty() && flat.is_empty())
     }
 
     pub(crate) fn equal(&self, a: u32, b: u32) -> bool {

@@ -16,7 +16,7 @@ use std::sync::{Arc, OnceLock};
 
 use trigon_math::glam::Affine3;
 use trigon_math::{Bounds3, Vec3};
-use trigon_mesh::{Attributes, Deformed, Mesh, RenderLinks, RenderMesh};
+use trigon_mesh::{Attributes, Deformed, Mesh, RenderLinks, RenderMesh, WeldedMesh};
 use trigon_raster::EdgeFlags;
 
 use crate::work::{Work, note};
@@ -41,8 +41,8 @@ pub(crate) struct Geometry {
     pub(crate) columns: Columns,
     /// Vertices, ordered by material slot.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// The polygon of each triangle.
-    pub(crate) faces: Vec<u32>,
+    /// The polygon of each triangle; `None` if each is the polygon with its number, and all are in one run.
+    faces: Option<Vec<u32>>,
     /// The triangles of each slot, in the order of the slots.
     pub(crate) runs: Vec<Run>,
     /// The original position of each triangle in the triangulation; `None` if unchanged.
@@ -112,29 +112,67 @@ pub(crate) struct Run {
     pub(crate) triangles: Range<usize>,
 }
 
+/// The triangles of a mesh, in the order of its polygons.
+struct Triangles {
+    triangles: Vec<[u32; 3]>,
+    /// The polygon of each.
+    faces: Vec<u32>,
+    /// The material slot of each; empty if the mesh has none.
+    slots: Vec<u32>,
+}
+
 impl Geometry {
     pub(crate) fn new(source: &Mesh) -> Self {
         let is_large = source.corner_count() >= MANY_CORNERS;
-        match is_large.then(|| RenderMesh::from_flat_mesh(source)).flatten() {
-            Some((mesh, normals)) => Self::with(mesh, |mesh| Columns::of_flat_faces(mesh, &normals)),
+        if let Some((mesh, normals)) = is_large.then(|| WeldedMesh::of_flat(source)).flatten() {
+            return Self::of_welded(mesh, |mesh| Columns::of_flat_faces(source, mesh, normals));
+        }
+        Self::smooth(source)
+    }
+
+    /// With normals of vertices.
+    fn smooth(source: &Mesh) -> Self {
+        match WeldedMesh::of(source) {
+            Some(mesh) => Self::of_welded(mesh, |mesh| Columns::of_welded(source, mesh)),
             None => Self::of(RenderMesh::from_mesh(source)),
         }
     }
 
-    fn of(mesh: RenderMesh) -> Self {
-        Self::with(mesh, Columns::new)
+    fn of_welded(mut mesh: WeldedMesh, columns: impl FnOnce(WeldedMesh) -> Columns) -> Self {
+        let triangles = Triangles {
+            triangles: take(&mut mesh.triangles),
+            faces: take(&mut mesh.triangle_faces),
+            slots: take(&mut mesh.triangle_materials).unwrap_or_default(),
+        };
+        Self::with(triangles, || columns(mesh), None)
     }
 
-    fn with(mut mesh: RenderMesh, columns: impl Fn(&RenderMesh) -> Columns) -> Self {
-        let order = sorted_by_slot(&mesh.triangle_materials);
+    fn of(mut mesh: RenderMesh) -> Self {
+        let triangles = Triangles {
+            triangles: take(&mut mesh.triangles),
+            faces: take(&mut mesh.triangle_faces),
+            slots: take(&mut mesh.triangle_materials).unwrap_or_default(),
+        };
+        let rest = mesh.is_deformable().then(|| Box::new(mesh.clone()));
+        Self::with(triangles, || Columns::new(mesh), rest)
+    }
+
+    fn with(
+        Triangles { mut triangles, mut faces, mut slots }: Triangles,
+        columns: impl FnOnce() -> Columns,
+        rest: Option<Box<RenderMesh>>,
+    ) -> Self {
+        let order = sorted_by_slot(&slots);
         if let Some(order) = &order {
-            permute(&mut mesh.triangles, order);
-            permute(&mut mesh.triangle_faces, order);
-            permute(&mut mesh.triangle_materials, order);
+            permute(&mut triangles, order);
+            permute(&mut faces, order);
+            permute(&mut slots, order);
         }
-        let runs = runs(&mesh.triangle_materials);
-        let (triangles, faces) = (take(&mut mesh.triangles), take(&mut mesh.triangle_faces));
-        let columns = columns(&mesh);
+        let runs = if slots.is_empty() { run_of_all(triangles.len()) } else { runs(&slots) };
+        let are_numbers = runs.len() < 2 && faces.iter().copied().eq(0..faces.len() as u32);
+        let faces = Some(faces).filter(|_| !are_numbers);
+        drop(slots);
+        let columns = columns();
         Self {
             tangential: places_for(&columns),
             columns,
@@ -143,7 +181,7 @@ impl Geometry {
             faces,
             order,
             fillers: Vec::new(),
-            rest: mesh.is_deformable().then(|| Box::new(mesh)),
+            rest,
             state: GeometryState::default(),
             bounds: OnceLock::new(),
             blocks: OnceLock::new(),
@@ -194,6 +232,18 @@ impl Geometry {
             links: None,
             change: None,
         }
+    }
+
+    /// The polygon of a triangle.
+    #[inline]
+    pub(crate) fn face(&self, triangle: usize) -> u32 {
+        self.faces.as_ref().map_or(triangle as u32, |faces| faces[triangle])
+    }
+
+    /// The polygons of some triangles, of one run or of all. `None` if each is the polygon with its number, the first
+    /// of them 0.
+    pub(crate) fn faces_of(&self, triangles: Range<usize>) -> Option<&[u32]> {
+        self.faces.as_ref().map(|faces| &faces[triangles])
     }
 
     /// The index in the mesh's triangulation of a triangle of this list.
@@ -248,21 +298,12 @@ impl Geometry {
 
     /// Boxes around its triangles.
     pub(crate) fn blocks(&self, source: &Mesh) -> &Blocks {
-        if self.blocks.get().is_none() {
-            // Without a lock: a thread that waits for other threads may be given work that needs the same
-            // boxes.
-            let _ = self.blocks.set(Blocks::new(source, self));
-        }
-        self.blocks.get().expect("they were just made")
+        made_once(&self.blocks, || Blocks::new(source, self))
     }
 
     /// For each vertex of geometry at rest, a vertex of the mesh at the same position.
     pub(crate) fn mesh_vertices(&self, source: &Mesh) -> &[u32] {
-        if self.mesh_vertices.get().is_none() {
-            // Without a lock, as above.
-            let _ = self.mesh_vertices.set(mesh_vertices(source, self));
-        }
-        self.mesh_vertices.get().expect("they were just found")
+        made_once::<Vec<u32>>(&self.mesh_vertices, || mesh_vertices(source, self))
     }
 
     /// The mesh for a normal map on a UV set: with its own tangents, or else with tangents of that set. These
@@ -272,7 +313,7 @@ impl Geometry {
         let Some(tangential) = self.tangential.get(uv_set).filter(|_| self.columns.tangents.is_none()) else {
             return self;
         };
-        tangential.get_or_init(|| {
+        made_once::<Box<Self>>(tangential, || {
             if let Some(Pose { rest, weights, palette }) = &self.pose {
                 let posed = rest.with_tangents(source, uv_set).deformed(weights, palette);
                 return Box::new(posed.expect("tangents take no pose away"));
@@ -290,7 +331,7 @@ impl Geometry {
         if self.columns.face_normals.is_none() {
             return self;
         }
-        self.split.get_or_init(|| Box::new(Self::of(RenderMesh::from_mesh(source)).filled_like(self)))
+        made_once::<Box<Self>>(&self.split, || Box::new(Self::smooth(source).filled_like(self)))
     }
 
     /// For each triangle, which of its sides are edges of its polygon. Computed only for frames
@@ -321,6 +362,16 @@ impl Geometry {
     pub(crate) fn sides_if_known(&self) -> Option<&[[u32; 3]]> {
         self.side_edges.get().map(|sides| sides.as_slice())
     }
+}
+
+/// What is in a place, made now if nothing is. All threads may work on it, so there is no lock: while a thread waits for
+/// the others, it may be given work that needs the same. Another caller may make its own at the same time; the first one
+/// stays.
+pub(crate) fn made_once<T>(place: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
+    if place.get().is_none() {
+        let _ = place.set(make());
+    }
+    place.get().expect("it was just made")
 }
 
 /// The smallest and the largest of some numbers, ignoring NaN. Several at a time, because updates of large
@@ -382,6 +433,10 @@ fn sorted_by_slot(slots: &[u32]) -> Option<Vec<u32>> {
 
 fn permute<T: Copy>(items: &mut Vec<T>, order: &[u32]) {
     *items = order.iter().map(|&from| items[from as usize]).collect();
+}
+
+fn run_of_all(triangles: usize) -> Vec<Run> {
+    (triangles > 0).then_some(Run { slot: 0, triangles: 0..triangles }).into_iter().collect()
 }
 
 fn runs(slots: &[u32]) -> Vec<Run> {

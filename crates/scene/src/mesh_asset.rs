@@ -6,7 +6,7 @@ use trigon_math::{Bounds3, Vec3};
 use trigon_mesh::{ChangeError, ChangedElements, Mesh, MeshChange};
 
 use crate::arena::Id;
-use crate::geometry::{Geometry, box_around};
+use crate::geometry::{Geometry, box_around, made_once};
 
 /// Names a mesh.
 pub type MeshId = Id<MeshAsset>;
@@ -92,17 +92,14 @@ impl MeshAsset {
 
     /// What is drawn of it; made, or brought up to date, at the first use.
     pub(crate) fn geometry(&self) -> &Arc<Geometry> {
-        if let Some(outdated) = self.derived.take_outdated() {
-            // All threads work on it, so there is no lock: while a thread waits for the others, it may be given work that
-            // needs the same geometry. Another caller may build its own at the same time; the first one stays.
-            let _ = self.derived.geometry.set(Arc::new(match outdated {
-                Outdated { geometry: None, .. } => Geometry::that_follows(&self.mesh),
-                Outdated { geometry: Some(before), changed } => {
-                    Geometry::after_change(before, &self.mesh, &changed)
-                }
-            }));
-        }
-        self.derived.geometry.get_or_init(|| Arc::new(Geometry::new(&self.mesh)))
+        let make = || match self.derived.take_outdated() {
+            None => Geometry::new(&self.mesh),
+            Some(Outdated { geometry: None, .. }) => Geometry::that_follows(&self.mesh),
+            Some(Outdated { geometry: Some(before), changed }) => {
+                Geometry::after_change(before, &self.mesh, &changed)
+            }
+        };
+        made_once(&self.derived.geometry, || Arc::new(make()))
     }
 
     /// See [`Scene::change_mesh`](crate::Scene::change_mesh).

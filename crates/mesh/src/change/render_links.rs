@@ -45,7 +45,7 @@ impl RenderLinks {
         let follows = given.is_none_or(|given| given.iter().any(|&normal| has_no_direction(normal)));
         Self {
             vertex_count: welded.corner_of_vertex.len() as u32,
-            vertex_of_corner: welded.vertex_of_corner,
+            vertex_of_corner: welded.vertex_of_corner.into_vec(),
             corners_at: Arc::new(Groups::new(mesh.vertex_count(), corners)),
             face_normals: follows.then(|| FaceNormals::new(mesh)),
         }

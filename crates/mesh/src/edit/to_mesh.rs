@@ -8,6 +8,7 @@ use super::ids::{CornerId, EdgeId, FaceId, VertexId};
 use super::layers::{LayerKind, LayerValues};
 use super::records::{POINT, SMOOTH};
 use super::skin::{Influences, MOST};
+use crate::face_starts::FaceStarts;
 use crate::mesh::Parts;
 use crate::normals::or_if_zero;
 use crate::{Attributes, Deltas, Mesh, MorphTarget, SkinWeights};
@@ -80,15 +81,15 @@ impl EditMesh {
             numbers[vertex.0 as usize] = number;
         }
         let number = |vertex: VertexId| numbers[vertex.0 as usize];
-        let mut face_starts = Vec::with_capacity(map.faces.len() + 1);
+        let mut face_starts = FaceStarts::default();
         let mut corner_vertices = Vec::with_capacity(self.corner_count());
-        face_starts.push(0);
         for &face in &map.faces {
+            let first = corner_vertices.len();
             for corner in self.face_corners(face) {
                 map.corners.push(corner);
                 corner_vertices.push(number(self.corner_vertex(corner)));
             }
-            face_starts.push(corner_vertices.len() as u32);
+            face_starts.push(corner_vertices.len() - first, map.faces.len());
         }
         let is_point = |&&vertex: &&VertexId| self.vertices[vertex.0].flags & POINT != 0;
         let mut mesh = Mesh::from_parts(Parts {

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use trigon_math::{Vec2, Vec3, Vec4};
-use trigon_mesh::{Attributes, Mesh, MeshBuilder, MorphTarget, RenderMesh, primitives};
+use trigon_mesh::{Attributes, Mesh, MeshBuilder, MorphTarget, RenderMesh, WeldedMesh, primitives};
 
 fn with(mut mesh: Mesh, attributes: Attributes) -> RenderMesh {
     mesh.set_attributes(attributes).expect("one value each");
@@ -30,14 +30,16 @@ fn a_cube_with_normals_of_polygons_has_8_vertices() {
     let flat = |attributes: Attributes| {
         let mut cube = primitives::cube(1.0);
         cube.set_attributes(attributes).expect("one value each");
-        RenderMesh::from_flat_mesh(&cube)
+        WeldedMesh::of_flat(&cube)
     };
     let (shared, normals) = flat(Attributes::default()).expect("all is flat");
-    assert_eq!((shared.positions.len(), shared.normals.len(), normals.len()), (8, 0, 6), "no normals there");
+    assert_eq!((shared.corners.len(), shared.normals.len(), normals.len()), (8, 0, 6), "no normals there");
     let split = with(primitives::cube(1.0), Attributes::default());
+    let cube = primitives::cube(1.0);
+    let position_of = |corner: u32| cube.positions()[cube.corner_vertices()[corner as usize] as usize];
     for (triangle, (one, other)) in shared.triangles.iter().zip(&split.triangles).enumerate() {
-        let [one, other] = [(&shared, one), (&split, other)]
-            .map(|(mesh, triangle)| triangle.map(|vertex| mesh.positions[vertex as usize]));
+        let one = one.map(|vertex| position_of(shared.corners[vertex as usize]));
+        let other = other.map(|vertex| split.positions[vertex as usize]);
         assert_eq!(one, other, "triangle {triangle} is at the same place");
         let of_vertex = split.normals[split.triangles[triangle][0] as usize];
         assert_eq!(normals[shared.triangle_faces[triangle] as usize], of_vertex, "triangle {triangle}");
@@ -45,7 +47,7 @@ fn a_cube_with_normals_of_polygons_has_8_vertices() {
     let mut colors = vec![Vec4::ONE; 24];
     colors[7] = Vec4::X;
     let colored = flat(Attributes { corner_colors: Some(colors), ..Attributes::default() });
-    assert_eq!(colored.expect("it is flat").0.positions.len(), 9, "other values still divide vertices");
+    assert_eq!(colored.expect("it is flat").0.corners.len(), 9, "other values still divide vertices");
     let smooth = Attributes { face_smooth: Some(vec![true; 6]), ..Attributes::default() };
     let given = Attributes { corner_normals: Some(vec![Vec3::Y; 24]), ..Attributes::default() };
     let moving = Attributes { morph_targets: vec![MorphTarget::default()], ..Attributes::default() };
@@ -58,9 +60,10 @@ fn materials_and_faces_follow_the_triangles() {
     let render =
         with(primitives::cube(1.0), Attributes { face_materials: Some(slots), ..Attributes::default() });
     assert_eq!(render.triangle_faces, [0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5], "faces");
-    assert_eq!(render.triangle_materials, [5, 5, 4, 4, 3, 3, 2, 2, 1, 1, 0, 0], "slots");
+    let slots = vec![5, 5, 4, 4, 3, 3, 2, 2, 1, 1, 0, 0];
+    assert_eq!(render.triangle_materials, Some(slots), "slots");
     let plain = with(primitives::cube(1.0), Attributes::default());
-    assert_eq!(plain.triangle_materials, [0; 12], "slot 0 where there are none");
+    assert_eq!(plain.triangle_materials, None, "a mesh without slots");
 }
 
 #[test]

@@ -82,8 +82,8 @@ impl BlockBox {
 /// cuts off one corner, and the last has three, so every corner has a triangle.
 fn scant_faces(source: &Mesh, geometry: &Geometry) -> Vec<u32> {
     let mut counts = vec![0; source.face_count()];
-    for (&[a, b, c], &face) in geometry.triangles.iter().zip(&geometry.faces) {
-        counts[face as usize] += usize::from(a != b || b != c);
+    for (triangle, &[a, b, c]) in geometry.triangles.iter().enumerate() {
+        counts[geometry.face(triangle) as usize] += usize::from(a != b || b != c);
     }
     let faces = (0..).zip(counts.iter().zip(source.faces()));
     faces.filter(|(_, (count, corners))| *count + 2 < corners.len()).map(|(face, _)| face).collect()

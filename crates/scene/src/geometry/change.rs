@@ -171,8 +171,10 @@ impl Geometry {
     /// The slots of a face's triangles in a material slot; empty if it has none.
     fn place_of(&self, face: u32, slot: u32, face_count: usize) -> Range<usize> {
         let Ok(run) = self.runs.binary_search_by_key(&slot, |run| run.slot) else { return 0..0 };
-        let start = self.runs[run].triangles.start;
-        let faces = &self.faces[self.runs[run].triangles.clone()];
+        let Range { start, end } = self.runs[run].triangles;
+        let Some(faces) = self.faces_of(start..end) else {
+            return if (face as usize) < end { face as usize..face as usize + 1 } else { 0..0 };
+        };
         // Correct at once if all faces have equally many triangles and one material slot.
         let guess = (u64::from(face) * faces.len() as u64 / face_count as u64) as usize;
         let begins = |at: usize| faces.get(at) == Some(&face) && (at == 0 || faces[at - 1] != face);
@@ -196,7 +198,7 @@ fn fill(render_mesh: &mut RenderMesh, mesh: &Mesh, links: &RenderLinks) -> Vec<u
     (render_mesh.triangles, render_mesh.triangle_faces) =
         (Vec::with_capacity(most), Vec::with_capacity(most));
     let slots = mesh.attributes().face_materials.as_deref();
-    render_mesh.triangle_materials.clear();
+    let mut materials = slots.map(|_| Vec::with_capacity(most));
     for (face, corners) in (0_u32..).zip(mesh.faces()) {
         let count = faces.iter().take_while(|&&of| of == face).count();
         let own;
@@ -210,9 +212,12 @@ fn fill(render_mesh: &mut RenderMesh, mesh: &Mesh, links: &RenderLinks) -> Vec<u
             });
             render_mesh.triangles.push(triangle.map(|corner| links.vertex_of_corner()[corner as usize]));
             render_mesh.triangle_faces.push(face);
-            render_mesh.triangle_materials.push(slots.map_or(0, |slots| slots[face as usize]));
+            if let (Some(materials), Some(slots)) = (&mut materials, slots) {
+                materials.push(slots[face as usize]);
+            }
         }
     }
+    render_mesh.triangle_materials = materials;
     fillers
 }
 

@@ -1,7 +1,8 @@
 //! The vertex attributes of a mesh as columns (structure of arrays), for the vectorized vertex stage.
 
+use rayon::prelude::*;
 use trigon_math::{Vec2, Vec3, Vec4};
-use trigon_mesh::{Deformed, Mesh, RenderMesh, UpdatedVertex};
+use trigon_mesh::{Deformed, Mesh, RenderMesh, UpdatedVertex, WeldedMesh};
 
 /// The vertex values of a mesh. All columns have the same length, but that of normals may be empty.
 #[derive(Clone, Debug, Default)]
@@ -20,20 +21,41 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    pub(crate) fn new(mesh: &RenderMesh) -> Self {
+    /// Each list of the mesh is freed as soon as its columns are written: large meshes set the peak of memory.
+    pub(crate) fn new(mesh: RenderMesh) -> Self {
+        let RenderMesh { positions, normals, tangents, uv_sets, colors, .. } = mesh;
         Self {
-            positions: turned(&mesh.positions, Vec3::to_array),
-            normals: turned(&mesh.normals, Vec3::to_array),
+            positions: columns_of(positions, Vec3::to_array),
+            normals: columns_of(normals, Vec3::to_array),
             face_normals: None,
-            tangents: mesh.tangents.as_deref().map(|tangents| turned(tangents, Vec4::to_array)),
-            uv_sets: mesh.uv_sets.iter().map(|set| turned(set, Vec2::to_array)).collect(),
-            colors: mesh.colors.as_deref().map(|colors| turned(colors, Vec4::to_array)),
+            tangents: tangents.map(|tangents| columns_of(tangents, Vec4::to_array)),
+            uv_sets: uv_sets.into_iter().map(|set| columns_of(set, Vec2::to_array)).collect(),
+            colors: colors.map(|colors| columns_of(colors, Vec4::to_array)),
         }
     }
 
-    /// Of a mesh without normals, whose polygons have these.
-    pub(crate) fn of_flat_faces(mesh: &RenderMesh, normals: &[Vec3]) -> Self {
-        Self { face_normals: Some(turned(normals, Vec3::to_array)), ..Self::new(mesh) }
+    /// Of a mesh and its welded vertices.
+    pub(crate) fn of_welded(mesh: &Mesh, welded: WeldedMesh) -> Self {
+        let WeldedMesh { corners, normals, .. } = welded;
+        let attributes = mesh.attributes();
+        let position =
+            |&corner: &u32| mesh.positions()[mesh.corner_vertices()[corner as usize] as usize].to_array();
+        let uvs = |set: &Vec<Vec2>| turned(&corners, |&corner| set[corner as usize].to_array());
+        let fours = |values: &Vec<Vec4>| turned(&corners, |&corner| values[corner as usize].to_array());
+        Self {
+            normals: columns_of(normals, Vec3::to_array),
+            positions: turned(&corners, position),
+            face_normals: None,
+            tangents: attributes.corner_tangents.as_ref().map(fours),
+            uv_sets: attributes.uv_sets.iter().map(uvs).collect(),
+            colors: attributes.corner_colors.as_ref().map(fours),
+        }
+    }
+
+    /// Of a mesh and its welded vertices without normals, whose polygons have these.
+    pub(crate) fn of_flat_faces(mesh: &Mesh, welded: WeldedMesh, normals: Vec<Vec3>) -> Self {
+        let columns = Self::of_welded(mesh, welded);
+        Self { face_normals: Some(columns_of(normals, Vec3::to_array)), ..columns }
     }
 
     /// The same vertices in a pose.
@@ -112,11 +134,25 @@ fn write<const N: usize>(
     }
 }
 
-/// Rows become columns.
-fn turned<T, const N: usize>(rows: &[T], entries: fn(&T) -> [f32; N]) -> [Vec<f32>; N] {
-    let mut columns = [const { Vec::new() }; N];
-    for (axis, column) in columns.iter_mut().enumerate() {
+/// Rows become columns, and are freed.
+fn columns_of<T: Copy + Sync, const N: usize>(
+    rows: Vec<T>,
+    entries: impl Fn(&T) -> [f32; N] + Sync,
+) -> [Vec<f32>; N] {
+    turned(&rows, entries)
+}
+
+/// Rows become columns; all threads write them if there are many.
+fn turned<T: Sync, const N: usize>(rows: &[T], entries: impl Fn(&T) -> [f32; N] + Sync) -> [Vec<f32>; N] {
+    const MANY: usize = 1 << 14;
+    let mut columns = [(); N].map(|()| Vec::with_capacity(rows.len()));
+    let write = |(axis, column): (usize, &mut Vec<f32>)| {
         column.extend(rows.iter().map(|row| entries(row)[axis]));
+    };
+    if rows.len() < MANY {
+        columns.iter_mut().enumerate().for_each(write);
+    } else {
+        columns.par_iter_mut().enumerate().for_each(write);
     }
     columns
 }

@@ -15,11 +15,11 @@ const SHARE: usize = 4096;
 pub(super) fn mesh_vertices(source: &Mesh, geometry: &Geometry) -> Vec<u32> {
     let vertices: Vec<AtomicU32> = (0..geometry.columns.vertex_count()).map(|_| AtomicU32::new(0)).collect();
     let bits = |position: [f32; 3]| position.map(f32::to_bits);
-    let triangles = geometry.triangles.par_iter().zip(&geometry.faces).with_min_len(SHARE);
+    let triangles = geometry.triangles.par_iter().enumerate().with_min_len(SHARE);
     // Fillers cover nothing, and need not be anywhere.
-    let triangles = triangles.filter(|([a, b, c], _)| a != b || b != c);
-    triangles.for_each(|(triangle, &face)| {
-        let candidates = source.face_vertices(face as usize);
+    let triangles = triangles.filter(|(_, [a, b, c])| a != b || b != c);
+    triangles.for_each(|(number, triangle)| {
+        let candidates = source.face_vertices(geometry.face(number) as usize);
         for &drawn in triangle {
             let position = geometry.columns.positions.each_ref().map(|column| column[drawn as usize]);
             let is_here =

@@ -90,11 +90,10 @@ impl<'s> Source<'s> {
 
     /// The triangle of a face, by its number in its draw. A face lies in one run only.
     pub(super) fn triangle(&self, face: u32, number: u32, beam: Beam) -> Option<Triangle<'_>> {
-        let faces = &self.geometry.faces;
         let (look, index) = self.geometry.runs.iter().zip(&self.looks).find_map(|(run, look)| {
             let start = if self.draws_are_runs { run.triangles.start } else { 0 };
             let index = start + number as usize;
-            (run.triangles.contains(&index) && faces[index] == face).then_some((look, index))
+            (run.triangles.contains(&index) && self.geometry.face(index) == face).then_some((look, index))
         })?;
         let columns = &look.geometry.columns;
         let corners = look.geometry.triangles[index].map(|corner| {
@@ -201,7 +200,7 @@ impl Triangle<'_> {
             let [u, v, w] = values.map(Vec3::as_dvec3);
             (u * point.weights.x + v * point.weights.y + w * point.weights.z).as_vec3()
         };
-        let face = self.look.geometry.faces[self.index];
+        let face = self.look.geometry.face(self.index);
         let turned =
             |corner| (self.source.normal_to_world * columns.normal(corner, face)).normalize_or_zero();
         let mut normal = mix([a, b, c].map(turned));

@@ -182,7 +182,7 @@ impl Drawn {
 
     /// The polygon of a triangle.
     pub(super) fn face(&self, triangle: usize) -> u32 {
-        self.shape.geometry.faces[triangle]
+        self.shape.geometry.face(triangle)
     }
 
     /// The corners of a triangle.

@@ -292,7 +292,7 @@ impl<'s> Composer<'s> {
         let drawn = Drawn {
             columns: &geometry.columns,
             triangles: &geometry.triangles[run.triangles.clone()],
-            faces: &geometry.faces[run.triangles.clone()],
+            faces: geometry.faces_of(run.triangles.clone()),
         };
         let pipeline = Surface::<FLAT>::new(drawn, object.place, bound, &self.context());
         let flags = shows_edges.then(|| &self.edge_flags(object)[run.triangles.clone()]);

@@ -78,7 +78,7 @@ pub(super) struct MarkNumbers {
 impl<P: LanePipeline> Record for Triangles<'_, P> {
     fn record<'a>(&'a self, pass: &mut Pass<'a>) {
         pass.triangles(Draw {
-            faces: Some(&self.geometry.faces[self.range.clone()]),
+            faces: self.geometry.faces_of(self.range.clone()),
             edge_flags: self.edge_flags,
             marks: self.marks.as_ref().map(|marks| Marks {
                 sides: marks.sides,

@@ -77,7 +77,7 @@ fn shape<'a>(
         to_world: Mat3::IDENTITY,
     };
     let place = eye.place(&caster.shadow.place, &caster.geometry.bounds());
-    let drawn = Drawn { columns, triangles: &[], faces: &[] };
+    let drawn = Drawn { columns, triangles: &[], faces: None };
     if masked {
         Shape::Masked(Surface::new(drawn, place, BoundMaterial::new(&material, columns, &context), &context))
     } else {

@@ -41,7 +41,8 @@ pub(crate) struct Drawn<'a> {
     pub(crate) columns: &'a Columns,
     /// All of them, and the polygon of each; draws without light need neither.
     pub(crate) triangles: &'a [[u32; 3]],
-    pub(crate) faces: &'a [u32],
+    /// `None` if each is the polygon with its number.
+    pub(crate) faces: Option<&'a [u32]>,
 }
 
 /// Faces of one mesh in one material.
@@ -49,8 +50,8 @@ pub(crate) struct Surface<'a, const FLAT: bool> {
     pub(crate) columns: &'a Columns,
     /// The whole draw, for flat faces.
     pub(crate) triangles: &'a [[u32; 3]],
-    /// The polygon of each triangle.
-    pub(crate) faces: &'a [u32],
+    /// The polygon of each triangle; `None` if each is the polygon with its number.
+    pub(crate) faces: Option<&'a [u32]>,
     pub(crate) place: Placement,
     pub(crate) layout: Layout,
     pub(crate) params: MaterialParams<'a>,

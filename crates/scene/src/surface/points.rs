@@ -54,7 +54,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             || {
                 let faces = primitives.each(
                     #[inline(always)]
-                    |primitive| self.faces[primitive as usize] as usize,
+                    |primitive| match self.faces {
+                        Some(faces) => faces[primitive as usize] as usize,
+                        None => primitive as usize,
+                    },
                 );
                 let normal = normals.each_ref().each(
                     #[inline(always)]

@@ -98,7 +98,7 @@ impl CasterSurfaces {
         let mixed = |column: &[f32]| {
             corners.iter().zip(hit.weights).map(|(&corner, weight)| column[corner] * weight).sum::<f32>()
         };
-        let normals = corners.map(|corner| geometry.columns.normal(corner, geometry.faces[triangle]));
+        let normals = corners.map(|corner| geometry.columns.normal(corner, geometry.face(triangle)));
         let axis = |axis: usize| -> f32 {
             normals.iter().zip(hit.weights).map(|(normal, weight)| normal[axis] * weight).sum()
         };

@@ -43,7 +43,7 @@ impl Contents {
         let runs = geometry.runs.iter().map(|run| (run.slot, run.triangles.clone().filter(is_real).count()));
         Self {
             triangles: all.iter().map(|&triangle| geometry.triangles[triangle].map(corner)).collect(),
-            faces: all.iter().map(|&triangle| geometry.faces[triangle]).collect(),
+            faces: all.iter().map(|&triangle| geometry.face(triangle)).collect(),
             runs: runs.filter(|&(_, count)| count > 0).collect(),
             triangulated: all.iter().map(|&triangle| geometry.triangulated(triangle)).collect(),
             edge_flags: all.iter().map(|&triangle| flags[triangle]).collect(),

@@ -94,14 +94,14 @@ fn triangles(marks: [Option<&MarkNumbers>; 2], source: &Source<'_>) -> Option<Ve
         Marked::Faces(Some(marks)) if !marks.sides.is_empty() => marks.sides,
         _ => &source.geometry.sides_if_known()?[range.clone()],
     };
-    let own = &source.geometry.faces[range];
+    let own = |triangle: usize| source.geometry.face(range.start + triangle);
     let is_other = |triangle: &usize| {
-        faces.as_ref().is_some_and(|faces| faces.has(own[*triangle]))
+        faces.as_ref().is_some_and(|faces| faces.has(own(*triangle)))
             || edges.as_ref().is_some_and(|edges| sides[*triangle].iter().any(|&side| edges.has(side)))
     };
-    let starts: Vec<usize> = (0..own.len()).step_by(SHARE).collect();
+    let starts: Vec<usize> = (0..range.len()).step_by(SHARE).collect();
     let shares = starts.into_par_iter().map(|start| {
-        let share = start..own.len().min(start + SHARE);
+        let share = start..range.len().min(start + SHARE);
         share.filter(is_other).map(|triangle| triangle as u32).collect::<Vec<u32>>()
     });
     Some(shares.collect::<Vec<_>>().concat())

@@ -4,6 +4,7 @@
 //! format forbids is corrected: triangles with positions that are not finite are left out, normals
 //! and tangents without a direction get one, colours are clamped to 0…1.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use trigon_math::{Vec2, Vec3, Vec4};
@@ -99,7 +100,9 @@ fn sort_by_slot(render: &RenderMesh) -> BTreeMap<u32, Vec<u32>> {
     let is_finite = |&vertex: &u32| render.positions[vertex as usize].is_finite();
     let mut start = 0;
     // Faces of one material are mostly consecutive.
-    for same in render.triangle_materials.chunk_by(|a, b| a == b) {
+    let none = || Cow::Owned(vec![0; render.triangles.len()]);
+    let materials = render.triangle_materials.as_deref().map_or_else(none, Cow::Borrowed);
+    for same in materials.chunk_by(|a, b| a == b) {
         let triangles = &render.triangles[start..start + same.len()];
         start += same.len();
         let list = slots.entry(same[0]).or_default();
