@@ -38,6 +38,7 @@
 mod capture;
 mod compare;
 mod environment;
+mod equal_keys;
 mod error;
 mod export;
 mod folder;

@@ -71,7 +71,8 @@ const POWERS: [f64; 23] = [
 pub(crate) const MOST_DIGITS: usize = 19;
 
 /// The number at the start of a text and its length, if one rounding suffices.
-fn plain(text: &[u8]) -> Option<(f64, usize)> {
+#[inline]
+pub(crate) fn plain(text: &[u8]) -> Option<(f64, usize)> {
     /// Up to here f64 holds every integer.
     const LARGEST: u64 = 1 << 53;
     let negative = text.first() == Some(&b'-');

@@ -27,6 +27,17 @@ impl<'a> Rows<'a> {
         self.number
     }
 
+    /// What has not been read.
+    pub(crate) fn rest(&self) -> &'a [u8] {
+        &self.text[self.at..]
+    }
+
+    /// Goes past text with so many bytes and lines.
+    pub(crate) fn pass(&mut self, bytes: usize, lines: u64) {
+        self.at += bytes;
+        self.number += lines;
+    }
+
     /// The number of bytes read, and of bytes left.
     pub(crate) fn progress(&self) -> (usize, usize) {
         (self.at, self.text.len() - self.at)

@@ -28,7 +28,12 @@ pub(crate) struct VertexTable {
 impl VertexTable {
     /// A table with room for so many vertices.
     pub(crate) fn with_capacity(vertices: usize) -> Self {
-        Self { slots: vec![EMPTY; slot_count(vertices)], ..Self::default() }
+        Self::with_hasher(vertices, RandomState::default())
+    }
+
+    /// The same for hashes of a hasher with a random seed.
+    pub(crate) fn with_hasher(vertices: usize, hasher: RandomState) -> Self {
+        Self { hasher, slots: vec![EMPTY; slot_count(vertices)], count: 0 }
     }
 
     /// The hashes of some keys, at best [`AT_ONCE`] of them. Their slots are read, too: the processor fetches all of
@@ -36,7 +41,12 @@ impl VertexTable {
     pub(crate) fn hash_all<K: Hash>(&self, keys: impl Iterator<Item = K>, hashes: &mut Vec<u64>) {
         hashes.clear();
         hashes.extend(keys.map(|key| self.hasher.hash_one(key)));
-        let slots = hashes.iter().filter_map(|&hash| self.slots.get(self.first_slot(hash)));
+        self.fetch(hashes.iter().copied());
+    }
+
+    /// Reads the slots of some hashes, as above.
+    pub(crate) fn fetch(&self, hashes: impl Iterator<Item = u64>) {
+        let slots = hashes.filter_map(|hash| self.slots.get(self.first_slot(hash)));
         black_box(slots.fold(0, |all, slot| all ^ slot));
     }
 

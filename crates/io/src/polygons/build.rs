@@ -4,8 +4,8 @@ use std::mem::take;
 use std::ops::Range;
 
 use rayon::prelude::*;
-use trigon_math::{DVec3, Vec4};
-use trigon_mesh::{Attributes, Mesh, MeshBuilder};
+use trigon_math::{DVec3, Vec3, Vec4};
+use trigon_mesh::{Attributes, Mesh, MeshBuilder, MeshColumns};
 
 use super::{Polygons, most_corners, too_many_corners};
 use crate::error::{LoadError, Place};
@@ -27,6 +27,43 @@ fn note((count, first): &mut (usize, usize), index: usize) {
 
 /// The mesh of a part, with all positions less the offset.
 pub(super) fn build(
+    import: &mut Import<'_>,
+    mut polygons: Polygons,
+    offset: DVec3,
+) -> Result<Mesh, LoadError> {
+    match whole(&mut polygons, offset) {
+        Some(mesh) => Ok(mesh),
+        None => build_of_sound_faces(import, polygons, offset),
+    }
+}
+
+/// The mesh of a part of which nothing is left out, as of most: it takes over the lists of faces. None if something is, or
+/// the part has edges or no faces.
+fn whole(polygons: &mut Polygons, offset: DVec3) -> Option<Mesh> {
+    if polygons.face_sizes.is_empty() || !polygons.edges.is_empty() {
+        return None;
+    }
+    let place = |position: &DVec3| (*position - offset).as_vec3();
+    let columns = MeshColumns {
+        positions: polygons.positions.par_iter().map(place).collect(),
+        face_sizes: take(&mut polygons.face_sizes),
+        corner_vertices: take(&mut polygons.corner_vertices),
+        ..MeshColumns::default()
+    };
+    if !columns.positions.iter().all(|position| position.is_finite()) || columns.check().is_err() {
+        (polygons.face_sizes, polygons.corner_vertices) = (columns.face_sizes, columns.corner_vertices);
+        return None;
+    }
+    // Large, and not needed any more.
+    polygons.positions = Vec::new();
+    let mut mesh = Mesh::from_columns(columns).expect("they were checked");
+    let attributes = attributes(take(polygons), &Kept::default(), mesh.corner_vertices(), &mesh);
+    mesh.set_attributes(attributes).expect("one value per corner");
+    Some(mesh)
+}
+
+/// The mesh of the faces that have three different vertices at least, all of them finite.
+fn build_of_sound_faces(
     import: &mut Import<'_>,
     mut polygons: Polygons,
     offset: DVec3,
@@ -58,7 +95,9 @@ pub(super) fn build(
     push_edges(import, &polygons, &local, &mut builder, &mut left_out)?;
     warn(import, &left_out);
     let mut mesh = builder.build();
-    mesh.set_attributes(attributes(polygons, &kept)).expect("one value per accepted corner");
+    let vertices = kept.at_corners(take(&mut polygons.corner_vertices));
+    let attributes = attributes(polygons, &kept, &vertices, &mesh);
+    mesh.set_attributes(attributes).expect("one value per accepted corner");
     Ok(mesh)
 }
 
@@ -79,11 +118,9 @@ impl Kept {
         }
     }
 
-    /// Of all so many faces those that were accepted.
-    fn faces(&self, count: usize) -> impl Iterator<Item = usize> {
-        let list = self.0.as_ref().map(|(faces, _)| faces.as_slice());
-        let all = 0..list.map_or(count, <[u32]>::len);
-        all.map(move |index| list.map_or(index, |list| list[index] as usize))
+    /// The number in the file of an accepted face.
+    fn face(&self, face: usize) -> usize {
+        self.0.as_ref().map_or(face, |(faces, _)| faces[face] as usize)
     }
 
     /// Of values at all corners those at the corners that were accepted.
@@ -119,7 +156,7 @@ fn push_vertices(
     offset: DVec3,
     builder: &mut MeshBuilder,
 ) -> Local {
-    let place = |position: &DVec3| (*position - offset).as_vec3();
+    let place = |position: &DVec3| -> Vec3 { (*position - offset).as_vec3() };
     let Some(first) = polygons.positions.iter().position(|position| !place(position).is_finite()) else {
         for position in &polygons.positions {
             builder.push_vertex(place(position));
@@ -195,16 +232,16 @@ fn warn(import: &mut Import<'_>, left_out: &LeftOut) {
     );
 }
 
-/// The values at the corners of the faces that were accepted.
-fn attributes(mut polygons: Polygons, kept: &Kept) -> Attributes {
-    let vertices = kept.at_corners(take(&mut polygons.corner_vertices));
-    let normals = of_vertices(&polygons.normals, &vertices);
+/// The values at the corners of the faces that were accepted, those of a mesh; `vertices` are the file's vertices there.
+fn attributes(mut polygons: Polygons, kept: &Kept, vertices: &[u32], mesh: &Mesh) -> Attributes {
+    let normals = of_vertices(&polygons.normals, vertices);
     let uvs = match polygons.corner_uvs.is_empty() {
-        true => of_vertices(&polygons.uvs, &vertices),
+        true => of_vertices(&polygons.uvs, vertices),
         false => Some(kept.at_corners(take(&mut polygons.corner_uvs))),
     };
-    let colors = of_vertices(&polygons.colors, &vertices);
-    let of_faces = || (!polygons.face_colors.is_empty()).then(|| colors_of_faces(&polygons, kept));
+    let colors = of_vertices(&polygons.colors, vertices);
+    let of_faces =
+        || (!polygons.face_colors.is_empty()).then(|| colors_of_faces(&polygons.face_colors, kept, mesh));
     Attributes {
         corner_normals: normals,
         uv_sets: uvs.into_iter().collect(),
@@ -220,10 +257,8 @@ fn of_vertices<T: Copy + Send + Sync>(values: &[T], vertices: &[u32]) -> Option<
 }
 
 /// The colour of its face at each corner of the faces that were accepted.
-fn colors_of_faces(polygons: &Polygons, kept: &Kept) -> Vec<Vec4> {
-    let color = |face: usize| {
-        let size = polygons.face_sizes[face] as usize;
-        std::iter::repeat_n(polygons.face_colors[face], size)
-    };
-    kept.faces(polygons.face_sizes.len()).flat_map(color).collect()
+fn colors_of_faces(colors: &[Vec4], kept: &Kept, mesh: &Mesh) -> Vec<Vec4> {
+    let color =
+        |(face, corners): (usize, Range<usize>)| std::iter::repeat_n(colors[kept.face(face)], corners.len());
+    mesh.faces().enumerate().flat_map(color).collect()
 }

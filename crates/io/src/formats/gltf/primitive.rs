@@ -6,7 +6,8 @@ use gltf::json::mesh::Mode;
 /// What a primitive draws, as indices into its own attributes.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Elements {
-    pub(crate) triangles: Vec<[u32; 3]>,
+    /// Three corners each.
+    pub(crate) triangles: Vec<u32>,
     pub(crate) edges: Vec<[u32; 2]>,
     pub(crate) points: Vec<u32>,
     /// How many indices at the end make no whole element.
@@ -30,25 +31,26 @@ pub(crate) fn corner_count(mode: Mode, indices: usize) -> usize {
 }
 
 /// Sorts indices into elements. Strips turn every second triangle round, so
-/// that all face the same way.
-pub(crate) fn elements(mode: Mode, indices: &[u32]) -> Elements {
+/// that all face the same way. Indices of triangles, which may be many, are taken over.
+pub(crate) fn elements(mode: Mode, mut indices: Vec<u32>) -> Elements {
     let mut elements = Elements::default();
     match mode {
-        Mode::Points => elements.points = indices.to_vec(),
+        Mode::Points => elements.points = indices,
         Mode::Lines => {
             let (edges, rest) = indices.as_chunks();
             (elements.edges, elements.left_over) = (edges.to_vec(), rest.len());
         }
-        Mode::LineStrip => elements.edges = strip_edges(indices),
+        Mode::LineStrip => elements.edges = strip_edges(&indices),
         Mode::LineLoop => {
-            elements.edges = strip_edges(indices);
-            if let (&[first, _, ..], Some(&last)) = (indices, indices.last()) {
+            elements.edges = strip_edges(&indices);
+            if let (&[first, _, ..], Some(&last)) = (indices.as_slice(), indices.last()) {
                 elements.edges.push([last, first]);
             }
         }
         Mode::Triangles => {
-            let (triangles, rest) = indices.as_chunks();
-            (elements.triangles, elements.left_over) = (triangles.to_vec(), rest.len());
+            elements.left_over = indices.len() % 3;
+            indices.truncate(indices.len() - elements.left_over);
+            elements.triangles = indices;
         }
         Mode::TriangleStrip => {
             let turned = |(index, corner): (usize, &[u32])| {
@@ -58,11 +60,11 @@ pub(crate) fn elements(mode: Mode, indices: &[u32]) -> Elements {
                     [corner[1], corner[0], corner[2]]
                 }
             };
-            elements.triangles = indices.windows(3).enumerate().map(turned).collect();
+            elements.triangles = indices.windows(3).enumerate().flat_map(turned).collect();
         }
         Mode::TriangleFan => {
             let rest = indices.get(1..).unwrap_or_default();
-            elements.triangles = rest.windows(2).map(|pair| [indices[0], pair[0], pair[1]]).collect();
+            elements.triangles = rest.windows(2).flat_map(|pair| [indices[0], pair[0], pair[1]]).collect();
         }
     }
     elements
@@ -79,18 +81,20 @@ mod tests {
     #[test]
     fn every_mode_becomes_elements() {
         let indices = [0, 1, 2, 3, 4];
+        let elements = |mode: Mode, indices: &[u32]| elements(mode, indices.to_vec());
+        let triangles = |mode: Mode| elements(mode, &indices).triangles.as_chunks().0.to_vec();
         assert_eq!(elements(Mode::Points, &indices).points, indices, "points");
         assert_eq!(elements(Mode::Lines, &indices).edges, [[0, 1], [2, 3]], "lines");
         assert_eq!(elements(Mode::Lines, &indices).left_over, 1, "one left over");
         assert_eq!(elements(Mode::LineStrip, &indices).edges, [[0, 1], [1, 2], [2, 3], [3, 4]], "strip");
         assert_eq!(elements(Mode::LineLoop, &indices[..3]).edges, [[0, 1], [1, 2], [2, 0]], "loop");
-        assert_eq!(elements(Mode::Triangles, &indices).triangles, [[0, 1, 2]], "triangles");
+        assert_eq!(triangles(Mode::Triangles), [[0, 1, 2]], "triangles");
         assert_eq!(
-            elements(Mode::TriangleStrip, &indices).triangles,
+            triangles(Mode::TriangleStrip),
             [[0, 1, 2], [2, 1, 3], [2, 3, 4]],
             "all the same way round"
         );
-        assert_eq!(elements(Mode::TriangleFan, &indices).triangles, [[0, 1, 2], [0, 2, 3], [0, 3, 4]], "fan");
+        assert_eq!(triangles(Mode::TriangleFan), [[0, 1, 2], [0, 2, 3], [0, 3, 4]], "fan");
     }
 
     #[test]
@@ -105,7 +109,7 @@ mod tests {
         ];
         for mode in modes {
             for indices in [&[][..], &[0]] {
-                let found = elements(mode, indices);
+                let found = elements(mode, indices.to_vec());
                 assert!(found.triangles.is_empty() && found.edges.is_empty(), "{mode:?} of {indices:?}");
             }
         }

@@ -6,6 +6,7 @@
 //! vertices.
 
 mod header;
+mod plain;
 mod rows;
 mod write;
 
@@ -68,7 +69,10 @@ impl Reader<'_> {
 
     fn vertices(&mut self, import: &Import<'_>) -> Result<(), LoadError> {
         let (count, mut numbers) = (self.header.vertices, Numbers::default());
-        for row in 0..count {
+        if self.header.least_numbers() == 3 {
+            self.plain_places(import)?;
+        }
+        for row in self.polygons.positions.len() as u64..count {
             self.report(import, row)?;
             let Some(line) = self.rows.next() else {
                 let what = format!("the header claims {count} vertices, and the file ends after {row}");
@@ -82,6 +86,26 @@ impl Reader<'_> {
             self.vertex(&numbers);
         }
         Ok(())
+    }
+
+    /// Reads vertices up to the first piece with a row that is not plain, or with the last vertex.
+    fn plain_places(&mut self, import: &Import<'_>) -> Result<(), LoadError> {
+        loop {
+            self.report(import, 0)?;
+            let pieces = plain::places(self.rows.rest());
+            if pieces.is_empty() {
+                return Ok(());
+            }
+            for piece in pieces {
+                let positions = &mut self.polygons.positions;
+                let fits = |piece: &plain::Piece<Vec<DVec3>>| {
+                    (positions.len() + piece.rows.len()) as u64 <= self.header.vertices
+                };
+                let Some(piece) = piece.filter(fits) else { return Ok(()) };
+                positions.extend(piece.rows);
+                self.rows.pass(piece.bytes, piece.lines);
+            }
+        }
     }
 
     /// A row: the place, then normal, colour and texture coordinates, those that there are.
@@ -107,8 +131,9 @@ impl Reader<'_> {
 
     fn faces(&mut self, import: &mut Import<'_>) -> Result<(), LoadError> {
         let (count, mut numbers) = (self.header.faces, Numbers::default());
-        let (mut colors, mut any_color) = (Colors::default(), false);
-        for row in 0..count {
+        let mut colors = Colors::default();
+        self.plain_faces(import)?;
+        for row in self.polygons.face_sizes.len() as u64..count {
             self.report(import, row)?;
             let Some(line) = self.rows.next() else {
                 let what = format!("the header claims {count} faces, and the file ends after {row}");
@@ -118,16 +143,38 @@ impl Reader<'_> {
             numbers.read(line).map_err(|what| self.malformed(import, format!("face {row}: {what}")))?;
             let (corners, color) =
                 numbers.face().map_err(|what| self.malformed(import, format!("face {row} {what}")))?;
-            let is_face = self.face(import, row, corners)?;
-            if is_face {
-                any_color |= color.len() >= 3;
+            let faces_before = self.polygons.face_sizes.len();
+            if self.face(import, row, corners)? && (color.len() >= 3 || !colors.colors.is_empty()) {
+                // Until the first one, no face has a colour.
+                (colors.colors.len()..faces_before).for_each(|_| colors.push(&[]));
                 colors.push(color);
             }
         }
-        if any_color {
-            self.polygons.face_colors = colors.finish();
-        }
+        self.polygons.face_colors = colors.finish();
         Ok(())
+    }
+
+    /// Reads faces up to the first piece with a row that is not plain, or with the last face.
+    fn plain_faces(&mut self, import: &Import<'_>) -> Result<(), LoadError> {
+        loop {
+            self.report(import, 0)?;
+            let pieces = plain::faces(self.rows.rest(), self.header.vertices);
+            if pieces.is_empty() {
+                return Ok(());
+            }
+            for piece in pieces {
+                let Polygons { face_sizes, corner_vertices, .. } = &mut self.polygons;
+                let fits = |piece: &plain::Piece<plain::Faces>| {
+                    let corners = corner_vertices.len() + piece.rows.vertices.len();
+                    (face_sizes.len() + piece.rows.sizes.len()) as u64 <= self.header.faces
+                        && corners <= most_corners(import)
+                };
+                let Some(piece) = piece.filter(fits) else { return Ok(()) };
+                face_sizes.extend(piece.rows.sizes);
+                corner_vertices.extend(piece.rows.vertices);
+                self.rows.pass(piece.bytes, piece.lines);
+            }
+        }
     }
 
     /// Adds a face, or an edge if it has two vertices; whether it was a face.

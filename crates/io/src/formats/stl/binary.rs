@@ -1,24 +1,22 @@
 //! Binary STL: a header of 80 bytes, the number of triangles, and 50 bytes for each.
 
+use rayon::prelude::*;
 use trigon_math::color::srgb_to_linear;
 use trigon_math::{DVec3, Vec3, Vec4};
 
-use super::solid::Solid;
+use crate::equal_keys::EqualKeys;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
 use crate::options::LoadStage;
-use crate::polygons::{Polygons, most_corners, too_many_corners};
+use crate::polygons::{Polygons, check_vertices, most_corners, too_many_corners};
 
 /// The header and the number of triangles, in bytes.
 pub(super) const HEADER: usize = 84;
 /// A normal, three vertices and the attribute, in bytes.
 pub(super) const TRIANGLE: usize = 50;
 
-/// So many triangles are read before the caller is asked again whether to go on: a multiple of [`AT_ONCE`].
-const STRIDE: usize = 1 << 16;
-
-/// So many triangles are read before their 96 corners are looked up together.
-const AT_ONCE: usize = 32;
+/// So many triangles are read by all threads at once, before the caller is asked again whether to go on.
+const AT_ONCE: usize = 1 << 15;
 
 /// How many triangles the file claims; none if it is too short to say.
 fn claimed(bytes: &[u8]) -> Option<u32> {
@@ -42,27 +40,45 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
     if length > most_corners(import) / 3 {
         return Err(too_many_corners(import));
     }
-    let mut solid = Solid::with_room(length);
+    let mut polygons = Polygons { face_sizes: vec![3; length], ..Polygons::default() };
+    polygons.corner_vertices.reserve_exact(3 * length);
     let mut colors = Colors::new(&bytes[..HEADER - 4]);
-    let mut places = Vec::new();
-    for (index, some) in bytes[HEADER..][..length * TRIANGLE].chunks(AT_ONCE * TRIANGLE).enumerate() {
-        let first = index * AT_ONCE;
-        if first.is_multiple_of(STRIDE) {
-            import.options.report(import.path, LoadStage::Geometry, 0.9 * first as f32 / length as f32)?;
-        }
-        places.clear();
-        for triangle in some.chunks_exact(TRIANGLE) {
-            let (numbers, rest) = triangle.as_chunks::<4>();
-            let number = |at: usize| f64::from(f32::from_le_bytes(numbers[at]));
-            let corner = |at: usize| DVec3::new(number(at), number(at + 1), number(at + 2));
-            places.push([corner(3), corner(6), corner(9)]);
-            colors.push(u16::from_le_bytes([rest[0], rest[1]]));
-        }
-        solid.push_triangles(import, &places)?;
+    // Half as many vertices as triangles, as in a closed surface.
+    let mut equal = EqualKeys::with_capacity(length / 2);
+    let (triangles, _) = bytes[HEADER..][..length * TRIANGLE].as_chunks::<TRIANGLE>();
+    for some in triangles.chunks(AT_ONCE) {
+        let share = polygons.corner_vertices.len() as f32 / (3 * length) as f32;
+        import.options.report(import.path, LoadStage::Geometry, 0.9 * share)?;
+        some.iter().for_each(|triangle| colors.push(u16::from_le_bytes([triangle[48], triangle[49]])));
+        let corners: Vec<[[u32; 3]; 3]> = some.par_iter().map(corners).collect();
+        push_corners(&mut polygons, &mut equal, corners.as_flattened());
+        check_vertices(import, polygons.positions.len() as u64)?;
     }
     // One for each triangle, unless none has any.
-    solid.polygons.face_colors = colors.colors;
-    Ok(solid.polygons)
+    polygons.face_colors = colors.colors;
+    Ok(polygons)
+}
+
+/// The places of a triangle's corners, as the bits of their coordinates.
+fn corners(triangle: &[u8; TRIANGLE]) -> [[u32; 3]; 3] {
+    let (numbers, _) = triangle.as_chunks::<4>();
+    // Adding zero makes −0 and +0 the same.
+    let bits = |at: usize| (f32::from_le_bytes(numbers[at]) + 0.0).to_bits();
+    // The normal comes first.
+    [3, 6, 9].map(|at| [bits(at), bits(at + 1), bits(at + 2)])
+}
+
+/// Adds corners, each new place among them as a vertex.
+fn push_corners(polygons: &mut Polygons, equal: &mut EqualKeys<[u32; 3]>, corners: &[[u32; 3]]) {
+    let Polygons { positions, corner_vertices, .. } = polygons;
+    for (first, corner) in equal.add(corners).into_iter().zip(corners) {
+        if first as usize == corner_vertices.len() {
+            corner_vertices.push(positions.len() as u32);
+            positions.push(DVec3::from_array(corner.map(|bits| f64::from(f32::from_bits(bits)))));
+        } else {
+            corner_vertices.push(corner_vertices[first as usize]);
+        }
+    }
 }
 
 fn warn_of_size(import: &mut Import<'_>, bytes: &[u8], claimed: u32, there: usize) {

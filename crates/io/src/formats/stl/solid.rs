@@ -24,30 +24,10 @@ impl Solid {
         Self { polygons: Polygons { name, ..Polygons::default() }, ..Self::default() }
     }
 
-    /// A solid with room for so many triangles, and half as many vertices, as in a closed surface.
-    pub(super) fn with_room(triangles: usize) -> Self {
-        let mut solid = Self { known: VertexTable::with_capacity(triangles / 2), ..Self::default() };
-        solid.polygons.corner_vertices.reserve_exact(3 * triangles);
-        solid.polygons.face_sizes.reserve_exact(triangles);
-        solid
-    }
-
     /// Adds a face.
     pub(super) fn push(&mut self, import: &Import<'_>, corners: &[DVec3]) -> Result<(), LoadError> {
         self.push_corners(corners);
         self.polygons.face_sizes.push(corners.len() as u32);
-        check_vertices(import, self.polygons.positions.len() as u64)
-    }
-
-    /// Adds triangles, at best some dozens of them.
-    pub(super) fn push_triangles(
-        &mut self,
-        import: &Import<'_>,
-        triangles: &[[DVec3; 3]],
-    ) -> Result<(), LoadError> {
-        self.push_corners(triangles.as_flattened());
-        let faces = &mut self.polygons.face_sizes;
-        faces.resize(faces.len() + triangles.len(), 3);
         check_vertices(import, self.polygons.positions.len() as u64)
     }
 

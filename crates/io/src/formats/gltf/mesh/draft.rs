@@ -1,6 +1,7 @@
 //! The mesh under construction: parts welded into one.
 
 use std::collections::HashMap;
+use std::mem::take;
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -12,6 +13,9 @@ use super::movements::{Movements, bits};
 use super::part::Part;
 use crate::formats::gltf::primitive::Elements;
 use crate::vertex_table::{AT_ONCE, VertexTable};
+
+/// So many triangles are checked at once.
+const FACES_AT_ONCE: usize = 1 << 10;
 
 /// The mesh under construction.
 pub(super) struct Draft {
@@ -33,7 +37,8 @@ pub(super) struct Draft {
 impl Draft {
     pub(super) fn new(parts: &[Part], target_names: &[String]) -> Self {
         let sum = |count: fn(&Part) -> usize| parts.iter().map(count).sum::<usize>();
-        let (vertices, faces) = (sum(|part| part.positions.len()), sum(|part| part.elements.triangles.len()));
+        let (vertices, faces) =
+            (sum(|part| part.positions.len()), sum(|part| part.elements.triangles.len() / 3));
         let any = |has: fn(&Part) -> bool| parts.iter().any(has);
         let sets = parts.iter().map(|part| part.uv_sets.len()).max().unwrap_or(0);
         let attributes = Attributes {
@@ -70,22 +75,50 @@ impl Draft {
         let vertices = self.weld(&part);
         // Large, and not needed any more.
         part.positions = Vec::new();
-        part.elements.triangles.retain(|corners| {
-            let face = corners.map(|corner| vertices[corner as usize]);
-            if face.contains(&NOWHERE) {
-                self.non_finite += 1;
-                return false;
-            }
-            let is_accepted = self.builder.push_face(&face).is_ok();
-            self.flat += usize::from(!is_accepted && !part.is_strip);
-            is_accepted
-        });
+        self.add_triangles(&mut part, &vertices);
         if has_slots {
             self.face_materials.resize(self.builder.face_count(), slot);
         }
         self.add_corners(&part);
         self.corners.push(first_corner..self.builder.corner_count());
         self.add_loose(&part.elements, &vertices);
+    }
+
+    /// Adds the triangles of a part, and removes from it those that are none. `vertices` are those at its vertices.
+    fn add_triangles(&mut self, part: &mut Part, vertices: &[u32]) {
+        let face = |corners: &[u32; 3]| corners.map(|corner| vertices[corner as usize]);
+        let mut faces = Vec::with_capacity(FACES_AT_ONCE);
+        let mut all = take(&mut part.elements.triangles);
+        let (corners, mut kept) = (all.as_chunks_mut::<3>().0, 0);
+        for first in (0..corners.len()).step_by(FACES_AT_ONCE) {
+            let some = first..corners.len().min(first + FACES_AT_ONCE);
+            faces.clear();
+            faces.extend(corners[some.clone()].iter().map(face));
+            if self.builder.push_triangles(&faces).is_ok() {
+                corners.copy_within(some, kept);
+                kept += faces.len();
+                continue;
+            }
+            for (index, face) in some.zip(&faces) {
+                if self.add_triangle(face, part.is_strip) {
+                    corners[kept] = corners[index];
+                    kept += 1;
+                }
+            }
+        }
+        all.truncate(3 * kept);
+        part.elements.triangles = all;
+    }
+
+    /// Adds a triangle if it is one.
+    fn add_triangle(&mut self, face: &[u32; 3], is_of_strip: bool) -> bool {
+        if face.contains(&NOWHERE) {
+            self.non_finite += 1;
+            return false;
+        }
+        let is_accepted = self.builder.push_face(face).is_ok();
+        self.flat += usize::from(!is_accepted && !is_of_strip);
+        is_accepted
     }
 
     fn add_loose(&mut self, elements: &Elements, vertices: &[u32]) {
@@ -141,7 +174,7 @@ impl Draft {
 
     /// Adds the values at the corners of the accepted triangles.
     fn add_corners(&mut self, part: &Part) {
-        let corners = part.elements.triangles.as_flattened();
+        let corners = part.elements.triangles.as_slice();
         self.movements.push_corners(part, corners);
         let Attributes { corner_normals, corner_tangents, corner_colors, uv_sets, .. } = &mut self.attributes;
         if let Some(list) = corner_normals {

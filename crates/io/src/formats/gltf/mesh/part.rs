@@ -133,13 +133,14 @@ fn read_elements(
         let what = format!("index {beyond} does not exist; the primitive has {has}");
         return Err(malformed(place.clone(), what));
     }
-    let elements = elements(mode, &indices);
+    let count = indices.len();
+    let elements = elements(mode, indices);
     if elements.left_over > 0 {
         let count = counted(elements.left_over, "index");
         let what = format!("{count} at the end left over, too few for a whole element");
         warnings.push(place.clone(), what, "export the model again");
     } else if elements.is_empty() {
-        let count = counted(indices.len(), "index");
+        let count = counted(count, "index");
         let what = format!("{count} are too few for its mode; it is not drawn");
         warnings.push(place.clone(), what, "export the model again");
     }
