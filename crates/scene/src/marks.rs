@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use trigon_math::{Vec3, Vec4};
 use trigon_raster::MarkColors;
 
@@ -82,6 +83,12 @@ pub(crate) fn colors(marks: &[Mark]) -> [Vec4; MarkColors::COUNT] {
     colors
 }
 
+/// Bits in a word of a set.
+const WORD: usize = usize::BITS as usize;
+
+/// Elements that a thread takes at a time: whole words.
+const SHARE: usize = 256 * WORD;
+
 /// The number of each element of a node, 0 without a mark, up to the last one that may have a mark.
 pub(crate) fn numbers(marks: &[Mark], node: NodeId) -> Vec<u8> {
     let marks = &marks[..marks.len().min(Marks::MOST)];
@@ -89,11 +96,19 @@ pub(crate) fn numbers(marks: &[Mark], node: NodeId) -> Vec<u8> {
     let count = sets().map(|(_, bits)| bits.len()).max().unwrap_or(0);
     let mut numbers = vec![0; count];
     // The first has priority, so it comes last.
-    for (index, bits) in sets().collect::<Vec<_>>().into_iter().rev() {
-        for element in bits.ones() {
-            numbers[element] = (Marks::MOST - index) as u8;
+    let sets: Vec<_> = sets().collect();
+    numbers.par_chunks_mut(SHARE).enumerate().for_each(|(share, numbers)| {
+        for &(index, bits) in sets.iter().rev() {
+            let words = bits.as_slice().iter().skip(share * (SHARE / WORD));
+            for (own, &word) in numbers.chunks_mut(WORD).zip(words) {
+                let mut rest = word;
+                while rest != 0 {
+                    own[rest.trailing_zeros() as usize] = (Marks::MOST - index) as u8;
+                    rest &= rest - 1;
+                }
+            }
         }
-    }
+    });
     numbers
 }
 
@@ -119,6 +134,29 @@ mod tests {
         let (numbers, colors) = (numbers(&marks, node), colors(&marks));
         let reds: Vec<_> = numbers.iter().map(|&number| colors[usize::from(number)].x).collect();
         assert_eq!(reds, [0.0, 0.1, 0.1, 0.2, 0.0, 0.0, 0.0, 0.0], "the others have none");
+    }
+
+    #[test]
+    fn each_of_many_elements_has_the_number_of_the_first_set_that_holds_it() {
+        let mut scene = Scene::default();
+        let node = scene.add(Node::default());
+        let counts = [2 * SHARE + 100, SHARE + 1];
+        let is_in = |set: usize, element: usize| element < counts[set] && element % (5 - set) == 1;
+        let marks: Vec<_> = [0, 1]
+            .map(|set| {
+                let mut bits = FixedBitSet::with_capacity(counts[set]);
+                bits.extend((0..counts[set]).filter(|&element| is_in(set, element)));
+                let mut elements = ElementSet::default();
+                elements.add(node, bits);
+                Mark { elements: Arc::new(elements), color: Vec3::ONE, opacity: 1.0 }
+            })
+            .into();
+        let expected = (0..counts[0]).map(|element| match [0, 1].map(|set| is_in(set, element)) {
+            [true, _] => 15,
+            [false, true] => 14,
+            [false, false] => 0,
+        });
+        assert!(numbers(&marks, node).into_iter().eq(expected));
     }
 
     #[test]

@@ -5,7 +5,9 @@
 
 use trigon_edit::mesh::edit::FaceId;
 use trigon_edit::scene::camera::{Camera, Projector, Viewport};
-use trigon_edit::scene::{Frame, MeshId, Outputs, Picker, Reach, RenderSettings, Renderer, Scene};
+use trigon_edit::scene::{
+    Frame, KeptPoints, MeshId, Outputs, Picker, Reach, RenderSettings, Renderer, Scene,
+};
 use trigon_edit::{Document, Picks};
 use trigon_window::scene::math::DVec2;
 use trigon_window::{Pane, Stage};
@@ -21,6 +23,8 @@ struct Known {
     camera: Camera,
     viewport: Viewport,
     frame: Frame,
+    /// Where points are in it, as far as somebody asked.
+    points: KeptPoints,
 }
 
 impl Default for Pointing {
@@ -38,16 +42,16 @@ impl Pointing {
     }
 
     /// The image of what the stage shows now; `None` where there is nothing to be seen.
-    fn known(&mut self, scene: &Scene, camera: Camera, viewport: Viewport) -> Option<&Known> {
+    fn known(&mut self, scene: &Scene, camera: Camera, viewport: Viewport) -> Option<&mut Known> {
         let is_current =
             self.known.as_ref().is_some_and(|known| known.camera == camera && known.viewport == viewport);
         if !is_current {
             let settings = self.renderer.settings_mut();
             (settings.width, settings.height) = (viewport.width, viewport.height);
             let frame = self.renderer.render(scene, &camera).ok();
-            self.known = frame.map(|frame| Known { camera, viewport, frame });
+            self.known = frame.map(|frame| Known { camera, viewport, frame, points: KeptPoints::default() });
         }
-        self.known.as_ref()
+        self.known.as_mut()
     }
 
     /// Asks what is under the pointer or in a region of a view, in its physical pixels; `None` while the window
@@ -60,9 +64,11 @@ impl Pointing {
         question: impl FnOnce(&Picks<'_>) -> T,
     ) -> Option<T> {
         let (camera, viewport) = (stage.camera_of(pane), pane.area.size);
-        let Known { camera, viewport, frame } = self.known(&stage.scene, camera, viewport)?;
-        let picker = Picker::new(&stage.scene, camera, frame);
-        Some(question(&Picks::new(document, &picker, Projector::new(camera, *viewport), reach)))
+        let Known { camera, viewport, frame, points } = self.known(&stage.scene, camera, viewport)?;
+        let picker = Picker::with_points(&stage.scene, camera, frame, points);
+        let answer = question(&Picks::new(document, &picker, Projector::new(camera, *viewport), reach));
+        *points = picker.points();
+        Some(answer)
     }
 
     /// The face of an edited mesh that is seen at a place of a view.

@@ -1,6 +1,8 @@
 //! Elements by their numbers in an image: which of them can be selected, and how far they are from the
 //! pointer.
 
+use fixedbitset::FixedBitSet;
+use rayon::prelude::*;
 use trigon_mesh::edit::{EdgeId, EditMesh, ElementMap, ElementNumbers, FaceId, VertexId};
 use trigon_mesh::math::DVec2;
 use trigon_scene::camera::Projector;
@@ -69,6 +71,22 @@ impl Numbering<'_> {
             ElementKind::Face => self.map.faces.get(number as usize)?.index(),
         };
         is_selectable(self.mesh, kind, element).then_some(element)
+    }
+
+    /// Those of some numbers that can be selected.
+    pub(super) fn elements(&self, kind: ElementKind, numbers: &FixedBitSet) -> FixedBitSet {
+        /// Numbers that a thread takes at a time.
+        const SHARE: usize = 1 << 14;
+        let starts: Vec<usize> = (0..numbers.len()).step_by(SHARE).collect();
+        let shares = starts.into_par_iter().map(|start| {
+            let share = start..numbers.len().min(start + SHARE);
+            let own = share.filter(|&number| numbers.contains(number));
+            own.filter_map(|number| self.element(kind, number as u32)).collect::<Vec<u32>>()
+        });
+        let shares: Vec<Vec<u32>> = shares.collect();
+        let mut elements = FixedBitSet::with_capacity(kind.capacity(self.mesh));
+        shares.iter().flatten().for_each(|&element| elements.insert(element as usize));
+        elements
     }
 }
 

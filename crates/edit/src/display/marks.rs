@@ -6,13 +6,14 @@
 
 use std::sync::Arc;
 
-use fixedbitset::FixedBitSet;
-use trigon_mesh::edit::{EdgeId, ElementMap, ElementNumbers, FaceId, VertexId};
+use trigon_mesh::edit::{EdgeId, ElementMap, FaceId, VertexId};
 use trigon_mesh::math::{Vec3, color};
 use trigon_scene::{
     ElementSet, Mark, Marks, MeshId, NodeId, Outline, Reach, RenderSettings, Style, VertexPoints,
 };
 
+use super::bits::{all, bits};
+use super::selected::ShownMesh;
 use crate::document::Document;
 use crate::selection::{ElementKind, MeshSelection, Selection};
 
@@ -139,26 +140,13 @@ fn edit_marks(document: &Document) -> Marks {
 impl Sets {
     /// The elements of an edited object.
     fn add(&mut self, document: &Document, node: NodeId, id: MeshId, selected: &MeshSelection) {
-        let (Some(mesh), Some(map)) = (document.mesh(id), document.shown_elements(id)) else { return };
-        let Some(numbers) = document.shown_numbers(id) else { return };
-        let kind = document.selection().kind();
-        let [of_vertices, of_edges, of_faces] = [map.vertices.len(), numbers.edge_count(), map.faces.len()];
-        let parts = |face: FaceId| parts(map, numbers, face);
-        // Of many elements each kind takes milliseconds.
-        let vertices = || {
-            let vertices = selected.vertices(mesh, kind);
-            bits(of_vertices, vertices.iter().filter_map(|&id| numbers.vertex(id)))
-        };
-        let edges = || {
-            let edges = selected.edges(mesh, kind);
-            bits(of_edges, edges.iter().filter_map(|&id| numbers.edge(id)))
-        };
-        let faces = || bits(of_faces, selected.faces(mesh, kind).into_iter().flat_map(parts));
-        let (edges, (vertices, faces)) = rayon::join(edges, || rayon::join(vertices, faces));
-        self.selected[VERTICES].add(node, vertices);
-        self.selected[EDGES].add(node, edges);
-        self.selected[FACES].add(node, faces);
-        self.show_cage(document, node, id, map);
+        let Some(shown) = ShownMesh::of(document, id) else { return };
+        let (kind, numbers) = (document.selection().kind(), shown.numbers);
+        for (sets, bits) in self.selected.iter_mut().zip(shown.selected(selected, kind)) {
+            sets.add(node, bits);
+        }
+        self.show_cage(document, node, id, shown.map);
+        let [of_vertices, of_edges, of_faces] = shown.counts();
         if let Some(active) = selected.order().last().copied() {
             match kind {
                 ElementKind::Vertex => {
@@ -170,7 +158,7 @@ impl Sets {
                     self.active[EDGES].add(node, bits(of_edges, active));
                 }
                 ElementKind::Face => {
-                    self.active[FACES].add(node, bits(of_faces, parts(FaceId::new(active))));
+                    self.active[FACES].add(node, bits(of_faces, shown.parts(FaceId::new(active))));
                 }
             }
         }
@@ -235,27 +223,6 @@ impl Sets {
             vertices: vertices.into_iter().flatten().collect(),
         }
     }
-}
-
-/// The numbers of a face in the shown mesh: that of a surface has several parts of it, one after the other.
-fn parts(map: &ElementMap, numbers: &ElementNumbers, face: FaceId) -> impl Iterator<Item = u32> {
-    let first = numbers.face(face).map_or(map.faces.len(), |first| first as usize);
-    let count = map.faces[first..].iter().take_while(|part| **part == face).count();
-    (first..first + count).map(|number| number as u32)
-}
-
-/// So many bits that are set.
-fn all(count: usize) -> FixedBitSet {
-    let mut all = FixedBitSet::with_capacity(count);
-    all.insert_range(..);
-    all
-}
-
-/// So many bits, of which some are set.
-fn bits(count: usize, numbers: impl Iterator<Item = u32>) -> FixedBitSet {
-    let mut bits = FixedBitSet::with_capacity(count);
-    numbers.for_each(|number| bits.insert(number as usize));
-    bits
 }
 
 fn linear(srgb: [u8; 3]) -> Vec3 {

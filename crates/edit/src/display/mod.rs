@@ -5,9 +5,11 @@
 //! no input device. They are in this crate because edited elements have other numbers than those of
 //! the scene's meshes, and only a [`Document`](crate::Document) knows both.
 
+mod bits;
 mod element;
 mod marks;
 mod pick;
+mod selected;
 
 pub use marks::{DisplayMarks, X_RAY};
 pub use pick::{PICK_RADIUS, Picks};

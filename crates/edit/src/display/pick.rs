@@ -249,11 +249,7 @@ impl<'p> Picks<'p> {
         let mut all: BTreeMap<MeshId, (NodeId, FixedBitSet)> = BTreeMap::new();
         for (node, bits) in found.nodes() {
             let Some(numbering) = self.numbering(node) else { continue };
-            let mut elements = FixedBitSet::new();
-            for element in bits.ones().filter_map(|bit| numbering.element(kind, bit as u32)) {
-                elements.grow(element as usize + 1);
-                elements.insert(element as usize);
-            }
+            let elements = numbering.elements(kind, bits);
             if !elements.is_clear() {
                 let all = all.entry(numbering.id).or_insert_with(|| (node, FixedBitSet::new()));
                 all.1.union_with(&elements);

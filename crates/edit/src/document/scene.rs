@@ -85,6 +85,17 @@ impl Document {
         self.state.shown.visible.get(&id)?.surface.as_ref()
     }
 
+    /// The mesh that is shown of an edited one, if it is all of it and nothing else: no surface, and nothing is
+    /// hidden. As of the last [`Self::scene`].
+    pub(crate) fn shown_whole(&self, id: MeshId) -> Option<&Mesh> {
+        let shown = &self.state.shown;
+        let is_whole = !shown.outdated.contains_key(&id)
+            && !shown.visible.contains_key(&id)
+            && shown.meshes.contains_key(&id)
+            && !self.marked(id)?.has_hidden;
+        is_whole.then(|| Some(self.state.file.scene.meshes().get(id)?.mesh())).flatten()
+    }
+
     /// A number that changes with every change of nodes, elements or their marks, as of the last
     /// [`Self::scene`].
     pub(crate) fn marks_revision(&self) -> u64 {

@@ -97,10 +97,14 @@ impl<'p> Hiding<'p> {
         }
     }
 
-    /// The candidates that nothing hides.
-    pub(super) fn seen(&self) -> impl Iterator<Item = &Candidate> + '_ {
-        let points = self.bands.iter().flat_map(|band| band.points.iter().zip(&band.hidden));
-        points.filter(|(_, hidden)| !hidden.load(Ordering::Relaxed)).map(|(point, _)| point)
+    /// What is asked of the candidates that nothing hides, in lists.
+    pub(super) fn seen<T: Send>(&self, ask: impl Fn(&Candidate) -> T + Sync) -> Vec<Vec<T>> {
+        let of_band = |band: &Band| {
+            let points = band.points.iter().zip(&band.hidden);
+            let seen = points.filter(|(_, hidden)| !hidden.load(Ordering::Relaxed));
+            seen.map(|(point, _)| ask(point)).collect()
+        };
+        self.bands.par_iter().map(of_band).collect()
     }
 
     /// Whether the image shows a face in the pixel of a point.

@@ -9,6 +9,7 @@
 //! | `nearest`, `snap` | the elements nearest to a point; points of the scene that a pointer snaps to |
 //! | `region`, `lasso`, `outline` | which points lie in a region; the even-odd rule; distances from a polygon |
 //! | `screen`, `object` | screen positions of an object's points |
+//! | `kept` | screen positions that outlive a picker |
 //! | `nearby` | the objects near an area, and which of their elements may lie in it |
 //! | `sides` | for large areas: one byte per point, which side of the area it is on |
 //! | `few`, `beyond` | for small areas: skips whole boxes of triangles |
@@ -24,6 +25,7 @@ mod elements;
 mod few;
 mod forms;
 mod hiding;
+mod kept;
 mod kind;
 mod lasso;
 mod nearby;
@@ -41,6 +43,7 @@ mod snap;
 #[cfg(test)]
 mod tests;
 
+pub use kept::KeptPoints;
 pub use nearest::Nearest;
 pub use picker::{Pick, Picker, Reach};
 pub use region::Region;

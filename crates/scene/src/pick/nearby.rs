@@ -6,7 +6,6 @@
 //! from these bytes alone.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use trigon_raster::simd::LANES;
 
@@ -36,7 +35,7 @@ enum Near<'q> {
         /// Of the mesh's vertices, and some more.
         vertices: Vec<[Sides; LANES]>,
         /// Which of these belong to something.
-        used: &'q [AtomicBool],
+        used: &'q [bool],
     },
 }
 
@@ -75,9 +74,7 @@ impl<'q> Nearby<'q> {
     pub(super) fn vertex(&self, vertex: usize) -> Option<Spot> {
         let is_near = match &self.near {
             Near::Few(_) => true,
-            Near::All { vertices, used } => {
-                vertices.as_flattened()[vertex].is_inside() && used[vertex].load(Ordering::Relaxed)
-            }
+            Near::All { vertices, used } => vertices.as_flattened()[vertex].is_inside() && used[vertex],
         };
         is_near.then(|| self.object.vertices(self.screen)(vertex))
     }

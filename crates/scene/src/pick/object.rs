@@ -2,8 +2,7 @@
 //! computed on first use.
 
 use std::ops::Range;
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
@@ -11,6 +10,7 @@ use trigon_math::{DMat4, DVec3, Vec3};
 use trigon_mesh::Mesh;
 use trigon_raster::simd::{LANES, inlined, lanes_of};
 
+use super::kept::{KeptPoints, ObjectPoints, PointOrigin};
 use super::region::Area;
 use super::screen::{Screen, Spot, Spots};
 use super::sides::Sides;
@@ -32,8 +32,7 @@ pub(super) struct Object<'s> {
     /// Where vertices are.
     map: DMat4,
     /// The same for all of them, once that is kept, and for some more.
-    vertices: OnceLock<Vec<[Spot; LANES]>>,
-    used: OnceLock<Vec<AtomicBool>>,
+    vertices: OnceLock<Arc<Vec<[Spot; LANES]>>>,
 }
 
 /// The triangles of an object.
@@ -43,7 +42,7 @@ pub(super) struct Drawn {
     /// For each run how its material shows faces.
     facings: Vec<Facing>,
     /// Where all corners are, once that is kept, and some more.
-    corners: OnceLock<Vec<[Spot; LANES]>>,
+    corners: OnceLock<Arc<Vec<[Spot; LANES]>>>,
 }
 
 /// How faces of a material are drawn.
@@ -57,8 +56,8 @@ pub(super) struct Facing {
     pub(super) is_mirrored: bool,
 }
 
-/// All visible objects, by the indices of their nodes.
-pub(super) fn objects<'s>(scene: &'s Scene, screen: &Screen) -> Vec<Option<Object<'s>>> {
+/// All visible objects, by the indices of their nodes, with the points that are known of them.
+pub(super) fn objects<'s>(scene: &'s Scene, screen: &Screen, known: &KeptPoints) -> Vec<Option<Object<'s>>> {
     let places = scene.visible_places();
     let mut shapes = Shapes::new(scene, &places, Onlookers::Camera(&screen.eye));
     let mut objects: Vec<Option<Object<'_>>> = Vec::new();
@@ -68,8 +67,10 @@ pub(super) fn objects<'s>(scene: &'s Scene, screen: &Screen) -> Vec<Option<Objec
         let Some(placed) = scene.placed_mesh(node, place.world) else { continue };
         let map = screen.map(placed.world());
         let drawn = shapes.take(node.index()).and_then(|shape| Drawn::new(scene, node, shape, screen));
-        let (vertices, used) = Default::default();
-        objects[node.index()] = Some(Object { node, placed, drawn, map, vertices, used });
+        let mut object = Object { node, placed, drawn, map, vertices: OnceLock::new() };
+        let points = object.origin(screen).and_then(|origin| known.of(node.index(), &origin));
+        object.vertices = points.map_or_else(OnceLock::new, OnceLock::from);
+        objects[node.index()] = Some(object);
     }
     objects
 }
@@ -113,18 +114,21 @@ impl<'s> Object<'s> {
     }
 
     /// Which vertices belong to a face, an edge or a point.
-    pub(super) fn used(&self) -> &[AtomicBool] {
-        keep(&self.used, || {
-            let mesh = self.mesh();
-            let used: Vec<_> = (0..mesh.vertex_count()).map(|_| AtomicBool::new(false)).collect();
-            let lists = [mesh.corner_vertices(), mesh.loose_edges().as_flattened(), mesh.loose_points()];
-            for list in lists {
-                // Threads may write the same vertex, but all of them write the same.
-                let vertices = list.par_iter().with_min_len(POINTS);
-                vertices.for_each(|&vertex| used[vertex as usize].store(true, Ordering::Relaxed));
-            }
-            used
-        })
+    pub(super) fn used(&self) -> &'s [bool] {
+        self.placed.used_vertices()
+    }
+
+    /// What the places of its vertices come from; `None` in a pose, or where nothing of it is in view.
+    fn origin(&self, screen: &Screen) -> Option<PointOrigin> {
+        let shape = &self.drawn.as_ref()?.shape;
+        let state = shape.geometry.state.clone();
+        (!shape.is_posed).then(|| PointOrigin { state, map: self.map, half_size: screen.half_size() })
+    }
+
+    /// Where its vertices are, for another picker.
+    pub(super) fn points(&self, screen: &Screen) -> Option<ObjectPoints> {
+        let spots = Arc::clone(self.vertices.get()?);
+        Some(ObjectPoints { origin: self.origin(screen)?, spots })
     }
 
     /// What the near plane leaves of the line between two vertices.
@@ -254,7 +258,7 @@ impl Facing {
 
 /// Where the points of an object are on the screen, kept once they are found.
 struct KeptSpots<'o> {
-    kept: &'o OnceLock<Vec<[Spot; LANES]>>,
+    kept: &'o OnceLock<Arc<Vec<[Spot; LANES]>>>,
     /// The number of points.
     count: usize,
     screen: &'o Screen,
@@ -286,17 +290,7 @@ impl KeptSpots<'_> {
         let (mut spots, mut sides) = (Vec::new(), Vec::new());
         found.unzip_into_vecs(&mut spots, &mut sides);
         // Another thread may have been quicker, and has found the same.
-        let _ = self.kept.set(spots);
+        let _ = self.kept.set(Arc::new(spots));
         sides
     }
-}
-
-/// What is kept, or found now and kept. It is found without a lock: a thread that waits for others
-/// to find a part may be given work that asks for the same.
-fn keep<T>(kept: &OnceLock<Vec<T>>, find: impl FnOnce() -> Vec<T>) -> &[T] {
-    if kept.get().is_none() {
-        // Another thread may have been quicker, and has found the same.
-        let _ = kept.set(find());
-    }
-    kept.get().expect("it was just set")
 }

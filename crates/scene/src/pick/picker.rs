@@ -9,9 +9,10 @@ use trigon_math::DVec2;
 use trigon_mesh::Mesh;
 
 use super::elements::Sets;
+use super::kept::KeptPoints;
 use super::kind::Kind;
 use super::nearest::{Best, Nearest};
-use super::object::Object;
+use super::object::{Object, objects};
 use super::region::{Region, center};
 use super::screen::Screen;
 use super::search::for_each_pixel;
@@ -61,7 +62,8 @@ pub enum Reach {
 ///
 /// # What it costs
 /// It computes the screen positions of all vertices when a large region first needs them, and keeps
-/// them: use one picker as long as scene and camera stay the same. For a small region, such as
+/// them: use one picker as long as scene and camera stay the same, or pass them on
+/// ([`Picker::points`]). For a small region, such as
 /// around a cursor, it skips most of a mesh in boxes of 64 triangles, and in boxes of 8 within
 /// them. The scene keeps these boxes until the mesh changes.
 ///
@@ -132,6 +134,22 @@ impl<'p> Picker<'p> {
             screen: Screen::new(camera, viewport),
             objects: OnceLock::new(),
         }
+    }
+
+    /// The same with what an earlier picker has found out about where points are.
+    #[must_use]
+    pub fn with_points(scene: &'p Scene, camera: &Camera, frame: &'p Frame, known: &KeptPoints) -> Self {
+        let picker = Self::new(scene, camera, frame);
+        let objects = OnceLock::from(objects(scene, &picker.screen, known));
+        Self { objects, ..picker }
+    }
+
+    /// Where points are, for the next picker. Takes 24 bytes for each vertex of objects that were
+    /// asked about in large regions.
+    #[must_use]
+    pub fn points(&self) -> KeptPoints {
+        let of_object = |object: &Option<Object<'_>>| object.as_ref()?.points(&self.screen);
+        KeptPoints { objects: self.objects.get().into_iter().flatten().map(of_object).collect() }
     }
 
     /// What is under a pixel; `None` for background, and outside the image. Takes time proportional

@@ -10,6 +10,7 @@ use trigon_math::DVec2;
 use super::covering::Centers;
 use super::elements::Sets;
 use super::hiding::{Candidate, Hiding};
+use super::kept::KeptPoints;
 use super::kind::Kind;
 use super::nearby::Nearby;
 use super::nearest::Best;
@@ -44,7 +45,7 @@ impl<'p> Picker<'p> {
 
     /// By the indices of their nodes.
     pub(super) fn objects(&self) -> &[Option<Object<'p>>] {
-        self.objects.get_or_init(|| objects(self.scene, &self.screen))
+        self.objects.get_or_init(|| objects(self.scene, &self.screen, &KeptPoints::default()))
     }
 
     /// The polygon of a hit on the screen; `None` for lines and points.
@@ -67,7 +68,8 @@ impl<'p> Picker<'p> {
         let mut sets = Sets::new(self.objects(), move |mesh| kind.count(mesh));
         match reach {
             Reach::Visible => {
-                self.seen(kind, &nearby, |point| sets.insert(point.object, point.element));
+                let names = |point: &Candidate| [point.object, point.element];
+                self.seen((kind, &nearby), names, |[object, element]| sets.insert(object, element));
             }
             Reach::Through => {
                 for nearby in &nearby {
@@ -92,18 +94,23 @@ impl<'p> Picker<'p> {
     ) -> Best {
         let mut best = Best::new(target);
         let mut offer =
-            |point: &Candidate| best.offer(point.spot.at, point.spot.depth, point.object, point.element);
+            |point: Candidate| best.offer(point.spot.at, point.spot.depth, point.object, point.element);
         match reach {
-            Reach::Visible => self.seen(kind, nearby, offer),
+            Reach::Visible => self.seen((kind, nearby), |point| *point, offer),
             Reach::Through => {
-                self.candidates(kind, nearby, |lists| lists.iter().flatten().for_each(&mut offer));
+                self.candidates(kind, nearby, |lists| lists.iter().flatten().copied().for_each(&mut offer));
             }
         }
         best
     }
 
-    /// Calls `found` with the points of elements that are seen in an area.
-    fn seen(&self, kind: Kind, nearby: &[Nearby<'_>], mut found: impl FnMut(&Candidate)) {
+    /// Calls `found` with what is asked of the points of elements that are seen in an area.
+    fn seen<T: Send>(
+        &self,
+        (kind, nearby): (Kind, &[Nearby<'_>]),
+        ask: impl Fn(&Candidate) -> T + Sync,
+        mut found: impl FnMut(T),
+    ) {
         self.candidates(kind, nearby, |lists| {
             let [first, ..] = nearby else { return };
             let hiding = Hiding::new((&self.screen, self.frame), first.area, lists);
@@ -114,7 +121,7 @@ impl<'p> Picker<'p> {
                     point.object == index && kind.belongs(object.mesh(), face, point.element)
                 });
             }
-            hiding.seen().for_each(&mut found);
+            hiding.seen(&ask).into_iter().flatten().for_each(&mut found);
         });
     }
 

@@ -79,6 +79,11 @@ impl<'s> PlacedMesh<'s> {
         self.asset.mesh()
     }
 
+    /// Which vertices belong to a face, an edge or a point.
+    pub(crate) fn used_vertices(&self) -> &'s [bool] {
+        self.asset.used_vertices()
+    }
+
     /// Where a vertex is in the world.
     pub(crate) fn place(&self, vertex: u32) -> DVec3 {
         self.world.transform_point3(self.positions()[vertex as usize].as_dvec3())

@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 
 use trigon_camera::{Camera, Projector, Viewport};
-use trigon_math::{DVec2, DVec3};
-use trigon_mesh::{Deltas, MorphTarget, primitives};
+use trigon_math::{DVec2, DVec3, Vec3};
+use trigon_mesh::{Deltas, MeshChange, MorphTarget, primitives};
 
 use super::super::region::center;
 use super::oracle::{Lens, in_world};
 use crate::{
-    ElementSet, Frame, Material, NodeId, Outputs, Picker, Reach, Region, RenderSettings, Scene, Transform,
-    render,
+    ElementSet, Frame, KeptPoints, Material, NodeId, Outputs, Picker, Reach, Region, RenderSettings, Scene,
+    Transform, render,
 };
 
 const SIZE: [u32; 2] = [73, 55];
@@ -164,7 +164,7 @@ fn a_rectangle_finds_what_is_seen_in_it_and_nothing_behind() {
 fn vertices_are_found_where_poses_put_them() {
     let mut scene = Scene::new();
     let mut mesh = primitives::plane(1.0, 1.0);
-    let positions = Deltas::from_dense(vec![trigon_math::Vec3::X * 2.0; mesh.vertex_count()]);
+    let positions = Deltas::from_dense(vec![Vec3::X * 2.0; mesh.vertex_count()]);
     let target = MorphTarget { positions, ..MorphTarget::default() };
     let attributes = trigon_mesh::Attributes { morph_targets: vec![target], ..mesh.attributes().clone() };
     mesh.set_attributes(attributes).expect("one delta each");
@@ -233,4 +233,43 @@ fn the_nearest_elements_are_found_within_a_radius_only() {
     assert_eq!(vertex_at(Reach::Visible), None, "it is hidden");
     let (_, vertex) = vertex_at(Reach::Through).expect("it is there");
     assert_eq!(mesh.positions()[vertex as usize].z, -0.5, "the one behind");
+}
+
+#[test]
+fn points_that_are_kept_change_nothing_but_the_time() {
+    let mut scene = solids();
+    let nodes: Vec<NodeId> = scene.nodes().iter().map(|(node, _)| node).collect();
+    let region = rectangle([0.0, 0.0], [SIZE[0].into(), SIZE[1].into()]);
+    let mut kept = KeptPoints::default();
+    let step = |scene: &mut Scene, number: usize| match number {
+        1 => {
+            let moved = Transform::from_translation(DVec3::X * 0.1);
+            scene.node_mut(nodes[0]).expect("it is there").transform = moved;
+        }
+        2 => {
+            let mesh = scene.node(nodes[0]).and_then(|node| node.mesh).expect("a solid");
+            let positions = vec![(0, Vec3::new(0.1, 0.2, 2.0))];
+            let change = MeshChange { positions, ..MeshChange::default() };
+            scene.change_mesh(mesh, &change).expect("it has a vertex");
+        }
+        _ => {}
+    };
+    for number in 0..5 {
+        step(&mut scene, number);
+        let seen_from = DVec3::new(if number == 4 { 0.5 } else { 0.0 }, 0.0, 0.0);
+        let camera = Camera { position: camera().position + seen_from, ..camera() };
+        let frame = draw(&scene, &camera);
+        let picker = Picker::with_points(&scene, &camera, &frame, &kept);
+        let alone = Picker::new(&scene, &camera, &frame);
+        for reach in [Reach::Visible, Reach::Through] {
+            assert_eq!(
+                picker.vertices(&region, reach),
+                alone.vertices(&region, reach),
+                "{number}: {reach:?}"
+            );
+            assert_eq!(picker.edges(&region, reach), alone.edges(&region, reach), "{number}: {reach:?}");
+        }
+        kept = picker.points();
+        assert_eq!(kept.objects.iter().flatten().count(), nodes.len(), "those of all solids");
+    }
 }

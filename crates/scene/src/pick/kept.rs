@@ -1,0 +1,43 @@
+//! Screen positions that outlive a picker.
+
+use std::sync::Arc;
+
+use trigon_math::{DMat4, DVec2};
+use trigon_raster::simd::LANES;
+
+use super::screen::Spot;
+use crate::geometry::GeometryState;
+
+/// Where the vertices of a scene's objects are on the screen, as far as a picker has found out: the next one
+/// need not do so again. It uses only those of objects that are as they were, and seen in the same way.
+#[derive(Clone, Debug, Default)]
+pub struct KeptPoints {
+    /// By the indices of nodes.
+    pub(super) objects: Vec<Option<ObjectPoints>>,
+}
+
+/// The vertices of an object at rest.
+#[derive(Clone, Debug)]
+pub(super) struct ObjectPoints {
+    pub(super) origin: PointOrigin,
+    /// With some more at the end.
+    pub(super) spots: Arc<Vec<[Spot; LANES]>>,
+}
+
+/// Everything that the screen positions of an object at rest depend on.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct PointOrigin {
+    pub(super) state: GeometryState,
+    /// To clip space.
+    pub(super) map: DMat4,
+    /// Of the image, in pixels.
+    pub(super) half_size: DVec2,
+}
+
+impl KeptPoints {
+    /// The points of the node with this index, if they have this origin.
+    pub(super) fn of(&self, index: usize, origin: &PointOrigin) -> Option<Arc<Vec<[Spot; LANES]>>> {
+        let points = self.objects.get(index)?.as_ref()?;
+        (points.origin == *origin).then(|| Arc::clone(&points.spots))
+    }
+}
