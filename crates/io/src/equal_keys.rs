@@ -56,7 +56,7 @@ impl<K: Copy + Eq + Hash + Send + Sync> EqualKeys<K> {
 
 /// The part of a hash.
 fn part_of(hash: u64, parts: usize) -> usize {
-    ((hash >> 32) * parts as u64 >> 32) as usize
+    (((hash >> 32) * parts as u64) >> 32) as usize
 }
 
 impl<K: Copy + Eq + Hash> Part<K> {
