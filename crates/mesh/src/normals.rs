@@ -68,16 +68,18 @@ impl Mesh {
         }
     }
 
-    /// The shading normals of the polygons, if those of all corners are the same: no corner has its own, no
+    /// Whether the shading normals at all corners of each polygon are the polygon's: no corner has its own, no
     /// polygon is smooth, and no pose deforms the mesh.
-    pub(crate) fn flat_normals(&self) -> Option<Vec<Vec3>> {
+    pub(crate) fn is_flat(&self) -> bool {
         let Attributes { corner_normals, face_smooth, skin, morph_targets, .. } = self.attributes();
         let is_smooth = face_smooth.iter().flatten().any(|&smooth| smooth);
-        if corner_normals.is_some() || is_smooth || skin.is_some() || !morph_targets.is_empty() {
-            return None;
-        }
+        corner_normals.is_none() && !is_smooth && skin.is_none() && morph_targets.is_empty()
+    }
+
+    /// The shading normals of the polygons of a flat mesh.
+    pub(crate) fn flat_normals(&self) -> Vec<Vec3> {
         let faces = (0..self.face_count()).into_par_iter().with_min_len(1 << 12);
-        Some(faces.map(|face| or_if_zero(self.face_normal(face), Vec3::Y)).collect())
+        faces.map(|face| or_if_zero(self.face_normal(face), Vec3::Y)).collect()
     }
 
     /// Shading normals from the faces alone.

@@ -36,8 +36,12 @@ impl WeldedMesh {
     /// vertices: corners at one vertex are welded unless other values differ, where [`WeldedMesh::of`] needs a vertex for
     /// each corner. `None` if a corner has a normal of its own, a polygon is smooth, or a pose can deform the mesh.
     pub fn of_flat(mesh: &Mesh) -> Option<(WeldedMesh, Vec<Vec3>)> {
-        let normals = mesh.flat_normals()?;
-        Some((Self::new(mesh, Vec::new(), weld(mesh, &[]).0), normals))
+        if !mesh.is_flat() {
+            return None;
+        }
+        // Welding takes one thread.
+        let (normals, (welded, _)) = rayon::join(|| mesh.flat_normals(), || weld(mesh, &[]));
+        Some((Self::new(mesh, Vec::new(), welded), normals))
     }
 
     /// `normals` are those of the welded vertices.

@@ -46,17 +46,41 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
     // Half as many vertices as triangles, as in a closed surface.
     let mut equal = EqualKeys::with_capacity(length / 2);
     let (triangles, _) = bytes[HEADER..][..length * TRIANGLE].as_chunks::<TRIANGLE>();
+    let mut found = Corners::default();
     for some in triangles.chunks(AT_ONCE) {
         let share = polygons.corner_vertices.len() as f32 / (3 * length) as f32;
         import.options.report(import.path, LoadStage::Geometry, 0.9 * share)?;
-        some.iter().for_each(|triangle| colors.push(u16::from_le_bytes([triangle[48], triangle[49]])));
-        let corners: Vec<[[u32; 3]; 3]> = some.par_iter().map(corners).collect();
-        push_corners(&mut polygons, &mut equal, corners.as_flattened());
+        // One thread adds what was found before, while all others find more.
+        let add = || {
+            some.iter().for_each(|triangle| colors.push(u16::from_le_bytes([triangle[48], triangle[49]])));
+            push_corners(&mut polygons, &found);
+        };
+        let ((), more) = rayon::join(add, || Corners::find(some, &mut equal));
+        found = more;
         check_vertices(import, polygons.positions.len() as u64)?;
     }
+    push_corners(&mut polygons, &found);
+    check_vertices(import, polygons.positions.len() as u64)?;
     // One for each triangle, unless none has any.
     polygons.face_colors = colors.colors;
     Ok(polygons)
+}
+
+/// Corners of triangles.
+#[derive(Default)]
+struct Corners {
+    /// As the bits of their coordinates.
+    places: Vec<[[u32; 3]; 3]>,
+    /// For each the number of the first corner at its place.
+    firsts: Vec<u32>,
+}
+
+impl Corners {
+    fn find(triangles: &[[u8; TRIANGLE]], equal: &mut EqualKeys<[u32; 3]>) -> Self {
+        let places: Vec<[[u32; 3]; 3]> = triangles.par_iter().map(corners).collect();
+        let firsts = equal.add(places.as_flattened());
+        Self { places, firsts }
+    }
 }
 
 /// The places of a triangle's corners, as the bits of their coordinates.
@@ -69,9 +93,9 @@ fn corners(triangle: &[u8; TRIANGLE]) -> [[u32; 3]; 3] {
 }
 
 /// Adds corners, each new place among them as a vertex.
-fn push_corners(polygons: &mut Polygons, equal: &mut EqualKeys<[u32; 3]>, corners: &[[u32; 3]]) {
+fn push_corners(polygons: &mut Polygons, corners: &Corners) {
     let Polygons { positions, corner_vertices, .. } = polygons;
-    for (first, corner) in equal.add(corners).into_iter().zip(corners) {
+    for (&first, corner) in corners.firsts.iter().zip(corners.places.as_flattened()) {
         if first as usize == corner_vertices.len() {
             corner_vertices.push(positions.len() as u32);
             positions.push(DVec3::from_array(corner.map(|bits| f64::from(f32::from_bits(bits)))));
