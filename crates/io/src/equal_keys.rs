@@ -12,7 +12,7 @@ use crate::vertex_table::{AT_ONCE, VertexTable};
 pub(crate) struct EqualKeys<K> {
     /// Has a random seed, as in [`VertexTable`].
     hasher: RandomState,
-    /// At most as many as there are threads: each has the keys whose hashes have its number in their uppermost bits.
+    /// As many as there are threads: each has the keys whose hashes have its number in their uppermost bits.
     parts: Vec<Part<K>>,
     /// The number of keys so far.
     count: u32,

@@ -121,6 +121,13 @@ struct Triangles {
     slots: Vec<u32>,
 }
 
+impl Triangles {
+    /// Takes the triangles of a mesh from it, with their polygons and material slots.
+    fn taken(triangles: &mut Vec<[u32; 3]>, faces: &mut Vec<u32>, slots: &mut Option<Vec<u32>>) -> Self {
+        Self { triangles: take(triangles), faces: take(faces), slots: take(slots).unwrap_or_default() }
+    }
+}
+
 impl Geometry {
     pub(crate) fn new(source: &Mesh) -> Self {
         let is_large = source.corner_count() >= MANY_CORNERS;
@@ -139,20 +146,14 @@ impl Geometry {
     }
 
     fn of_welded(mut mesh: WeldedMesh, columns: impl FnOnce(WeldedMesh) -> Columns) -> Self {
-        let triangles = Triangles {
-            triangles: take(&mut mesh.triangles),
-            faces: take(&mut mesh.triangle_faces),
-            slots: take(&mut mesh.triangle_materials).unwrap_or_default(),
-        };
+        let triangles =
+            Triangles::taken(&mut mesh.triangles, &mut mesh.triangle_faces, &mut mesh.triangle_materials);
         Self::with(triangles, || columns(mesh), None)
     }
 
     fn of(mut mesh: RenderMesh) -> Self {
-        let triangles = Triangles {
-            triangles: take(&mut mesh.triangles),
-            faces: take(&mut mesh.triangle_faces),
-            slots: take(&mut mesh.triangle_materials).unwrap_or_default(),
-        };
+        let triangles =
+            Triangles::taken(&mut mesh.triangles, &mut mesh.triangle_faces, &mut mesh.triangle_materials);
         let rest = mesh.is_deformable().then(|| Box::new(mesh.clone()));
         Self::with(triangles, || Columns::new(mesh), rest)
     }

@@ -7,7 +7,7 @@ use crate::rows::{Rows, quoted, words};
 /// What helps against most faults.
 pub(super) const REMEDY: &str = "fix the line, or export the model again";
 
-#[derive(Debug, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Header {
     pub(super) has_normals: bool,
     pub(super) has_colors: bool,

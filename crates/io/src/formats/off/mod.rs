@@ -15,6 +15,7 @@ use std::borrow::Cow;
 use trigon_math::{DVec3, Vec2, Vec4};
 
 use self::header::{Header, REMEDY, read_header};
+use self::plain::Piece;
 use self::rows::Numbers;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
@@ -88,24 +89,38 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Reads vertices up to the first piece with a row that is not plain, or with the last vertex.
-    fn plain_places(&mut self, import: &Import<'_>) -> Result<(), LoadError> {
+    /// Reads pieces of plain rows, up to one that has any other row or that `add` does not take.
+    fn plain_rows<T>(
+        &mut self,
+        import: &Import<'_>,
+        read: impl Fn(&[u8]) -> Vec<Option<Piece<T>>>,
+        add: impl Fn(&mut Polygons, T) -> bool,
+    ) -> Result<(), LoadError> {
         loop {
             self.report(import, 0)?;
-            let pieces = plain::places(self.rows.rest());
+            let pieces = read(self.rows.rest());
             if pieces.is_empty() {
                 return Ok(());
             }
             for piece in pieces {
-                let positions = &mut self.polygons.positions;
-                let fits = |piece: &plain::Piece<Vec<DVec3>>| {
-                    (positions.len() + piece.rows.len()) as u64 <= self.header.vertices
-                };
-                let Some(piece) = piece.filter(fits) else { return Ok(()) };
-                positions.extend(piece.rows);
-                self.rows.pass(piece.bytes, piece.lines);
+                let Some(Piece { bytes, lines, rows }) = piece else { return Ok(()) };
+                if !add(&mut self.polygons, rows) {
+                    return Ok(());
+                }
+                self.rows.pass(bytes, lines);
             }
         }
+    }
+
+    fn plain_places(&mut self, import: &Import<'_>) -> Result<(), LoadError> {
+        let count = self.header.vertices;
+        self.plain_rows(import, plain::places, |polygons, places| {
+            let fits = (polygons.positions.len() + places.len()) as u64 <= count;
+            if fits {
+                polygons.positions.extend(places);
+            }
+            fits
+        })
     }
 
     /// A row: the place, then normal, colour and texture coordinates, those that there are.
@@ -154,27 +169,18 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Reads faces up to the first piece with a row that is not plain, or with the last face.
     fn plain_faces(&mut self, import: &Import<'_>) -> Result<(), LoadError> {
-        loop {
-            self.report(import, 0)?;
-            let pieces = plain::faces(self.rows.rest(), self.header.vertices);
-            if pieces.is_empty() {
-                return Ok(());
+        let (Header { vertices, faces, .. }, most) = (self.header, most_corners(import));
+        let read = |text: &[u8]| plain::faces(text, vertices);
+        self.plain_rows(import, read, |polygons, more| {
+            let fits = (polygons.face_sizes.len() + more.sizes.len()) as u64 <= faces
+                && polygons.corner_vertices.len() + more.vertices.len() <= most;
+            if fits {
+                polygons.face_sizes.extend(more.sizes);
+                polygons.corner_vertices.extend(more.vertices);
             }
-            for piece in pieces {
-                let Polygons { face_sizes, corner_vertices, .. } = &mut self.polygons;
-                let fits = |piece: &plain::Piece<plain::Faces>| {
-                    let corners = corner_vertices.len() + piece.rows.vertices.len();
-                    (face_sizes.len() + piece.rows.sizes.len()) as u64 <= self.header.faces
-                        && corners <= most_corners(import)
-                };
-                let Some(piece) = piece.filter(fits) else { return Ok(()) };
-                face_sizes.extend(piece.rows.sizes);
-                corner_vertices.extend(piece.rows.vertices);
-                self.rows.pass(piece.bytes, piece.lines);
-            }
-        }
+            fits
+        })
     }
 
     /// Adds a face, or an edge if it has two vertices; whether it was a face.
