@@ -6,6 +6,8 @@
 //! view is drawn separately into its part of one [`Frame`], with its ids and depths, so refinement, picking
 //! and everything else still work on a single image.
 
+use std::sync::Arc;
+
 use trigon_camera::{AxisView, Camera, Orbit, Projector, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
 use trigon_scene::{Frame, Outputs, RenderSettings};
@@ -152,8 +154,8 @@ impl Views {
     pub(crate) fn draw<E>(
         &self,
         settings: RenderSettings,
-        mut draw: impl FnMut(&Camera, RenderSettings) -> Result<Frame, E>,
-    ) -> Result<Frame, E> {
+        mut draw: impl FnMut(&Camera, RenderSettings) -> Result<Arc<Frame>, E>,
+    ) -> Result<Arc<Frame>, E> {
         if self.parts.is_empty() {
             return draw(&self.main, settings);
         }
@@ -167,7 +169,7 @@ impl Views {
                 copy(&part, area, &mut whole);
             }
         }
-        Ok(whole)
+        Ok(Arc::new(whole))
     }
 }
 
@@ -272,7 +274,7 @@ mod tests {
             let ids = Some(vec![number; pixels]);
             let color = vec![number as u8; 4 * pixels];
             let depth = Some(vec![number as f32; pixels]);
-            Ok::<_, ()>(Frame {
+            Ok::<_, ()>(Arc::new(Frame {
                 width,
                 height,
                 color,
@@ -280,7 +282,7 @@ mod tests {
                 object_ids: ids.clone(),
                 face_ids: ids,
                 ..Frame::default()
-            })
+            }))
         });
         let whole = whole.expect("all were drawn");
         let place =

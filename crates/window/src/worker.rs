@@ -14,7 +14,6 @@ use crate::panes::Views;
 use crate::refinement::{Compared, compare};
 use crate::shared_scene::{Revision, SceneUpdate};
 use crate::stage::Visibility;
-use frame_memory::FrameMemory;
 
 /// The purpose of an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,7 +125,6 @@ enum RenderThread {
 /// Executes jobs.
 struct Drawing {
     renderer: Renderer,
-    memory: FrameMemory,
     /// A replica of the window's scene, so that neither waits for the other.
     scene: Scene,
     /// Returns the time since any fixed moment.
@@ -308,12 +306,7 @@ impl RenderThread {
 
 impl Drawing {
     fn new(clock: impl Fn() -> Duration + Send + 'static) -> Self {
-        Self {
-            renderer: Renderer::builder().build(),
-            memory: FrameMemory::default(),
-            scene: Scene::new(),
-            clock: Box::new(clock),
-        }
+        Self { renderer: Renderer::builder().build(), scene: Scene::new(), clock: Box::new(clock) }
     }
 
     fn run(&mut self, Job { purpose, views, stage_times, task }: Job, cancel: &Cancel) -> Finished {
@@ -326,28 +319,22 @@ impl Drawing {
             Task::Draw { scene, settings, drawer } => {
                 // Also for a cancelled image: the next update relies on it.
                 scene.apply(&mut self.scene);
-                let Self { renderer, memory, scene, .. } = self;
+                let Self { renderer, scene, .. } = self;
                 let drawn = views.draw(*settings, |camera, settings| {
                     let seen = (&*scene, camera);
                     match &drawer {
-                        None => render(seen, settings, (renderer, cancel), memory.take()),
+                        None => render(seen, settings, (renderer, cancel)),
                         Some(drawer) => {
                             let frame = draw_otherwise(&**drawer, seen, &settings, cancel)?;
-                            if drawer.shows_scene() {
-                                with_ids(frame, seen, settings, (renderer, cancel))
+                            Ok(Arc::new(if drawer.shows_scene() {
+                                with_ids(frame, seen, settings, (renderer, cancel))?
                             } else {
-                                Ok(Frame { depth: None, object_ids: None, face_ids: None, ..frame })
-                            }
+                                Frame { depth: None, object_ids: None, face_ids: None, ..frame }
+                            }))
                         }
                     }
                 });
-                drawn.map(|frame| {
-                    Product::Frame(match purpose {
-                        Purpose::Window(_) => memory.share(frame),
-                        // Whoever asked for it keeps it.
-                        Purpose::Image => Arc::new(frame),
-                    })
-                })
+                drawn.map(Product::Frame)
             }
             Task::Compare([found, right]) => compare(&found, &right, cancel)
                 .map(|compared| Product::Comparison(Box::new(compared)))
@@ -376,21 +363,19 @@ fn with_ids(
     }
     let outputs = Outputs { color: false, radiance: false, ..outputs };
     let settings = RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..settings };
-    let Frame { depth, object_ids, face_ids, .. } =
-        render(seen, settings, (renderer, cancel), Frame::default())?;
+    let seen = render(seen, settings, (renderer, cancel))?;
+    let (depth, object_ids, face_ids) = (seen.depth.clone(), seen.object_ids.clone(), seen.face_ids.clone());
     Ok(Frame { depth, object_ids, face_ids, ..frame })
 }
 
-/// Draws into the memory of a frame.
 fn render(
     (scene, camera): (&Scene, &Camera),
     settings: RenderSettings,
     (renderer, cancel): (&mut Renderer, &Cancel),
-    mut frame: Frame,
-) -> Result<Frame, Unfinished> {
+) -> Result<Arc<Frame>, Unfinished> {
     *renderer.settings_mut() = settings;
-    match renderer.render_cancellable(scene, camera, cancel, &mut frame) {
-        Ok(()) => Ok(frame),
+    match renderer.render_shared(scene, camera, Some(cancel)) {
+        Ok(frame) => Ok(frame),
         Err(RenderError::Cancelled) => Err(Unfinished::Cancelled),
         Err(error) => Err(Unfinished::Impossible(error.to_string())),
     }
@@ -420,7 +405,6 @@ fn draw_otherwise(
     )))
 }
 
-mod frame_memory;
 #[cfg(test)]
 pub(crate) mod gate;
 

@@ -1,6 +1,8 @@
 //! The drawing engine: threads, memory and caches that last from frame to frame, and the order of
 //! the steps of a frame.
 
+use std::sync::Arc;
+
 use trigon_camera::Camera;
 use trigon_math::UVec2;
 use trigon_raster::{
@@ -13,6 +15,7 @@ use super::depth_image::paint_depth;
 use super::kept::{Destination, Kept};
 use super::last_frame::{LastFrame, Step};
 use super::record::Record;
+use super::shared_frames::{FreeFrame, SharedFrames};
 use crate::display::Display;
 use crate::effect::Effect;
 use crate::effects::{Counts, EffectCounts, LightingEnvironment};
@@ -30,6 +33,7 @@ pub(super) struct Engine {
     rasterizer: Option<Rasterizer>,
     kept: Kept,
     last: LastFrame,
+    frames: SharedFrames,
     plan: Option<EffectPlan>,
     counts: Counts,
     stats: Stats,
@@ -71,12 +75,47 @@ impl Engine {
         cancel: Option<&Cancel>,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
+        let mut free = FreeFrame::of(std::mem::take(frame));
+        let drawn = self.draw_free(scene, camera, settings, cancel, &mut free);
+        if let (Ok(()), Some(rasterizer)) = (drawn, &self.rasterizer) {
+            self.frames.keep(&free, settings, rasterizer)?;
+        }
+        *frame = free.frame;
+        drawn
+    }
+
+    /// Draws a frame that is shared with the caller.
+    pub(super) fn draw_shared(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        settings: &RenderSettings,
+        cancel: Option<&Cancel>,
+    ) -> Result<Arc<Frame>, RenderError> {
+        let mut free = self.frames.take();
+        match self.draw_free(scene, camera, settings, cancel, &mut free) {
+            Ok(()) => Ok(self.frames.share(free)),
+            Err(error) => {
+                self.frames.give_back(free.frame);
+                Err(error)
+            }
+        }
+    }
+
+    fn draw_free(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        settings: &RenderSettings,
+        cancel: Option<&Cancel>,
+        free: &mut FreeFrame,
+    ) -> Result<(), RenderError> {
         if settings.display == Display::Depth && settings.outputs.color {
-            return self.draw_depth(scene, camera, settings, cancel, frame);
+            return self.draw_depth(scene, camera, settings, cancel, free);
         }
         // Checks the size before memory is allocated for it.
         let sample = blank(settings)?.visibility_sample();
-        frame.make_room(settings)?;
+        free.frame.make_room(settings)?;
         let mut rasterizer = self.rasterizer(settings)?;
         rasterizer.set_cancel(cancel.cloned());
         let prepared = PreparedScene::new(scene, camera, settings);
@@ -90,12 +129,12 @@ impl Engine {
             cancel.begin_drawing(colors + beneath + u32::from(apart));
         }
         self.stats = Stats::default();
-        let mut is_kept = false;
         if settings.outputs.of_light() {
-            let drawn = self.draw_colors(&prepared, camera, (&plan, frame), (&mut rasterizer, &mut counts));
+            let drawn = self.draw_colors(&prepared, camera, (&plan, free), (&mut rasterizer, &mut counts));
             // It may have been cancelled, too: its shadow maps may be incomplete.
-            is_kept = drawn.inspect_err(|_| self.kept.forget_unfinished())?;
+            drawn.inspect_err(|_| self.kept.forget_unfinished())?;
         }
+        let FreeFrame { frame, redrawn, .. } = free;
         if apart {
             self.draw_seen(&prepared, camera, frame, &mut rasterizer)?;
         }
@@ -107,8 +146,8 @@ impl Engine {
             self.rasterizer = Some(rasterizer);
             return Err(RenderError::Cancelled);
         }
-        self.last.set_whole(is_kept);
-        if !is_kept {
+        self.last.set_whole(redrawn.is_some());
+        if redrawn.is_none() {
             self.kept.seen.hand_over(frame);
             measure_depth(frame, camera, settings, &rasterizer);
         }
@@ -125,25 +164,25 @@ impl Engine {
         camera: &Camera,
         settings: &RenderSettings,
         cancel: Option<&Cancel>,
-        frame: &mut Frame,
+        free: &mut FreeFrame,
     ) -> Result<(), RenderError> {
         let mut uncolored = settings.clone();
         (uncolored.outputs.color, uncolored.outputs.depth) = (false, true);
-        self.draw(scene, camera, &uncolored, cancel, frame)?;
-        paint_depth(frame);
-        frame.depth.take_if(|_| !settings.outputs.depth);
+        self.draw_free(scene, camera, &uncolored, cancel, free)?;
+        paint_depth(&mut free.frame);
+        free.frame.depth.take_if(|_| !settings.outputs.depth);
         Ok(())
     }
 
-    /// Draws the colours, and the visible triangles unless they have a pass of their own. Returns whether the
-    /// image is kept for the next frame; if so, the frame is finished.
+    /// Draws the colours, and the visible triangles unless they have a pass of their own. A frame from which the
+    /// next one can follow is finished then.
     fn draw_colors(
         &mut self,
         prepared: &PreparedScene<'_>,
         camera: &Camera,
-        (plan, frame): (&EffectPlan, &mut Frame),
+        (plan, free): (&EffectPlan, &mut FreeFrame),
         (rasterizer, counts): (&mut Rasterizer, &mut Counts),
-    ) -> Result<bool, RenderError> {
+    ) -> Result<(), RenderError> {
         let lighting = self.kept.lighting(prepared, plan, rasterizer)?;
         let settings = prepared.settings;
         if settings.share_through_faces().is_some() {
@@ -157,27 +196,23 @@ impl Engine {
         let apart = sees_apart(settings, plan);
         let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
         // If depth has a pass of its own, it is not written twice.
-        let depth = if apart { frame.depth.take() } else { None };
+        let depth = if apart { free.frame.depth.take() } else { None };
         let target = blank(settings)?;
-        let (stats, is_kept) =
-            record(prepared, camera, &lighting, settings, counts, |pass, draws, counts| {
-                let step = if apart { Step::Apart } else { self.last.step(prepared, camera, plan, draws) };
-                let is_kept = !matches!(step, Step::Apart);
-                let stats = if is_kept {
-                    let target = (target, &mut *frame);
-                    self.last.draw(pass, (settings, camera), target, (rasterizer, &step))
-                } else {
-                    let into = Destination { target, frame, needed };
-                    self.kept.draw(pass, (settings, plan), into, (rasterizer, counts))
-                };
-                stats.map(|stats| (stats, is_kept))
-            })?;
+        let stats = record(prepared, camera, &lighting, settings, counts, |pass, draws, counts| {
+            let step = if apart { Step::Apart } else { self.last.step(prepared, camera, plan, draws) };
+            if matches!(step, Step::Apart) {
+                let into = Destination { target, frame: &mut free.frame, needed };
+                self.kept.draw(pass, (settings, plan), into, (rasterizer, counts))
+            } else {
+                step.draw(pass, (settings, camera), (target, free, &self.frames), rasterizer)
+            }
+        })?;
         self.stats += stats;
         if apart {
-            frame.depth = depth;
+            free.frame.depth = depth;
         }
         self.kept.count(&lighting, plan, counts);
-        Ok(is_kept)
+        Ok(())
     }
 
     /// Draws only ids and depth.

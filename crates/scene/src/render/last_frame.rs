@@ -1,8 +1,8 @@
-//! The last image, kept so that the next frame can reuse it: if few vertices of a mesh have moved
-//! since, and everything else is unchanged, most of the image is the same.
+//! What the last image was made from, so that the next one can follow from it: if few vertices of a mesh have
+//! moved since, and everything else is unchanged, most of the image is the same.
 //!
-//! The kept image is drawn here and copied to the caller's frame, which the caller may change. So its memory
-//! is needed twice. Images of meshes that were never changed and have no marks are not kept.
+//! The image itself is a [shared frame](super::shared_frames). Of meshes that were never changed and have no
+//! marks nothing is kept.
 
 mod marked;
 
@@ -13,15 +13,15 @@ use trigon_raster::{DrawChange, Pass, Rasterizer, Rect, Stats, Target, TargetErr
 
 use self::marked::{MarkOrigin, MarkPalette, MarkedPrimitives};
 use super::record::{Record, Source};
+use super::shared_frames::{FreeFrame, SharedFrames};
 use crate::arena::Arena;
 use crate::effect::Effect;
 use crate::environment::Environment;
-use crate::frame::{Frame, resize};
+use crate::frame::Frame;
 use crate::geometry::GeometryState;
 use crate::marks::Marks;
 use crate::material::Material;
 use crate::node::Node;
-use crate::outputs::{Needed, Seen};
 use crate::placement::{DepthToDistance, Placement};
 use crate::plan::EffectPlan;
 use crate::prepare::PreparedScene;
@@ -41,19 +41,15 @@ const COUPLING: [Effect; 8] = [
     Effect::Outline,
 ];
 
-/// Rows per task when copying.
+/// Rows per task when depths are converted.
 const ROWS: usize = 32;
 
-/// The last image and everything that it was made from.
+/// Everything that the last image was made from.
 #[derive(Default)]
 pub(super) struct LastFrame {
     origin: Option<Box<Origin>>,
-    /// Whether the images below were made from this origin, and are complete.
+    /// Whether the last numbered image was made from this origin, and is complete.
     is_whole: bool,
-    color: Vec<u8>,
-    /// In metres.
-    depth: Option<Vec<f32>>,
-    seen: Seen,
 }
 
 /// Everything that determines a frame, except the values of meshes.
@@ -135,86 +131,69 @@ impl LastFrame {
         }
     }
 
-    /// Draws an image that is kept, and copies it to the frame.
-    pub(super) fn draw(
-        &mut self,
-        pass: &Pass<'_>,
-        (settings, camera): (&RenderSettings, &Camera),
-        (blank, frame): (Target<'_>, &mut Frame),
-        (rasterizer, step): (&mut Rasterizer, &Step),
-    ) -> Result<Stats, TargetError> {
-        self.make_room(settings, frame)?;
-        let changes: Option<Vec<DrawChange<'_>>> = match step {
-            Step::Apart | Step::Whole => None,
-            Step::Changed(draws) => Some(draws.iter().map(DrawChange::from).collect()),
-        };
-        let target = self.seen.with(blank, self.depth.as_mut())?;
-        let mut target = target.with_srgb8(self.color.as_chunks_mut().0)?;
-        let redraw = rasterizer.redraw(pass, &mut target, changes.as_deref());
-        self.measure_depth(settings, camera, (&redraw.parts, rasterizer));
-        self.copy_to(frame, rasterizer);
-        Ok(redraw.stats)
-    }
-
     /// Whether the drawn image can be reused.
     pub(super) fn set_whole(&mut self, is_whole: bool) {
         self.is_whole = is_whole;
     }
+}
 
-    fn make_room(&mut self, settings: &RenderSettings, frame: &Frame) -> Result<(), TargetError> {
-        let RenderSettings { width, height, outputs, .. } = settings;
-        let full = TargetError::Memory { width: *width, height: *height };
-        let pixels = *width as usize * *height as usize;
-        resize(&mut self.color, 4 * pixels, 0).ok_or(full)?;
-        self.seen.make_room(pixels, Needed::of(outputs)).ok_or(full)?;
-        match frame.depth {
-            Some(_) => resize(self.depth.get_or_insert_default(), pixels, 0.0).ok_or(full),
-            None => {
-                self.depth = None;
-                Ok(())
+impl Step {
+    /// Draws an image that the next one can follow from. The frame has room for it.
+    pub(super) fn draw(
+        &self,
+        pass: &Pass<'_>,
+        (settings, camera): (&RenderSettings, &Camera),
+        (blank, free, frames): (Target<'_>, &mut FreeFrame, &SharedFrames),
+        rasterizer: &mut Rasterizer,
+    ) -> Result<Stats, TargetError> {
+        let changes: Option<Vec<DrawChange<'_>>> = match self {
+            Self::Apart | Self::Whole => None,
+            Self::Changed(draws) => {
+                frames.bring_up_to_date(free, rasterizer);
+                Some(draws.iter().map(DrawChange::from).collect())
             }
-        }
-    }
-
-    /// From stored depths to metres, in the parts that were drawn.
-    fn measure_depth(
-        &mut self,
-        settings: &RenderSettings,
-        camera: &Camera,
-        (parts, rasterizer): (&[Rect], &Rasterizer),
-    ) {
-        let Some(depths) = &mut self.depth else { return };
-        let distance = DepthToDistance::new(&camera.projection, settings.aspect());
-        let width = settings.width as usize;
-        let bands = depths.chunks_mut(width * ROWS).zip((0..).step_by(ROWS));
-        rasterizer.share(bands, |(band, top)| {
-            for (row, y) in band.chunks_mut(width).zip(top..) {
-                for part in parts.iter().filter(|part| (part.min[1]..part.max[1]).contains(&y)) {
-                    let columns = part.min[0] as usize..part.max[0] as usize;
-                    row[columns].iter_mut().for_each(|depth| *depth = distance.at(*depth));
-                }
-            }
-        });
-    }
-
-    /// Copies the requested outputs to the frame.
-    fn copy_to(&self, frame: &mut Frame, rasterizer: &Rasterizer) {
-        /// Items per task when copying.
-        const PIECE: usize = 1 << 18;
-        copy(&mut frame.color, &self.color, 4 * PIECE, rasterizer);
-        if let (Some(to), Some(from)) = (&mut frame.depth, &self.depth) {
-            copy(to, from, PIECE, rasterizer);
-        }
-        let ids = [(&mut frame.object_ids, &self.seen.objects), (&mut frame.face_ids, &self.seen.faces)];
-        for (to, from) in ids {
-            to.iter_mut().for_each(|to| copy(to, from, PIECE, rasterizer));
-        }
+        };
+        let mut target = target_of(blank, &mut free.frame)?;
+        let redraw = rasterizer.redraw(pass, &mut target, changes.as_deref());
+        measure_depth(&mut free.frame, (settings, camera), (&redraw.parts, rasterizer));
+        free.redrawn = Some(redraw.parts);
+        Ok(redraw.stats)
     }
 }
 
-/// Copies a list in parallel, `piece` items per task.
-fn copy<T: Copy + Send + Sync>(to: &mut [T], from: &[T], piece: usize, rasterizer: &Rasterizer) {
-    rasterizer.share(to.chunks_mut(piece).zip(from.chunks(piece)), |(to, from)| to.copy_from_slice(from));
+/// A target that writes a frame's colours, depths and ids.
+fn target_of<'f>(blank: Target<'f>, frame: &'f mut Frame) -> Result<Target<'f>, TargetError> {
+    let mut target = blank.with_srgb8(frame.color.as_chunks_mut().0)?;
+    if let Some(depth) = &mut frame.depth {
+        target = target.with_depth(depth)?;
+    }
+    if let Some(objects) = &mut frame.object_ids {
+        target = target.with_objects(objects)?;
+    }
+    if let Some(faces) = &mut frame.face_ids {
+        target = target.with_faces(faces)?;
+    }
+    Ok(target)
+}
+
+/// From stored depths to metres, in the parts that were drawn.
+fn measure_depth(
+    frame: &mut Frame,
+    (settings, camera): (&RenderSettings, &Camera),
+    (parts, rasterizer): (&[Rect], &Rasterizer),
+) {
+    let Some(depths) = &mut frame.depth else { return };
+    let distance = DepthToDistance::new(&camera.projection, settings.aspect());
+    let width = settings.width as usize;
+    let bands = depths.chunks_mut(width * ROWS).zip((0..).step_by(ROWS));
+    rasterizer.share(bands, |(band, top)| {
+        for (row, y) in band.chunks_mut(width).zip(top..) {
+            for part in parts.iter().filter(|part| (part.min[1]..part.max[1]).contains(&y)) {
+                let columns = part.min[0] as usize..part.max[0] as usize;
+                row[columns].iter_mut().for_each(|depth| *depth = distance.at(*depth));
+            }
+        }
+    });
 }
 
 /// A shared value that is equal only to itself: whoever changes a value that others share makes a copy first.

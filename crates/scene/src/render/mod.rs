@@ -11,6 +11,7 @@ mod kept;
 mod last_frame;
 mod record;
 mod renderer;
+mod shared_frames;
 #[cfg(test)]
 mod tests;
 mod vertex_list;

@@ -1,5 +1,7 @@
 //! The public renderer.
 
+use std::sync::Arc;
+
 use trigon_camera::Camera;
 use trigon_raster::{Cancel, PixelExplanation, Stats};
 
@@ -110,6 +112,22 @@ impl Renderer {
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
         self.engine.draw(scene, camera, &self.settings, Some(cancel), frame)
+    }
+
+    /// As [`render`](Self::render), or with `cancel` as [`render_cancellable`](Self::render_cancellable), into a
+    /// frame that the renderer also holds. Once the caller and all others have dropped it, its memory takes a
+    /// later frame, and of an image that differs little from an earlier one only those parts. To draw one image
+    /// after the other without copying, drop each frame when the next one is there.
+    ///
+    /// # Errors
+    /// Those of [`render`](Self::render), and [`RenderError::Cancelled`].
+    pub fn render_shared(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        cancel: Option<&Cancel>,
+    ) -> Result<Arc<Frame>, RenderError> {
+        self.engine.draw_shared(scene, camera, &self.settings, cancel)
     }
 
     /// Draws what each of these cameras sees, one after the other, and passes every frame with its

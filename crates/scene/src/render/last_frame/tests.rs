@@ -161,22 +161,41 @@ fn mark(node: NodeId, elements: &[u8], level: f32) -> Mark {
     Mark { elements: Arc::new(set), color: Vec3::new(1.0, level, 0.0), opacity: 0.5 + 0.5 * level }
 }
 
+/// Where an image is drawn.
+#[derive(Clone, Copy, Debug)]
+enum Place {
+    OwnFrame,
+    /// A shared frame that is dropped after the next one is drawn.
+    Shared,
+    /// One that is kept.
+    Held,
+}
+
+fn place() -> impl Strategy<Value = Place> {
+    prop_oneof![2 => Just(Place::OwnFrame), 4 => Just(Place::Shared), 1 => Just(Place::Held)]
+}
+
 /// A renderer that has drawn what was before.
 struct Sequence {
     model: Model,
     camera: Camera,
     renderer: Renderer,
     frame: Frame,
+    /// The last shared one.
+    shown: Arc<Frame>,
+    /// Those that are kept, and what they showed in the beginning.
+    held: Vec<(Arc<Frame>, Frame)>,
 }
 
 impl Sequence {
     fn new(model: Model, settings: RenderSettings) -> Self {
         let camera = model.scene.overview(settings.aspect());
-        Self { model, camera, renderer: Renderer::new(settings), frame: Frame::default() }
+        let (renderer, frame, shown) = (Renderer::new(settings), Frame::default(), Arc::default());
+        Self { model, camera, renderer, frame, shown, held: Vec::new() }
     }
 
     fn apply(&mut self, event: &Event) {
-        let Self { model, camera, renderer, frame } = self;
+        let Self { model, camera, renderer, frame, .. } = self;
         match event {
             Event::Moved(mesh, moves) => {
                 let positions = model.mesh(*mesh).positions();
@@ -252,6 +271,17 @@ impl Sequence {
         self.renderer.render_into(&self.model.scene, &self.camera, &mut self.frame).expect("drawn");
     }
 
+    fn draw_at(&mut self, place: Place) {
+        if let Place::OwnFrame = place {
+            return self.draw();
+        }
+        self.shown = self.renderer.render_shared(&self.model.scene, &self.camera, None).expect("drawn");
+        self.frame = Frame::clone(&self.shown);
+        if let Place::Held = place {
+            self.held.push((Arc::clone(&self.shown), self.frame.clone()));
+        }
+    }
+
     fn fresh(&self) -> Frame {
         render(&self.model.fresh(), &self.camera, self.renderer.settings()).expect("drawn")
     }
@@ -280,15 +310,16 @@ proptest! {
     fn whatever_changes_images_are_fresh_ones(
         settings in settings(),
         pane in prop::sample::select(vec![AlphaMode::Opaque, AlphaMode::Mask { cutoff: 0.3 }, AlphaMode::Blend]),
-        events in prop::collection::vec(event(), 4..12),
+        events in prop::collection::vec((event(), place()), 4..12),
     ) {
         let mut sequence = Sequence::new(model(pane), settings);
         sequence.draw();
-        for event in &events {
+        for (event, place) in &events {
             sequence.apply(event);
-            sequence.draw();
-            prop_assert!(sequence.frame == sequence.fresh(), "after {event:?}");
+            sequence.draw_at(*place);
+            prop_assert!(sequence.frame == sequence.fresh(), "after {event:?}, {place:?}");
         }
+        prop_assert!(sequence.held.iter().all(|(held, before)| **held == *before), "nobody draws into them");
     }
 }
 

@@ -1,0 +1,255 @@
+//! Frames that a renderer shares with those who show them, and draws into again once they are released.
+//!
+//! A frame of a window takes tens of megabytes: to allocate them for every image would take milliseconds,
+//! because the system has to map and clear each page, and to copy them takes as long. So a frame that
+//! comes back receives only what was drawn since it was shared.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use trigon_raster::{Rasterizer, Rect, TargetError};
+
+use crate::frame::Frame;
+use crate::settings::RenderSettings;
+
+/// Images whose redrawn parts are remembered. Frames that are older are copied as a whole.
+const REMEMBERED: usize = 4;
+
+/// Rows per task when copying.
+const ROWS: usize = 32;
+
+/// The frames that are shared or free. Images are numbered if the next one can follow from them.
+#[derive(Default)]
+pub(super) struct SharedFrames {
+    frames: Vec<(Arc<Frame>, Option<u64>)>,
+    /// The number of the last numbered image; 0 before the first.
+    latest: u64,
+    /// The parts that the last images redrew, in their order.
+    redrawn: VecDeque<Vec<Rect>>,
+}
+
+/// A frame that nobody else holds.
+#[derive(Default)]
+pub(super) struct FreeFrame {
+    pub(super) frame: Frame,
+    /// The image in it, if it is known.
+    image: Option<u64>,
+    /// What was drawn in it since it was taken, if the next image can follow from that.
+    pub(super) redrawn: Option<Vec<Rect>>,
+}
+
+impl FreeFrame {
+    /// A frame with unknown contents.
+    pub(super) fn of(frame: Frame) -> Self {
+        Self { frame, ..Self::default() }
+    }
+}
+
+impl SharedFrames {
+    /// A frame that nobody else holds: of several the newest. The others are freed. An empty one if there is none.
+    pub(super) fn take(&mut self) -> FreeFrame {
+        let mut newest = FreeFrame::default();
+        for (frame, image) in std::mem::take(&mut self.frames) {
+            match Arc::try_unwrap(frame) {
+                Ok(frame) if image >= newest.image => newest = FreeFrame { frame, image, redrawn: None },
+                Ok(_) => {}
+                Err(held) => self.frames.push((held, image)),
+            }
+        }
+        newest
+    }
+
+    /// Shares what was drawn. Its memory comes back once nobody else holds it.
+    pub(super) fn share(&mut self, FreeFrame { frame, redrawn, .. }: FreeFrame) -> Arc<Frame> {
+        let image = redrawn.map(|parts| {
+            self.redrawn.push_back(parts);
+            if self.redrawn.len() > REMEMBERED {
+                self.redrawn.pop_front();
+            }
+            self.latest += 1;
+            self.latest
+        });
+        let frame = Arc::new(frame);
+        self.frames.push((Arc::clone(&frame), image));
+        frame
+    }
+
+    /// Keeps a copy of a frame that its owner may change, if the next image can follow from it.
+    pub(super) fn keep(
+        &mut self,
+        drawn: &FreeFrame,
+        settings: &RenderSettings,
+        rasterizer: &Rasterizer,
+    ) -> Result<(), TargetError> {
+        let Some(redrawn) = &drawn.redrawn else { return Ok(()) };
+        let mut kept = self.take();
+        kept.frame.make_room(settings)?;
+        if kept.image == Some(self.latest) {
+            copy_parts(&drawn.frame, &mut kept.frame, redrawn, rasterizer);
+        } else {
+            copy_parts(&drawn.frame, &mut kept.frame, &[whole(&drawn.frame)], rasterizer);
+        }
+        kept.redrawn = Some(redrawn.clone());
+        self.share(kept);
+        Ok(())
+    }
+
+    /// Takes the memory of a frame whose contents do not matter.
+    pub(super) fn give_back(&mut self, frame: Frame) {
+        self.frames.push((Arc::new(frame), None));
+    }
+
+    /// Makes a free frame show the last numbered image, which has its size and outputs. Everybody else
+    /// may hold that one, but it must not have been freed.
+    pub(super) fn bring_up_to_date(&self, free: &mut FreeFrame, rasterizer: &Rasterizer) {
+        if free.image == Some(self.latest) {
+            return;
+        }
+        let latest = self.frames.iter().find(|(_, image)| *image == Some(self.latest));
+        let (latest, _) = latest.expect("free frames are taken newest first");
+        let known = free.image.and_then(|image| self.redrawn_since(image));
+        let parts = known.unwrap_or_else(|| vec![whole(latest)]);
+        copy_parts(latest, &mut free.frame, &parts, rasterizer);
+    }
+
+    /// The parts that differ between an image and the last one; `None` if that is forgotten.
+    fn redrawn_since(&self, image: u64) -> Option<Vec<Rect>> {
+        let since = (self.latest - image) as usize;
+        let first = self.redrawn.len().checked_sub(since)?;
+        Some(self.redrawn.range(first..).flatten().copied().collect())
+    }
+}
+
+fn whole(frame: &Frame) -> Rect {
+    Rect { min: [0, 0], max: [frame.width, frame.height].map(|size| size as i32) }
+}
+
+/// Copies parts of colours, depths and ids to a frame that has the same, in parallel.
+fn copy_parts(from: &Frame, to: &mut Frame, parts: &[Rect], rasterizer: &Rasterizer) {
+    let width = from.width as usize;
+    copy_list((&from.color, &mut to.color), (4, width), parts, rasterizer);
+    if let (Some(from), Some(to)) = (&from.depth, &mut to.depth) {
+        copy_list((from, to), (1, width), parts, rasterizer);
+    }
+    let ids = [(&from.object_ids, &mut to.object_ids), (&from.face_ids, &mut to.face_ids)];
+    for (from, to) in ids {
+        if let (Some(from), Some(to)) = (from, to) {
+            copy_list((from, to), (1, width), parts, rasterizer);
+        }
+    }
+}
+
+/// Copies parts of a list with so many items for each pixel.
+fn copy_list<T: Copy + Send + Sync>(
+    (from, to): (&[T], &mut [T]),
+    (items, width): (usize, usize),
+    parts: &[Rect],
+    rasterizer: &Rasterizer,
+) {
+    let band = (ROWS * items * width).max(1);
+    let bands = from.chunks(band).zip(to.chunks_mut(band)).zip((0..).step_by(ROWS));
+    rasterizer.share(bands, |((from, to), top)| {
+        let bottom = top + (from.len() / (items * width)) as i32;
+        for &Rect { min: [left, upper], max: [right, lower] } in parts {
+            for row in upper.max(top)..lower.min(bottom) {
+                let start = (row - top) as usize * width;
+                let own = items * (start + left as usize)..items * (start + right as usize);
+                to[own.clone()].copy_from_slice(&from[own]);
+            }
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three rows of two pixels, all of one byte.
+    fn filled(mut free: FreeFrame, byte: u8, redrawn: Option<Vec<Rect>>) -> FreeFrame {
+        let ids = Some(vec![u32::from(byte); 6]);
+        free.frame = Frame {
+            width: 2,
+            height: 3,
+            color: vec![byte; 24],
+            face_ids: ids.clone(),
+            object_ids: ids,
+            depth: Some(vec![f32::from(byte); 6]),
+            ..Frame::default()
+        };
+        FreeFrame { redrawn, ..free }
+    }
+
+    fn part(min: [i32; 2], max: [i32; 2]) -> Vec<Rect> {
+        vec![Rect { min, max }]
+    }
+
+    fn rasterizer() -> Rasterizer {
+        Rasterizer::new(trigon_raster::ExecuteSettings::default()).expect("threads")
+    }
+
+    /// The bytes of a frame's pixels, which every output has.
+    fn shown(frame: &Frame) -> Vec<u8> {
+        let shown: Vec<u8> = frame.color.as_chunks::<4>().0.iter().map(|[first, ..]| *first).collect();
+        let ids: Vec<u32> = shown.iter().map(|&byte| byte.into()).collect();
+        assert_eq!(frame.face_ids.as_ref(), Some(&ids));
+        assert_eq!(frame.object_ids.as_ref(), Some(&ids));
+        let depths = shown.iter().map(|&byte| byte.into()).collect();
+        assert_eq!(frame.depth.as_ref(), Some(&depths));
+        shown
+    }
+
+    #[test]
+    fn memory_comes_back_once_nobody_holds_it() {
+        let mut frames = SharedFrames::default();
+        assert_eq!(frames.take().frame.width, 0, "nothing was shared yet");
+        let first = frames.share(filled(FreeFrame::default(), 1, None));
+        let place = first.color.as_ptr();
+        assert_eq!(frames.take().frame.width, 0, "the first one is shown");
+        drop(first);
+        assert_eq!(frames.take().frame.color.as_ptr(), place, "the same memory");
+        for byte in 0..4 {
+            drop(frames.share(filled(FreeFrame::default(), byte, None)));
+        }
+        frames.take();
+        assert!(frames.frames.is_empty(), "all others were freed");
+        frames.give_back(Frame { width: 9, ..Frame::default() });
+        assert_eq!(frames.take().frame.width, 9);
+    }
+
+    #[test]
+    fn a_frame_that_comes_back_receives_what_was_drawn_since() {
+        let (mut frames, rasterizer) = (SharedFrames::default(), rasterizer());
+        let first = frames.share(filled(FreeFrame::default(), 1, Some(part([0, 0], [2, 3]))));
+        let second = frames.share(filled(FreeFrame::default(), 2, Some(part([1, 0], [2, 1]))));
+        drop(first);
+        let mut free = frames.take();
+        frames.bring_up_to_date(&mut free, &rasterizer);
+        assert_eq!(shown(&free.frame), [1, 2, 1, 1, 1, 1], "the first image, and the part of the second");
+        free.redrawn = Some(part([0, 1], [1, 3]));
+        let third = frames.share(filled(free, 3, Some(part([0, 1], [1, 3]))));
+        drop(second);
+        let mut free = frames.take();
+        frames.bring_up_to_date(&mut free, &rasterizer);
+        assert_eq!(shown(&free.frame), [2, 2, 3, 2, 3, 2], "the second image, and the part of the third");
+        frames.give_back(free.frame);
+        drop(third);
+        let mut newest = frames.take();
+        frames.bring_up_to_date(&mut newest, &rasterizer);
+        assert_eq!(shown(&newest.frame), [3; 6], "the last image needs nothing");
+    }
+
+    #[test]
+    fn frames_of_unknown_contents_and_old_ones_are_copied_as_a_whole() {
+        let (mut frames, rasterizer) = (SharedFrames::default(), rasterizer());
+        let old = frames.share(filled(FreeFrame::default(), 1, Some(part([0, 0], [2, 3]))));
+        let mut held = Vec::new();
+        for byte in 2..=REMEMBERED as u8 + 2 {
+            held.push(frames.share(filled(FreeFrame::default(), byte, Some(Vec::new()))));
+        }
+        drop(old);
+        for mut free in [frames.take(), filled(FreeFrame::default(), 0, None)] {
+            frames.bring_up_to_date(&mut free, &rasterizer);
+            assert_eq!(shown(&free.frame), [REMEMBERED as u8 + 2; 6]);
+        }
+    }
+}
