@@ -28,6 +28,9 @@ const SIDES: [u32; 2] = [1000, 500];
 /// How often each thing is done.
 const RUNS: usize = 20;
 
+/// The moves of the pointer that draw a box.
+const MOVES: u32 = 16;
+
 fn main() {
     let part = std::env::args().nth(1).unwrap_or_default();
     let compact = || block([450, 200], [100, 100]);
@@ -132,9 +135,15 @@ fn click(worked: &mut Worked<'_>) {
 
 fn box_of_half(worked: &mut Worked<'_>) {
     for run in 0..RUNS {
-        worked.window.move_to(DVec2::new(200.0, 120.0));
+        let start = DVec2::new(200.0, 120.0);
+        worked.window.move_to(start);
         worked.window.press(PointerButton::Left);
-        worked.window.move_to(MIDDLE + DVec2::new(9.0 * run as f64, 400.0));
+        let end = MIDDLE + DVec2::new(9.0 * run as f64, 400.0);
+        // A hand takes about a quarter of a second for so long a way.
+        for step in 1..=MOVES {
+            let share = f64::from(step) / f64::from(MOVES);
+            worked.window.move_on_to(start.lerp(end, share));
+        }
         worked.time(|frame| frame.is_full, |worked| worked.window.release(PointerButton::Left));
     }
 }

@@ -13,6 +13,7 @@ use super::loading::Loading;
 use super::open_file::{Answer, Next};
 use super::panels::Popup;
 use super::panes::pane_of;
+use super::pointing::Announced;
 use super::running::Running;
 use super::saving::Saving;
 use super::{files, interface, pick};
@@ -168,6 +169,9 @@ impl Editor {
         }
         if !self.press_gizmo(stage, hands) {
             self.click = Click::new(hands);
+            if let Some(Click { at, .. }) = self.click {
+                self.pointing.announce((stage, &stage.pane_at(at)), Announced::Place);
+            }
         }
         Taken::Yes
     }

@@ -1,14 +1,15 @@
 //! The modal tool: how it is started, its input, and its result.
 
-use trigon_edit::scene::Region;
 use trigon_edit::scene::camera::AxisView;
-use trigon_edit::{SelectAction, Shear};
+use trigon_edit::scene::{Reach, Region};
+use trigon_edit::{ElementKind, SelectAction, Shear};
 use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, Pane, PointerButton, Stage, Taken};
 
 use super::button_start::{ButtonStart, Passed};
 use super::click::Click;
 use super::editor::{Editor, Message};
 use super::panes::{in_pane, pane_of, tool_view};
+use super::pointing::Announced;
 use super::running::{Running, What, gesture_kind, transform_kind};
 use crate::request::{Request, ToolKind};
 use crate::tool::{
@@ -69,6 +70,9 @@ impl Editor {
 
     fn follow(&mut self, stage: &mut Stage, running: Running) {
         self.click = None;
+        if let What::Gesture(_) = &running.what {
+            self.announce_region(stage, running.side);
+        }
         self.tool = Some(running);
         stage.input_owner = InputOwner::Application;
     }
@@ -196,6 +200,7 @@ impl Editor {
         };
         if goes_on {
             self.tool = Some(running);
+            self.announce_region(stage, side);
         } else {
             stage.input_owner = InputOwner::Interface;
         }
@@ -203,6 +208,16 @@ impl Editor {
             self.select_region(stage, side, &region, mode);
         }
         Taken::Yes
+    }
+
+    /// Something in a region will be selected.
+    fn announce_region(&mut self, stage: &Stage, side: Option<AxisView>) {
+        let selection = self.document.selection();
+        let finds_vertices = selection.is_editing()
+            && selection.kinds().contains(ElementKind::Vertex)
+            && self.reach() == Reach::Visible;
+        let about = if finds_vertices { Announced::Vertices } else { Announced::Place };
+        self.pointing.announce((stage, &pane_of(stage, side)), about);
     }
 
     fn select_region(

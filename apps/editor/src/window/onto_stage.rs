@@ -14,6 +14,7 @@ impl Editor {
     /// Shows the document as it is now.
     pub(super) fn show_document(&mut self, stage: &mut Stage) {
         let editor = self;
+        editor.pointing.wait();
         let changed = show(&mut editor.document, &mut stage.scene);
         let (local, surfaces) = (&editor.view.local, Surfaces::of(editor.view.display));
         let is_same_part = editor.look.local == *local;

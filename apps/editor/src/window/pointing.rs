@@ -1,7 +1,10 @@
 //! The id image in which the editor looks up what is under the pointer.
 //!
 //! It is a separate image: the one in the window may be a draft, and shows edges, vertices and X-ray. It is
-//! kept until scene or camera change, so that repeated selections draw nothing.
+//! kept until scene or camera change, so that repeated selections draw nothing. A press of a button announces a
+//! question: another thread then prepares the answer while the hand goes on.
+
+use std::thread::{self, JoinHandle};
 
 use trigon_edit::mesh::edit::FaceId;
 use trigon_edit::scene::camera::{Camera, Projector, Viewport};
@@ -12,8 +15,26 @@ use trigon_edit::{Document, Picks};
 use trigon_window::scene::math::DVec2;
 use trigon_window::{Pane, Stage};
 
+/// Where it is looked up.
+pub(crate) struct Pointing(Place);
+
+enum Place {
+    Here(Box<Lookup>),
+    /// On another thread, which returns it when it is done.
+    Elsewhere(JoinHandle<Box<Lookup>>),
+}
+
+/// What a question may be about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Announced {
+    /// A place.
+    Place,
+    /// The visible vertices in a region.
+    Vertices,
+}
+
 /// An image of ids, drawn when somebody asks.
-pub(crate) struct Pointing {
+struct Lookup {
     renderer: Renderer,
     known: Option<Known>,
 }
@@ -23,11 +44,19 @@ struct Known {
     camera: Camera,
     viewport: Viewport,
     frame: Frame,
-    /// Where points are in it, as far as somebody asked.
+    /// What is known of points in it, as far as somebody asked.
     points: KeptPoints,
+    /// Whether the visible vertices were looked for.
+    is_searched: bool,
 }
 
 impl Default for Pointing {
+    fn default() -> Self {
+        Self(Place::Here(Box::default()))
+    }
+}
+
+impl Default for Lookup {
     fn default() -> Self {
         let outputs = Outputs { ids: true, depth: true, ..Outputs::NONE };
         let settings = RenderSettings { outputs, samples_per_axis: 1, ..RenderSettings::new(1, 1) };
@@ -38,20 +67,47 @@ impl Default for Pointing {
 impl Pointing {
     /// The scene is another one.
     pub(crate) fn forget(&mut self) {
-        self.known = None;
+        self.here().known = None;
     }
 
-    /// The image of what the stage shows now; `None` where there is nothing to be seen.
-    fn known(&mut self, scene: &Scene, camera: Camera, viewport: Viewport) -> Option<&mut Known> {
-        let is_current =
-            self.known.as_ref().is_some_and(|known| known.camera == camera && known.viewport == viewport);
-        if !is_current {
-            let settings = self.renderer.settings_mut();
-            (settings.width, settings.height) = (viewport.width, viewport.height);
-            let frame = self.renderer.render(scene, &camera).ok();
-            self.known = frame.map(|frame| Known { camera, viewport, frame, points: KeptPoints::default() });
+    /// Waits until no other thread looks at the scene, which is about to change.
+    pub(crate) fn wait(&mut self) {
+        self.here();
+    }
+
+    /// A question about a view is likely to follow. As long as another thread is busy nothing is begun.
+    pub(crate) fn announce(&mut self, (stage, pane): (&Stage, &Pane), about: Announced) {
+        if matches!(&self.0, Place::Elsewhere(thread) if !thread.is_finished()) {
+            return;
         }
-        self.known.as_mut()
+        let lookup = self.here();
+        let (camera, viewport) = (stage.camera_of(pane), pane.area.size);
+        if lookup.is_prepared(&camera, viewport, about) {
+            return;
+        }
+        let (mut lookup, scene) = (Box::new(std::mem::take(lookup)), Scene::clone(&stage.scene));
+        let prepare = move || {
+            lookup.prepare(&scene, (camera, viewport), about);
+            lookup
+        };
+        // Without a thread the question takes longer.
+        if let Ok(thread) = thread::Builder::new().name("trigon-pointing".into()).spawn(prepare) {
+            self.0 = Place::Elsewhere(thread);
+        }
+    }
+
+    /// The image, after the thread that prepares it is done.
+    fn here(&mut self) -> &mut Lookup {
+        if let Place::Elsewhere(_) = &self.0
+            && let Place::Elsewhere(thread) = std::mem::take(self).0
+        {
+            // After a panic nothing is known.
+            self.0 = Place::Here(thread.join().unwrap_or_default());
+        }
+        match &mut self.0 {
+            Place::Here(lookup) => lookup,
+            Place::Elsewhere(_) => unreachable!("it was brought here"),
+        }
     }
 
     /// Asks what is under the pointer or in a region of a view, in its physical pixels; `None` while the window
@@ -64,10 +120,10 @@ impl Pointing {
         question: impl FnOnce(&Picks<'_>) -> T,
     ) -> Option<T> {
         let (camera, viewport) = (stage.camera_of(pane), pane.area.size);
-        let Known { camera, viewport, frame, points } = self.known(&stage.scene, camera, viewport)?;
-        let picker = Picker::with_points(&stage.scene, camera, frame, points);
-        let answer = question(&Picks::new(document, &picker, Projector::new(camera, *viewport), reach));
-        *points = picker.points();
+        let known = self.here().known(&stage.scene, camera, viewport)?;
+        let picker = Picker::with_points(&stage.scene, &camera, &known.frame, &known.points);
+        let answer = question(&Picks::new(document, &picker, Projector::new(&camera, viewport), reach));
+        known.points = picker.points();
         Some(answer)
     }
 
@@ -78,7 +134,7 @@ impl Pointing {
         (stage, pane): (&Stage, &Pane),
         at: DVec2,
     ) -> Option<(MeshId, FaceId)> {
-        let known = self.known(&stage.scene, stage.camera_of(pane), pane.area.size)?;
+        let known = self.here().known(&stage.scene, stage.camera_of(pane), pane.area.size)?;
         if at.cmplt(DVec2::ZERO).any() {
             return None;
         }
@@ -87,5 +143,37 @@ impl Pointing {
         let face = *document.shown_elements(mesh)?.faces.get(hit.face?)?;
         document.selection().of(mesh)?;
         Some((mesh, face))
+    }
+}
+
+impl Lookup {
+    /// Whether a question of this kind needs nothing more.
+    fn is_prepared(&self, camera: &Camera, viewport: Viewport, about: Announced) -> bool {
+        self.known.as_ref().is_some_and(|known| {
+            known.camera == *camera
+                && known.viewport == viewport
+                && (about == Announced::Place || known.is_searched)
+        })
+    }
+
+    fn prepare(&mut self, scene: &Scene, (camera, viewport): (Camera, Viewport), about: Announced) {
+        let Some(known) = self.known(scene, camera, viewport) else { return };
+        if about == Announced::Vertices {
+            let picker = Picker::with_points(scene, &camera, &known.frame, &known.points);
+            picker.find_visible_vertices();
+            (known.points, known.is_searched) = (picker.points(), true);
+        }
+    }
+
+    /// The image of what a camera sees of the scene; `None` where there is nothing to be seen.
+    fn known(&mut self, scene: &Scene, camera: Camera, viewport: Viewport) -> Option<&mut Known> {
+        if !self.is_prepared(&camera, viewport, Announced::Place) {
+            let settings = self.renderer.settings_mut();
+            (settings.width, settings.height) = (viewport.width, viewport.height);
+            let frame = self.renderer.render(scene, &camera).ok();
+            let points = KeptPoints::default();
+            self.known = frame.map(|frame| Known { camera, viewport, frame, points, is_searched: false });
+        }
+        self.known.as_mut()
     }
 }

@@ -1,4 +1,4 @@
-//! Screen positions that outlive a picker.
+//! What outlives a picker: screen positions, and which vertices are visible.
 
 use std::sync::Arc;
 
@@ -6,14 +6,17 @@ use trigon_math::{DMat4, DVec2};
 use trigon_raster::simd::LANES;
 
 use super::screen::Spot;
+use super::visible_vertices::VisibleVertices;
 use crate::geometry::GeometryState;
 
-/// Where the vertices of a scene's objects are on the screen, as far as a picker has found out: the next one
-/// need not do so again. It uses only those of objects that are as they were, and seen in the same way.
+/// Where the vertices of a scene's objects are on the screen and which of them are visible, as far as a picker has
+/// found out: the next one need not do so again. It uses only what it knows of objects that are as they were, and
+/// seen in the same way.
 #[derive(Clone, Debug, Default)]
 pub struct KeptPoints {
     /// By the indices of nodes.
     pub(super) objects: Vec<Option<ObjectPoints>>,
+    pub(super) visible: Option<Arc<VisibleVertices>>,
 }
 
 /// The vertices of an object at rest.

@@ -9,7 +9,8 @@
 //! | `nearest`, `snap` | the elements nearest to a point; points of the scene that a pointer snaps to |
 //! | `region`, `lasso`, `outline` | which points lie in a region; the even-odd rule; distances from a polygon |
 //! | `screen`, `object` | screen positions of an object's points |
-//! | `kept` | screen positions that outlive a picker |
+//! | `kept` | what outlives a picker |
+//! | `visible_vertices` | which vertices are visible in all of an image |
 //! | `nearby` | the objects near an area, and which of their elements may lie in it |
 //! | `sides` | for large areas: one byte per point, which side of the area it is on |
 //! | `few`, `beyond` | for small areas: skips whole boxes of triangles |
@@ -42,6 +43,7 @@ mod sides;
 mod snap;
 #[cfg(test)]
 mod tests;
+mod visible_vertices;
 
 pub use kept::KeptPoints;
 pub use nearest::Nearest;

@@ -14,7 +14,8 @@ use super::kept::{KeptPoints, ObjectPoints, PointOrigin};
 use super::region::Area;
 use super::screen::{Screen, Spot, Spots};
 use super::sides::Sides;
-use crate::geometry::{BlockBox, Blocks, Run};
+use super::visible_vertices::VisibleOrigin;
+use crate::geometry::{BlockBox, Blocks, GeometryState, Run};
 use crate::material::AlphaMode;
 use crate::node::NodeId;
 use crate::render::{Onlookers, Shape, Shapes};
@@ -27,6 +28,8 @@ pub(super) const POINTS: usize = 4096;
 pub(super) struct Object<'s> {
     pub(super) node: NodeId,
     placed: PlacedMesh<'s>,
+    /// Of its geometry, if it is at rest.
+    state: Option<GeometryState>,
     /// Its triangles as they are drawn; `None` where nothing of them can be in view.
     drawn: Option<Drawn>,
     /// Where vertices are.
@@ -46,7 +49,7 @@ pub(super) struct Drawn {
 }
 
 /// How faces of a material are drawn.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Facing {
     /// Whether backs are drawn, too.
     pub(super) double_sided: bool,
@@ -66,8 +69,11 @@ pub(super) fn objects<'s>(scene: &'s Scene, screen: &Screen, known: &KeptPoints)
         let Some(place) = places[node.index()] else { continue };
         let Some(placed) = scene.placed_mesh(node, place.world) else { continue };
         let map = screen.map(placed.world());
-        let drawn = shapes.take(node.index()).and_then(|shape| Drawn::new(scene, node, shape, screen));
-        let mut object = Object { node, placed, drawn, map, vertices: OnceLock::new() };
+        let shape = shapes.take(node.index());
+        let at_rest = shape.as_ref().filter(|shape| !shape.is_posed);
+        let state = at_rest.map(|shape| shape.geometry.state.clone());
+        let drawn = shape.and_then(|shape| Drawn::new(scene, node, shape, screen));
+        let mut object = Object { node, placed, state, drawn, map, vertices: OnceLock::new() };
         let points = object.origin(screen).and_then(|origin| known.of(node.index(), &origin));
         object.vertices = points.map_or_else(OnceLock::new, OnceLock::from);
         objects[node.index()] = Some(object);
@@ -118,11 +124,19 @@ impl<'s> Object<'s> {
         self.placed.used_vertices()
     }
 
-    /// What the places of its vertices come from; `None` in a pose, or where nothing of it is in view.
+    /// What the places of its vertices come from; `None` in a pose.
     fn origin(&self, screen: &Screen) -> Option<PointOrigin> {
-        let shape = &self.drawn.as_ref()?.shape;
-        let state = shape.geometry.state.clone();
-        (!shape.is_posed).then(|| PointOrigin { state, map: self.map, half_size: screen.half_size() })
+        let state = self.state.clone()?;
+        Some(PointOrigin { state, map: self.map, half_size: screen.half_size() })
+    }
+
+    /// What decides which points it hides, and which of its own are hidden; `None` in a pose, and if it hides
+    /// points only in some pixels.
+    pub(super) fn visible_origin(&self, screen: &Screen) -> Option<VisibleOrigin> {
+        let facings = self.drawn.as_ref().map_or(&[][..], |drawn| &drawn.facings).to_vec();
+        let is_opaque = facings.iter().all(|facing| facing.is_opaque);
+        let points = self.origin(screen).filter(|_| is_opaque)?;
+        Some(VisibleOrigin { points, facings })
     }
 
     /// Where its vertices are, for another picker.

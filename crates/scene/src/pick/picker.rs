@@ -1,7 +1,7 @@
 //! The public picker.
 
 use std::collections::BTreeSet;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use fixedbitset::FixedBitSet;
 use trigon_camera::{Camera, Projector, Viewport};
@@ -16,6 +16,7 @@ use super::object::{Object, objects};
 use super::region::{Region, center};
 use super::screen::Screen;
 use super::search::for_each_pixel;
+use super::visible_vertices::VisibleVertices;
 use crate::elements::ElementSet;
 use crate::frame::{Frame, Hit};
 use crate::node::NodeId;
@@ -104,6 +105,8 @@ pub struct Picker<'p> {
     pub(super) projector: Projector,
     pub(super) screen: Screen,
     pub(super) objects: OnceLock<Vec<Option<Object<'p>>>>,
+    /// Once they are found, if they can be kept.
+    pub(super) visible: OnceLock<Option<Arc<VisibleVertices>>>,
 }
 
 /// What is under a pixel.
@@ -133,6 +136,7 @@ impl<'p> Picker<'p> {
             projector: Projector::new(camera, viewport),
             screen: Screen::new(camera, viewport),
             objects: OnceLock::new(),
+            visible: OnceLock::new(),
         }
     }
 
@@ -140,16 +144,29 @@ impl<'p> Picker<'p> {
     #[must_use]
     pub fn with_points(scene: &'p Scene, camera: &Camera, frame: &'p Frame, known: &KeptPoints) -> Self {
         let picker = Self::new(scene, camera, frame);
-        let objects = OnceLock::from(objects(scene, &picker.screen, known));
-        Self { objects, ..picker }
+        let objects = objects(scene, &picker.screen, known);
+        let visible = known.visible.clone().filter(|visible| visible.hold(&objects, &picker.screen));
+        let visible = visible.map_or_else(OnceLock::new, |visible| OnceLock::from(Some(visible)));
+        Self { objects: OnceLock::from(objects), visible, ..picker }
     }
 
-    /// Where points are, for the next picker. Takes 24 bytes for each vertex of objects that were
-    /// asked about in large regions.
+    /// Finds out which vertices are visible anywhere in the image, for all later questions about the
+    /// visible vertices of a region: ahead of them, perhaps on another thread. It takes about as long as the
+    /// question about all of the image. In a scene with poses, or with faces that are not opaque, nothing is
+    /// found out.
+    pub fn find_visible_vertices(&self) {
+        self.visible.get_or_init(|| VisibleVertices::find(self).map(Arc::new));
+    }
+
+    /// What was found out of points, for the next picker. Takes 24 bytes for each vertex of objects that were
+    /// asked about in large regions, and a bit for each vertex if the visible ones were found.
     #[must_use]
     pub fn points(&self) -> KeptPoints {
         let of_object = |object: &Option<Object<'_>>| object.as_ref()?.points(&self.screen);
-        KeptPoints { objects: self.objects.get().into_iter().flatten().map(of_object).collect() }
+        KeptPoints {
+            objects: self.objects.get().into_iter().flatten().map(of_object).collect(),
+            visible: self.visible.get().cloned().flatten(),
+        }
     }
 
     /// What is under a pixel; `None` for background, and outside the image. Takes time proportional

@@ -63,24 +63,50 @@ impl<'p> Picker<'p> {
 
     /// The vertices or edges that are hit in a region.
     pub(super) fn elements(&self, kind: Kind, region: &Region, reach: Reach) -> ElementSet {
+        let visible = self.visible.get().and_then(Option::as_deref);
+        match (reach, kind, visible) {
+            (Reach::Visible, Kind::Vertex, Some(visible)) => {
+                self.having_points(kind, region, |object, vertex| {
+                    visible.of(object).is_some_and(|visible| visible.contains(vertex))
+                })
+            }
+            (Reach::Visible, ..) => self.decided(kind, region),
+            (Reach::Through, ..) => self.having_points(kind, region, |_, _| true),
+        }
+    }
+
+    /// The visible elements in a region, of which it is decided which are hidden.
+    pub(super) fn decided(&self, kind: Kind, region: &Region) -> ElementSet {
         let area = self.area(region);
-        let nearby = self.nearby(&area);
         let mut sets = Sets::new(self.objects(), move |mesh| kind.count(mesh));
-        match reach {
-            Reach::Visible => {
-                let names = |point: &Candidate| [point.object, point.element];
-                self.seen((kind, &nearby), names, |[object, element]| sets.insert(object, element));
-            }
-            Reach::Through => {
-                for nearby in &nearby {
-                    let found: Vec<Vec<u32>> = shares(nearby.count(kind))
-                        .into_par_iter()
-                        .map(|share| with_points(kind, nearby, share))
-                        .collect();
-                    let object = nearby.object.node.index() as u32;
-                    found.into_iter().flatten().for_each(|element| sets.insert(object, element));
-                }
-            }
+        let names = |point: &Candidate| [point.object, point.element];
+        self.seen((kind, &self.nearby(&area)), names, |[object, element]| sets.insert(object, element));
+        sets.finish()
+    }
+
+    /// The elements with a point in a region, of those that pass a test.
+    fn having_points(
+        &self,
+        kind: Kind,
+        region: &Region,
+        passes: impl Fn(&Object<'_>, usize) -> bool + Sync,
+    ) -> ElementSet {
+        let area = self.area(region);
+        let mut sets = Sets::new(self.objects(), move |mesh| kind.count(mesh));
+        for nearby in &self.nearby(&area) {
+            let has_point = |element: usize| {
+                let mut has_point = false;
+                kind.points(nearby, element, |_| has_point = true);
+                has_point
+            };
+            let of_share = |share: Range<usize>| -> Vec<u32> {
+                let elements = share.map(|number| nearby.element(kind, number));
+                let found = elements.filter(|&element| passes(nearby.object, element) && has_point(element));
+                found.map(|element| element as u32).collect()
+            };
+            let found: Vec<_> = shares(nearby.count(kind)).into_par_iter().map(of_share).collect();
+            let object = nearby.object.node.index() as u32;
+            found.into_iter().flatten().for_each(|element| sets.insert(object, element));
         }
         sets.finish()
     }
@@ -290,17 +316,6 @@ fn points(kind: Kind, nearby: &Nearby<'_>, share: Range<usize>) -> (Vec<Candidat
         }
     }
     (points, share.end..share.end)
-}
-
-/// Those of some elements that have a point in an area.
-fn with_points(kind: Kind, nearby: &Nearby<'_>, share: Range<usize>) -> Vec<u32> {
-    let mut found = Vec::new();
-    for number in share {
-        let (element, mut is_there) = (nearby.element(kind, number), false);
-        kind.points(nearby, element, |_| is_there = true);
-        found.extend(is_there.then_some(element as u32));
-    }
-    found
 }
 
 /// Calls `visit` with each pixel whose centre lies in an area.

@@ -1,11 +1,14 @@
 //! Tools and selection by mouse and keys, from the window's inputs to the document.
 
-use trigon_window::scene::camera::Projector;
+use trigon_edit::scene::Region;
+use trigon_edit::{Command, SelectAction};
+use trigon_window::scene::camera::{AxisView, Projector};
 use trigon_window::scene::math::{DVec2, DVec3};
 use trigon_window::{InputOwner, PointerButton};
 
 use super::*;
 use crate::window::panes::overlay_view;
+use crate::window::pointing::Pointing;
 
 impl Worked {
     /// Where a place in the world is seen.
@@ -164,6 +167,44 @@ fn a_drag_selects_within_a_box_what_is_seen_or_with_x_ray_all() {
     worked.drag(worked.seen(DVec3::Z) - 3.0, worked.seen(DVec3::Z) + 3.0, Modifiers::CTRL);
     assert!(worked.selected() < 6, "fewer");
     assert!(worked.editor.tool.is_none(), "a box is drawn once");
+}
+
+/// Another thread finds the visible vertices while the box is drawn; what it has found does not outlive a change.
+#[test]
+fn a_box_selects_the_vertices_that_are_seen_after_every_change() {
+    /// What somebody finds who knows nothing yet.
+    fn expected(worked: &Worked, [min, max]: [DVec2; 2]) -> usize {
+        let Worked { editor, stage } = worked;
+        let pane = stage.pane_at(min);
+        let region = Region::Rectangle { min, max };
+        let found = Pointing::default().ask(&editor.document, (stage, &pane), editor.reach(), |picks| {
+            picks.region(&region, SelectAction::Replace)
+        });
+        let Some(Command::SelectElements(select)) = found.flatten() else { panic!("some are seen") };
+        let ranges = select.parts.iter().flat_map(|part| &part.ranges);
+        ranges.map(|[first, last]| (last - first + 1) as usize).sum()
+    }
+    let mut worked = Worked::new();
+    worked.keys(">1");
+    let corners = [DVec2::new(10.0, 60.0), DVec2::new(1200.0, 850.0)];
+    let x_ray = |worked: &mut Worked| {
+        worked.key(WindowKey::Character('z'), Modifiers::ALT);
+    };
+    let steps: [&dyn Fn(&mut Worked); 5] =
+        [&|_| {}, &x_ray, &x_ray, &|worked| worked.stage.orbit.set_view(AxisView::Front), &|worked| {
+            worked.keys("gx3!");
+        }];
+    let mut counts = Vec::new();
+    for (number, step) in steps.iter().enumerate() {
+        step(&mut worked);
+        for _ in 0..2 {
+            worked.drag(corners[0], corners[1], Modifiers::NONE);
+            assert_eq!(worked.selected(), expected(&worked, corners), "after step {number}");
+        }
+        counts.push(worked.selected());
+    }
+    assert_eq!(counts[..4], [7, 8, 7, 4], "of a cube");
+    assert_ne!(counts[4], 4, "the front has moved aside");
 }
 
 #[test]

@@ -9,8 +9,8 @@ use trigon_mesh::{Deltas, MeshChange, MorphTarget, primitives};
 use super::super::region::center;
 use super::oracle::{Lens, in_world};
 use crate::{
-    ElementSet, Frame, KeptPoints, Material, NodeId, Outputs, Picker, Reach, Region, RenderSettings, Scene,
-    Transform, render,
+    AlphaMode, ElementSet, Frame, KeptPoints, Material, NodeId, Outputs, Picker, Reach, Region,
+    RenderSettings, Scene, Transform, render,
 };
 
 const SIZE: [u32; 2] = [73, 55];
@@ -252,24 +252,32 @@ fn points_that_are_kept_change_nothing_but_the_time() {
             let change = MeshChange { positions, ..MeshChange::default() };
             scene.change_mesh(mesh, &change).expect("it has a vertex");
         }
+        5 => scene.materials.iter_mut().for_each(|(_, material)| material.double_sided ^= true),
+        6 => scene.node_mut(nodes[0]).expect("it is there").visible = false,
+        7 => scene.materials.iter_mut().for_each(|(_, material)| material.alpha_mode = AlphaMode::Blend),
         _ => {}
     };
-    for number in 0..5 {
+    for number in 0..8 {
         step(&mut scene, number);
-        let seen_from = DVec3::new(if number == 4 { 0.5 } else { 0.0 }, 0.0, 0.0);
+        let seen_from = DVec3::new(if number >= 4 { 0.5 } else { 0.0 }, 0.0, 0.0);
         let camera = Camera { position: camera().position + seen_from, ..camera() };
         let frame = draw(&scene, &camera);
         let picker = Picker::with_points(&scene, &camera, &frame, &kept);
+        assert_eq!(picker.visible.get().is_some(), number == 3, "{number}: only then nothing has changed");
         let alone = Picker::new(&scene, &camera, &frame);
-        for reach in [Reach::Visible, Reach::Through] {
-            assert_eq!(
-                picker.vertices(&region, reach),
-                alone.vertices(&region, reach),
-                "{number}: {reach:?}"
-            );
-            assert_eq!(picker.edges(&region, reach), alone.edges(&region, reach), "{number}: {reach:?}");
+        for is_ahead in [false, true] {
+            if is_ahead {
+                picker.find_visible_vertices();
+            }
+            for reach in [Reach::Visible, Reach::Through] {
+                let vertices = picker.vertices(&region, reach);
+                assert_eq!(vertices, alone.vertices(&region, reach), "{number}: {reach:?}");
+                assert_eq!(picker.edges(&region, reach), alone.edges(&region, reach), "{number}: {reach:?}");
+            }
         }
         kept = picker.points();
-        assert_eq!(kept.objects.iter().flatten().count(), nodes.len(), "those of all solids");
+        assert_eq!(kept.visible.is_some(), number < 7, "{number}: not where pixels decide what a face hides");
+        let shown = if number < 6 { nodes.len() } else { nodes.len() - 1 };
+        assert_eq!(kept.objects.iter().flatten().count(), shown, "those of all solids");
     }
 }

@@ -143,6 +143,8 @@ fn check_scene(seed: u64, tallies: &mut [[Tally; 3]; 2]) {
     let settings = RenderSettings { outputs, samples_per_axis: 1, ..RenderSettings::new(width, height) };
     let frame = render(&scene, &camera, &settings).expect("drawn");
     let picker = Picker::new(&scene, &camera, &frame);
+    let ahead = Picker::new(&scene, &camera, &frame);
+    ahead.find_visible_vertices();
     let oracle = Oracle::new(&scene, &camera, size());
     let places = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
     let pixels: Vec<Pixel> = places.map(|at| pixel(&oracle, at)).collect();
@@ -160,6 +162,7 @@ fn check_scene(seed: u64, tallies: &mut [[Tally; 3]; 2]) {
                 }
             }
             let found = [picker.vertices(&region, reach), picker.edges(&region, reach)];
+            assert!(ahead.vertices(&region, reach) == found[0], "scene {seed}, {region:?}: found ahead");
             for (kind, name) in ["vertex", "edge"].into_iter().enumerate() {
                 check_known(&found[kind], &known[kind], seed);
                 for of in elements[kind] {
