@@ -4,6 +4,8 @@
 //! kept until scene or camera change, so that repeated selections draw nothing. A press of a button announces a
 //! question: another thread then prepares the answer while the hand goes on.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 
 use trigon_edit::mesh::edit::FaceId;
@@ -20,8 +22,14 @@ pub(crate) struct Pointing(Place);
 
 enum Place {
     Here(Box<Lookup>),
-    /// On another thread, which returns it when it is done.
-    Elsewhere(JoinHandle<Box<Lookup>>),
+    Elsewhere(Preparation),
+}
+
+/// A thread that prepares a lookup, and returns it when it is done.
+struct Preparation {
+    thread: JoinHandle<Box<Lookup>>,
+    /// Whether it shall find the visible vertices, too.
+    finds_vertices: Arc<AtomicBool>,
 }
 
 /// What a question may be about.
@@ -75,9 +83,12 @@ impl Pointing {
         self.here();
     }
 
-    /// A question about a view is likely to follow. As long as another thread is busy nothing is begun.
+    /// A question about a view is likely to follow. A thread that is at work finds more if it is asked in time.
     pub(crate) fn announce(&mut self, (stage, pane): (&Stage, &Pane), about: Announced) {
-        if matches!(&self.0, Place::Elsewhere(thread) if !thread.is_finished()) {
+        if let Place::Elsewhere(Preparation { thread, finds_vertices }) = &self.0
+            && !thread.is_finished()
+        {
+            finds_vertices.fetch_or(about == Announced::Vertices, Ordering::Relaxed);
             return;
         }
         let lookup = self.here();
@@ -86,20 +97,22 @@ impl Pointing {
             return;
         }
         let (mut lookup, scene) = (Box::new(std::mem::take(lookup)), Scene::clone(&stage.scene));
+        let finds_vertices = Arc::new(AtomicBool::new(about == Announced::Vertices));
+        let asked = Arc::clone(&finds_vertices);
         let prepare = move || {
-            lookup.prepare(&scene, (camera, viewport), about);
+            lookup.prepare(&scene, (camera, viewport), || asked.load(Ordering::Relaxed));
             lookup
         };
         // Without a thread the question takes longer.
         if let Ok(thread) = thread::Builder::new().name("trigon-pointing".into()).spawn(prepare) {
-            self.0 = Place::Elsewhere(thread);
+            self.0 = Place::Elsewhere(Preparation { thread, finds_vertices });
         }
     }
 
     /// The image, after the thread that prepares it is done.
     fn here(&mut self) -> &mut Lookup {
         if let Place::Elsewhere(_) = &self.0
-            && let Place::Elsewhere(thread) = std::mem::take(self).0
+            && let Place::Elsewhere(Preparation { thread, .. }) = std::mem::take(self).0
         {
             // After a panic nothing is known.
             self.0 = Place::Here(thread.join().unwrap_or_default());
@@ -156,9 +169,15 @@ impl Lookup {
         })
     }
 
-    fn prepare(&mut self, scene: &Scene, (camera, viewport): (Camera, Viewport), about: Announced) {
+    /// `finds_vertices` is asked once the image is there.
+    fn prepare(
+        &mut self,
+        scene: &Scene,
+        (camera, viewport): (Camera, Viewport),
+        finds_vertices: impl FnOnce() -> bool,
+    ) {
         let Some(known) = self.known(scene, camera, viewport) else { return };
-        if about == Announced::Vertices {
+        if finds_vertices() {
             let picker = Picker::with_points(scene, &camera, &known.frame, &known.points);
             picker.find_visible_vertices();
             (known.points, known.is_searched) = (picker.points(), true);
