@@ -9,6 +9,9 @@ use super::bits::{bits, bits_where};
 use crate::document::Document;
 use crate::selection::{ElementKind, MeshSelection};
 
+/// So many times as long as one of all elements takes one that is found around a selected vertex.
+const MANY: usize = 32;
+
 /// An edited mesh and how it is shown.
 pub(super) struct ShownMesh<'d> {
     mesh: &'d EditMesh,
@@ -35,9 +38,16 @@ impl<'d> ShownMesh<'d> {
     /// The vertices, edges and faces that are selected, or follow from what is.
     pub(super) fn selected(&self, selected: &MeshSelection, kind: ElementKind) -> [FixedBitSet; 3] {
         match self.whole {
-            Some(mesh) if kind == ElementKind::Vertex => self.of_vertices(mesh, selected),
+            Some(mesh) if kind == ElementKind::Vertex && self.are_many(selected) => {
+                self.of_vertices(mesh, selected)
+            }
             _ => self.of_any(selected, kind),
         }
+    }
+
+    /// Whether it is quicker to look at all elements than at those around the selected vertices.
+    fn are_many(&self, selected: &MeshSelection) -> bool {
+        selected.len() > self.map.vertices.len() / MANY
     }
 
     /// The same of a mesh that is shown as a whole: its own lists of vertices decide, which lie in memory one

@@ -191,7 +191,8 @@ impl Search<'_> {
             moved[first + (triangle - range.start) as usize] = true;
             *any_moved = true;
         };
-        let blocks = triangles[range.start as usize..range.end as usize].chunks(BLOCK);
+        let triangles = &triangles[range.start as usize..range.end as usize];
+        let blocks = if self.has_vertices() { triangles } else { &[] }.chunks(BLOCK);
         for (block, start) in blocks.zip((range.start..).step_by(BLOCK)) {
             if self.reaches(block.as_flattened()) {
                 for (&corners, triangle) in block.iter().zip(start..) {
@@ -235,6 +236,7 @@ impl Search<'_> {
         let indices = range.start as usize..range.end as usize;
         let (corners, count) = match self.geometry.shape {
             Shape::Triangles { .. } => return,
+            _ if !self.has_vertices() => return,
             Shape::Lines { segments, .. } => (segments[indices].as_flattened(), 2),
             Shape::Points { points, .. } => (&points[indices], 1),
         };
@@ -264,6 +266,12 @@ impl Search<'_> {
                     || is_listed(self.change.recolored))
         };
         seeds.extend(ends.into_iter().flatten().filter(is_beside));
+    }
+
+    /// Whether any vertex may have changed. Mostly only colours do.
+    fn has_vertices(&self) -> bool {
+        let [least, greatest] = self.reach;
+        least <= greatest
     }
 
     /// Whether any of some vertices may have changed, tested several at once.

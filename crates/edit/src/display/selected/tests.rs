@@ -40,6 +40,23 @@ fn a_whole_mesh_shows_what_follows_from_its_vertices() {
 }
 
 #[test]
+fn few_vertices_show_what_many_would() {
+    let mut document = document(5);
+    let (id, _) = document.selection().meshes().next().expect("the grid");
+    let mesh = document.mesh(id).expect("it is edited");
+    let face = mesh.faces().next().expect("a face");
+    let corners: Vec<u32> = mesh.face_vertices(face).map(|vertex| vertex.index()).collect();
+    run(&mut document, json!({ "op": "select", "elements": corners }));
+    let (id, selected) = document.selection().meshes().next().expect("the grid");
+    let shown = ShownMesh::of(&document, id).expect("it is shown");
+    assert!(!shown.are_many(selected));
+    let found = shown.selected(selected, ElementKind::Vertex);
+    assert_eq!(found.each_ref().map(|bits| bits.count_ones(..)), [4, 4, 1]);
+    let mesh = shown.whole.expect("all of it is shown");
+    assert_eq!(found, shown.of_vertices(mesh, selected));
+}
+
+#[test]
 fn a_mesh_of_which_something_is_hidden_or_that_has_a_surface_is_not_whole() {
     let mut hidden = document(5);
     run(&mut hidden, json!({ "op": "hide" }));
