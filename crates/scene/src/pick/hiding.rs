@@ -14,9 +14,10 @@ use rayon::prelude::*;
 use trigon_math::DVec2;
 use trigon_raster::simd::Simd;
 
+use super::facing::Facing;
 use super::forms::Forms;
 use super::nearby::{Nearby, NearbyTriangles};
-use super::object::{Facing, Object};
+use super::object::Object;
 use super::occluders::{Around, Extent, Group, Pixels};
 use super::probes::{Probe, Probes};
 use super::region::Area;

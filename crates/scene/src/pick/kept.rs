@@ -5,8 +5,9 @@ use std::sync::Arc;
 use trigon_math::{DMat4, DVec2};
 use trigon_raster::simd::LANES;
 
+use super::facing::Facing;
 use super::screen::Spot;
-use super::visible_vertices::VisibleVertices;
+use crate::elements::ElementSet;
 use crate::geometry::GeometryState;
 
 /// Where the vertices of a scene's objects are on the screen and which of them are visible, as far as a picker has
@@ -35,6 +36,21 @@ pub(super) struct PointOrigin {
     pub(super) map: DMat4,
     /// Of the image, in pixels.
     pub(super) half_size: DVec2,
+}
+
+/// Which vertices no face but their own hides, of all that lie in an image.
+#[derive(Clone, Debug)]
+pub(super) struct VisibleVertices {
+    /// By the indices of nodes.
+    pub(super) origins: Vec<Option<VisibleOrigin>>,
+    pub(super) vertices: ElementSet,
+}
+
+/// What the visibility of points depends on, of one object.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct VisibleOrigin {
+    pub(super) points: PointOrigin,
+    pub(super) facings: Vec<Facing>,
 }
 
 impl KeptPoints {

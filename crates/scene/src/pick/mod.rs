@@ -9,8 +9,8 @@
 //! | `nearest`, `snap` | the elements nearest to a point; points of the scene that a pointer snaps to |
 //! | `region`, `lasso`, `outline` | which points lie in a region; the even-odd rule; distances from a polygon |
 //! | `screen`, `object` | screen positions of an object's points |
-//! | `kept` | what outlives a picker |
-//! | `visible_vertices` | which vertices are visible in all of an image |
+//! | `facing` | which sides of faces are drawn |
+//! | `kept` | what outlives a picker: screen positions and visible vertices |
 //! | `nearby` | the objects near an area, and which of their elements may lie in it |
 //! | `sides` | for large areas: one byte per point, which side of the area it is on |
 //! | `few`, `beyond` | for small areas: skips whole boxes of triangles |
@@ -23,6 +23,7 @@
 mod beyond;
 mod covering;
 mod elements;
+mod facing;
 mod few;
 mod forms;
 mod hiding;
@@ -43,7 +44,6 @@ mod sides;
 mod snap;
 #[cfg(test)]
 mod tests;
-mod visible_vertices;
 
 pub use kept::KeptPoints;
 pub use nearest::Nearest;

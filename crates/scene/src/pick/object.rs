@@ -10,11 +10,11 @@ use trigon_math::{DMat4, DVec3, Vec3};
 use trigon_mesh::Mesh;
 use trigon_raster::simd::{LANES, inlined, lanes_of};
 
-use super::kept::{KeptPoints, ObjectPoints, PointOrigin};
+use super::facing::Facing;
+use super::kept::{KeptPoints, ObjectPoints, PointOrigin, VisibleOrigin};
 use super::region::Area;
 use super::screen::{Screen, Spot, Spots};
 use super::sides::Sides;
-use super::visible_vertices::VisibleOrigin;
 use crate::geometry::{BlockBox, Blocks, GeometryState, Run};
 use crate::material::AlphaMode;
 use crate::node::NodeId;
@@ -48,17 +48,6 @@ pub(super) struct Drawn {
     corners: OnceLock<Arc<Vec<[Spot; LANES]>>>,
 }
 
-/// How faces of a material are drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Facing {
-    /// Whether backs are drawn, too.
-    pub(super) double_sided: bool,
-    /// Whether there are no holes, and nothing shines through.
-    pub(super) is_opaque: bool,
-    /// Whether fronts wind clockwise because the object is mirrored.
-    pub(super) is_mirrored: bool,
-}
-
 /// All visible objects, by the indices of their nodes, with the points that are known of them.
 pub(super) fn objects<'s>(scene: &'s Scene, screen: &Screen, known: &KeptPoints) -> Vec<Option<Object<'s>>> {
     let places = scene.visible_places();
@@ -79,6 +68,19 @@ pub(super) fn objects<'s>(scene: &'s Scene, screen: &Screen, known: &KeptPoints)
         objects[node.index()] = Some(object);
     }
     objects
+}
+
+/// What decides which vertices of all objects are visible, by the indices of their nodes. `None` if it also depends on
+/// something else: a pose, or the pixels in which a face with holes or a translucent one is visible.
+pub(super) fn visible_origins(
+    objects: &[Option<Object<'_>>],
+    screen: &Screen,
+) -> Option<Vec<Option<VisibleOrigin>>> {
+    let of_object = |object: &Option<Object<'_>>| match object {
+        Some(object) => object.visible_origin(screen).map(Some),
+        None => Some(None),
+    };
+    objects.iter().map(of_object).collect()
 }
 
 impl<'s> Object<'s> {
@@ -132,7 +134,7 @@ impl<'s> Object<'s> {
 
     /// What decides which points it hides, and which of its own are hidden; `None` in a pose, and if it hides
     /// points only in some pixels.
-    pub(super) fn visible_origin(&self, screen: &Screen) -> Option<VisibleOrigin> {
+    fn visible_origin(&self, screen: &Screen) -> Option<VisibleOrigin> {
         let facings = self.drawn.as_ref().map_or(&[][..], |drawn| &drawn.facings).to_vec();
         let is_opaque = facings.iter().all(|facing| facing.is_opaque);
         let points = self.origin(screen).filter(|_| is_opaque)?;
@@ -260,13 +262,6 @@ impl Drawn {
     fn position(&self, corner: usize) -> DVec3 {
         let [x, y, z] = &self.shape.geometry.columns.positions;
         Vec3::new(x[corner], y[corner], z[corner]).as_dvec3()
-    }
-}
-
-impl Facing {
-    /// Whether a triangle of this area on the screen, where y points down, is drawn.
-    pub(super) fn draws(&self, area: f64) -> bool {
-        area != 0.0 && (self.double_sided || (area < 0.0) != self.is_mirrored)
     }
 }
 

@@ -9,14 +9,13 @@ use trigon_math::DVec2;
 use trigon_mesh::Mesh;
 
 use super::elements::Sets;
-use super::kept::KeptPoints;
+use super::kept::{KeptPoints, VisibleVertices};
 use super::kind::Kind;
 use super::nearest::{Best, Nearest};
-use super::object::{Object, objects};
+use super::object::{Object, objects, visible_origins};
 use super::region::{Region, center};
 use super::screen::Screen;
 use super::search::for_each_pixel;
-use super::visible_vertices::VisibleVertices;
 use crate::elements::ElementSet;
 use crate::frame::{Frame, Hit};
 use crate::node::NodeId;
@@ -145,7 +144,10 @@ impl<'p> Picker<'p> {
     pub fn with_points(scene: &'p Scene, camera: &Camera, frame: &'p Frame, known: &KeptPoints) -> Self {
         let picker = Self::new(scene, camera, frame);
         let objects = objects(scene, &picker.screen, known);
-        let visible = known.visible.clone().filter(|visible| visible.hold(&objects, &picker.screen));
+        let is_same = |visible: &Arc<VisibleVertices>| {
+            visible_origins(&objects, &picker.screen).is_some_and(|origins| origins == visible.origins)
+        };
+        let visible = known.visible.clone().filter(is_same);
         let visible = visible.map_or_else(OnceLock::new, |visible| OnceLock::from(Some(visible)));
         Self { objects: OnceLock::from(objects), visible, ..picker }
     }
@@ -155,7 +157,7 @@ impl<'p> Picker<'p> {
     /// question about all of the image. In a scene with poses, or with faces that are not opaque, nothing is
     /// found out.
     pub fn find_visible_vertices(&self) {
-        self.visible.get_or_init(|| VisibleVertices::find(self).map(Arc::new));
+        self.visible.get_or_init(|| self.visible_vertices().map(Arc::new));
     }
 
     /// What was found out of points, for the next picker. Takes 24 bytes for each vertex of objects that were

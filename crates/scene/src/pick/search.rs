@@ -10,11 +10,11 @@ use trigon_math::DVec2;
 use super::covering::Centers;
 use super::elements::Sets;
 use super::hiding::{Candidate, Hiding};
-use super::kept::KeptPoints;
+use super::kept::{KeptPoints, VisibleVertices};
 use super::kind::Kind;
 use super::nearby::Nearby;
 use super::nearest::Best;
-use super::object::{Object, objects};
+use super::object::{Object, objects, visible_origins};
 use super::outline::Outline;
 use super::picker::{Picker, Reach};
 use super::region::{Area, Region, center};
@@ -67,7 +67,7 @@ impl<'p> Picker<'p> {
         match (reach, kind, visible) {
             (Reach::Visible, Kind::Vertex, Some(visible)) => {
                 self.having_points(kind, region, |object, vertex| {
-                    visible.of(object).is_some_and(|visible| visible.contains(vertex))
+                    visible.vertices.of(object.node).is_some_and(|visible| visible.contains(vertex))
                 })
             }
             (Reach::Visible, ..) => self.decided(kind, region),
@@ -75,8 +75,15 @@ impl<'p> Picker<'p> {
         }
     }
 
+    /// The visible vertices of all of the image; `None` if they cannot be kept.
+    pub(super) fn visible_vertices(&self) -> Option<VisibleVertices> {
+        let origins = visible_origins(self.objects(), &self.screen)?;
+        let whole = Region::Rectangle { min: DVec2::ZERO, max: self.projector.viewport().size() };
+        Some(VisibleVertices { origins, vertices: self.decided(Kind::Vertex, &whole) })
+    }
+
     /// The visible elements in a region, of which it is decided which are hidden.
-    pub(super) fn decided(&self, kind: Kind, region: &Region) -> ElementSet {
+    fn decided(&self, kind: Kind, region: &Region) -> ElementSet {
         let area = self.area(region);
         let mut sets = Sets::new(self.objects(), move |mesh| kind.count(mesh));
         let names = |point: &Candidate| [point.object, point.element];

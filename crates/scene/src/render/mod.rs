@@ -44,7 +44,7 @@ pub enum RenderError {
     /// The processor lacks the requested SIMD level.
     #[error(transparent)]
     Simd(#[from] SimdLevelError),
-    /// [`Renderer::render_cancellable`] was cancelled.
+    /// [`Renderer::render_cancellable`] or [`Renderer::render_shared`] was cancelled.
     #[error("the frame was cancelled")]
     Cancelled,
 }

@@ -119,6 +119,21 @@ impl Renderer {
     /// later frame, and of an image that differs little from an earlier one only those parts. To draw one image
     /// after the other without copying, drop each frame when the next one is there.
     ///
+    /// ```
+    /// use trigon_scene::{Renderer, showcase};
+    ///
+    /// let scene = showcase();
+    /// let mut renderer = Renderer::builder().size(32, 24).build();
+    /// let camera = scene.overview(renderer.settings().aspect());
+    /// let mut shown = renderer.render_shared(&scene, &camera, None)?;
+    /// for _ in 0..3 {
+    ///     let next = renderer.render_shared(&scene, &camera, None)?;
+    ///     assert!(next == shown, "nothing has changed");
+    ///     shown = next;
+    /// }
+    /// # Ok::<(), trigon_scene::RenderError>(())
+    /// ```
+    ///
     /// # Errors
     /// Those of [`render`](Self::render), and [`RenderError::Cancelled`].
     pub fn render_shared(
