@@ -204,7 +204,7 @@ impl Engine {
                 let into = Destination { target, frame: &mut free.frame, needed };
                 self.kept.draw(pass, (settings, plan), into, (rasterizer, counts))
             } else {
-                step.draw(pass, (settings, camera), (target, free, &self.frames), rasterizer)
+                step.draw(pass, (settings, camera), (target, free), (&self.frames, rasterizer))
             }
         })?;
         self.stats += stats;

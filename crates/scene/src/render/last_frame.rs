@@ -143,8 +143,8 @@ impl Step {
         &self,
         pass: &Pass<'_>,
         (settings, camera): (&RenderSettings, &Camera),
-        (blank, free, frames): (Target<'_>, &mut FreeFrame, &SharedFrames),
-        rasterizer: &mut Rasterizer,
+        (blank, free): (Target<'_>, &mut FreeFrame),
+        (frames, rasterizer): (&SharedFrames, &mut Rasterizer),
     ) -> Result<Stats, TargetError> {
         let changes: Option<Vec<DrawChange<'_>>> = match self {
             Self::Apart | Self::Whole => None,
