@@ -41,6 +41,15 @@ pub(super) struct Engine {
     pub(super) is_timed: bool,
 }
 
+/// What is to be drawn.
+#[derive(Clone, Copy)]
+pub(super) struct Request<'r> {
+    pub(super) scene: &'r Scene,
+    pub(super) camera: &'r Camera,
+    pub(super) settings: &'r RenderSettings,
+    pub(super) cancel: Option<&'r Cancel>,
+}
+
 impl Engine {
     /// Explains a pixel of the image that [`draw`](Self::draw) would make; `None` outside of it.
     pub(super) fn explain(
@@ -67,33 +76,20 @@ impl Engine {
     }
 
     /// Draws into an existing frame; after an error its contents are unspecified.
-    pub(super) fn draw(
-        &mut self,
-        scene: &Scene,
-        camera: &Camera,
-        settings: &RenderSettings,
-        cancel: Option<&Cancel>,
-        frame: &mut Frame,
-    ) -> Result<(), RenderError> {
+    pub(super) fn draw(&mut self, request: Request<'_>, frame: &mut Frame) -> Result<(), RenderError> {
         let mut free = FreeFrame::of(std::mem::take(frame));
-        let drawn = self.draw_free(scene, camera, settings, cancel, &mut free);
+        let drawn = self.draw_free(request, &mut free);
         if let (Ok(()), Some(rasterizer)) = (drawn, &self.rasterizer) {
-            self.frames.keep(&free, settings, rasterizer)?;
+            self.frames.keep(&free, request.settings, rasterizer);
         }
         *frame = free.frame;
         drawn
     }
 
     /// Draws a frame that is shared with the caller.
-    pub(super) fn draw_shared(
-        &mut self,
-        scene: &Scene,
-        camera: &Camera,
-        settings: &RenderSettings,
-        cancel: Option<&Cancel>,
-    ) -> Result<Arc<Frame>, RenderError> {
+    pub(super) fn draw_shared(&mut self, request: Request<'_>) -> Result<Arc<Frame>, RenderError> {
         let mut free = self.frames.take();
-        match self.draw_free(scene, camera, settings, cancel, &mut free) {
+        match self.draw_free(request, &mut free) {
             Ok(()) => Ok(self.frames.share(free)),
             Err(error) => {
                 self.frames.give_back(free.frame);
@@ -102,16 +98,10 @@ impl Engine {
         }
     }
 
-    fn draw_free(
-        &mut self,
-        scene: &Scene,
-        camera: &Camera,
-        settings: &RenderSettings,
-        cancel: Option<&Cancel>,
-        free: &mut FreeFrame,
-    ) -> Result<(), RenderError> {
+    fn draw_free(&mut self, request: Request<'_>, free: &mut FreeFrame) -> Result<(), RenderError> {
+        let Request { scene, camera, settings, cancel } = request;
         if settings.display == Display::Depth && settings.outputs.color {
-            return self.draw_depth(scene, camera, settings, cancel, free);
+            return self.draw_depth(request, free);
         }
         // Checks the size before memory is allocated for it.
         let sample = blank(settings)?.visibility_sample();
@@ -158,17 +148,11 @@ impl Engine {
     }
 
     /// Draws depths as colours.
-    fn draw_depth(
-        &mut self,
-        scene: &Scene,
-        camera: &Camera,
-        settings: &RenderSettings,
-        cancel: Option<&Cancel>,
-        free: &mut FreeFrame,
-    ) -> Result<(), RenderError> {
+    fn draw_depth(&mut self, request: Request<'_>, free: &mut FreeFrame) -> Result<(), RenderError> {
+        let settings = request.settings;
         let mut uncolored = settings.clone();
         (uncolored.outputs.color, uncolored.outputs.depth) = (false, true);
-        self.draw_free(scene, camera, &uncolored, cancel, free)?;
+        self.draw_free(Request { settings: &uncolored, ..request }, free)?;
         paint_depth(&mut free.frame);
         free.frame.depth.take_if(|_| !settings.outputs.depth);
         Ok(())

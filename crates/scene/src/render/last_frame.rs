@@ -147,11 +147,10 @@ impl Step {
         (frames, rasterizer): (&SharedFrames, &mut Rasterizer),
     ) -> Result<Stats, TargetError> {
         let changes: Option<Vec<DrawChange<'_>>> = match self {
-            Self::Apart | Self::Whole => None,
-            Self::Changed(draws) => {
-                frames.bring_up_to_date(free, rasterizer);
+            Self::Changed(draws) if frames.bring_up_to_date(free, rasterizer) => {
                 Some(draws.iter().map(DrawChange::from).collect())
             }
+            Self::Apart | Self::Whole | Self::Changed(_) => None,
         };
         let mut target = target_of(blank, &mut free.frame)?;
         let redraw = rasterizer.redraw(pass, &mut target, changes.as_deref());

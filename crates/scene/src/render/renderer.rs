@@ -7,7 +7,7 @@ use trigon_raster::{Cancel, PixelExplanation, Stats};
 
 use super::RenderError;
 use super::builder::RendererBuilder;
-use super::engine::Engine;
+use super::engine::{Engine, Request};
 use crate::effect::Effect;
 use crate::effects::EffectCounts;
 use crate::frame::Frame;
@@ -95,7 +95,7 @@ impl Renderer {
         camera: &Camera,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        self.engine.draw(scene, camera, &self.settings, None, frame)
+        self.engine.draw(Request { scene, camera, settings: &self.settings, cancel: None }, frame)
     }
 
     /// As [`render_into`](Self::render_into), but returns soon after `cancel` is cancelled: when the
@@ -111,7 +111,7 @@ impl Renderer {
         cancel: &Cancel,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        self.engine.draw(scene, camera, &self.settings, Some(cancel), frame)
+        self.engine.draw(Request { scene, camera, settings: &self.settings, cancel: Some(cancel) }, frame)
     }
 
     /// As [`render`](Self::render), or with `cancel` as [`render_cancellable`](Self::render_cancellable), into a
@@ -142,7 +142,7 @@ impl Renderer {
         camera: &Camera,
         cancel: Option<&Cancel>,
     ) -> Result<Arc<Frame>, RenderError> {
-        self.engine.draw_shared(scene, camera, &self.settings, cancel)
+        self.engine.draw_shared(Request { scene, camera, settings: &self.settings, cancel })
     }
 
     /// Draws what each of these cameras sees, one after the other, and passes every frame with its

@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use trigon_raster::{Rasterizer, Rect, TargetError};
+use trigon_raster::{Rasterizer, Rect};
 
 use crate::frame::Frame;
 use crate::settings::RenderSettings;
@@ -74,16 +74,14 @@ impl SharedFrames {
         frame
     }
 
-    /// Keeps a copy of a frame that its owner may change, if the next image can follow from it.
-    pub(super) fn keep(
-        &mut self,
-        drawn: &FreeFrame,
-        settings: &RenderSettings,
-        rasterizer: &Rasterizer,
-    ) -> Result<(), TargetError> {
-        let Some(redrawn) = &drawn.redrawn else { return Ok(()) };
+    /// Keeps a copy of a frame that its owner may change, if the next image can follow from it and there is memory
+    /// for it.
+    pub(super) fn keep(&mut self, drawn: &FreeFrame, settings: &RenderSettings, rasterizer: &Rasterizer) {
+        let Some(redrawn) = &drawn.redrawn else { return };
         let mut kept = self.take();
-        kept.frame.make_room(settings)?;
+        if kept.frame.make_room(settings).is_err() {
+            return;
+        }
         if kept.image == Some(self.latest) {
             copy_parts(&drawn.frame, &mut kept.frame, redrawn, rasterizer);
         } else {
@@ -91,7 +89,6 @@ impl SharedFrames {
         }
         kept.redrawn = Some(redrawn.clone());
         self.share(kept);
-        Ok(())
     }
 
     /// Takes the memory of a frame whose contents do not matter.
@@ -99,17 +96,18 @@ impl SharedFrames {
         self.frames.push((Arc::new(frame), None));
     }
 
-    /// Makes a free frame show the last numbered image, which has its size and outputs. Everybody else
-    /// may hold that one, but it must not have been freed.
-    pub(super) fn bring_up_to_date(&self, free: &mut FreeFrame, rasterizer: &Rasterizer) {
+    /// Makes a free frame show the last numbered image, which has its size and outputs. Returns whether it does: an
+    /// image that was refused or cancelled since may have taken the memory of that one.
+    pub(super) fn bring_up_to_date(&self, free: &mut FreeFrame, rasterizer: &Rasterizer) -> bool {
         if free.image == Some(self.latest) {
-            return;
+            return true;
         }
-        let latest = self.frames.iter().find(|(_, image)| *image == Some(self.latest));
-        let (latest, _) = latest.expect("free frames are taken newest first");
+        let mut frames = self.frames.iter();
+        let Some((latest, _)) = frames.find(|(_, image)| *image == Some(self.latest)) else { return false };
         let known = free.image.and_then(|image| self.redrawn_since(image));
         let parts = known.unwrap_or_else(|| vec![whole(latest)]);
         copy_parts(latest, &mut free.frame, &parts, rasterizer);
+        true
     }
 
     /// The parts that differ between an image and the last one; `None` if that is forgotten.
@@ -223,19 +221,22 @@ mod tests {
         let second = frames.share(filled(FreeFrame::default(), 2, Some(part([1, 0], [2, 1]))));
         drop(first);
         let mut free = frames.take();
-        frames.bring_up_to_date(&mut free, &rasterizer);
+        assert!(frames.bring_up_to_date(&mut free, &rasterizer));
         assert_eq!(shown(&free.frame), [1, 2, 1, 1, 1, 1], "the first image, and the part of the second");
         free.redrawn = Some(part([0, 1], [1, 3]));
         let third = frames.share(filled(free, 3, Some(part([0, 1], [1, 3]))));
         drop(second);
         let mut free = frames.take();
-        frames.bring_up_to_date(&mut free, &rasterizer);
+        assert!(frames.bring_up_to_date(&mut free, &rasterizer));
         assert_eq!(shown(&free.frame), [2, 2, 3, 2, 3, 2], "the second image, and the part of the third");
         frames.give_back(free.frame);
         drop(third);
         let mut newest = frames.take();
-        frames.bring_up_to_date(&mut newest, &rasterizer);
+        assert!(frames.bring_up_to_date(&mut newest, &rasterizer));
         assert_eq!(shown(&newest.frame), [3; 6], "the last image needs nothing");
+        frames.give_back(newest.frame);
+        let mut unknown = frames.take();
+        assert!(!frames.bring_up_to_date(&mut unknown, &rasterizer), "the last image is gone");
     }
 
     #[test]
@@ -248,7 +249,7 @@ mod tests {
         }
         drop(old);
         for mut free in [frames.take(), filled(FreeFrame::default(), 0, None)] {
-            frames.bring_up_to_date(&mut free, &rasterizer);
+            assert!(frames.bring_up_to_date(&mut free, &rasterizer));
             assert_eq!(shown(&free.frame), [REMEMBERED as u8 + 2; 6]);
         }
     }

@@ -323,6 +323,38 @@ proptest! {
     }
 }
 
+/// An image that is not drawn to the end takes the memory of the last one, which the next image then cannot follow.
+#[test]
+fn images_after_one_that_was_refused_or_cancelled_are_fresh_ones() {
+    let settings = RenderSettings { style: Style::SurfaceWithEdges, ..RenderSettings::new(48, 36) };
+    let refuse: [fn(&mut RenderSettings, &Cancel); 3] = [
+        |settings, _| settings.width = 0,
+        |settings, cancel| {
+            settings.outputs = Outputs { ids: true, ..Outputs::NONE };
+            cancel.cancel();
+        },
+        |settings, cancel| {
+            settings.display = crate::Display::Depth;
+            cancel.cancel();
+        },
+    ];
+    let mut sequence = Sequence::new(model(AlphaMode::Opaque), settings.clone());
+    for refuse in refuse {
+        for _ in 0..3 {
+            sequence.draw_at(Place::Shared);
+        }
+        sequence.shown = Arc::default();
+        let cancel = Cancel::default();
+        refuse(sequence.renderer.settings_mut(), &cancel);
+        let Sequence { model, camera, renderer, .. } = &mut sequence;
+        renderer.render_shared(&model.scene, camera, Some(&cancel)).expect_err("it was refused");
+        *renderer.settings_mut() = settings.clone();
+        sequence.apply(&moved(3));
+        sequence.draw_at(Place::Shared);
+        assert!(sequence.frame == sequence.fresh());
+    }
+}
+
 /// How many tiles the last image has drawn.
 fn tiles(sequence: &Sequence) -> u64 {
     sequence.renderer.stats().tiles
