@@ -13,7 +13,7 @@ use super::loading::Loading;
 use super::open_file::{Answer, Next};
 use super::panels::Popup;
 use super::panes::pane_of;
-use super::pointing::Announced;
+use super::pointing::Prefetch;
 use super::running::Running;
 use super::saving::Saving;
 use super::{files, interface, pick};
@@ -170,7 +170,7 @@ impl Editor {
         if !self.press_gizmo(stage, hands) {
             self.click = Click::new(hands);
             if let Some(Click { at, .. }) = self.click {
-                self.pointing.announce((stage, &stage.pane_at(at)), Announced::Place);
+                self.pointing.prefetch((stage, &stage.pane_at(at)), Prefetch::Ids);
             }
         }
         Taken::Yes

@@ -9,7 +9,7 @@ use super::button_start::{ButtonStart, Passed};
 use super::click::Click;
 use super::editor::{Editor, Message};
 use super::panes::{in_pane, pane_of, tool_view};
-use super::pointing::Announced;
+use super::pointing::Prefetch;
 use super::running::{Running, What, gesture_kind, transform_kind};
 use crate::request::{Request, ToolKind};
 use crate::tool::{
@@ -71,7 +71,7 @@ impl Editor {
     fn follow(&mut self, stage: &mut Stage, running: Running) {
         self.click = None;
         if let What::Gesture(_) = &running.what {
-            self.announce_region(stage, running.side);
+            self.prefetch_region(stage, running.side);
         }
         self.tool = Some(running);
         stage.input_owner = InputOwner::Application;
@@ -200,7 +200,7 @@ impl Editor {
         };
         if goes_on {
             self.tool = Some(running);
-            self.announce_region(stage, side);
+            self.prefetch_region(stage, side);
         } else {
             stage.input_owner = InputOwner::Interface;
         }
@@ -210,14 +210,14 @@ impl Editor {
         Taken::Yes
     }
 
-    /// Something in a region will be selected.
-    fn announce_region(&mut self, stage: &Stage, side: Option<AxisView>) {
+    /// Prefetches what a selection within a region will ask for.
+    fn prefetch_region(&mut self, stage: &Stage, side: Option<AxisView>) {
         let selection = self.document.selection();
         let finds_vertices = selection.is_editing()
             && selection.kinds().contains(ElementKind::Vertex)
             && self.reach() == Reach::Visible;
-        let about = if finds_vertices { Announced::Vertices } else { Announced::Place };
-        self.pointing.announce((stage, &pane_of(stage, side)), about);
+        let what = if finds_vertices { Prefetch::VisibleVertices } else { Prefetch::Ids };
+        self.pointing.prefetch((stage, &pane_of(stage, side)), what);
     }
 
     fn select_region(

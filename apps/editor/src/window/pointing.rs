@@ -1,8 +1,8 @@
 //! The id image in which the editor looks up what is under the pointer.
 //!
 //! It is a separate image: the one in the window may be a draft, and shows edges, vertices and X-ray. It is
-//! kept until scene or camera change, so that repeated selections draw nothing. A press of a button announces a
-//! question: another thread then prepares the answer while the hand goes on.
+//! kept until scene or camera change, so that repeated selections draw nothing. A pressed button
+//! prefetches: another thread prepares what a click or a region will ask for, while the user goes on.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,28 +17,27 @@ use trigon_edit::{Document, Picks};
 use trigon_window::scene::math::DVec2;
 use trigon_window::{Pane, Stage};
 
-/// Where it is looked up.
-pub(crate) struct Pointing(Place);
-
-enum Place {
-    Here(Box<Lookup>),
-    Elsewhere(Preparation),
+/// The lookup. While a thread prefetches, that one has it, and an empty one is here.
+#[derive(Default)]
+pub(crate) struct Pointing {
+    lookup: Lookup,
+    task: Option<Task>,
 }
 
-/// A thread that prepares a lookup, and returns it when it is done.
-struct Preparation {
-    thread: JoinHandle<Box<Lookup>>,
-    /// Whether it shall find the visible vertices, too.
+/// A thread that prefetches, and returns the lookup when it is done.
+struct Task {
+    thread: JoinHandle<Lookup>,
+    /// Whether it also has to find the visible vertices.
     finds_vertices: Arc<AtomicBool>,
 }
 
-/// What a question may be about.
+/// What to prefetch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Announced {
-    /// A place.
-    Place,
-    /// The visible vertices in a region.
-    Vertices,
+pub(crate) enum Prefetch {
+    /// The id image.
+    Ids,
+    /// The id image, and which vertices are visible in it.
+    VisibleVertices,
 }
 
 /// An image of ids, drawn when somebody asks.
@@ -54,14 +53,8 @@ struct Known {
     frame: Frame,
     /// What is known of points in it, as far as somebody asked.
     points: KeptPoints,
-    /// Whether the visible vertices were looked for.
-    is_searched: bool,
-}
-
-impl Default for Pointing {
-    fn default() -> Self {
-        Self(Place::Here(Box::default()))
-    }
+    /// Whether the visible vertices are among that, if they can be kept.
+    knows_visible_vertices: bool,
 }
 
 impl Default for Lookup {
@@ -75,52 +68,46 @@ impl Default for Lookup {
 impl Pointing {
     /// The scene is another one.
     pub(crate) fn forget(&mut self) {
-        self.here().known = None;
+        self.lookup().known = None;
     }
 
     /// Waits until no other thread looks at the scene, which is about to change.
     pub(crate) fn wait(&mut self) {
-        self.here();
+        self.lookup();
     }
 
-    /// A question about a view is likely to follow. A thread that is at work finds more if it is asked in time.
-    pub(crate) fn announce(&mut self, (stage, pane): (&Stage, &Pane), about: Announced) {
-        if let Place::Elsewhere(Preparation { thread, finds_vertices }) = &self.0
+    /// Begins to prefetch for a view on another thread. One that already runs does more if it is asked in time.
+    pub(crate) fn prefetch(&mut self, (stage, pane): (&Stage, &Pane), what: Prefetch) {
+        if let Some(Task { thread, finds_vertices }) = &self.task
             && !thread.is_finished()
         {
-            finds_vertices.fetch_or(about == Announced::Vertices, Ordering::Relaxed);
+            finds_vertices.fetch_or(what == Prefetch::VisibleVertices, Ordering::Relaxed);
             return;
         }
-        let lookup = self.here();
+        let lookup = self.lookup();
         let (camera, viewport) = (stage.camera_of(pane), pane.area.size);
-        if lookup.is_prepared(&camera, viewport, about) {
+        if lookup.has(&camera, viewport, what) {
             return;
         }
-        let (mut lookup, scene) = (Box::new(std::mem::take(lookup)), Scene::clone(&stage.scene));
-        let finds_vertices = Arc::new(AtomicBool::new(about == Announced::Vertices));
+        let (mut lookup, scene) = (std::mem::take(lookup), Scene::clone(&stage.scene));
+        let finds_vertices = Arc::new(AtomicBool::new(what == Prefetch::VisibleVertices));
         let asked = Arc::clone(&finds_vertices);
-        let prepare = move || {
-            lookup.prepare(&scene, (camera, viewport), || asked.load(Ordering::Relaxed));
+        let work = move || {
+            lookup.prefetch(&scene, (camera, viewport), || asked.load(Ordering::Relaxed));
             lookup
         };
-        // Without a thread the question takes longer.
-        if let Ok(thread) = thread::Builder::new().name("trigon-pointing".into()).spawn(prepare) {
-            self.0 = Place::Elsewhere(Preparation { thread, finds_vertices });
-        }
+        // Without a thread the question itself finds out.
+        let thread = thread::Builder::new().name("trigon-pointing".into()).spawn(work);
+        self.task = thread.ok().map(|thread| Task { thread, finds_vertices });
     }
 
-    /// The image, after the thread that prepares it is done.
-    fn here(&mut self) -> &mut Lookup {
-        if let Place::Elsewhere(_) = &self.0
-            && let Place::Elsewhere(Preparation { thread, .. }) = std::mem::take(self).0
-        {
+    /// Waits for the thread that prefetches, if there is one.
+    fn lookup(&mut self) -> &mut Lookup {
+        if let Some(task) = self.task.take() {
             // After a panic nothing is known.
-            self.0 = Place::Here(thread.join().unwrap_or_default());
+            self.lookup = task.thread.join().unwrap_or_default();
         }
-        match &mut self.0 {
-            Place::Here(lookup) => lookup,
-            Place::Elsewhere(_) => unreachable!("it was brought here"),
-        }
+        &mut self.lookup
     }
 
     /// Asks what is under the pointer or in a region of a view, in its physical pixels; `None` while the window
@@ -133,7 +120,7 @@ impl Pointing {
         question: impl FnOnce(&Picks<'_>) -> T,
     ) -> Option<T> {
         let (camera, viewport) = (stage.camera_of(pane), pane.area.size);
-        let known = self.here().known(&stage.scene, camera, viewport)?;
+        let known = self.lookup().known(&stage.scene, camera, viewport)?;
         let picker = Picker::with_points(&stage.scene, &camera, &known.frame, &known.points);
         let answer = question(&Picks::new(document, &picker, Projector::new(&camera, viewport), reach));
         known.points = picker.points();
@@ -147,7 +134,7 @@ impl Pointing {
         (stage, pane): (&Stage, &Pane),
         at: DVec2,
     ) -> Option<(MeshId, FaceId)> {
-        let known = self.here().known(&stage.scene, stage.camera_of(pane), pane.area.size)?;
+        let known = self.lookup().known(&stage.scene, stage.camera_of(pane), pane.area.size)?;
         if at.cmplt(DVec2::ZERO).any() {
             return None;
         }
@@ -160,17 +147,17 @@ impl Pointing {
 }
 
 impl Lookup {
-    /// Whether a question of this kind needs nothing more.
-    fn is_prepared(&self, camera: &Camera, viewport: Viewport, about: Announced) -> bool {
+    /// Whether something of a view is known.
+    fn has(&self, camera: &Camera, viewport: Viewport, what: Prefetch) -> bool {
         self.known.as_ref().is_some_and(|known| {
             known.camera == *camera
                 && known.viewport == viewport
-                && (about == Announced::Place || known.is_searched)
+                && (what == Prefetch::Ids || known.knows_visible_vertices)
         })
     }
 
     /// `finds_vertices` is asked once the image is there.
-    fn prepare(
+    fn prefetch(
         &mut self,
         scene: &Scene,
         (camera, viewport): (Camera, Viewport),
@@ -180,18 +167,19 @@ impl Lookup {
         if finds_vertices() {
             let picker = Picker::with_points(scene, &camera, &known.frame, &known.points);
             picker.find_visible_vertices();
-            (known.points, known.is_searched) = (picker.points(), true);
+            (known.points, known.knows_visible_vertices) = (picker.points(), true);
         }
     }
 
     /// The image of what a camera sees of the scene; `None` where there is nothing to be seen.
     fn known(&mut self, scene: &Scene, camera: Camera, viewport: Viewport) -> Option<&mut Known> {
-        if !self.is_prepared(&camera, viewport, Announced::Place) {
+        if !self.has(&camera, viewport, Prefetch::Ids) {
             let settings = self.renderer.settings_mut();
             (settings.width, settings.height) = (viewport.width, viewport.height);
             let frame = self.renderer.render(scene, &camera).ok();
             let points = KeptPoints::default();
-            self.known = frame.map(|frame| Known { camera, viewport, frame, points, is_searched: false });
+            self.known =
+                frame.map(|frame| Known { camera, viewport, frame, points, knows_visible_vertices: false });
         }
         self.known.as_mut()
     }

@@ -240,6 +240,7 @@ impl Sequence {
                 renderer
                     .render_cancellable(&model.scene, camera, &cancel, &mut given_up)
                     .expect_err("it was cancelled");
+                renderer.render_shared(&model.scene, camera, Some(&cancel)).expect_err("it was cancelled");
             }
             Event::FrameUsed => {
                 frame.color.fill(7);
