@@ -63,6 +63,15 @@ pub(crate) enum Unfinished {
     Impossible(String),
 }
 
+impl From<RenderError> for Unfinished {
+    fn from(error: RenderError) -> Self {
+        match error {
+            RenderError::Cancelled => Self::Cancelled,
+            error => Self::Impossible(error.to_string()),
+        }
+    }
+}
+
 /// The outcome of a job.
 pub(crate) struct Finished {
     pub(crate) purpose: Purpose,
@@ -322,9 +331,14 @@ impl Drawing {
                 let Self { renderer, scene, .. } = self;
                 let drawn = views.draw(*settings, |camera, settings| {
                     let seen = (&*scene, camera);
-                    match &drawer {
-                        None => render(seen, settings, (renderer, cancel)),
-                        Some(drawer) => {
+                    match (&drawer, purpose) {
+                        (None, Purpose::Window(_)) => {
+                            *renderer.settings_mut() = settings;
+                            renderer.render_shared(scene, camera, Some(cancel)).map_err(Unfinished::from)
+                        }
+                        // Whoever asked for it keeps it.
+                        (None, Purpose::Image) => render(seen, settings, (renderer, cancel)).map(Arc::new),
+                        (Some(drawer), _) => {
                             let frame = draw_otherwise(&**drawer, seen, &settings, cancel)?;
                             Ok(Arc::new(if drawer.shows_scene() {
                                 with_ids(frame, seen, settings, (renderer, cancel))?
@@ -363,22 +377,20 @@ fn with_ids(
     }
     let outputs = Outputs { color: false, radiance: false, ..outputs };
     let settings = RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..settings };
-    let seen = render(seen, settings, (renderer, cancel))?;
-    let (depth, object_ids, face_ids) = (seen.depth.clone(), seen.object_ids.clone(), seen.face_ids.clone());
+    let Frame { depth, object_ids, face_ids, .. } = render(seen, settings, (renderer, cancel))?;
     Ok(Frame { depth, object_ids, face_ids, ..frame })
 }
 
+/// Draws a frame that nobody else holds.
 fn render(
     (scene, camera): (&Scene, &Camera),
     settings: RenderSettings,
     (renderer, cancel): (&mut Renderer, &Cancel),
-) -> Result<Arc<Frame>, Unfinished> {
+) -> Result<Frame, Unfinished> {
+    let mut frame = Frame::default();
     *renderer.settings_mut() = settings;
-    match renderer.render_shared(scene, camera, Some(cancel)) {
-        Ok(frame) => Ok(frame),
-        Err(RenderError::Cancelled) => Err(Unfinished::Cancelled),
-        Err(error) => Err(Unfinished::Impossible(error.to_string())),
-    }
+    renderer.render_cancellable(scene, camera, cancel, &mut frame)?;
+    Ok(frame)
 }
 
 /// An image of another size or without colours is rejected.

@@ -49,6 +49,17 @@ fn image(worker: &mut Worker) -> Option<Frame> {
     }
 }
 
+/// An image may be of any size, and its memory goes with it.
+#[test]
+fn whoever_asks_for_an_image_holds_it_alone() {
+    let mut worker = Worker::of_caller();
+    worker.begin(job(8));
+    let Some(Ok(Product::Frame(frame))) = worker.collect().map(|finished| finished.product) else {
+        panic!("it is drawn");
+    };
+    assert!(Arc::try_unwrap(frame).is_ok());
+}
+
 #[test]
 fn a_thread_draws_what_the_caller_would() {
     let scene = showcase();
