@@ -28,7 +28,7 @@ const SIDES: [u32; 2] = [1000, 500];
 /// How often each thing is done.
 const RUNS: usize = 20;
 
-/// The moves of the pointer that draw a box.
+/// The moves of the pointer that draw a box, each with its frame.
 const MOVES: u32 = 16;
 
 fn main() {
@@ -139,7 +139,6 @@ fn box_of_half(worked: &mut Worked<'_>) {
         worked.window.move_to(start);
         worked.window.press(PointerButton::Left);
         let end = MIDDLE + DVec2::new(9.0 * run as f64, 400.0);
-        // A hand takes about a quarter of a second for so long a way.
         for step in 1..=MOVES {
             let share = f64::from(step) / f64::from(MOVES);
             worked.window.move_on_to(start.lerp(end, share));

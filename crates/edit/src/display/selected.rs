@@ -9,7 +9,7 @@ use super::bits::{bits, bits_where};
 use crate::document::Document;
 use crate::selection::{ElementKind, MeshSelection};
 
-/// So many times as long as one of all elements takes one that is found around a selected vertex.
+/// To find the elements around a selected vertex takes about as long as to test this many elements of the mesh.
 const MANY: usize = 32;
 
 /// An edited mesh and how it is shown.

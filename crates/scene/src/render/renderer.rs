@@ -115,9 +115,9 @@ impl Renderer {
     }
 
     /// As [`render`](Self::render), or with `cancel` as [`render_cancellable`](Self::render_cancellable), into a
-    /// frame that the renderer also holds. Once the caller and all others have dropped it, its memory takes a
-    /// later frame, and of an image that differs little from an earlier one only those parts. To draw one image
-    /// after the other without copying, drop each frame when the next one is there.
+    /// frame that the renderer holds, too. Once everybody else has dropped it, a later frame is drawn into the
+    /// same memory; if little has changed in between, only the parts that differ are. To show one image after
+    /// the other without copying them, drop each one when the next one is there.
     ///
     /// ```
     /// use trigon_scene::{Renderer, showcase};
