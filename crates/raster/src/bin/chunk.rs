@@ -263,13 +263,7 @@ impl Chunk {
     /// if it has none but triangles and points that are drawn as they are; else it is left as it
     /// is.
     pub(crate) fn set_aside(&mut self, earlier: &mut EarlierEntries) -> bool {
-        let Stats { culled, set_up, clipped, .. } = self.stats;
-        let is_plain = self.extras.is_empty() && self.quads.is_empty() && self.large.is_empty();
-        if !is_plain || clipped > 0 || culled + set_up != self.ordinals.len() as u64 {
-            return false;
-        }
-        // A triangle between the samples of all tiles is in none, and would be missed.
-        if primitives_of(&self.pushed) != set_up {
+        if !self.is_plain(self.ordinals.len()) {
             return false;
         }
         earlier.take((&mut self.tiles, &mut self.pushed));
@@ -277,6 +271,41 @@ impl Chunk {
         self.entries.clear();
         self.stats = Stats::default();
         true
+    }
+
+    /// Whether the primitives that were set up, `count` of them, are triangles and points that are drawn as they
+    /// are, and each of them is either culled or listed by a tile.
+    pub(super) fn is_plain(&self, count: usize) -> bool {
+        let Stats { culled, set_up, clipped, .. } = self.stats;
+        self.extras.is_empty()
+            && self.quads.is_empty()
+            && self.large.is_empty()
+            && clipped == 0
+            && culled + set_up == count as u64
+            // A triangle between the samples of all tiles is in none, and would be missed.
+            && primitives_of(&self.pushed) == set_up
+    }
+
+    /// Drops primitives, given by their places in the chunk, from what tiles list. The chunk must be
+    /// [plain](Self::is_plain).
+    pub(super) fn drop_listed(&mut self, places: &[u32]) {
+        let mut dropped = places.iter().copied().peekable();
+        let mut kept = 0;
+        for at in 0..self.pushed.len() {
+            let place = self.pushed[at].place();
+            while dropped.next_if(|&dropped| dropped < place).is_some() {}
+            if dropped.peek() != Some(&place) {
+                (self.tiles[kept], self.pushed[kept]) = (self.tiles[at], self.pushed[at]);
+                kept += 1;
+            }
+        }
+        self.tiles.truncate(kept);
+        self.pushed.truncate(kept);
+        self.stats.set_up = primitives_of(&self.pushed);
+        self.stats.culled = (self.ordinals.len() - places.len()) as u64 - self.stats.set_up;
+        self.starts.clear();
+        self.entries.clear();
+        self.sort();
     }
 
     /// Takes back what tiles listed of some primitives, by their places in the chunk. They

@@ -105,6 +105,12 @@ impl TriangleRef {
         self.extra == Self::POINT
     }
 
+    /// What triangles of a frame are sorted by.
+    #[inline(always)]
+    pub(crate) fn order(self) -> (u32, u32) {
+        (self.ordinal, self.extra)
+    }
+
     /// The part of its primitive that it is, if it is not all of it: a number that grows from
     /// part to part.
     #[inline(always)]

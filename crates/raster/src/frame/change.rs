@@ -108,10 +108,14 @@ impl DirtyTiles {
         Self((0..count).map(|_| AtomicBool::new(false)).collect())
     }
 
-    /// Adds those that list flagged primitives of a chunk.
-    pub(super) fn add(&self, grid: &Grid, chunk: &Chunk, flags: &[bool]) {
-        let is_flagged = |primitive: u32| flags[primitive as usize];
-        chunk.for_each_tile_of(grid, is_flagged, |tile| self.0[tile as usize].store(true, Ordering::Relaxed));
+    /// Adds those that list primitives of a chunk for which a test of their places holds.
+    pub(super) fn add(&self, grid: &Grid, chunk: &Chunk, is_one: impl Fn(u32) -> bool) {
+        chunk.for_each_tile_of(grid, is_one, |tile| self.add_tile(tile));
+    }
+
+    /// Adds a tile.
+    pub(super) fn add_tile(&self, tile: u32) {
+        self.0[tile as usize].store(true, Ordering::Relaxed);
     }
 
     /// Their numbers, increasing.

@@ -1,7 +1,11 @@
 //! Draws a frame: runs all stages, from the plan to the finished tiles.
 
+mod bits;
 mod change;
+mod follow;
+mod kept_tiles;
 mod layout;
+mod moving;
 mod options;
 mod redraw;
 mod set_up;

@@ -2,13 +2,13 @@
 
 use super::options::FrameOptions;
 use crate::Culling;
-use crate::bin::{Chunk, EarlierEntries, Grid};
+use crate::bin::{Chunk, EarlierEntries, Grid, MovingChunk};
 use crate::clip;
 use crate::geometry::{PointSizes, Shape};
 use crate::line::LineStyle;
 use crate::pass::Recorded;
 use crate::point::{PlainPoints, PointStyle};
-use crate::setup::Setup;
+use crate::setup::{EightPrimitives, Setup};
 use crate::simd::{LANES, Simd, Token, at_level};
 use crate::vertex::{DrawVertices, ScreenVertex};
 use crate::view::{DrawPlan, Plan};
@@ -81,6 +81,34 @@ impl SetUp<'_> {
         chunk.sort();
     }
 
+    /// Sets up the primitives that move, which are listed apart from those of their chunk.
+    pub(super) fn apart(&self, chunk: &Chunk, moving: &mut MovingChunk) {
+        moving.begin(chunk);
+        let (places, listed) = moving.parts();
+        let mut numbers = Vec::with_capacity(places.len());
+        for (draw, range) in self.plan.parts(chunk.ordinals.clone()) {
+            let first = draw.ordinals.start.wrapping_sub(chunk.ordinals.start);
+            let number =
+                |&place: &u32| Some(place.wrapping_sub(first)).filter(|number| range.contains(number));
+            numbers.clear();
+            numbers.extend(places.iter().filter_map(number));
+            let (token, mut setup) = (self.token, self.part(draw, listed));
+            match (&self.pass[draw.draw].geometry.shape, &draw.points) {
+                (&Shape::Triangles { triangles, culling, .. }, _) => {
+                    setup.culling = culling;
+                    at_level!(token, simd => set_up_listed_triangles(simd, &mut setup, (&numbers, triangles)));
+                }
+                (&Shape::Points { points, sizes, .. }, Some(plain)) => {
+                    let looks = (plain, &sizes);
+                    at_level!(token, simd => set_up_listed_points(simd, &mut setup, (&numbers, points), looks));
+                }
+                // None of these is ever listed apart.
+                _ => {}
+            }
+        }
+        listed.sort();
+    }
+
     /// The set-up of one draw's primitives.
     fn part<'s>(&'s self, draw: &DrawPlan, chunk: &'s mut Chunk) -> Setup<'s> {
         let vertices = DrawVertices {
@@ -133,7 +161,8 @@ impl SetUp<'_> {
 #[inline(always)]
 fn set_up_triangles<S: Simd>(simd: S, setup: &mut Setup<'_>, first: u32, triangles: &[[u32; 3]]) {
     for (group, triangles) in triangles.chunks(LANES).enumerate() {
-        setup.eight_triangles(simd, first + (group * LANES) as u32, triangles);
+        let first = first + (group * LANES) as u32;
+        setup.eight_triangles(simd, &EightPrimitives::consecutive(first, triangles));
     }
 }
 
@@ -145,7 +174,33 @@ fn set_up_points<S: Simd>(
     looks: (&PlainPoints, &PointSizes<'_>),
 ) {
     for (group, points) in points.chunks(LANES).enumerate() {
-        setup.eight_points(simd, (first + (group * LANES) as u32, points), looks);
+        let first = first + (group * LANES) as u32;
+        setup.eight_points(simd, &EightPrimitives::consecutive(first, points), looks);
+    }
+}
+
+/// Sets up triangles of a draw by their numbers.
+#[inline(always)]
+fn set_up_listed_triangles<S: Simd>(
+    simd: S,
+    setup: &mut Setup<'_>,
+    (numbers, triangles): (&[u32], &[[u32; 3]]),
+) {
+    for numbers in numbers.chunks(LANES) {
+        setup.eight_triangles(simd, &EightPrimitives::listed(numbers, triangles));
+    }
+}
+
+/// Sets up points of a draw by their numbers.
+#[inline(always)]
+fn set_up_listed_points<S: Simd>(
+    simd: S,
+    setup: &mut Setup<'_>,
+    (numbers, points): (&[u32], &[u32]),
+    looks: (&PlainPoints, &PointSizes<'_>),
+) {
+    for numbers in numbers.chunks(LANES) {
+        setup.eight_points(simd, &EightPrimitives::listed(numbers, points), looks);
     }
 }
 
@@ -162,7 +217,9 @@ fn set_up_moved_triangles<S: Simd>(
         triangles,
         marks,
         #[inline(always)]
-        |setup, first, triangles| setup.eight_triangles(simd, first, triangles),
+        |setup, first, triangles| {
+            setup.eight_triangles(simd, &EightPrimitives::consecutive(first, triangles));
+        },
     );
 }
 
@@ -179,7 +236,9 @@ fn set_up_moved_points<S: Simd>(
         points,
         marks,
         #[inline(always)]
-        |setup, first, points| setup.eight_points(simd, (first, points), looks),
+        |setup, first, points| {
+            setup.eight_points(simd, &EightPrimitives::consecutive(first, points), looks);
+        },
     );
 }
 

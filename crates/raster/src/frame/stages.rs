@@ -3,7 +3,9 @@
 
 use super::FrameOptions;
 use super::change::Signature;
+use super::kept_tiles::Kept;
 use super::layout::Layout;
+use super::moving::Moving;
 use super::options::VERTICES;
 use super::set_up::SetUp;
 use super::tiles::{Scratch, draw_tile};
@@ -32,6 +34,7 @@ pub(crate) struct Arena {
     /// What the last frame was, if the next one may follow it.
     pub(super) followed: Option<Signature>,
     pub(super) touched: Touched,
+    pub(super) moving: Moving,
 }
 
 /// Draws a pass into a target.
@@ -48,14 +51,21 @@ pub(crate) fn draw(
     stats
 }
 
+/// The tiles of a frame that may differ from those of the last one.
+#[derive(Clone, Copy)]
+pub(super) struct SomeTiles<'t> {
+    pub(super) numbers: &'t [u32],
+    pub(super) kept: Option<Kept<'t>>,
+}
+
 /// Draws the tiles, or some of them, of a frame that is prepared.
 pub(super) fn finish(
     view: &FrameView<'_>,
-    (tiles, target): (Option<&[u32]>, &mut Target<'_>),
+    (tiles, target): (Option<SomeTiles<'_>>, &mut Target<'_>),
     options: FrameOptions<'_>,
     scratches: &mut Vec<Scratch>,
 ) -> Stats {
-    let mut stats = Stats { times: view.times, ..count(view.plan, view.chunks) };
+    let mut stats = Stats { times: view.times, ..count(view) };
     let bands = Bands::new(target, view.grid.size / view.supersampling);
     // Those of workers that rest in this frame are kept.
     scratches.resize_with(options.workers.count().max(scratches.len()), Scratch::new);
@@ -110,6 +120,7 @@ impl Arena {
             places: &self.places,
             varyings: &self.varyings,
             chunks: &self.chunks[..used],
+            moving: &[],
             grid,
             drawn: pass.drawn_pixels(target),
             supersampling: axis,
@@ -123,10 +134,10 @@ impl Arena {
     }
 }
 
-fn count(plan: &Plan, chunks: &[Chunk]) -> Stats {
-    let mut stats = Stats { vertices: plan.vertices as u64, ..Stats::default() };
-    for chunk in chunks {
-        stats.primitives += chunk.ordinals.len() as u64;
+fn count(view: &FrameView<'_>) -> Stats {
+    let mut stats = Stats { vertices: view.plan.vertices as u64, ..Stats::default() };
+    stats.primitives = view.chunks.iter().map(|chunk| chunk.ordinals.len() as u64).sum();
+    for chunk in view.chunks.iter().chain(view.moving.iter().map(|moving| &moving.listed)) {
         stats.binned += chunk.binned();
         stats += chunk.stats;
     }
@@ -179,15 +190,15 @@ fn run_vertices(
 /// The tiles, or some of them: every worker takes the next ones until there are none.
 fn draw_tiles(
     view: &FrameView<'_>,
-    some: Option<&[u32]>,
+    some: Option<SomeTiles<'_>>,
     bands: &Bands<'_>,
     options: FrameOptions<'_>,
     scratches: &mut [Scratch],
 ) {
     let tiles = view.tiles();
-    let count = some.map_or(tiles.len(), <[u32]>::len);
+    let count = some.map_or(tiles.len(), |some| some.numbers.len());
     let index_of = |number: u32| match some {
-        Some(some) => some.get(number as usize).copied(),
+        Some(some) => some.numbers.get(number as usize).copied(),
         None => tiles.get(number).map(|[column, row]| row * view.grid.columns + column),
     };
     let next = AtomicU32::new(0);
@@ -215,7 +226,10 @@ fn draw_tiles(
         while let Some(index) = index_of(own.start)
             && !options.is_cancelled()
         {
-            draw_tile(view, scratch, bands, index);
+            match some.and_then(|some| some.kept) {
+                Some(kept) => kept.draw(view, scratch, bands, index),
+                None => draw_tile(view, scratch, bands, index),
+            }
             if let Some(cancel) = options.cancel {
                 cancel.finish_tile();
             }

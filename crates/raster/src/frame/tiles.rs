@@ -5,16 +5,18 @@ use crate::blend::{Layers, blend_translucent};
 use crate::clock::Clock;
 use crate::outer_ink::OuterInk;
 use crate::resolve::{Strip, TileColors, resolve, store_visibility};
-use crate::shade::{Shading, list_visible, shade_tile};
+use crate::shade::{Asked, Shading, list_visible, shade_tile};
 use crate::target::Bands;
-use crate::tile::{Surfaces, TileState, cover_overlay, resolve_visibility};
+use crate::tile::{Listing, Surfaces, TileState, cover_overlay, resolve_visibility};
 use crate::view::FrameView;
 
 /// What a worker keeps from tile to tile and from frame to frame, so that nothing allocates
 /// once it is warm: a part for each stage.
 pub(super) struct Scratch {
-    state: TileState,
-    shading: Shading,
+    pub(super) state: TileState,
+    pub(super) shading: Shading,
+    /// Of a tile of which only some pixels are shaded.
+    pub(super) asked: Box<Asked>,
     layers: Layers,
     /// Tiles that are not written yet.
     pub(super) strip: Strip,
@@ -26,6 +28,7 @@ impl Scratch {
         Self {
             state: TileState::new(),
             shading: Shading::new(),
+            asked: Box::new(Asked::new()),
             layers: Layers::default(),
             strip: Strip::default(),
             stats: Stats::default(),
@@ -37,7 +40,7 @@ impl Scratch {
 pub(super) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Bands<'_>, index: u32) {
     let area = frame.area(index);
     let Scratch { state, shading, strip, stats, .. } = scratch;
-    let surfaces = state.list(frame, index);
+    let surfaces = state.list(frame, index, Listing::All);
     if state.triangles.is_empty() {
         return strip.push_empty(frame, &area, bands);
     }
@@ -65,10 +68,11 @@ fn draw_colors(
     clock: &mut Clock,
 ) {
     let area = frame.area(index);
-    let Scratch { state, shading, layers, strip, stats } = scratch;
+    let Scratch { state, shading, layers, strip, stats, .. } = scratch;
     let is_blended = !surfaces.translucent.is_empty();
     let encoding = if is_blended { None } else { frame.wants.bytes };
-    stats.pixels_shaded += shade_tile(frame, &area, (&state.buffer, &state.triangles), shading, encoding);
+    stats.pixels_shaded +=
+        shade_tile(frame, (&area, None), (&state.buffer, &state.triangles), shading, encoding);
     stats.triangles_edged += shading.edged;
     stats.times.shading += clock.lap();
     let colors = match encoding {
@@ -92,11 +96,11 @@ pub(crate) fn outer_ink(frame: &FrameView<'_>, index: u32) -> OuterInk {
     let Scratch { mut state, mut shading, mut stats, .. } = Scratch::new();
     if frame.paints_lines() {
         let area = frame.area(index);
-        let surfaces = state.list(frame, index);
+        let surfaces = state.list(frame, index, Listing::All);
         state.begin(frame, index);
         resolve_visibility(frame, &area, &mut state, &surfaces, (&mut shading, &mut stats));
         cover_overlay(frame, &area, &mut state, &surfaces, &mut stats);
-        list_visible(frame, &area, (&state.buffer, &state.triangles), &mut shading);
+        list_visible(frame, (&area, None), (&state.buffer, &state.triangles), &mut shading);
     }
     shading.outer
 }

@@ -1,6 +1,7 @@
 //! Runs the vertices of a pass that have new values since the last frame, and finds the triangles that look different
 //! as a result.
 
+use super::bits::is_set;
 use super::change::DrawChange;
 use super::options::{FrameOptions, VERTICES};
 use crate::bin::Chunk;
@@ -51,6 +52,16 @@ impl Found {
 }
 
 impl Touched {
+    /// The vertices that may have other values: a bit for each slot of each draw.
+    pub(super) fn changed(&self) -> &[u64] {
+        &self.changed
+    }
+
+    /// Those of them that have another place, or none.
+    pub(super) fn moved(&self) -> &[u64] {
+        &self.moved
+    }
+
     /// Takes the vertices of a pass that have changed.
     pub(super) fn mark(&mut self, plan: &Plan, changes: &[DrawChange<'_>]) {
         self.starts.clear();
@@ -338,11 +349,6 @@ impl Piece<'_> {
 fn within<'a>(list: &'a [u32], range: &Range<u32>) -> &'a [u32] {
     let at = |at: u32| list.partition_point(|&number| number < at);
     &list[at(range.start)..at(range.end)]
-}
-
-#[inline(always)]
-fn is_set(bits: &[u64], slot: usize) -> bool {
-    bits.get(slot / 64).is_some_and(|word| word >> (slot % 64) & 1 != 0)
 }
 
 fn split<'a, T>(list: &mut &'a [T], count: usize) -> &'a [T] {

@@ -105,13 +105,14 @@ impl OuterInk {
         if self.is_empty() { Overlap::default() } else { self.covered[pixel] }
     }
 
-    /// Finds what lines cover beyond their triangles. All visible triangles must have been noted.
+    /// Finds what lines cover beyond their triangles, of some columns of each row if `asked` has a bit for each
+    /// of them. All triangles that are visible in these pixels and within reach of lines must have been noted.
     pub(crate) fn find(
         &mut self,
         frame: &FrameView<'_>,
         (ink, area): (&Ink, &TileArea),
-        buffer: &VisibilityBuffer,
-        triangles: &[TriangleRef],
+        (buffer, triangles): (&VisibilityBuffer, &[TriangleRef]),
+        asked: Option<&[u64; MAX_SIDE]>,
     ) {
         if !self.faces.has_lines {
             return;
@@ -123,7 +124,7 @@ impl OuterInk {
         let found = at_level!(frame.token, simd => self.candidates(simd, area, &rows, reach));
         self.ready.iter_mut().for_each(Ready::clear);
         for y in self.own_part[1].clone() {
-            let mut rest = found[y];
+            let mut rest = found[y] & asked.map_or(u64::MAX, |asked| asked[y]);
             while rest != 0 {
                 let x = rest.trailing_zeros() as usize;
                 rest &= rest - 1;

@@ -5,8 +5,8 @@ use super::PointStyle;
 use crate::bin::Entry;
 use crate::geometry::{Geometry, PointSizes, Shape};
 use crate::primitive::{Column, Kind, Quad};
-use crate::setup::Setup;
-use crate::simd::{Each, I32, LANES, Mask, Simd, inlined, lane_numbers, lanes_of, prelude::*};
+use crate::setup::{EightPrimitives, Setup};
+use crate::simd::{Each, I32, LANES, Mask, Simd, U32, inlined, prelude::*};
 use crate::vertex::ScreenVertex;
 use crate::{BlendMode, Smoothing};
 
@@ -95,36 +95,31 @@ pub(crate) fn sampled_pixels<S: Simd>(
 }
 
 impl Setup<'_> {
-    /// Points `first..` of the draw, up to eight.
+    /// Up to eight points of the draw.
     #[inline(always)]
     pub(crate) fn eight_points<S: Simd>(
         &mut self,
         simd: S,
-        (first, points): (u32, &[u32]),
+        points: &EightPrimitives<u32>,
         (plain, sizes): (&PlainPoints, &PointSizes<'_>),
     ) {
-        let last = points.len() - 1;
-        let vertices = lanes_of(
+        let vertices = points.indices.each(
             #[inline(always)]
-            |lane| self.vertices.get(points[lane.min(last)]),
+            |index| self.vertices.get(index),
         );
         let centres = Column::new(simd, vertices, 0);
-        let lanes = (1_u64 << points.len()) - 1;
+        let lanes = points.lanes();
         let placed = !centres.x.simd_eq(I32::splat(simd, ScreenVertex::NOWHERE)).to_bitmask() & lanes;
-        for lane in (0..points.len()).filter(|lane| placed >> lane & 1 == 0) {
+        for lane in (0..LANES).filter(|lane| (lanes & !placed) >> lane & 1 != 0) {
             let stats = &mut self.chunk.stats;
             let is_invalid = vertices[lane].outcode().is_invalid();
             *(if is_invalid { &mut stats.invalid } else { &mut stats.outside }) += 1;
         }
-        let primitives = lanes_of(
-            #[inline(always)]
-            |lane| first + lane.min(last) as u32,
-        );
-        let half = plain.half_sizes(simd, sizes, primitives);
+        let half = plain.half_sizes(simd, sizes, points.numbers);
         let (seen, pixels) = self.pixels_of_squares(simd, ([centres.x, centres.y], half), placed);
         self.chunk.stats.culled += u64::from((placed & !seen).count_ones());
         self.chunk.stats.set_up += u64::from(seen.count_ones());
-        self.push_points(simd, first, seen, pixels);
+        self.push_points(simd, points.numbers, seen, pixels);
     }
 
     /// Those of the `placed` lanes whose squares hold a sample of the view, and the first and last
@@ -153,7 +148,13 @@ impl Setup<'_> {
 
     /// Bins the points of lanes, from the first and last columns and rows of their pixels.
     #[inline(always)]
-    fn push_points<S: Simd>(&mut self, simd: S, first: u32, seen: u64, pixels: [[I32<S>; 2]; 2]) {
+    fn push_points<S: Simd>(
+        &mut self,
+        simd: S,
+        primitives: [u32; LANES],
+        seen: u64,
+        pixels: [[I32<S>; 2]; 2],
+    ) {
         let grid = self.grid;
         let apron = grid.apron as i32;
         let tiles = inlined(
@@ -169,10 +170,11 @@ impl Setup<'_> {
         let (columns, rows) = (tiles((0, grid.viewport.width)), tiles((1, grid.viewport.height)));
         let lanes = Mask::from_bitmask(simd, seen);
         let alone = columns[0].simd_eq(columns[1]) & rows[0].simd_eq(rows[1]);
-        let place = self.index_in_chunk(first);
         if !(lanes & !alone).any_true() {
             let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
-            let places = (lane_numbers(simd) + place as i32).bitcast();
+            // The sum may wrap around in between.
+            let places =
+                U32::simd_from(simd, primitives) + self.first.wrapping_sub(self.chunk.ordinals.start);
             return self.chunk.push_some(lanes, (tiles, places), Entry::point);
         }
         let [columns, rows] = [columns, rows].each(
@@ -181,10 +183,11 @@ impl Setup<'_> {
         );
         // One after the other, because tiles list their points in the order of primitives.
         for lane in (0..LANES).filter(|lane| seen >> lane & 1 != 0) {
+            let entry = Entry::point(self.index_in_chunk(primitives[lane]));
             for row in rows[0][lane]..=rows[1][lane] {
                 for column in columns[0][lane]..=columns[1][lane] {
                     let tile = row as u32 * grid.columns + column as u32;
-                    self.chunk.push(tile, Entry::point(place + lane as u32));
+                    self.chunk.push(tile, entry);
                 }
             }
         }

@@ -9,7 +9,7 @@ pub(crate) use mean::{mean, saturated};
 pub(crate) use strip::Strip;
 
 use crate::fragments::Encoding;
-use crate::shade::Shading;
+use crate::shade::{Shading, TileRows};
 use crate::simd::at_level;
 use crate::target::{Band, Bands};
 use crate::tile::TileState;
@@ -20,9 +20,11 @@ use trigon_math::Vec4;
 
 /// How far the colours of a tile are.
 #[derive(Clone, Copy)]
-pub(crate) enum TileColors {
+pub(crate) enum TileColors<'a> {
     /// Pixels that see one triangle are bytes already.
     Encoded(Encoding),
+    /// The same, of those pixels that are asked for. The target holds all others.
+    PartlyEncoded(Encoding, &'a TileRows),
     /// Pixels that see one triangle are in linear light.
     Shaded,
     /// All pixels are in linear light, the background's included.
@@ -33,7 +35,7 @@ pub(crate) enum TileColors {
 pub(crate) fn resolve(
     frame: &FrameView<'_>,
     area: &TileArea,
-    colors: TileColors,
+    colors: TileColors<'_>,
     (shading, strip): (&mut Shading, &mut Strip),
     bands: &Bands<'_>,
 ) {
@@ -41,6 +43,11 @@ pub(crate) fn resolve(
         TileColors::Encoded(encoding) => {
             background::lay_codes(frame, area, shading, encoding);
             edges::average_codes(frame, area, shading, encoding);
+            return strip.push(frame, area, &mut shading.codes, bands);
+        }
+        TileColors::PartlyEncoded(encoding, asked) => {
+            background::lay_codes(frame, area, shading, encoding);
+            strip::keep_others(frame, (area, asked), &mut shading.codes, bands);
             return strip.push(frame, area, &mut shading.codes, bands);
         }
         TileColors::Shaded => {

@@ -3,11 +3,11 @@
 //! Triangles that need cutting, or whose edge functions need more than 32 bits, are handled one
 //! by one instead ([`Setup::triangle`]).
 
-use super::Setup;
+use super::{EightPrimitives, Setup};
 use crate::Culling;
 use crate::bin::Entry;
 use crate::primitive::SMALL;
-use crate::simd::{Each, I32, LANES, Mask, Simd, lane_numbers, lanes_of, prelude::*, transposed};
+use crate::simd::{Each, I32, LANES, Mask, Simd, U32, lanes_of, prelude::*, transposed};
 use crate::vertex::ScreenVertex;
 
 /// What eight triangles look like on the screen.
@@ -100,26 +100,25 @@ impl<S: Simd> ScreenTriangles<S> {
 }
 
 impl Setup<'_> {
-    /// Triangles `first..` of the draw, up to eight.
+    /// Up to eight triangles of the draw.
     #[inline(always)]
-    pub(crate) fn eight_triangles<S: Simd>(&mut self, simd: S, first: u32, triangles: &[[u32; 3]]) {
-        let last = triangles.len() - 1;
+    pub(crate) fn eight_triangles<S: Simd>(&mut self, simd: S, triangles: &EightPrimitives<[u32; 3]>) {
         let vertices = [0, 1, 2].each(
             #[inline(always)]
             |corner| {
                 lanes_of(
                     #[inline(always)]
-                    |lane| self.vertices.get(triangles[lane.min(last)][corner]),
+                    |lane| self.vertices.get(triangles.indices[lane][corner]),
                 )
             },
         );
         let eight = ScreenTriangles::new(simd, vertices);
-        let lanes = (1_u64 << triangles.len()) - 1;
+        let lanes = triangles.lanes();
         let plain = eight.plain.to_bitmask() & lanes;
         let (drawn, pixels) = self.seen(simd, &eight, plain);
         self.chunk.stats.culled += u64::from((plain & !drawn).count_ones());
         self.chunk.stats.set_up += u64::from(drawn.count_ones());
-        if plain == lanes && self.push_together(simd, first, drawn, pixels) {
+        if plain == lanes && self.push_together(simd, triangles.numbers, drawn, pixels) {
             return;
         }
         let [columns, rows] = pixels.each(
@@ -131,12 +130,12 @@ impl Setup<'_> {
         while rest != 0 {
             let lane = rest.trailing_zeros() as usize % LANES;
             rest &= rest - 1;
-            let primitive = first + lane as u32;
+            let primitive = triangles.numbers[lane];
             if plain >> lane & 1 != 0 {
                 let ends = |[begin, end]: &[[i32; LANES]; 2]| [begin[lane], end[lane]];
                 self.push_box(primitive, ends(&columns), ends(&rows));
             } else {
-                self.triangle(primitive, triangles[lane]);
+                self.triangle(primitive, triangles.indices[lane]);
             }
         }
     }
@@ -180,7 +179,13 @@ impl Setup<'_> {
     /// Bins the drawn triangles if each of them lies in a single tile, which small ones mostly do.
     /// Returns false, and does nothing, if any does not.
     #[inline(always)]
-    fn push_together<S: Simd>(&mut self, simd: S, first: u32, drawn: u64, pixels: [[I32<S>; 2]; 2]) -> bool {
+    fn push_together<S: Simd>(
+        &mut self,
+        simd: S,
+        primitives: [u32; LANES],
+        drawn: u64,
+        pixels: [[I32<S>; 2]; 2],
+    ) -> bool {
         let grid = self.grid;
         let apron = grid.apron as i32;
         let [columns, rows] = [(0, grid.viewport.width), (1, grid.viewport.height)].each(
@@ -199,7 +204,8 @@ impl Setup<'_> {
             return false;
         }
         let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
-        let places = (lane_numbers(simd) + self.index_in_chunk(first) as i32).bitcast();
+        // The sum may wrap around in between.
+        let places = U32::simd_from(simd, primitives) + self.first.wrapping_sub(self.chunk.ordinals.start);
         self.chunk.push_some(drawn, (tiles, places), Entry::primitive);
         true
     }

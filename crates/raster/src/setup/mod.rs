@@ -13,6 +13,7 @@
 //!
 //! | file | what it holds |
 //! |---|---|
+//! | `eight_primitives` | eight primitives of a draw, consecutive or listed |
 //! | `eight` | culls and bins whole triangles, eight at a time; most triangles need only this file |
 //! | `mod` | one triangle at a time ([`Setup::triangle`]): cuts it, snaps the result, culls, bins |
 //! | `ears` | cuts the snapped polygon into triangles |
@@ -22,10 +23,12 @@
 
 mod ears;
 mod eight;
+mod eight_primitives;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use ears::{cut_ears, doubled_area};
+pub(crate) use eight_primitives::EightPrimitives;
 
 use crate::bin::{Chunk, Entry, Grid};
 use crate::primitive::{Corners, CutWeights, Kind, Quad, SetupTriangle, sorted};

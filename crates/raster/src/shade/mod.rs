@@ -6,6 +6,7 @@
 //!
 //! | file | what it does |
 //! |---|---|
+//! | `asked` | the pixels that are shaded, if not all are |
 //! | `visible` | lists the visible triangles of a tile, by draw |
 //! | `edges` | with multisampling, pixels that show several triangles |
 //! | `frame_context` | the context of a draw |
@@ -13,6 +14,7 @@
 //! | `list` | fragments listed by triangle: masks, and layers to be blended |
 //! | `shading` | memory kept from tile to tile |
 
+mod asked;
 mod edges;
 mod frame_context;
 mod list;
@@ -23,6 +25,7 @@ mod visible;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use asked::{Asked, GROUP_COUNT, TileLanes, TileRows};
 pub(crate) use edges::{BEHIND, EdgeGroup};
 pub(crate) use list::{JobList, mask_jobs, shade_jobs, shade_jobs_with};
 pub(crate) use shading::{EmptyGroup, Shading};

@@ -1,24 +1,25 @@
 //! Shades a tile: every visible triangle once at every pixel where it is visible.
 
+use super::asked::{Asked, GROUP_COUNT};
 use super::shading::{Run, Shading};
-use super::visible::{divide, list};
+use super::visible::{SomeLanes, divide, list};
 use crate::bin::TriangleRef;
 use crate::fragments::{Codes, Encoding, FragmentSlice, ShadeContext, ShadeOutput, ShadePoint, Task};
 use crate::simd::{LANES, at_level};
 use crate::tile_buffer::{TileArea, VisibilityBuffer};
 use crate::view::FrameView;
 
-/// Shades all pixels of a tile: to bytes if an encoding is given, else in linear
+/// Shades the pixels of a tile, or those that are asked for: to bytes if an encoding is given, else in linear
 /// light. What covers a part of its pixel is left in linear light in any case. Tells how
 /// many fragments were shaded.
 pub(crate) fn shade_tile(
     frame: &FrameView<'_>,
-    area: &TileArea,
+    (area, asked): (&TileArea, Option<&Asked>),
     (buffer, triangles): (&VisibilityBuffer, &[TriangleRef]),
     shading: &mut Shading,
     encoding: Option<Encoding>,
 ) -> u64 {
-    let count = list_visible(frame, area, (buffer, triangles), shading);
+    let count = list_visible(frame, (area, asked), (buffer, triangles), shading);
     let runs = std::mem::take(&mut shading.runs);
     let outer = std::mem::take(&mut shading.outer);
     for run in &runs {
@@ -44,15 +45,19 @@ pub(crate) fn shade_tile(
 /// the number of fragments to shade.
 pub(crate) fn list_visible(
     frame: &FrameView<'_>,
-    area: &TileArea,
+    (area, asked): (&TileArea, Option<&Asked>),
     (buffer, triangles): (&VisibilityBuffer, &[TriangleRef]),
     shading: &mut Shading,
 ) -> usize {
     let mut outer = std::mem::take(&mut shading.outer);
     let ink = frame.ink.as_ref().filter(|ink| ink.has_lines());
-    let own = ink.map(|_| outer.own_lanes(frame, area));
+    let some = match asked {
+        Some(Asked { lanes, around, .. }) => Some(SomeLanes { shaded: lanes, seen: around }),
+        // Lines reach across the borders of tiles.
+        None => ink.map(|_| SomeLanes { shaded: outer.own_lanes(frame, area), seen: &[0xff; GROUP_COUNT] }),
+    };
     shading.edged = 0;
-    let count = at_level!(frame.token, simd => list(simd, buffer, (triangles.len(), own), shading));
+    let count = at_level!(frame.token, simd => list(simd, buffer, (triangles.len(), some), shading));
     divide(frame, buffer, triangles, shading);
     if let Some(ink) = ink {
         outer.begin(triangles.len());
@@ -65,7 +70,7 @@ pub(crate) fn list_visible(
             *edged += if shape.lines.is_some() { seen.len() as u64 } else { 0 };
             run.records = Some(shape);
         }
-        outer.find(frame, (ink, area), buffer, triangles);
+        outer.find(frame, (ink, area), (buffer, triangles), asked.map(|asked| &asked.rows));
     } else if !outer.is_empty() {
         outer.begin(0);
     }

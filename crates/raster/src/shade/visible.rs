@@ -10,30 +10,39 @@ use crate::view::FrameView;
 /// Groups with fewer pixels than this that see anything share vectors with others.
 const FULL: u32 = 4;
 
-/// Lists the visible triangles of a tile and the pixels in which they are visible, for those lanes of each
-/// group that are the tile's `own` if not all are. Returns the number of fragments to shade.
+/// Some lanes of each group of a tile.
+#[derive(Clone, Copy)]
+pub(super) struct SomeLanes<'l> {
+    /// Those that are shaded.
+    pub(super) shaded: &'l [u8],
+    /// Those whose triangles count as visible.
+    pub(super) seen: &'l [u8],
+}
+
+/// Lists the visible triangles of a tile and the pixels in which they are visible, for some lanes if not for all.
+/// Returns the number of fragments to shade.
 #[inline(always)]
 pub(super) fn list<S: Simd>(
     simd: S,
     buffer: &VisibilityBuffer,
-    (triangle_count, own): (usize, Option<&[u8]>),
+    (triangle_count, some): (usize, Option<SomeLanes<'_>>),
     shading: &mut Shading,
 ) -> usize {
-    match (buffer.samples, own) {
-        (1, None) => list_samples::<S, 1, true>(simd, buffer, (triangle_count, &[]), shading),
-        (1, Some(own)) => list_samples::<S, 1, false>(simd, buffer, (triangle_count, own), shading),
-        (_, None) => list_samples::<S, 0, true>(simd, buffer, (triangle_count, &[]), shading),
-        (_, Some(own)) => list_samples::<S, 0, false>(simd, buffer, (triangle_count, own), shading),
+    const NONE: SomeLanes<'_> = SomeLanes { shaded: &[], seen: &[] };
+    match (buffer.samples, some) {
+        (1, None) => list_samples::<S, 1, true>(simd, buffer, (triangle_count, NONE), shading),
+        (1, Some(some)) => list_samples::<S, 1, false>(simd, buffer, (triangle_count, some), shading),
+        (_, None) => list_samples::<S, 0, true>(simd, buffer, (triangle_count, NONE), shading),
+        (_, Some(some)) => list_samples::<S, 0, false>(simd, buffer, (triangle_count, some), shading),
     }
 }
 
-/// The same with `SAMPLES` samples to a pixel, if that is not 0, and all pixels the tile's own
-/// if `WHOLE`.
+/// The same with `SAMPLES` samples to a pixel, if that is not 0, and for all lanes if `WHOLE`.
 #[inline(always)]
 fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
     simd: S,
     buffer: &VisibilityBuffer,
-    (triangle_count, own): (usize, &[u8]),
+    (triangle_count, some): (usize, SomeLanes<'_>),
     shading: &mut Shading,
 ) -> usize {
     let samples = if SAMPLES > 0 { SAMPLES } else { buffer.samples };
@@ -44,6 +53,9 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
     // As a slice: where it lies is looked up once.
     let marks = slots.as_mut_slice();
     for (group, rows) in rows.chunks_exact(samples).enumerate() {
+        if !WHOLE && some.seen[group] == 0 {
+            continue;
+        }
         let (first, others) = rows.split_first().expect("a pixel has a sample");
         let lanes = U32::simd_from(simd, *first);
         // As before: often within large triangles.
@@ -59,16 +71,16 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
             #[inline(always)]
             |agree, row| agree & lanes.simd_eq(U32::simd_from(simd, *row)),
         );
-        let own = if WHOLE { 0xff } else { u64::from(own[group]) };
-        let partly = !agree.to_bitmask() & own;
-        if !WHOLE && own != 0xff && samples > 1 {
+        let shaded = if WHOLE { 0xff } else { u64::from(some.shaded[group]) };
+        let partly = !agree.to_bitmask() & shaded;
+        if !WHOLE && shaded != 0xff && samples > 1 {
             mark_all(marks, others, triangle_count);
         }
-        let empty = lanes.simd_eq(U32::splat(simd, NO_TRIANGLE)).to_bitmask() & own;
+        let empty = lanes.simd_eq(U32::splat(simd, NO_TRIANGLE)).to_bitmask() & shaded;
         if empty != 0 {
             empty_groups.push(EmptyGroup { number: group as u32, lanes: empty as u32 });
         }
-        let seen = !empty & own;
+        let seen = !empty & shaded;
         pixels += seen.count_ones();
         if partly != 0 {
             edges.push(simd, (group, rows), partly, parts);

@@ -30,6 +30,7 @@
 //! | `quad` | kernel: lines and points |
 //! | `points` | kernel: plain points, from their vertices |
 //! | `masked`, `depth_query` | masked triangles; where a masked or translucent triangle would be visible |
+//! | `still` | what still triangles show, kept while others move |
 //! | `store` | writing to the visibility buffer |
 //! | `ties`, `key_order` | the tile's budget for equal depths; its triangles sorted by key |
 //!
@@ -49,6 +50,7 @@ mod quad;
 mod rasterizer;
 mod single;
 mod state;
+mod still;
 mod store;
 mod surfaces;
 #[cfg(test)]
@@ -62,7 +64,8 @@ pub(crate) use blocks::Blocks;
 pub(crate) use depth_query::{Candidate, SampleGroup, TileView};
 pub(crate) use single::single;
 pub(crate) use state::TileState;
-pub(crate) use surfaces::Surfaces;
+pub(crate) use still::StillTile;
+pub(crate) use surfaces::{Listing, Surfaces};
 pub(crate) use ties::Ties;
 pub(crate) use triangle::TileTriangle;
 pub(crate) use visibility::{cover_overlay, resolve_visibility};

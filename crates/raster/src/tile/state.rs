@@ -3,7 +3,7 @@
 use super::depth_query::TileView;
 use super::key_order::KeyOrder;
 use super::masked::MaskQueue;
-use super::surfaces::Surfaces;
+use super::surfaces::{Listing, Surfaces};
 use super::ties::Ties;
 use crate::bin::TriangleRef;
 use crate::tile_buffer::{TileArea, VisibilityBuffer};
@@ -16,8 +16,10 @@ pub(crate) struct TileState {
     pub(crate) buffer: VisibilityBuffer,
     pub(crate) ties: Ties,
     pub(super) key_order: KeyOrder,
-    /// The opaque triangles in the order of their keys, where that is needed.
+    /// Triangles in another order, where that is needed.
     pub(super) reordered: Vec<TriangleRef>,
+    /// Where each triangle stands in that order.
+    pub(super) ranks: Vec<u32>,
     pub(super) mask_queue: MaskQueue,
 }
 
@@ -29,13 +31,15 @@ impl TileState {
             ties: Ties::default(),
             key_order: KeyOrder::default(),
             reordered: Vec::new(),
+            ranks: Vec::new(),
             mask_queue: MaskQueue::default(),
         }
     }
 
-    /// Lists the triangles of a tile.
-    pub(crate) fn list(&mut self, frame: &FrameView<'_>, tile: u32) -> Surfaces {
-        Surfaces::list(frame, tile, &mut self.triangles)
+    /// Lists triangles of a tile, and no others.
+    pub(crate) fn list(&mut self, frame: &FrameView<'_>, tile: u32, listing: Listing) -> Surfaces {
+        self.triangles.clear();
+        Surfaces::list(frame, tile, listing, &mut self.triangles)
     }
 
     /// Empties the buffer for the triangles that are listed.

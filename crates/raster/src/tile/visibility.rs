@@ -23,6 +23,7 @@ use crate::tile_buffer::{NO_TRIANGLE, TileArea, VisibilityBuffer};
 use crate::vertex::ScreenVertex;
 use crate::view::FrameView;
 use std::cell::Cell;
+use std::ops::Range;
 
 /// Finds the nearest opaque or masked triangle at every sample.
 pub(crate) fn resolve_visibility(
@@ -86,6 +87,40 @@ pub(crate) fn cover_overlay(
     buffer.settle();
     buffer.blank_outside(area);
     stats.add_counts(&counts);
+}
+
+/// Draws more opaque triangles or overlays, a part of the tile's list, over what is there. Returns false if there
+/// are too many ties.
+pub(super) fn cover_more(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    state: &mut TileState,
+    part: Range<usize>,
+    stats: &mut Stats,
+) -> bool {
+    if part.is_empty() {
+        return true;
+    }
+    let TileState { triangles, buffer, ties, .. } = state;
+    let precedes = |ours: u32, theirs: u32| {
+        ties.spend(COMPARISON);
+        frame.precedes(triangles[ours as usize], triangles[theirs as usize])
+    };
+    let rasterizer = TileRasterizer {
+        area: *area,
+        offsets: frame.grid.pattern.offsets(),
+        in_order: false,
+        by_draws: true,
+        ties,
+        may_give_up: true,
+        hierarchical: frame.hierarchical,
+        precedes: &precedes,
+    };
+    let mut counts = Counts::default();
+    let is_drawn = cover_all(frame, &rasterizer, (&triangles[..part.end], part.start), (buffer, &mut counts));
+    buffer.settle();
+    stats.add_counts(&counts);
+    is_drawn
 }
 
 /// Draws the opaque triangles, which come first in the tile's list. If there are too many ties, draws

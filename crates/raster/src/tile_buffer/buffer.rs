@@ -70,6 +70,21 @@ impl VisibilityBuffer {
         self.fill_with(BEHIND_ALL, NO_TRIANGLE);
     }
 
+    /// Takes the samples of a tile with one sample to a pixel, and bounds of their depths.
+    pub(crate) fn restore(
+        &mut self,
+        area: &TileArea,
+        (depth, visible): (&[f32], impl Iterator<Item = u32>),
+        bounds: &[BlockBounds; BLOCKS * BLOCKS],
+    ) {
+        self.clear(area, 1);
+        self.fill = None;
+        self.depth[..self.span].copy_from_slice(depth);
+        self.visible.iter_mut().zip(visible).for_each(|(own, visible)| *own = visible);
+        self.blocks = *bounds;
+        self.stale = true;
+    }
+
     /// Gives all samples one depth and triangle. Only a note is made; the arrays are filled when they
     /// are needed (`settle`).
     pub(crate) fn fill_with(&mut self, depth: f32, visible: u32) {

@@ -4,4 +4,4 @@ mod area;
 mod buffer;
 
 pub(crate) use area::{BLOCKS, GROUPS, MAX_SIDE, PIXELS, TileArea, lane_point};
-pub(crate) use buffer::{BEHIND_ALL, NO_TRIANGLE, VisibilityBuffer};
+pub(crate) use buffer::{BEHIND_ALL, BlockBounds, NO_TRIANGLE, VisibilityBuffer};

@@ -3,7 +3,7 @@
 use super::background_row::BackgroundRow;
 use super::{Plan, RequestedOutputs};
 use crate::StageTimes;
-use crate::bin::{Chunk, Grid, TileRange, TriangleRef};
+use crate::bin::{Chunk, Grid, MovingChunk, TileRange, TriangleRef};
 use crate::draw_view::DrawView;
 use crate::ink::Ink;
 use crate::paint2d::Rect;
@@ -27,6 +27,8 @@ pub(crate) struct FrameView<'f> {
     pub(crate) varyings: &'f [f32],
     /// In the order of their ordinals.
     pub(crate) chunks: &'f [Chunk],
+    /// What those chunks' primitives that move list, in the same order, if they are listed apart.
+    pub(crate) moving: &'f [MovingChunk],
     pub(crate) grid: Grid,
     /// The pixels of the target that are drawn.
     pub(crate) drawn: Rect,

@@ -154,7 +154,13 @@ struct Told {
 impl Delta {
     /// Changes the model; returns what is passed to `redraw`.
     fn apply(&self, model: &mut Model) -> Told {
-        for &(vertex, way) in &self.moved {
+        self.apply_part(model, self.moved.len())
+    }
+
+    /// The same, of which only the first vertices move, `count` of them.
+    fn apply_part(&self, model: &mut Model, count: usize) -> Told {
+        let moved = &self.moved[..count];
+        for &(vertex, way) in moved {
             model.vertices[vertex as usize].0 += Vec4::from_array(way);
         }
         for &(vertex, color) in &self.painted {
@@ -169,7 +175,7 @@ impl Delta {
             model.flags[triangle as usize] = EdgeFlags::new([triangle % 2 == 0, true, triangle % 3 == 0]);
         }
         let painted = self.painted.iter().map(|&(vertex, _)| vertex);
-        let vertices = self.moved.iter().map(|&(vertex, _)| vertex).chain(painted).collect();
+        let vertices = moved.iter().map(|&(vertex, _)| vertex).chain(painted).collect();
         let mut resized = self.resized.clone();
         resized.sort_unstable();
         resized.dedup();
@@ -228,6 +234,7 @@ struct View {
     has_marks: bool,
     /// Lines share a chunk with opaque triangles, which then is set up again as a whole.
     has_lines: bool,
+    has_points: bool,
     background: usize,
     settings: ExecuteSettings,
 }
@@ -253,15 +260,16 @@ fn view() -> impl Strategy<Value = View> {
             ExecuteSettings { threads, simd, tile_size, ..ExecuteSettings::default() }
         });
     let edges = prop_oneof![Just(None), (0.5_f32..5.0).prop_map(Some)];
-    let has = [any::<bool>(), any::<bool>()];
+    let has = [any::<bool>(), any::<bool>(), any::<bool>()];
     ([1_u32..130, 1_u32..100], samples, outputs, edges, has, 0..3_usize, settings).prop_map(
-        |(size, samples, outputs, edges, [has_marks, has_lines], background, settings)| View {
+        |(size, samples, outputs, edges, [has_marks, has_lines, has_points], background, settings)| View {
             size,
             samples,
             outputs,
             edges,
             has_marks,
             has_lines,
+            has_points,
             background,
             settings,
         },
@@ -304,13 +312,13 @@ impl View {
         let segments: &[[u32; 2]] = if self.has_lines { &[[0, 11], [11, 30], [34, 35]] } else { &[] };
         let lines = Lines::new(&models[0], segments);
         pass.lines(Lines { object: 9, width: 3.0, ..lines });
-        let points: &[u32] = if self.has_lines { &[0, 12, 34, 60] } else { &[] };
+        let points: &[u32] = if self.has_points { &[0, 12, 34, 60] } else { &[] };
         let (smoothing, blend_mode) = match self.background {
             0 => (Smoothing::AntiAliased, BlendMode::Opaque),
             _ => (Smoothing::Sharp, BlendMode::Overlay),
         };
         let marked = Some(MarkedPoints { set: &models[0].large, size: 7.0 });
-        if self.background == 2 && self.has_lines {
+        if self.background == 2 && self.has_points {
             let points = Points::new(&models[0].vertices, &ALL_POINTS, 4.0);
             pass.points(Points { object: 10, blend_mode, marked, ..points });
         } else {
@@ -353,20 +361,40 @@ fn models(surfaces: [BlendMode; 2]) -> Vec<Model> {
     vec![front, back, Model { triangles: still.triangles[..7].to_vec(), ..still }]
 }
 
+/// One change of a model: which of the deltas, and how many of its vertices move.
+type Step = (prop::sample::Index, Option<prop::sample::Index>);
+
+/// Steps of which most are repeated a few times, as in a drag, so that what is kept for that is used.
+fn steps() -> impl Strategy<Value = Vec<Step>> {
+    let part = prop_oneof![3 => Just(None), 1 => any::<prop::sample::Index>().prop_map(Some)];
+    let repeated = (any::<prop::sample::Index>(), prop::collection::vec(part, 1..6));
+    prop::collection::vec(repeated, 1..4).prop_map(|steps| {
+        let several = |(delta, parts): (_, Vec<Option<_>>)| parts.into_iter().map(move |part| (delta, part));
+        steps.into_iter().flat_map(several).collect()
+    })
+}
+
 /// Redraws after each change of the models. Both kinds of draws come in the pass's order, and
 /// the lines last.
-fn check(view: &View, mut models: Vec<Model>, deltas: &[Delta]) -> Result<(), TestCaseError> {
+fn check(
+    view: &View,
+    mut models: Vec<Model>,
+    (deltas, steps): (&[Delta], &[Step]),
+) -> Result<(), TestCaseError> {
     let mut rasterizer = Rasterizer::new(view.settings).expect("a level that there is");
     let mut target = view.target();
     rasterizer.redraw(&view.pass(&models), &mut target, None);
-    for delta in deltas {
-        let Told { vertices, reshaped, recolored, resized } = delta.apply(&mut models[delta.model]);
+    for (delta, part) in steps {
+        let delta = delta.get(deltas);
+        let count = part.map_or(delta.moved.len(), |part| part.index(delta.moved.len() + 1));
+        let Told { vertices, reshaped, recolored, resized } =
+            delta.apply_part(&mut models[delta.model], count);
         let (vertices, mut changes) = (vertices.as_slice(), [DrawChange::default(); 6]);
         changes[delta.model] = DrawChange { vertices, reshaped: &reshaped, recolored: &recolored };
         if delta.model == 0 {
             // The lines and the points have its vertices.
             changes[4..].fill(DrawChange { vertices, ..DrawChange::default() });
-            if view.has_lines {
+            if view.has_points {
                 changes[5].reshaped = &resized;
             }
         }
@@ -403,8 +431,36 @@ proptest! {
         view in view(),
         surfaces in [blend_mode(), blend_mode()],
         deltas in prop::collection::vec(delta(), 1..4),
+        steps in steps(),
     ) {
-        check(&view, models(surfaces), &deltas)?;
+        check(&view, models(surfaces), (&deltas, &steps))?;
+    }
+
+    /// Opaque surfaces with points, one sample to a pixel: this is what can be kept while vertices are dragged.
+    #[test]
+    fn an_image_of_a_drag_is_a_fresh_one(
+        size in [1_u32..300, 1_u32..200],
+        edges in prop_oneof![Just(None), (0.5_f32..5.0).prop_map(Some)],
+        background in 1..3_usize,
+        has_points: bool,
+        has_marks: bool,
+        has_depth: bool,
+        settings in view().prop_map(|view| view.settings),
+        deltas in prop::collection::vec(delta(), 1..3),
+        steps in steps(),
+        has_overlay: bool,
+    ) {
+        let outputs = match has_depth {
+            true => vec![Output::Srgb8, Output::Depth, Output::Object, Output::Face, Output::Triangle],
+            false => vec![Output::Unorm8],
+        };
+        let view = View {
+            size, samples: [1, 1], outputs, edges, has_marks, has_lines: false, has_points, background, settings,
+        };
+        let calm = |delta: Delta| Delta { marked: [Vec::new(), Vec::new()], ..delta };
+        let deltas: Vec<Delta> = deltas.into_iter().map(calm).collect();
+        let second = if has_overlay { BlendMode::Overlay } else { BlendMode::Opaque };
+        check(&view, models([BlendMode::Opaque, second]), (&deltas, &steps))?;
     }
 }
 
@@ -416,6 +472,7 @@ fn plain(outputs: &[Output]) -> View {
         edges: Some(1.0),
         has_marks: false,
         has_lines: true,
+        has_points: true,
         background: 1,
         settings: ExecuteSettings::default(),
     }
@@ -458,6 +515,30 @@ fn only_tiles_around_what_moved_are_drawn() {
     let drawn = share(&view, &moved.parts);
     assert!(drawn > 0.0 && drawn < 0.3, "four quads of {}: {drawn}", QUADS * QUADS);
     assert!(target.srgb8() == view.fresh(&models).srgb8(), "the bytes of a fresh image");
+}
+
+/// From the second time on, the still triangles of a tile are kept; from the third time on, only pixels that may look
+/// different are shaded.
+#[test]
+fn only_pixels_around_what_moves_again_are_shaded() {
+    let view = View { has_lines: false, background: 2, ..plain(&[Output::Srgb8]) };
+    let mut models = models([BlendMode::Opaque; 2]);
+    let mut rasterizer = Rasterizer::default();
+    let mut target = view.target();
+    rasterizer.redraw(&view.pass(&models), &mut target, None);
+    let shaded: Vec<u64> = (0..5)
+        .map(|_| {
+            let Told { vertices, .. } = one_vertex().apply(&mut models[0]);
+            let mut changes = [DrawChange::default(); 6];
+            for draw in [0, 4, 5] {
+                changes[draw].vertices = &vertices;
+            }
+            let redraw = rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
+            assert!(target.srgb8() == view.fresh(&models).srgb8(), "the bytes of a fresh image");
+            redraw.stats.pixels_shaded
+        })
+        .collect();
+    assert!(shaded[2..].iter().all(|&again| 3 * again < 2 * shaded[0]), "pixels shaded: {shaded:?}");
 }
 
 #[test]

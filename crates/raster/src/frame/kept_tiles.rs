@@ -1,0 +1,112 @@
+//! Tiles whose still triangles are kept from frame to frame: only what moves is drawn over them, and only pixels that may
+//! look different are shaded.
+
+use super::bits::is_set;
+use super::tiles::{Scratch, draw_tile};
+use crate::clock::Clock;
+use crate::ink::Ink;
+use crate::resolve::{TileColors, resolve, store_visibility};
+use crate::shade::{GROUP_COUNT, TileLanes, shade_tile};
+use crate::target::Bands;
+use crate::tile::StillTile;
+use crate::tile_buffer::TileArea;
+use crate::view::FrameView;
+use std::sync::{Mutex, PoisonError};
+
+/// The tiles of a frame of which some primitives are listed apart, as far as they were drawn since.
+#[derive(Default)]
+pub(super) struct KeptTiles {
+    tiles: Vec<Mutex<Option<Box<KeptTile>>>>,
+}
+
+/// What is kept of a tile.
+struct KeptTile {
+    /// `None` if it cannot be kept.
+    still: Option<StillTile>,
+    /// The lanes of each group that show still triangles which look different in every frame.
+    look: TileLanes,
+    /// The lanes that showed moving triangles in the last frame.
+    shown: TileLanes,
+}
+
+/// Those of a frame.
+#[derive(Clone, Copy)]
+pub(super) struct Kept<'k> {
+    pub(super) tiles: &'k KeptTiles,
+    /// A bit for each primitive of the frame that may look different.
+    pub(super) differ: &'k [u64],
+}
+
+impl KeptTiles {
+    /// Forgets all, and begins with `count` tiles.
+    pub(super) fn reset(&mut self, count: usize) {
+        self.tiles.clear();
+        self.tiles.resize_with(count, Mutex::default);
+    }
+}
+
+impl Kept<'_> {
+    /// Draws a tile.
+    pub(super) fn draw(&self, frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Bands<'_>, index: u32) {
+        let mut kept = self.tiles.tiles[index as usize].lock().unwrap_or_else(PoisonError::into_inner);
+        let tile = (&frame.area(index), index);
+        let own = kept.get_or_insert_with(|| Box::new(KeptTile::find((frame, self.differ), tile, scratch)));
+        if own.draw(frame, scratch, (bands, tile)).is_none() {
+            own.shown = [u8::MAX; GROUP_COUNT];
+            draw_tile(frame, scratch, bands, index);
+        }
+    }
+}
+
+impl KeptTile {
+    /// Finds what its still triangles show.
+    fn find(
+        (frame, differ): (&FrameView<'_>, &[u64]),
+        tile: (&TileArea, u32),
+        scratch: &mut Scratch,
+    ) -> Self {
+        let Scratch { state, shading, stats, .. } = scratch;
+        let still = StillTile::find(frame, tile, state, (shading, stats));
+        let mut look = [0; GROUP_COUNT];
+        if let Some(still) = &still {
+            still.lanes_of(|triangle| is_set(differ, triangle.ordinal as usize), &mut look);
+        }
+        Self { still, look, shown: [u8::MAX; GROUP_COUNT] }
+    }
+
+    /// Draws what has changed; `None`, with nothing drawn for good, if it has to be drawn as a whole.
+    fn draw(
+        &mut self,
+        frame: &FrameView<'_>,
+        scratch: &mut Scratch,
+        (bands, (area, index)): (&Bands<'_>, (&TileArea, u32)),
+    ) -> Option<()> {
+        let Scratch { state, shading, asked, strip, stats, .. } = scratch;
+        let (still, encoding) = (self.still.as_ref()?, frame.wants.bytes?);
+        let mut clock = Clock::new(frame.timed);
+        let moving = still.restore(frame, (area, index), state);
+        still.cover_opaque(frame, area, (state, &moving), stats)?;
+        stats.times.visibility += clock.lap();
+        store_visibility(frame, area, state, bands);
+        stats.times.resolve += clock.lap();
+        still.cover_overlay(frame, area, (state, &moving), stats)?;
+        let mut now = [0; GROUP_COUNT];
+        moving.lanes(state, &mut now);
+        moving.sort(state);
+        stats.tiles += 1;
+        let reach = frame.ink.as_ref().map_or(0, Ink::reach) as usize;
+        asked.set((&self.look, [&now, &self.shown]), frame.own_part(area), reach);
+        self.shown = now;
+        stats.times.visibility += clock.lap();
+        if asked.any() {
+            let visible = (&state.buffer, state.triangles.as_slice());
+            stats.pixels_shaded += shade_tile(frame, (area, Some(asked)), visible, shading, Some(encoding));
+            stats.triangles_edged += shading.edged;
+            stats.times.shading += clock.lap();
+            let colors = TileColors::PartlyEncoded(encoding, &asked.rows);
+            resolve(frame, area, colors, (shading, strip), bands);
+            stats.times.resolve += clock.lap();
+        }
+        Some(())
+    }
+}

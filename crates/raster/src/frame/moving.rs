@@ -1,0 +1,168 @@
+//! Frames in which the same vertices change again and again, as in a drag.
+//!
+//! From the second such frame on, the primitives that move are set up and listed apart, and tiles keep what the others
+//! show ([`KeptTiles`]). Whole faces move: where one of its triangles does, the others may be cut in another way, and
+//! their edges are painted together.
+
+use super::DrawChange;
+use super::bits::{are_among, is_set, reset, set};
+use super::kept_tiles::{Kept, KeptTiles};
+use super::touched::{Found, Touched};
+use crate::BlendMode;
+use crate::bin::{Chunk, Grid, MovingChunk};
+use crate::geometry::Shape;
+use crate::outer_ink::parts;
+use crate::pass::Recorded;
+use crate::view::{DrawPlan, Plan};
+
+/// The least part of all primitives that is not worth being listed apart.
+const MANY: usize = 4;
+
+/// What moves from frame to frame.
+#[derive(Default)]
+pub(super) struct Moving {
+    /// Whether primitives are listed apart. If not, of all below only `changed` is valid.
+    is_apart: bool,
+    /// The vertices that may have other values in frames such as this: [`Touched::changed`].
+    changed: Vec<u64>,
+    /// Those of them that may move.
+    moved: Vec<u64>,
+    /// The primitives that may move, and all that may look different: a bit for each primitive of the frame.
+    primitives: Vec<u64>,
+    differ: Vec<u64>,
+    /// The primitives that may move, for each chunk of the frame.
+    pub(super) chunks: Vec<MovingChunk>,
+    /// The tiles in which still primitives may look different.
+    pub(super) tiles: Vec<u32>,
+    kept: KeptTiles,
+}
+
+impl Moving {
+    /// What is kept of tiles, if primitives are listed apart.
+    pub(super) fn kept(&self) -> Option<Kept<'_>> {
+        let Self { is_apart, kept, differ, .. } = self;
+        is_apart.then_some(Kept { tiles: kept, differ })
+    }
+
+    /// Leaves no primitives apart, and no vertices that have changed.
+    pub(super) fn clear(&mut self) {
+        self.unite();
+        self.changed.clear();
+    }
+
+    /// Leaves no primitives apart.
+    pub(super) fn unite(&mut self) {
+        self.is_apart = false;
+        self.chunks.clear();
+        self.kept.reset(0);
+    }
+
+    /// Whether nothing moves and nothing looks different that is not prepared for it.
+    pub(super) fn covers(&self, touched: &Touched, plan: &Plan, changes: &[DrawChange<'_>]) -> bool {
+        let are_prepared = |draw: &DrawPlan| {
+            let change = changes[draw.draw];
+            let moves = |&index: &u32| is_set(&self.primitives, (draw.ordinals.start + index) as usize);
+            change.recolored.is_empty() && change.reshaped.iter().all(moves)
+        };
+        self.is_apart
+            && are_among(touched.changed(), &self.changed)
+            && are_among(touched.moved(), &self.moved)
+            && plan.draws.iter().all(are_prepared)
+    }
+
+    /// Takes the vertices that have changed in a frame; returns whether the same have changed in the last one.
+    pub(super) fn repeats(&mut self, touched: &Touched) -> bool {
+        let is_same = self.changed == touched.changed();
+        self.changed.clear();
+        self.changed.extend_from_slice(touched.changed());
+        is_same && self.changed.iter().any(|&word| word != 0)
+    }
+
+    /// Finds which primitives move, and which look different, from what was found in each chunk; then which of
+    /// each chunk's primitives those are that move, by their places. `None` if they cannot be listed apart, or are
+    /// not worth it.
+    pub(super) fn find(
+        &mut self,
+        (pass, plan): (&[Recorded<'_>], &Plan),
+        touched: &Touched,
+        (chunks, found): (&[Chunk], &[Found]),
+    ) -> Option<Vec<Vec<u32>>> {
+        let count = chunks.last()?.ordinals.end as usize;
+        // Those of an earlier frame of the drag count as well: a vertex may rest for a moment.
+        let is_continued = self.is_apart && self.moved.len() == touched.moved().len();
+        if !is_continued {
+            reset(&mut self.moved, 64 * touched.moved().len());
+            reset(&mut self.primitives, count);
+        }
+        self.moved.iter_mut().zip(touched.moved()).for_each(|(all, &moved)| *all |= moved);
+        reset(&mut self.differ, count);
+        for (chunk, found) in chunks.iter().zip(found) {
+            let start = chunk.ordinals.start as usize;
+            let flagged = |flags: &[bool], bits: &mut [u64]| {
+                let places = (start..).zip(flags).filter(|(_, is_flagged)| **is_flagged);
+                places.for_each(|(ordinal, _)| set(bits, ordinal));
+            };
+            flagged(&found.differ, &mut self.differ);
+            flagged(&found.moved, &mut self.primitives);
+        }
+        self.add_parts(pass, plan);
+        self.differ.iter_mut().zip(&self.primitives).for_each(|(differ, &moved)| *differ |= moved);
+        let moving: u32 = self.primitives.iter().map(|word| word.count_ones()).sum();
+        let places = |chunk: &Chunk| -> Vec<u32> {
+            let ordinals = chunk.ordinals.clone();
+            let moving = ordinals.filter(|&ordinal| is_set(&self.primitives, ordinal as usize));
+            moving.map(|ordinal| ordinal - chunk.ordinals.start).collect()
+        };
+        let are_few = (moving as usize) < count / MANY;
+        are_few.then(|| chunks.iter().map(places).collect())
+    }
+
+    /// Adds the other triangles of the faces whose triangles move.
+    fn add_parts(&mut self, pass: &[Recorded<'_>], plan: &Plan) {
+        for draw in &plan.draws {
+            let geometry = &pass[draw.draw].geometry;
+            if !matches!(geometry.shape, Shape::Triangles { .. }) {
+                continue;
+            }
+            let start = draw.ordinals.start;
+            let moving: Vec<u32> =
+                draw.ordinals.clone().filter(|&ordinal| is_set(&self.primitives, ordinal as usize)).collect();
+            for part in moving.into_iter().flat_map(|ordinal| parts(geometry, ordinal - start)) {
+                set(&mut self.primitives, (start + part) as usize);
+            }
+        }
+    }
+
+    /// Whether primitives can be listed apart, given their places in each chunk.
+    pub(super) fn can_part(
+        &self,
+        (pass, plan): (&[Recorded<'_>], &Plan),
+        chunks: &[Chunk],
+        places: &[Vec<u32>],
+    ) -> bool {
+        let is_plain = |draw: &DrawPlan| match pass[draw.draw].geometry.shape {
+            Shape::Triangles { .. } => true,
+            Shape::Points { .. } => draw.points.is_some(),
+            Shape::Lines { .. } => false,
+        };
+        let none = MovingChunk::default();
+        let mut parted = (0..).zip(chunks).zip(places).filter(|(_, places)| !places.is_empty());
+        parted.all(|((number, chunk), places)| {
+            let apart = self.chunks.get::<usize>(number).unwrap_or(&none);
+            let draw = |&place: &u32| &plan.draws[plan.draw_of(chunk.ordinals.start + place)];
+            matches!(chunk.blend_mode, BlendMode::Opaque | BlendMode::Overlay)
+                && apart.can_take(chunk)
+                && places.iter().map(draw).all(is_plain)
+        })
+    }
+
+    /// Moves primitives from chunks to lists of their own.
+    pub(super) fn part(&mut self, grid: &Grid, chunks: &mut [Chunk], places: Vec<Vec<u32>>) {
+        self.is_apart = true;
+        self.chunks.resize_with(chunks.len(), MovingChunk::default);
+        for ((moving, chunk), places) in self.chunks.iter_mut().zip(chunks).zip(places) {
+            moving.take(chunk, places);
+        }
+        self.kept.reset((grid.columns * grid.viewport.height.div_ceil(grid.size)) as usize);
+    }
+}

@@ -1,0 +1,50 @@
+//! Up to eight primitives of one draw, to be set up together.
+
+use crate::simd::{Each, LANES, lanes_of};
+
+/// One primitive in each lane; unused lanes repeat the last one.
+pub(crate) struct EightPrimitives<T> {
+    /// Their numbers in the draw, increasing.
+    pub(crate) numbers: [u32; LANES],
+    /// The indices of their vertices.
+    pub(crate) indices: [T; LANES],
+    count: usize,
+}
+
+impl<T: Copy> EightPrimitives<T> {
+    /// Consecutive ones from `first` on; at least one.
+    #[inline(always)]
+    pub(crate) fn consecutive(first: u32, indices: &[T]) -> Self {
+        let last = indices.len() - 1;
+        let numbers = lanes_of(
+            #[inline(always)]
+            |lane| first + lane.min(last) as u32,
+        );
+        let indices = lanes_of(
+            #[inline(always)]
+            |lane| indices[lane.min(last)],
+        );
+        Self { numbers, indices, count: last + 1 }
+    }
+
+    /// Those with the given numbers, at least one, of all of the draw.
+    #[inline(always)]
+    pub(crate) fn listed(numbers: &[u32], all: &[T]) -> Self {
+        let last = numbers.len() - 1;
+        let numbers = lanes_of(
+            #[inline(always)]
+            |lane| numbers[lane.min(last)],
+        );
+        let indices = numbers.each(
+            #[inline(always)]
+            |number| all[number as usize],
+        );
+        Self { numbers, indices, count: last + 1 }
+    }
+
+    /// A bit for each lane that is used.
+    #[inline(always)]
+    pub(crate) fn lanes(&self) -> u64 {
+        (1 << self.count) - 1
+    }
+}

@@ -1,0 +1,143 @@
+//! Which pixels of a tile are shaded, if not all of them are: those that may look different than in the last frame.
+//!
+//! A pixel may look different if the triangle that it shows may, or if it shows another one. Edges of faces reach into
+//! pixels around them, so where a triangle has come, gone or moved, pixels within reach of a line are shaded, too.
+
+use crate::simd::LANES;
+use crate::tile_buffer::{MAX_SIDE, PIXELS, TileArea};
+use std::ops::Range;
+
+/// Groups of eight pixels in a tile.
+pub(crate) const GROUP_COUNT: usize = PIXELS / LANES;
+
+/// A bit for each lane of each group of a tile.
+pub(crate) type TileLanes = [u8; GROUP_COUNT];
+
+/// A bit for each column of each row of a tile.
+pub(crate) type TileRows = [u64; MAX_SIDE];
+
+/// Which pixels of a tile are shaded.
+pub(crate) struct Asked {
+    pub(crate) lanes: TileLanes,
+    pub(crate) rows: TileRows,
+    /// Those around which the pixels' lines lie, and the pixels themselves.
+    pub(crate) around: TileLanes,
+}
+
+impl Asked {
+    pub(crate) fn new() -> Self {
+        Self { lanes: [0; GROUP_COUNT], rows: [0; MAX_SIDE], around: [0; GROUP_COUNT] }
+    }
+
+    /// Asks for those of a tile's `own` columns and rows that show a triangle which may look different, or that lie
+    /// within `reach` of pixels where triangles have moved: of each, now or in the last frame.
+    pub(crate) fn set(
+        &mut self,
+        (look, moved): (&TileLanes, [&TileLanes; 2]),
+        [columns, rows]: [Range<usize>; 2],
+        reach: usize,
+    ) {
+        let mut both = *moved[0];
+        both.iter_mut().zip(moved[1]).for_each(|(both, other)| *both |= other);
+        let look = rows_of(look);
+        let moved = spread(&rows_of(&both), reach);
+        let own = (u64::MAX >> (MAX_SIDE - columns.len())) << columns.start;
+        self.rows = [0; MAX_SIDE];
+        for y in rows {
+            self.rows[y] = (look[y] | moved[y]) & own;
+        }
+        self.lanes = lanes_of(&self.rows);
+        self.around = lanes_of(&spread(&self.rows, reach));
+    }
+
+    /// Whether any pixel is shaded.
+    pub(crate) fn any(&self) -> bool {
+        self.rows.iter().any(|&row| row != 0)
+    }
+}
+
+/// Bits of lanes as bits of columns.
+fn rows_of(lanes: &TileLanes) -> TileRows {
+    let mut rows = [0; MAX_SIDE];
+    for (y, x) in (0..MAX_SIDE / 2).flat_map(|y| (0..MAX_SIDE / 4).map(move |x| (y, x))) {
+        let lanes = u64::from(lanes[TileArea::group_of([x, y])]);
+        rows[2 * y] |= (lanes & 0xf) << (4 * x);
+        rows[2 * y + 1] |= (lanes >> 4) << (4 * x);
+    }
+    rows
+}
+
+/// Bits of columns as bits of lanes.
+fn lanes_of(rows: &TileRows) -> TileLanes {
+    let mut lanes = [0; GROUP_COUNT];
+    for (y, x) in (0..MAX_SIDE / 2).flat_map(|y| (0..MAX_SIDE / 4).map(move |x| (y, x))) {
+        let [upper, lower] = [rows[2 * y], rows[2 * y + 1]].map(|row| (row >> (4 * x)) as u8 & 0xf);
+        lanes[TileArea::group_of([x, y])] = upper | lower << 4;
+    }
+    lanes
+}
+
+/// Those at most `reach` columns and rows away.
+fn spread(rows: &TileRows, reach: usize) -> TileRows {
+    if reach == 0 {
+        return *rows;
+    }
+    let mut wide = *rows;
+    for (wide, row) in wide.iter_mut().zip(rows).filter(|(_, row)| **row != 0) {
+        for way in 1..=reach {
+            *wide |= row << way | row >> way;
+        }
+    }
+    let mut spread = wide;
+    for (y, row) in wide.iter().enumerate().filter(|(_, row)| **row != 0) {
+        for near in &mut spread[y.saturating_sub(reach)..(y + reach + 1).min(MAX_SIDE)] {
+            *near |= row;
+        }
+    }
+    spread
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn pixels() -> impl Strategy<Value = Vec<[usize; 2]>> {
+        prop::collection::vec([0..MAX_SIDE, 0..MAX_SIDE], 0..6)
+    }
+
+    fn lanes(pixels: &[[usize; 2]]) -> TileLanes {
+        let mut lanes = [0; GROUP_COUNT];
+        for index in pixels.iter().map(|&pixel| TileArea::index_of(pixel)) {
+            lanes[index / LANES] |= 1 << (index % LANES);
+        }
+        lanes
+    }
+
+    proptest! {
+        /// Pixel by pixel.
+        #[test]
+        fn pixels_that_look_different_and_those_around_moved_ones_are_asked(
+            look in pixels(), now in pixels(), before in pixels(),
+            own in [0..20_usize, 0..20_usize], sides in [1..44_usize, 1..44_usize], reach in 0..17_usize,
+        ) {
+            let [columns, rows] = [0, 1].map(|axis| own[axis]..own[axis] + sides[axis]);
+            let mut asked = Asked::new();
+            asked.set((&lanes(&look), [&lanes(&now), &lanes(&before)]), [columns.clone(), rows.clone()], reach);
+            let is_near = |[a, b]: [usize; 2], [x, y]: [usize; 2]| a.abs_diff(x) <= reach && b.abs_diff(y) <= reach;
+            let is_asked = |pixel: [usize; 2]| {
+                let is_moved = now.iter().chain(&before).any(|&moved| is_near(moved, pixel));
+                columns.contains(&pixel[0]) && rows.contains(&pixel[1]) && (look.contains(&pixel) || is_moved)
+            };
+            let all = || (0..PIXELS).map(TileArea::pixel_at);
+            let expected: Vec<_> = all().filter(|&pixel| is_asked(pixel)).collect();
+            let around: Vec<_> = all().filter(|&at| expected.iter().any(|&pixel| is_near(pixel, at))).collect();
+            prop_assert_eq!(asked.any(), !expected.is_empty());
+            prop_assert!(asked.lanes == lanes(&expected));
+            prop_assert!(asked.around == lanes(&around));
+            for [x, y] in all() {
+                prop_assert_eq!(asked.rows[y] >> x & 1 != 0, expected.contains(&[x, y]));
+            }
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! What the still triangles of a tile show, kept from frame to frame: where the same vertices move again and again, as
+//! in a drag, only the moving triangles are drawn over it.
+//!
+//! The nearest triangle is visible in whatever order they are drawn, so the result is that of all triangles. What is
+//! kept counts only the triangles that are visible somewhere, so the tile's list is short.
+
+use super::TileState;
+use super::surfaces::{Listing, Surfaces};
+use super::visibility::{cover_more, cover_overlay, resolve_visibility};
+use crate::Stats;
+use crate::bin::TriangleRef;
+use crate::shade::Shading;
+use crate::simd::LANES;
+use crate::tile_buffer::{BLOCKS, BlockBounds, NO_TRIANGLE, TileArea};
+use crate::view::FrameView;
+
+/// No triangle, as it is kept.
+const NONE: u16 = u16::MAX;
+
+/// What the still triangles of a tile show. It has one sample to a pixel.
+#[derive(Default)]
+pub(crate) struct StillTile {
+    /// Those that are visible: opaque ones, then overlays.
+    triangles: Vec<TriangleRef>,
+    /// What opaque triangles show.
+    opaque: Layer,
+    /// Where overlays are visible; empty if there are none.
+    overlay: Layer,
+    bounds: Option<Box<[BlockBounds; BLOCKS * BLOCKS]>>,
+}
+
+/// The visible triangle of each sample, by its number among those kept, and its depth.
+#[derive(Default)]
+struct Layer {
+    depth: Vec<f32>,
+    visible: Vec<u16>,
+}
+
+/// The triangles that are drawn over what is kept: ranges of the tile's list.
+pub(crate) struct Moving {
+    surfaces: Surfaces,
+    still: usize,
+}
+
+impl StillTile {
+    /// Finds what the still triangles of a tile show; `None` if that cannot be kept, because some
+    /// are masked or translucent.
+    pub(crate) fn find(
+        frame: &FrameView<'_>,
+        (area, tile): (&TileArea, u32),
+        state: &mut TileState,
+        (shading, stats): (&mut Shading, &mut Stats),
+    ) -> Option<Self> {
+        let surfaces = state.list(frame, tile, Listing::Still);
+        if !surfaces.masked.is_empty() || !surfaces.translucent.is_empty() {
+            return None;
+        }
+        state.begin(frame, tile);
+        resolve_visibility(frame, area, state, &surfaces, (shading, stats));
+        let mut names = Names::new(state.triangles.len());
+        let mut opaque = Layer::of(state, &mut names, |_| true);
+        let bounds = Some(Box::new(state.buffer.blocks));
+        let mut overlay = Layer::default();
+        if !surfaces.overlay.is_empty() {
+            cover_overlay(frame, area, state, &surfaces, stats);
+            overlay = Layer::of(state, &mut names, |place| surfaces.overlay.contains(&place));
+        }
+        let triangles = names.sorted(&mut [&mut opaque, &mut overlay], &state.triangles);
+        Some(Self { triangles, opaque, overlay, bounds })
+    }
+}
+
+impl StillTile {
+    /// The lanes of each group of eight pixels that show triangles for which a test holds.
+    pub(crate) fn lanes_of(&self, is_one: impl Fn(TriangleRef) -> bool, lanes: &mut [u8]) {
+        let is_found: Vec<bool> = self.triangles.iter().map(|&triangle| is_one(triangle)).collect();
+        let show = |name: u16| is_found.get(usize::from(name)).copied().unwrap_or(false);
+        for (at, &opaque) in self.opaque.visible.iter().enumerate() {
+            let overlay = self.overlay.visible.get(at).copied().unwrap_or(NONE);
+            let is_shown = show(if overlay == NONE { opaque } else { overlay });
+            lanes[at / LANES] |= u8::from(is_shown) << (at % LANES);
+        }
+    }
+
+    /// Puts what is kept into a tile, and lists the moving triangles.
+    pub(crate) fn restore(
+        &self,
+        frame: &FrameView<'_>,
+        (area, tile): (&TileArea, u32),
+        state: &mut TileState,
+    ) -> Moving {
+        let TileState { triangles, buffer, ties, .. } = state;
+        triangles.clear();
+        triangles.extend_from_slice(&self.triangles);
+        let surfaces = Surfaces::list(frame, tile, Listing::Moving, triangles);
+        let bounds = self.bounds.as_deref().expect("bounds are kept with the depths");
+        buffer.restore(area, (&self.opaque.depth, self.opaque.places()), bounds);
+        ties.reset(triangles.len());
+        Moving { surfaces, still: self.triangles.len() }
+    }
+
+    /// Draws moving opaque triangles over what was restored; `None` if there are too many ties.
+    pub(crate) fn cover_opaque(
+        &self,
+        frame: &FrameView<'_>,
+        area: &TileArea,
+        (state, moving): (&mut TileState, &Moving),
+        stats: &mut Stats,
+    ) -> Option<()> {
+        let is_drawn = cover_more(frame, area, state, moving.surfaces.opaque.clone(), stats);
+        state.buffer.blank_outside(area);
+        is_drawn.then_some(())
+    }
+
+    /// Lays the overlays over it, still ones and moving ones; `None` if there are too many ties.
+    pub(crate) fn cover_overlay(
+        &self,
+        frame: &FrameView<'_>,
+        area: &TileArea,
+        (state, moving): (&mut TileState, &Moving),
+        stats: &mut Stats,
+    ) -> Option<()> {
+        self.lay_overlay(frame, state);
+        let is_drawn = cover_more(frame, area, state, moving.surfaces.overlay.clone(), stats);
+        state.buffer.blank_outside(area);
+        is_drawn.then_some(())
+    }
+
+    /// Lays the still overlays over what moving triangles have not come to hide.
+    fn lay_overlay(&self, frame: &FrameView<'_>, state: &mut TileState) {
+        let TileState { triangles, buffer, .. } = state;
+        let kept = self.overlay.depth.iter().zip(self.overlay.places());
+        for (at, (&depth, place)) in kept.enumerate().filter(|(_, (_, place))| *place != NO_TRIANGLE) {
+            let (there, visible) = (buffer.depth[at], buffer.visible[at]);
+            let precedes = || {
+                let [ours, theirs] = [place, visible].map(|place| triangles[place as usize]);
+                frame.precedes(ours, theirs)
+            };
+            if depth > there || depth == there && precedes() {
+                (buffer.depth[at], buffer.visible[at]) = (depth, place);
+            }
+        }
+        if !self.overlay.depth.is_empty() {
+            buffer.forget_nearest();
+        }
+    }
+}
+
+impl Moving {
+    /// The lanes of each group of eight pixels that show moving triangles, while the tile's list is as it was
+    /// [restored](StillTile::restore).
+    pub(crate) fn lanes(&self, state: &TileState, lanes: &mut [u8]) {
+        let still = self.still as u32;
+        for (lanes, group) in lanes.iter_mut().zip(state.buffer.visible().as_chunks::<LANES>().0) {
+            // NO_TRIANGLE becomes the least number.
+            let bit = |lane: usize| u8::from(group[lane].wrapping_add(1) > still) << lane;
+            *lanes = (0..LANES).fold(0, |lanes, lane| lanes | bit(lane));
+        }
+    }
+
+    /// Brings the tile's list into the order of the frame's primitives, which shading requires.
+    pub(crate) fn sort(&self, state: &mut TileState) {
+        let TileState { triangles, buffer, reordered, ranks, .. } = state;
+        let (mut still, mut moving) = (0, self.still);
+        reordered.clear();
+        ranks.clear();
+        ranks.resize(triangles.len(), 0);
+        while still < self.still || moving < triangles.len() {
+            let is_still = still < self.still
+                && triangles.get(moving).is_none_or(|moving| triangles[still].order() < moving.order());
+            let next = if is_still { &mut still } else { &mut moving };
+            ranks[*next] = reordered.len() as u32;
+            reordered.push(triangles[*next]);
+            *next += 1;
+        }
+        std::mem::swap(triangles, reordered);
+        for visible in buffer.visible_mut() {
+            *visible = ranks.get(*visible as usize).copied().unwrap_or(NO_TRIANGLE);
+        }
+    }
+}
+
+impl Layer {
+    /// What those triangles show in a tile for which a test of their places holds. The names of these are appended.
+    fn of(state: &TileState, names: &mut Names, is_one: impl Fn(usize) -> bool) -> Self {
+        let buffer = &state.buffer;
+        let name = |&place: &u32| match place {
+            NO_TRIANGLE => NONE,
+            place if is_one(place as usize) => names.of(place),
+            _ => NONE,
+        };
+        let visible = buffer.visible().iter().map(name).collect();
+        Self { depth: buffer.depth[..buffer.span()].to_vec(), visible }
+    }
+
+    /// The places of the triangles in the tile's list.
+    fn places(&self) -> impl Iterator<Item = u32> {
+        self.visible.iter().map(|&name| if name == NONE { NO_TRIANGLE } else { u32::from(name) })
+    }
+}
+
+/// Numbers the visible ones of a tile's triangles.
+struct Names {
+    /// The number of each triangle, if it has one.
+    numbers: Vec<u16>,
+    /// Those that have one.
+    seen: Vec<u32>,
+}
+
+impl Names {
+    fn new(count: usize) -> Self {
+        Self { numbers: vec![NONE; count], seen: Vec::new() }
+    }
+
+    fn of(&mut self, place: u32) -> u16 {
+        let number = &mut self.numbers[place as usize];
+        if *number == NONE {
+            // Two layers have fewer samples than there are numbers.
+            *number = self.seen.len() as u16;
+            self.seen.push(place);
+        }
+        *number
+    }
+
+    /// The triangles that have numbers, in their order. Layers get their numbers in it.
+    fn sorted(self, layers: &mut [&mut Layer], triangles: &[TriangleRef]) -> Vec<TriangleRef> {
+        let mut order: Vec<u32> = self.seen.clone();
+        order.sort_unstable();
+        let mut ranks = self.numbers;
+        (0..).zip(&order).for_each(|(rank, &place)| ranks[place as usize] = rank);
+        for name in layers.iter_mut().flat_map(|layer| &mut layer.visible).filter(|name| **name != NONE) {
+            *name = ranks[self.seen[usize::from(*name)] as usize];
+        }
+        order.into_iter().map(|place| triangles[place as usize]).collect()
+    }
+}
