@@ -4,9 +4,9 @@
 use super::bits::is_set;
 use super::tiles::{Scratch, draw_tile};
 use crate::clock::Clock;
-use crate::ink::Ink;
+use crate::ink::{Ink, VisibleFaces};
 use crate::resolve::{TileColors, resolve, store_visibility};
-use crate::shade::{GROUP_COUNT, TileLanes, shade_tile};
+use crate::shade::{GROUP_COUNT, Partly, TileLanes, note_faces, shade_tile};
 use crate::target::Bands;
 use crate::tile::StillTile;
 use crate::tile_buffer::TileArea;
@@ -23,6 +23,8 @@ pub(super) struct KeptTiles {
 struct KeptTile {
     /// `None` if it cannot be kept.
     still: Option<StillTile>,
+    /// The still triangles as the search for outer halves of lines needs them, if there are lines.
+    faces: VisibleFaces,
     /// The lanes of each group that show still triangles which look different in every frame.
     look: TileLanes,
     /// The lanes that showed moving triangles in the last frame.
@@ -67,11 +69,14 @@ impl KeptTile {
     ) -> Self {
         let Scratch { state, shading, stats, .. } = scratch;
         let still = StillTile::find(frame, tile, state, (shading, stats));
-        let mut look = [0; GROUP_COUNT];
+        let (mut look, mut faces) = ([0; GROUP_COUNT], VisibleFaces::default());
         if let Some(still) = &still {
             still.lanes_of(|triangle| is_set(differ, triangle.ordinal as usize), &mut look);
+            if frame.paints_lines() {
+                faces = note_faces(frame, tile.0, still.triangles(), &mut shading.records);
+            }
         }
-        Self { still, look, shown: [u8::MAX; GROUP_COUNT] }
+        Self { still, faces, look, shown: [u8::MAX; GROUP_COUNT] }
     }
 
     /// Draws what has changed; `None`, with nothing drawn for good, if it has to be drawn as a whole.
@@ -100,7 +105,8 @@ impl KeptTile {
         stats.times.visibility += clock.lap();
         if asked.any() {
             let visible = (&state.buffer, state.triangles.as_slice());
-            stats.pixels_shaded += shade_tile(frame, (area, Some(asked)), visible, shading, Some(encoding));
+            let partly = Partly { asked, still: &self.faces, places: moving.still_places(state) };
+            stats.pixels_shaded += shade_tile(frame, (area, Some(partly)), visible, shading, Some(encoding));
             stats.triangles_edged += shading.edged;
             stats.times.shading += clock.lap();
             let colors = TileColors::PartlyEncoded(encoding, &asked.rows);

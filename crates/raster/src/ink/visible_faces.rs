@@ -43,6 +43,16 @@ impl VisibleFaces {
         self.lines[triangle_count] = FaceLine::UNLINED;
     }
 
+    /// Takes triangles from others that were noted, which have these places in the tile's list now.
+    pub(crate) fn note_again(&mut self, others: &Self, places: &[u32]) {
+        for ((&place, &depths), &line) in places.iter().zip(&others.depths).zip(&others.lines) {
+            self.depths[place as usize] = depths;
+            self.lines[place as usize] = line;
+        }
+        self.has_lines |= others.has_lines;
+        self.has_large |= others.has_large;
+    }
+
     /// Takes a visible triangle of the tile.
     #[inline(always)]
     pub(crate) fn note(&mut self, place: u32, depths: DepthRange, line: FaceLine) {

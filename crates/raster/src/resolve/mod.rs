@@ -3,6 +3,7 @@
 mod background;
 mod edges;
 mod mean;
+mod some;
 mod strip;
 
 pub(crate) use mean::{mean, saturated};
@@ -31,7 +32,7 @@ pub(crate) enum TileColors<'a> {
     Blended,
 }
 
-/// Writes the outputs of colour of a tile, bytes when tiles beside it are finished, too.
+/// Writes the outputs of colour of a tile, all of its bytes when tiles beside it are finished, too.
 pub(crate) fn resolve(
     frame: &FrameView<'_>,
     area: &TileArea,
@@ -47,8 +48,7 @@ pub(crate) fn resolve(
         }
         TileColors::PartlyEncoded(encoding, asked) => {
             background::lay_codes(frame, area, shading, encoding);
-            strip::keep_others(frame, (area, asked), &mut shading.codes, bands);
-            return strip.push(frame, area, &mut shading.codes, bands);
+            return some::write_some(frame, (area, asked), &shading.codes, bands);
         }
         TileColors::Shaded => {
             background::lay_colors(frame, area, shading);

@@ -2,7 +2,6 @@
 //! faster than short ones: the processor prefetches them.
 
 use super::fill_background;
-use crate::shade::TileRows;
 use crate::simd::{Each, LANES};
 use crate::target::Bands;
 use crate::tile_buffer::{PIXELS, TileArea};
@@ -18,28 +17,6 @@ pub(crate) struct Strip {
     codes: Vec<Vec<u32>>,
     /// The first and the last of those that nothing is in.
     empty: Option<[TileArea; 2]>,
-}
-
-/// Gives a tile's own pixels the bytes that the target has, except in those columns of each row that were shaded.
-pub(super) fn keep_others(
-    frame: &FrameView<'_>,
-    (area, shaded): (&TileArea, &TileRows),
-    codes: &mut [u32],
-    bands: &Bands<'_>,
-) {
-    let (band, corner) = bands.lock(area.own_origin().map(|v| v as u32));
-    let image = if band.unorm8.is_empty() { &*band.srgb8 } else { &*band.unorm8 };
-    let ([columns, rows], [left, top]) = (frame.drawn_part(area), area.margin);
-    for y in rows {
-        let start = corner + y * bands.width();
-        let row = &image[start + columns.start..start + columns.end];
-        let shaded = shaded[top + y] >> (left + columns.start);
-        for ((x, pixel), bit) in (left + columns.start..).zip(row).zip(0..) {
-            if shaded >> bit & 1 == 0 {
-                codes[TileArea::index_of([x, top + y])] = u32::from_le_bytes(*pixel);
-            }
-        }
-    }
 }
 
 impl Strip {

@@ -3,6 +3,7 @@
 //! A pixel may look different if the triangle that it shows may, or if it shows another one. Edges of faces reach into
 //! pixels around them, so where a triangle has come, gone or moved, pixels within reach of a line are shaded, too.
 
+use crate::ink::VisibleFaces;
 use crate::simd::LANES;
 use crate::tile_buffer::{MAX_SIDE, PIXELS, TileArea};
 use std::ops::Range;
@@ -20,25 +21,35 @@ pub(crate) type TileRows = [u64; MAX_SIDE];
 pub(crate) struct Asked {
     pub(crate) lanes: TileLanes,
     pub(crate) rows: TileRows,
-    /// Those around which the pixels' lines lie, and the pixels themselves.
-    pub(crate) around: TileLanes,
+    /// Those, and pixels within reach of them that show moving triangles.
+    pub(crate) seen: TileLanes,
+}
+
+/// What is known of a tile of which not all pixels are shaded.
+#[derive(Clone, Copy)]
+pub(crate) struct Partly<'p> {
+    pub(crate) asked: &'p Asked,
+    /// The still triangles, as the search for outer halves of lines needs them.
+    pub(crate) still: &'p VisibleFaces,
+    /// Their places in the tile's list.
+    pub(crate) places: &'p [u32],
 }
 
 impl Asked {
     pub(crate) fn new() -> Self {
-        Self { lanes: [0; GROUP_COUNT], rows: [0; MAX_SIDE], around: [0; GROUP_COUNT] }
+        Self { lanes: [0; GROUP_COUNT], rows: [0; MAX_SIDE], seen: [0; GROUP_COUNT] }
     }
 
-    /// Asks for those of a tile's `own` columns and rows that show a triangle which may look different, or that lie
-    /// within `reach` of pixels where triangles have moved: of each, now or in the last frame.
+    /// Asks for those of a tile's own `columns` and `rows` that show a still triangle which may look different, or
+    /// that lie within `reach` of pixels which show moving triangles now or did in the last frame.
     pub(crate) fn set(
         &mut self,
-        (look, moved): (&TileLanes, [&TileLanes; 2]),
+        (look, [now, before]): (&TileLanes, [&TileLanes; 2]),
         [columns, rows]: [Range<usize>; 2],
         reach: usize,
     ) {
-        let mut both = *moved[0];
-        both.iter_mut().zip(moved[1]).for_each(|(both, other)| *both |= other);
+        let mut both = *now;
+        both.iter_mut().zip(before).for_each(|(both, before)| *both |= before);
         let look = rows_of(look);
         let moved = spread(&rows_of(&both), reach);
         let own = (u64::MAX >> (MAX_SIDE - columns.len())) << columns.start;
@@ -47,7 +58,9 @@ impl Asked {
             self.rows[y] = (look[y] | moved[y]) & own;
         }
         self.lanes = lanes_of(&self.rows);
-        self.around = lanes_of(&spread(&self.rows, reach));
+        self.seen = lanes_of(&spread(&self.rows, reach));
+        let lanes = self.lanes.iter().zip(now);
+        self.seen.iter_mut().zip(lanes).for_each(|(seen, (lanes, now))| *seen = lanes | *seen & now);
     }
 
     /// Whether any pixel is shaded.
@@ -131,10 +144,13 @@ mod tests {
             };
             let all = || (0..PIXELS).map(TileArea::pixel_at);
             let expected: Vec<_> = all().filter(|&pixel| is_asked(pixel)).collect();
-            let around: Vec<_> = all().filter(|&at| expected.iter().any(|&pixel| is_near(pixel, at))).collect();
+            let is_seen = |at: &[usize; 2]| {
+                expected.contains(at) || now.contains(at) && expected.iter().any(|&pixel| is_near(pixel, *at))
+            };
+            let seen: Vec<_> = all().filter(is_seen).collect();
             prop_assert_eq!(asked.any(), !expected.is_empty());
             prop_assert!(asked.lanes == lanes(&expected));
-            prop_assert!(asked.around == lanes(&around));
+            prop_assert!(asked.seen == lanes(&seen));
             for [x, y] in all() {
                 prop_assert_eq!(asked.rows[y] >> x & 1 != 0, expected.contains(&[x, y]));
             }

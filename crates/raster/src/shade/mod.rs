@@ -25,8 +25,8 @@ mod visible;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use asked::{Asked, GROUP_COUNT, TileLanes, TileRows};
+pub(crate) use asked::{Asked, GROUP_COUNT, Partly, TileLanes, TileRows};
 pub(crate) use edges::{BEHIND, EdgeGroup};
 pub(crate) use list::{JobList, mask_jobs, shade_jobs, shade_jobs_with};
 pub(crate) use shading::{EmptyGroup, Shading};
-pub(crate) use surface::{list_visible, shade_tile};
+pub(crate) use surface::{list_visible, note_faces, shade_tile};

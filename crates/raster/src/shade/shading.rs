@@ -40,7 +40,7 @@ pub(crate) struct Shading {
     /// Fragments that cover a part of their pixel.
     pub(super) parts: FragmentList,
     pub(super) runs: Vec<Run>,
-    pub(super) records: Records,
+    pub(crate) records: Records,
     pub(super) columns: [Columns; 2],
     /// A fragment and one colour for each visible triangle of a flat draw, in linear
     /// light and as bytes.

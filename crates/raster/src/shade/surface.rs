@@ -1,10 +1,13 @@
 //! Shades a tile: every visible triangle once at every pixel where it is visible.
 
-use super::asked::{Asked, GROUP_COUNT};
+use super::asked::{GROUP_COUNT, Partly};
 use super::shading::{Run, Shading};
 use super::visible::{SomeLanes, divide, list};
 use crate::bin::TriangleRef;
-use crate::fragments::{Codes, Encoding, FragmentSlice, ShadeContext, ShadeOutput, ShadePoint, Task};
+use crate::fragments::{
+    Codes, Encoding, FragmentSlice, Records, ShadeContext, ShadeOutput, ShadePoint, Task,
+};
+use crate::ink::VisibleFaces;
 use crate::simd::{LANES, at_level};
 use crate::tile_buffer::{TileArea, VisibilityBuffer};
 use crate::view::FrameView;
@@ -14,12 +17,12 @@ use crate::view::FrameView;
 /// many fragments were shaded.
 pub(crate) fn shade_tile(
     frame: &FrameView<'_>,
-    (area, asked): (&TileArea, Option<&Asked>),
+    (area, partly): (&TileArea, Option<Partly<'_>>),
     (buffer, triangles): (&VisibilityBuffer, &[TriangleRef]),
     shading: &mut Shading,
     encoding: Option<Encoding>,
 ) -> u64 {
-    let count = list_visible(frame, (area, asked), (buffer, triangles), shading);
+    let count = list_visible(frame, (area, partly), (buffer, triangles), shading);
     let runs = std::mem::take(&mut shading.runs);
     let outer = std::mem::take(&mut shading.outer);
     for run in &runs {
@@ -45,14 +48,14 @@ pub(crate) fn shade_tile(
 /// the number of fragments to shade.
 pub(crate) fn list_visible(
     frame: &FrameView<'_>,
-    (area, asked): (&TileArea, Option<&Asked>),
+    (area, partly): (&TileArea, Option<Partly<'_>>),
     (buffer, triangles): (&VisibilityBuffer, &[TriangleRef]),
     shading: &mut Shading,
 ) -> usize {
     let mut outer = std::mem::take(&mut shading.outer);
     let ink = frame.ink.as_ref().filter(|ink| ink.has_lines());
-    let some = match asked {
-        Some(Asked { lanes, around, .. }) => Some(SomeLanes { shaded: lanes, seen: around }),
+    let some = match partly {
+        Some(Partly { asked, .. }) => Some(SomeLanes { shaded: &asked.lanes, seen: &asked.seen }),
         // Lines reach across the borders of tiles.
         None => ink.map(|_| SomeLanes { shaded: outer.own_lanes(frame, area), seen: &[0xff; GROUP_COUNT] }),
     };
@@ -61,6 +64,9 @@ pub(crate) fn list_visible(
     divide(frame, buffer, triangles, shading);
     if let Some(ink) = ink {
         outer.begin(triangles.len());
+        if let Some(Partly { still, places, .. }) = partly {
+            outer.faces_mut().note_again(still, places);
+        }
         let Shading { runs, records, seen, edged, .. } = shading;
         records.clear();
         for run in runs {
@@ -70,12 +76,31 @@ pub(crate) fn list_visible(
             *edged += if shape.lines.is_some() { seen.len() as u64 } else { 0 };
             run.records = Some(shape);
         }
-        outer.find(frame, (ink, area), (buffer, triangles), asked.map(|asked| &asked.rows));
+        outer.find(frame, (ink, area), (buffer, triangles), partly.map(|partly| &partly.asked.rows));
     } else if !outer.is_empty() {
         outer.begin(0);
     }
     shading.outer = outer;
     count
+}
+
+/// What the search for outer halves of lines needs of triangles of a tile, in the order of the frame's primitives.
+pub(crate) fn note_faces(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    triangles: &[TriangleRef],
+    records: &mut Records,
+) -> VisibleFaces {
+    let mut faces = VisibleFaces::default();
+    faces.begin(triangles.len());
+    let places: Vec<u32> = (0..triangles.len() as u32).collect();
+    records.clear();
+    let draw_of = |&place: &u32| frame.draw_of(triangles[place as usize]);
+    for places in places.chunk_by(|a, b| draw_of(a) == draw_of(b)) {
+        let context = frame.shade_context(area, triangles, draw_of(&places[0]));
+        records.append(frame.token, &context, places, Some(&mut faces));
+    }
+    faces
 }
 
 /// What groups see, and from group to group how many samples there are.

@@ -59,13 +59,18 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
         let (first, others) = rows.split_first().expect("a pixel has a sample");
         let lanes = U32::simd_from(simd, *first);
         // As before: often within large triangles.
-        if !lanes.simd_eq(last).all_true() {
+        let mut counted = lanes;
+        if !WHOLE {
+            let seen = Mask::from_bitmask(simd, u64::from(some.seen[group]));
+            counted = seen.select(lanes, U32::splat(simd, NO_TRIANGLE));
+        }
+        if !counted.simd_eq(last).all_true() {
             // All eight are marked: a branch on which are new would be mispredicted often.
-            for visible in <[u32; LANES]>::from(lanes.min(triangle_count as u32)) {
+            for visible in <[u32; LANES]>::from(counted.min(triangle_count as u32)) {
                 marks[visible as usize] = 1;
             }
         }
-        last = lanes;
+        last = counted;
         let agree = others.iter().fold(
             Mask::splat(simd, true),
             #[inline(always)]

@@ -71,6 +71,11 @@ impl StillTile {
 }
 
 impl StillTile {
+    /// The triangles that are kept, in the order of the frame's primitives.
+    pub(crate) fn triangles(&self) -> &[TriangleRef] {
+        &self.triangles
+    }
+
     /// The lanes of each group of eight pixels that show triangles for which a test holds.
     pub(crate) fn lanes_of(&self, is_one: impl Fn(TriangleRef) -> bool, lanes: &mut [u8]) {
         let is_found: Vec<bool> = self.triangles.iter().map(|&triangle| is_one(triangle)).collect();
@@ -156,6 +161,11 @@ impl Moving {
             let bit = |lane: usize| u8::from(group[lane].wrapping_add(1) > still) << lane;
             *lanes = (0..LANES).fold(0, |lanes, lane| lanes | bit(lane));
         }
+    }
+
+    /// The places of the still triangles in the tile's list after it was sorted.
+    pub(crate) fn still_places<'s>(&self, state: &'s TileState) -> &'s [u32] {
+        &state.ranks[..self.still]
     }
 
     /// Brings the tile's list into the order of the frame's primitives, which shading requires.

@@ -1,0 +1,58 @@
+//! Writes some of a tile's pixels to the target, which holds all others.
+
+use crate::shade::TileRows;
+use crate::simd::LANES;
+use crate::target::Bands;
+use crate::tile_buffer::TileArea;
+use crate::view::FrameView;
+
+/// Pixels of a row that lie side by side in a group.
+const SIDE: usize = LANES / 2;
+
+/// Writes those of a tile's own pixels for which `asked` has a bit in their row.
+pub(super) fn write_some(
+    frame: &FrameView<'_>,
+    (area, asked): (&TileArea, &TileRows),
+    codes: &[u32],
+    bands: &Bands<'_>,
+) {
+    let (mut band, corner) = bands.lock(area.own_origin().map(|v| v as u32));
+    let band = &mut *band;
+    let image = if band.unorm8.is_empty() { &mut *band.srgb8 } else { &mut *band.unorm8 };
+    let ([columns, rows], [left, top]) = (frame.drawn_part(area), area.margin);
+    for (y, asked) in rows.map(|y| (y, asked[top + y])).filter(|(_, asked)| *asked != 0) {
+        let start = corner + y * bands.width();
+        let row = &mut image[start + columns.start..start + columns.end];
+        write_row(row, (codes, asked), [left + columns.start, top + y]);
+    }
+}
+
+/// Writes to a row of pixels, which begins at a column of the tile.
+fn write_row(row: &mut [[u8; 4]], (codes, asked): (&[u32], u64), [column, y]: [usize; 2]) {
+    // Up to a whole group first.
+    let head = row.len().min(column.next_multiple_of(SIDE) - column);
+    let (head, row) = row.split_at_mut(head);
+    write_each(head, (codes, asked), [column, y]);
+    let whole = column + head.len();
+    let (groups, tail) = row.as_chunks_mut::<SIDE>();
+    for (pixels, x) in groups.iter_mut().zip((whole..).step_by(SIDE)) {
+        let asked = asked >> x & 0xf;
+        if asked != 0 {
+            let codes = codes[TileArea::index_of([x, y])..].first_chunk::<SIDE>().expect("groups are whole");
+            // Without a branch for each, which would be mispredicted often.
+            *pixels = std::array::from_fn(|lane| {
+                let before = u32::from_le_bytes(pixels[lane]);
+                if asked >> lane & 1 != 0 { codes[lane] } else { before }.to_le_bytes()
+            });
+        }
+    }
+    let written = whole + SIDE * groups.len();
+    write_each(tail, (codes, asked), [written, y]);
+}
+
+/// The same, pixel by pixel.
+fn write_each(pixels: &mut [[u8; 4]], (codes, asked): (&[u32], u64), [x, y]: [usize; 2]) {
+    for (pixel, x) in pixels.iter_mut().zip(x..).filter(|(_, x)| asked >> x & 1 != 0) {
+        *pixel = codes[TileArea::index_of([x, y])].to_le_bytes();
+    }
+}
