@@ -22,6 +22,9 @@ pub(super) struct Follow<'a> {
 impl Follow<'_> {
     /// Sets primitives up again whose vertices have run, and returns the tiles that may look different.
     pub(super) fn run(&self, chunks: &mut [Chunk], moving: &mut Moving) -> Vec<u32> {
+        if self.touched.changed().iter().all(|&word| word == 0) && self.changes.iter().all(is_empty) {
+            return Vec::new();
+        }
         let tiles = DirtyTiles::new(self.set_up.grid);
         if moving.covers(self.touched, self.set_up.plan, self.changes) {
             self.set_up_apart((chunks, &mut moving.chunks), &tiles);
@@ -137,6 +140,11 @@ impl Follow<'_> {
             }
         });
     }
+}
+
+/// Whether no primitive may look different by itself.
+fn is_empty(change: &DrawChange<'_>) -> bool {
+    change.reshaped.is_empty() && change.recolored.is_empty()
 }
 
 /// Adds the tiles that list flagged primitives of a chunk.

@@ -11,7 +11,7 @@ use super::touched::{Found, Touched};
 use crate::BlendMode;
 use crate::bin::{Chunk, Grid, MovingChunk};
 use crate::geometry::Shape;
-use crate::outer_ink::parts;
+use crate::outer_ink::slots;
 use crate::pass::Recorded;
 use crate::view::{DrawPlan, Plan};
 
@@ -70,12 +70,16 @@ impl Moving {
             && plan.draws.iter().all(are_prepared)
     }
 
-    /// Takes the vertices that have changed in a frame; returns whether the same have changed in the last one.
+    /// Takes the vertices that have changed in a frame; returns whether the same have changed in the last one of
+    /// which any have.
     pub(super) fn repeats(&mut self, touched: &Touched) -> bool {
         let is_same = self.changed == touched.changed();
+        if touched.changed().iter().all(|&word| word == 0) {
+            return false;
+        }
         self.changed.clear();
         self.changed.extend_from_slice(touched.changed());
-        is_same && self.changed.iter().any(|&word| word != 0)
+        is_same
     }
 
     /// Finds which primitives move, and which look different, from what was found in each chunk; then which of
@@ -105,7 +109,7 @@ impl Moving {
             flagged(&found.differ, &mut self.differ);
             flagged(&found.moved, &mut self.primitives);
         }
-        self.add_parts(pass, plan);
+        self.add_slots(pass, plan);
         self.differ.iter_mut().zip(&self.primitives).for_each(|(differ, &moved)| *differ |= moved);
         let moving: u32 = self.primitives.iter().map(|word| word.count_ones()).sum();
         let places = |chunk: &Chunk| -> Vec<u32> {
@@ -117,8 +121,8 @@ impl Moving {
         are_few.then(|| chunks.iter().map(places).collect())
     }
 
-    /// Adds the other triangles of the faces whose triangles move.
-    fn add_parts(&mut self, pass: &[Recorded<'_>], plan: &Plan) {
+    /// Adds all slots of the faces whose triangles move.
+    fn add_slots(&mut self, pass: &[Recorded<'_>], plan: &Plan) {
         for draw in &plan.draws {
             let geometry = &pass[draw.draw].geometry;
             if !matches!(geometry.shape, Shape::Triangles { .. }) {
@@ -127,8 +131,8 @@ impl Moving {
             let start = draw.ordinals.start;
             let moving: Vec<u32> =
                 draw.ordinals.clone().filter(|&ordinal| is_set(&self.primitives, ordinal as usize)).collect();
-            for part in moving.into_iter().flat_map(|ordinal| parts(geometry, ordinal - start)) {
-                set(&mut self.primitives, (start + part) as usize);
+            for slot in moving.into_iter().flat_map(|ordinal| slots(geometry, ordinal - start)) {
+                set(&mut self.primitives, (start + slot) as usize);
             }
         }
     }

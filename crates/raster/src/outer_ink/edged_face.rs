@@ -154,15 +154,20 @@ fn identity(vertex: &ScreenVertex) -> [i32; 3] {
 /// The other triangles of a face: those around one of its triangles that have the same face number. Each of
 /// them finds this one, too. Triangles whose three corners are one vertex are skipped: they only fill a slot.
 pub(crate) fn parts(geometry: &Geometry<'_>, primitive: u32) -> impl Iterator<Item = u32> {
-    let face = geometry.face(primitive);
-    let end = (geometry.len() as u32).min(primitive + 1 + MOST_PARTS);
-    let is_part = move |part: &u32| geometry.face(*part) == face;
-    let before = (primitive.saturating_sub(MOST_PARTS)..primitive).rev().take_while(is_part);
     let is_triangle = |part: &u32| {
         let [a, b, c] = geometry.corners(*part);
         a != b || b != c
     };
-    before.chain((primitive + 1..end).take_while(is_part)).filter(is_triangle)
+    slots(geometry, primitive).filter(is_triangle)
+}
+
+/// The same with those that only fill a slot: when the face moves, they may become triangles.
+pub(crate) fn slots(geometry: &Geometry<'_>, primitive: u32) -> impl Iterator<Item = u32> {
+    let face = geometry.face(primitive);
+    let end = (geometry.len() as u32).min(primitive + 1 + MOST_PARTS);
+    let is_part = move |part: &u32| geometry.face(*part) == face;
+    let before = (primitive.saturating_sub(MOST_PARTS)..primitive).rev().take_while(is_part);
+    before.chain((primitive + 1..end).take_while(is_part))
 }
 
 /// The corner of the primitive that is opposite its side on which two vertices lie.

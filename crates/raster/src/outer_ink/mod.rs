@@ -18,7 +18,7 @@
 mod edged_face;
 mod visible_rows;
 
-pub(crate) use edged_face::parts;
+pub(crate) use edged_face::{parts, slots};
 
 use crate::bin::TriangleRef;
 use crate::ink::{Ink, LARGE, VisibleFaces};
