@@ -6,7 +6,7 @@ use super::tiles::{Scratch, draw_tile};
 use crate::clock::Clock;
 use crate::ink::{Ink, VisibleFaces};
 use crate::resolve::{TileColors, resolve, store_visibility};
-use crate::shade::{GROUP_COUNT, Partly, TileLanes, note_faces, shade_tile};
+use crate::shade::{GROUP_COUNT, Partly, TileLanes, note_faces, rows_of_either, shade_tile};
 use crate::target::Bands;
 use crate::tile::StillTile;
 use crate::tile_buffer::TileArea;
@@ -19,6 +19,9 @@ pub(super) struct KeptTiles {
     tiles: Vec<Mutex<Option<Box<KeptTile>>>>,
 }
 
+/// All lanes.
+const ALL: [TileLanes; 2] = [[u8::MAX; GROUP_COUNT]; 2];
+
 /// What is kept of a tile.
 struct KeptTile {
     /// `None` if it cannot be kept.
@@ -27,8 +30,8 @@ struct KeptTile {
     faces: VisibleFaces,
     /// The lanes of each group that show still triangles which look different in every frame.
     look: TileLanes,
-    /// The lanes that showed moving triangles in the last frame.
-    shown: TileLanes,
+    /// The lanes that showed moving triangles in the last frame, without overlays and with them.
+    shown: [TileLanes; 2],
 }
 
 /// Those of a frame.
@@ -54,7 +57,7 @@ impl Kept<'_> {
         let tile = (&frame.area(index), index);
         let own = kept.get_or_insert_with(|| Box::new(KeptTile::find((frame, self.differ), tile, scratch)));
         if own.draw(frame, scratch, (bands, tile)).is_none() {
-            own.shown = [u8::MAX; GROUP_COUNT];
+            own.shown = ALL;
             draw_tile(frame, scratch, bands, index);
         }
     }
@@ -76,7 +79,7 @@ impl KeptTile {
                 faces = note_faces(frame, tile.0, still.triangles(), &mut shading.records);
             }
         }
-        Self { still, faces, look, shown: [u8::MAX; GROUP_COUNT] }
+        Self { still, faces, look, shown: ALL }
     }
 
     /// Draws what has changed; `None`, with nothing drawn for good, if it has to be drawn as a whole.
@@ -92,15 +95,17 @@ impl KeptTile {
         let moving = still.restore(frame, (area, index), state);
         still.cover_opaque(frame, area, (state, &moving), stats)?;
         stats.times.visibility += clock.lap();
-        store_visibility(frame, area, state, bands);
+        let mut now = [[0; GROUP_COUNT]; 2];
+        moving.lanes(state, &mut now[0]);
+        let moved = rows_of_either(&now[0], &self.shown[0]);
+        store_visibility(frame, (area, Some(&moved)), state, bands);
         stats.times.resolve += clock.lap();
         still.cover_overlay(frame, area, (state, &moving), stats)?;
-        let mut now = [0; GROUP_COUNT];
-        moving.lanes(state, &mut now);
-        moving.sort(state);
+        moving.lanes(state, &mut now[1]);
+        moving.sort(frame, state);
         stats.tiles += 1;
         let reach = frame.ink.as_ref().map_or(0, Ink::reach) as usize;
-        asked.set((&self.look, [&now, &self.shown]), frame.own_part(area), reach);
+        asked.set((&self.look, [&now[1], &self.shown[1]]), frame.own_part(area), reach);
         self.shown = now;
         stats.times.visibility += clock.lap();
         if asked.any() {

@@ -50,7 +50,7 @@ pub(super) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
     resolve_visibility(frame, &area, state, &surfaces, (shading, stats));
     stats.times.visibility += clock.lap();
     // Depth and ids know nothing of what is shown over the surfaces.
-    store_visibility(frame, &area, state, bands);
+    store_visibility(frame, (&area, None), state, bands);
     stats.times.resolve += clock.lap();
     if frame.wants.color {
         cover_overlay(frame, &area, state, &surfaces, stats);

@@ -89,8 +89,14 @@ fn store_colors(frame: &FrameView<'_>, area: &TileArea, colors: &[[f32; 4]], ban
     });
 }
 
-/// Writes depth and ids, if they are requested, each from one sample of the pixel, row by row.
-pub(crate) fn store_visibility(frame: &FrameView<'_>, area: &TileArea, state: &TileState, bands: &Bands<'_>) {
+/// Writes depth and ids, if they are requested, each from one sample of the pixel, row by row. Of ids, which take
+/// longer, only those are written for which `asked` has a bit in their row, if it is given: the target holds all others.
+pub(crate) fn store_visibility(
+    frame: &FrameView<'_>,
+    (area, asked): (&TileArea, Option<&TileRows>),
+    state: &TileState,
+    bands: &Bands<'_>,
+) {
     if !(frame.wants.depth || frame.wants.ids) {
         return;
     }
@@ -114,7 +120,15 @@ pub(crate) fn store_visibility(frame: &FrameView<'_>, area: &TileArea, state: &T
             }
         }
         if frame.wants.ids {
-            store_ids(frame, state, band, row.zip(samples));
+            let pixels = row.zip(samples);
+            match asked.map(|asked| asked[top + y] >> (left + columns.start)) {
+                None => store_ids(frame, state, band, pixels),
+                Some(asked) => {
+                    let is_asked = |column: usize| asked >> column & 1 != 0;
+                    let some = pixels.enumerate().filter(|(column, _)| is_asked(*column));
+                    store_ids(frame, state, band, some.map(|(_, pixel)| pixel));
+                }
+            }
         }
     }
 }

@@ -48,10 +48,8 @@ impl Asked {
         [columns, rows]: [Range<usize>; 2],
         reach: usize,
     ) {
-        let mut both = *now;
-        both.iter_mut().zip(before).for_each(|(both, before)| *both |= before);
         let look = rows_of(look);
-        let moved = spread(&rows_of(&both), reach);
+        let moved = spread(&rows_of_either(now, before), reach);
         let own = (u64::MAX >> (MAX_SIDE - columns.len())) << columns.start;
         self.rows = [0; MAX_SIDE];
         for y in rows {
@@ -78,6 +76,13 @@ fn rows_of(lanes: &TileLanes) -> TileRows {
         rows[2 * y + 1] |= (lanes >> 4) << (4 * x);
     }
     rows
+}
+
+/// Bits of lanes of either as bits of columns.
+pub(crate) fn rows_of_either(one: &TileLanes, other: &TileLanes) -> TileRows {
+    let mut both = *one;
+    both.iter_mut().zip(other).for_each(|(both, other)| *both |= other);
+    rows_of(&both)
 }
 
 /// Bits of columns as bits of lanes.

@@ -168,17 +168,23 @@ impl Moving {
         &state.ranks[..self.still]
     }
 
-    /// Brings the tile's list into the order of the frame's primitives, which shading requires.
-    pub(crate) fn sort(&self, state: &mut TileState) {
+    /// Brings the tile's list into the order of the frame's draws, which shading requires.
+    pub(crate) fn sort(&self, frame: &FrameView<'_>, state: &mut TileState) {
         let TileState { triangles, buffer, reordered, ranks, .. } = state;
-        let (mut still, mut moving) = (0, self.still);
-        reordered.clear();
         ranks.clear();
-        ranks.resize(triangles.len(), 0);
-        while still < self.still || moving < triangles.len() {
-            let is_still = still < self.still
-                && triangles.get(moving).is_none_or(|moving| triangles[still].order() < moving.order());
-            let next = if is_still { &mut still } else { &mut moving };
+        ranks.extend(0..triangles.len() as u32);
+        // Both parts of the list are in order.
+        let (still, moving) = triangles.split_at(self.still);
+        let ends = [still, moving].map(|part| part.last().map_or(0, |last| frame.draw_of(*last)));
+        if ends == [0, 0] {
+            return;
+        }
+        reordered.clear();
+        let (mut next, mut others) = (0, still.len());
+        while next < still.len() || others < triangles.len() {
+            let is_still = next < still.len()
+                && triangles.get(others).is_none_or(|other| triangles[next].order() < other.order());
+            let next = if is_still { &mut next } else { &mut others };
             ranks[*next] = reordered.len() as u32;
             reordered.push(triangles[*next]);
             *next += 1;
