@@ -74,6 +74,23 @@ proptest! {
         prop_assert_eq!(painted(&[shape.mesh()]), painted(&shape.apart()));
     }
 
+    /// As several threads paint it.
+    #[test]
+    fn rows_of_an_image_are_painted_as_the_whole(
+        shapes in proptest::collection::vec(prop_oneof![shape(), glyph(), panel()], 1..4),
+        count in 1..40_usize,
+    ) {
+        let mut pixels = background();
+        let [width, height] = SIZE.map(|side| side as usize);
+        for (number, band) in pixels.chunks_mut(count * width).enumerate() {
+            let top = number * count;
+            let rows = top as u32..(top + count).min(height) as u32;
+            let mut canvas = Canvas::of_rows(width as u32, rows, band).expect("its rows");
+            Painter::new().paint(&mut canvas, &meshes(&shapes));
+        }
+        prop_assert_eq!(pixels, painted(&meshes(&shapes)));
+    }
+
     #[test]
     fn a_panel_is_its_two_triangles(shape in panel()) {
         prop_assert_eq!(painted(&[shape.mesh()]), painted(&shape.apart()));

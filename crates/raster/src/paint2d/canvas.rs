@@ -42,7 +42,7 @@ impl SizeError {
 #[derive(Debug)]
 pub struct Canvas<'a> {
     pixels: &'a mut [[u8; 4]],
-    size: [i32; 2],
+    bounds: Rect,
 }
 
 impl<'a> Canvas<'a> {
@@ -52,27 +52,47 @@ impl<'a> Canvas<'a> {
     /// If a side is 0 or above [`MAX_SIZE`], or the number of pixels is not
     /// `width * height`.
     pub fn new(width: u32, height: u32, pixels: &'a mut [[u8; 4]]) -> Result<Self, SizeError> {
-        let size = SizeError::check(width, height, pixels.len())?;
-        Ok(Self { pixels, size })
+        Self::of_rows(width, 0..height, pixels)
+    }
+
+    /// Borrows some rows of an image. Painting each row in one of several such canvases is painting the whole
+    /// image, and several threads can do so.
+    ///
+    /// # Errors
+    /// If a side is 0 or above [`MAX_SIZE`], if the last row is, or if the number of pixels is not that of the rows.
+    pub fn of_rows(width: u32, rows: Range<u32>, pixels: &'a mut [[u8; 4]]) -> Result<Self, SizeError> {
+        let height = rows.end.saturating_sub(rows.start);
+        let [right, _] = SizeError::check(width, height, pixels.len())?;
+        if rows.end > MAX_SIZE {
+            return Err(SizeError { width, height: rows.end, pixels: pixels.len() });
+        }
+        let [top, bottom] = [rows.start, rows.end].map(u32::cast_signed);
+        Ok(Self { pixels, bounds: Rect::new([0, top], [right, bottom]) })
     }
 
     /// All pixels' places.
     #[must_use]
     pub fn bounds(&self) -> Rect {
-        Rect::new([0, 0], self.size)
+        self.bounds
+    }
+
+    /// Where row y, which is inside, begins. All rows begin in column 0.
+    #[inline(always)]
+    fn row(&self, y: i32) -> usize {
+        (y - self.bounds.min[1]) as usize * self.bounds.max[0] as usize
     }
 
     /// From pixel (x, y), which is inside, to the end of the image.
     #[inline(always)]
     pub(super) fn pixels_from(&mut self, x: i32, y: i32) -> &mut [[u8; 4]] {
-        let start = y as usize * self.size[0] as usize + x as usize;
+        let start = self.row(y) + x as usize;
         &mut self.pixels[start..]
     }
 
     /// These columns of row y, which are inside.
     #[inline(always)]
     pub(super) fn span(&mut self, y: i32, columns: Range<i32>) -> &mut [[u8; 4]] {
-        let row = y as usize * self.size[0] as usize;
+        let row = self.row(y);
         &mut self.pixels[row + columns.start as usize..row + columns.end as usize]
     }
 }

@@ -18,6 +18,7 @@ mod kittest;
 mod textures;
 
 use egui::ClippedPrimitive;
+use rayon::prelude::*;
 use trigon_raster::paint2d::{self, Canvas, Rect};
 
 use damage::Damage;
@@ -55,15 +56,25 @@ impl ChannelOrder {
 /// needed.
 #[derive(Debug, Default)]
 pub struct EguiPainter {
-    painter: paint2d::Painter,
     order: ChannelOrder,
     textures: Textures,
     /// The last primitives, in points.
     primitives: Vec<ClippedPrimitive>,
     pixels_per_point: f32,
     damage: Damage,
+    /// One for each band of the screen that is painted at a time.
+    hands: Vec<Hand>,
+}
+
+/// What painting keeps.
+#[derive(Debug, Default)]
+struct Hand {
+    painter: paint2d::Painter,
     gathered: Gathered,
 }
+
+/// Pixels that are worth another thread.
+const WORTH_SHARING: usize = 1 << 17;
 
 impl EguiPainter {
     /// A painter without textures.
@@ -128,20 +139,46 @@ impl EguiPainter {
             return Err(paint2d::SizeError { width, height, pixels: beneath.len() });
         }
         Canvas::new(width, height, pixels)?;
-        let bounds = Rect::new([0, 0], size.map(|side| side as i32));
-        let dirty = self.damage.take(bounds);
-        for &rect in &dirty {
-            restore(rect, width as usize, pixels, beneath);
-        }
-        let mut canvas = Canvas::new(width, height, pixels)?;
-        for &rect in &dirty {
-            self.paint_inside(&mut canvas, rect);
-        }
+        let dirty = self.damage.take(Rect::new([0, 0], size.map(|side| side as i32)));
+        let area = |rect: &Rect| [0, 1].map(|axis| rect.max[axis].abs_diff(rect.min[axis]) as usize);
+        let area: usize = dirty.iter().map(area).map(|[width, height]| width * height).sum();
+        let count = (area / WORTH_SHARING).clamp(1, rayon::current_num_threads());
+        let rows = height.div_ceil(count as u32);
+        let mut hands = std::mem::take(&mut self.hands);
+        hands.resize_with(hands.len().max(count), Hand::default);
+        let piece = width as usize * rows as usize;
+        let bands = pixels.par_chunks_mut(piece).zip(beneath.par_chunks(piece)).zip(&mut hands).enumerate();
+        bands.try_for_each(|(number, ((pixels, beneath), hand))| {
+            let top = number as u32 * rows;
+            let rows = top..height.min(top + rows);
+            self.paint_rows((width, rows), (pixels, beneath), &dirty, hand)
+        })?;
+        self.hands = hands;
         Ok(dirty)
     }
 
+    /// Brings rows of an image up to date inside rectangles.
+    fn paint_rows(
+        &self,
+        (width, rows): (u32, std::ops::Range<u32>),
+        (pixels, beneath): (&mut [[u8; 4]], &[[u8; 4]]),
+        dirty: &[Rect],
+        hand: &mut Hand,
+    ) -> Result<(), paint2d::SizeError> {
+        let top = rows.start as i32;
+        let bounds = Rect::new([0, top], [width as i32, rows.end as i32]);
+        let within = || dirty.iter().map(|rect| rect.intersection(bounds)).filter(|rect| !rect.is_empty());
+        for Rect { min: [left, upper], max: [right, lower] } in within() {
+            let rows = Rect::new([left, upper - top], [right, lower - top]);
+            restore(rows, width as usize, pixels, beneath);
+        }
+        let mut canvas = Canvas::of_rows(width, rows, pixels)?;
+        within().for_each(|rect| self.paint_inside(&mut canvas, rect, hand));
+        Ok(())
+    }
+
     /// Paints all primitives inside a rectangle of the canvas.
-    fn paint_inside(&mut self, canvas: &mut Canvas<'_>, rect: Rect) {
+    fn paint_inside(&self, canvas: &mut Canvas<'_>, rect: Rect, Hand { painter, gathered }: &mut Hand) {
         for primitive in &self.primitives {
             let egui::epaint::Primitive::Mesh(mesh) = &primitive.primitive else { continue };
             let Some(image) = self.textures.image(mesh.texture_id) else { continue };
@@ -149,8 +186,8 @@ impl EguiPainter {
             if scissor.is_empty() {
                 continue;
             }
-            self.gathered.gather(mesh, scissor, self.pixels_per_point, self.order);
-            self.painter.paint(canvas, &[self.gathered.mesh(scissor, image)]);
+            gathered.gather(mesh, scissor, self.pixels_per_point, self.order);
+            painter.paint(canvas, &[gathered.mesh(scissor, image)]);
         }
     }
 }
