@@ -2,19 +2,20 @@
 
 use std::ops::Range;
 
-/// The first corner of each face. Meshes of triangles alone, as most large ones are, need no list of them.
+/// The first corner of each face. Meshes whose faces have equally many corners, as those of triangles alone and those of
+/// quads alone, need no list of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum FaceStarts {
-    /// So many faces with three corners each.
-    Triangles(usize),
-    /// The first corner of each face, and the number of corners at the end; at least one face has more than three.
+    /// So many faces with so many corners each; with three if there is no face.
+    Equal { count: usize, size: usize },
+    /// The first corner of each face, and the number of corners at the end; at least two faces have not equally many.
     Listed(Vec<u32>),
 }
 
 impl Default for FaceStarts {
     /// No faces.
     fn default() -> Self {
-        Self::Triangles(0)
+        Self::Equal { count: 0, size: 3 }
     }
 }
 
@@ -29,10 +30,12 @@ impl FaceStarts {
     /// Adds a face with so many corners, at least three. `room` is the number of faces that are expected in all.
     pub(crate) fn push(&mut self, size: usize, room: usize) {
         match self {
-            Self::Triangles(count) if size == 3 => *count += 1,
-            Self::Triangles(count) => {
+            Self::Equal { count, size: each } if *count == 0 || *each == size => {
+                (*count, *each) = (*count + 1, size);
+            }
+            Self::Equal { count, size: each } => {
                 let mut starts = Vec::with_capacity(room.max(*count + 1) + 1);
-                starts.extend((0..=*count as u32).map(|face| 3 * face));
+                starts.extend((0..=*count).map(|face| (*each * face) as u32));
                 *self = Self::Listed(starts);
                 self.push(size, room);
             }
@@ -43,15 +46,15 @@ impl FaceStarts {
     /// Adds so many triangles.
     pub(crate) fn push_triangles(&mut self, more: usize) {
         match self {
-            Self::Triangles(count) => *count += more,
-            Self::Listed(_) => (0..more).for_each(|_| self.push(3, 0)),
+            Self::Equal { count, size: 3 } => *count += more,
+            Self::Equal { .. } | Self::Listed(_) => (0..more).for_each(|_| self.push(3, 0)),
         }
     }
 
     /// The number of faces.
     pub(crate) fn len(&self) -> usize {
         match self {
-            Self::Triangles(count) => *count,
+            Self::Equal { count, .. } => *count,
             Self::Listed(starts) => starts.len() - 1,
         }
     }
@@ -59,9 +62,9 @@ impl FaceStarts {
     /// The corners of a face, which must exist.
     pub(crate) fn corners(&self, face: usize) -> Range<usize> {
         match self {
-            Self::Triangles(count) => {
+            Self::Equal { count, size } => {
                 assert!(face < *count, "there is no face {face}: there are {count}");
-                3 * face..3 * face + 3
+                size * face..size * face + size
             }
             Self::Listed(starts) => starts[face] as usize..starts[face + 1] as usize,
         }
@@ -75,14 +78,14 @@ impl FaceStarts {
     /// The face of a corner, which must exist.
     pub(crate) fn face_at(&self, corner: u32) -> usize {
         match self {
-            Self::Triangles(_) => corner as usize / 3,
+            Self::Equal { size, .. } => corner as usize / size,
             Self::Listed(starts) => starts.partition_point(|&start| start <= corner) - 1,
         }
     }
 
     /// Whether all faces are triangles.
     pub(crate) fn are_triangles(&self) -> bool {
-        matches!(self, Self::Triangles(_))
+        matches!(self, Self::Equal { size: 3, .. })
     }
 }
 
@@ -92,7 +95,9 @@ mod tests {
 
     #[test]
     fn corners_follow_each_other_whatever_the_sizes() {
-        for sizes in [vec![], vec![3], vec![3, 3, 3], vec![4], vec![3, 3, 5, 3], vec![6, 3, 4]] {
+        for sizes in
+            [vec![], vec![3], vec![3, 3, 3], vec![4], vec![4, 4], vec![4, 3], vec![3, 3, 5, 3], vec![6, 3, 4]]
+        {
             let starts = FaceStarts::of_sizes(&sizes);
             let is_triangles = sizes.iter().all(|&size| size == 3);
             assert_eq!(starts.are_triangles(), is_triangles, "{sizes:?}");
