@@ -58,6 +58,7 @@ mod groups;
 mod mesh;
 mod normals;
 pub mod primitives;
+mod quads;
 mod render_mesh;
 mod smooth;
 mod tangents;

@@ -183,26 +183,9 @@ pub(crate) fn angle(a: DVec3, b: DVec3) -> f64 {
     angle
 }
 
-/// The angles at the corners of a quad: the bits of [`corner_angle`], for all four at once.
-pub(crate) fn quad_angles(corners: [DVec3; 4]) -> [f64; 4] {
-    let (mut ahead, mut squares) = ([DVec3::ZERO; 4], [0.0; 4]);
-    for corner in 0..4 {
-        ahead[corner] = corners[(corner + 1) % 4] - corners[corner];
-        squares[corner] = ahead[corner].length_squared();
-    }
-    let (mut dots, mut products) = ([0.0; 4], [0.0; 4]);
-    for corner in 0..4 {
-        // The way back is the way ahead of the corner before, turned round.
-        let before = (corner + 3) % 4;
-        dots[corner] = -ahead[before].dot(ahead[corner]);
-        products[corner] = squares[before] * squares[corner];
-    }
-    angles(dots, products)
-}
-
 /// Angles between vectors, from their dot products and the products of their squared
 /// lengths. Step by step for all of them, so that the compiler takes several at a time.
-fn angles<const N: usize>(dots: [f64; N], squares: [f64; N]) -> [f64; N] {
+pub(crate) fn angles<const N: usize>(dots: [f64; N], squares: [f64; N]) -> [f64; N] {
     let (mut cosines, mut x, mut series, mut angles) = ([0.0; N], [0.0_f64; N], [0.0; N], [0.0; N]);
     for i in 0..N {
         cosines[i] = dots[i] / squares[i].sqrt();
@@ -250,27 +233,7 @@ pub(crate) fn or_if_zero(normal: Vec3, other: Vec3) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use proptest::prelude::*;
     use trigon_math::elementary;
-
-    proptest! {
-        #[test]
-        fn angles_of_quads_are_those_of_their_corners(
-            corners in prop::array::uniform4(prop::array::uniform3(prop_oneof![
-                4 => -2.0_f32..2.0,
-                4 => (-1_i8..=1).prop_map(f32::from),
-                1 => prop::sample::select(vec![-0.0, 1e-30, 1e30, f32::NAN, f32::INFINITY]),
-            ])),
-        ) {
-            let mut builder = crate::MeshBuilder::new();
-            corners.iter().for_each(|&corner| { builder.push_vertex(Vec3::from_array(corner)); });
-            builder.push_face(&[0, 1, 2, 3]).expect("four vertices");
-            let mesh = builder.build();
-            let expected = [0, 1, 2, 3].map(|corner| corner_angle(&mesh, &[0, 1, 2, 3], corner).to_bits());
-            let quad = corners.map(|corner| Vec3::from_array(corner).as_dvec3());
-            prop_assert_eq!(quad_angles(quad).map(f64::to_bits), expected);
-        }
-    }
 
     #[test]
     fn angles_are_as_close_as_they_say() {

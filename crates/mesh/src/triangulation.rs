@@ -5,13 +5,13 @@ use crate::triangulate::Triangulator;
 
 /// A mesh's faces as triangles, in face order.
 ///
-/// Derived from a [`Mesh`] by [`Mesh::triangulation`];
+/// Derived from a [`Mesh`] by [`Mesh::triangulation`], or some of its faces by [`Mesh::triangulation_of`];
 /// [`triangulate_polygon`](crate::triangulate_polygon) explains how a polygon is triangulated.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Triangulation {
     /// Corner indices of the mesh, counter-clockwise like the face.
     pub triangles: Vec<[u32; 3]>,
-    /// The face of each triangle: never decreasing.
+    /// The face of each triangle: never decreasing, if all faces are triangulated.
     pub triangle_faces: Vec<u32>,
 }
 
@@ -25,26 +25,48 @@ impl Mesh {
             return Triangulation { triangles, triangle_faces };
         }
         let most = self.corner_count() - 2 * self.face_count();
-        self.triangulation_of(0..faces, most)
+        self.triangulated(0..faces, most)
+    }
+
+    /// Triangulates some faces, in the order in which they are given.
+    ///
+    /// # Panics
+    ///
+    /// When one of the faces does not exist.
+    pub fn triangulation_of(&self, faces: impl ExactSizeIterator<Item = u32>) -> Triangulation {
+        let most = 2 * faces.len();
+        self.triangulated(faces, most)
     }
 
     /// Triangulates some faces, into about `room` triangles.
-    pub(crate) fn triangulation_of(&self, faces: impl Iterator<Item = u32>, room: usize) -> Triangulation {
+    fn triangulated(&self, mut faces: impl Iterator<Item = u32>, room: usize) -> Triangulation {
+        /// Faces whose corners are looked up before the first of them is cut: many a load is under way then.
+        const GROUP: usize = 64;
         let mut triangles = Vec::with_capacity(room);
         let mut triangle_faces = Vec::with_capacity(room);
         let mut triangulator = Triangulator::default();
-        let mut outline = Vec::new();
-        for face in faces {
-            let (before, corners) = (triangles.len(), self.face_corners(face as usize));
-            let vertices = &self.corner_vertices()[corners.clone()];
-            outline.clear();
-            outline.extend(vertices.iter().map(|&v| self.positions()[v as usize]));
-            triangulator.polygon(&outline, &mut triangles);
-            for triangle in &mut triangles[before..] {
-                *triangle = triangle.map(|corner| corner + corners.start as u32);
+        let (mut group, mut outlines) = (Vec::with_capacity(GROUP), Vec::new());
+        loop {
+            group.clear();
+            outlines.clear();
+            for face in faces.by_ref().take(GROUP) {
+                let corners = self.face_corners(face as usize);
+                let vertices = &self.corner_vertices()[corners.clone()];
+                outlines.extend(vertices.iter().map(|&vertex| self.positions()[vertex as usize]));
+                group.push((face, corners));
             }
-            triangle_faces.resize(triangles.len(), face);
+            let mut rest = outlines.as_slice();
+            for (face, corners) in &group {
+                let (before, outline) = (triangles.len(), rest.split_off(..corners.len()));
+                triangulator.polygon(outline.expect("one for each face"), &mut triangles);
+                for triangle in &mut triangles[before..] {
+                    *triangle = triangle.map(|corner| corner + corners.start as u32);
+                }
+                triangle_faces.resize(triangles.len(), *face);
+            }
+            if group.len() < GROUP {
+                return Triangulation { triangles, triangle_faces };
+            }
         }
-        Triangulation { triangles, triangle_faces }
     }
 }

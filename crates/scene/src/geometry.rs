@@ -22,6 +22,7 @@ use trigon_raster::EdgeFlags;
 use crate::work::{Work, note};
 
 pub(crate) use blocks::{BlockBox, Blocks};
+use change::FacePlaces;
 pub(crate) use columns::Columns;
 use edge_flags::flags_of_mesh;
 use mesh_vertices::mesh_vertices;
@@ -69,6 +70,8 @@ pub(crate) struct Geometry {
     pose: Option<Pose>,
     /// The data needed to follow changes of the mesh; `None` until the first one.
     links: Option<RenderLinks>,
+    /// Of the faces of the last change.
+    face_places: FacePlaces,
     /// The difference that the last change made.
     pub(crate) change: Option<GeometryChange>,
 }
@@ -192,6 +195,7 @@ impl Geometry {
             split: OnceLock::new(),
             pose: None,
             links: None,
+            face_places: FacePlaces::default(),
             change: None,
         }
     }
@@ -231,6 +235,7 @@ impl Geometry {
             columns,
             pose: None,
             links: None,
+            face_places: FacePlaces::default(),
             change: None,
         }
     }

@@ -4,6 +4,13 @@ use std::ops::Range;
 
 use crate::Mesh;
 
+/// A face and one of its corners.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct FaceCorner {
+    pub(super) face: u32,
+    pub(super) corner: u32,
+}
+
 /// Finds faces by their corners, at once where all have equally many, and else by a
 /// search. A table would take as much memory as the corners themselves.
 pub(super) struct CornerFaces<'m> {

@@ -4,12 +4,16 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use trigon_math::Vec3;
+use trigon_math::{DVec3, Vec3};
 
-use super::render_links::PIECE;
+use super::corner_faces::FaceCorner;
 use crate::Mesh;
-use crate::normals::{corner_angle, quad_angles, unit_or_zero};
-use crate::triangulate::area_vector;
+use crate::normals::{corner_angle, unit_or_zero};
+use crate::quads::Quads;
+
+/// Faces or vertices that a thread takes at a time: about a tenth of a millisecond's work,
+/// a few times what it takes to wake a thread.
+pub(super) const PIECE: usize = 1024;
 
 /// The normals of all faces of a mesh, and the angles by which they are weighted.
 #[derive(Debug, Clone, Default)]
@@ -64,10 +68,18 @@ impl FaceNormals {
         self.normals[face]
     }
 
-    /// The angle at a corner of a mesh that has smooth faces.
-    pub(super) fn angle(&self, corner: u32) -> f64 {
-        self.angles[corner as usize]
+    /// What a smooth face adds to the normal of the vertex at one of its corners.
+    pub(super) fn weighted(&self, FaceCorner { face, corner }: FaceCorner) -> DVec3 {
+        // A face without a normal adds nothing, since angles are finite.
+        self.normals[face as usize].as_dvec3() * self.angles[corner as usize]
     }
+}
+
+/// The mean of what smooth faces add to the normal at one vertex, in the order of their corners as for a whole mesh.
+/// Zero if there is none.
+pub(super) fn mean(weighted: impl Iterator<Item = DVec3>) -> Vec3 {
+    // The sum is never a negative zero, so that another zero does not change it.
+    unit_or_zero(weighted.fold(DVec3::ZERO, |sum, normal| sum + normal)).as_vec3()
 }
 
 /// Some faces, and what is known of all from one of them to another.
@@ -81,25 +93,73 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
-    fn update(self, mesh: &Mesh) {
-        for face in self.faces.iter().map(|&face| face as usize) {
-            let normal = &mut self.normals[face - self.first_face];
-            let corners = mesh.face_corners(face);
-            let own = corners.start - self.first_corner..corners.end - self.first_corner;
-            if let &[a, b, c, d] = mesh.face_vertices(face) {
-                // Most faces of most meshes. Their corners are looked up once for all.
-                let quad = [a, b, c, d].map(|vertex| mesh.position(vertex));
-                *normal = unit_or_zero(area_vector(quad)).as_vec3();
-                if let Some(angles) = self.angles.get_mut(own) {
-                    angles.copy_from_slice(&quad_angles(quad));
+    fn update(mut self, mesh: &Mesh) {
+        let mut group = QuadGroup::default();
+        for faces in self.faces.chunks(GROUP) {
+            group.faces.clear();
+            for &face in faces {
+                match *mesh.face_vertices(face as usize) {
+                    // Most faces of most meshes.
+                    [a, b, c, d] => {
+                        group.push(face, [a, b, c, d].map(|vertex| mesh.positions()[vertex as usize]));
+                    }
+                    _ => self.update_any(mesh, face as usize),
                 }
+            }
+            self.update_quads(mesh, &group);
+        }
+    }
+
+    fn update_any(&mut self, mesh: &Mesh, face: usize) {
+        self.normals[face - self.first_face] = mesh.face_normal(face);
+        let corners = mesh.face_corners(face);
+        let own = corners.start - self.first_corner..corners.end - self.first_corner;
+        if let Some(angles) = self.angles.get_mut(own) {
+            angles.iter_mut().zip(angles_at(mesh, corners)).for_each(|(angle, made)| *angle = made);
+        }
+    }
+
+    fn update_quads(&mut self, mesh: &Mesh, group: &QuadGroup) {
+        for (faces, quads) in group.faces.chunks(LANES).zip(&group.quads) {
+            for (&face, normal) in faces.iter().zip(quads.normals()) {
+                self.normals[face as usize - self.first_face] = normal;
+            }
+            if self.angles.is_empty() {
                 continue;
             }
-            *normal = mesh.face_normal(face);
-            if let Some(angles) = self.angles.get_mut(own) {
-                angles.iter_mut().zip(angles_at(mesh, corners)).for_each(|(angle, made)| *angle = made);
+            for (&face, angles) in faces.iter().zip(quads.angles()) {
+                let first = mesh.face_corners(face as usize).start - self.first_corner;
+                self.angles[first..first + 4].copy_from_slice(&angles);
             }
         }
+    }
+}
+
+/// Quads that are computed at a time.
+const LANES: usize = 4;
+
+/// Quads whose corners are looked up before the first of them is computed: many a load is under way then, and they lie
+/// all over the memory.
+const GROUP: usize = 64;
+
+/// Some quads and where they are.
+struct QuadGroup {
+    faces: Vec<u32>,
+    quads: [Quads<LANES>; GROUP / LANES],
+}
+
+impl Default for QuadGroup {
+    /// None.
+    fn default() -> Self {
+        Self { faces: Vec::with_capacity(GROUP), quads: [Quads::NONE; GROUP / LANES] }
+    }
+}
+
+impl QuadGroup {
+    fn push(&mut self, face: u32, corners: [Vec3; 4]) {
+        let number = self.faces.len();
+        self.faces.push(face);
+        self.quads[number / LANES].place(number % LANES, corners);
     }
 }
 

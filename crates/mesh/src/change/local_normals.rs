@@ -1,12 +1,14 @@
 //! Shading normals of the corners at one vertex: the bits of [`Mesh::shading_normals`], without computing
 //! the rest of the mesh.
 
-use trigon_math::{DVec3, Vec3};
+use trigon_math::Vec3;
 
-use super::corner_faces::CornerFaces;
-use super::face_normals::FaceNormals;
+use super::corner_faces::{CornerFaces, FaceCorner};
+use super::face_normals::{FaceNormals, mean};
+use super::fans::FanPiece;
+use super::marks::Marks;
 use crate::Mesh;
-use crate::normals::{or_if_zero, unit_keeping, unit_or_zero};
+use crate::normals::{or_if_zero, unit_keeping};
 
 /// What the normals at a vertex are made of.
 pub(super) struct LocalNormals<'a> {
@@ -30,7 +32,7 @@ impl<'a> LocalNormals<'a> {
 
     /// The normals of all corners at one vertex; the corners increase. `around` is room
     /// for their faces.
-    pub(super) fn at_corners(&self, corners: &[u32], around: &mut Vec<usize>, normals: &mut Vec<Vec3>) {
+    pub(super) fn at_corners(&self, corners: &[u32], around: &mut Vec<FaceCorner>, normals: &mut Vec<Vec3>) {
         normals.clear();
         let given = |&corner: &u32| match self.given {
             Some(given) => unit_keeping(given[corner as usize]),
@@ -41,53 +43,34 @@ impl<'a> LocalNormals<'a> {
             return;
         }
         around.clear();
-        around.extend(corners.iter().map(|&corner| self.faces.of(corner).0));
+        around.extend(corners.iter().map(|&corner| self.face_corner(corner)));
+        // The mean over the smooth faces at the vertex.
+        let is_smooth = |of: &&FaceCorner| self.is_smooth(of.face);
+        let mean = || mean(around.iter().filter(is_smooth).map(|&of| self.face_normals.weighted(of)));
         let mut of_vertex = None;
-        for (normal, &face) in normals.iter_mut().zip(&*around).filter(|(normal, _)| **normal == Vec3::ZERO) {
-            let of_face = or_if_zero(self.face_normals.normal(face), Vec3::Y);
-            *normal = if self.is_smooth(face) {
-                or_if_zero(*of_vertex.get_or_insert_with(|| self.mean(corners, around)), of_face)
+        for (normal, of) in normals.iter_mut().zip(&*around).filter(|(normal, _)| **normal == Vec3::ZERO) {
+            let of_face = or_if_zero(self.face_normals.normal(of.face as usize), Vec3::Y);
+            *normal = if self.is_smooth(of.face) {
+                or_if_zero(*of_vertex.get_or_insert_with(mean), of_face)
             } else {
                 of_face
             };
         }
     }
 
-    /// The normal that all corners at one vertex have where each of them takes it from the
-    /// vertex; else `None`. Most vertices of most meshes are such.
-    pub(super) fn of_all(&self, corners: &[u32]) -> Option<Vec3> {
-        let smooth = self.smooth.filter(|_| self.given.is_none())?;
-        let mut sum = DVec3::ZERO;
-        for &corner in corners {
-            let face = self.faces.of(corner).0;
-            if !smooth[face] {
-                return None;
-            }
-            sum += self.weighted(face, corner);
-        }
-        let normal = unit_or_zero(sum).as_vec3();
-        (normal != Vec3::ZERO).then_some(normal)
+    /// Adds a vertex to fans, if each of its corners takes its normal from the vertex; returns that normal.
+    /// Most vertices of most meshes are such. `moved` are the faces that move.
+    pub(super) fn add_fan(&self, corners: &[u32], moved: &Marks, fans: &mut FanPiece) -> Option<Vec3> {
+        self.smooth.filter(|_| self.given.is_none())?;
+        let smooth = |&corner: &u32| Some(self.face_corner(corner)).filter(|of| self.is_smooth(of.face));
+        fans.push(self.face_normals, moved, corners.iter().map(smooth))
     }
 
-    fn is_smooth(&self, face: usize) -> bool {
-        self.smooth.is_some_and(|smooth| smooth[face])
+    fn face_corner(&self, corner: u32) -> FaceCorner {
+        FaceCorner { face: self.faces.of(corner).0 as u32, corner }
     }
 
-    /// The mean over the smooth faces at a vertex, added up in the order of their corners
-    /// as for a whole mesh.
-    fn mean(&self, corners: &[u32], around: &[usize]) -> Vec3 {
-        let mut sum = DVec3::ZERO;
-        for (&corner, &face) in corners.iter().zip(around) {
-            if self.is_smooth(face) {
-                sum += self.weighted(face, corner);
-            }
-        }
-        unit_or_zero(sum).as_vec3()
-    }
-
-    /// What a smooth face adds to the normal of the vertex at one of its corners.
-    fn weighted(&self, face: usize, corner: u32) -> DVec3 {
-        let normal = self.face_normals.normal(face).as_dvec3();
-        if normal == DVec3::ZERO { DVec3::ZERO } else { normal * self.face_normals.angle(corner) }
+    fn is_smooth(&self, face: u32) -> bool {
+        self.smooth.is_some_and(|smooth| smooth[face as usize])
     }
 }

@@ -12,6 +12,16 @@ impl Marks {
         self.0[element as usize / 64] |= 1 << (element % 64);
     }
 
+    pub(super) fn contains(&self, element: u32) -> bool {
+        self.0[element as usize / 64] & 1 << (element % 64) != 0
+    }
+
+    /// Those that are in one of two sets or in both, of equally many elements.
+    pub(super) fn union(mut self, other: Self) -> Self {
+        self.0.iter_mut().zip(other.0).for_each(|(own, other)| *own |= other);
+        self
+    }
+
     /// The elements, increasing: whoever follows them through the lists of a mesh finds them
     /// in the order in which they lie in memory.
     pub(super) fn listed(self) -> Vec<u32> {
@@ -34,7 +44,12 @@ mod tests {
     fn elements_are_listed_once_and_in_order() {
         let mut marks = Marks::new(130);
         [129, 64, 0, 63, 64].into_iter().for_each(|element| marks.insert(element));
+        assert!(marks.contains(64) && !marks.contains(65) && !marks.contains(128), "of two words");
         assert_eq!(marks.listed(), [0, 63, 64, 129]);
+        let [mut one, mut other] = [Marks::new(70), Marks::new(70)];
+        [3, 69].into_iter().for_each(|element| one.insert(element));
+        [0, 69].into_iter().for_each(|element| other.insert(element));
+        assert_eq!(one.union(other).listed(), [0, 3, 69], "of two sets");
         assert_eq!(Marks::new(0).listed(), [0_u32; 0], "of nothing");
     }
 }

@@ -10,9 +10,11 @@
 mod changed_elements;
 mod corner_faces;
 mod face_normals;
+mod fans;
 mod local_normals;
 mod marks;
 mod mesh_change;
+mod neighborhood;
 mod render_links;
 mod render_update;
 mod vertex_values;

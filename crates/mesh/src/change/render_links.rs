@@ -7,18 +7,16 @@ use trigon_math::Vec3;
 
 use super::ChangedElements;
 use super::corner_faces::CornerFaces;
-use super::face_normals::FaceNormals;
+use super::face_normals::{FaceNormals, PIECE};
+use super::fans::Fans;
 use super::marks::Marks;
+use super::neighborhood::Neighborhood;
 use super::render_update::{RenderUpdate, UpdatedVertex};
 use super::vertex_values::{Shown, SplitOff, VertexValues};
 use crate::Mesh;
 use crate::groups::Groups;
 use crate::normals::unit_keeping;
 use crate::weld::Welded;
-
-/// Faces or vertices that a thread takes at a time: about a tenth of a millisecond's work,
-/// a few times what it takes to wake a thread.
-pub(super) const PIECE: usize = 1024;
 
 /// How the vertices of a [`RenderMesh`](crate::RenderMesh) come from its mesh. Made by
 /// [`RenderMesh::with_links`](crate::RenderMesh::with_links).
@@ -36,6 +34,12 @@ pub struct RenderLinks {
     corners_at: Arc<Groups<u32>>,
     /// The normals of all faces, as soon as a corner takes its normal from them.
     face_normals: Option<FaceNormals>,
+    /// What lies around the elements of the last change.
+    around: Neighborhood,
+    /// Those of its vertices that are fans.
+    fans: Fans,
+    /// What shows the last change. The fans come first.
+    update: RenderUpdate,
 }
 
 impl RenderLinks {
@@ -48,6 +52,9 @@ impl RenderLinks {
             vertex_of_corner: welded.vertex_of_corner.into_vec(),
             corners_at: Arc::new(Groups::new(mesh.vertex_count(), corners)),
             face_normals: follows.then(|| FaceNormals::new(mesh)),
+            around: Neighborhood::default(),
+            fans: Fans::default(),
+            update: RenderUpdate::default(),
         }
     }
 
@@ -57,71 +64,67 @@ impl RenderLinks {
         &self.vertex_of_corner
     }
 
-    /// What is to be written anew when these elements of the mesh were changed, in time
-    /// proportional to what lies around them. `mesh` is the one that these links were made
+    /// Finds out what is to be written anew when these elements of the mesh were changed, in time
+    /// proportional to what lies around them; see [`RenderLinks::update`]. `mesh` is the one that these links were made
     /// for, with its new values.
-    pub fn follow(&mut self, mesh: &Mesh, changed: &ChangedElements) -> RenderUpdate {
-        let (vertices, corners) = (changed.vertices(), changed.corners());
-        let faces = self.faces_around(mesh, &vertices);
-        self.update_face_normals(mesh, &faces, &corners);
-        let affected = self.affected_vertices(mesh, &vertices, &corners, &faces);
-        let mut update = RenderUpdate { faces, ..RenderUpdate::default() };
-        // Triangles are cut in one way only.
-        update.faces.retain(|&face| mesh.face_corners(face as usize).len() > 3);
-        self.update_vertices(mesh, &affected, &corners, &mut update);
-        if !update.faces.is_sorted_by(|a, b| a < b) {
-            update.faces.sort_unstable();
-            update.faces.dedup();
-        }
-        let cut = |faces: &[u32]| mesh.triangulation_of(faces.iter().copied(), 2 * faces.len());
-        for part in update.faces.par_chunks(PIECE).map(cut).collect::<Vec<_>>() {
-            update.triangulation.triangles.extend(part.triangles);
-            update.triangulation.triangle_faces.extend(part.triangle_faces);
-        }
-        update
-    }
-
-    /// The faces that have one of these vertices, increasing.
-    fn faces_around(&self, mesh: &Mesh, vertices: &[u32]) -> Vec<u32> {
-        let (of_corner, mut met) = (CornerFaces::new(mesh), Marks::new(mesh.face_count()));
-        let corners = vertices.iter().flat_map(|&vertex| self.corners_at.get(vertex));
-        corners.for_each(|&corner| met.insert(of_corner.of(corner).0 as u32));
-        met.listed()
-    }
-
-    /// Brings the normals of faces up to date whose corners moved.
-    fn update_face_normals(&mut self, mesh: &Mesh, faces: &[u32], corners: &[u32]) {
+    pub fn follow(&mut self, mesh: &Mesh, changed: &ChangedElements) {
+        self.find_face_normals(mesh, changed);
+        let has_face_normals = self.face_normals.is_some();
+        let is_other = self.around.update(mesh, &self.corners_at, changed, has_face_normals);
         if let Some(normals) = &mut self.face_normals {
-            return normals.update(mesh, faces);
+            normals.update(mesh, &self.around.faces);
+        }
+        self.update.faces.clear();
+        // Triangles are cut in one way only.
+        if !mesh.has_only_triangles() {
+            let is_cut = |&face: &u32| mesh.face_corners(face as usize).len() > 3;
+            self.update.faces.extend(self.around.faces.iter().copied().filter(is_cut));
+        }
+        self.update_vertices(mesh, is_other);
+        if !self.update.faces.is_sorted_by(|a, b| a < b) {
+            self.update.faces.sort_unstable();
+            self.update.faces.dedup();
+        }
+    }
+
+    /// What is to be written anew after the change that was followed last.
+    #[must_use]
+    pub fn update(&self) -> &RenderUpdate {
+        &self.update
+    }
+
+    /// Computes the normals of all faces when a corner has lost its own normal.
+    fn find_face_normals(&mut self, mesh: &Mesh, changed: &ChangedElements) {
+        if self.face_normals.is_some() {
+            return;
         }
         let given = mesh.attributes().corner_normals.as_deref().unwrap_or_default();
-        if corners.iter().any(|&corner| given.get(corner as usize).is_some_and(|&n| has_no_direction(n))) {
+        let is_lost =
+            |&corner: &u32| given.get(corner as usize).is_some_and(|&normal| has_no_direction(normal));
+        if changed.corners().iter().any(is_lost) {
             self.face_normals = Some(FaceNormals::new(mesh));
         }
     }
 
-    /// The vertices at which a corner may show other values than before, increasing.
-    fn affected_vertices(&self, mesh: &Mesh, vertices: &[u32], corners: &[u32], faces: &[u32]) -> Vec<u32> {
-        let mut met = Marks::new(mesh.vertex_count());
-        vertices.iter().for_each(|&vertex| met.insert(vertex));
-        corners.iter().for_each(|&corner| met.insert(mesh.corner_vertices()[corner as usize]));
-        if self.face_normals.is_some() {
-            let around = faces.iter().flat_map(|&face| mesh.face_vertices(face as usize));
-            around.for_each(|&vertex| met.insert(vertex));
-        }
-        met.listed()
-    }
-
-    /// Updates what the corners at some vertices show; `changed` are those with other
-    /// attributes.
-    fn update_vertices(&mut self, mesh: &Mesh, vertices: &[u32], changed: &[u32], update: &mut RenderUpdate) {
+    /// Updates what the corners at affected vertices show; `are_others` says that they are other vertices than those
+    /// of the last change.
+    fn update_vertices(&mut self, mesh: &Mesh, are_others: bool) {
+        let Self { around, update, .. } = self;
         let none = FaceNormals::default();
         let face_normals = self.face_normals.as_ref().unwrap_or(&none);
-        let values = VertexValues::new(mesh, &self.vertex_of_corner, &self.corners_at, face_normals, changed);
-        let shown: Vec<Shown> = vertices.par_chunks(PIECE).map(|piece| values.at(piece)).collect();
-        update.vertices.reserve(vertices.len());
+        let values = VertexValues::new(mesh, &self.vertex_of_corner, &self.corners_at, face_normals, around);
+        update.vertices.truncate(self.fans.count);
+        update.replaced.truncate(self.fans.moved);
+        if are_others || !self.fans.update(face_normals, &mut update.vertices) {
+            let mut moved = Marks::new(mesh.face_count());
+            around.faces.iter().for_each(|&face| moved.insert(face));
+            let found =
+                around.vertices.par_chunks(PIECE).map(|piece| values.fans_of(piece, &moved)).collect();
+            self.fans = Fans::new(found, update);
+        }
+        let shown: Vec<Shown> = self.fans.others.par_chunks(PIECE).map(|piece| values.at(piece)).collect();
         for part in &shown {
-            update.vertices.extend_from_slice(&part.kept);
+            update.add(&part.kept, &part.replaced);
         }
         let of_corner = CornerFaces::new(mesh);
         for SplitOff { corners, shown: (corner, normal) } in shown.iter().flat_map(|part| &part.split) {
@@ -131,7 +134,7 @@ impl RenderLinks {
                 self.vertex_of_corner[corner as usize] = vertex;
                 update.faces.push(of_corner.of(corner).0 as u32);
             }
-            update.vertices.push(UpdatedVertex { vertex, corner: *corner, normal: *normal });
+            update.add(&[UpdatedVertex { vertex, corner: *corner, normal: *normal }], &[0]);
         }
     }
 }

@@ -2,21 +2,34 @@
 
 use trigon_math::Vec3;
 
-use crate::Triangulation;
-
 /// What of a [`RenderMesh`](crate::RenderMesh) is to be written anew after a change of its
-/// mesh; told by [`RenderLinks::follow`](crate::RenderLinks::follow).
-#[derive(Debug, Clone, Default, PartialEq)]
+/// mesh; told by [`RenderLinks::update`](crate::RenderLinks::update).
+#[derive(Debug, Clone, Default)]
 pub struct RenderUpdate {
     /// Vertices with other values. Those beyond the ones that there were are new, and come
     /// in the order of their numbers.
     pub vertices: Vec<UpdatedVertex>,
+    /// See [`RenderUpdate::replaced`]; as indices into `vertices`, increasing.
+    pub(super) replaced: Vec<u32>,
     /// Polygons that may be cut otherwise, or whose corners are other vertices than
-    /// before; increasing.
+    /// before; increasing. See [`Mesh::triangulation_of`](crate::Mesh::triangulation_of): a polygon may have more
+    /// or fewer triangles than before.
     pub faces: Vec<u32>,
-    /// Their triangles over the corners of the mesh. A polygon may have more or fewer than
-    /// before.
-    pub triangulation: Triangulation,
+}
+
+impl RenderUpdate {
+    /// Those of `vertices` that may show another position or other attributes than before, in the same
+    /// order. Of the rest nothing but normals has changed.
+    pub fn replaced(&self) -> impl Iterator<Item = &UpdatedVertex> {
+        self.replaced.iter().map(|&index| &self.vertices[index as usize])
+    }
+
+    /// Adds vertices; `replaced` are those of them that show other values than normals, as indices.
+    pub(super) fn add(&mut self, vertices: &[UpdatedVertex], replaced: &[u32]) {
+        let first = self.vertices.len() as u32;
+        self.vertices.extend_from_slice(vertices);
+        self.replaced.extend(replaced.iter().map(|index| first + index));
+    }
 }
 
 /// A vertex of a [`RenderMesh`](crate::RenderMesh) with other values.

@@ -3,7 +3,10 @@
 use trigon_math::Vec3;
 
 use super::face_normals::FaceNormals;
+use super::fans::{FanPiece, FoundFans};
 use super::local_normals::LocalNormals;
+use super::marks::Marks;
+use super::neighborhood::Neighborhood;
 use super::render_update::UpdatedVertex;
 use crate::Mesh;
 use crate::groups::Groups;
@@ -15,6 +18,8 @@ pub(super) struct VertexValues<'a> {
     corners_at: &'a Groups<u32>,
     normals: LocalNormals<'a>,
     attributes: AttributeComparison<'a>,
+    /// The vertices that were moved, increasing.
+    moved: &'a [u32],
     /// Whether corners that were one render vertex can differ in nothing but normals.
     same_attributes: bool,
 }
@@ -24,6 +29,8 @@ pub(super) struct VertexValues<'a> {
 pub(super) struct Shown {
     /// By render vertices that there are.
     pub(super) kept: Vec<UpdatedVertex>,
+    /// Those of `kept` that show other values than normals, as indices.
+    pub(super) replaced: Vec<u32>,
     /// By new ones.
     pub(super) split: Vec<SplitOff>,
 }
@@ -45,36 +52,53 @@ struct CornerValue {
 }
 
 impl<'a> VertexValues<'a> {
-    /// `changed` are the corners with other attributes.
     pub(super) fn new(
         mesh: &'a Mesh,
         vertex_of_corner: &'a [u32],
         corners_at: &'a Groups<u32>,
         face_normals: &'a FaceNormals,
-        changed: &[u32],
+        around: &'a Neighborhood,
     ) -> Self {
         Self {
             vertex_of_corner,
             corners_at,
             normals: LocalNormals::new(mesh, face_normals),
             attributes: AttributeComparison::new(mesh),
-            same_attributes: changed.is_empty(),
+            moved: &around.moved,
+            same_attributes: around.corners.is_empty(),
         }
     }
 
-    /// What is shown at some vertices.
-    pub(super) fn at(&self, vertices: &[u32]) -> Shown {
-        let mut shown = Shown { kept: Vec::with_capacity(vertices.len()), split: Vec::new() };
-        let (mut around, mut normals, mut values) = (Vec::new(), Vec::new(), Vec::new());
+    /// Tells fans from other vertices; they increase. `moved_faces` are the faces that move.
+    pub(super) fn fans_of(&self, vertices: &[u32], moved_faces: &Marks) -> FoundFans {
+        let mut found = FoundFans::default();
+        found.shown.reserve(vertices.len());
+        let mut moved = self.moved;
         for &vertex in vertices {
-            let corners = self.corners_at.get(vertex);
-            if let Some(updated) = self.whole_by_vertex(corners) {
-                shown.kept.push(updated);
-                continue;
+            let is_moved = is_next(&mut moved, vertex);
+            if let Some(updated) = self.fan(self.corners_at.get(vertex), moved_faces, &mut found.fans) {
+                found.replaced.extend(is_moved.then_some(found.shown.len() as u32));
+                found.shown.push(updated);
+            } else {
+                found.others.push(vertex);
             }
+        }
+        found
+    }
+
+    /// What is shown at some vertices, fans or not; they increase.
+    pub(super) fn at(&self, vertices: &[u32]) -> Shown {
+        let mut shown = Shown { kept: Vec::with_capacity(vertices.len()), ..Shown::default() };
+        let (mut around, mut normals, mut values) = (Vec::new(), Vec::new(), Vec::new());
+        let mut moved = self.moved;
+        for &vertex in vertices {
+            let first = shown.kept.len() as u32;
+            let is_moved = is_next(&mut moved, vertex);
+            let corners = self.corners_at.get(vertex);
             self.normals.at_corners(corners, &mut around, &mut normals);
             if let Some(updated) = self.whole(corners, &normals).filter(|_| self.same_attributes) {
                 shown.kept.push(updated);
+                shown.replaced.extend(is_moved.then_some(first));
                 continue;
             }
             values.clear();
@@ -85,15 +109,17 @@ impl<'a> VertexValues<'a> {
                 shown: (corner, normal),
             }));
             self.parts(&mut values, &mut shown);
+            // They may show the values of other corners than before.
+            shown.replaced.extend(first..shown.kept.len() as u32);
         }
         shown
     }
 
     /// The render vertex of all corners at a vertex, if they had the same one, can differ in
     /// nothing but normals, and all take these from the vertex.
-    fn whole_by_vertex(&self, corners: &[u32]) -> Option<UpdatedVertex> {
+    fn fan(&self, corners: &[u32], moved: &Marks, fans: &mut FanPiece) -> Option<UpdatedVertex> {
         let (vertex, corner) = self.same_before(corners).filter(|_| self.same_attributes)?;
-        let normal = self.normals.of_all(corners)?;
+        let normal = self.normals.add_fan(corners, moved, fans)?;
         Some(UpdatedVertex { vertex, corner, normal })
     }
 
@@ -143,6 +169,14 @@ impl<'a> VertexValues<'a> {
             }
         }
     }
+}
+
+/// Whether a sorted list holds an element; leaves what comes after it. Elements are asked for in increasing order.
+fn is_next(list: &mut &[u32], element: u32) -> bool {
+    if list.first().is_some_and(|&first| first < element) {
+        *list = &list[list.partition_point(|&other| other < element)..];
+    }
+    list.first() == Some(&element)
 }
 
 fn tells_apart(normal: Vec3) -> [u32; 3] {

@@ -71,7 +71,8 @@ fn follow(mesh: &mut Mesh, changes: &[MeshChange]) -> usize {
         let mut changed = ChangedElements::default();
         mesh.change(change).expect("the mesh has it all");
         changed.add(change);
-        let update = links.follow(mesh, &changed);
+        links.follow(mesh, &changed);
+        let update = links.update();
         for of in &update.vertices {
             let index = of.vertex as usize;
             let position = mesh.positions()[mesh.corner_vertices()[of.corner as usize] as usize];
@@ -81,7 +82,8 @@ fn follow(mesh: &mut Mesh, changes: &[MeshChange]) -> usize {
             }
             (render_mesh.positions[index], render_mesh.normals[index]) = (position, of.normal);
         }
-        let cut = update.triangulation.triangles.iter().zip(&update.triangulation.triangle_faces);
+        let triangulation = mesh.triangulation_of(update.faces.iter().copied());
+        let cut = triangulation.triangles.iter().zip(&triangulation.triangle_faces);
         let mut place = 0;
         for (triangle, &face) in cut {
             place = match render_mesh.triangle_faces.get(place) {

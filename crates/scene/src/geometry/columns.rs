@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use trigon_math::{Vec2, Vec3, Vec4};
-use trigon_mesh::{Deformed, Mesh, RenderMesh, UpdatedVertex, WeldedMesh};
+use trigon_mesh::{Deformed, Mesh, RenderMesh, RenderUpdate, UpdatedVertex, WeldedMesh};
 
 /// The vertex values of a mesh. All columns have the same length, but that of normals may be empty.
 #[derive(Clone, Debug, Default)]
@@ -70,25 +70,24 @@ impl Columns {
 
     /// Writes the values of vertices that a change of the mesh has affected; new vertices are appended in
     /// order.
-    pub(crate) fn update(&mut self, mesh: &Mesh, vertices: &[UpdatedVertex]) {
+    pub(crate) fn update(&mut self, mesh: &Mesh, update: &RenderUpdate) {
         let Self { positions, normals, face_normals: _, tangents, uv_sets, colors } = self;
         let attributes = mesh.attributes();
-        let position = |of: &UpdatedVertex| {
-            mesh.positions()[mesh.corner_vertices()[of.corner as usize] as usize].to_array()
-        };
         let write_others = || {
-            write(normals, vertices, |of| of.normal.to_array());
+            write(positions, update.replaced(), |of| {
+                mesh.positions()[mesh.corner_vertices()[of.corner as usize] as usize].to_array()
+            });
             if let (Some(columns), Some(values)) = (tangents, &attributes.corner_tangents) {
-                write(columns, vertices, |of| values[of.corner as usize].to_array());
+                write(columns, update.replaced(), |of| values[of.corner as usize].to_array());
             }
             for (columns, values) in uv_sets.iter_mut().zip(&attributes.uv_sets) {
-                write(columns, vertices, |of| values[of.corner as usize].to_array());
+                write(columns, update.replaced(), |of| values[of.corner as usize].to_array());
             }
             if let (Some(columns), Some(values)) = (colors, &attributes.corner_colors) {
-                write(columns, vertices, |of| values[of.corner as usize].to_array());
+                write(columns, update.replaced(), |of| values[of.corner as usize].to_array());
             }
         };
-        rayon::join(|| write(positions, vertices, position), write_others);
+        rayon::join(|| write(normals, update.vertices.iter(), |of| of.normal.to_array()), write_others);
     }
 
     /// The bytes that a pose changes.
@@ -119,9 +118,9 @@ impl Columns {
 }
 
 /// Writes the columns of one attribute.
-fn write<const N: usize>(
+fn write<'a, const N: usize>(
     columns: &mut [Vec<f32>; N],
-    vertices: &[UpdatedVertex],
+    vertices: impl Iterator<Item = &'a UpdatedVertex>,
     value: impl Fn(&UpdatedVertex) -> [f32; N],
 ) {
     for vertex in vertices {

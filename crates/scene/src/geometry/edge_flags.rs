@@ -1,6 +1,7 @@
 //! Which sides of triangles are edges of their polygons, and how much larger a polygon is than each of its
 //! triangles.
 
+use trigon_math::DVec3;
 use trigon_mesh::Mesh;
 use trigon_raster::EdgeFlags;
 
@@ -22,24 +23,85 @@ pub(super) fn flags_of_mesh(source: &Mesh) -> Vec<EdgeFlags> {
 pub(super) fn flags_of_face(
     source: &Mesh,
     (face, triangles): (u32, &[[u32; 3]]),
-    mut give: impl FnMut(EdgeFlags),
+    give: impl FnMut(EdgeFlags),
 ) {
+    let corners = source.face_corners(face as usize);
+    match source.corner_vertices()[corners.clone()] {
+        // Most faces of most meshes.
+        [a, b, c, d] => match Diagonal::of(corners.start as u32, triangles) {
+            Some(diagonal) => {
+                let places = [a, b, c, d].map(|vertex| source.positions()[vertex as usize].as_dvec3());
+                flags_of_quad(places, diagonal).into_iter().for_each(give);
+            }
+            None => flags_of_any(source, (face, triangles), give),
+        },
+        _ => flags_of_any(source, (face, triangles), give),
+    }
+}
+
+/// How a quad is cut into two triangles, in the order in which they come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Diagonal {
+    /// From the first corner to the third.
+    First,
+    /// From the second corner to the last.
+    Second,
+}
+
+impl Diagonal {
+    /// That of a quad with this first corner; `None` if it is cut in another way.
+    pub(super) fn of(first: u32, triangles: &[[u32; 3]]) -> Option<Self> {
+        let [second, third, last] = [first + 1, first + 2, first + 3];
+        if triangles == [[first, second, third], [first, third, last]] {
+            Some(Self::First)
+        } else if triangles == [[first, second, last], [second, third, last]] {
+            Some(Self::Second)
+        } else {
+            None
+        }
+    }
+}
+
+/// For both triangles of a quad: what [`flags_of_any`] finds in more steps.
+fn flags_of_quad([a, b, c, d]: [DVec3; 4], diagonal: Diagonal) -> [EdgeFlags; 2] {
+    let ways = [b - a, c - b, d - c, a - d];
+    let [ab, bc, cd, da] = ways.map(DVec3::length);
+    let (across, doubled, edges, flags) = match diagonal {
+        Diagonal::First => {
+            let doubled = [ways[0].cross(ways[1]), (c - a).cross(ways[2])];
+            (c - a, doubled, [ab + bc, cd + da], [[true, true, false], [false, true, true]])
+        }
+        Diagonal::Second => {
+            let doubled = [ways[0].cross(d - b), ways[1].cross(ways[2])];
+            (d - b, doubled, [ab + da, bc + cd], [[true, false, true], [true, true, false]])
+        }
+    };
+    let areas = doubled.map(DVec3::length);
+    let measures = [0, 1].map(|triangle| Measure {
+        area: areas[triangle],
+        perimeter: edges[triangle] + across.length(),
+        edges: edges[triangle],
+    });
+    let whole = measures[0].sum(measures[1]);
+    [0, 1].map(|triangle| {
+        EdgeFlags::new(flags[triangle]).with_radius_ratio(measures[triangle].radius_ratio(&whole))
+    })
+}
+
+/// For the triangles of any face.
+fn flags_of_any(source: &Mesh, (face, triangles): (u32, &[[u32; 3]]), mut give: impl FnMut(EdgeFlags)) {
     let corners = source.face_corners(face as usize);
     let (first, last) = (corners.start as u32, corners.end as u32 - 1);
     let neighbours = |from: u32, to: u32| to == if from == last { first } else { from + 1 };
     let edges = |&[a, b, c]: &[u32; 3]| [(a, b), (b, c), (c, a)].map(|(from, to)| neighbours(from, to));
-    let measure = |triangle: &[u32; 3]| Measure::new(source, triangle, edges(triangle));
-    let mut give_all = |measures: &[Measure]| {
-        let whole = measures.iter().copied().fold(Measure::default(), Measure::sum);
-        for (triangle, part) in triangles.iter().zip(measures) {
-            give(EdgeFlags::new(edges(triangle)).with_radius_ratio(part.radius_ratio(&whole)));
-        }
-    };
-    match triangles {
-        [triangle] => give(EdgeFlags::new(edges(triangle))),
-        // Quads are many, and take no memory.
-        [first, second] => give_all(&[measure(first), measure(second)]),
-        _ => give_all(&triangles.iter().map(measure).collect::<Vec<_>>()),
+    if let [triangle] = triangles {
+        return give(EdgeFlags::new(edges(triangle)));
+    }
+    let measures: Vec<_> =
+        triangles.iter().map(|triangle| Measure::new(source, triangle, edges(triangle))).collect();
+    let whole = measures.iter().copied().fold(Measure::default(), Measure::sum);
+    for (triangle, part) in triangles.iter().zip(measures) {
+        give(EdgeFlags::new(edges(triangle)).with_radius_ratio(part.radius_ratio(&whole)));
     }
 }
 
@@ -86,7 +148,34 @@ impl Measure {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+    use trigon_math::Vec3;
+    use trigon_mesh::MeshBuilder;
+
     use super::*;
+
+    proptest! {
+        #[test]
+        fn quads_have_the_flags_of_polygons(
+            corners in prop::array::uniform4(prop::array::uniform3(prop_oneof![
+                4 => -2.0_f32..2.0,
+                4 => (-1_i8..=1).prop_map(f32::from),
+                1 => prop::sample::select(vec![-0.0, 1e-30, 1e30, f32::NAN, f32::INFINITY]),
+            ])),
+        ) {
+            let mut builder = MeshBuilder::new();
+            corners.iter().for_each(|&corner| { builder.push_vertex(Vec3::from_array(corner)); });
+            builder.push_face(&[0, 1, 2, 3]).expect("four vertices");
+            let quad = builder.build();
+            for from_first in [true, false] {
+                let triangles = if from_first { [[0, 1, 2], [0, 2, 3]] } else { [[0, 1, 3], [1, 2, 3]] };
+                let (mut own, mut expected) = (Vec::new(), Vec::new());
+                flags_of_face(&quad, (0, &triangles), |flags| own.push(flags));
+                flags_of_any(&quad, (0, &triangles), |flags| expected.push(flags));
+                prop_assert_eq!(own, expected, "from the first: {}", from_first);
+            }
+        }
+    }
 
     #[test]
     fn a_cube_shows_twelve_edges_and_no_diagonal() {

@@ -4,8 +4,9 @@
 use proptest::prelude::*;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, MeshBuilder, MeshChange, primitives};
-use trigon_raster::{Texture, TextureFormat};
+use trigon_raster::{EdgeFlags, Texture, TextureFormat};
 
+use super::super::Columns;
 use super::*;
 use crate::{
     ElementSet, FixedBitSet, Light, Mark, Marks, Material, MeshAsset, MeshId, Node, NormalMap, Outputs,
@@ -193,6 +194,46 @@ fn edits() -> impl Strategy<Value = Vec<Edit>> {
     prop::collection::vec(edit, 0..5)
 }
 
+impl Edit {
+    /// Another value for the same element.
+    fn with(&self, to: Vec3) -> Self {
+        match *self {
+            Self::Position(vertex, _) => Self::Position(vertex, to),
+            Self::Normal(corner, _) => Self::Normal(corner, to),
+            Self::Uv(set, corner, _) => Self::Uv(set, corner, to.truncate()),
+            Self::Color(corner, _) => Self::Color(corner, to.x),
+        }
+    }
+}
+
+/// How a change goes on from the one before it: what is known of that one is used again, or must not be.
+#[derive(Clone, Copy, Debug)]
+enum Next {
+    Others,
+    Same,
+    Fewer,
+    More,
+    /// The same elements get the values that they had.
+    Undone,
+}
+
+fn next() -> impl Strategy<Value = Next> {
+    prop::sample::select(vec![Next::Others, Next::Same, Next::Same, Next::Fewer, Next::More, Next::Undone])
+}
+
+impl Next {
+    /// What is edited after `last`.
+    fn edits(self, last: &[Edit], others: &[Edit], to: Vec3) -> Vec<Edit> {
+        let again = last.iter().zip(0_u8..).map(|(edit, number)| edit.with(to * f32::from(number)));
+        match self {
+            Self::Others => others.to_vec(),
+            Self::Same | Self::Undone => again.collect(),
+            Self::Fewer => again.skip(1).collect(),
+            Self::More => again.chain(others.iter().cloned()).collect(),
+        }
+    }
+}
+
 /// What a mesh has not is left out.
 fn change(mesh: &Mesh, edits: &[Edit]) -> MeshChange {
     let attributes = mesh.attributes();
@@ -245,13 +286,21 @@ proptest! {
     #[test]
     fn geometry_that_followed_holds_what_new_geometry_does(
         mesh in bound(),
-        steps in prop::collection::vec((edits(), any::<bool>()), 1..8),
+        steps in prop::collection::vec((next(), edits(), place(), any::<bool>()), 1..10),
     ) {
         let mut scene = scene_of(mesh);
         asset(&scene).1.geometry();
-        for (edits, is_looked_at) in steps {
+        let (mut last, mut before) = (Vec::new(), asset(&scene).1.mesh().clone());
+        for (next, edits, to, is_looked_at) in steps {
             let (id, asset_before) = asset(&scene);
-            let change = change(asset_before.mesh(), &edits);
+            last = next.edits(&last, &edits, to);
+            let mut change = change(asset_before.mesh(), &last);
+            if let Next::Undone = next {
+                let mut changed = ChangedElements::default();
+                changed.add(&change);
+                change = changed.values_in(&before);
+            }
+            before = asset_before.mesh().clone();
             scene.change_mesh(id, &change).expect("the mesh has it all");
             if is_looked_at {
                 let (kept, fresh) = (Contents::of(asset(&scene).1), Contents::of(asset(&fresh(&scene)).1));
@@ -382,6 +431,37 @@ fn a_polygon_may_lose_its_area_and_get_it_back() {
         assert_eq!(Contents::of(asset(&scene).1), Contents::of(asset(&fresh(&scene)).1), "as made anew");
     }
     assert_eq!(counts, [0, 36], "nothing, and twelve pentagons");
+}
+
+/// What a vertex shows, as bits.
+fn shown(geometry: &Geometry, vertex: usize) -> Vec<u32> {
+    let Columns { positions, normals, face_normals: _, tangents, uv_sets, colors } = &geometry.columns;
+    let lists = positions.iter().chain(normals).chain(uv_sets.iter().flatten());
+    let lists = lists.chain(tangents.iter().flatten()).chain(colors.iter().flatten());
+    lists.map(|column| column[vertex].to_bits()).collect()
+}
+
+/// A vertex without a place has no normal, and its neighbours are told beside it.
+#[test]
+fn a_vertex_may_lose_its_place() {
+    let mut torus = primitives::torus(1.0, 0.4, 16, 10);
+    let attributes = Attributes { corner_normals: None, ..torus.attributes().clone() };
+    torus.set_attributes(attributes).expect("one less");
+    let mut scene = scene_of(torus);
+    is_in_place(&mut scene, &MeshChange::default());
+    let places = asset(&scene).1.mesh().positions().to_vec();
+    for to in [f32::NAN, 0.3, f32::INFINITY, 0.0] {
+        let before: Vec<_> = (0..160).map(|vertex| shown(asset(&scene).1.geometry(), vertex)).collect();
+        let positions = vec![(17, places[17]), (61, places[61] + Vec3::new(to, 0.0, 0.0))];
+        is_in_place(&mut scene, &MeshChange { positions, ..MeshChange::default() });
+        assert_eq!(Contents::of(asset(&scene).1), Contents::of(asset(&fresh(&scene)).1), "moved by {to}");
+        let geometry = asset(&scene).1.geometry();
+        let told = &geometry.change.as_ref().expect("it followed").vertices;
+        for (vertex, before) in before.iter().enumerate() {
+            let differs = shown(geometry, vertex) != *before;
+            assert!(!differs || told.contains(&(vertex as u32)), "vertex {vertex}, moved by {to}");
+        }
+    }
 }
 
 /// What is drawn again follows from that: whoever drags a vertex changes places, and a few diagonals.

@@ -1,0 +1,128 @@
+//! Vertices whose normal is the mean of the faces around them, as those of most meshes are.
+
+use rayon::prelude::*;
+use trigon_math::{DVec3, Vec3};
+
+use super::corner_faces::FaceCorner;
+use super::face_normals::{FaceNormals, mean};
+use super::marks::Marks;
+use super::render_update::{RenderUpdate, UpdatedVertex};
+
+/// Vertices each of which is one render vertex, with what lies around them. It stays the same while values change,
+/// so that whoever drags the same vertices on and on looks for it once.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Fans {
+    /// Some vertices each.
+    pieces: Vec<FanPiece>,
+    /// How many vertices there are, and how many of them were moved.
+    pub(super) count: usize,
+    pub(super) moved: usize,
+    /// Vertices of the mesh around a change that are no fans, increasing.
+    pub(super) others: Vec<u32>,
+}
+
+/// The corners at some vertices.
+#[derive(Debug, Clone, Default)]
+pub(super) struct FanPiece {
+    /// Those of each vertex, increasing; [`UNMOVED`] in the place of those of faces that do not move.
+    corners: Vec<FaceCorner>,
+    /// What the latter add to normals, in the same order: their own faces lie all over the memory.
+    unmoved: Vec<DVec3>,
+    /// Where the corners of each vertex end.
+    ends: Vec<u32>,
+}
+
+/// Stands for a corner of a face that does not move.
+const UNMOVED: FaceCorner = FaceCorner { face: u32::MAX, corner: u32::MAX };
+
+/// Some vertices, told apart.
+#[derive(Default)]
+pub(super) struct FoundFans {
+    pub(super) fans: FanPiece,
+    /// What the fans show.
+    pub(super) shown: Vec<UpdatedVertex>,
+    /// Those of `shown` that show other values than normals, as indices.
+    pub(super) replaced: Vec<u32>,
+    /// The vertices that are no fans.
+    pub(super) others: Vec<u32>,
+}
+
+impl Fans {
+    /// Of vertices that were told apart, piece by piece. Writes what they show in the place of what is there.
+    pub(super) fn new(found: Vec<FoundFans>, update: &mut RenderUpdate) -> Self {
+        update.vertices.clear();
+        update.replaced.clear();
+        let (mut pieces, mut others) = (Vec::with_capacity(found.len()), Vec::new());
+        for part in found {
+            update.add(&part.shown, &part.replaced);
+            others.extend(part.others);
+            pieces.push(part.fans);
+        }
+        Self { pieces, count: update.vertices.len(), moved: update.replaced.len(), others }
+    }
+
+    /// Brings the normals of the vertices up to date, which come in the order of the fans. Whether each has one.
+    pub(super) fn update(&self, face_normals: &FaceNormals, mut vertices: &mut [UpdatedVertex]) -> bool {
+        let mut parts = Vec::with_capacity(self.pieces.len());
+        for piece in &self.pieces {
+            let own = vertices.split_off_mut(..piece.ends.len()).expect("one for each fan");
+            parts.push((piece, own));
+        }
+        parts
+            .into_par_iter()
+            .map(|(piece, own)| piece.update(face_normals, own))
+            .reduce(|| true, |a, b| a & b)
+    }
+}
+
+impl FanPiece {
+    /// Adds a vertex with these corners, which increase; returns its normal. `None`, with nothing added, if one of
+    /// them is missing, or if they have no mean. `moved` are the faces that move.
+    pub(super) fn push(
+        &mut self,
+        face_normals: &FaceNormals,
+        moved: &Marks,
+        corners: impl Iterator<Item = Option<FaceCorner>>,
+    ) -> Option<Vec3> {
+        let (first, first_unmoved) = (self.corners.len(), self.unmoved.len());
+        let mut are_there = true;
+        let corners = corners.map_while(|corner| {
+            are_there &= corner.is_some();
+            corner
+        });
+        let normal = mean(corners.map(|corner| {
+            let weighted = face_normals.weighted(corner);
+            if moved.contains(corner.face) {
+                self.corners.push(corner);
+            } else {
+                self.corners.push(UNMOVED);
+                self.unmoved.push(weighted);
+            }
+            weighted
+        }));
+        let normal = Some(normal).filter(|&normal| are_there && normal != Vec3::ZERO);
+        if normal.is_some() {
+            self.ends.push(self.corners.len() as u32);
+        } else {
+            self.corners.truncate(first);
+            self.unmoved.truncate(first_unmoved);
+        }
+        normal
+    }
+
+    fn update(&self, face_normals: &FaceNormals, vertices: &mut [UpdatedVertex]) -> bool {
+        let (mut corners, mut unmoved) = (self.corners.as_slice(), self.unmoved.iter());
+        let (mut first, mut have_all) = (0, true);
+        for (vertex, &end) in vertices.iter_mut().zip(&self.ends) {
+            let own;
+            (own, corners) = corners.split_at((end - first) as usize);
+            vertex.normal = mean(own.iter().map(|&corner| match corner {
+                UNMOVED => *unmoved.next().expect("one for each that does not move"),
+                _ => face_normals.weighted(corner),
+            }));
+            have_all &= vertex.normal != Vec3::ZERO;
+            first = end;
+        }
+        have_all
+    }
+}

@@ -1,0 +1,125 @@
+//! Normals and angles of several quads at a time: the bits that are computed for one polygon after the other.
+
+use trigon_math::Vec3;
+
+use crate::normals::angles;
+
+/// The corners of quads side by side, so that the compiler computes several at once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Quads<const N: usize> {
+    /// By corner.
+    places: [Vectors<N>; 4],
+}
+
+/// A vector for each quad, by axis.
+type Vectors<const N: usize> = [[f64; N]; 3];
+
+impl<const N: usize> Quads<N> {
+    /// Without a size, until they are placed.
+    pub(crate) const NONE: Self = Self { places: [[[0.0; N]; 3]; 4] };
+
+    /// Places the corners of one quad.
+    pub(crate) fn place(&mut self, quad: usize, corners: [Vec3; 4]) {
+        for (vectors, corner) in self.places.iter_mut().zip(corners) {
+            for (axis, value) in vectors.iter_mut().zip(corner.to_array()) {
+                axis[quad] = f64::from(value);
+            }
+        }
+    }
+
+    /// The unit normal of each quad; zero if it has none.
+    pub(crate) fn normals(&self) -> [Vec3; N] {
+        let [a, b, c, d] = &self.places;
+        let [b, c, d] = [b, c, d].map(|corner| difference(corner, a));
+        // In the order in which the area vector of any polygon is added up.
+        let mut doubled = [[0.0; N]; 3];
+        for part in [cross(&[[0.0; N]; 3], &b), cross(&b, &c), cross(&c, &d)] {
+            doubled = each(|axis, quad| doubled[axis][quad] + part[axis][quad]);
+        }
+        let vectors: Vectors<N> = each(|axis, quad| doubled[axis][quad] * 0.5);
+        let squares = dot(&vectors, &vectors);
+        let units: [[f32; N]; 3] = vectors.map(|axis| {
+            std::array::from_fn(|quad| {
+                let length = squares[quad].sqrt();
+                let has_direction = length > 0.0 && length.is_finite();
+                (if has_direction { axis[quad] / length } else { 0.0 }) as f32
+            })
+        });
+        std::array::from_fn(|quad| Vec3::from_array(units.map(|axis| axis[quad])))
+    }
+
+    /// The angles at the corners of each quad, in radians.
+    pub(crate) fn angles(&self) -> [[f64; 4]; N] {
+        let ahead: [Vectors<N>; 4] =
+            std::array::from_fn(|corner| difference(&self.places[(corner + 1) % 4], &self.places[corner]));
+        let squares = ahead.map(|way| dot(&way, &way));
+        let by_corner: [[f64; N]; 4] = std::array::from_fn(|corner| {
+            // The way back is the way ahead of the corner before, turned round.
+            let before = (corner + 3) % 4;
+            let dots = dot(&ahead[before], &ahead[corner]).map(|product| -product);
+            let products = std::array::from_fn(|quad| squares[before][quad] * squares[corner][quad]);
+            angles(dots, products)
+        });
+        std::array::from_fn(|quad| by_corner.map(|angles| angles[quad]))
+    }
+}
+
+fn each<const N: usize>(value: impl Fn(usize, usize) -> f64) -> Vectors<N> {
+    std::array::from_fn(|axis| std::array::from_fn(|quad| value(axis, quad)))
+}
+
+fn difference<const N: usize>(to: &Vectors<N>, from: &Vectors<N>) -> Vectors<N> {
+    each(|axis, quad| to[axis][quad] - from[axis][quad])
+}
+
+fn cross<const N: usize>(a: &Vectors<N>, b: &Vectors<N>) -> Vectors<N> {
+    each(|axis, quad| {
+        let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+        a[next][quad] * b[last][quad] - b[next][quad] * a[last][quad]
+    })
+}
+
+fn dot<const N: usize>(a: &Vectors<N>, b: &Vectors<N>) -> [f64; N] {
+    std::array::from_fn(|quad| a[0][quad] * b[0][quad] + a[1][quad] * b[1][quad] + a[2][quad] * b[2][quad])
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::MeshBuilder;
+    use crate::normals::corner_angle;
+
+    fn corner() -> impl Strategy<Value = Vec3> {
+        let coordinate = prop_oneof![
+            4 => -2.0_f32..2.0,
+            4 => (-1_i8..=1).prop_map(f32::from),
+            1 => prop::sample::select(vec![-0.0, 1e-30, 1e30, f32::NAN, f32::INFINITY]),
+        ];
+        prop::array::uniform3(coordinate).prop_map(Vec3::from_array)
+    }
+
+    proptest! {
+        #[test]
+        fn quads_side_by_side_have_the_values_of_each(
+            corners in prop::array::uniform3(prop::array::uniform4(corner())),
+        ) {
+            let mut quads = Quads::<3>::NONE;
+            for (quad, corners) in corners.into_iter().enumerate() {
+                quads.place(quad, corners);
+            }
+            for (quad, corners) in corners.into_iter().enumerate() {
+                let mut builder = MeshBuilder::new();
+                corners.iter().for_each(|&corner| { builder.push_vertex(corner); });
+                builder.push_face(&[0, 1, 2, 3]).expect("four vertices");
+                let mesh = builder.build();
+                let angles = [0, 1, 2, 3].map(|corner| corner_angle(&mesh, &[0, 1, 2, 3], corner).to_bits());
+                prop_assert_eq!(quads.angles()[quad].map(f64::to_bits), angles, "quad {}", quad);
+                let [own, expected] = [quads.normals()[quad], mesh.face_normal(0)];
+                let bits = |normal: Vec3| normal.to_array().map(f32::to_bits);
+                prop_assert_eq!(bits(own), bits(expected), "quad {}", quad);
+            }
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Where the triangles of changed faces are.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::super::edge_flags::Diagonal;
+
+/// Faces per task.
+pub(super) const PIECE: usize = 1024;
+
+/// The slots of the triangles of some faces. No change alters them, so that whoever drags the same vertices on
+/// and on looks for them once.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FacePlaces {
+    /// Those that were looked for, increasing.
+    faces: Vec<u32>,
+    /// Of those that have any, in the order of their slots.
+    places: Vec<FacePlace>,
+}
+
+/// A face and the slots of its triangles in the geometry.
+#[derive(Clone, Debug)]
+pub(super) struct FacePlace {
+    pub(super) face: u32,
+    start: u32,
+    end: u32,
+    /// The diagonal along which the last change has cut it, if it has, and it is a quad.
+    pub(super) diagonal: Option<Diagonal>,
+}
+
+impl FacePlace {
+    pub(super) fn slots(&self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
+}
+
+impl FacePlaces {
+    /// Forgets how faces were cut: their triangles have other vertices now.
+    pub(super) fn forget_diagonals(&mut self) {
+        self.places.iter_mut().for_each(|place| place.diagonal = None);
+    }
+
+    /// Takes the place of those of an earlier change, if that was of other faces.
+    pub(super) fn update(
+        &mut self,
+        faces: &[u32],
+        slots_of: impl Fn(u32) -> Range<usize> + Sync,
+    ) -> &mut [FacePlace] {
+        if self.faces != faces {
+            let place = |&face: &u32| {
+                let Range { start, end } = slots_of(face);
+                FacePlace { face, start: start as u32, end: end as u32, diagonal: None }
+            };
+            let places = faces.par_iter().with_min_len(PIECE).map(place);
+            self.faces = faces.to_vec();
+            self.places = places.filter(|place| place.start < place.end).collect();
+            // Out of order where faces of several slots change.
+            self.places.sort_by_key(|place| place.start);
+        }
+        &mut self.places
+    }
+}
