@@ -57,6 +57,7 @@ mod flat_faces;
 mod groups;
 mod mesh;
 mod normals;
+mod prefetch;
 pub mod primitives;
 mod quads;
 mod render_mesh;

@@ -1,6 +1,7 @@
 //! The triangles of a whole mesh, and which face each one came from.
 
 use crate::Mesh;
+use crate::prefetch::prefetch;
 use crate::triangulate::Triangulator;
 
 /// A mesh's faces as triangles, in face order.
@@ -33,40 +34,43 @@ impl Mesh {
     /// # Panics
     ///
     /// When one of the faces does not exist.
-    pub fn triangulation_of(&self, faces: impl ExactSizeIterator<Item = u32>) -> Triangulation {
+    pub fn triangulation_of(&self, faces: impl ExactSizeIterator<Item = u32> + Clone) -> Triangulation {
         let most = 2 * faces.len();
         self.triangulated(faces, most)
     }
 
     /// Triangulates some faces, into about `room` triangles.
-    fn triangulated(&self, mut faces: impl Iterator<Item = u32>, room: usize) -> Triangulation {
-        /// Faces whose corners are looked up before the first of them is cut: many a load is under way then.
-        const GROUP: usize = 64;
+    fn triangulated(&self, mut faces: impl Iterator<Item = u32> + Clone, room: usize) -> Triangulation {
+        /// Faces whose corners are read ahead.
+        const GROUP: usize = 256;
         let mut triangles = Vec::with_capacity(room);
         let mut triangle_faces = Vec::with_capacity(room);
         let mut triangulator = Triangulator::default();
-        let (mut group, mut outlines) = (Vec::with_capacity(GROUP), Vec::new());
-        loop {
-            group.clear();
-            outlines.clear();
-            for face in faces.by_ref().take(GROUP) {
-                let corners = self.face_corners(face as usize);
-                let vertices = &self.corner_vertices()[corners.clone()];
-                outlines.extend(vertices.iter().map(|&vertex| self.positions()[vertex as usize]));
-                group.push((face, corners));
+        let mut outline = Vec::new();
+        for (number, face) in faces.clone().enumerate() {
+            if number % GROUP == 0 {
+                self.prefetch_faces(faces.clone().take(GROUP));
+                faces.by_ref().take(GROUP).for_each(drop);
             }
-            let mut rest = outlines.as_slice();
-            for (face, corners) in &group {
-                let (before, outline) = (triangles.len(), rest.split_off(..corners.len()));
-                triangulator.polygon(outline.expect("one for each face"), &mut triangles);
-                for triangle in &mut triangles[before..] {
-                    *triangle = triangle.map(|corner| corner + corners.start as u32);
-                }
-                triangle_faces.resize(triangles.len(), *face);
+            let (before, corners) = (triangles.len(), self.face_corners(face as usize));
+            let vertices = &self.corner_vertices()[corners.clone()];
+            outline.clear();
+            outline.extend(vertices.iter().map(|&v| self.positions()[v as usize]));
+            triangulator.polygon(&outline, &mut triangles);
+            for triangle in &mut triangles[before..] {
+                *triangle = triangle.map(|corner| corner + corners.start as u32);
             }
-            if group.len() < GROUP {
-                return Triangulation { triangles, triangle_faces };
-            }
+            triangle_faces.resize(triangles.len(), face);
         }
+        Triangulation { triangles, triangle_faces }
+    }
+
+    /// Reads the corners of faces, which lie all over the memory, and their positions.
+    pub(crate) fn prefetch_faces(&self, faces: impl Iterator<Item = u32> + Clone) {
+        prefetch(faces.clone().map(|face| self.corner_vertices()[self.face_corners(face as usize).start]));
+        prefetch(faces.flat_map(|face| {
+            let vertices = self.face_vertices(face as usize);
+            vertices.iter().map(|&vertex| self.positions()[vertex as usize].x.to_bits())
+        }));
     }
 }

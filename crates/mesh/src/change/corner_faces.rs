@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::Mesh;
 
 /// A face and one of its corners.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct FaceCorner {
     pub(super) face: u32,
     pub(super) corner: u32,

@@ -68,18 +68,16 @@ impl FaceNormals {
         self.normals[face]
     }
 
-    /// What a smooth face adds to the normal of the vertex at one of its corners.
-    pub(super) fn weighted(&self, FaceCorner { face, corner }: FaceCorner) -> DVec3 {
-        // A face without a normal adds nothing, since angles are finite.
-        self.normals[face as usize].as_dvec3() * self.angles[corner as usize]
+    /// The mean normal of smooth faces at one vertex, weighted by their angles there, and added up in the order of
+    /// their corners as for a whole mesh. Zero if there is none.
+    pub(super) fn mean(&self, corners: impl Iterator<Item = FaceCorner>) -> Vec3 {
+        let mut sum = DVec3::ZERO;
+        for FaceCorner { face, corner } in corners {
+            // Faces without a normal add nothing: angles are finite, and no sum is a negative zero.
+            sum += self.normals[face as usize].as_dvec3() * self.angles[corner as usize];
+        }
+        unit_or_zero(sum).as_vec3()
     }
-}
-
-/// The mean of what smooth faces add to the normal at one vertex, in the order of their corners as for a whole mesh.
-/// Zero if there is none.
-pub(super) fn mean(weighted: impl Iterator<Item = DVec3>) -> Vec3 {
-    // The sum is never a negative zero, so that another zero does not change it.
-    unit_or_zero(weighted.fold(DVec3::ZERO, |sum, normal| sum + normal)).as_vec3()
 }
 
 /// Some faces, and what is known of all from one of them to another.
@@ -94,20 +92,26 @@ struct Part<'a> {
 
 impl Part<'_> {
     fn update(mut self, mesh: &Mesh) {
-        let mut group = QuadGroup::default();
+        /// Faces that are read ahead.
+        const GROUP: usize = 256;
+        let (mut quads, mut placed) = (Quads::NONE, Vec::with_capacity(LANES));
         for faces in self.faces.chunks(GROUP) {
-            group.faces.clear();
+            mesh.prefetch_faces(faces.iter().copied());
             for &face in faces {
-                match *mesh.face_vertices(face as usize) {
-                    // Most faces of most meshes.
-                    [a, b, c, d] => {
-                        group.push(face, [a, b, c, d].map(|vertex| mesh.positions()[vertex as usize]));
-                    }
-                    _ => self.update_any(mesh, face as usize),
+                // Most faces of most meshes are quads.
+                let &[a, b, c, d] = mesh.face_vertices(face as usize) else {
+                    self.update_any(mesh, face as usize);
+                    continue;
+                };
+                quads.place(placed.len(), [a, b, c, d].map(|vertex| mesh.positions()[vertex as usize]));
+                placed.push(face);
+                if placed.len() == LANES {
+                    self.update_quads(mesh, &quads, &placed);
+                    placed.clear();
                 }
             }
-            self.update_quads(mesh, &group);
         }
+        self.update_quads(mesh, &quads, &placed);
     }
 
     fn update_any(&mut self, mesh: &Mesh, face: usize) {
@@ -119,49 +123,23 @@ impl Part<'_> {
         }
     }
 
-    fn update_quads(&mut self, mesh: &Mesh, group: &QuadGroup) {
-        for (faces, quads) in group.faces.chunks(LANES).zip(&group.quads) {
-            for (&face, normal) in faces.iter().zip(quads.normals()) {
-                self.normals[face as usize - self.first_face] = normal;
-            }
-            if self.angles.is_empty() {
-                continue;
-            }
-            for (&face, angles) in faces.iter().zip(quads.angles()) {
-                let first = mesh.face_corners(face as usize).start - self.first_corner;
-                self.angles[first..first + 4].copy_from_slice(&angles);
-            }
+    /// Updates the faces of the first of some quads.
+    fn update_quads(&mut self, mesh: &Mesh, quads: &Quads<LANES>, faces: &[u32]) {
+        for (&face, normal) in faces.iter().zip(quads.normals()) {
+            self.normals[face as usize - self.first_face] = normal;
+        }
+        if self.angles.is_empty() {
+            return;
+        }
+        for (&face, angles) in faces.iter().zip(quads.angles()) {
+            let first = mesh.face_corners(face as usize).start - self.first_corner;
+            self.angles[first..first + 4].copy_from_slice(&angles);
         }
     }
 }
 
 /// Quads that are computed at a time.
 const LANES: usize = 4;
-
-/// Quads whose corners are looked up before the first of them is computed: many a load is under way then, and they lie
-/// all over the memory.
-const GROUP: usize = 64;
-
-/// Some quads and where they are.
-struct QuadGroup {
-    faces: Vec<u32>,
-    quads: [Quads<LANES>; GROUP / LANES],
-}
-
-impl Default for QuadGroup {
-    /// None.
-    fn default() -> Self {
-        Self { faces: Vec::with_capacity(GROUP), quads: [Quads::NONE; GROUP / LANES] }
-    }
-}
-
-impl QuadGroup {
-    fn push(&mut self, face: u32, corners: [Vec3; 4]) {
-        let number = self.faces.len();
-        self.faces.push(face);
-        self.quads[number / LANES].place(number % LANES, corners);
-    }
-}
 
 fn angles_at(mesh: &Mesh, corners: Range<usize>) -> impl Iterator<Item = f64> {
     let vertices = &mesh.corner_vertices()[corners];

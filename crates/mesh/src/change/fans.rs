@@ -1,11 +1,10 @@
 //! Vertices whose normal is the mean of the faces around them, as those of most meshes are.
 
 use rayon::prelude::*;
-use trigon_math::{DVec3, Vec3};
+use trigon_math::Vec3;
 
 use super::corner_faces::FaceCorner;
-use super::face_normals::{FaceNormals, mean};
-use super::marks::Marks;
+use super::face_normals::FaceNormals;
 use super::render_update::{RenderUpdate, UpdatedVertex};
 
 /// Vertices each of which is one render vertex, with what lies around them. It stays the same while values change,
@@ -24,16 +23,10 @@ pub(super) struct Fans {
 /// The corners at some vertices.
 #[derive(Debug, Clone, Default)]
 pub(super) struct FanPiece {
-    /// Those of each vertex, increasing; [`UNMOVED`] in the place of those of faces that do not move.
     corners: Vec<FaceCorner>,
-    /// What the latter add to normals, in the same order: their own faces lie all over the memory.
-    unmoved: Vec<DVec3>,
-    /// Where the corners of each vertex end.
+    /// Where those of each vertex end.
     ends: Vec<u32>,
 }
-
-/// Stands for a corner of a face that does not move.
-const UNMOVED: FaceCorner = FaceCorner { face: u32::MAX, corner: u32::MAX };
 
 /// Some vertices, told apart.
 #[derive(Default)]
@@ -77,51 +70,34 @@ impl Fans {
 
 impl FanPiece {
     /// Adds a vertex with these corners, which increase; returns its normal. `None`, with nothing added, if one of
-    /// them is missing, or if they have no mean. `moved` are the faces that move.
+    /// them is missing, or if they have no mean.
     pub(super) fn push(
         &mut self,
         face_normals: &FaceNormals,
-        moved: &Marks,
         corners: impl Iterator<Item = Option<FaceCorner>>,
     ) -> Option<Vec3> {
-        let (first, first_unmoved) = (self.corners.len(), self.unmoved.len());
+        let first = self.corners.len();
         let mut are_there = true;
-        let corners = corners.map_while(|corner| {
+        self.corners.extend(corners.map_while(|corner| {
             are_there &= corner.is_some();
             corner
-        });
-        let normal = mean(corners.map(|corner| {
-            let weighted = face_normals.weighted(corner);
-            if moved.contains(corner.face) {
-                self.corners.push(corner);
-            } else {
-                self.corners.push(UNMOVED);
-                self.unmoved.push(weighted);
-            }
-            weighted
         }));
-        let normal = Some(normal).filter(|&normal| are_there && normal != Vec3::ZERO);
+        let normal = are_there.then(|| face_normals.mean(self.corners[first..].iter().copied()));
+        let normal = normal.filter(|&normal| normal != Vec3::ZERO);
         if normal.is_some() {
             self.ends.push(self.corners.len() as u32);
         } else {
             self.corners.truncate(first);
-            self.unmoved.truncate(first_unmoved);
         }
         normal
     }
 
     fn update(&self, face_normals: &FaceNormals, vertices: &mut [UpdatedVertex]) -> bool {
-        let (mut corners, mut unmoved) = (self.corners.as_slice(), self.unmoved.iter());
         let (mut first, mut have_all) = (0, true);
         for (vertex, &end) in vertices.iter_mut().zip(&self.ends) {
-            let own;
-            (own, corners) = corners.split_at((end - first) as usize);
-            vertex.normal = mean(own.iter().map(|&corner| match corner {
-                UNMOVED => *unmoved.next().expect("one for each that does not move"),
-                _ => face_normals.weighted(corner),
-            }));
+            vertex.normal = face_normals.mean(self.corners[first..end as usize].iter().copied());
             have_all &= vertex.normal != Vec3::ZERO;
-            first = end;
+            first = end as usize;
         }
         have_all
     }

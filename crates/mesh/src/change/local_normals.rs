@@ -4,9 +4,8 @@
 use trigon_math::Vec3;
 
 use super::corner_faces::{CornerFaces, FaceCorner};
-use super::face_normals::{FaceNormals, mean};
+use super::face_normals::FaceNormals;
 use super::fans::FanPiece;
-use super::marks::Marks;
 use crate::Mesh;
 use crate::normals::{or_if_zero, unit_keeping};
 
@@ -45,8 +44,7 @@ impl<'a> LocalNormals<'a> {
         around.clear();
         around.extend(corners.iter().map(|&corner| self.face_corner(corner)));
         // The mean over the smooth faces at the vertex.
-        let is_smooth = |of: &&FaceCorner| self.is_smooth(of.face);
-        let mean = || mean(around.iter().filter(is_smooth).map(|&of| self.face_normals.weighted(of)));
+        let mean = || self.face_normals.mean(around.iter().copied().filter(|of| self.is_smooth(of.face)));
         let mut of_vertex = None;
         for (normal, of) in normals.iter_mut().zip(&*around).filter(|(normal, _)| **normal == Vec3::ZERO) {
             let of_face = or_if_zero(self.face_normals.normal(of.face as usize), Vec3::Y);
@@ -58,12 +56,12 @@ impl<'a> LocalNormals<'a> {
         }
     }
 
-    /// Adds a vertex to fans, if each of its corners takes its normal from the vertex; returns that normal.
-    /// Most vertices of most meshes are such. `moved` are the faces that move.
-    pub(super) fn add_fan(&self, corners: &[u32], moved: &Marks, fans: &mut FanPiece) -> Option<Vec3> {
+    /// Adds the corners at a vertex to a fan, if each of them takes its normal from the vertex; returns that normal.
+    /// Most vertices of most meshes are such.
+    pub(super) fn add_fan(&self, corners: &[u32], fans: &mut FanPiece) -> Option<Vec3> {
         self.smooth.filter(|_| self.given.is_none())?;
         let smooth = |&corner: &u32| Some(self.face_corner(corner)).filter(|of| self.is_smooth(of.face));
-        fans.push(self.face_normals, moved, corners.iter().map(smooth))
+        fans.push(self.face_normals, corners.iter().map(smooth))
     }
 
     fn face_corner(&self, corner: u32) -> FaceCorner {

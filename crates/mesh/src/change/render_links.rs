@@ -9,7 +9,6 @@ use super::ChangedElements;
 use super::corner_faces::CornerFaces;
 use super::face_normals::{FaceNormals, PIECE};
 use super::fans::Fans;
-use super::marks::Marks;
 use super::neighborhood::Neighborhood;
 use super::render_update::{RenderUpdate, UpdatedVertex};
 use super::vertex_values::{Shown, SplitOff, VertexValues};
@@ -116,10 +115,7 @@ impl RenderLinks {
         update.vertices.truncate(self.fans.count);
         update.replaced.truncate(self.fans.moved);
         if are_others || !self.fans.update(face_normals, &mut update.vertices) {
-            let mut moved = Marks::new(mesh.face_count());
-            around.faces.iter().for_each(|&face| moved.insert(face));
-            let found =
-                around.vertices.par_chunks(PIECE).map(|piece| values.fans_of(piece, &moved)).collect();
+            let found = around.vertices.par_chunks(PIECE).map(|piece| values.fans_of(piece)).collect();
             self.fans = Fans::new(found, update);
         }
         let shown: Vec<Shown> = self.fans.others.par_chunks(PIECE).map(|piece| values.at(piece)).collect();

@@ -5,7 +5,6 @@ use trigon_math::Vec3;
 use super::face_normals::FaceNormals;
 use super::fans::{FanPiece, FoundFans};
 use super::local_normals::LocalNormals;
-use super::marks::Marks;
 use super::neighborhood::Neighborhood;
 use super::render_update::UpdatedVertex;
 use crate::Mesh;
@@ -69,14 +68,14 @@ impl<'a> VertexValues<'a> {
         }
     }
 
-    /// Tells fans from other vertices; they increase. `moved_faces` are the faces that move.
-    pub(super) fn fans_of(&self, vertices: &[u32], moved_faces: &Marks) -> FoundFans {
+    /// Tells fans from other vertices; they increase.
+    pub(super) fn fans_of(&self, vertices: &[u32]) -> FoundFans {
         let mut found = FoundFans::default();
         found.shown.reserve(vertices.len());
         let mut moved = self.moved;
         for &vertex in vertices {
             let is_moved = is_next(&mut moved, vertex);
-            if let Some(updated) = self.fan(self.corners_at.get(vertex), moved_faces, &mut found.fans) {
+            if let Some(updated) = self.fan(self.corners_at.get(vertex), &mut found.fans) {
                 found.replaced.extend(is_moved.then_some(found.shown.len() as u32));
                 found.shown.push(updated);
             } else {
@@ -117,9 +116,9 @@ impl<'a> VertexValues<'a> {
 
     /// The render vertex of all corners at a vertex, if they had the same one, can differ in
     /// nothing but normals, and all take these from the vertex.
-    fn fan(&self, corners: &[u32], moved: &Marks, fans: &mut FanPiece) -> Option<UpdatedVertex> {
+    fn fan(&self, corners: &[u32], fans: &mut FanPiece) -> Option<UpdatedVertex> {
         let (vertex, corner) = self.same_before(corners).filter(|_| self.same_attributes)?;
-        let normal = self.normals.add_fan(corners, moved, fans)?;
+        let normal = self.normals.add_fan(corners, fans)?;
         Some(UpdatedVertex { vertex, corner, normal })
     }
 

@@ -51,13 +51,12 @@ pub(super) enum Diagonal {
 impl Diagonal {
     /// That of a quad with this first corner; `None` if it is cut in another way.
     pub(super) fn of(first: u32, triangles: &[[u32; 3]]) -> Option<Self> {
-        let [second, third, last] = [first + 1, first + 2, first + 3];
-        if triangles == [[first, second, third], [first, third, last]] {
-            Some(Self::First)
-        } else if triangles == [[first, second, last], [second, third, last]] {
-            Some(Self::Second)
-        } else {
-            None
+        // Number by number: they were just written, and a processor waits to read several at once.
+        let &[[a, b, c], [d, e, f]] = triangles else { return None };
+        match [a, b, c, d, e, f].map(|corner| corner.wrapping_sub(first)) {
+            [0, 1, 2, 0, 2, 3] => Some(Self::First),
+            [0, 1, 3, 1, 2, 3] => Some(Self::Second),
+            _ => None,
         }
     }
 }
