@@ -92,26 +92,23 @@ struct Part<'a> {
 
 impl Part<'_> {
     fn update(mut self, mesh: &Mesh) {
-        /// Faces that are read ahead.
-        const GROUP: usize = 256;
-        let (mut quads, mut placed) = (Quads::NONE, Vec::with_capacity(LANES));
+        let mut group = QuadGroup { faces: Vec::with_capacity(GROUP), quads: [Quads::NONE; GROUP / LANES] };
         for faces in self.faces.chunks(GROUP) {
             mesh.prefetch_faces(faces.iter().copied());
+            group.faces.clear();
             for &face in faces {
-                // Most faces of most meshes are quads.
-                let &[a, b, c, d] = mesh.face_vertices(face as usize) else {
-                    self.update_any(mesh, face as usize);
-                    continue;
-                };
-                quads.place(placed.len(), [a, b, c, d].map(|vertex| mesh.positions()[vertex as usize]));
-                placed.push(face);
-                if placed.len() == LANES {
-                    self.update_quads(mesh, &quads, &placed);
-                    placed.clear();
+                match *mesh.face_vertices(face as usize) {
+                    // Most faces of most meshes.
+                    [a, b, c, d] => {
+                        group.push(face, [a, b, c, d].map(|vertex| mesh.positions()[vertex as usize]));
+                    }
+                    _ => self.update_any(mesh, face as usize),
                 }
             }
+            for (faces, quads) in group.faces.chunks(LANES).zip(&group.quads) {
+                self.update_quads(mesh, quads, faces);
+            }
         }
-        self.update_quads(mesh, &quads, &placed);
     }
 
     fn update_any(&mut self, mesh: &Mesh, face: usize) {
@@ -140,6 +137,24 @@ impl Part<'_> {
 
 /// Quads that are computed at a time.
 const LANES: usize = 4;
+
+/// Quads that are placed before the first of them is computed: a processor waits when it reads several numbers at once
+/// that it has just written one by one.
+const GROUP: usize = 256;
+
+/// Some quads and where they are.
+struct QuadGroup {
+    faces: Vec<u32>,
+    quads: [Quads<LANES>; GROUP / LANES],
+}
+
+impl QuadGroup {
+    fn push(&mut self, face: u32, corners: [Vec3; 4]) {
+        let number = self.faces.len();
+        self.faces.push(face);
+        self.quads[number / LANES].place(number % LANES, corners);
+    }
+}
 
 fn angles_at(mesh: &Mesh, corners: Range<usize>) -> impl Iterator<Item = f64> {
     let vertices = &mesh.corner_vertices()[corners];
