@@ -129,16 +129,8 @@ impl Follow<'_> {
     }
 
     /// Shares items among the workers.
-    fn for_each<I>(&self, items: impl Iterator<Item = I> + Send, work: impl Fn(I) + Sync) {
-        let rest = Mutex::new(items);
-        let next = || rest.lock().unwrap_or_else(PoisonError::into_inner).next();
-        self.options.workers.run(true, |_| {
-            while let Some(item) = next()
-                && !self.options.is_cancelled()
-            {
-                work(item);
-            }
-        });
+    fn for_each<I: Iterator + Send>(&self, items: I, work: impl Fn(I::Item) + Sync) {
+        self.options.workers.share(items.take_while(|_| !self.options.is_cancelled()), work);
     }
 }
 

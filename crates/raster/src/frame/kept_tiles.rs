@@ -2,13 +2,13 @@
 //! look different are shaded.
 
 use super::bits::is_set;
-use super::tiles::{Scratch, draw_tile};
+use super::tiles::{Scratch, count_seen, draw_tile};
 use crate::clock::Clock;
 use crate::ink::{Ink, VisibleFaces};
 use crate::resolve::{TileColors, resolve, store_visibility};
 use crate::shade::{GROUP_COUNT, Partly, TileLanes, note_faces, rows_of_either, shade_tile};
 use crate::target::Bands;
-use crate::tile::StillTile;
+use crate::tile::{Moving, StillTile};
 use crate::tile_buffer::TileArea;
 use crate::view::FrameView;
 use std::sync::{Mutex, PoisonError};
@@ -17,6 +17,8 @@ use std::sync::{Mutex, PoisonError};
 #[derive(Default)]
 pub(super) struct KeptTiles {
     tiles: Vec<Mutex<Option<Box<KeptTile>>>>,
+    /// The primitives that may look different: a bit for each of the frame.
+    pub(super) differ: Vec<u64>,
 }
 
 /// All lanes.
@@ -34,28 +36,18 @@ struct KeptTile {
     shown: [TileLanes; 2],
 }
 
-/// Those of a frame.
-#[derive(Clone, Copy)]
-pub(super) struct Kept<'k> {
-    pub(super) tiles: &'k KeptTiles,
-    /// A bit for each primitive of the frame that may look different.
-    pub(super) differ: &'k [u64],
-}
-
 impl KeptTiles {
-    /// Forgets all, and begins with `count` tiles.
+    /// Forgets all tiles, and begins with `count`.
     pub(super) fn reset(&mut self, count: usize) {
         self.tiles.clear();
         self.tiles.resize_with(count, Mutex::default);
     }
-}
 
-impl Kept<'_> {
     /// Draws a tile.
     pub(super) fn draw(&self, frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Bands<'_>, index: u32) {
-        let mut kept = self.tiles.tiles[index as usize].lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = self.tiles[index as usize].lock().unwrap_or_else(PoisonError::into_inner);
         let tile = (&frame.area(index), index);
-        let own = kept.get_or_insert_with(|| Box::new(KeptTile::find((frame, self.differ), tile, scratch)));
+        let own = kept.get_or_insert_with(|| Box::new(KeptTile::find((frame, &self.differ), tile, scratch)));
         if own.draw(frame, scratch, (bands, tile)).is_none() {
             own.shown = ALL;
             draw_tile(frame, scratch, bands, index);
@@ -93,14 +85,16 @@ impl KeptTile {
         let (still, encoding) = (self.still.as_ref()?, frame.wants.bytes?);
         let mut clock = Clock::new(frame.timed);
         let moving = still.restore(frame, (area, index), state);
-        still.cover_opaque(frame, area, (state, &moving), stats)?;
+        Moving::cover(frame, area, (state, &moving.surfaces.opaque), stats)?;
+        count_seen(frame, state, stats);
         stats.times.visibility += clock.lap();
         let mut now = [[0; GROUP_COUNT]; 2];
         moving.lanes(state, &mut now[0]);
         let moved = rows_of_either(&now[0], &self.shown[0]);
         store_visibility(frame, (area, Some(&moved)), state, bands);
         stats.times.resolve += clock.lap();
-        still.cover_overlay(frame, area, (state, &moving), stats)?;
+        still.lay_overlays(frame, state);
+        Moving::cover(frame, area, (state, &moving.surfaces.overlay), stats)?;
         moving.lanes(state, &mut now[1]);
         moving.sort(frame, state);
         stats.tiles += 1;

@@ -6,7 +6,7 @@
 
 use super::DrawChange;
 use super::bits::{are_among, is_set, reset, set};
-use super::kept_tiles::{Kept, KeptTiles};
+use super::kept_tiles::KeptTiles;
 use super::touched::{Found, Touched};
 use crate::BlendMode;
 use crate::bin::{Chunk, Grid, MovingChunk};
@@ -27,9 +27,8 @@ pub(super) struct Moving {
     changed: Vec<u64>,
     /// Those of them that may move.
     moved: Vec<u64>,
-    /// The primitives that may move, and all that may look different: a bit for each primitive of the frame.
+    /// The primitives that may move: a bit for each of the frame.
     primitives: Vec<u64>,
-    differ: Vec<u64>,
     /// The primitives that may move, for each chunk of the frame.
     pub(super) chunks: Vec<MovingChunk>,
     /// The tiles in which still primitives may look different.
@@ -39,9 +38,8 @@ pub(super) struct Moving {
 
 impl Moving {
     /// What is kept of tiles, if primitives are listed apart.
-    pub(super) fn kept(&self) -> Option<Kept<'_>> {
-        let Self { is_apart, kept, differ, .. } = self;
-        is_apart.then_some(Kept { tiles: kept, differ })
+    pub(super) fn kept(&self) -> Option<&KeptTiles> {
+        self.is_apart.then_some(&self.kept)
     }
 
     /// Leaves no primitives apart, and no vertices that have changed.
@@ -99,18 +97,19 @@ impl Moving {
             reset(&mut self.primitives, count);
         }
         self.moved.iter_mut().zip(touched.moved()).for_each(|(all, &moved)| *all |= moved);
-        reset(&mut self.differ, count);
+        let differ = &mut self.kept.differ;
+        reset(differ, count);
         for (chunk, found) in chunks.iter().zip(found) {
             let start = chunk.ordinals.start as usize;
             let flagged = |flags: &[bool], bits: &mut [u64]| {
                 let places = (start..).zip(flags).filter(|(_, is_flagged)| **is_flagged);
                 places.for_each(|(ordinal, _)| set(bits, ordinal));
             };
-            flagged(&found.differ, &mut self.differ);
+            flagged(&found.differ, differ);
             flagged(&found.moved, &mut self.primitives);
         }
         self.add_slots(pass, plan);
-        self.differ.iter_mut().zip(&self.primitives).for_each(|(differ, &moved)| *differ |= moved);
+        self.kept.differ.iter_mut().zip(&self.primitives).for_each(|(differ, &moved)| *differ |= moved);
         let moving: u32 = self.primitives.iter().map(|word| word.count_ones()).sum();
         let places = |chunk: &Chunk| -> Vec<u32> {
             let ordinals = chunk.ordinals.clone();

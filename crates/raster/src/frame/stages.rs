@@ -3,7 +3,7 @@
 
 use super::FrameOptions;
 use super::change::Signature;
-use super::kept_tiles::Kept;
+use super::kept_tiles::KeptTiles;
 use super::layout::Layout;
 use super::moving::Moving;
 use super::options::VERTICES;
@@ -55,7 +55,7 @@ pub(crate) fn draw(
 #[derive(Clone, Copy)]
 pub(super) struct SomeTiles<'t> {
     pub(super) numbers: &'t [u32],
-    pub(super) kept: Option<Kept<'t>>,
+    pub(super) kept: Option<&'t KeptTiles>,
 }
 
 /// Draws the tiles, or some of them, of a frame that is prepared.

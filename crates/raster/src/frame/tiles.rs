@@ -48,6 +48,7 @@ pub(super) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
     let mut clock = Clock::new(frame.timed);
     state.begin(frame, index);
     resolve_visibility(frame, &area, state, &surfaces, (shading, stats));
+    count_seen(frame, state, stats);
     stats.times.visibility += clock.lap();
     // Depth and ids know nothing of what is shown over the surfaces.
     store_visibility(frame, (&area, None), state, bands);
@@ -56,6 +57,13 @@ pub(super) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
         cover_overlay(frame, &area, state, &surfaces, stats);
         stats.times.visibility += clock.lap();
         draw_colors(frame, scratch, surfaces, (bands, index), &mut clock);
+    }
+}
+
+/// Counts the samples that show opaque and masked triangles.
+pub(super) fn count_seen(frame: &FrameView<'_>, state: &TileState, stats: &mut Stats) {
+    if frame.timed {
+        stats.samples_seen += state.buffer.seen() as u64;
     }
 }
 

@@ -6,7 +6,7 @@ use crate::bin::Entry;
 use crate::geometry::{Geometry, PointSizes, Shape};
 use crate::primitive::{Column, Kind, Quad};
 use crate::setup::{EightPrimitives, Setup};
-use crate::simd::{Each, I32, LANES, Mask, Simd, U32, inlined, prelude::*};
+use crate::simd::{Each, I32, LANES, Mask, Simd, inlined, prelude::*};
 use crate::vertex::ScreenVertex;
 use crate::{BlendMode, Smoothing};
 
@@ -100,12 +100,12 @@ impl Setup<'_> {
     pub(crate) fn eight_points<S: Simd>(
         &mut self,
         simd: S,
-        points: &EightPrimitives<u32>,
+        points: &EightPrimitives<'_, u32>,
         (plain, sizes): (&PlainPoints, &PointSizes<'_>),
     ) {
         let vertices = points.indices.each(
             #[inline(always)]
-            |index| self.vertices.get(index),
+            |&index| self.vertices.get(index),
         );
         let centres = Column::new(simd, vertices, 0);
         let lanes = points.lanes();
@@ -172,9 +172,7 @@ impl Setup<'_> {
         let alone = columns[0].simd_eq(columns[1]) & rows[0].simd_eq(rows[1]);
         if !(lanes & !alone).any_true() {
             let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
-            // The sum may wrap around in between.
-            let places =
-                U32::simd_from(simd, primitives) + self.first.wrapping_sub(self.chunk.ordinals.start);
+            let places = self.indices_in_chunk(simd, primitives);
             return self.chunk.push_some(lanes, (tiles, places), Entry::point);
         }
         let [columns, rows] = [columns, rows].each(

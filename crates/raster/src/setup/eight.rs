@@ -7,7 +7,7 @@ use super::{EightPrimitives, Setup};
 use crate::Culling;
 use crate::bin::Entry;
 use crate::primitive::SMALL;
-use crate::simd::{Each, I32, LANES, Mask, Simd, U32, lanes_of, prelude::*, transposed};
+use crate::simd::{Each, I32, LANES, Mask, Simd, lanes_of, prelude::*, transposed};
 use crate::vertex::ScreenVertex;
 
 /// What eight triangles look like on the screen.
@@ -102,7 +102,7 @@ impl<S: Simd> ScreenTriangles<S> {
 impl Setup<'_> {
     /// Up to eight triangles of the draw.
     #[inline(always)]
-    pub(crate) fn eight_triangles<S: Simd>(&mut self, simd: S, triangles: &EightPrimitives<[u32; 3]>) {
+    pub(crate) fn eight_triangles<S: Simd>(&mut self, simd: S, triangles: &EightPrimitives<'_, [u32; 3]>) {
         let vertices = [0, 1, 2].each(
             #[inline(always)]
             |corner| {
@@ -135,7 +135,7 @@ impl Setup<'_> {
                 let ends = |[begin, end]: &[[i32; LANES]; 2]| [begin[lane], end[lane]];
                 self.push_box(primitive, ends(&columns), ends(&rows));
             } else {
-                self.triangle(primitive, triangles.indices[lane]);
+                self.triangle(primitive, *triangles.indices[lane]);
             }
         }
     }
@@ -204,8 +204,7 @@ impl Setup<'_> {
             return false;
         }
         let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
-        // The sum may wrap around in between.
-        let places = U32::simd_from(simd, primitives) + self.first.wrapping_sub(self.chunk.ordinals.start);
+        let places = self.indices_in_chunk(simd, primitives);
         self.chunk.push_some(drawn, (tiles, places), Entry::primitive);
         true
     }

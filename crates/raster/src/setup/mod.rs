@@ -32,6 +32,7 @@ pub(crate) use eight_primitives::EightPrimitives;
 
 use crate::bin::{Chunk, Entry, Grid};
 use crate::primitive::{Corners, CutWeights, Kind, Quad, SetupTriangle, sorted};
+use crate::simd::{LANES, Simd, U32, prelude::*};
 use crate::vertex::{DrawVertices, ScreenVertex};
 use crate::{Culling, clip};
 use trigon_math::{ClipVertex, ClipVolume};
@@ -61,6 +62,13 @@ impl Setup<'_> {
     #[inline(always)]
     pub(crate) fn index_in_chunk(&self, primitive: u32) -> u32 {
         self.first + primitive - self.chunk.ordinals.start
+    }
+
+    /// The same for lanes.
+    #[inline(always)]
+    pub(crate) fn indices_in_chunk<S: Simd>(&self, simd: S, primitives: [u32; LANES]) -> U32<S> {
+        // The difference may wrap around; the sum does so once more.
+        U32::simd_from(simd, primitives) + self.first.wrapping_sub(self.chunk.ordinals.start)
     }
 
     /// One triangle of the draw.

@@ -64,7 +64,7 @@ pub(crate) use blocks::Blocks;
 pub(crate) use depth_query::{Candidate, SampleGroup, TileView};
 pub(crate) use single::single;
 pub(crate) use state::TileState;
-pub(crate) use still::StillTile;
+pub(crate) use still::{Moving, StillTile};
 pub(crate) use surfaces::{Listing, Surfaces};
 pub(crate) use ties::Ties;
 pub(crate) use triangle::TileTriangle;

@@ -22,6 +22,7 @@ use super::triangle::TileTriangle;
 use crate::counts::Counts;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
 use crate::tile_buffer::{BLOCKS, NO_TRIANGLE, TileArea, VisibilityBuffer};
+use crate::view::FrameView;
 
 /// What all triangles of a tile have in common, for all coverage kernels.
 #[derive(Clone, Copy)]
@@ -79,6 +80,27 @@ impl<S: Simd> Walk<'_, S> {
     fn may_cover(&self, simd: S, edges: [I32<S>; 3]) -> bool {
         let TileTriangle { range: [_, greatest], special, .. } = self.covering;
         special.is_some() || self.inside(simd, edges, *greatest).any_true()
+    }
+}
+
+impl<'f> TileRasterizer<'f> {
+    /// For triangles in the order of draws. They may give up.
+    pub(super) fn new(
+        frame: &'f FrameView<'_>,
+        area: &TileArea,
+        ties: &'f Ties,
+        precedes: &'f dyn Fn(u32, u32) -> bool,
+    ) -> Self {
+        Self {
+            area: *area,
+            offsets: frame.grid.pattern.offsets(),
+            in_order: false,
+            by_draws: true,
+            ties,
+            may_give_up: true,
+            hierarchical: frame.hierarchical,
+            precedes,
+        }
     }
 }
 

@@ -13,12 +13,12 @@ use crate::shade::Shading;
 use crate::simd::LANES;
 use crate::tile_buffer::{BLOCKS, BlockBounds, NO_TRIANGLE, TileArea};
 use crate::view::FrameView;
+use std::ops::Range;
 
 /// No triangle, as it is kept.
 const NONE: u16 = u16::MAX;
 
 /// What the still triangles of a tile show. It has one sample to a pixel.
-#[derive(Default)]
 pub(crate) struct StillTile {
     /// Those that are visible: opaque ones, then overlays.
     triangles: Vec<TriangleRef>,
@@ -26,7 +26,8 @@ pub(crate) struct StillTile {
     opaque: Layer,
     /// Where overlays are visible; empty if there are none.
     overlay: Layer,
-    bounds: Option<Box<[BlockBounds; BLOCKS * BLOCKS]>>,
+    /// Bounds of the depths of opaque triangles.
+    bounds: [BlockBounds; BLOCKS * BLOCKS],
 }
 
 /// The visible triangle of each sample, by its number among those kept, and its depth.
@@ -38,7 +39,8 @@ struct Layer {
 
 /// The triangles that are drawn over what is kept: ranges of the tile's list.
 pub(crate) struct Moving {
-    surfaces: Surfaces,
+    pub(crate) surfaces: Surfaces,
+    /// How many still ones come before them.
     still: usize,
 }
 
@@ -59,7 +61,7 @@ impl StillTile {
         resolve_visibility(frame, area, state, &surfaces, (shading, stats));
         let mut names = Names::new(state.triangles.len());
         let mut opaque = Layer::of(state, &mut names, |_| true);
-        let bounds = Some(Box::new(state.buffer.blocks));
+        let bounds = state.buffer.blocks;
         let mut overlay = Layer::default();
         if !surfaces.overlay.is_empty() {
             cover_overlay(frame, area, state, &surfaces, stats);
@@ -98,41 +100,13 @@ impl StillTile {
         triangles.clear();
         triangles.extend_from_slice(&self.triangles);
         let surfaces = Surfaces::list(frame, tile, Listing::Moving, triangles);
-        let bounds = self.bounds.as_deref().expect("bounds are kept with the depths");
-        buffer.restore(area, (&self.opaque.depth, self.opaque.places()), bounds);
+        buffer.restore(area, (&self.opaque.depth, self.opaque.places()), &self.bounds);
         ties.reset(triangles.len());
         Moving { surfaces, still: self.triangles.len() }
     }
 
-    /// Draws moving opaque triangles over what was restored; `None` if there are too many ties.
-    pub(crate) fn cover_opaque(
-        &self,
-        frame: &FrameView<'_>,
-        area: &TileArea,
-        (state, moving): (&mut TileState, &Moving),
-        stats: &mut Stats,
-    ) -> Option<()> {
-        let is_drawn = cover_more(frame, area, state, moving.surfaces.opaque.clone(), stats);
-        state.buffer.blank_outside(area);
-        is_drawn.then_some(())
-    }
-
-    /// Lays the overlays over it, still ones and moving ones; `None` if there are too many ties.
-    pub(crate) fn cover_overlay(
-        &self,
-        frame: &FrameView<'_>,
-        area: &TileArea,
-        (state, moving): (&mut TileState, &Moving),
-        stats: &mut Stats,
-    ) -> Option<()> {
-        self.lay_overlay(frame, state);
-        let is_drawn = cover_more(frame, area, state, moving.surfaces.overlay.clone(), stats);
-        state.buffer.blank_outside(area);
-        is_drawn.then_some(())
-    }
-
-    /// Lays the still overlays over what moving triangles have not come to hide.
-    fn lay_overlay(&self, frame: &FrameView<'_>, state: &mut TileState) {
+    /// Lays the still overlays over it, where moving triangles have not come to hide them.
+    pub(crate) fn lay_overlays(&self, frame: &FrameView<'_>, state: &mut TileState) {
         let TileState { triangles, buffer, .. } = state;
         let kept = self.overlay.depth.iter().zip(self.overlay.places());
         for (at, (&depth, place)) in kept.enumerate().filter(|(_, (_, place))| *place != NO_TRIANGLE) {
@@ -152,6 +126,20 @@ impl StillTile {
 }
 
 impl Moving {
+    /// Draws moving triangles of one kind, opaque ones or overlays, over what is there; `None` if there are too
+    /// many ties.
+    pub(crate) fn cover(
+        frame: &FrameView<'_>,
+        area: &TileArea,
+        (state, part): (&mut TileState, &Range<usize>),
+        stats: &mut Stats,
+    ) -> Option<()> {
+        let may_give_up = true;
+        let is_drawn = cover_more(frame, area, (state, part.clone()), may_give_up, stats);
+        state.buffer.blank_outside(area);
+        is_drawn.then_some(())
+    }
+
     /// The lanes of each group of eight pixels that show moving triangles, while the tile's list is as it was
     /// [restored](StillTile::restore).
     pub(crate) fn lanes(&self, state: &TileState, lanes: &mut [u8]) {

@@ -40,9 +40,6 @@ pub(crate) fn resolve_visibility(
     state.buffer.settle();
     masked::cover_masked(frame, area, state, surfaces.masked.clone(), (shading, stats));
     state.buffer.blank_outside(area);
-    if frame.timed {
-        stats.samples_seen += state.buffer.seen() as u64;
-    }
     stats.add_counts(&counts);
 }
 
@@ -60,42 +57,27 @@ pub(crate) fn cover_overlay(
     if surfaces.overlay.is_empty() {
         return;
     }
-    let TileState { triangles, buffer, ties, .. } = state;
+    let buffer = &mut state.buffer;
     if !surfaces.masked.is_empty() {
         buffer.forget_nearest();
     }
-    let precedes =
-        |ours: u32, theirs: u32| frame.precedes(triangles[ours as usize], triangles[theirs as usize]);
-    let rasterizer = TileRasterizer {
-        area: *area,
-        offsets: frame.grid.pattern.offsets(),
-        in_order: false,
-        by_draws: true,
-        ties,
-        may_give_up: false,
-        hierarchical: frame.hierarchical,
-        precedes: &precedes,
-    };
     buffer.settle();
     if frame.hierarchical {
         // Most overlays lie behind what hides them, so the bounds are recomputed once for all of them.
         at_level!(frame.token, simd => buffer.refresh_all(simd, area));
     }
-    let mut counts = Counts::default();
-    let end = surfaces.overlay.end;
-    cover_all(frame, &rasterizer, (&triangles[..end], surfaces.overlay.start), (buffer, &mut counts));
-    buffer.settle();
-    buffer.blank_outside(area);
-    stats.add_counts(&counts);
+    let may_give_up = false;
+    cover_more(frame, area, (state, surfaces.overlay.clone()), may_give_up, stats);
+    state.buffer.blank_outside(area);
 }
 
 /// Draws more opaque triangles or overlays, a part of the tile's list, over what is there. Returns false if there
-/// are too many ties.
+/// are too many ties and it may give up.
 pub(super) fn cover_more(
     frame: &FrameView<'_>,
     area: &TileArea,
-    state: &mut TileState,
-    part: Range<usize>,
+    (state, part): (&mut TileState, Range<usize>),
+    may_give_up: bool,
     stats: &mut Stats,
 ) -> bool {
     if part.is_empty() {
@@ -106,16 +88,7 @@ pub(super) fn cover_more(
         ties.spend(COMPARISON);
         frame.precedes(triangles[ours as usize], triangles[theirs as usize])
     };
-    let rasterizer = TileRasterizer {
-        area: *area,
-        offsets: frame.grid.pattern.offsets(),
-        in_order: false,
-        by_draws: true,
-        ties,
-        may_give_up: true,
-        hierarchical: frame.hierarchical,
-        precedes: &precedes,
-    };
+    let rasterizer = TileRasterizer { may_give_up, ..TileRasterizer::new(frame, area, ties, &precedes) };
     let mut counts = Counts::default();
     let is_drawn = cover_all(frame, &rasterizer, (&triangles[..part.end], part.start), (buffer, &mut counts));
     buffer.settle();
@@ -140,16 +113,8 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
         last.set(([ours, theirs], wins));
         wins
     };
-    let rasterizer = TileRasterizer {
-        area: *area,
-        offsets: frame.grid.pattern.offsets(),
-        in_order: frame.plan.ordinals_are_keys,
-        by_draws: true,
-        ties,
-        may_give_up: true,
-        hierarchical: frame.hierarchical,
-        precedes: &precedes,
-    };
+    let in_order = frame.plan.ordinals_are_keys;
+    let rasterizer = TileRasterizer { in_order, ..TileRasterizer::new(frame, area, ties, &precedes) };
     let mut counts = Counts::default();
     if cover_all(frame, &rasterizer, (triangles, 0), (buffer, &mut counts)) {
         return counts;
