@@ -7,8 +7,8 @@ use super::corner_faces::FaceCorner;
 use super::face_normals::FaceNormals;
 use super::render_update::{RenderUpdate, UpdatedVertex};
 
-/// Vertices each of which is one render vertex, with what lies around them. It stays the same while values change,
-/// so that whoever drags the same vertices on and on looks for it once.
+/// Vertices each of which is one render vertex, with what lies around them. That does not depend on their values,
+/// so it is found once for a drag that changes the same vertices in each frame.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Fans {
     /// Some vertices each.
@@ -28,7 +28,7 @@ pub(super) struct FanPiece {
     ends: Vec<u32>,
 }
 
-/// Some vertices, told apart.
+/// Some vertices, divided into fans and others.
 #[derive(Default)]
 pub(super) struct FoundFans {
     pub(super) fans: FanPiece,
@@ -41,7 +41,7 @@ pub(super) struct FoundFans {
 }
 
 impl Fans {
-    /// Of vertices that were told apart, piece by piece. Writes what they show in the place of what is there.
+    /// Of vertices that were divided piece by piece. Replaces the update by what the fans show.
     pub(super) fn new(found: Vec<FoundFans>, update: &mut RenderUpdate) -> Self {
         update.vertices.clear();
         update.replaced.clear();

@@ -11,7 +11,7 @@ use crate::Mesh;
 use crate::groups::Groups;
 
 /// The elements of a mesh that a change affects. They follow from which elements were changed and not from
-/// their values, so that whoever drags the same vertices on and on looks for them once.
+/// their values, so they are found once for a drag that changes the same vertices in each frame.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Neighborhood {
     /// The vertices that were moved, increasing.

@@ -30,7 +30,7 @@ struct KeptTile {
     still: Option<StillTile>,
     /// The still triangles as the search for outer halves of lines needs them, if there are lines.
     faces: VisibleFaces,
-    /// The lanes of each group that show still triangles which look different in every frame.
+    /// The lanes of each group that show still triangles whose values change in every frame.
     look: TileLanes,
     /// The lanes that showed moving triangles in the last frame, without overlays and with them.
     shown: [TileLanes; 2],

@@ -15,7 +15,7 @@ use crate::outer_ink::slots;
 use crate::pass::Recorded;
 use crate::view::{DrawPlan, Plan};
 
-/// The least part of all primitives that is not worth being listed apart.
+/// If more than one in so many primitives moves, listing them apart is not worth it.
 const MANY: usize = 4;
 
 /// What moves from frame to frame.
@@ -55,7 +55,7 @@ impl Moving {
         self.kept.reset(0);
     }
 
-    /// Whether nothing moves and nothing looks different that is not prepared for it.
+    /// Whether primitives are listed apart, and all that moves or looks different in a frame was expected to.
     pub(super) fn covers(&self, touched: &Touched, plan: &Plan, changes: &[DrawChange<'_>]) -> bool {
         let are_prepared = |draw: &DrawPlan| {
             let change = changes[draw.draw];

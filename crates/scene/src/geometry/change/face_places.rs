@@ -9,8 +9,8 @@ use super::super::edge_flags::Diagonal;
 /// Faces per task.
 pub(super) const PIECE: usize = 1024;
 
-/// The slots of the triangles of some faces. No change alters them, so that whoever drags the same vertices on
-/// and on looks for them once.
+/// The slots of the triangles of some faces. No change alters them, so they are found once for a drag that changes
+/// the same faces in each frame.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FacePlaces {
     /// Those that were looked for, increasing.
