@@ -93,6 +93,11 @@ fn wild_scene() -> impl Strategy<Value = FarScene> {
 /// right angle, moves by less than this share of itself.
 const TOLERANCE: f64 = 0.25;
 
+/// The least distance along a ray, as a share of that of the farthest corner, that f32 finds within [`TOLERANCE`]. Each
+/// coordinate of a corner moves by up to 3 · 2^-24 of its distance; in a plane that is seen at a thousandth of a right
+/// angle, a thousand times as far along the ray.
+const LEAST_DISTANCE: f64 = 3.0 * 1.733 * 1e3 / (1 << 24) as f64 / TOLERANCE;
+
 /// What f64 says of a ray and a triangle.
 struct InF64 {
     /// The distance, if the ray meets it whatever is rounded.
@@ -122,7 +127,10 @@ fn in_f64(corners: &[Vec3; 3], ray: &Ray) -> Option<InF64> {
     let weight =
         |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) / normal.length_squared();
     let least = weight(a, b).min(weight(b, c)).min(weight(c, a));
-    let is_certain = least > TOLERANCE && distance > 0.0;
+    let is_far = distance * direction.length() > LEAST_DISTANCE * farthest;
+    // Below, an f32 has fewer digits; above, there is none.
+    let is_number = (f64::from(f32::MIN_POSITIVE)..f64::from(f32::MAX)).contains(&distance);
+    let is_certain = least > TOLERANCE && is_far && is_number;
     Some(InF64 { certain: is_certain.then_some(distance), is_possible: least > -TOLERANCE })
 }
 
