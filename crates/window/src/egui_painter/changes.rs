@@ -8,6 +8,7 @@ use trigon_raster::paint2d::Rect;
 use super::damage::Damage;
 use super::gather::to_pixels;
 use super::textures::Textures;
+use super::unchanged::unchanged;
 
 /// Marks what differs between two lists of primitives.
 pub(super) fn mark(
@@ -73,15 +74,8 @@ impl Marker<'_> {
             return;
         };
         self.clip = to_pixels(pair[1].clip_rect, self.pixels_per_point);
-        if before.indices != after.indices {
+        if before != after {
             self.rearranged([before, after]);
-        } else if before.vertices != after.vertices {
-            for (before, after) in
-                triangles(before).zip(triangles(after)).filter(|(before, after)| before != after)
-            {
-                self.triangle(&before);
-                self.triangle(&after);
-            }
         }
         let changed = textures.changed(after.texture_id);
         if changed.is_positive() {
@@ -91,28 +85,41 @@ impl Marker<'_> {
         }
     }
 
-    /// Two meshes of which one has additional triangles: marks those between the common beginning
-    /// and the common end.
+    /// Marks the triangles of two meshes that are not in both, or not in the same order. Between the common beginning
+    /// and the common end, others may remain: where lines come and go, most of them do.
     fn rearranged(&mut self, meshes: [&Mesh; 2]) {
         let [before, after] = meshes.map(triangles);
         let first = common(before.zip(after), |a, b| a == b);
         let [before, after] = meshes.map(|mesh| triangles(mesh).skip(first).rev());
         let last = common(before.zip(after), |a, b| a == b);
-        for mesh in meshes {
-            let between = triangles(mesh).len() - last;
-            triangles(mesh).take(between).skip(first).for_each(|triangle| self.triangle(&triangle));
+        let between = meshes.map(|mesh| {
+            let count = triangles(mesh).len() - last;
+            triangles(mesh).take(count).skip(first).collect::<Vec<_>>()
+        });
+        let unchanged = unchanged(between.each_ref().map(Vec::as_slice), key);
+        for (triangle, is_unchanged) in between.iter().flatten().zip(unchanged.iter().flatten()) {
+            if !is_unchanged {
+                self.triangle(triangle);
+            }
         }
     }
 
     fn triangle(&mut self, triangle: &Triangle<'_>) {
-        let bounds = around(triangle.map(|vertex| vertex.pos));
-        // Positions are rounded to 1/256 pixel: anything within a pixel may be touched.
-        let pixels = to_pixels(bounds.expand(1.0 / self.pixels_per_point), self.pixels_per_point);
-        self.damage.mark(pixels.intersection(self.clip));
+        let corner =
+            |vertex: &Vertex| [vertex.pos.x, vertex.pos.y].map(|point| point * self.pixels_per_point);
+        self.damage.mark_triangle(triangle.map(corner), self.clip);
     }
 }
 
 type Triangle<'a> = [&'a Vertex; 3];
+
+/// The positions and colours of a triangle's corners. Triangles that differ in their texture coordinates only
+/// have the same key; those of one mesh hardly ever do.
+fn key(corners: &Triangle<'_>) -> [[u32; 3]; 3] {
+    corners.map(|Vertex { pos, color, .. }| {
+        [pos.x.to_bits(), pos.y.to_bits(), u32::from_ne_bytes(color.to_array())]
+    })
+}
 
 /// The triangles of a mesh. A triangle with an index that no vertex has is not painted.
 fn triangles(mesh: &Mesh) -> impl DoubleEndedIterator<Item = Triangle<'_>> + ExactSizeIterator {

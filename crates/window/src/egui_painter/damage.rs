@@ -2,6 +2,8 @@
 
 use trigon_raster::paint2d::Rect;
 
+use super::extent::columns;
+
 /// The side of a cell in pixels: about two lines of text, so that a label that changes repaints
 /// little besides itself, and large enough to keep the list short.
 const CELL: i32 = 32;
@@ -42,6 +44,31 @@ impl Damage {
         self.some = true;
     }
 
+    /// Marks all cells inside `clip` that a triangle comes within a pixel of: long lines that are neither level nor
+    /// upright leave most of the box around them unmarked. A triangle with a position that is not a number is not
+    /// painted, so it does not matter what it marks.
+    pub(super) fn mark_triangle(&mut self, corners: [[f32; 2]; 3], clip: Rect) {
+        let corners = corners.map(|corner| corner.map(f64::from));
+        let [a, b, c] = corners;
+        let around = Rect::new(
+            [0, 1].map(|axis| before(a[axis].min(b[axis]).min(c[axis]))),
+            [0, 1].map(|axis| after(a[axis].max(b[axis]).max(c[axis]))),
+        );
+        let pixels = around.intersection(clip).intersection(self.bounds);
+        if self.all || pixels.is_empty() {
+            return;
+        }
+        let [first, last] = [pixels.min[1], pixels.max[1] - 1].map(|row| row / CELL);
+        if first == last || pixels.max[0] - pixels.min[0] <= CELL {
+            return self.mark(pixels);
+        }
+        for row in first..=last {
+            let rows = [row * CELL, (row + 1) * CELL];
+            let [left, right] = columns(&corners, [f64::from(rows[0] - 1), f64::from(rows[1] + 1)]);
+            self.mark(Rect::new([before(left), rows[0]], [after(right), rows[1]]).intersection(pixels));
+        }
+    }
+
     /// The marked cells as rectangles that do not overlap, inside `bounds`; clears the marks.
     /// Bounds that differ from the last ones mark everything.
     pub(super) fn take(&mut self, bounds: Rect) -> Vec<Rect> {
@@ -63,6 +90,16 @@ impl Damage {
         self.cells.fill(false);
         rects
     }
+}
+
+/// A pixel boundary before a place, and one after it. Positions are rounded to 1/256 pixel: anything within a pixel
+/// may be touched.
+fn before(place: f64) -> i32 {
+    (place - 1.0).round() as i32
+}
+
+fn after(place: f64) -> i32 {
+    (place + 1.0).round() as i32
 }
 
 /// Marked neighbours in a row as one rectangle, in cells.
@@ -96,6 +133,8 @@ fn in_pixels(cells: Rect) -> Rect {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     const BOUNDS: Rect = Rect::new([0, 0], [100, 70]);
@@ -118,6 +157,47 @@ mod tests {
         assert!(damage.is_empty(), "all was taken");
         damage.mark(Rect::new([99, 69], [100, 70]));
         assert_eq!(damage.take(BOUNDS), [Rect::new([96, 64], [100, 70])], "the last pixel");
+    }
+
+    /// Whether a pixel's centre is inside a triangle or on its edge.
+    fn covers([a, b, c]: [[f64; 2]; 3], at: [f64; 2]) -> bool {
+        let side = |from: [f64; 2], to: [f64; 2]| {
+            (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0])
+        };
+        let sides = [side(a, b), side(b, c), side(c, a)];
+        sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0)
+    }
+
+    proptest! {
+        #[test]
+        fn triangles_mark_what_they_cover(
+            corners in prop::array::uniform3([-150.0..250f32, -100.0..170f32]),
+            clip in [-20..120i32, -20..90, -20..120, -20..90],
+        ) {
+            let clip = Rect::new([clip[0], clip[1]], [clip[2], clip[3]]);
+            let mut damage = damage();
+            damage.mark_triangle(corners, clip);
+            let marked = damage.take(BOUNDS);
+            let corners = corners.map(|corner| corner.map(f64::from));
+            let is_in = |rect: &Rect, at: [i32; 2]| rect.contains(Rect::new(at, at.map(|place| place + 1)));
+            for at in (0..70).flat_map(|y| (0..100).map(move |x| [x, y])).filter(|&at| is_in(&clip, at)) {
+                let is_covered = covers(corners, at.map(|place| f64::from(place) + 0.5));
+                prop_assert!(!is_covered || marked.iter().any(|rect| is_in(rect, at)), "{at:?}, {marked:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_slanting_line_leaves_what_is_far_from_it_unmarked() {
+        let mut damage = damage();
+        damage.mark_triangle([[0.0, 0.0], [100.0, 70.0], [100.0, 71.0]], BOUNDS);
+        let marked = damage.take(BOUNDS);
+        let corners = [[5, 60], [90, 5]].map(|at| Rect::new(at, at.map(|place| place + 1)));
+        for corner in corners {
+            assert!(!marked.iter().any(|rect| rect.contains(corner)), "{corner:?} in {marked:?}");
+        }
+        damage.mark_triangle([[f32::NAN, 0.0], [50.0, f32::INFINITY], [9.0, 9.0]], BOUNDS);
+        damage.take(BOUNDS);
     }
 
     #[test]

@@ -12,17 +12,19 @@
 
 mod changes;
 mod damage;
+mod extent;
 mod gather;
 #[cfg(any(test, feature = "kittest"))]
 mod kittest;
 mod textures;
+mod unchanged;
 
 use egui::ClippedPrimitive;
 use rayon::prelude::*;
 use trigon_raster::paint2d::{self, Canvas, Rect};
 
 use damage::Damage;
-use gather::Gathered;
+use gather::{Boxes, Gathered};
 #[cfg(any(test, feature = "kittest"))]
 pub use kittest::EguiTestRenderer;
 pub use textures::MAX_TEXTURE_SIDE;
@@ -58,8 +60,9 @@ impl ChannelOrder {
 pub struct EguiPainter {
     order: ChannelOrder,
     textures: Textures,
-    /// The last primitives, in points.
+    /// The last primitives, in points, and the boxes around their triangles.
     primitives: Vec<ClippedPrimitive>,
+    boxes: Vec<Boxes>,
     pixels_per_point: f32,
     damage: Damage,
     /// One for each band of the screen that is painted at a time.
@@ -72,6 +75,9 @@ struct Hand {
     painter: paint2d::Painter,
     gathered: Gathered,
 }
+
+/// Bands for each thread: some have more to paint than others.
+const BANDS: usize = 4;
 
 /// Pixels that are worth another thread.
 const WORTH_SHARING: usize = 1 << 17;
@@ -101,6 +107,7 @@ impl EguiPainter {
             self.damage.mark_all();
         }
         self.textures.forget_changes();
+        self.boxes = primitives.iter().map(Boxes::of).collect();
         self.primitives = primitives;
     }
 
@@ -142,7 +149,8 @@ impl EguiPainter {
         let dirty = self.damage.take(Rect::new([0, 0], size.map(|side| side as i32)));
         let area = |rect: &Rect| [0, 1].map(|axis| rect.max[axis].abs_diff(rect.min[axis]) as usize);
         let area: usize = dirty.iter().map(area).map(|[width, height]| width * height).sum();
-        let count = (area / WORTH_SHARING).clamp(1, rayon::current_num_threads());
+        let most = BANDS * rayon::current_num_threads();
+        let count = (area * BANDS / WORTH_SHARING).clamp(1, most);
         let rows = height.div_ceil(count as u32);
         let mut hands = std::mem::take(&mut self.hands);
         hands.resize_with(hands.len().max(count), Hand::default);
@@ -179,14 +187,14 @@ impl EguiPainter {
 
     /// Paints all primitives inside a rectangle of the canvas.
     fn paint_inside(&self, canvas: &mut Canvas<'_>, rect: Rect, Hand { painter, gathered }: &mut Hand) {
-        for primitive in &self.primitives {
+        for (primitive, boxes) in self.primitives.iter().zip(&self.boxes) {
             let egui::epaint::Primitive::Mesh(mesh) = &primitive.primitive else { continue };
             let Some(image) = self.textures.image(mesh.texture_id) else { continue };
             let scissor = gather::to_pixels(primitive.clip_rect, self.pixels_per_point).intersection(rect);
             if scissor.is_empty() {
                 continue;
             }
-            gathered.gather(mesh, scissor, self.pixels_per_point, self.order);
+            gathered.gather((mesh, boxes), scissor, self.pixels_per_point, self.order);
             painter.paint(canvas, &[gathered.mesh(scissor, image)]);
         }
     }

@@ -61,13 +61,13 @@ proptest! {
     #[test]
     fn what_is_left_out_would_change_nothing(
         scene in any_scene(),
-        change in changed(),
+        changes in prop::collection::vec(changed(), 1..5),
         scale in any_scale(),
     ) {
         let (mut painter, mut pixels) = (painter(), vec![[0; 4]; COUNT]);
         painter.set_primitives(scene.clone(), scale);
         painter.paint(SIZE, &mut pixels, &beneath()).expect("the sides fit");
-        let after = change.apply(scene);
+        let after = changes.into_iter().fold(scene, |scene, change| change.apply(scene));
         painter.set_primitives(after.clone(), scale);
         painter.paint(SIZE, &mut pixels, &beneath()).expect("the sides fit");
         prop_assert!(pixels == whole(&after, scale), "the same bytes as all of it");

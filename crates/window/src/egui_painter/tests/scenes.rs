@@ -120,6 +120,12 @@ pub(super) enum Change {
     Shrink(usize),
     /// Another clip rectangle.
     Clip(usize, Rect),
+    /// Another shape before a triangle of a mesh.
+    InsertShape(usize, usize, Mesh),
+    /// A triangle goes to another place in the order.
+    Reorder(usize, usize, usize),
+    /// A triangle occurs twice.
+    Repeat(usize, usize, usize),
 }
 
 pub(super) fn changed() -> impl Strategy<Value = Change> {
@@ -132,12 +138,18 @@ pub(super) fn changed() -> impl Strategy<Value = Change> {
             .prop_map(|(at, i, to, color)| Change::Edit(at, i, to, color)),
         index().prop_map(Change::Shrink),
         (index(), clip()).prop_map(|(at, clip)| Change::Clip(at, clip)),
+        (index(), index(), shape()).prop_map(|(at, i, shape)| Change::InsertShape(at, i, shape)),
+        (index(), index(), index()).prop_map(|(at, from, to)| Change::Reorder(at, from, to)),
+        (index(), index(), index()).prop_map(|(at, from, to)| Change::Repeat(at, from, to)),
     ]
 }
 
 impl Change {
     pub(super) fn apply(self, mut scene: Vec<ClippedPrimitive>) -> Vec<ClippedPrimitive> {
         let count = scene.len();
+        if count == 0 && !matches!(self, Self::Insert(..)) {
+            return scene;
+        }
         let mut edit = |at: usize, edit: &mut dyn FnMut(&mut Mesh)| match &mut scene[at % count].primitive {
             Primitive::Mesh(mesh) => edit(mesh),
             Primitive::Callback(_) => {}
@@ -156,8 +168,35 @@ impl Change {
                 let vertex = i % mesh.vertices.len();
                 (mesh.vertices[vertex].pos, mesh.vertices[vertex].color) = (pos, color);
             }),
-            Self::Shrink(at) => edit(at, &mut |mesh| drop(mesh.indices.drain(..3))),
+            Self::Shrink(at) => edit(at, &mut |mesh| {
+                let count = mesh.indices.len();
+                drop(mesh.indices.drain(..3.min(count)));
+            }),
+            Self::InsertShape(at, i, shape) => edit(at, &mut |mesh| {
+                let (texture_id, before) = (mesh.texture_id, mesh.indices.len());
+                mesh.append(Mesh { texture_id, ..shape.clone() });
+                mesh.indices[i % (before / 3 + 1) * 3..].rotate_left(before - i % (before / 3 + 1) * 3);
+            }),
+            Self::Reorder(at, from, to) => edit(at, &mut |mesh| {
+                let mut triangles = triangles(mesh);
+                if let Some(last) = triangles.len().checked_sub(1) {
+                    let triangle = triangles.remove(from % (last + 1));
+                    triangles.insert(to % (last + 1), triangle);
+                }
+                mesh.indices = triangles.into_flattened();
+            }),
+            Self::Repeat(at, from, to) => edit(at, &mut |mesh| {
+                let mut triangles = triangles(mesh);
+                if let Some(triangle) = triangles.get(from % triangles.len().max(1)).copied() {
+                    triangles.insert(to % (triangles.len() + 1), triangle);
+                }
+                mesh.indices = triangles.into_flattened();
+            }),
         }
         scene
     }
+}
+
+fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
+    mesh.indices.as_chunks::<3>().0.to_vec()
 }

@@ -81,6 +81,34 @@ fn a_label_that_changes_is_all_that_is_painted() {
     }
 }
 
+/// Slanting lines over all of the screen: some are there in every pass, two come and go.
+#[test]
+fn lines_that_come_and_go_leave_the_others_alone() {
+    let lines = |ui: &mut egui::Ui, few: bool| {
+        let stroke = egui::Stroke::new(1.0, egui::Color32::WHITE);
+        for row in 0..60 {
+            let is_short = row == 10 || row == 50;
+            if few && is_short {
+                continue;
+            }
+            let from = egui::pos2(3.0, 5.0 * row as f32);
+            let to = from + if is_short { egui::vec2(20.0, 10.0) } else { egui::vec2(600.0, 90.0) };
+            ui.painter().line_segment([from, to], stroke);
+        }
+    };
+    let [mut screen, mut fresh] = [Screen::new(1.0), Screen::new(1.0)];
+    screen.pass(|ui| lines(ui, false));
+    for few in [true, false] {
+        let painted = screen.pass(|ui| lines(ui, few));
+        let pixels: i32 =
+            painted.iter().map(|rect| (rect.max[0] - rect.min[0]) * (rect.max[1] - rect.min[1])).sum();
+        assert!((1..=8 * 32 * 32).contains(&pixels), "{pixels} pixels for two short lines: {painted:?}");
+        fresh.painter.invalidate();
+        fresh.pass(|ui| lines(ui, few));
+        assert!(screen.pixels == fresh.pixels, "as if all had been painted");
+    }
+}
+
 #[test]
 fn textures_are_kept_while_nothing_is_painted() {
     let mut screen = Screen::new(1.0);
