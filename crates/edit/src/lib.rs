@@ -9,6 +9,7 @@ mod display;
 mod document;
 mod error;
 mod recovery;
+mod revision;
 mod script;
 mod selection;
 mod state;

@@ -6,7 +6,6 @@ mod preview;
 mod scene;
 
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use trigon_io::{
     Export, ExportOptions, Format, LoadError, LoadOptions, Loaded, NativeDocument, NativeFile, Warning,
@@ -18,6 +17,7 @@ use trigon_scene::{MeshId, Scene};
 
 use crate::command::{Command, ImportFile, Outcome};
 use crate::error::EditError;
+use crate::revision::next_revision;
 use crate::selection::Selection;
 use crate::state::{Change, State};
 
@@ -86,7 +86,9 @@ impl Document {
     }
 
     fn from_file(file: NativeDocument) -> Self {
-        Self { state: State { file, ..State::default() }, revision: next_revision(), ..Self::default() }
+        let mut state = State { file, ..State::default() };
+        state.shown.marks_revision = next_revision();
+        Self { state, revision: next_revision(), ..Self::default() }
     }
 
     /// The document as a native file, not written yet: [`save`](crate::save) writes it once the
@@ -320,10 +322,4 @@ impl Document {
         }
         std::mem::swap(&mut self.state.selection, &mut entry.selection);
     }
-}
-
-/// A number that no document of this program had before.
-fn next_revision() -> u64 {
-    static LAST: AtomicU64 = AtomicU64::new(0);
-    LAST.fetch_add(1, Ordering::Relaxed) + 1
 }

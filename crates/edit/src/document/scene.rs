@@ -96,9 +96,11 @@ impl Document {
         is_whole.then(|| Some(self.state.file.scene.meshes().get(id)?.mesh())).flatten()
     }
 
-    /// A number that changes with every change of nodes, elements or their marks, as of the last
-    /// [`Self::scene`].
-    pub(crate) fn marks_revision(&self) -> u64 {
+    /// A number that changes with every change of nodes, elements or their marks (sharp, seam, crease, hidden, …), as
+    /// of the last [`Self::scene`], and with every document that is opened. Unlike [`Self::revision`] it stays the same
+    /// while vertices only move, and does not tell whether the selection changed.
+    #[must_use]
+    pub fn marks_revision(&self) -> u64 {
         self.state.shown.marks_revision
     }
 

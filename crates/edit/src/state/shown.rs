@@ -14,6 +14,7 @@ use trigon_scene::{MeshId, Scene};
 use super::MarkedElements;
 use super::scene_change::SceneChange;
 use super::visible::{Sight, VisibleMesh};
+use crate::revision::next_revision;
 use crate::selection::Selection;
 
 /// How the scene shows an edited mesh.
@@ -54,7 +55,7 @@ pub(crate) struct Shown {
     pub(crate) untold: Option<Untold>,
     /// What a copy shows instead of the scene's mesh.
     pub(crate) visible: BTreeMap<MeshId, VisibleMesh>,
-    /// Counts changes that affect marks, other than the selection.
+    /// Another one after each change that affects marks, other than of the selection.
     pub(crate) marks_revision: u64,
 }
 
@@ -62,7 +63,7 @@ impl Shown {
     /// An edited mesh is in the other state of a difference.
     pub(crate) fn note_difference(&mut self, id: MeshId, mesh: &EditMesh, difference: &Difference) {
         if difference.changes_marks() {
-            self.marks_revision += 1;
+            self.marks_revision = next_revision();
             if let Some(shown) = self.meshes.get_mut(&id) {
                 shown.marked = OnceLock::new();
             }
@@ -102,7 +103,7 @@ impl Shown {
 
     /// Nodes, materials or the like may have changed.
     pub(crate) fn note_parts(&mut self) {
-        self.marks_revision += 1;
+        self.marks_revision = next_revision();
         if let Some(untold) = &mut self.untold {
             untold.parts = true;
         }
@@ -132,7 +133,7 @@ impl Shown {
         let (mesh, map) = edited.to_mesh();
         // A mesh is never removed from the scene, so that an undone object finds it again.
         if scene.replace_mesh(id, mesh).is_some() {
-            self.marks_revision += 1;
+            self.marks_revision = next_revision();
             self.note_visible(id);
             self.meshes.insert(id, ShownMesh { map, numbers: OnceLock::new(), marked: OnceLock::new() });
             if let Some(untold) = &mut self.untold {
@@ -163,7 +164,7 @@ impl Shown {
             if is_current {
                 continue;
             }
-            self.marks_revision += 1;
+            self.marks_revision = next_revision();
             if sight == Sight::Whole {
                 self.visible.remove(&id);
                 untold.visible.remove(&id);

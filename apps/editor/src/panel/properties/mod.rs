@@ -17,8 +17,8 @@ use crate::request::Request;
 #[derive(Debug, Default)]
 pub(crate) struct PropertiesState {
     transform: transform::TransformState,
-    /// Of the selected elements, and of which revision of the document.
-    elements: Option<(u64, elements::Values)>,
+    /// Of the selected elements.
+    elements: elements::Values,
     /// Which material slot is shown.
     slot: usize,
 }

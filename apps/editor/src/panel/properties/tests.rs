@@ -142,6 +142,45 @@ fn selected_vertices_are_moved_by_their_median() {
     case.image("properties_elements");
 }
 
+/// The middle and the crease are kept while what they depend on is unchanged.
+#[test]
+fn values_of_elements_follow_moves_creases_and_selections() {
+    let (mut case, _) = case(260.0, 900.0);
+    let shown = |case: &Case<PropertiesState>, label: &str| {
+        let field = case.harness.query_by_role_and_label(egui::Role::SpinButton, label);
+        field.and_then(|field| field.value())
+    };
+    case.command(json!({ "op": "edit_objects", "objects": ["Cube"] }));
+    case.command(json!({ "op": "set_element_kind", "kind": "edge" }));
+    case.command(json!({ "op": "select", "elements": [0] }));
+    case.command(json!({ "op": "crease", "crease": 0.5 }));
+    assert_eq!(shown(&case, "Crease").as_deref(), Some("0.5"), "of one edge");
+    let (before, crease) = (shown(&case, "Median X"), shown(&case, "Crease"));
+    let moved: Command =
+        serde_json::from_value(json!({ "op": "translate", "offset": [7, 0, 0] })).expect("valid");
+    for _ in 0..2 {
+        case.document().preview(moved.clone()).expect("it can be done");
+        case.run();
+    }
+    assert_ne!(shown(&case, "Median X"), before, "moved");
+    assert_eq!(shown(&case, "Crease"), crease, "the same edge");
+    assert!(case.document().cancel(), "it was a preview");
+    case.run();
+    assert_eq!(shown(&case, "Median X"), before, "where it was");
+    case.command(json!({ "op": "crease", "crease": 0.75 }));
+    assert_eq!(shown(&case, "Crease").as_deref(), Some("0.75"), "another value");
+    case.command(json!({ "op": "select", "elements": [1] }));
+    assert_eq!(shown(&case, "Crease").as_deref(), Some("0"), "another edge");
+    case.command(json!({ "op": "select", "elements": [0, 1] }));
+    assert_eq!(shown(&case, "Mean crease").as_deref(), Some("0.375"), "both");
+    case.command(json!({ "op": "set_element_kind", "kind": "vertex" }));
+    case.command(json!({ "op": "select", "elements": [0] }));
+    assert_eq!(shown(&case, "Mean crease").or(shown(&case, "Crease")), None, "no edge is between one vertex");
+    *case.document() = Document::new(Scene::new());
+    case.run();
+    assert_eq!(shown(&case, "Vertex X"), None, "another document");
+}
+
 #[test]
 fn a_drag_of_a_value_is_undone_as_one() {
     let (mut case, [cube, _]) = case(260.0, 900.0);
