@@ -53,7 +53,7 @@ impl RenderMesh {
     pub fn with_links(mesh: &Mesh) -> (RenderMesh, Option<RenderLinks>) {
         let (normals, welded) = Self::welded_normals(mesh);
         let render_mesh = Self::from_welded(mesh, normals, welded.clone());
-        let links = (!render_mesh.is_deformable()).then(|| RenderLinks::new(mesh, welded));
+        let links = (!render_mesh.is_deformable()).then(|| RenderLinks::new(mesh, welded, false));
         (render_mesh, links)
     }
 

@@ -3,7 +3,7 @@
 use trigon_math::Vec3;
 
 use crate::weld::{OfCorners, Welded, weld};
-use crate::{Mesh, Triangulation};
+use crate::{Mesh, RenderLinks, Triangulation};
 
 /// The triangles of a mesh that no pose can deform, over welded corners as in a [`RenderMesh`](crate::RenderMesh). Values
 /// are not copied: those of a vertex are the mesh's at its first corner.
@@ -36,12 +36,15 @@ impl WeldedMesh {
     /// vertices: corners at one vertex are welded unless other values differ, where [`WeldedMesh::of`] needs a vertex for
     /// each corner. `None` if a corner has a normal of its own, a polygon is smooth, or a pose can deform the mesh.
     pub fn of_flat(mesh: &Mesh) -> Option<(WeldedMesh, Vec<Vec3>)> {
-        if !mesh.is_flat() {
-            return None;
-        }
-        // Welding takes one thread.
-        let (normals, (welded, _)) = rayon::join(|| mesh.flat_normals(), || weld(mesh, &[]));
+        let (normals, welded) = weld_flat(mesh)?;
         Some((Self::new(mesh, Vec::new(), welded), normals))
+    }
+
+    /// The same as [`WeldedMesh::of_flat`], with the data to follow changes of the mesh later.
+    pub fn of_flat_with_links(mesh: &Mesh) -> Option<((WeldedMesh, Vec<Vec3>), RenderLinks)> {
+        let (normals, welded) = weld_flat(mesh)?;
+        let links = RenderLinks::new(mesh, welded.clone(), true);
+        Some(((Self::new(mesh, Vec::new(), welded), normals), links))
     }
 
     /// `normals` are those of the welded vertices.
@@ -53,6 +56,13 @@ impl WeldedMesh {
         let corners = corner_of_vertex;
         WeldedMesh { corners, normals, triangles, triangle_faces, triangle_materials: slots }
     }
+}
+
+/// The normals of the polygons of a flat mesh, whose corners are welded without normals; `None` if it is not flat.
+fn weld_flat(mesh: &Mesh) -> Option<(Vec<Vec3>, Welded)> {
+    // Welding takes one thread.
+    let weld_all = || rayon::join(|| mesh.flat_normals(), || weld(mesh, &[]).0);
+    mesh.is_flat().then(weld_all)
 }
 
 /// The triangles over welded vertices, and the faces that they come from.

@@ -33,8 +33,10 @@ use side_edges::{NO_EDGE, sides_of_mesh};
 const MOST_TANGENT_SETS: usize = 8;
 
 /// With so many corners a mesh of flat polygons has normals of polygons instead of vertices: a vertex for each
-/// corner would take 24 bytes in the mesh and up to 48 in the memory of each frame. Less does not matter.
-const MANY_CORNERS: usize = 1 << 16;
+/// corner would take 24 bytes in the mesh and up to 48 in the memory of each frame, and where a vertex moves, those of
+/// all corners around would change. Less does not matter. In tests small meshes count as large, for the sake of
+/// properties over meshes of a few polygons.
+const MANY_CORNERS: usize = if cfg!(test) { 1 << 6 } else { 1 << 16 };
 
 /// A mesh as drawn.
 #[derive(Debug)]
@@ -84,7 +86,7 @@ pub(crate) struct GeometryChange {
     pub(crate) vertices: Vec<u32>,
     /// Vertices of the mesh that moved.
     pub(crate) mesh_vertices: Vec<u32>,
-    /// Triangles whose corners or edge flags may have changed; increasing.
+    /// Triangles whose corners, edge flags or normals of polygons may have changed; increasing.
     pub(crate) triangles: Vec<u32>,
 }
 
@@ -126,15 +128,21 @@ struct Triangles {
 
 impl Triangles {
     /// Takes the triangles of a mesh from it, with their polygons and material slots.
-    fn taken(triangles: &mut Vec<[u32; 3]>, faces: &mut Vec<u32>, slots: &mut Option<Vec<u32>>) -> Self {
-        Self { triangles: take(triangles), faces: take(faces), slots: take(slots).unwrap_or_default() }
+    fn of_welded(mesh: &mut WeldedMesh) -> Self {
+        let slots = mesh.triangle_materials.take().unwrap_or_default();
+        Self { triangles: take(&mut mesh.triangles), faces: take(&mut mesh.triangle_faces), slots }
+    }
+
+    /// The same.
+    fn of_render_mesh(mesh: &mut RenderMesh) -> Self {
+        let slots = mesh.triangle_materials.take().unwrap_or_default();
+        Self { triangles: take(&mut mesh.triangles), faces: take(&mut mesh.triangle_faces), slots }
     }
 }
 
 impl Geometry {
     pub(crate) fn new(source: &Mesh) -> Self {
-        let is_large = source.corner_count() >= MANY_CORNERS;
-        if let Some((mesh, normals)) = is_large.then(|| WeldedMesh::of_flat(source)).flatten() {
+        if let Some((mesh, normals)) = large_flat(source, WeldedMesh::of_flat) {
             return Self::of_welded(mesh, |mesh| Columns::of_flat_faces(source, mesh, normals));
         }
         Self::smooth(source)
@@ -149,14 +157,12 @@ impl Geometry {
     }
 
     fn of_welded(mut mesh: WeldedMesh, columns: impl FnOnce(WeldedMesh) -> Columns) -> Self {
-        let triangles =
-            Triangles::taken(&mut mesh.triangles, &mut mesh.triangle_faces, &mut mesh.triangle_materials);
+        let triangles = Triangles::of_welded(&mut mesh);
         Self::with(triangles, || columns(mesh), None)
     }
 
     fn of(mut mesh: RenderMesh) -> Self {
-        let triangles =
-            Triangles::taken(&mut mesh.triangles, &mut mesh.triangle_faces, &mut mesh.triangle_materials);
+        let triangles = Triangles::of_render_mesh(&mut mesh);
         let rest = mesh.is_deformable().then(|| Box::new(mesh.clone()));
         Self::with(triangles, || Columns::new(mesh), rest)
     }
@@ -368,6 +374,13 @@ impl Geometry {
     pub(crate) fn sides_if_known(&self) -> Option<&[[u32; 3]]> {
         self.side_edges.get().map(|sides| sides.as_slice())
     }
+}
+
+/// What is made of a mesh that has normals of polygons instead of vertices, if it is such: if it is large, and all of its
+/// polygons are flat.
+fn large_flat<T>(mesh: &Mesh, make: impl FnOnce(&Mesh) -> Option<T>) -> Option<T> {
+    let is_large = mesh.corner_count() >= MANY_CORNERS;
+    is_large.then(|| make(mesh)).flatten()
 }
 
 /// What is in a place, made now if nothing is. All threads may work on it, so there is no lock: while a thread waits for

@@ -8,7 +8,7 @@ use trigon_math::{DVec3, Vec3};
 
 use super::corner_faces::FaceCorner;
 use crate::Mesh;
-use crate::normals::{corner_angle, unit_or_zero};
+use crate::normals::{corner_angle, or_if_zero, unit_or_zero};
 use crate::quads::Quads;
 
 /// Faces or vertices that a thread takes at a time: about a tenth of a millisecond's work,
@@ -63,9 +63,9 @@ impl FaceNormals {
         parts.into_par_iter().for_each(|part| part.update(mesh));
     }
 
-    /// The unit normal of a face; zero if it has none.
-    pub(super) fn normal(&self, face: usize) -> Vec3 {
-        self.normals[face]
+    /// The normal that a flat face shows.
+    pub(super) fn shown(&self, face: usize) -> Vec3 {
+        or_if_zero(self.normals[face], Vec3::Y)
     }
 
     /// The mean normal of smooth faces at one vertex, weighted by their angles there, and added up in the order of

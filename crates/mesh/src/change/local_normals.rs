@@ -47,7 +47,7 @@ impl<'a> LocalNormals<'a> {
         let mean = || self.face_normals.mean(around.iter().copied().filter(|of| self.is_smooth(of.face)));
         let mut of_vertex = None;
         for (normal, of) in normals.iter_mut().zip(&*around).filter(|(normal, _)| **normal == Vec3::ZERO) {
-            let of_face = or_if_zero(self.face_normals.normal(of.face as usize), Vec3::Y);
+            let of_face = self.face_normals.shown(of.face as usize);
             *normal = if self.is_smooth(of.face) {
                 or_if_zero(*of_vertex.get_or_insert_with(mean), of_face)
             } else {

@@ -9,6 +9,7 @@ use super::ChangedElements;
 use super::corner_faces::CornerFaces;
 use super::face_normals::{FaceNormals, PIECE};
 use super::fans::Fans;
+use super::local_normals::LocalNormals;
 use super::neighborhood::Neighborhood;
 use super::render_update::{RenderUpdate, UpdatedVertex};
 use super::vertex_values::{Shown, SplitOff, VertexValues};
@@ -17,8 +18,9 @@ use crate::groups::Groups;
 use crate::normals::unit_keeping;
 use crate::weld::Welded;
 
-/// How the vertices of a [`RenderMesh`](crate::RenderMesh) come from its mesh. Made by
-/// [`RenderMesh::with_links`](crate::RenderMesh::with_links).
+/// How the vertices of a [`RenderMesh`](crate::RenderMesh) or a [`WeldedMesh`](crate::WeldedMesh) come from its mesh. Made
+/// by [`RenderMesh::with_links`](crate::RenderMesh::with_links) and
+/// [`WeldedMesh::of_flat_with_links`](crate::WeldedMesh::of_flat_with_links).
 ///
 /// Corners of a vertex that no longer agree get render vertices of their own, at the end
 /// of the list. Those that agree again stay apart, so that no render vertex is without a
@@ -33,6 +35,8 @@ pub struct RenderLinks {
     corners_at: Arc<Groups<u32>>,
     /// The normals of all faces, as soon as a corner takes its normal from them.
     face_normals: Option<FaceNormals>,
+    /// Whether render vertices have no normals, because all polygons are flat and show their own.
+    is_flat: bool,
     /// What lies around the elements of the last change.
     around: Neighborhood,
     /// Those of its vertices that are fans.
@@ -42,7 +46,8 @@ pub struct RenderLinks {
 }
 
 impl RenderLinks {
-    pub(crate) fn new(mesh: &Mesh, welded: Welded) -> Self {
+    /// `is_flat` says that the mesh was welded without normals.
+    pub(crate) fn new(mesh: &Mesh, welded: Welded, is_flat: bool) -> Self {
         let corners = mesh.corner_vertices().iter().copied().zip(0u32..);
         let given = mesh.attributes().corner_normals.as_deref();
         let follows = given.is_none_or(|given| given.iter().any(|&normal| has_no_direction(normal)));
@@ -51,6 +56,7 @@ impl RenderLinks {
             vertex_of_corner: welded.vertex_of_corner.into_vec(),
             corners_at: Arc::new(Groups::new(mesh.vertex_count(), corners)),
             face_normals: follows.then(|| FaceNormals::new(mesh)),
+            is_flat,
             around: Neighborhood::default(),
             fans: Fans::default(),
             update: RenderUpdate::default(),
@@ -68,10 +74,15 @@ impl RenderLinks {
     /// for, with its new values.
     pub fn follow(&mut self, mesh: &Mesh, changed: &ChangedElements) {
         self.find_face_normals(mesh, changed);
-        let has_face_normals = self.face_normals.is_some();
+        let has_face_normals = self.face_normals.is_some() && !self.is_flat;
         let is_other = self.around.update(mesh, &self.corners_at, changed, has_face_normals);
         if let Some(normals) = &mut self.face_normals {
             normals.update(mesh, &self.around.faces);
+            if self.is_flat {
+                let shown = self.around.faces.iter().map(|&face| (face, normals.shown(face as usize)));
+                self.update.face_normals.clear();
+                self.update.face_normals.extend(shown);
+            }
         }
         self.update.faces.clear();
         // Triangles are cut in one way only.
@@ -111,7 +122,8 @@ impl RenderLinks {
         let Self { around, update, .. } = self;
         let none = FaceNormals::default();
         let face_normals = self.face_normals.as_ref().unwrap_or(&none);
-        let values = VertexValues::new(mesh, &self.vertex_of_corner, &self.corners_at, face_normals, around);
+        let normals = (!self.is_flat).then(|| LocalNormals::new(mesh, face_normals));
+        let values = VertexValues::new(mesh, &self.vertex_of_corner, &self.corners_at, normals, around);
         update.vertices.truncate(self.fans.count);
         update.replaced.truncate(self.fans.moved);
         if are_others || !self.fans.update(face_normals, &mut update.vertices) {

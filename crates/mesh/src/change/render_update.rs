@@ -15,6 +15,9 @@ pub struct RenderUpdate {
     /// before; increasing. See [`Mesh::triangulation_of`](crate::Mesh::triangulation_of): a polygon may have more
     /// or fewer triangles than before.
     pub faces: Vec<u32>,
+    /// Polygons that may show another normal than before, increasing, and these normals, of unit length. None unless
+    /// the links are those of a [`WeldedMesh::of_flat_with_links`](crate::WeldedMesh::of_flat_with_links).
+    pub face_normals: Vec<(u32, Vec3)>,
 }
 
 impl RenderUpdate {
@@ -39,6 +42,7 @@ pub struct UpdatedVertex {
     pub vertex: u32,
     /// The corner of the mesh whose position and attributes it shows.
     pub corner: u32,
-    /// The shading normal of that corner; of unit length.
+    /// The shading normal of that corner; of unit length. Zero if vertices have none, because all polygons are flat: see
+    /// [`RenderUpdate::face_normals`].
     pub normal: Vec3,
 }

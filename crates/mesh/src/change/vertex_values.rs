@@ -2,7 +2,6 @@
 
 use trigon_math::Vec3;
 
-use super::face_normals::FaceNormals;
 use super::fans::{FanPiece, FoundFans};
 use super::local_normals::LocalNormals;
 use super::neighborhood::Neighborhood;
@@ -15,7 +14,8 @@ use crate::weld::{AttributeComparison, bits};
 pub(super) struct VertexValues<'a> {
     vertex_of_corner: &'a [u32],
     corners_at: &'a Groups<u32>,
-    normals: LocalNormals<'a>,
+    /// `None` if render vertices have no normals.
+    normals: Option<LocalNormals<'a>>,
     attributes: AttributeComparison<'a>,
     /// The vertices that were moved, increasing.
     moved: &'a [u32],
@@ -55,13 +55,13 @@ impl<'a> VertexValues<'a> {
         mesh: &'a Mesh,
         vertex_of_corner: &'a [u32],
         corners_at: &'a Groups<u32>,
-        face_normals: &'a FaceNormals,
+        normals: Option<LocalNormals<'a>>,
         around: &'a Neighborhood,
     ) -> Self {
         Self {
             vertex_of_corner,
             corners_at,
-            normals: LocalNormals::new(mesh, face_normals),
+            normals,
             attributes: AttributeComparison::new(mesh),
             moved: &around.moved,
             same_attributes: around.corners.is_empty(),
@@ -94,7 +94,13 @@ impl<'a> VertexValues<'a> {
             let first = shown.kept.len() as u32;
             let is_moved = is_next(&mut moved, vertex);
             let corners = self.corners_at.get(vertex);
-            self.normals.at_corners(corners, &mut around, &mut normals);
+            match &self.normals {
+                Some(of_corners) => of_corners.at_corners(corners, &mut around, &mut normals),
+                None => {
+                    normals.clear();
+                    normals.resize(corners.len(), Vec3::ZERO);
+                }
+            }
             if let Some(updated) = self.whole(corners, &normals).filter(|_| self.same_attributes) {
                 shown.kept.push(updated);
                 shown.replaced.extend(is_moved.then_some(first));
@@ -118,7 +124,7 @@ impl<'a> VertexValues<'a> {
     /// nothing but normals, and all take these from the vertex.
     fn fan(&self, corners: &[u32], fans: &mut FanPiece) -> Option<UpdatedVertex> {
         let (vertex, corner) = self.same_before(corners).filter(|_| self.same_attributes)?;
-        let normal = self.normals.add_fan(corners, fans)?;
+        let normal = self.normals.as_ref()?.add_fan(corners, fans)?;
         Some(UpdatedVertex { vertex, corner, normal })
     }
 

@@ -16,21 +16,39 @@ use std::sync::{Arc, OnceLock};
 use rayon::prelude::*;
 use trigon_math::{Bounds3, Vec3};
 use trigon_mesh::{
-    ChangedElements, Mesh, RenderLinks, RenderMesh, RenderUpdate, Triangulation, UpdatedVertex,
+    ChangedElements, Mesh, RenderLinks, RenderMesh, RenderUpdate, Triangulation, UpdatedVertex, WeldedMesh,
 };
 
 pub(super) use face_places::FacePlaces;
 use face_places::{FacePlace, PIECE};
 use triangle_lists::{Replaced, TriangleLists, fillers_of};
 
-use super::{Geometry, GeometryChange, GeometryState, box_around, places_for};
+use super::{
+    Columns, Geometry, GeometryChange, GeometryState, Triangles, box_around, large_flat, places_for,
+};
 
 impl Geometry {
     /// Geometry that can follow changes of its mesh.
     pub(crate) fn that_follows(mesh: &Mesh) -> Self {
+        if let Some(((mut welded, normals), links)) = large_flat(mesh, WeldedMesh::of_flat_with_links) {
+            let triangles = Triangles::of_welded(&mut welded);
+            let columns = || Columns::of_flat_faces(mesh, welded, normals);
+            return Self::linked(mesh, (triangles, links), columns);
+        }
         let (mut render_mesh, links) = RenderMesh::with_links(mesh);
-        let fillers = links.as_ref().map(|links| fill(&mut render_mesh, mesh, links));
-        Self { links, fillers: fillers.unwrap_or_default(), ..Self::of(render_mesh) }
+        let Some(links) = links else { return Self::of(render_mesh) };
+        let triangles = Triangles::of_render_mesh(&mut render_mesh);
+        Self::linked(mesh, (triangles, links), || Columns::new(render_mesh))
+    }
+
+    /// Of these triangles of a mesh, and its vertices.
+    fn linked(
+        mesh: &Mesh,
+        (mut triangles, links): (Triangles, RenderLinks),
+        columns: impl FnOnce() -> Columns,
+    ) -> Self {
+        let fillers = triangles.fill(mesh, &links);
+        Self { links: Some(links), fillers, ..Self::with(triangles, columns, None) }
     }
 
     /// Whether it can follow changes of its mesh.
@@ -68,15 +86,16 @@ impl Geometry {
         let bounds = self.bounds_without(update);
         self.blocks = OnceLock::new();
         self.mesh_vertices = OnceLock::new();
-        self.tangential = places_for(&self.columns);
+        (self.tangential, self.split) = (places_for(&self.columns), OnceLock::new());
         let mut columns = take(&mut self.columns);
+        let is_flat = columns.face_normals.is_some();
         // They come last.
         let is_new = |last: &UpdatedVertex| last.vertex as usize >= columns.vertex_count();
         if update.vertices.last().is_some_and(is_new) {
             self.face_places.forget_diagonals();
         }
         let (triangles, vertices) = rayon::join(
-            || self.replace_triangles(mesh, &links),
+            || self.replace_triangles(mesh, (&links, is_flat)),
             || {
                 columns.update(mesh, update);
                 update.vertices.iter().map(|updated| updated.vertex).collect()
@@ -106,9 +125,9 @@ impl Geometry {
         bounds.union(box_around(places))
     }
 
-    /// Replaces the triangles of faces, and returns those that have other corners, edge flags or sides now,
-    /// increasing. `None` if a face needs more slots than it has.
-    fn replace_triangles(&mut self, mesh: &Mesh, links: &RenderLinks) -> Option<Vec<u32>> {
+    /// Replaces the triangles of faces, and returns those that may have other corners, edge flags, sides or normals of
+    /// polygons now, increasing. `None` if a face needs more slots than it has.
+    fn replace_triangles(&mut self, mesh: &Mesh, (links, is_flat): (&RenderLinks, bool)) -> Option<Vec<u32>> {
         let mut face_places = take(&mut self.face_places);
         let materials = mesh.attributes().face_materials.as_deref();
         let places = face_places.update(&links.update().faces, |face| {
@@ -131,8 +150,13 @@ impl Geometry {
         };
         let replaced: Vec<Replaced> = pieces.into_par_iter().map(replace).collect::<Option<_>>()?;
         self.note_fillers(places, &replaced);
+        // Each shows the normal of its polygon.
+        let triangles = match is_flat {
+            true => places.iter().flat_map(|place| place.slots()).map(|slot| slot as u32).collect(),
+            false => replaced.into_iter().flat_map(|part| part.triangles).collect(),
+        };
         self.face_places = face_places;
-        Some(replaced.into_iter().flat_map(|part| part.triangles).collect())
+        Some(triangles)
     }
 
     /// Updates the list of fillers after triangles were replaced.
@@ -179,41 +203,39 @@ impl Geometry {
     }
 }
 
-/// Gives each face slots for as many triangles as it can ever have, and returns the slots of fillers,
-/// increasing. A polygon that crosses itself or has no area has fewer triangles than slots.
-fn fill(render_mesh: &mut RenderMesh, mesh: &Mesh, links: &RenderLinks) -> Vec<u32> {
-    let most = mesh.corner_count() - 2 * mesh.face_count();
-    let mut fillers = Vec::new();
-    if render_mesh.triangles.len() == most {
-        return fillers;
-    }
-    // Those of the render mesh, over corners.
-    let Triangulation { triangles, triangle_faces } = mesh.triangulation();
-    let (mut rest, mut faces) = (triangles.as_slice(), triangle_faces.as_slice());
-    (render_mesh.triangles, render_mesh.triangle_faces) =
-        (Vec::with_capacity(most), Vec::with_capacity(most));
-    let slots = mesh.attributes().face_materials.as_deref();
-    let mut materials = slots.map(|_| Vec::with_capacity(most));
-    for (face, corners) in (0_u32..).zip(mesh.faces()) {
-        let count = faces.iter().take_while(|&&of| of == face).count();
-        let own;
-        (own, rest) = rest.split_at(count);
-        faces = &faces[count..];
-        let mut made = fillers_of(mesh, face, own);
-        for number in 0..corners.len() - 2 {
-            let triangle = own.get(number).copied().unwrap_or_else(|| {
-                fillers.push(render_mesh.triangles.len() as u32);
-                [made.next(); 3]
-            });
-            render_mesh.triangles.push(triangle.map(|corner| links.vertex_of_corner()[corner as usize]));
-            render_mesh.triangle_faces.push(face);
-            if let (Some(materials), Some(slots)) = (&mut materials, slots) {
-                materials.push(slots[face as usize]);
+impl Triangles {
+    /// Gives each face slots for as many triangles as it can ever have, and returns the slots of fillers,
+    /// increasing. A polygon that crosses itself or has no area has fewer triangles than slots.
+    fn fill(&mut self, mesh: &Mesh, links: &RenderLinks) -> Vec<u32> {
+        let most = mesh.corner_count() - 2 * mesh.face_count();
+        let mut fillers = Vec::new();
+        if self.triangles.len() == most {
+            return fillers;
+        }
+        // Those of the render mesh, over corners.
+        let Triangulation { triangles, triangle_faces } = mesh.triangulation();
+        let (mut rest, mut faces) = (triangles.as_slice(), triangle_faces.as_slice());
+        (self.triangles, self.faces) = (Vec::with_capacity(most), Vec::with_capacity(most));
+        for (face, corners) in (0_u32..).zip(mesh.faces()) {
+            let count = faces.iter().take_while(|&&of| of == face).count();
+            let own;
+            (own, rest) = rest.split_at(count);
+            faces = &faces[count..];
+            let mut made = fillers_of(mesh, face, own);
+            for number in 0..corners.len() - 2 {
+                let triangle = own.get(number).copied().unwrap_or_else(|| {
+                    fillers.push(self.triangles.len() as u32);
+                    [made.next(); 3]
+                });
+                self.triangles.push(triangle.map(|corner| links.vertex_of_corner()[corner as usize]));
+                self.faces.push(face);
             }
         }
+        if let Some(slots) = mesh.attributes().face_materials.as_deref() {
+            self.slots = self.faces.iter().map(|&face| slots[face as usize]).collect();
+        }
+        fillers
     }
-    render_mesh.triangle_materials = materials;
-    fillers
 }
 
 #[cfg(test)]

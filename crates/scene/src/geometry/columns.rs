@@ -71,7 +71,7 @@ impl Columns {
     /// Writes the values of vertices that a change of the mesh has affected; new vertices are appended in
     /// order.
     pub(crate) fn update(&mut self, mesh: &Mesh, update: &RenderUpdate) {
-        let Self { positions, normals, face_normals: _, tangents, uv_sets, colors } = self;
+        let Self { positions, normals, face_normals, tangents, uv_sets, colors } = self;
         let attributes = mesh.attributes();
         let write_others = || {
             write(positions, update.replaced(), |of| {
@@ -87,7 +87,11 @@ impl Columns {
                 write(columns, update.replaced(), |of| values[of.corner as usize].to_array());
             }
         };
-        rayon::join(|| write(normals, update.vertices.iter(), |of| of.normal.to_array()), write_others);
+        let write_normals = || match face_normals {
+            Some(columns) => write_face_normals(columns, &update.face_normals),
+            None => write(normals, update.vertices.iter(), |of| of.normal.to_array()),
+        };
+        rayon::join(write_normals, write_others);
     }
 
     /// The bytes that a pose changes.
@@ -114,6 +118,12 @@ impl Columns {
 
     pub(crate) fn vertex_count(&self) -> usize {
         self.positions[0].len()
+    }
+}
+
+fn write_face_normals(columns: &mut [Vec<f32>; 3], normals: &[(u32, Vec3)]) {
+    for (column, axis) in columns.iter_mut().zip(0..) {
+        normals.iter().for_each(|(face, normal)| column[*face as usize] = normal[axis]);
     }
 }
 

@@ -30,10 +30,13 @@ impl Contents {
     fn of(asset: &MeshAsset) -> Self {
         let geometry = asset.geometry();
         let columns = &geometry.columns;
-        let lists = columns.positions.iter().chain(&columns.normals).chain(columns.uv_sets.iter().flatten());
+        let lists = columns.positions.iter().chain(columns.uv_sets.iter().flatten());
         let lists: Vec<&Vec<f32>> = lists.chain(columns.colors.iter().flatten()).collect();
-        let corner =
-            |vertex: u32| lists.iter().map(|column| column[vertex as usize].to_bits()).collect::<Vec<_>>();
+        let corner = |vertex: u32, face: u32| {
+            let normal = columns.normal(vertex as usize, face).to_array();
+            let values = lists.iter().map(|column| column[vertex as usize]);
+            values.chain(normal).map(f32::to_bits).collect::<Vec<_>>()
+        };
         let (flags, sides) = (geometry.edge_flags(asset.mesh()), geometry.side_edges(asset.mesh()));
         let is_real = |triangle: &usize| !geometry.is_filler(*triangle);
         let all: Vec<usize> = (0..geometry.triangles.len()).filter(is_real).collect();
@@ -43,7 +46,10 @@ impl Contents {
         }
         let runs = geometry.runs.iter().map(|run| (run.slot, run.triangles.clone().filter(is_real).count()));
         Self {
-            triangles: all.iter().map(|&triangle| geometry.triangles[triangle].map(corner)).collect(),
+            triangles: all
+                .iter()
+                .map(|&of| geometry.triangles[of].map(|vertex| corner(vertex, geometry.face(of))))
+                .collect(),
             faces: all.iter().map(|&triangle| geometry.face(triangle)).collect(),
             runs: runs.filter(|&(_, count)| count > 0).collect(),
             triangulated: all.iter().map(|&triangle| geometry.triangulated(triangle)).collect(),

@@ -46,7 +46,7 @@ fn model(pane: AlphaMode) -> Model {
     let objects = [
         (ring, Material::default(), DVec3::ZERO),
         (primitives::icosphere(0.8, 2), textured, DVec3::new(0.2, 0.1, -1.0)),
-        (primitives::grid(1.0, 1.0, 3, 3), glass, DVec3::new(0.4, -0.3, 1.0)),
+        (primitives::grid(1.0, 1.0, 4, 4), glass, DVec3::new(0.4, -0.3, 1.0)),
         (wire.build(), Material::default(), DVec3::ZERO),
     ];
     let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
