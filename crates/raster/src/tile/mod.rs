@@ -48,6 +48,7 @@ mod multisample;
 mod points;
 mod quad;
 mod rasterizer;
+mod sides;
 mod single;
 mod state;
 mod still;

@@ -16,6 +16,7 @@
 //! key ([`FrameView::precedes`](crate::view::FrameView::precedes)). The kernels `tiny`, `multisample`
 //! and `micro` and the queries of `depth_query` repeat it in the form that suits them.
 
+use super::sides::{ALL, Sides, steps};
 use super::store::{store, store_where};
 use super::ties::Ties;
 use super::triangle::TileTriangle;
@@ -47,23 +48,60 @@ pub(crate) struct TileRasterizer<'f> {
 /// A triangle that is being drawn, with what its blocks and groups have in common.
 struct Walk<'c, S: Simd> {
     covering: &'c TileTriangle,
-    /// What each lane adds to the edge functions at the group's first pixel.
+    /// The edge functions at the pixels of the tile's first group: at their samples if they have one, else less the
+    /// `starts` of each sample.
     lanes: [I32<S>; 3],
+    /// What leads from a block's first pixel to the first ones of its groups.
+    groups: [I32<S>; 3],
+    /// `None` if blocks and groups are not tested against edges.
+    sides: Option<&'c Sides<S>>,
     place: u32,
 }
 
-impl<S: Simd> Walk<'_, S> {
-    /// The edge functions at the pixels of a group, less their values at the tile's first pixel
-    /// (`starts`).
-    ///
-    /// The products may wrap around. The sum does not: where an edge crosses the tile, its values
-    /// in the tile fit 32 bits, and additions that wrap give the right sum if that fits.
+impl<'c, S: Simd> Walk<'c, S> {
     #[inline(always)]
-    fn edges_at(&self, [x, y]: [i32; 2]) -> [I32<S>; 3] {
+    fn new<const MULTI: bool>(
+        simd: S,
+        covering: &'c TileTriangle,
+        sides: Option<&'c Sides<S>>,
+        place: u32,
+    ) -> Self {
+        let TileTriangle { right, down, starts, .. } = covering;
+        let (x, y) = (lane_numbers(simd) & 3, lane_numbers(simd) >> 2);
+        let (column, row) = (lane_numbers(simd) & 1, lane_numbers(simd) >> 1);
+        let lanes = [0, 1, 2].each(
+            #[inline(always)]
+            |k| {
+                let lanes = x * right[k] + y * down[k];
+                if MULTI { lanes } else { lanes + starts[0][k] }
+            },
+        );
+        let groups = [0, 1, 2].each(
+            #[inline(always)]
+            |k| column * right[k].wrapping_mul(4) + row * down[k].wrapping_mul(2),
+        );
+        Self { covering, lanes, groups, sides, place }
+    }
+
+    /// What leads from the tile's first pixel to the first ones of a block's groups.
+    ///
+    /// Products and sums may wrap around. What is compared in the end does not: where an edge crosses the tile, its
+    /// values in the tile fit 32 bits, and additions that wrap give the right sum if that fits.
+    #[inline(always)]
+    fn groups_of(&self, block: [i32; 2]) -> [I32<S>; 3] {
         let TileTriangle { right, down, .. } = self.covering;
         [0, 1, 2].each(
             #[inline(always)]
-            |k| self.lanes[k] + right[k].wrapping_mul(x).wrapping_add(down[k].wrapping_mul(y)),
+            |k| self.groups[k] + steps([right[k], down[k]], block),
+        )
+    }
+
+    /// The same as [`lanes`](Self::lanes) for another group, from what leads to its first pixel.
+    #[inline(always)]
+    fn edges_at(&self, first: [i32; 3]) -> [I32<S>; 3] {
+        [0, 1, 2].each(
+            #[inline(always)]
+            |k| self.lanes[k] + first[k],
         )
     }
 
@@ -75,7 +113,7 @@ impl<S: Simd> Walk<'_, S> {
         (a | b | c).simd_ge(I32::splat(simd, 0))
     }
 
-    /// Whether a sample of any of the pixels may be covered.
+    /// Whether a sample of any of the pixels, which have several, may be covered.
     #[inline(always)]
     fn may_cover(&self, simd: S, edges: [I32<S>; 3]) -> bool {
         let TileTriangle { range: [_, greatest], special, .. } = self.covering;
@@ -134,41 +172,39 @@ impl TileRasterizer<'_> {
             return;
         }
         buffer.settle();
-        let (x, y) = (lane_numbers(simd) & 3, lane_numbers(simd) >> 2);
-        let lanes = [0, 1, 2].each(
-            #[inline(always)]
-            |k| x * covering.right[k] + y * covering.down[k],
-        );
-        let walk = Walk { covering, lanes, place };
         let [columns, rows] = [covering.columns, covering.rows];
         // For a box of at most 8 pixels each way, testing blocks against edges costs more than it saves.
-        let small = columns[1] - columns[0] < 8 && rows[1] - rows[0] < 8;
+        let is_small = columns[1] - columns[0] < 8 && rows[1] - rows[0] < 8;
+        let made;
+        let sides = if is_small || covering.special.is_some() {
+            None
+        } else {
+            made = Sides::new(simd, covering);
+            Some(&made)
+        };
+        let walk = Walk::new::<MULTI>(simd, covering, sides, place);
+        let asked = ALL << (columns[0] >> 3) & ALL >> (7 - (columns[1] >> 3));
         for block_y in rows[0] >> 3..(rows[1] >> 3) + 1 {
-            for block_x in columns[0] >> 3..(columns[1] >> 3) + 1 {
+            let [outside, inside] = match walk.sides {
+                Some(sides) => sides.blocks(simd, covering, block_y * 8),
+                None => [0, 0],
+            };
+            counts.blocks_rejected += u64::from((asked & outside).count_ones());
+            let mut rest = asked & !outside;
+            while rest != 0 {
+                let block_x = rest.trailing_zeros() as i32;
+                rest &= rest - 1;
                 let [left, top] = [block_x * 8, block_y * 8];
                 let block = (block_y as usize) * BLOCKS + block_x as usize;
-                let mut inside = false;
-                if small {
-                    if self.hierarchical && self.hides(buffer.blocks[block].farthest, covering.depth.high) {
-                        counts.blocks_rejected += 1;
-                        continue;
-                    }
-                } else {
-                    let [outside, within] = covering.block_sides([left, top]);
-                    if outside
-                        || (self.hierarchical && self.block_hides(simd, covering, buffer, block, [left, top]))
-                    {
-                        counts.blocks_rejected += 1;
-                        continue;
-                    }
-                    inside = within;
-                }
-                if inside {
+                if self.hierarchical
+                    && self.block_hides(simd, (covering, is_small), buffer, block, [left, top])
+                {
+                    counts.blocks_rejected += 1;
+                } else if inside >> block_x & 1 != 0 {
                     counts.blocks_accepted += 1;
                     self.whole_block::<S, MULTI>(simd, &walk, buffer, block, [left, top]);
                 } else {
-                    let groups = self.part_of_block::<S, MULTI>(simd, &walk, buffer, block, [left, top]);
-                    counts.groups += groups;
+                    counts.groups += self.part_of_block::<S, MULTI>(simd, &walk, buffer, block, [left, top]);
                 }
             }
         }
@@ -195,11 +231,14 @@ impl TileRasterizer<'_> {
     fn block_hides<S: Simd>(
         &self,
         simd: S,
-        covering: &TileTriangle,
+        (covering, is_small): (&TileTriangle, bool),
         buffer: &mut VisibilityBuffer,
         block: usize,
         corner: [i32; 2],
     ) -> bool {
+        if is_small {
+            return self.hides(buffer.blocks[block].farthest, covering.depth.high);
+        }
         let farthest = buffer.farthest_in(simd, block);
         if self.hides(farthest, covering.depth.high) {
             return true;
@@ -271,29 +310,41 @@ impl TileRasterizer<'_> {
         [left, top]: [i32; 2],
     ) -> u64 {
         let clip = |[first, last]: [i32; 2], start: i32, shift: i32| {
-            ((first.max(start) - start) >> shift)..((last.min(start + 7) - start) >> shift) + 1
+            [(first.max(start) - start) >> shift, (last.min(start + 7) - start) >> shift]
         };
-        let mut looked_at = 0;
+        let [rows, columns] = [clip(walk.covering.rows, top, 1), clip(walk.covering.columns, left, 2)];
+        // Two groups in a row.
+        let in_rows = ALL << (2 * rows[0]) & ALL >> (6 - 2 * rows[1]);
+        let in_columns = [0x55, ALL, 0, 0xaa][(columns[0] * 2 + columns[1]) as usize % 4];
+        let mut rest = in_rows & in_columns;
+        let firsts = walk.groups_of([left, top]);
+        if let Some(sides) = walk.sides {
+            rest &= sides.groups(simd, firsts);
+        }
+        let firsts: [[i32; LANES]; 3] = firsts.each(Into::into);
+        let looked_at = u64::from(rest.count_ones());
         let mut wrote = false;
         let samples = if MULTI { buffer.samples } else { 1 };
-        for row in clip(walk.covering.rows, top, 1) {
-            for column in clip(walk.covering.columns, left, 2) {
-                let first = [left + column * 4, top + row * 2];
-                let edges = walk.edges_at(first);
-                looked_at += 1;
-                if MULTI && !walk.may_cover(simd, edges) {
+        while rest != 0 {
+            let number = rest.trailing_zeros() as usize % LANES;
+            rest &= rest - 1;
+            let first = [left + (number as i32 & 1) * 4, top + (number as i32 >> 1) * 2];
+            let edges = walk.edges_at([0, 1, 2].each(
+                #[inline(always)]
+                |k| firsts[k][number],
+            ));
+            if MULTI && !walk.may_cover(simd, edges) {
+                continue;
+            }
+            let group = block * 8 + number;
+            for sample in 0..samples {
+                let covered = self.covered::<S, MULTI>(simd, walk, (edges, first), sample);
+                if !covered.any_true() {
                     continue;
                 }
-                let group = block * 8 + (row * 2 + column) as usize;
-                for sample in 0..samples {
-                    let covered = self.covered(simd, walk, (edges, first), sample);
-                    if !covered.any_true() {
-                        continue;
-                    }
-                    let depth = self.depth(simd, walk, first, sample);
-                    let at = (group * samples + sample) * LANES;
-                    wrote |= self.test_and_store(simd, walk.place, (covered, depth), buffer, at);
-                }
+                let depth = self.depth(simd, walk, first, sample);
+                let at = (group * samples + sample) * LANES;
+                wrote |= self.test_and_store(simd, walk.place, (covered, depth), buffer, at);
             }
         }
         if wrote {
@@ -304,16 +355,17 @@ impl TileRasterizer<'_> {
 
     /// Which pixels of a group the triangle covers at a sample.
     #[inline(always)]
-    fn covered<S: Simd>(
+    fn covered<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
         walk: &Walk<'_, S>,
         (edges, first): ([I32<S>; 3], [i32; 2]),
         sample: usize,
     ) -> Mask<S> {
+        let starts = if MULTI { walk.covering.starts[sample] } else { [0; 3] };
         match &walk.covering.special {
             Some(special) => special.covers_group(simd, self.point(first, sample)),
-            None => walk.inside(simd, edges, walk.covering.starts[sample]),
+            None => walk.inside(simd, edges, starts),
         }
     }
 

@@ -181,6 +181,8 @@ impl TileTriangle {
 mod tests {
     use super::*;
     use crate::samples::SamplePattern;
+    use crate::simd::{SimdLevel, at_level};
+    use crate::tile::sides::Sides;
     use crate::viewport::Viewport;
     use proptest::prelude::*;
 
@@ -201,6 +203,9 @@ mod tests {
                 && (triangle.kind != Kind::RoundPoint || within)
         };
         let covering = TileTriangle::new(triangle, &grid, area);
+        if let Some(covering) = covering.as_ref().filter(|covering| covering.special.is_none()) {
+            check_eight(covering);
+        }
         let [columns, rows] = area.padded().map(|side| side as i32);
         for block in (0..rows / 8).flat_map(|y| (0..columns / 8).map(move |x| [x * 8, y * 8])) {
             let sides = covering.as_ref().map(|covering| covering.block_sides(block));
@@ -217,6 +222,39 @@ mod tests {
                     assert!(!(outside && covered), "{point:?} of a block outside");
                     assert!(covered || !inside, "{point:?} of a block inside");
                 }
+            }
+        }
+    }
+
+    /// Holds what is known of eight blocks and of eight groups against each block, and against the edges at the pixels of
+    /// each group.
+    fn check_eight(covering: &TileTriangle) {
+        let TileTriangle { right, down, range: [_, greatest], .. } = covering;
+        let steps =
+            |k: usize, [x, y]: [i32; 2]| right[k].wrapping_mul(x).wrapping_add(down[k].wrapping_mul(y));
+        let blocks = (0..8).flat_map(|y| (0..8).map(move |x| [8 * x, 8 * y]));
+        for (token, block) in SimdLevel::ALL
+            .into_iter()
+            .filter_map(SimdLevel::token)
+            .flat_map(|token| blocks.clone().map(move |block| (token, block)))
+        {
+            let group = |group: i32| [block[0] + group % 2 * 4, block[1] + group / 2 * 2];
+            let firsts: [[i32; LANES]; 3] =
+                [0, 1, 2].map(|k| std::array::from_fn(|lane| steps(k, group(lane as i32))));
+            let ([outside, inside], groups) = at_level!(token, simd => {
+                let sides = Sides::new(simd, covering);
+                let firsts = firsts.map(|values| I32::simd_from(simd, values));
+                (sides.blocks(simd, covering, block[1]), sides.groups(simd, firsts))
+            });
+            let sides = [outside, inside].map(|bits| bits >> (block[0] / 8) & 1 != 0);
+            assert_eq!(sides, covering.block_sides(block), "block {block:?} at {token:?}");
+            for number in 0..8 {
+                let [x, y] = group(number);
+                let pixels = (0..8).map(|i| [x + i % 4, y + i / 4]);
+                let is_inside =
+                    |k: usize| pixels.clone().any(|pixel| greatest[k].wrapping_add(steps(k, pixel)) >= 0);
+                let expected = (0..3).all(is_inside);
+                assert_eq!(groups >> number & 1 != 0, expected, "group {number} of {block:?} at {token:?}");
             }
         }
     }

@@ -32,6 +32,9 @@ pub(crate) struct VisibilityBuffer {
     pub(crate) blocks: [BlockBounds; BLOCKS * BLOCKS],
     /// No sample lies further away.
     pub(crate) farthest: f32,
+    /// The block that this depth was found in. Depths of blocks only come nearer, so `farthest` stays as it is until that
+    /// of this block is another one.
+    farthest_block: usize,
     stale: bool,
     /// All samples hold this depth and triangle, but the arrays are not filled yet.
     fill: Option<(f32, u32)>,
@@ -49,6 +52,7 @@ impl VisibilityBuffer {
             visible: Vec::new(),
             blocks: [bounds; BLOCKS * BLOCKS],
             farthest: 0.0,
+            farthest_block: 0,
             stale: false,
             fill: None,
             samples: 1,
@@ -89,7 +93,7 @@ impl VisibilityBuffer {
     /// are needed (`settle`).
     pub(crate) fn fill_with(&mut self, depth: f32, visible: u32) {
         self.fill = Some((depth, visible));
-        (self.farthest, self.stale) = (depth, false);
+        (self.farthest, self.farthest_block, self.stale) = (depth, 0, false);
     }
 
     /// The depth of all samples while a fill is pending.
@@ -178,7 +182,7 @@ impl VisibilityBuffer {
         let bounds = &mut self.blocks[block];
         if farthest > bounds.farthest {
             bounds.farthest = farthest;
-            self.stale = true;
+            self.stale |= block == self.farthest_block;
         }
     }
 
@@ -215,21 +219,21 @@ impl VisibilityBuffer {
         }
         let [a, b, c, d] = least;
         let farthest = least_of(lesser(lesser(a, b), lesser(c, d)).into());
-        self.stale |= farthest > self.blocks[block].farthest;
+        self.stale |= block == self.farthest_block && farthest > self.blocks[block].farthest;
         self.blocks[block] = BlockBounds { farthest, writes: 0, ..self.blocks[block] };
     }
 
-    /// The farthest depth of the tile, recomputed from the blocks' if one of
-    /// them has changed. Blocks outside the image count like all others.
+    /// The farthest depth of the tile, recomputed from the blocks' if that of the farthest one
+    /// has changed. Blocks outside the image count like all others.
     #[inline(always)]
     pub(crate) fn farthest_of_all(&mut self, area: &TileArea) -> f32 {
         if self.stale {
             self.stale = false;
             let [columns, rows] = area.size.map(|side| side.div_ceil(8));
             let blocks = (0..rows).flat_map(|row| (0..columns).map(move |column| row * BLOCKS + column));
-            self.farthest = blocks.fold(f32::INFINITY, |least, block| {
+            (self.farthest, self.farthest_block) = blocks.fold((f32::INFINITY, 0), |least, block| {
                 let farthest = self.blocks[block].farthest;
-                if farthest < least { farthest } else { least }
+                if farthest < least.0 { (farthest, block) } else { least }
             });
         }
         self.farthest

@@ -88,7 +88,12 @@ fn blocks_beside_an_edge_are_told_from_those_within() {
     // to 8 s + 15.
     let stats = stats(&[corner(40.0, 0.75)]);
     assert_eq!(stats.blocks_accepted, 1 + 2 + 3 + 4, "s up to 3");
-    assert_eq!(stats.groups_tested, 5 * 8, "s of 4");
+    // Their groups, 2 by 4, add up to from 8 s + 4 column + 2 row + 1.
+    assert_eq!(
+        stats.groups_tested,
+        5 * 6,
+        "s of 4, less than 40 in four groups on the left and two on the right"
+    );
     assert_eq!(stats.blocks_rejected, 48 - 15, "the others of the first tile");
 }
 
