@@ -49,7 +49,7 @@ impl<S: Simd> Sorted<S> {
             ),
         ];
         let zero = I32::splat(simd, 0);
-        let wide = !small_lanes(simd, &columns);
+        let wide = !small_lanes(simd, &columns, SMALL);
         let clockwise = if wide.any_true() {
             clockwise_wide(simd, x, y)
         } else {

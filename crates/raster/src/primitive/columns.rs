@@ -79,11 +79,11 @@ pub(crate) fn sorted_columns<S: Simd>([a, b, c]: [Column<S>; 3]) -> ([Column<S>;
 }
 
 /// Which lanes hold a triangle whose bounding box is smaller than
-/// [`SMALL`] on both axes.
+/// `limit`, mostly [`SMALL`], on both axes.
 #[inline(always)]
-pub(crate) fn small_lanes<S: Simd>(simd: S, [a, b, c]: &[Column<S>; 3]) -> Mask<S> {
-    let small = I32::splat(simd, SMALL);
-    extent([a.x, b.x, c.x]).simd_lt(small) & extent([a.y, b.y, c.y]).simd_lt(small)
+pub(crate) fn small_lanes<S: Simd>(simd: S, [a, b, c]: &[Column<S>; 3], limit: i32) -> Mask<S> {
+    let limit = I32::splat(simd, limit);
+    extent([a.x, b.x, c.x]).simd_lt(limit) & extent([a.y, b.y, c.y]).simd_lt(limit)
 }
 
 #[inline(always)]

@@ -1,6 +1,6 @@
 //! Up to eight small triangles of a tile, prepared at once: one triangle in each lane.
 //!
-//! A triangle is small if its bounding box is less than 64 pixels wide and high ([`small_lanes`]):
+//! A triangle is small if its bounding box is less than 96 pixels wide and high ([`SMALL`]):
 //! then its edge functions fit in 32 bits anywhere in the tile.
 
 use super::TileTriangle;
@@ -41,6 +41,11 @@ pub(super) struct EightTriangles {
     /// way in the tile.
     pub(super) micro: bool,
 }
+
+/// In 1/256 pixel; more than [`primitive::SMALL`](crate::primitive::SMALL), for numbers of 16 bits. The sides of a small triangle are less than 1.5 · 2^14 on each axis, and its vertices less than a tile
+/// farther, 2.5 · 2^14, from any sample of a tile that its box touches: the two products of an edge function add up to
+/// less than 2 · 3.75 · 2^28 < 2^31.
+const SMALL: i32 = 96 << 8;
 
 /// Small triangles whose bounding box has at most this many pixels each way in the tile go through the
 /// kernel `tiny`: testing whole blocks against their edges costs more than it saves.
@@ -83,7 +88,7 @@ impl EightTriangles {
             |column| column.depth(),
         );
         let Pixels { ranges, live, tiny, micro } = pixels(simd, area, pattern, [a, b, c]);
-        let small = small_lanes(simd, &[a, b, c]).to_bitmask() & ((1 << count) - 1);
+        let small = small_lanes(simd, &[a, b, c], SMALL).to_bitmask() & ((1 << count) - 1);
         let live = live.to_bitmask() & small;
         Self {
             corner: edges.each(
@@ -305,7 +310,7 @@ mod tests {
             let area = TileArea { origin: [64, 128], size: [64, 60], margin: [0, 0] };
             let vertices: [[ScreenVertex; 3]; 8] = std::array::from_fn(|lane| {
                 std::array::from_fn(|corner| {
-                    let place = |i: usize| i32::from(points[lane][corner][i]) / 3 / steps * steps;
+                    let place = |i: usize| i32::from(points[lane][corner][i]) * 2 / 5 / steps * steps;
                     let point = [0, 1].map(|i| place(i) + area.origin[i] * 256 - 3000);
                     let vertex = SetupTriangle::on_grid([point; 3]).vertices[0];
                     vertex.with_depth(depths[lane][corner].abs().fract())
