@@ -22,7 +22,7 @@ use trigon_raster::EdgeFlags;
 use crate::work::{Work, note};
 
 pub(crate) use blocks::{BlockBox, Blocks};
-use change::FacePlaces;
+use change::{FacePlaces, StillBounds};
 pub(crate) use columns::Columns;
 use edge_flags::flags_of_mesh;
 use mesh_vertices::mesh_vertices;
@@ -74,6 +74,7 @@ pub(crate) struct Geometry {
     links: Option<RenderLinks>,
     /// Of the faces of the last change.
     face_places: FacePlaces,
+    still_bounds: StillBounds,
     /// The difference that the last change made.
     pub(crate) change: Option<GeometryChange>,
 }
@@ -202,6 +203,7 @@ impl Geometry {
             pose: None,
             links: None,
             face_places: FacePlaces::default(),
+            still_bounds: StillBounds::default(),
             change: None,
         }
     }
@@ -242,6 +244,7 @@ impl Geometry {
             pose: None,
             links: None,
             face_places: FacePlaces::default(),
+            still_bounds: StillBounds::default(),
             change: None,
         }
     }

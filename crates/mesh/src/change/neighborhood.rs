@@ -20,6 +20,8 @@ pub(super) struct Neighborhood {
     pub(super) corners: Vec<u32>,
     /// The faces with a vertex that was moved, increasing.
     pub(super) faces: Vec<u32>,
+    /// Those of them that can be cut in more than one way.
+    pub(super) polygons: Vec<u32>,
     /// The vertices at which a corner may show other values, increasing.
     pub(super) vertices: Vec<u32>,
     /// Whether normals of vertices depend on faces.
@@ -51,7 +53,12 @@ impl Neighborhood {
             };
             vertices = vertices.union(marked(mesh.vertex_count(), &faces, mark));
         }
-        *self = Self { moved, corners, faces, vertices: vertices.listed(), has_face_normals };
+        let is_polygon = |&face: &u32| mesh.face_corners(face as usize).len() > 3;
+        let polygons = match mesh.has_only_triangles() {
+            true => Vec::new(),
+            false => faces.iter().copied().filter(is_polygon).collect(),
+        };
+        *self = Self { moved, corners, faces, polygons, vertices: vertices.listed(), has_face_normals };
         true
     }
 }

@@ -84,12 +84,7 @@ impl RenderLinks {
                 self.update.face_normals.extend(shown);
             }
         }
-        self.update.faces.clear();
-        // Triangles are cut in one way only.
-        if !mesh.has_only_triangles() {
-            let is_cut = |&face: &u32| mesh.face_corners(face as usize).len() > 3;
-            self.update.faces.extend(self.around.faces.iter().copied().filter(is_cut));
-        }
+        self.update.faces.clone_from(&self.around.polygons);
         self.update_vertices(mesh, is_other);
         if !self.update.faces.is_sorted_by(|a, b| a < b) {
             self.update.faces.sort_unstable();

@@ -23,7 +23,7 @@ pub struct RenderUpdate {
 impl RenderUpdate {
     /// Those of `vertices` that may show another position or other attributes than before, in the same
     /// order. Of the rest nothing but normals has changed.
-    pub fn replaced(&self) -> impl Iterator<Item = &UpdatedVertex> {
+    pub fn replaced(&self) -> impl Iterator<Item = &UpdatedVertex> + Clone {
         self.replaced.iter().map(|&index| &self.vertices[index as usize])
     }
 

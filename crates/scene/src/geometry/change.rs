@@ -7,6 +7,7 @@
 //! three corners are the same vertex, fill the rest of its slots.
 
 mod face_places;
+mod still_bounds;
 mod triangle_lists;
 
 use std::mem::take;
@@ -21,6 +22,7 @@ use trigon_mesh::{
 
 pub(super) use face_places::FacePlaces;
 use face_places::{FacePlace, PIECE};
+pub(super) use still_bounds::StillBounds;
 use triangle_lists::{Replaced, TriangleLists, fillers_of};
 
 use super::{
@@ -108,15 +110,20 @@ impl Geometry {
         Some((vertices, triangles?))
     }
 
-    /// The box, if it is known and does not change without some vertices.
-    fn bounds_without(&self, update: &RenderUpdate) -> Option<Bounds3> {
+    /// The box around all vertices but those that are about to move, if it is known.
+    fn bounds_without(&mut self, update: &RenderUpdate) -> Option<Bounds3> {
+        let moved = update.replaced().map(|vertex| vertex.vertex);
+        let is_repeated = self.still_bounds.update(moved);
         let bounds = *self.bounds.get()?;
         let is_on_border = |vertex: &UpdatedVertex| {
             // New vertices have no position yet.
             let place = self.columns.position(vertex.vertex).map(Vec3::as_dvec3);
             place.is_some_and(|place| (place.cmpeq(bounds.min) | place.cmpeq(bounds.max)).any())
         };
-        (!update.replaced().any(is_on_border)).then_some(bounds)
+        if update.replaced().any(is_on_border) {
+            return is_repeated.then(|| self.still_bounds.others(&self.columns));
+        }
+        Some(bounds)
     }
 
     /// The box extended by vertices that were written.
