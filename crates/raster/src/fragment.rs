@@ -105,8 +105,16 @@ impl EdgeFlags {
     /// Rounded down to half a power of two, from 1 to 2^15.5; 1 by default.
     #[must_use]
     pub fn with_radius_ratio(self, ratio: f32) -> Self {
-        let above = RADIUS_RATIOS.partition_point(|&step| step <= ratio);
-        Self(self.0 & 0b111 | (above.saturating_sub(1) as u8) << 3)
+        // The exponent in halves, from its bits: a search would be mispredicted often. NaN is none of the larger ones.
+        let step = if ratio >= 1.0 {
+            const MANTISSA: u32 = (1 << 23) - 1;
+            let bits = ratio.to_bits();
+            let is_upper_half = bits & MANTISSA >= std::f32::consts::SQRT_2.to_bits() & MANTISSA;
+            (2 * ((bits >> 23) - 127) + u32::from(is_upper_half)).min(31)
+        } else {
+            0
+        };
+        Self(self.0 & 0b111 | (step as u8) << 3)
     }
 
     /// How many times the radius that the triangle shows its face has.
@@ -127,5 +135,24 @@ impl EdgeFlags {
     #[must_use]
     pub const fn contains(self, edge: usize) -> bool {
         edge < 3 && self.0 >> edge & 1 != 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Any number, and the steps themselves with their neighbours.
+        #[test]
+        fn a_ratio_is_rounded_down_to_a_step(bits: u32, step in 0..32_usize) {
+            let near = RADIUS_RATIOS[step];
+            for ratio in [f32::from_bits(bits), near.next_down(), near, near.next_up()] {
+                let kept = EdgeFlags::ALL.with_radius_ratio(ratio).radius_ratio();
+                let expected = RADIUS_RATIOS.into_iter().rev().find(|&step| step <= ratio).unwrap_or(1.0);
+                prop_assert_eq!(kept, expected, "{}", ratio);
+            }
+        }
     }
 }

@@ -2,7 +2,7 @@
 //! million triangles, in one place or all over it, 1920×1080 pixels, one sample.
 //!
 //! ```sh
-//! cargo bench -p trigon-scene --bench changes -- [derived|given] [edges] [KIND …] [ROUNDS] [THREADS]
+//! cargo bench -p trigon-scene --bench changes -- [derived|given] [edges] [stages] [KIND …] [ROUNDS] [THREADS]
 //! ```
 //!
 //! The torus takes its normals from its faces (`derived`, if nothing else is said), so that
@@ -10,18 +10,19 @@
 //! cases take turns: an image without a change, one after each kind of change, and one
 //! after the same change by a new mesh; or only those that are named: `none`, `compact`,
 //! `scattered`, `replaced`. The last image of each is held against one of a new scene, byte
-//! for byte.
+//! for byte. `stages` also prints the median time of each stage of the rasterizer; measuring them takes some time, too.
 
 #![expect(clippy::print_stdout, reason = "numbers are what this is for")]
 
 use std::error::Error;
 use std::num::NonZeroUsize;
-use std::time::Instant;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use trigon_scene::camera::Camera;
 use trigon_scene::math::Vec3;
 use trigon_scene::mesh::{Attributes, Mesh, MeshChange, primitives};
-use trigon_scene::{Frame, Material, MeshId, RenderSettings, Renderer, Scene, Style, render};
+use trigon_scene::{Frame, Material, MeshId, RenderSettings, Renderer, Scene, StageTimes, Style, render};
 
 /// Quads round the ring and round the tube: a million triangles.
 const QUADS: [u32; 2] = [1000, 500];
@@ -47,8 +48,10 @@ struct Case {
     scene: Scene,
     mesh: MeshId,
     renderer: Renderer,
-    frame: Frame,
+    /// The last image. It is released before the next one is drawn, whose memory it becomes.
+    frame: Arc<Frame>,
     times: Vec<f64>,
+    stages: Vec<StageTimes>,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -70,6 +73,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         kinds.into_iter().map(|&kind| Case::new(kind, torus.clone(), settings.clone())).collect();
     let camera = cases[0].scene.overview(settings.aspect());
     for case in &mut cases {
+        if says("stages") {
+            case.renderer.time_stages();
+        }
         let first = case.first(&camera)?;
         println!("{:?}: {first:.1} ms for the first change", case.kind);
     }
@@ -77,18 +83,40 @@ fn main() -> Result<(), Box<dyn Error>> {
         for case in &mut cases {
             let time = case.round(round as u32, &camera)?;
             case.times.push(time);
+            case.stages.push(case.renderer.stats().times);
         }
     }
     for case in &mut cases {
         case.times.sort_by(f64::total_cmp);
         let (shortest, median) = (case.times[0], case.times[case.times.len() / 2]);
         println!("{:?}: {shortest:.2} ms at best, {median:.2} ms in the middle of {rounds}", case.kind);
+        if says("stages") {
+            println!("{}", medians(&case.stages));
+        }
         let mut fresh = Scene::new();
         let mesh = case.scene.meshes().get(case.mesh).expect("it is there").mesh().clone();
         fresh.add_object("torus", mesh, Material::default());
-        assert!(render(&fresh, &camera, &settings)? == case.frame, "the bytes of a new scene");
+        assert!(render(&fresh, &camera, &settings)? == *case.frame, "the bytes of a new scene");
     }
     Ok(())
+}
+
+/// The median time of each stage: elapsed before the tiles, and the sum over all threads in them.
+fn medians(stages: &[StageTimes]) -> String {
+    type Stage = (&'static str, fn(&StageTimes) -> Duration);
+    let all: [Stage; 5] = [
+        ("vertices", |times| times.vertices),
+        ("set-up", |times| times.set_up),
+        ("visibility", |times| times.visibility),
+        ("shading", |times| times.shading),
+        ("resolve", |times| times.resolve),
+    ];
+    let median = |(name, stage): Stage| {
+        let mut times: Vec<Duration> = stages.iter().map(stage).collect();
+        times.sort();
+        format!("    {name} {:.2} ms", times[times.len() / 2].as_secs_f64() * 1e3)
+    };
+    all.map(median).join("")
 }
 
 fn torus(has_normals: bool) -> Mesh {
@@ -110,20 +138,22 @@ impl Case {
             scene,
             mesh,
             renderer: Renderer::new(settings),
-            frame: Frame::default(),
+            frame: Arc::default(),
             times: Vec::new(),
+            stages: Vec::new(),
         }
     }
 
     /// Draws what was loaded; the milliseconds of the first change and its image.
     fn first(&mut self, camera: &Camera) -> Result<f64, Box<dyn Error>> {
-        self.renderer.render_into(&self.scene, camera, &mut self.frame)?;
+        self.frame = self.renderer.render_shared(&self.scene, camera, None)?;
         self.round(0, camera)
     }
 
     /// The milliseconds from a change to the image.
     fn round(&mut self, round: u32, camera: &Camera) -> Result<f64, Box<dyn Error>> {
         let change = self.change(round);
+        self.frame = Arc::default();
         let start = Instant::now();
         match self.kind {
             Kind::None => {}
@@ -134,7 +164,7 @@ impl Case {
                 self.scene.replace_mesh(self.mesh, mesh).expect("it is there");
             }
         }
-        self.renderer.render_into(&self.scene, camera, &mut self.frame)?;
+        self.frame = self.renderer.render_shared(&self.scene, camera, None)?;
         Ok(start.elapsed().as_secs_f64() * 1e3)
     }
 

@@ -48,6 +48,18 @@ fn the_mathematical_plane_turns_counter_clockwise() {
     assert_eq!(turn(DVec2::INFINITY), Orientation::Collinear, "no turn is proven");
 }
 
+#[test]
+fn no_turn_is_proven_with_a_coordinate_that_is_not_finite() {
+    let values = [0.0, 1.0, -3.0, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+    for number in 0..values.len().pow(6) {
+        let value = |place: u32| values[number / values.len().pow(place) % values.len()];
+        let [a, b, c] = [0, 2, 4].map(|first| DVec2::new(value(first), value(first + 1)));
+        if (0..6).any(|place| !value(place).is_finite()) {
+            assert_eq!(orientation(a, b, c), Orientation::Collinear, "{a} {b} {c}");
+        }
+    }
+}
+
 /// The nearest neighbours of a point on a line: a rounded cross product gets
 /// many of them wrong (Kettner et al., "Classroom examples of robustness
 /// problems in geometric computations", 2008).

@@ -6,7 +6,9 @@ use super::tiles::{Scratch, count_seen, draw_tile};
 use crate::clock::Clock;
 use crate::ink::{Ink, VisibleFaces};
 use crate::resolve::{TileColors, resolve, store_visibility};
-use crate::shade::{GROUP_COUNT, Partly, TileLanes, note_faces, rows_of_either, shade_tile};
+use crate::shade::{
+    GROUP_COUNT, Partly, TileLanes, TileRows, note_faces, rows_of, rows_of_either, shade_tile,
+};
 use crate::target::Bands;
 use crate::tile::{Moving, StillTile};
 use crate::tile_buffer::TileArea;
@@ -30,9 +32,10 @@ struct KeptTile {
     still: Option<StillTile>,
     /// The still triangles as the search for outer halves of lines needs them, if there are lines.
     faces: VisibleFaces,
-    /// The lanes of each group that show still triangles whose values change in every frame.
-    look: TileLanes,
-    /// The lanes that showed moving triangles in the last frame, without overlays and with them.
+    /// The pixels that show still triangles whose values change in every frame.
+    look: TileRows,
+    /// The lanes that showed moving triangles in the last frame, without overlays, if depths or ids are written, and with
+    /// them.
     shown: [TileLanes; 2],
 }
 
@@ -71,7 +74,7 @@ impl KeptTile {
                 faces = note_faces(frame, tile.0, still.triangles(), &mut shading.records);
             }
         }
-        Self { still, faces, look, shown: ALL }
+        Self { still, faces, look: rows_of(&look), shown: ALL }
     }
 
     /// Draws what has changed; `None`, with nothing drawn for good, if it has to be drawn as a whole.
@@ -89,13 +92,15 @@ impl KeptTile {
         count_seen(frame, state, stats);
         stats.times.visibility += clock.lap();
         let mut now = [[0; GROUP_COUNT]; 2];
-        moving.lanes(state, &mut now[0]);
-        let moved = rows_of_either(&now[0], &self.shown[0]);
-        store_visibility(frame, (area, Some(&moved)), state, bands);
-        stats.times.resolve += clock.lap();
+        if frame.wants.depth || frame.wants.ids {
+            moving.lanes(frame, state, &mut now[0]);
+            let moved = rows_of_either(&now[0], &self.shown[0]);
+            store_visibility(frame, (area, Some(&moved)), state, bands);
+            stats.times.resolve += clock.lap();
+        }
         still.lay_overlays(frame, state);
         Moving::cover(frame, area, (state, &moving.surfaces.overlay), stats)?;
-        moving.lanes(state, &mut now[1]);
+        moving.lanes(frame, state, &mut now[1]);
         moving.sort(frame, state);
         stats.tiles += 1;
         let reach = frame.ink.as_ref().map_or(0, Ink::reach) as usize;

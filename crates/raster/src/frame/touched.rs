@@ -316,6 +316,7 @@ impl Piece<'_> {
     fn run(self, token: Token, viewport: Viewport) {
         let pipeline = self.recorded.pipeline;
         let stride = pipeline.stride();
+        let mut before = [ScreenVertex::default(); 64];
         for (word, (&changed, moved)) in self.changed.iter().zip(self.moved).enumerate() {
             let mut byte = 0;
             while byte < 8 {
@@ -330,12 +331,11 @@ impl Piece<'_> {
                 }
                 let end = self.places.len().min(word * 64 + byte * 8);
                 let places = &mut self.places[first..end];
-                let mut before = [ScreenVertex::default(); 64];
                 before[..places.len()].copy_from_slice(places);
                 let slots = self.slots.start + first..self.slots.start + end;
                 let varyings = &mut self.varyings[first * stride..end * stride];
                 pipeline.run_vertices(token, self.used, slots, viewport, (places, varyings));
-                for ((bit, after), before) in (first % 64..).zip(&*places).zip(before) {
+                for ((bit, after), before) in (first % 64..).zip(&*places).zip(&before) {
                     // The position of a vertex without a snapped one is computed by the pipeline once more.
                     let differs = after.0 != before.0 || !after.has_place();
                     *moved |= changed & (u64::from(differs) << bit);

@@ -43,11 +43,18 @@ impl VisibleFaces {
         self.lines[triangle_count] = FaceLine::UNLINED;
     }
 
-    /// Takes triangles from others that were noted, which have these places in the tile's list now.
+    /// Takes triangles from others that were noted, which have these places in the tile's list now; the places increase.
     pub(crate) fn note_again(&mut self, others: &Self, places: &[u32]) {
-        for ((&place, &depths), &line) in places.iter().zip(&others.depths).zip(&others.lines) {
-            self.depths[place as usize] = depths;
-            self.lines[place as usize] = line;
+        let count = places.len();
+        // Mostly all of them come first.
+        if places.last().is_some_and(|&last| last as usize == count - 1) {
+            self.depths[..count].copy_from_slice(&others.depths[..count]);
+            self.lines[..count].copy_from_slice(&others.lines[..count]);
+        } else {
+            for ((&place, &depths), &line) in places.iter().zip(&others.depths).zip(&others.lines) {
+                self.depths[place as usize] = depths;
+                self.lines[place as usize] = line;
+            }
         }
         self.has_lines |= others.has_lines;
         self.has_large |= others.has_large;

@@ -30,6 +30,9 @@ use edged_face::EdgedFace;
 use std::ops::Range;
 use visible_rows::{VisibleRows, beside_large, in_front};
 
+/// A bit for each column of each row of a tile.
+type Rows = [u64; MAX_SIDE];
+
 /// Triangles that are kept ready: neighbouring pixels ask for the same ones.
 const READY: usize = 16;
 
@@ -105,14 +108,14 @@ impl OuterInk {
         if self.is_empty() { Overlap::default() } else { self.covered[pixel] }
     }
 
-    /// Finds what lines cover beyond their triangles, of some columns of each row if `asked` has a bit for each
-    /// of them. All triangles that are visible in these pixels and within reach of lines must have been noted.
+    /// Finds what lines cover beyond their triangles, of some pixels if it is known which are asked for, and which are those
+    /// or within reach of them. All triangles that are visible in the latter must have been noted.
     pub(crate) fn find(
         &mut self,
         frame: &FrameView<'_>,
         (ink, area): (&Ink, &TileArea),
         (buffer, triangles): (&VisibilityBuffer, &[TriangleRef]),
-        asked: Option<&[u64; MAX_SIDE]>,
+        asked: Option<[&Rows; 2]>,
     ) {
         if !self.faces.has_lines {
             return;
@@ -120,11 +123,13 @@ impl OuterInk {
         self.own_lanes(frame, area);
         let reach = ink.reach() as usize;
         let mut rows = self.rows.take().unwrap_or_else(VisibleRows::new);
-        self.spread(area, (buffer, triangles.len()), &mut rows);
-        let found = at_level!(frame.token, simd => self.candidates(simd, area, &rows, reach));
+        const ALL: Rows = [u64::MAX; MAX_SIDE];
+        let [asked, near] = asked.unwrap_or([&ALL; 2]);
+        self.spread(area, (buffer, triangles.len()), near, &mut rows);
+        let found = at_level!(frame.token, simd => self.candidates(simd, area, (&rows, asked), reach));
         self.ready.iter_mut().for_each(Ready::clear);
         for y in self.own_part[1].clone() {
-            let mut rest = found[y] & asked.map_or(u64::MAX, |asked| asked[y]);
+            let mut rest = found[y];
             while rest != 0 {
                 let x = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
@@ -134,34 +139,35 @@ impl OuterInk {
         self.rows = Some(rows);
     }
 
-    /// The pixels that lines of others may cover: a bit for each column of each row.
+    /// The asked pixels that lines of others may cover: a bit for each column of each row.
     #[inline(always)]
     fn candidates<S: Simd>(
         &self,
         simd: S,
         area: &TileArea,
-        visible: &VisibleRows,
+        (visible, asked): (&VisibleRows, &Rows),
         reach: usize,
-    ) -> [u64; MAX_SIDE] {
+    ) -> Rows {
         let [columns, rows] = self.own_part.clone();
         let own = (u64::MAX >> (MAX_SIDE - columns.len())) << columns.start;
         let mut found = [0; MAX_SIDE];
-        for y in rows {
+        for y in rows.filter(|&y| asked[y] != 0) {
             let around = y.saturating_sub(reach)..(y + reach + 1).min(area.size[1]);
             let mut bits = in_front(simd, visible, (y, around.clone()), reach);
             if self.faces.has_large {
                 bits |= beside_large(simd, visible, (y, around), reach);
             }
-            found[y] = bits & own;
+            found[y] = bits & own & asked[y];
         }
         found
     }
 
-    /// Lays what pixels see out in rows.
+    /// Lays what pixels see out in rows. Where no column of a row is `near` what is asked for, anything may stay.
     fn spread(
         &self,
         area: &TileArea,
         (buffer, triangle_count): (&VisibilityBuffer, usize),
+        near: &Rows,
         rows: &mut VisibleRows,
     ) {
         if area.padded() != [MAX_SIDE; 2] {
@@ -171,6 +177,9 @@ impl OuterInk {
         }
         let [columns, height] = area.padded();
         for (y, x) in (0..height).flat_map(|y| (0..columns).step_by(4).map(move |x| (y, x))) {
+            if near[y] >> x & 0xf == 0 {
+                continue;
+            }
             let first = TileArea::index_of([x, y]);
             for lane in 0..4 {
                 let [near, far] = ends(buffer, first + lane);

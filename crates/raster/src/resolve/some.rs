@@ -9,6 +9,18 @@ use crate::view::FrameView;
 /// Pixels of a row that lie side by side in a group.
 const SIDE: usize = LANES / 2;
 
+/// All bits of the pixels of a group for which a number has a bit.
+const MASKS: [[u32; SIDE]; 1 << SIDE] = {
+    let mut masks = [[0; SIDE]; 1 << SIDE];
+    let mut place = 0;
+    while place < SIDE << SIDE {
+        let (number, lane) = (place / SIDE, place % SIDE);
+        masks[number][lane] = if number >> lane & 1 != 0 { u32::MAX } else { 0 };
+        place += 1;
+    }
+    masks
+};
+
 /// Writes those of a tile's own pixels for which `asked` has a bit in their row.
 pub(super) fn write_some(
     frame: &FrameView<'_>,
@@ -35,16 +47,18 @@ fn write_row(row: &mut [[u8; 4]], (codes, asked): (&[u32], u64), [column, y]: [u
     write_each(head, (codes, asked), [column, y]);
     let whole = column + head.len();
     let (groups, tail) = row.as_chunks_mut::<SIDE>();
-    for (pixels, x) in groups.iter_mut().zip((whole..).step_by(SIDE)) {
-        let asked = asked >> x & 0xf;
-        if asked != 0 {
-            let codes = codes[TileArea::index_of([x, y])..].first_chunk::<SIDE>().expect("groups are whole");
-            // Without a branch for each, which would be mispredicted often.
-            *pixels = std::array::from_fn(|lane| {
-                let before = u32::from_le_bytes(pixels[lane]);
-                if asked >> lane & 1 != 0 { codes[lane] } else { before }.to_le_bytes()
-            });
-        }
+    let mut rest = asked.checked_shr(whole as u32).unwrap_or(0);
+    while let Some(pixels) = groups.get_mut(rest.trailing_zeros() as usize / SIDE) {
+        let first = rest.trailing_zeros() as usize / SIDE * SIDE;
+        let mask = &MASKS[(rest >> first) as usize % MASKS.len()];
+        rest &= !(0xf << first);
+        let codes = codes[TileArea::index_of([whole + first, y])..].first_chunk::<SIDE>();
+        let codes = codes.expect("groups are whole");
+        // Without a branch for each, which would be mispredicted often.
+        *pixels = std::array::from_fn(|lane| {
+            let before = u32::from_le_bytes(pixels[lane]);
+            (before ^ (before ^ codes[lane]) & mask[lane]).to_le_bytes()
+        });
     }
     let written = whole + SIDE * groups.len();
     write_each(tail, (codes, asked), [written, y]);

@@ -21,6 +21,8 @@ pub(crate) type TileRows = [u64; MAX_SIDE];
 pub(crate) struct Asked {
     pub(crate) lanes: TileLanes,
     pub(crate) rows: TileRows,
+    /// Those, and pixels within reach of them.
+    pub(crate) near: TileRows,
     /// Those, and pixels within reach of them that show moving triangles.
     pub(crate) seen: TileLanes,
 }
@@ -37,18 +39,17 @@ pub(crate) struct Partly<'p> {
 
 impl Asked {
     pub(crate) fn new() -> Self {
-        Self { lanes: [0; GROUP_COUNT], rows: [0; MAX_SIDE], seen: [0; GROUP_COUNT] }
+        Self { lanes: [0; GROUP_COUNT], rows: [0; MAX_SIDE], near: [0; MAX_SIDE], seen: [0; GROUP_COUNT] }
     }
 
     /// Asks for those of a tile's own `columns` and `rows` that show a still triangle which may look different, or
     /// that lie within `reach` of pixels which show moving triangles now or did in the last frame.
     pub(crate) fn set(
         &mut self,
-        (look, [now, before]): (&TileLanes, [&TileLanes; 2]),
+        (look, [now, before]): (&TileRows, [&TileLanes; 2]),
         [columns, rows]: [Range<usize>; 2],
         reach: usize,
     ) {
-        let look = rows_of(look);
         let moved = spread(&rows_of_either(now, before), reach);
         let own = (u64::MAX >> (MAX_SIDE - columns.len())) << columns.start;
         self.rows = [0; MAX_SIDE];
@@ -56,7 +57,8 @@ impl Asked {
             self.rows[y] = (look[y] | moved[y]) & own;
         }
         self.lanes = lanes_of(&self.rows);
-        self.seen = lanes_of(&spread(&self.rows, reach));
+        self.near = spread(&self.rows, reach);
+        self.seen = lanes_of(&self.near);
         let lanes = self.lanes.iter().zip(now);
         self.seen.iter_mut().zip(lanes).for_each(|(seen, (lanes, now))| *seen = lanes | *seen & now);
     }
@@ -68,7 +70,7 @@ impl Asked {
 }
 
 /// Bits of lanes as bits of columns.
-fn rows_of(lanes: &TileLanes) -> TileRows {
+pub(crate) fn rows_of(lanes: &TileLanes) -> TileRows {
     let mut rows = [0; MAX_SIDE];
     for (y, x) in (0..MAX_SIDE / 2).flat_map(|y| (0..MAX_SIDE / 4).map(move |x| (y, x))) {
         let lanes = u64::from(lanes[TileArea::group_of([x, y])]);
@@ -141,7 +143,7 @@ mod tests {
         ) {
             let [columns, rows] = [0, 1].map(|axis| own[axis]..own[axis] + sides[axis]);
             let mut asked = Asked::new();
-            asked.set((&lanes(&look), [&lanes(&now), &lanes(&before)]), [columns.clone(), rows.clone()], reach);
+            asked.set((&rows_of(&lanes(&look)), [&lanes(&now), &lanes(&before)]), [columns.clone(), rows.clone()], reach);
             let is_near = |[a, b]: [usize; 2], [x, y]: [usize; 2]| a.abs_diff(x) <= reach && b.abs_diff(y) <= reach;
             let is_asked = |pixel: [usize; 2]| {
                 let is_moved = now.iter().chain(&before).any(|&moved| is_near(moved, pixel));

@@ -25,7 +25,7 @@ mod visible;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use asked::{Asked, GROUP_COUNT, Partly, TileLanes, TileRows, rows_of_either};
+pub(crate) use asked::{Asked, GROUP_COUNT, Partly, TileLanes, TileRows, rows_of, rows_of_either};
 pub(crate) use edges::{BEHIND, EdgeGroup};
 pub(crate) use list::{JobList, mask_jobs, shade_jobs, shade_jobs_with};
 pub(crate) use shading::{EmptyGroup, Shading};

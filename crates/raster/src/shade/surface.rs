@@ -76,7 +76,12 @@ pub(crate) fn list_visible(
             *edged += if shape.lines.is_some() { seen.len() as u64 } else { 0 };
             run.records = Some(shape);
         }
-        outer.find(frame, (ink, area), (buffer, triangles), partly.map(|partly| &partly.asked.rows));
+        outer.find(
+            frame,
+            (ink, area),
+            (buffer, triangles),
+            partly.map(|partly| [&partly.asked.rows, &partly.asked.near]),
+        );
     } else if !outer.is_empty() {
         outer.begin(0);
     }

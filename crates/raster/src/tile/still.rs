@@ -10,7 +10,7 @@ use super::visibility::{cover_more, cover_overlay, resolve_visibility};
 use crate::Stats;
 use crate::bin::TriangleRef;
 use crate::shade::Shading;
-use crate::simd::LANES;
+use crate::simd::{LANES, U32, at_level, prelude::*};
 use crate::tile_buffer::{BLOCKS, BlockBounds, NO_TRIANGLE, TileArea};
 use crate::view::FrameView;
 use std::ops::Range;
@@ -142,13 +142,16 @@ impl Moving {
 
     /// The lanes of each group of eight pixels that show moving triangles, while the tile's list is as it was
     /// [restored](StillTile::restore).
-    pub(crate) fn lanes(&self, state: &TileState, lanes: &mut [u8]) {
-        let still = self.still as u32;
-        for (lanes, group) in lanes.iter_mut().zip(state.buffer.visible().as_chunks::<LANES>().0) {
-            // NO_TRIANGLE becomes the least number.
-            let bit = |lane: usize| u8::from(group[lane].wrapping_add(1) > still) << lane;
-            *lanes = (0..LANES).fold(0, |lanes, lane| lanes | bit(lane));
-        }
+    pub(crate) fn lanes(&self, frame: &FrameView<'_>, state: &TileState, lanes: &mut [u8]) {
+        let groups = state.buffer.visible().as_chunks::<LANES>().0;
+        at_level!(frame.token, simd => {
+            let still = U32::splat(simd, self.still as u32);
+            for (lanes, group) in lanes.iter_mut().zip(groups) {
+                // NO_TRIANGLE becomes the least number.
+                let numbers = U32::simd_from(simd, *group) + 1;
+                *lanes = numbers.simd_gt(still).to_bitmask() as u8;
+            }
+        });
     }
 
     /// The places of the still triangles in the tile's list after it was sorted.
