@@ -4,6 +4,7 @@
 //! change of few of the mesh's values it is updated: see `change`.
 
 mod blocks;
+mod bounds;
 mod change;
 mod columns;
 mod edge_flags;
@@ -22,6 +23,8 @@ use trigon_raster::EdgeFlags;
 use crate::work::{Work, note};
 
 pub(crate) use blocks::{BlockBox, Blocks};
+pub(crate) use bounds::box_around;
+use bounds::{box_between, range};
 use change::{FacePlaces, StillBounds};
 pub(crate) use columns::Columns;
 use edge_flags::flags_of_mesh;
@@ -396,47 +399,6 @@ pub(crate) fn made_once<T>(place: &OnceLock<T>, make: impl FnOnce() -> T) -> &T 
     place.get().expect("it was just made")
 }
 
-/// The smallest and the largest of some numbers, ignoring NaN. Several at a time, because updates of large
-/// meshes wait for it.
-fn range(values: &[f32]) -> [f32; 2] {
-    const AT_A_TIME: usize = 16;
-    let (mut least, mut greatest) = ([f32::INFINITY; AT_A_TIME], [f32::NEG_INFINITY; AT_A_TIME]);
-    let (chunks, rest) = values.as_chunks::<AT_A_TIME>();
-    let mut include = |lane: usize, value: f32| {
-        least[lane] = if value < least[lane] { value } else { least[lane] };
-        greatest[lane] = if value > greatest[lane] { value } else { greatest[lane] };
-    };
-    for chunk in chunks {
-        (0..AT_A_TIME).for_each(|lane| include(lane, chunk[lane]));
-    }
-    rest.iter().for_each(|&value| include(0, value));
-    let least_of = |a: f32, b: f32| if b < a { b } else { a };
-    let greatest_of = |a: f32, b: f32| if b > a { b } else { a };
-    [
-        least.into_iter().fold(f32::INFINITY, least_of),
-        greatest.into_iter().fold(f32::NEG_INFINITY, greatest_of),
-    ]
-}
-
-/// The smallest box around points. Its bits do not depend on their order: zeros in it are
-/// positive. A NaN coordinate is skipped.
-pub(crate) fn box_around(points: impl Iterator<Item = Vec3>) -> Bounds3 {
-    let (mut min, mut max) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    for point in points {
-        for (axis, value) in point.to_array().into_iter().enumerate() {
-            min[axis] = if value < min[axis] { value } else { min[axis] };
-            max[axis] = if value > max[axis] { value } else { max[axis] };
-        }
-    }
-    box_between(Vec3::from_array(min), Vec3::from_array(max))
-}
-
-fn box_between(min: Vec3, max: Vec3) -> Bounds3 {
-    // Adding zero makes zeros positive and changes nothing else.
-    let [min, max] = [min, max].map(|corner| (corner + Vec3::ZERO).as_dvec3());
-    Bounds3 { min, max }
-}
-
 /// An empty slot for each UV set that can have tangents.
 fn places_for(columns: &Columns) -> Vec<OnceLock<Box<Geometry>>> {
     columns.uv_sets.iter().take(MOST_TANGENT_SETS).map(|_| OnceLock::new()).collect()
@@ -474,22 +436,6 @@ fn runs(slots: &[u32]) -> Vec<Run> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_box_around_points_is_that_of_all_of_them_in_any_order() {
-        let numbers = (0..50).map(|i| ((i * 37 % 50) as f32 - 20.0) * 0.5).collect::<Vec<_>>();
-        assert_eq!(range(&numbers), [-10.0, 14.5], "beyond whole groups, too");
-        assert_eq!(range(&[f32::NAN, 3.0]), [3.0; 2], "without NaN");
-        assert_eq!(range(&[]), [f32::INFINITY, f32::NEG_INFINITY], "of none");
-        let points = [Vec3::new(-0.0, 1.0, f32::NAN), Vec3::new(0.0, -2.0, f32::NAN)];
-        for points in [points, [points[1], points[0]]] {
-            let Bounds3 { min, max } = box_around(points.into_iter());
-            assert!(min.x.is_sign_positive() && max.x.is_sign_positive(), "one zero");
-            assert_eq!([min.y, max.y], [-2.0, 1.0], "both points");
-            assert!(min.z > max.z, "nothing is known of z");
-        }
-        assert_eq!(box_around(std::iter::empty()), Bounds3::EMPTY, "around nothing");
-    }
 
     #[test]
     fn triangles_are_grouped_by_slot_in_stable_order() {

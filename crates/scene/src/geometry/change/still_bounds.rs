@@ -2,7 +2,8 @@
 
 use trigon_math::{Bounds3, Vec3};
 
-use super::super::{Columns, box_between, range};
+use super::super::bounds::{box_between, range};
+use super::super::columns::Columns;
 
 /// The vertices that moved last, and the box around all others. That is the same as long as no others move, so a drag
 /// finds it once.

@@ -1,0 +1,65 @@
+//! Boxes around points.
+
+use trigon_math::{Bounds3, Vec3};
+
+/// The smallest and the largest of some numbers, ignoring NaN. Several at a time, because updates of large
+/// meshes wait for it.
+pub(super) fn range(values: &[f32]) -> [f32; 2] {
+    const AT_A_TIME: usize = 16;
+    let (mut least, mut greatest) = ([f32::INFINITY; AT_A_TIME], [f32::NEG_INFINITY; AT_A_TIME]);
+    let (chunks, rest) = values.as_chunks::<AT_A_TIME>();
+    let mut include = |lane: usize, value: f32| {
+        least[lane] = if value < least[lane] { value } else { least[lane] };
+        greatest[lane] = if value > greatest[lane] { value } else { greatest[lane] };
+    };
+    for chunk in chunks {
+        (0..AT_A_TIME).for_each(|lane| include(lane, chunk[lane]));
+    }
+    rest.iter().for_each(|&value| include(0, value));
+    let least_of = |a: f32, b: f32| if b < a { b } else { a };
+    let greatest_of = |a: f32, b: f32| if b > a { b } else { a };
+    [
+        least.into_iter().fold(f32::INFINITY, least_of),
+        greatest.into_iter().fold(f32::NEG_INFINITY, greatest_of),
+    ]
+}
+
+/// The smallest box around points. Its bits do not depend on their order: zeros in it are
+/// positive. A NaN coordinate is skipped.
+pub(crate) fn box_around(points: impl Iterator<Item = Vec3>) -> Bounds3 {
+    let (mut min, mut max) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for point in points {
+        for (axis, value) in point.to_array().into_iter().enumerate() {
+            min[axis] = if value < min[axis] { value } else { min[axis] };
+            max[axis] = if value > max[axis] { value } else { max[axis] };
+        }
+    }
+    box_between(Vec3::from_array(min), Vec3::from_array(max))
+}
+
+pub(super) fn box_between(min: Vec3, max: Vec3) -> Bounds3 {
+    // Adding zero makes zeros positive and changes nothing else.
+    let [min, max] = [min, max].map(|corner| (corner + Vec3::ZERO).as_dvec3());
+    Bounds3 { min, max }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_around_points_is_that_of_all_of_them_in_any_order() {
+        let numbers = (0..50).map(|i| ((i * 37 % 50) as f32 - 20.0) * 0.5).collect::<Vec<_>>();
+        assert_eq!(range(&numbers), [-10.0, 14.5], "beyond whole groups, too");
+        assert_eq!(range(&[f32::NAN, 3.0]), [3.0; 2], "without NaN");
+        assert_eq!(range(&[]), [f32::INFINITY, f32::NEG_INFINITY], "of none");
+        let points = [Vec3::new(-0.0, 1.0, f32::NAN), Vec3::new(0.0, -2.0, f32::NAN)];
+        for points in [points, [points[1], points[0]]] {
+            let Bounds3 { min, max } = box_around(points.into_iter());
+            assert!(min.x.is_sign_positive() && max.x.is_sign_positive(), "one zero");
+            assert_eq!([min.y, max.y], [-2.0, 1.0], "both points");
+            assert!(min.z > max.z, "nothing is known of z");
+        }
+        assert_eq!(box_around(std::iter::empty()), Bounds3::EMPTY, "around nothing");
+    }
+}
