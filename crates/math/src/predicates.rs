@@ -61,7 +61,8 @@ pub fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Orientation {
     let coordinate = |point: DVec2| robust::Coord { x: point.x, y: point.y };
     let area = robust::orient2d(coordinate(a), coordinate(b), coordinate(c));
     // Coordinates that are not finite never give a finite area.
-    if !area.is_finite() && !(a.is_finite() && b.is_finite() && c.is_finite()) {
+    let is_known = area.is_finite() || a.is_finite() && b.is_finite() && c.is_finite();
+    if !is_known {
         Orientation::Collinear
     } else if area > 0.0 {
         Orientation::CounterClockwise
