@@ -100,6 +100,5 @@ fn mesh(scene: &Scene, node: NodeId) -> Weak<Mesh> {
 
 /// Maps one of `to` columns or rows of the window to one of `from` in the frame.
 pub(crate) fn source_pixel(at: usize, to: usize, from: usize) -> usize {
-    // Most images have the window's size, and the division takes longer than all else in looking up a pixel.
-    if from == to { at } else { at * from / to }
+    at * from / to
 }

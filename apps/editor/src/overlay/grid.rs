@@ -5,7 +5,7 @@
 //! the image's surfaces is not drawn: one depth look-up decides for each piece.
 
 use trigon_edit::scene::math::{DVec2, DVec3, elementary};
-use trigon_window::egui::{Color32, Painter, Pos2, Shape, Stroke};
+use trigon_window::egui::{Color32, Painter, Pos2, Stroke};
 
 use super::AXIS_COLORS;
 use super::view::OverlayView;
@@ -28,12 +28,11 @@ pub(crate) type Depth<'a> = &'a dyn Fn(DVec2) -> Option<f64>;
 pub(crate) fn draw_grid(painter: &Painter, view: &OverlayView, depth: Depth<'_>) {
     let Some(grid) = Grid::of(view) else { return };
     let floor = FloorDepth::of(view);
-    let pieces = grid.lines().into_iter().flat_map(|(line, color, width)| {
-        let stroke = Stroke::new(width, color);
-        let pieces = visible(view, line, |pixel| floor.is_hidden(pixel, depth));
-        pieces.into_iter().map(move |points| Shape::LineSegment { points, stroke })
-    });
-    painter.extend(pieces.collect::<Vec<_>>());
+    for (line, color, width) in grid.lines() {
+        for piece in visible(view, line, |pixel| floor.is_hidden(pixel, depth)) {
+            painter.line_segment(piece, Stroke::new(width, color));
+        }
+    }
 }
 
 /// Where lines are.
@@ -120,16 +119,18 @@ fn visible(view: &OverlayView, line: [DVec3; 2], is_hidden: impl Fn(DVec2) -> bo
     let Some([from, to]) = view.line(line[0], line[1]) else { return Vec::new() };
     let count = (from.distance(to) / PIECE).ceil().clamp(1.0, 1000.0) as usize;
     let at = |index: usize| from.lerp(to, index as f32 / count as f32);
-    let middle = |index: usize| view.physical(at(index).lerp(at(index + 1), 0.5));
-    // First all look-ups: most miss the processor's cache, and this way none waits for the one before it.
-    let seen: Vec<bool> = (0..count).map(|index| !is_hidden(middle(index))).collect();
-    let mut end = 0;
-    let runs = seen.chunk_by(|a, b| a == b).map(|run| {
-        let start = end;
-        end += run.len();
-        (run[0], [at(start), at(end)])
-    });
-    runs.filter(|(is_seen, _)| *is_seen).map(|(_, piece)| piece).collect()
+    let mut pieces: Vec<[Pos2; 2]> = Vec::new();
+    let mut was_seen = false;
+    for index in 0..count {
+        let seen = !is_hidden(view.physical(at(index).lerp(at(index + 1), 0.5)));
+        match pieces.last_mut() {
+            Some([_, end]) if seen && was_seen => *end = at(index + 1),
+            _ if seen => pieces.push([at(index), at(index + 1)]),
+            _ => {}
+        }
+        was_seen = seen;
+    }
+    pieces
 }
 
 /// How far away the floor is at each pixel, along the line of sight.
