@@ -55,14 +55,11 @@ impl Orientation {
 ///
 /// Exact if every coordinate is zero or has a magnitude between 2⁻⁴⁰⁰ and 2⁴⁰⁰: then no product and
 /// no tail of one leaves the range of normal numbers. NaN and infinities give `Collinear`.
-#[inline]
 #[must_use]
 pub fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Orientation {
     let coordinate = |point: DVec2| robust::Coord { x: point.x, y: point.y };
     let area = robust::orient2d(coordinate(a), coordinate(b), coordinate(c));
-    // Coordinates that are not finite never give a finite area.
-    let is_known = area.is_finite() || a.is_finite() && b.is_finite() && c.is_finite();
-    if !is_known {
+    if !(a.is_finite() && b.is_finite() && c.is_finite()) {
         Orientation::Collinear
     } else if area > 0.0 {
         Orientation::CounterClockwise

@@ -23,9 +23,8 @@ use super::grid::Grid;
 const MOST_ROUNDS: usize = 8;
 
 /// Whether a, b, c turn left (y up): exact.
-#[inline]
 pub(super) fn is_left_turn(a: DVec2, b: DVec2, c: DVec2) -> bool {
-    orientation(a, b, c) == Orientation::CounterClockwise
+    turn(a, b, c) > 0
 }
 
 /// 1 if a, b, c turn left (y up), −1 if right, 0 if they are in one line:
