@@ -24,7 +24,7 @@ use crate::work::{Work, note};
 
 pub(crate) use blocks::{BlockBox, Blocks};
 pub(crate) use bounds::box_around;
-use bounds::{box_between, range};
+use bounds::{box_of_ranges, range};
 use change::{FacePlaces, StillBounds};
 pub(crate) use columns::Columns;
 use edge_flags::flags_of_mesh;
@@ -131,16 +131,18 @@ struct Triangles {
 }
 
 impl Triangles {
-    /// Takes the triangles of a mesh from it, with their polygons and material slots.
+    /// Takes those of a welded mesh from it.
     fn of_welded(mesh: &mut WeldedMesh) -> Self {
-        let slots = mesh.triangle_materials.take().unwrap_or_default();
-        Self { triangles: take(&mut mesh.triangles), faces: take(&mut mesh.triangle_faces), slots }
+        Self::taken(&mut mesh.triangles, &mut mesh.triangle_faces, &mut mesh.triangle_materials)
     }
 
-    /// The same.
+    /// Takes those of a render mesh from it.
     fn of_render_mesh(mesh: &mut RenderMesh) -> Self {
-        let slots = mesh.triangle_materials.take().unwrap_or_default();
-        Self { triangles: take(&mut mesh.triangles), faces: take(&mut mesh.triangle_faces), slots }
+        Self::taken(&mut mesh.triangles, &mut mesh.triangle_faces, &mut mesh.triangle_materials)
+    }
+
+    fn taken(triangles: &mut Vec<[u32; 3]>, faces: &mut Vec<u32>, slots: &mut Option<Vec<u32>>) -> Self {
+        Self { triangles: take(triangles), faces: take(faces), slots: take(slots).unwrap_or_default() }
     }
 }
 
@@ -307,11 +309,8 @@ impl Geometry {
 
     /// The box around all vertices that faces use.
     pub(crate) fn bounds(&self) -> Bounds3 {
-        *self.bounds.get_or_init(|| {
-            let [x, y, z] = self.columns.positions.each_ref().map(|column| range(column));
-            let [min, max] = [0, 1].map(|end| Vec3::new(x[end], y[end], z[end]));
-            box_between(min, max)
-        })
+        let bounds = || box_of_ranges(self.columns.positions.each_ref().map(|column| range(column)));
+        *self.bounds.get_or_init(bounds)
     }
 
     /// Boxes around its triangles.

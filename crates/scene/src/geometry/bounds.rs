@@ -37,7 +37,13 @@ pub(crate) fn box_around(points: impl Iterator<Item = Vec3>) -> Bounds3 {
     box_between(Vec3::from_array(min), Vec3::from_array(max))
 }
 
-pub(super) fn box_between(min: Vec3, max: Vec3) -> Bounds3 {
+/// The box with the smallest and the largest coordinate of each axis.
+pub(super) fn box_of_ranges([x, y, z]: [[f32; 2]; 3]) -> Bounds3 {
+    let [min, max] = [0, 1].map(|end| Vec3::new(x[end], y[end], z[end]));
+    box_between(min, max)
+}
+
+fn box_between(min: Vec3, max: Vec3) -> Bounds3 {
     // Adding zero makes zeros positive and changes nothing else.
     let [min, max] = [min, max].map(|corner| (corner + Vec3::ZERO).as_dvec3());
     Bounds3 { min, max }

@@ -1,8 +1,8 @@
 //! The box around the vertices that a drag leaves where they are.
 
-use trigon_math::{Bounds3, Vec3};
+use trigon_math::Bounds3;
 
-use super::super::bounds::{box_between, range};
+use super::super::bounds::{box_of_ranges, range};
 use super::super::columns::Columns;
 
 /// The vertices that moved last, and the box around all others. That is the same as long as no others move, so a drag
@@ -29,9 +29,7 @@ impl StillBounds {
         *self.others.get_or_insert_with(|| {
             let mut moved = self.moved.clone();
             moved.sort_unstable();
-            let [x, y, z] = columns.positions.each_ref().map(|column| range_without(column, &moved));
-            let [min, max] = [0, 1].map(|end| Vec3::new(x[end], y[end], z[end]));
-            box_between(min, max)
+            box_of_ranges(columns.positions.each_ref().map(|column| range_without(column, &moved)))
         })
     }
 }
@@ -59,9 +57,9 @@ mod tests {
         #[test]
         fn ranges_without_some_are_those_of_the_rest(
             values in prop::collection::vec(prop_oneof![9 => -9.0_f32..9.0, 1 => Just(f32::NAN)], 0..40),
-            mut indices in prop::collection::btree_set(0..45_u32, 0..40),
+            indices in prop::collection::btree_set(0..45_u32, 0..40),
         ) {
-            let indices: Vec<u32> = std::mem::take(&mut indices).into_iter().collect();
+            let indices: Vec<u32> = indices.into_iter().collect();
             let rest: Vec<f32> = (0..).zip(&values)
                 .filter(|(index, _)| !indices.contains(index))
                 .map(|(_, value)| *value)
