@@ -9,61 +9,20 @@
 
 #![expect(clippy::print_stdout, reason = "a table of times is what it is for")]
 
+mod one_color;
+
+use one_color::{OneColor, SIZE, Vertex, numbers};
 use std::hint::black_box;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
-use trigon_math::Vec4;
-use trigon_raster::simd::{F32, Simd, SimdLevel, prelude::*};
+use trigon_raster::simd::SimdLevel;
 use trigon_raster::{
-    ExecuteSettings, FragmentLanes, LanePipeline, Lines, Output, Pass, PointShape, Points, Rasterizer,
-    Smoothing, Target, VertexLanes,
+    ExecuteSettings, Lines, Output, Pass, PointShape, Points, Rasterizer, Smoothing, Target,
 };
 
-const SIZE: [usize; 2] = [1920, 1080];
 const COUNT: usize = 100_000;
 const TURNS: usize = 15;
 const COLOR: u32 = 0xff30_80c0;
-
-/// A place in pixels and a depth.
-#[derive(Clone, Copy)]
-struct Vertex {
-    place: [f32; 2],
-    depth: f32,
-}
-
-/// Vertices in one colour.
-struct Wire([Vec<f32>; 4]);
-
-impl Wire {
-    fn new(vertices: &[Vertex]) -> Self {
-        let axis = |axis: usize, sign: f32| {
-            let side = SIZE[axis] as f32 / 2.0;
-            vertices.iter().map(|vertex| sign * (vertex.place[axis] / side - 1.0)).collect()
-        };
-        let depths = vertices.iter().map(|vertex| vertex.depth).collect();
-        Self([axis(0, 1.0), axis(1, -1.0), depths, vec![1.0; vertices.len()]])
-    }
-}
-
-impl LanePipeline for Wire {
-    const VARYINGS: usize = 0;
-    const FLAT: bool = true;
-
-    fn vertex_count(&self) -> usize {
-        self.0[0].len()
-    }
-
-    #[inline(always)]
-    fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
-        let [x, y, z, w] = &self.0;
-        [vertices.load(simd, x), vertices.load(simd, y), vertices.load(simd, z), vertices.load(simd, w)]
-    }
-
-    #[inline(always)]
-    fn fragments<S: Simd>(&self, simd: S, _: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
-        Vec4::new(0.2, 0.5, 0.7, 1.0).to_array().map(|value| F32::splat(simd, value))
-    }
-}
 
 /// What the plain loops draw into.
 struct Plain {
@@ -147,15 +106,6 @@ impl Plain {
     }
 }
 
-/// Numbers that look random, within 0 and 1: Knuth's generator, kept because published times are of its segments.
-fn numbers() -> impl FnMut() -> f32 {
-    let mut seed = 12_345_u64;
-    move || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 40) as f32 / (1 << 24) as f32
-    }
-}
-
 /// Segments of some lengths in turn, in all directions.
 fn segments(lengths: &[f32]) -> Vec<[Vertex; 2]> {
     let mut number = numbers();
@@ -227,7 +177,7 @@ fn main() {
         [(vec![5.0], "5"), (vec![20.0], "20"), (vec![100.0], "100"), (vec![5.0, 20.0, 100.0], "5, 20, 100")]
     {
         let segments = segments(&lengths);
-        let wire = Wire::new(segments.as_flattened());
+        let wire = OneColor::new(segments.as_flattened());
         let indices: Vec<_> = (0..COUNT as u32).map(|i| [2 * i, 2 * i + 1]).collect();
         for (smoothing, width) in
             [Smoothing::Sharp, Smoothing::AntiAliased].into_iter().flat_map(|o| [(o, 1), (o, 3)])
@@ -246,7 +196,7 @@ fn main() {
     }
     let segments = segments(&[1.0]);
     let vertices: Vec<_> = segments.iter().map(|[vertex, _]| *vertex).collect();
-    let (wire, indices) = (Wire::new(&vertices), (0..COUNT as u32).collect::<Vec<_>>());
+    let (wire, indices) = (OneColor::new(&vertices), (0..COUNT as u32).collect::<Vec<_>>());
     let shapes = [
         (PointShape::Square, Smoothing::Sharp, "square"),
         (PointShape::Round, Smoothing::Sharp, "round"),
