@@ -15,8 +15,8 @@ use std::mem::take;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
+use trigon_math::Bounds3;
 use trigon_math::glam::Affine3;
-use trigon_math::{Bounds3, Vec3};
 use trigon_mesh::{Attributes, Deformed, Mesh, RenderLinks, RenderMesh, WeldedMesh};
 use trigon_raster::EdgeFlags;
 
