@@ -23,13 +23,13 @@ use super::grid::Grid;
 const MOST_ROUNDS: usize = 8;
 
 /// Whether a, b, c turn left (y up): exact.
-pub(super) fn is_left_turn(a: DVec2, b: DVec2, c: DVec2) -> bool {
+fn is_left_turn(a: DVec2, b: DVec2, c: DVec2) -> bool {
     turn(a, b, c) > 0
 }
 
 /// 1 if a, b, c turn left (y up), −1 if right, 0 if they are in one line:
 /// exact.
-fn turn(a: DVec2, b: DVec2, c: DVec2) -> i32 {
+pub(super) fn turn(a: DVec2, b: DVec2, c: DVec2) -> i32 {
     match orientation(a, b, c) {
         Orientation::CounterClockwise => 1,
         Orientation::Clockwise => -1,

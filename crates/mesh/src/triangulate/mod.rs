@@ -21,7 +21,7 @@ mod quad;
 
 use trigon_math::{DVec2, Vec3};
 
-pub(crate) use project::{area_vector, longest_axis, plane};
+pub(crate) use project::{View, area_vector, longest_axis, plane};
 
 use ears::EarCutter;
 
@@ -68,7 +68,7 @@ impl Triangulator {
             [] | [_] | [_, _] => {}
             [_, _, _] => triangles.push([0, 1, 2]),
             [a, b, c, d] => match quad::split([a, b, c, d]) {
-                Some(halves) => triangles.extend(halves),
+                Some(cut) => triangles.extend(cut),
                 None => self.any(positions, triangles),
             },
             _ => self.any(positions, triangles),

@@ -16,23 +16,36 @@ pub(crate) fn area_vector(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
     sum * 0.5
 }
 
-/// Drops the coordinate along which the polygon is seen largest, so that it
-/// runs counter-clockwise in (x right, y up). Nothing is rounded.
+/// From where a polygon is seen: along which axis, and whether from its negative end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct View {
+    pub(crate) axis: usize,
+    pub(crate) swap: bool,
+}
+
+impl View {
+    /// The axis along which the polygon is seen largest, so that it runs counter-clockwise in (x right, y up).
+    pub(super) fn of(positions: &[Vec3]) -> Self {
+        let (mut sum, mut magnitude) = (DVec3::ZERO, DVec3::ZERO);
+        for_each_part(positions.iter().map(|p| p.as_dvec3()), |part| {
+            sum += part;
+            magnitude += part.abs();
+        });
+        let longest = longest_axis(sum);
+        let axis = if sum[longest].abs() > CANCELLED * magnitude.max_element() {
+            longest
+        } else {
+            longest_axis(magnitude)
+        };
+        Self { axis, swap: sum[axis] < 0.0 }
+    }
+}
+
+/// Drops the coordinate along which the polygon is seen. Nothing is rounded.
 pub(super) fn project(positions: &[Vec3], projected: &mut Vec<DVec2>) {
-    let (mut sum, mut magnitude) = (DVec3::ZERO, DVec3::ZERO);
-    for_each_part(positions.iter().map(|p| p.as_dvec3()), |part| {
-        sum += part;
-        magnitude += part.abs();
-    });
-    let longest = longest_axis(sum);
-    let axis = if sum[longest].abs() > CANCELLED * magnitude.max_element() {
-        longest
-    } else {
-        longest_axis(magnitude)
-    };
-    let swap = sum[axis] < 0.0;
+    let view = View::of(positions);
     projected.clear();
-    projected.extend(positions.iter().map(|p| plane(p.as_dvec3(), axis, swap)));
+    projected.extend(positions.iter().map(|p| plane(p.as_dvec3(), view)));
 }
 
 /// Calls back with twice the area vector of each triangle of the fan round
@@ -50,7 +63,7 @@ fn for_each_part(corners: impl IntoIterator<Item = DVec3>, mut part: impl FnMut(
 
 /// The other two coordinates, in the order that keeps the turning sense seen
 /// from the positive end of the axis, or the opposite order.
-pub(crate) fn plane(point: DVec3, axis: usize, swap: bool) -> DVec2 {
+pub(crate) fn plane(point: DVec3, View { axis, swap }: View) -> DVec2 {
     let [u, v] = match axis {
         0 => [point.y, point.z],
         1 => [point.z, point.x],

@@ -4,7 +4,7 @@ use trigon_math::{DVec2, DVec3, Orientation, orientation};
 
 use super::super::super::edit_mesh::EditMesh;
 use super::super::super::ids::CornerId;
-use crate::triangulate::{area_vector, longest_axis, plane};
+use crate::triangulate::{View, area_vector, longest_axis, plane};
 
 impl EditMesh {
     /// Whether the straight line between two corners of a face runs inside the face and crosses
@@ -18,7 +18,8 @@ impl EditMesh {
             return true;
         }
         let axis = longest_axis(normal);
-        let flat = |corner: CornerId| plane(point(corner), axis, normal[axis] < 0.0);
+        let view = View { axis, swap: normal[axis] < 0.0 };
+        let flat = |corner: CornerId| plane(point(corner), view);
         let (start, end) = (flat(from), flat(to));
         let is_inside_at = |corner: CornerId, target: DVec2| {
             let [before, here, after] =
