@@ -4,19 +4,15 @@
 //! First, triangles are dropped that lie behind the farthest depth visible in the tile; the bounds of
 //! blocks are not tested. Then the kernel has two passes. The first visits the same row and column of
 //! all eight bounding boxes at once, row by row. It tests the edges of all eight triangles, computes
-//! their depths, and appends the covered pixels with their depths to a list. The second goes through
-//! that list and tests depth pixel by pixel: the lanes' pixels lie anywhere in the tile, and two
-//! triangles may cover the same one, so lanes cannot be written together.
-//!
-//! The depth test is that of `TileRasterizer::visible_lanes`, for one pixel.
+//! their depths, and appends the covered pixels with their depths to a list. The second tests the depths of the
+//! pixels in the list ([`covered`](super::covered)).
 
+use super::covered::{Covered, index_of};
 use super::eight::{EightTriangles, MICRO};
 use super::rasterizer::TileRasterizer;
 use crate::counts::Counts;
-use crate::simd::{
-    Each, F32, I32, LANES, Mask, Simd, U32, greater, lane_numbers, lesser, prelude::*, widened,
-};
-use crate::tile_buffer::{BLOCKS, GROUPS, NO_TRIANGLE, VisibilityBuffer};
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lane_numbers, lesser, prelude::*, widened};
+use crate::tile_buffer::VisibilityBuffer;
 use fearless_simd::f64x4;
 
 /// Depths of the lanes' triangles along a row of pixels: lane `i` belongs to triangle `i`.
@@ -27,38 +23,6 @@ struct Depths<S: Simd> {
     right: [f64x4<S>; 2],
     low: F32<S>,
     high: F32<S>,
-}
-
-/// The maximum number of pixels in the boxes of eight triangles.
-const PIXELS: usize = (MICRO * MICRO) as usize * LANES;
-
-/// The pixels that eight triangles cover.
-pub(super) struct Covered {
-    count: usize,
-    /// The index of each pixel in the tile, times eight, plus the lane of its triangle; and seven more
-    /// entries, because eight are written at a time.
-    places: [u32; PIXELS + LANES],
-    depths: [f32; PIXELS + LANES],
-}
-
-impl Covered {
-    pub(super) fn new() -> Self {
-        Self { count: 0, places: [0; PIXELS + LANES], depths: [0.0; PIXELS + LANES] }
-    }
-
-    /// Appends one pixel of each triangle whose lane is set.
-    ///
-    /// `compress` moves the set lanes to the front. All eight are stored, and the count grows
-    /// by those that were set, so the next call overwrites the rest: no branch depends on how
-    /// many triangles cover their pixel, which a processor could not predict.
-    #[inline(always)]
-    fn push<S: Simd>(&mut self, simd: S, lanes: Mask<S>, (depth, index): (F32<S>, I32<S>)) {
-        let places = ((index << 3) + lane_numbers(simd)).bitcast::<U32<S>>();
-        let count = self.count;
-        places.compress(lanes).store_slice(&mut self.places[count..count + LANES]);
-        depth.compress(lanes).store_slice(&mut self.depths[count..count + LANES]);
-        self.count += lanes.to_bitmask().count_ones() as usize;
-    }
 }
 
 impl TileRasterizer<'_> {
@@ -109,7 +73,7 @@ impl TileRasterizer<'_> {
                 let [a, b, c] = values;
                 let covered = here & (a | b | c).simd_ge(I32::splat(simd, 0));
                 let depth = self.depths_at(simd, eight, &depths, x);
-                pixels.push(simd, covered, (depth, index_of(x, y)));
+                pixels.push(covered, depth, [index_of(x, y), lane_numbers(simd)]);
                 for (value, step) in values.iter_mut().zip(steps_right) {
                     *value += step;
                 }
@@ -183,77 +147,10 @@ impl TileRasterizer<'_> {
         let place = ((pixel + self.area.origin[axis]) << 8) + self.offsets[0][axis];
         widened((place - I32::simd_from(simd, anchor[axis])).to_float())
     }
-
-    /// Tests the depths of the covered pixels and stores those that are visible.
-    ///
-    /// Not inlined, so that the first pass can use all registers.
-    #[inline(never)]
-    fn scatter(
-        &self,
-        eight: &EightTriangles,
-        first: u32,
-        pixels: &mut Covered,
-        buffer: &mut VisibilityBuffer,
-    ) {
-        let count = std::mem::take(&mut pixels.count);
-        for (&place, &depth) in pixels.places[..count].iter().zip(&pixels.depths) {
-            // The list packs a pixel's index and its lane into one value. With one sample per
-            // pixel the index is also that of the sample in the buffer.
-            let (at, lane) = (place as usize / LANES, place as usize % LANES);
-            let (there, place) = (buffer.depth[at], first + lane as u32);
-            if depth > there || (depth == there && self.precedes_at_tie(place, buffer.visible[at])) {
-                buffer.depth[at] = depth;
-                buffer.visible[at] = place;
-                buffer.note_write(at / (GROUPS * LANES), eight.high[lane]);
-            }
-        }
-    }
-
-    /// Whether a triangle is visible rather than another at the same depth.
-    ///
-    /// The list goes pixel by pixel of the boxes, not triangle by triangle, so of two triangles
-    /// in the same eight the later one may come first. That is why numbers are compared even
-    /// when triangles are drawn in the order of their keys.
-    #[cold]
-    fn precedes_at_tie(&self, place: u32, visible: u32) -> bool {
-        if self.in_order {
-            visible != NO_TRIANGLE && place < visible
-        } else {
-            self.may_decide(1) && visible != NO_TRIANGLE && (self.precedes)(place, visible)
-        }
-    }
-}
-
-/// The indices of pixels in the tile: see
-/// [`TileArea::index_of`](crate::tile_buffer::TileArea::index_of).
-#[inline(always)]
-fn index_of<S: Simd>(x: I32<S>, y: I32<S>) -> I32<S> {
-    // Blocks of 8×8 pixels row by row; in each block eight groups of 4×2, two to a row.
-    let block = (y >> 3) * BLOCKS as i32 + (x >> 3);
-    let group = (y & 6) + ((x >> 2) & 1);
-    (((block << 3) + group) << 3) + ((y & 1) << 2) + (x & 3)
 }
 
 #[inline(always)]
 fn doubles<S: Simd>(simd: S, values: &[f64; LANES]) -> [f64x4<S>; 2] {
     let [a, b, c, d, e, f, g, h] = *values;
     [f64x4::simd_from(simd, [a, b, c, d]), f64x4::simd_from(simd, [e, f, g, h])]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::simd::{SimdLevel, at_level};
-    use crate::tile_buffer::TileArea;
-
-    #[test]
-    fn numbers_of_pixels_agree() {
-        let token = SimdLevel::best().token().expect("the best level is there");
-        for y in 0..64 {
-            for x in 0..64 {
-                let index = at_level!(token, simd => index_of(I32::splat(simd, x), I32::splat(simd, y))[0]);
-                assert_eq!(index as usize, TileArea::index_of([x as usize, y as usize]), "{x} {y}");
-            }
-        }
-    }
 }

@@ -26,6 +26,8 @@
 //! | `micro` | kernel: up to eight small triangles of at most 4×4 pixels each, one sample per pixel |
 //! | `tiny` | kernel: one small triangle of at most 24×24 pixels, one sample per pixel |
 //! | `multisample` | the same with several samples per pixel |
+//! | `sliver` | kernel: one small triangle at most two pixels wide along an axis, one sample per pixel |
+//! | `covered` | the list of pixels that `micro` and `sliver` find, and the test of their depths |
 //! | `rasterizer` | kernel: any other triangle (the *general* kernel); also **the depth test**, of which the other kernels have versions |
 //! | `quad` | kernel: lines and points |
 //! | `points` | kernel: plain points, from their vertices |
@@ -38,6 +40,7 @@
 //! `docs/architecture.md`, "Coverage kernels", compares the kernels.
 
 mod blocks;
+mod covered;
 mod depth_query;
 mod edge_origins;
 mod eight;
@@ -50,6 +53,7 @@ mod quad;
 mod rasterizer;
 mod sides;
 mod single;
+mod sliver;
 mod state;
 mod still;
 mod store;

@@ -7,6 +7,7 @@ mod large;
 mod marks;
 mod points;
 mod quick;
+mod slivers;
 mod small;
 
 use crate::primitive::{DepthPlane, SetupTriangle};

@@ -4,13 +4,14 @@
 //! kernel. (`tiny` uses the loops of `multisample` if pixels have several samples.) Masked triangles go
 //! through `masked` and `depth_query`.
 
+use super::covered::Covered;
 use super::edge_origins::EdgeOrigins;
 use super::eight::EightTriangles;
-use super::micro::Covered;
 use super::points::EightPoints;
 use super::quad::QuadEdges;
 use super::rasterizer::TileRasterizer;
 use super::single::covering_apart;
+use super::sliver::Slivers;
 use super::ties::COMPARISON;
 use super::tiny::PreparedTriangle;
 use super::{Surfaces, TileState, masked};
@@ -188,10 +189,17 @@ fn cover_triangles<S: Simd, const MULTI: bool>(
         } else if !MULTI && let Some(eight) = eight.as_ref().filter(|eight| eight.micro) {
             rasterizer.micro(simd, (eight, &mut covered), start as u32, buffer, counts);
         } else {
+            let mut slivers = Slivers::default();
             if let Some(eight) = &eight {
                 origins.find::<S, MULTI>(simd, rasterizer, eight);
+                if !MULTI {
+                    slivers = Slivers::find(simd, eight);
+                }
             }
             for (lane, &place) in triangles[start..end].iter().enumerate() {
+                if slivers.contain(lane) {
+                    continue;
+                }
                 let ready =
                     eight.as_ref().map(|eight| PreparedTriangle { eight, origins: &mut origins, lane });
                 cover_one::<S, MULTI>(
@@ -202,6 +210,9 @@ fn cover_triangles<S: Simd, const MULTI: bool>(
                     (place, start + lane),
                     (buffer, counts),
                 );
+            }
+            if let Some(eight) = eight.as_ref().filter(|_| !slivers.is_empty()) {
+                rasterizer.slivers(simd, (eight, &slivers), (start as u32, &mut covered), buffer, counts);
             }
         }
         if !rasterizer.in_order && rasterizer.may_give_up && rasterizer.ties.are_many() {
