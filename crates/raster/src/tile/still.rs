@@ -159,26 +159,34 @@ impl Moving {
         &state.ranks[..self.still]
     }
 
-    /// Brings the tile's list into the order of the frame's draws, which shading requires.
+    /// Brings the tile's list into the order of the frame's draws, which shading requires. Triangles of a draw may have
+    /// any order.
     pub(crate) fn sort(&self, frame: &FrameView<'_>, state: &mut TileState) {
         let TileState { triangles, buffer, reordered, ranks, .. } = state;
         ranks.clear();
         ranks.extend(0..triangles.len() as u32);
         // Both parts of the list are in order.
-        let (still, moving) = triangles.split_at(self.still);
-        let ends = [still, moving].map(|part| part.last().map_or(0, |last| frame.draw_of(*last)));
-        if ends == [0, 0] {
+        let ends = [self.still, triangles.len()];
+        let last_draw = |&end: &usize| triangles[..end].last().map_or(0, |last| frame.draw_of(*last));
+        if ends.iter().all(|end| last_draw(end) == 0) {
             return;
         }
         reordered.clear();
-        let (mut next, mut others) = (0, still.len());
-        while next < still.len() || others < triangles.len() {
-            let is_still = next < still.len()
-                && triangles.get(others).is_none_or(|other| triangles[next].order() < other.order());
-            let next = if is_still { &mut next } else { &mut others };
-            ranks[*next] = reordered.len() as u32;
-            reordered.push(triangles[*next]);
-            *next += 1;
+        let mut parts = [0..ends[0], ends[0]..ends[1]];
+        while let Some(draw) =
+            parts.iter().filter_map(|part| Some(frame.draw_of(*triangles[part.clone()].first()?))).min()
+        {
+            let end = frame.plan.draws[draw].ordinals.end;
+            for part in &mut parts {
+                let count = triangles[part.clone()].partition_point(|triangle| triangle.ordinal < end);
+                let run = part.start..part.start + count;
+                ranks[run.clone()]
+                    .iter_mut()
+                    .zip(reordered.len() as u32..)
+                    .for_each(|(own, rank)| *own = rank);
+                reordered.extend_from_slice(&triangles[run.clone()]);
+                part.start = run.end;
+            }
         }
         std::mem::swap(triangles, reordered);
         for visible in buffer.visible_mut() {
