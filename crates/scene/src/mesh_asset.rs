@@ -6,7 +6,7 @@ use trigon_math::{Bounds3, Vec3};
 use trigon_mesh::{ChangeError, ChangedElements, Mesh, MeshChange};
 
 use crate::arena::Id;
-use crate::geometry::{Geometry, box_around, made_once};
+use crate::geometry::{Geometry, StillBounds, box_around, made_once};
 
 /// Names a mesh.
 pub type MeshId = Id<MeshAsset>;
@@ -19,6 +19,8 @@ pub struct MeshAsset {
     mesh: Arc<Mesh>,
     /// Shared by clones, so that none finds out again what another one knows.
     derived: Arc<Derived>,
+    /// Spares whoever drags an outermost vertex the search through all others for each change.
+    still_bounds: StillBounds,
 }
 
 /// What is found out about a mesh when somebody asks for it.
@@ -41,11 +43,12 @@ struct Outdated {
 
 impl MeshAsset {
     pub(crate) fn new(name: String, mesh: Mesh) -> Self {
-        Self { name, mesh: Arc::new(mesh), derived: Arc::default() }
+        Self { name, mesh: Arc::new(mesh), derived: Arc::default(), still_bounds: StillBounds::default() }
     }
 
     pub(crate) fn replace(&mut self, mesh: Mesh) {
         (self.mesh, self.derived) = (Arc::new(mesh), Arc::default());
+        self.still_bounds = StillBounds::default();
     }
 
     /// The polygons.
@@ -120,15 +123,21 @@ impl MeshAsset {
         Ok(())
     }
 
-    /// The box, if it is known and stays the same without the vertices to be moved.
-    fn bounds_without(&self, change: &MeshChange) -> Option<Bounds3> {
+    /// The box around all used vertices but those that are about to move, if it is known.
+    fn bounds_without(&mut self, change: &MeshChange) -> Option<Bounds3> {
+        let moved = || change.positions.iter().map(|&(vertex, _)| vertex);
+        let is_repeated = self.still_bounds.update(moved());
         let bounds = *self.derived.bounds.get()?;
-        let used = self.used_vertices();
-        let is_on_border = |&(vertex, _): &(u32, Vec3)| {
-            let place = self.mesh.positions()[vertex as usize].as_dvec3();
+        let used = Arc::clone(self.used_vertices());
+        let positions = self.mesh.positions();
+        let is_on_border = |vertex: u32| {
+            let place = positions[vertex as usize].as_dvec3();
             used[vertex as usize] && (place.cmpeq(bounds.min) | place.cmpeq(bounds.max)).any()
         };
-        (!change.positions.iter().any(is_on_border)).then_some(bounds)
+        if !moved().any(is_on_border) {
+            return Some(bounds);
+        }
+        is_repeated.then(|| self.still_bounds.others(|moved| box_without(positions, &used, moved)))
     }
 
     /// The box with the vertices that were moved.
@@ -137,6 +146,14 @@ impl MeshAsset {
         let used = moved.filter(|&vertex| self.used_vertices()[vertex]);
         bounds.union(box_around(used.map(|vertex| self.mesh.positions()[vertex])))
     }
+}
+
+/// The box around the used ones of some points without those at some indices, which increase.
+fn box_without(positions: &[Vec3], used: &[bool], indices: &[u32]) -> Bounds3 {
+    let ends = indices.iter().map(|&index| index as usize).chain([positions.len()]);
+    let mut start = 0;
+    let between = ends.flat_map(|end| std::mem::replace(&mut start, end + 1)..end);
+    box_around(between.filter(|&index| used[index]).map(|index| positions[index]))
 }
 
 impl Derived {
@@ -194,6 +211,25 @@ mod tests {
                     asset.geometry();
                 }
                 assert_eq!(asset.bounds(), expected, "edge {has_edge}, point {has_point}, drawn {is_drawn}");
+            }
+        }
+    }
+
+    /// As in drags of outermost and other vertices, one after the other, also of the one that nothing uses.
+    #[test]
+    fn bounds_follow_vertices_that_move_again_and_again() {
+        for has_point in [false, true] {
+            let mut asset = asset(true, has_point);
+            let drags: [&[u32]; 5] = [&[1], &[3, 1], &[5, 0], &[0], &[2, 4]];
+            for (drag, vertices) in drags.into_iter().enumerate() {
+                for step in [3.0_f32, -4.0, 0.5, 0.25] {
+                    let place = |vertex: u32| Vec3::new(step, vertex as f32 - step, step * drag as f32);
+                    let positions = vertices.iter().map(|&vertex| (vertex, place(vertex))).collect();
+                    asset.change(&MeshChange { positions, ..MeshChange::default() }).expect("they exist");
+                    let mut fresh = asset.clone();
+                    fresh.replace(asset.mesh().clone());
+                    assert_eq!(asset.bounds(), fresh.bounds(), "drag {drag}, step {step}, point {has_point}");
+                }
             }
         }
     }

@@ -22,7 +22,8 @@ use trigon_mesh::{
 
 pub(super) use face_places::FacePlaces;
 use face_places::{FacePlace, PIECE};
-pub(super) use still_bounds::StillBounds;
+pub(crate) use still_bounds::StillBounds;
+use still_bounds::box_without;
 use triangle_lists::{Replaced, TriangleLists, fillers_of};
 
 use super::{
@@ -121,7 +122,7 @@ impl Geometry {
             place.is_some_and(|place| (place.cmpeq(bounds.min) | place.cmpeq(bounds.max)).any())
         };
         if update.replaced().any(is_on_border) {
-            return is_repeated.then(|| self.still_bounds.others(&self.columns));
+            return is_repeated.then(|| self.still_bounds.others(|moved| box_without(&self.columns, moved)));
         }
         Some(bounds)
     }

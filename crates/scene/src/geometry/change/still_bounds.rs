@@ -7,7 +7,7 @@ use super::super::columns::Columns;
 
 /// The vertices that moved last, and the box around all others. That is the same as long as no others move, so a drag
 /// finds it once.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct StillBounds {
     moved: Vec<u32>,
     /// `None` until somebody asks for it.
@@ -16,7 +16,7 @@ pub(crate) struct StillBounds {
 
 impl StillBounds {
     /// Takes the vertices that are about to move; returns whether they are those that moved last.
-    pub(super) fn update(&mut self, moved: impl Iterator<Item = u32> + Clone) -> bool {
+    pub(crate) fn update(&mut self, moved: impl Iterator<Item = u32> + Clone) -> bool {
         let is_repeated = self.moved.iter().copied().eq(moved.clone());
         if !is_repeated {
             *self = Self { moved: moved.collect(), others: None };
@@ -24,14 +24,19 @@ impl StillBounds {
         is_repeated
     }
 
-    /// The box around all vertices but these.
-    pub(super) fn others(&mut self, columns: &Columns) -> Bounds3 {
+    /// The box around all vertices but these, of which `find` is given the indices, increasing.
+    pub(crate) fn others(&mut self, find: impl FnOnce(&[u32]) -> Bounds3) -> Bounds3 {
         *self.others.get_or_insert_with(|| {
             let mut moved = self.moved.clone();
             moved.sort_unstable();
-            box_of_ranges(columns.positions.each_ref().map(|column| range_without(column, &moved)))
+            find(&moved)
         })
     }
+}
+
+/// The box around the vertices of columns without those at some indices, which increase.
+pub(super) fn box_without(columns: &Columns, indices: &[u32]) -> Bounds3 {
+    box_of_ranges(columns.positions.each_ref().map(|column| range_without(column, indices)))
 }
 
 /// The smallest and the largest of some numbers, without those at some indices, which increase.
