@@ -10,7 +10,7 @@ use trigon_math::{Mat3, Vec3};
 use trigon_raster::{Culling, EdgeFlags};
 
 use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles};
-use super::vertex_list::VertexList;
+use super::vertex_list::{VertexList, VertexLists};
 use super::wire::{HiddenLine, Wire, WireMarks};
 use crate::display::Display;
 use crate::effect::Effect;
@@ -47,6 +47,7 @@ pub(super) struct Composer<'s> {
     /// From camera space.
     to_world: Mat3,
     default_material: Material,
+    vertex_lists: &'s VertexLists,
     purpose: Purpose,
 }
 
@@ -77,7 +78,7 @@ impl<'s> Composer<'s> {
         prepared: &'s PreparedScene<'_>,
         camera: &Camera,
         settings: &'s RenderSettings,
-        lighting: &'s LightingEnvironment,
+        (lighting, vertex_lists): (&'s LightingEnvironment, &'s VertexLists),
     ) -> Self {
         let rays = if camera.projection.is_orthographic() { Rays::Parallel } else { Rays::Meeting };
         let default_material = Material::default();
@@ -91,6 +92,7 @@ impl<'s> Composer<'s> {
             rays,
             to_world: Mat3::from_quat(camera.orientation.as_quat()),
             default_material,
+            vertex_lists,
             purpose: Purpose::Colors,
         }
     }
@@ -99,9 +101,10 @@ impl<'s> Composer<'s> {
     pub(super) fn of_shapes(
         prepared: &'s PreparedScene<'_>,
         camera: &Camera,
-        dark: &'s LightingEnvironment,
+        (dark, vertex_lists): (&'s LightingEnvironment, &'s VertexLists),
     ) -> Self {
-        Self { purpose: Purpose::Shapes, ..Self::new(prepared, camera, prepared.settings, dark) }
+        let colors = Self::new(prepared, camera, prepared.settings, (dark, vertex_lists));
+        Self { purpose: Purpose::Shapes, ..colors }
     }
 
     /// All draws of the frame.
@@ -380,7 +383,7 @@ impl<'s> Composer<'s> {
     fn vertices<'c>(&'c self, object: &Object<'s>) -> Option<Box<dyn Record + 'c>> {
         let shown = self.settings.vertices.filter(|_| self.purpose == Purpose::Colors)?;
         let listed = &self.settings.marks.vertices;
-        let list = VertexList::new(object.id, object.asset.used_vertices(), listed);
+        let list = self.vertex_lists.of(object.id, object.asset.used_vertices(), listed);
         if list.points.is_empty() {
             return None;
         }

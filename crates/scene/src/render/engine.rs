@@ -16,6 +16,7 @@ use super::kept::{Destination, Kept};
 use super::last_frame::{LastFrame, Step};
 use super::record::Record;
 use super::shared_frames::{FreeFrame, SharedFrames};
+use super::vertex_list::VertexLists;
 use crate::display::Display;
 use crate::effect::Effect;
 use crate::effects::{Counts, EffectCounts, LightingEnvironment};
@@ -34,6 +35,7 @@ pub(super) struct Engine {
     kept: Kept,
     last: LastFrame,
     frames: SharedFrames,
+    vertex_lists: VertexLists,
     plan: Option<EffectPlan>,
     counts: Counts,
     stats: Stats,
@@ -65,10 +67,14 @@ impl Engine {
         let prepared = PreparedScene::new(scene, camera, settings);
         let plan = EffectPlan::of_prepared(&prepared);
         let lighting = self.kept.lighting(&prepared, &plan, &mut rasterizer)?;
-        let explained =
-            record(&prepared, camera, &lighting, settings, &mut Counts::default(), |pass, _, _| {
-                rasterizer.explain_pixel(pass, &target, x, y)
-            });
+        let explained = record(
+            &prepared,
+            camera,
+            (&lighting, &self.vertex_lists),
+            settings,
+            &mut Counts::default(),
+            |pass, _, _| rasterizer.explain_pixel(pass, &target, x, y),
+        );
         // The next image does not follow from what the rasterizer holds now.
         self.last = LastFrame::default();
         self.rasterizer = Some(rasterizer);
@@ -119,6 +125,7 @@ impl Engine {
             cancel.begin_drawing(colors + beneath + u32::from(apart));
         }
         self.stats = Stats::default();
+        self.vertex_lists.begin();
         if settings.outputs.of_light() {
             let drawn = self.draw_colors(&prepared, camera, (&plan, free), (&mut rasterizer, &mut counts));
             // It may have been cancelled, too: its shadow maps may be incomplete.
@@ -172,25 +179,36 @@ impl Engine {
         if settings.share_through_faces().is_some() {
             let wires = RenderSettings { style: Style::Wireframe, ..settings.clone() };
             let target = blank(settings)?;
-            self.stats +=
-                record(prepared, camera, &lighting, &wires, &mut Counts::default(), |pass, _, _| {
-                    self.kept.draw_beneath(pass, settings, target, rasterizer)
-                })?;
+            self.stats += record(
+                prepared,
+                camera,
+                (&lighting, &self.vertex_lists),
+                &wires,
+                &mut Counts::default(),
+                |pass, _, _| self.kept.draw_beneath(pass, settings, target, rasterizer),
+            )?;
         }
         let apart = sees_apart(settings, plan);
         let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
         // If depth has a pass of its own, it is not written twice.
         let depth = if apart { free.frame.depth.take() } else { None };
         let target = blank(settings)?;
-        let stats = record(prepared, camera, &lighting, settings, counts, |pass, draws, counts| {
-            let step = if apart { Step::Apart } else { self.last.step(prepared, camera, plan, draws) };
-            if matches!(step, Step::Apart) {
-                let into = Destination { target, frame: &mut free.frame, needed };
-                self.kept.draw(pass, (settings, plan), into, (rasterizer, counts))
-            } else {
-                step.draw(pass, (settings, camera), (target, free), (&self.frames, rasterizer))
-            }
-        })?;
+        let stats = record(
+            prepared,
+            camera,
+            (&lighting, &self.vertex_lists),
+            settings,
+            counts,
+            |pass, draws, counts| {
+                let step = if apart { Step::Apart } else { self.last.step(prepared, camera, plan, draws) };
+                if matches!(step, Step::Apart) {
+                    let into = Destination { target, frame: &mut free.frame, needed };
+                    self.kept.draw(pass, (settings, plan), into, (rasterizer, counts))
+                } else {
+                    step.draw(pass, (settings, camera), (target, free), (&self.frames, rasterizer))
+                }
+            },
+        )?;
         self.stats += stats;
         if apart {
             free.frame.depth = depth;
@@ -208,7 +226,7 @@ impl Engine {
         rasterizer: &mut Rasterizer,
     ) -> Result<(), RenderError> {
         let (dark, settings) = (LightingEnvironment::default(), prepared.settings);
-        let composer = Composer::of_shapes(prepared, camera, &dark);
+        let composer = Composer::of_shapes(prepared, camera, (&dark, &self.vertex_lists));
         // Effects do not matter for it.
         let draws = composer.draws(&mut Counts::default());
         let mut pass = Pass::new();
@@ -252,12 +270,12 @@ impl Engine {
 fn record<T>(
     prepared: &PreparedScene<'_>,
     camera: &Camera,
-    lighting: &LightingEnvironment,
+    shared: (&LightingEnvironment, &VertexLists),
     settings: &RenderSettings,
     counts: &mut Counts,
     draw: impl FnOnce(&Pass<'_>, &[Box<dyn Record + '_>], &mut Counts) -> T,
 ) -> T {
-    let composer = Composer::new(prepared, camera, settings, lighting);
+    let composer = Composer::new(prepared, camera, settings, shared);
     let draws = composer.draws(counts);
     let behind = |pixel| prepared.backdrop.at(pixel);
     let behind_row = |y| prepared.backdrop.at(UVec2::new(0, y));

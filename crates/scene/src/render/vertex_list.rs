@@ -1,6 +1,8 @@
 //! The vertices of a mesh that are drawn as points.
 
-use std::sync::Arc;
+use std::collections::HashMap;
+use std::mem::take;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
@@ -13,6 +15,7 @@ const SHARE: usize = 1 << 14;
 
 /// The vertices of a mesh at a node that are shown as points, with their marks. The lists are shared
 /// with the last image, which compares them with those of the next.
+#[derive(Clone)]
 pub(super) struct VertexList {
     /// Increasing.
     pub(super) points: Arc<Vec<u32>>,
@@ -26,7 +29,7 @@ pub(super) struct VertexList {
 
 impl VertexList {
     /// The used vertices, without those that a mark hides.
-    pub(super) fn new(node: NodeId, used: &[bool], marks: &[Mark]) -> Self {
+    fn new(node: NodeId, used: &[bool], marks: &[Mark]) -> Self {
         let (of_vertices, colors) = (marks::numbers(marks, node), marks::colors(marks));
         let starts: Vec<usize> = (0..used.len()).step_by(SHARE).collect();
         let shares = starts.into_par_iter().map(|start| {
@@ -50,5 +53,93 @@ impl VertexList {
         let marked = FixedBitSet::with_capacity_and_blocks(numbers.len(), words);
         let no_face = Arc::new(vec![u32::MAX; points.len()]);
         Self { points: Arc::new(points), numbers: Arc::new(numbers), marked: Arc::new(marked), no_face }
+    }
+}
+
+/// The lists of the last frame, most of which the next one shows again.
+#[derive(Default)]
+pub(super) struct VertexLists(Mutex<TwoFrames>);
+
+#[derive(Default)]
+struct TwoFrames {
+    last: HashMap<NodeId, KnownList>,
+    now: HashMap<NodeId, KnownList>,
+}
+
+/// A list, and what it was made from.
+struct KnownList {
+    used: Arc<Vec<bool>>,
+    marks: Vec<Mark>,
+    list: VertexList,
+}
+
+impl VertexLists {
+    /// Begins a frame: forgets lists that the last one did not use.
+    pub(super) fn begin(&mut self) {
+        let TwoFrames { last, now } = self.0.get_mut().unwrap_or_else(PoisonError::into_inner);
+        *last = take(now);
+    }
+
+    /// The used vertices of a node's mesh, without those that a mark hides.
+    pub(super) fn of(&self, node: NodeId, used: &Arc<Vec<bool>>, marks: &[Mark]) -> VertexList {
+        let mut frames = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let TwoFrames { last, now } = &mut *frames;
+        let known = now.remove(&node).or_else(|| last.remove(&node));
+        let known = known.filter(|known| known.is_of(used, marks)).unwrap_or_else(|| KnownList {
+            used: Arc::clone(used),
+            marks: marks.to_vec(),
+            list: VertexList::new(node, used, marks),
+        });
+        now.entry(node).insert_entry(known).get().list.clone()
+    }
+}
+
+impl KnownList {
+    /// Whether it was made from the same. Sets that were made anew may be equal, but comparing them takes long.
+    fn is_of(&self, used: &Arc<Vec<bool>>, marks: &[Mark]) -> bool {
+        let are_same = |(one, other): (&Mark, &Mark)| {
+            Arc::ptr_eq(&one.elements, &other.elements)
+                && (one.color, one.opacity) == (other.color, other.opacity)
+        };
+        Arc::ptr_eq(&self.used, used)
+            && self.marks.len() == marks.len()
+            && self.marks.iter().zip(marks).all(are_same)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fixedbitset::FixedBitSet;
+    use trigon_math::Vec3;
+
+    use super::*;
+    use crate::{ElementSet, Node, Scene};
+
+    #[test]
+    fn a_list_is_kept_as_long_as_nothing_of_it_changes() {
+        let mut scene = Scene::new();
+        let [node, other] = [(); 2].map(|()| scene.add(Node::default()));
+        let used = Arc::new(vec![true, false, true, true]);
+        let mark = |hidden: usize, opacity: f32| {
+            let mut bits = FixedBitSet::with_capacity(4);
+            bits.insert(hidden);
+            let mut elements = ElementSet::default();
+            elements.add(node, bits);
+            Mark { elements: Arc::new(elements), color: Vec3::ONE, opacity }
+        };
+        let (marked, transparent) = (vec![mark(2, 1.0)], vec![mark(2, 0.0)]);
+        let mut lists = VertexLists::default();
+        let mut points = |node: NodeId, used: &Arc<Vec<bool>>, marks: &[Mark]| {
+            lists.begin();
+            lists.of(node, used, marks).points
+        };
+        let first = points(node, &used, &marked);
+        assert_eq!(*first, [0, 2, 3], "the used ones");
+        assert!(Arc::ptr_eq(&first, &points(node, &used, &marked)), "the same list");
+        assert_eq!(*points(node, &used, &transparent), [0, 3], "a mark hides one");
+        assert_eq!(*points(node, &Arc::new(vec![true; 2]), &transparent), [0, 1], "of another mesh");
+        assert_eq!(*points(other, &used, &marked), [0, 2, 3], "of another node");
+        let again = points(node, &used, &marked);
+        assert!(*again == *first && !Arc::ptr_eq(&again, &first), "it was not shown meanwhile");
     }
 }

@@ -59,6 +59,12 @@ impl MarkOrigin {
             (
                 Self::Wires { numbers, points, large },
                 Self::Wires { numbers: now, points: points_now, large: large_now },
+            ) if Arc::ptr_eq(numbers, now) && points == points_now && large == large_now => {
+                Some(MarkedPrimitives::default())
+            }
+            (
+                Self::Wires { numbers, points, large },
+                Self::Wires { numbers: now, points: points_now, large: large_now },
             ) if points == points_now => Some(MarkedPrimitives {
                 recolored: differing(numbers, now),
                 resized: differing_bits(large.as_deref(), large_now.as_deref()),
