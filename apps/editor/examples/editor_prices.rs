@@ -49,7 +49,48 @@ fn main() {
             measure(name, &selected, work);
         }
     }
+    for (name, selected) in [("compact", compact()), ("scattered", scattered())] {
+        for rate in [60, 125, 1000] {
+            let name = format!("live drag of 10000, {name}, {rate} events/s");
+            if name.contains(&part) {
+                drag_live(&name, &selected, rate);
+            }
+        }
+    }
     tell_memory();
+}
+
+/// Drags for three seconds in a window whose images are drawn on threads of their own, with so many events a second.
+/// Tells how many images a second came to the screen after the first second, how many of them in full size, and the
+/// times between them.
+fn drag_live(name: &str, selected: &[u32], rate: u32) {
+    const LASTS: Duration = Duration::from_secs(4);
+    let folder = tempfile::tempdir().expect("a folder for the recovery file");
+    let (stage, mut editor) = measured_editor(document(selected), Some(folder.path().into()));
+    let mut window = HeadlessWindow::open_live(stage, &mut *editor, SIZE);
+    window.move_to(MIDDLE);
+    window.key(Chord::new(Modifiers::NONE, Key::Character('g')));
+    let place = |time: Duration| {
+        // To and fro, as in the rows above.
+        let share = (time.as_secs_f64() % 2.0 - 1.0).abs();
+        MIDDLE + DVec2::new(100.0, 27.0) - DVec2::new(60.0, 30.0) * share
+    };
+    let frames = window.drag_live((LASTS, Duration::from_secs(1) / rate), place);
+    let first = frames.iter().map(|frame| frame.shown).min().unwrap_or_default();
+    let steady: Vec<_> =
+        frames.iter().filter(|frame| frame.shown >= first + Duration::from_secs(1)).collect();
+    let mut gaps: Vec<_> = steady.windows(2).map(|pair| pair[1].shown - pair[0].shown).collect();
+    gaps.sort_unstable();
+    let whole = steady.iter().filter(|frame| frame.size == [SIZE.width, SIZE.height]).count();
+    let all: Duration = gaps.iter().sum();
+    let rate = gaps.len() as f64 / all.as_secs_f64();
+    let gap = |part: usize| gaps.get((gaps.len() * part / 100).min(gaps.len().saturating_sub(1))).copied();
+    let [middle, late] = [50, 95].map(|part| milliseconds(gap(part).unwrap_or_default()));
+    tell_line(&format!(
+        "{name}: {rate:.1} images/s, {whole} of {} in full size, {middle} ms between them in the middle, {late} for one in 20",
+        steady.len()
+    ));
+    window.key(Chord::new(Modifiers::NONE, Key::Escape));
 }
 
 /// What is done and measured.

@@ -73,7 +73,7 @@ pub use egui_painter::{ChannelOrder, EguiPainter, MAX_TEXTURE_SIDE};
 pub use error::WindowError;
 pub use handler::{AnimationState, Handler, Tick};
 #[cfg(any(test, feature = "kittest"))]
-pub use headless::{DrawnFrame, HeadlessWindow, Widget};
+pub use headless::{DrawnFrame, HeadlessWindow, LiveFrame, Widget};
 pub use input::{Chord, ChordError, Hands, Input, InputOwner, Key, Modifiers, PointerButton, Taken};
 pub use interaction::{Interaction, InteractionError};
 pub use keymap::{

@@ -205,6 +205,12 @@ impl<'a> Session<'a> {
         self.pacing.shows_full()
     }
 
+    /// The size of the image that the canvas has still to take, if any.
+    #[cfg(any(test, feature = "kittest"))]
+    pub(crate) fn new_image(&self) -> Option<[u32; 2]> {
+        self.shown.as_ref().filter(|_| self.stale).map(|frame| [frame.width, frame.height])
+    }
+
     /// The last drawn canvas; empty before.
     pub(crate) fn canvas(&self) -> &Canvas {
         &self.canvas

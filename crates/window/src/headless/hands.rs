@@ -135,11 +135,11 @@ impl HeadlessWindow<'_> {
         self.interface(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
     }
 
-    fn interface(&mut self, event: Event) {
+    pub(super) fn interface(&mut self, event: Event) {
         self.event(InputEvent::Interface(event));
     }
 
-    fn in_points(&mut self) -> egui::Pos2 {
+    pub(super) fn in_points(&mut self) -> egui::Pos2 {
         let at = self.pointer / f64::from(self.session.interface().context().pixels_per_point());
         egui::pos2(at.x as f32, at.y as f32)
     }

@@ -3,8 +3,9 @@
 //! the calling thread, so the same input gives the same images everywhere.
 
 mod hands;
+mod live;
 
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
 use egui::accesskit::{Role, Toggled};
@@ -18,6 +19,8 @@ use crate::pacing::Wake;
 use crate::session::Session;
 use crate::worker::Worker;
 use crate::{Handler, Stage};
+
+pub use live::LiveFrame;
 
 /// The duration of one movement, press or release. Twice this is too slow for a double click in egui.
 const HAND: Duration = Duration::from_millis(400);
@@ -33,10 +36,24 @@ pub struct HeadlessWindow<'a> {
     modifiers: Modifiers,
     /// The interface's output for screen readers.
     tree: Option<State>,
-    rings: Receiver<()>,
+    rings: Receiver<Ring>,
     /// The clock that measures frames.
-    clock: Box<dyn Fn() -> Duration>,
+    clock: Clock,
     frames: Vec<DrawnFrame>,
+    /// Whether its time is that of the clock, and images come when they are finished.
+    is_live: bool,
+}
+
+/// The time since any fixed moment.
+type Clock = Box<dyn Fn() -> Duration>;
+
+/// What other threads report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ring {
+    /// [`crate::Waker::wake`].
+    Application,
+    /// An image is finished.
+    Image,
 }
 
 /// A drawn frame: when it began and ended. The window's own time stands still meanwhile.
@@ -88,23 +105,45 @@ impl<'a> HeadlessWindow<'a> {
         clock: impl Fn() -> Duration + 'static,
     ) -> Self {
         let (ring, rings) = channel();
+        let worker = (Worker::of_caller(), ring, rings);
+        let mut window = Self::with_worker(stage, handler, worker, Box::new(clock));
+        window.start(size);
+        window
+    }
+
+    /// A window that is not open yet.
+    fn with_worker(
+        stage: Stage,
+        handler: &'a mut dyn Handler,
+        (worker, ring, rings): (Worker, Sender<Ring>, Receiver<Ring>),
+        clock: Clock,
+    ) -> Self {
         stage.waker().connect(move || {
             // If this fails, nobody is waiting any more.
-            let _ = ring.send(());
+            let _ = ring.send(Ring::Application);
         });
-        let mut session = Session::new(stage, handler, Worker::of_caller());
+        let mut session = Session::new(stage, handler, worker);
         session.interface().context().enable_accesskit();
         // Animations of colours and panels are not needed.
         session.interface().context().all_styles_mut(|style| style.animation_time = 0.0);
         session.record();
-        let (pointer, modifiers) = (DVec2::ZERO, Modifiers::NONE);
-        let (clock, frames) = (Box::new(clock), Vec::new());
-        let mut window =
-            Self { session, now: Duration::ZERO, pointer, modifiers, tree: None, rings, clock, frames };
-        window.event(InputEvent::Resized { width: size.width, height: size.height });
-        window.session.start(window.now);
-        window.rest();
-        window
+        Self {
+            session,
+            now: Duration::ZERO,
+            pointer: DVec2::ZERO,
+            modifiers: Modifiers::NONE,
+            tree: None,
+            rings,
+            clock,
+            frames: Vec::new(),
+            is_live: false,
+        }
+    }
+
+    fn start(&mut self, size: Viewport) {
+        self.event(InputEvent::Resized { width: size.width, height: size.height });
+        self.session.start(self.now);
+        self.rest();
     }
 
     /// The contents of the window.
@@ -141,8 +180,8 @@ impl<'a> HeadlessWindow<'a> {
     /// # Panics
     /// No thread is left that could.
     pub fn wait(&mut self) {
-        self.rings.recv().expect("the stage holds a waker");
-        self.session.woken(self.now);
+        let ring = self.rings.recv().expect("the stage holds a waker");
+        self.ring(ring);
         self.rest();
     }
 
@@ -190,6 +229,9 @@ impl<'a> HeadlessWindow<'a> {
 
     /// Handles all consequences of the input, and advances the clock by the duration of one input.
     fn rest(&mut self) {
+        if self.is_live {
+            return self.rest_live();
+        }
         self.session.settle(self.now);
         let until = self.now + HAND;
         while self.now < until {
@@ -215,6 +257,13 @@ impl<'a> HeadlessWindow<'a> {
         }
     }
 
+    fn ring(&mut self, ring: Ring) {
+        match ring {
+            Ring::Application => self.session.woken(self.now),
+            Ring::Image => self.session.collect(self.now),
+        }
+    }
+
     fn draw(&mut self) {
         let now = self.now;
         let begun = (self.clock)();
@@ -223,8 +272,8 @@ impl<'a> HeadlessWindow<'a> {
         }
         let (drawn, is_full) = (self.session.composed_at(), self.session.shows_full());
         self.frames.push(DrawnFrame { begun, drawn, ended: (self.clock)(), is_full });
-        while self.rings.try_recv().is_ok() {
-            self.session.woken(now);
+        while let Ok(ring) = self.rings.try_recv() {
+            self.ring(ring);
         }
         let Some(update) = self.session.interface().take_output().accesskit_update else { return };
         match &mut self.tree {
