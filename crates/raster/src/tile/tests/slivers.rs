@@ -36,19 +36,25 @@ fn sliver() -> impl Strategy<Value = Flat> {
     )
 }
 
-/// Two draws of slivers, with a few other triangles between them.
+/// Slivers, with a few other triangles between them.
+fn mixed() -> impl Strategy<Value = Vec<Flat>> {
+    let slivers = |most: usize| prop::collection::vec(sliver(), 1..most);
+    (slivers(40), flats(), slivers(20)).prop_map(|(first, mut others, last)| {
+        others.truncate(6);
+        [first, others, last].concat()
+    })
+}
+
+/// Two draws of them, in the order of their keys or in none.
 fn heaps() -> impl Strategy<Value = Vec<Heap>> {
-    let run = || (prop::collection::vec(sliver(), 1..40), flats(), prop::collection::vec(sliver(), 0..20));
     let faces = prop::option::of(prop::collection::vec(0..4_u32, 128));
-    ([run(), run()], faces).prop_map(|(runs, faces)| {
-        let heap = |(draw, (mut triangles, others, last)): (u32, (Vec<Flat>, Vec<Flat>, Vec<Flat>))| {
-            triangles.extend(others.into_iter().take(6));
-            triangles.extend(last);
+    ([mixed(), mixed()], faces).prop_map(|(draws, faces)| {
+        let heap = |(draw, triangles): (u32, Vec<Flat>)| {
             let faces = faces.as_ref().map_or_else(Vec::new, |faces| faces[..triangles.len()].to_vec());
             let object = if faces.is_empty() { draw } else { 1 };
             Heap { triangles, faces, culling: Culling::None, ..heap(object, 1 + 100 * draw, &[]) }
         };
-        (0..).zip(runs).map(heap).collect()
+        (0..).zip(draws).map(heap).collect()
     })
 }
 
