@@ -238,6 +238,12 @@ impl Pacing {
         })
     }
 
+    /// Whether a draft is being drawn that was begun a moment ago.
+    pub(crate) fn expects_draft(&self, now: Duration) -> bool {
+        let is_draft = |image: UnderWay| matches!(image.quality, Quality::Draft { .. });
+        self.under_way.is_some_and(is_draft) && self.begun.is_some_and(|begun| now < begun + PATIENCE)
+    }
+
     /// Whether the next step of an animation can be shown.
     pub(crate) fn can_step(&self) -> bool {
         self.under_way.is_none_or(|image| matches!(image.quality, Quality::Full(_)))
@@ -297,8 +303,9 @@ impl Pacing {
         self.occupied = since;
     }
 
-    /// The image under way is in the window, and took this long.
-    pub(crate) fn finished(&mut self, took: Duration) {
+    /// The image under way is in the window, and took this long; `pixels` is the part that is proportional to their
+    /// number.
+    pub(crate) fn finished(&mut self, took: Duration, pixels: Duration) {
         let Some(UnderWay { quality, outdated }) = self.under_way.take() else { return };
         self.overlay = true;
         self.shown = match quality {
@@ -309,7 +316,7 @@ impl Pacing {
         match quality {
             Quality::Full(0) => self.full = Some(took),
             Quality::Full(_) => {}
-            Quality::Draft { .. } => self.budget.took(took),
+            Quality::Draft { .. } => self.budget.took(took, pixels),
         }
     }
 

@@ -44,6 +44,8 @@ pub(crate) struct Session<'a> {
     /// The buttons and keys that the application took.
     taken: TakenInput,
     wrapping: Wrapping,
+    /// Whether the pointer has moved since the application was told.
+    has_moved: bool,
     pacing: Pacing,
     animation: AnimationState,
     /// When frames were last stepped; `None` if nothing moves by itself.
@@ -86,6 +88,7 @@ impl<'a> Session<'a> {
             held: HeldKeys::default(),
             taken: TakenInput::default(),
             wrapping: Wrapping::default(),
+            has_moved: false,
             pacing: Pacing::new(),
             animation: AnimationState::Resting,
             stepped: None,
@@ -151,6 +154,10 @@ impl<'a> Session<'a> {
 
     /// All events that arrived together have been handled.
     pub(crate) fn settle(&mut self, now: Duration) {
+        // What moves shows in the next image, which begins after that.
+        if !self.pacing.expects_draft(now) {
+            self.offer_moves(now);
+        }
         if !self.dropped.is_empty() {
             let paths = std::mem::take(&mut self.dropped);
             self.handler.dropped(&mut self.stage, paths, self.modifiers);
@@ -226,6 +233,9 @@ impl<'a> Session<'a> {
     pub(crate) fn event(&mut self, event: InputEvent, now: Duration) {
         if let Some(recorded) = &mut self.recorded {
             recorded.record(event.clone(), now);
+        }
+        if !event.is_movement() {
+            self.offer_moves(now);
         }
         match event {
             InputEvent::FileDropped(path) => {

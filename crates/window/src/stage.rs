@@ -35,7 +35,7 @@ pub struct FrameReport {
     pub render: Duration,
     /// Conversion, interface, and handing it to the window system.
     pub present: Duration,
-    /// The stages of `render`, while [`Stage::stage_times`] are shown. Those in tiles are sums over all threads.
+    /// The stages of `render`. Those in tiles are sums over all threads.
     pub stages: StageTimes,
 }
 
@@ -99,7 +99,8 @@ pub struct Stage {
     /// Who receives mouse and key events first.
     pub input_owner: InputOwner,
     /// Whether the pointer wraps around at the window's border, for unlimited drags; if the system does not
-    /// let programs move the pointer, it stays.
+    /// let programs move the pointer, it stays. Movements that arrive together count as one then: only where they
+    /// lead matters.
     pub wraps_pointer: bool,
     /// The object that keys move and rotate.
     pub selection: Option<NodeId>,
@@ -540,10 +541,10 @@ impl Stage {
 
     /// Everything that the window's image depends on.
     pub(crate) fn subject(&self) -> Subject {
-        let Self { orbit, viewport, scale, four_views, stage_times, .. } = *self;
+        let Self { orbit, viewport, scale, four_views, .. } = *self;
         let (settings, drawer) = (self.settings.clone(), DrawnBy(self.drawer.clone()));
         let scene = self.scene.revision();
-        Subject { scene, orbit, four_views, settings, drawer, viewport, scale, stage_times }
+        Subject { scene, orbit, four_views, settings, drawer, viewport, scale }
     }
 }
 
@@ -557,8 +558,6 @@ pub(crate) struct Subject {
     drawer: DrawnBy,
     viewport: Viewport,
     scale: f64,
-    /// Whoever wants to see times waits for an image that has them.
-    stage_times: Visibility,
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Draws the scene on worker threads, so that the window never waits for an image.
 
+use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
@@ -13,7 +14,6 @@ use crate::pacing::Quality;
 use crate::panes::Views;
 use crate::refinement::{Compared, compare};
 use crate::shared_scene::{Revision, SceneUpdate};
-use crate::stage::Visibility;
 
 /// The purpose of an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,8 +29,6 @@ pub(crate) struct Job {
     pub(crate) purpose: Purpose,
     /// The cameras to draw from.
     pub(crate) views: Views,
-    /// Whether somebody looks at the time of each stage.
-    pub(crate) stage_times: Visibility,
     pub(crate) task: Task,
 }
 
@@ -77,7 +75,9 @@ pub(crate) struct Finished {
     pub(crate) purpose: Purpose,
     pub(crate) views: Views,
     pub(crate) took: Duration,
-    /// Of the last view, if they were asked for.
+    /// The part of it that is proportional to the number of pixels, as far as that is known.
+    pub(crate) pixels: Duration,
+    /// Of the last view.
     pub(crate) stages: StageTimes,
     pub(crate) product: Result<Product, Unfinished>,
 }
@@ -207,8 +207,7 @@ impl Worker {
     fn forget_others(&mut self, purpose: Purpose) {
         let Some(second) = self.second.as_mut().filter(|_| !purpose.is_refinement()) else { return };
         if second.held.take().is_some() {
-            let stage_times = Visibility::Hidden;
-            let forget = Job { purpose, views: Camera::default().into(), stage_times, task: Task::Forget };
+            let forget = Job { purpose, views: Camera::default().into(), task: Task::Forget };
             second.hands.begin((0, forget, Cancel::default()));
         }
     }
@@ -229,6 +228,7 @@ impl Worker {
                 purpose,
                 views,
                 took: Duration::ZERO,
+                pixels: Duration::ZERO,
                 stages: StageTimes::default(),
                 product: Err(Unfinished::Cancelled),
             });
@@ -315,15 +315,15 @@ impl RenderThread {
 
 impl Drawing {
     fn new(clock: impl Fn() -> Duration + Send + 'static) -> Self {
-        Self { renderer: Renderer::builder().build(), scene: Scene::new(), clock: Box::new(clock) }
+        let mut renderer = Renderer::builder().build();
+        // From these times the size of drafts follows.
+        renderer.time_stages();
+        Self { renderer, scene: Scene::new(), clock: Box::new(clock) }
     }
 
-    fn run(&mut self, Job { purpose, views, stage_times, task }: Job, cancel: &Cancel) -> Finished {
+    fn run(&mut self, Job { purpose, views, task }: Job, cancel: &Cancel) -> Finished {
         let begun = (self.clock)();
-        match stage_times {
-            Visibility::Shown => self.renderer.time_stages(),
-            Visibility::Hidden => self.renderer.stop_timing(),
-        }
+        let is_own = matches!(task, Task::Draw { drawer: None, .. });
         let product = match task {
             Task::Draw { scene, settings, drawer } => {
                 // Also for a cancelled image: the next update relies on it.
@@ -359,8 +359,15 @@ impl Drawing {
             }
         };
         let (took, stages) = ((self.clock)().saturating_sub(begun), self.renderer.stats().times);
-        Finished { purpose, views, took, stages, product }
+        let pixels = if is_own { took.min(time_of_pixels(&stages)) } else { took };
+        Finished { purpose, views, took, pixels, stages, product }
     }
+}
+
+/// How long the tiles of an image took, whose times are sums over all threads.
+fn time_of_pixels(stages: &StageTimes) -> Duration {
+    let threads = thread::available_parallelism().map_or(1, NonZeroUsize::get) as u32;
+    (stages.visibility + stages.shading + stages.blending + stages.resolve) / threads
 }
 
 /// Another drawer's image, with ids and depths from the renderer if the settings require them and

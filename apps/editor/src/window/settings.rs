@@ -1,6 +1,7 @@
 //! Settings of the window and its tools, independent of the document.
 
 use std::collections::BTreeSet;
+use std::time::Duration;
 
 use trigon_edit::Proportional;
 use trigon_edit::scene::{NodeId, Reach};
@@ -104,6 +105,8 @@ impl Default for Layout {
 
 /// Prepares a stage for the editor: its size, quality, and Blender's drags.
 pub(crate) fn prepare(stage: &mut Stage) {
+    // What is modelled is looked at closely: a few images fewer a second are better than coarse ones.
+    stage.frame_budget = Duration::from_millis(50);
     stage.set_size(Viewport { width: 1440, height: 900 });
     stage.refinement = Refinement::Settings;
     (stage.settings.samples_per_axis, stage.settings.samples) = (2, 1);

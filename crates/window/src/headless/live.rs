@@ -8,7 +8,7 @@ use egui::Event;
 use trigon_camera::Viewport;
 use trigon_math::DVec2;
 
-use super::{HeadlessWindow, Ring};
+use super::{HeadlessWindow, Ring, connect};
 use crate::input::InputEvent;
 use crate::pacing::Wake;
 use crate::worker::Worker;
@@ -39,8 +39,9 @@ impl<'a> HeadlessWindow<'a> {
             let _ = image.send(Ring::Image);
         };
         let worker = Worker::of_threads(finished, move || started.elapsed());
+        connect(&stage, ring);
         let mut window =
-            Self::with_worker(stage, handler, (worker, ring, rings), Box::new(move || started.elapsed()));
+            Self::with_worker(stage, handler, (worker, rings), Box::new(move || started.elapsed()));
         window.is_live = true;
         window.start(size);
         window

@@ -105,8 +105,8 @@ impl<'a> HeadlessWindow<'a> {
         clock: impl Fn() -> Duration + 'static,
     ) -> Self {
         let (ring, rings) = channel();
-        let worker = (Worker::of_caller(), ring, rings);
-        let mut window = Self::with_worker(stage, handler, worker, Box::new(clock));
+        connect(&stage, ring);
+        let mut window = Self::with_worker(stage, handler, (Worker::of_caller(), rings), Box::new(clock));
         window.start(size);
         window
     }
@@ -115,13 +115,9 @@ impl<'a> HeadlessWindow<'a> {
     fn with_worker(
         stage: Stage,
         handler: &'a mut dyn Handler,
-        (worker, ring, rings): (Worker, Sender<Ring>, Receiver<Ring>),
+        (worker, rings): (Worker, Receiver<Ring>),
         clock: Clock,
     ) -> Self {
-        stage.waker().connect(move || {
-            // If this fails, nobody is waiting any more.
-            let _ = ring.send(Ring::Application);
-        });
         let mut session = Session::new(stage, handler, worker);
         session.interface().context().enable_accesskit();
         // Animations of colours and panels are not needed.
@@ -281,6 +277,14 @@ impl<'a> HeadlessWindow<'a> {
             None => self.tree = Some(State::new(update)),
         }
     }
+}
+
+/// Lets the application's threads wake the window.
+fn connect(stage: &Stage, ring: Sender<Ring>) {
+    stage.waker().connect(move || {
+        // If this fails, nobody is waiting any more.
+        let _ = ring.send(Ring::Application);
+    });
 }
 
 fn collect(node: AccessKitNode<'_>, found: &mut Vec<Widget>) {

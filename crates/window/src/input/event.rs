@@ -72,6 +72,11 @@ pub(crate) enum InputEvent {
 }
 
 impl InputEvent {
+    /// Whether it says only where the pointer is.
+    pub(crate) fn is_movement(&self) -> bool {
+        matches!(self, Self::PointerMoved(_) | Self::Interface(egui::Event::PointerMoved(_)))
+    }
+
     /// Whether it is somebody's doing, not the window system's.
     pub(crate) fn is_by_hand(&self) -> bool {
         !matches!(

@@ -23,7 +23,7 @@ fn rested(full: Duration) -> Pacing {
     let mut pacing = Pacing::new();
     for (quality, took) in [(DRAFT, ms(0)), (FULL, full)] {
         assert_eq!(begin(&mut pacing, ms(0), Frames::None), Some(quality), "a draft, then a full image");
-        pacing.finished(took);
+        pacing.finished(took, took);
     }
     begin(&mut pacing, ms(0), Frames::None);
     assert_eq!(pacing.next(ms(20), Frames::None, None), Wake::Never, "and no more");
@@ -42,7 +42,7 @@ fn run(pacing: &mut Pacing, start: Duration, end: Duration, frames: Frames) -> V
                 }
                 if let Some(quality) = begin(pacing, now, frames) {
                     begun.push((now, quality));
-                    pacing.finished(ms(0));
+                    pacing.finished(ms(0), ms(0));
                 }
             }
             Wake::At(later) if later < end => now = later,
@@ -68,7 +68,7 @@ fn events_faster_than_frames_are_gathered() {
         if pacing.next(now, Frames::None, None) == Wake::Now
             && begin(&mut pacing, now, Frames::None).is_some()
         {
-            pacing.finished(ms(0));
+            pacing.finished(ms(0), ms(0));
             frames += 1;
         }
     }
@@ -83,7 +83,7 @@ fn a_draft_follows_the_last_one_at_once() {
     for now in (1000..1100).map(ms) {
         pacing.changed(Change::Moving, now);
         if now >= done {
-            pacing.finished(ms(25));
+            pacing.finished(ms(25), ms(25));
             done = Duration::MAX;
         }
         if pacing.next(now, Frames::None, None) == Wake::Now
@@ -102,7 +102,7 @@ fn what_moves_waits_in_frames_until_an_image_is_given_up() {
     let mut pacing = rested(ms(500));
     pacing.changed(Change::Settled, ms(1000));
     assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(DRAFT), "it takes long, so first a draft");
-    pacing.finished(ms(1));
+    pacing.finished(ms(1), ms(1));
     assert_eq!(begin(&mut pacing, ms(1100), Frames::None), Some(FULL), "at rest");
     // A key goes down, and the image has not noticed yet that nobody wants it.
     let mut frames = 0;
@@ -156,7 +156,7 @@ fn an_image_that_takes_longer_than_was_known_is_given_up_for_a_draft() {
     assert_eq!(begun.iter().map(|&(_, quality)| quality).collect::<Vec<_>>(), [DRAFT, FULL], "a draft first");
     pacing.changed(Change::Settled, ms(200_000));
     begin(&mut pacing, ms(200_000), Frames::None);
-    pacing.finished(ms(0));
+    pacing.finished(ms(0), ms(0));
     pacing.changed(Change::Settled, ms(300_000));
     assert_eq!(begin(&mut pacing, ms(300_000), Frames::None), Some(FULL), "what it took is known again");
 }
@@ -169,7 +169,7 @@ fn writing_over_an_image_draws_none() {
     assert_eq!(run(&mut pacing, ms(1000), ms(9000), Frames::None), [], "and no image is drawn");
     pacing.changed(Change::Moving, ms(9000));
     assert_eq!(begin(&mut pacing, ms(9000), Frames::None), Some(DRAFT), "over a draft");
-    pacing.finished(ms(0));
+    pacing.finished(ms(0), ms(0));
     pacing.changed(Change::Overlay, ms(9020));
     let begun = run(&mut pacing, ms(9020), ms(20_000), Frames::None);
     assert_eq!(begun, [(ms(9150), FULL)], "it does not pass for refining it");
@@ -220,9 +220,9 @@ fn full_images_that_nobody_will_see_are_useless_and_drafts_are_not() {
     assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(DRAFT), "a draft");
     pacing.changed(Change::Moving, ms(1010));
     assert!(!pacing.is_useless(), "a movement that never shows is none");
-    pacing.finished(ms(10));
+    pacing.finished(ms(10), ms(10));
     assert_eq!(begin(&mut pacing, ms(1020), Frames::None), Some(DRAFT), "the movement went on");
-    pacing.finished(ms(10));
+    pacing.finished(ms(10), ms(10));
     assert_eq!(begin(&mut pacing, ms(2000), Frames::None), Some(FULL), "at rest");
     assert!(!pacing.is_useless(), "it is the right image");
     pacing.changed(Change::Moving, ms(2010));
@@ -294,7 +294,7 @@ fn an_image_that_takes_long_is_told_of_every_second() {
     assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(FULL), "expected soon");
     pacing.lose_patience(ms(1100));
     // Refining goes on for as long as it takes.
-    pacing.finished(ms(0));
+    pacing.finished(ms(0), ms(0));
     pacing.want(vec![0, 1, 2]);
     assert_eq!(begin(&mut pacing, ms(2000), Frames::None), Some(Quality::Full(1)), "a better one");
     let refining = |seconds| Some(Progress::Refining { step: 2, of: 3, seconds });
@@ -306,7 +306,7 @@ fn an_image_that_takes_long_is_told_of_every_second() {
         assert_eq!(pacing.progress(due), refining(second), "what it took so far");
         assert_eq!(begin(&mut pacing, due, Frames::None), None, "it goes on");
     }
-    pacing.finished(ms(3000));
+    pacing.finished(ms(3000), ms(3000));
     assert_eq!(
         pacing.progress(ms(5000)),
         Some(Progress::Refining { step: 3, of: 3, seconds: 0 }),

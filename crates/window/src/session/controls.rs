@@ -39,10 +39,22 @@ impl Session<'_> {
     }
 
     fn pointer_moved(&mut self, to: DVec2, now: Duration) {
-        self.wrap(to);
+        self.wrap(to, now);
         let gesture = self.pointer.moved(to, self.stage.scale());
-        if self.pointer.is_held() || self.offer(Input::PointerMoved, now) == Taken::No {
+        if self.pointer.is_held() {
             self.gesture(gesture, now);
+        } else if self.stage.wraps_pointer {
+            self.has_moved = true;
+        } else {
+            self.offer(Input::PointerMoved, now);
+        }
+    }
+
+    /// Offers the movements that wait, as one: a mouse reports up to a thousand a second, each of which may change
+    /// thousands of vertices.
+    pub(super) fn offer_moves(&mut self, now: Duration) {
+        if std::mem::take(&mut self.has_moved) {
+            self.offer(Input::PointerMoved, now);
         }
     }
 
@@ -82,8 +94,13 @@ impl Session<'_> {
             Event::PointerButton { pressed: true, .. } => !self.is_applications(),
             _ => true,
         };
-        if wanted {
-            self.interface.event(event);
+        if !wanted {
+            return;
+        }
+        // Where a movement waits for the application, the interface shows it together with what that makes of it.
+        let waits = self.stage.wraps_pointer && matches!(event, Event::PointerMoved(_));
+        self.interface.event(event);
+        if !waits {
             self.pacing.changed(Change::Overlay, now);
         }
     }

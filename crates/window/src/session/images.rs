@@ -26,15 +26,16 @@ impl Session<'_> {
             Purpose::Window(quality) => self.window_finished(quality, finished),
             Purpose::Image => self.image_finished(finished, now),
         }
+        self.offer_moves(now);
         self.begin_asked(now);
         self.plan(now);
     }
 
     fn window_finished(&mut self, quality: Quality, finished: Finished) {
-        let Finished { views, took, stages, product, .. } = finished;
+        let Finished { views, took, pixels, stages, product, .. } = finished;
         match product {
             Ok(Product::Frame(frame)) => {
-                self.pacing.finished(took);
+                self.pacing.finished(took, pixels);
                 let nodes = self.nodes.as_ref().map_or_else(Arc::default, |(_, nodes)| Arc::clone(nodes));
                 self.gallery.add(quality, Shown { frame, views, nodes }, took);
                 self.drawn_subject.clone_from(&self.subject);
@@ -43,7 +44,7 @@ impl Session<'_> {
                 }
             }
             Ok(Product::Comparison(compared)) => {
-                self.pacing.finished(took);
+                self.pacing.finished(took, pixels);
                 self.gallery.compared(*compared);
             }
             Err(Unfinished::Cancelled) => self.pacing.cancelled(),
@@ -174,7 +175,7 @@ impl Session<'_> {
             Purpose::Window(_) => Views::new(&self.stage.panes(), self.stage.viewport(), &steady(&bounds)),
             Purpose::Image => self.stage.orbit.camera(&bounds).into(),
         };
-        self.worker.begin(Job { purpose, views, stage_times: self.stage.stage_times, task });
+        self.worker.begin(Job { purpose, views, task });
     }
 }
 

@@ -4,6 +4,8 @@
 //! The session requests a position, the shell moves the pointer there, and the first movement from there is
 //! distinguished from earlier ones that arrive late. A replay takes both from its recording.
 
+use std::time::Duration;
+
 use trigon_math::DVec2;
 
 use super::Session;
@@ -41,7 +43,7 @@ impl Session<'_> {
     }
 
     /// The pointer is about to move to a place.
-    pub(super) fn wrap(&mut self, to: DVec2) {
+    pub(super) fn wrap(&mut self, to: DVec2, now: Duration) {
         if !self.keeps_pointer() || self.pointer.is_held() {
             (self.wrapping.asked, self.wrapping.expected) = (None, None);
             return;
@@ -49,6 +51,8 @@ impl Session<'_> {
         if let (Some(place), Some(from)) = (self.wrapping.expected, self.pointer.position()) {
             if to.distance(place) < to.distance(from) {
                 self.wrapping.expected = None;
+                // Those before the jump.
+                self.offer_moves(now);
                 self.handler.pointer_jumped(&mut self.stage, place);
             }
             return;

@@ -11,7 +11,6 @@ use super::{
     StageTimes, Task, Unfinished, Worker,
 };
 use crate::shared_scene::{SceneUpdate, SharedScene};
-use crate::stage::Visibility;
 use trigon_camera::Camera;
 use trigon_math::Vec3;
 use trigon_mesh::{MeshChange, primitives};
@@ -22,7 +21,7 @@ fn job_of(scene: Scene, settings: RenderSettings) -> Job {
     let camera = scene.overview(1.0);
     let scene = SceneUpdate::Whole(Box::new(scene));
     let task = Task::Draw { scene, settings: Box::new(settings), drawer: None };
-    Job { purpose: Purpose::Image, views: camera.into(), stage_times: Visibility::Hidden, task }
+    Job { purpose: Purpose::Image, views: camera.into(), task }
 }
 
 /// A square image of a cube.
@@ -290,7 +289,14 @@ fn what_a_dropped_worker_was_drawing_is_cancelled() {
             move |Job { purpose, views, .. }, cancel: &Cancel| {
                 begun.send(cancel.clone()).expect("the test waits for it");
                 let product = Err(Unfinished::Cancelled);
-                Finished { purpose, views, took: Duration::ZERO, stages: StageTimes::default(), product }
+                Finished {
+                    purpose,
+                    views,
+                    took: Duration::ZERO,
+                    pixels: Duration::ZERO,
+                    stages: StageTimes::default(),
+                    product,
+                }
             }
         },
     );
@@ -332,7 +338,7 @@ fn a_mesh_is_changed_while_an_image_of_it_is_under_way() {
         let update = scene.update(worker.held(purpose));
         let (drawer, settings) = (Some(Arc::clone(&waiting)), Box::new(settings.clone()));
         let task = Task::Draw { scene: update, settings, drawer };
-        worker.begin(Job { purpose, views: camera.into(), stage_times: Visibility::Hidden, task });
+        worker.begin(Job { purpose, views: camera.into(), task });
         has_begun.recv().expect("it is being drawn");
     };
     let pull = |scene: &mut SharedScene, to: f32| {
@@ -362,7 +368,7 @@ fn nobody_holds_a_scene_that_another_one_replaced() {
         let update = scene.update(worker.held(purpose));
         let settings = Box::new(RenderSettings::new(8, 8));
         let task = Task::Draw { scene: update, settings, drawer: None };
-        worker.begin(Job { purpose, views: Camera::default().into(), stage_times: Visibility::Hidden, task });
+        worker.begin(Job { purpose, views: Camera::default().into(), task });
     };
     let (mut worker, rung) = Gate::default().worker(|_| false);
     let mut scene = SharedScene::default();

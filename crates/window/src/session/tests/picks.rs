@@ -76,28 +76,26 @@ fn faces_of_a_mesh_that_was_replaced_are_not_told() {
 
 #[test]
 fn drafts_are_picked_where_they_are_shown() {
-    // By this clock images take so long that drafts are small.
-    let ((ring, rung), moments) =
-        (std::sync::mpsc::channel(), Arc::new(std::sync::atomic::AtomicU32::new(0)));
-    let clock = move || ms(200) * moments.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+    let (ring, rung) = std::sync::mpsc::channel();
     let ring = move || {
         // Fails when the test is over.
         let _ = ring.send(());
     };
     let mut handler = Recorder::default();
-    let mut session = session_of(stage(), &mut handler, Worker::of_threads(ring, clock));
+    // By this clock images take no time.
+    let mut session = session_of(stage(), &mut handler, Worker::of_threads(ring, || Duration::ZERO));
     let is_small =
         |session: &Session<'_>| session.shown.as_ref().is_some_and(|frame| frame.width < SIZE.width);
     let mut now = rest_beside(&mut session, &rung, ms(0));
-    // The first two drafts are as large as the window, and show what drafts take.
-    for way in [20.0, 20.0, -40.0] {
-        if is_small(&session) {
-            break;
-        }
-        now += ms(1000);
-        drag(&mut session, PointerButton::Left, DVec2::new(way, 0.0), now);
-        now = live_until(&mut session, &rung, now, is_small);
+    // Three drafts took so long that the next one is small.
+    for _ in 0..3 {
+        session.pacing.changed(Change::Moving, now);
+        session.pacing.begin(now, Frames::None);
+        session.pacing.finished(ms(300), ms(300));
     }
+    now += ms(1000);
+    drag(&mut session, PointerButton::Left, DVec2::new(20.0, 0.0), now);
+    now = live_until(&mut session, &rung, now, is_small);
     assert!(is_small(&session), "a draft is shown");
     let draft = picked(&session, AT).expect("a cube");
     let seen = Projector::new(&session.stage.camera(), SIZE).to_screen(draft.1).expect("before the eye");
