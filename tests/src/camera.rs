@@ -142,9 +142,13 @@ proptest! {
         let reach = if projection.is_orthographic() { 1.0 } else { -seen.z };
         let pixels = bound / reach * scale_and_shift(&projection).0.max_element() * 1920.0 + 1e-9;
         prop_assert!((screen - exact).length() <= pixels, "at {screen}, not {exact}; {pixels} is allowed");
-        // What moves it along the line of sight by the bound changes its depth by so much of it.
-        let planes = projection.far().map_or(1.0, |far| 1.0 + -seen.z / far);
-        let share = bound / -seen.z * planes + 1e-14;
+        // What moves it along the line of sight by the bound changes its depth by so much: of a parallel projection
+        // everywhere the same, also behind the eye.
+        let share = if projection.is_orthographic() {
+            bound / (far - near) + 1e-14
+        } else {
+            bound / -seen.z * projection.far().map_or(1.0, |far| 1.0 + -seen.z / far) + 1e-14
+        };
         prop_assert!((depth - exact_depth).abs() <= share * 2.0, "depth {depth}, not {exact_depth}");
         prop_assert_eq!(projector.to_screen(point), Some(screen));
         prop_assert_eq!(projector.to_depth(point), Some(depth));
