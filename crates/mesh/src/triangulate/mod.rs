@@ -21,7 +21,7 @@ mod quad;
 
 use trigon_math::{DVec2, Vec3};
 
-pub(crate) use project::{View, area_vector, longest_axis, plane};
+pub(crate) use project::{View, area_vector, plane};
 
 use ears::EarCutter;
 

@@ -19,11 +19,17 @@ pub(crate) fn area_vector(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
 /// From where a polygon is seen: along which axis, and whether from its negative end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct View {
-    pub(crate) axis: usize,
-    pub(crate) swap: bool,
+    axis: usize,
+    swap: bool,
 }
 
 impl View {
+    /// Against the longest coordinate of a normal.
+    pub(crate) fn against(normal: DVec3) -> Self {
+        let axis = longest_axis(normal);
+        Self { axis, swap: normal[axis] < 0.0 }
+    }
+
     /// The axis along which the polygon is seen largest, so that it runs counter-clockwise in (x right, y up).
     pub(super) fn of(positions: &[Vec3]) -> Self {
         let (mut sum, mut magnitude) = (DVec3::ZERO, DVec3::ZERO);
@@ -73,7 +79,7 @@ pub(crate) fn plane(point: DVec3, View { axis, swap }: View) -> DVec2 {
 }
 
 /// The first of the longest coordinates.
-pub(crate) fn longest_axis(vector: DVec3) -> usize {
+fn longest_axis(vector: DVec3) -> usize {
     let [x, y, z] = vector.abs().to_array();
     match (x >= y, x >= z, y >= z) {
         (true, true, _) => 0,

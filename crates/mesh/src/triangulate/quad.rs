@@ -3,7 +3,7 @@
 use trigon_math::{DVec3, Vec3};
 
 use super::ears::turn;
-use super::project::{View, longest_axis, plane};
+use super::project::{View, plane};
 
 /// The second diagonal is taken only if its square is smaller by this factor.
 /// Squares on a curved surface have diagonals that differ by rounding; without
@@ -14,9 +14,7 @@ const CLEARLY_SHORTER: f64 = 0.9999;
 /// quad is seen: then the general way decides.
 pub(super) fn split(corners: [Vec3; 4]) -> Option<&'static [[u32; 3]]> {
     let [a, b, c, d] = corners.map(|p| p.as_dvec3());
-    let normal = (c - a).cross(d - b);
-    let axis = longest_axis(normal);
-    let view = View { axis, swap: normal[axis] < 0.0 };
+    let view = View::against((c - a).cross(d - b));
     let [pa, pb, pc, pd] = [a, b, c, d].map(|p| plane(p, view));
     // At a, b, c and d.
     let turns = [turn(pd, pa, pb), turn(pa, pb, pc), turn(pb, pc, pd), turn(pc, pd, pa)];

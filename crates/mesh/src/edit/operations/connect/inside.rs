@@ -4,7 +4,7 @@ use trigon_math::{DVec2, DVec3, Orientation, orientation};
 
 use super::super::super::edit_mesh::EditMesh;
 use super::super::super::ids::CornerId;
-use crate::triangulate::{View, area_vector, longest_axis, plane};
+use crate::triangulate::{View, area_vector, plane};
 
 impl EditMesh {
     /// Whether the straight line between two corners of a face runs inside the face and crosses
@@ -17,8 +17,7 @@ impl EditMesh {
         if !normal.is_finite() || normal == DVec3::ZERO {
             return true;
         }
-        let axis = longest_axis(normal);
-        let view = View { axis, swap: normal[axis] < 0.0 };
+        let view = View::against(normal);
         let flat = |corner: CornerId| plane(point(corner), view);
         let (start, end) = (flat(from), flat(to));
         let is_inside_at = |corner: CornerId, target: DVec2| {
