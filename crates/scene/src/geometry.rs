@@ -10,6 +10,7 @@ mod columns;
 mod edge_flags;
 mod mesh_vertices;
 mod side_edges;
+mod still_bounds;
 
 use std::mem::take;
 use std::ops::Range;
@@ -23,14 +24,14 @@ use trigon_raster::EdgeFlags;
 use crate::work::{Work, note};
 
 pub(crate) use blocks::{BlockBox, Blocks};
-pub(crate) use bounds::box_around;
-use bounds::{box_of_ranges, range};
+pub(crate) use bounds::{box_around, runs_without};
+use bounds::{box_of_ranges, range, range_without};
 use change::FacePlaces;
-pub(crate) use change::StillBounds;
 pub(crate) use columns::Columns;
 use edge_flags::flags_of_mesh;
 use mesh_vertices::mesh_vertices;
 use side_edges::{NO_EDGE, sides_of_mesh};
+pub(crate) use still_bounds::StillBounds;
 
 /// The number of UV sets that can have tangents: as many as the glTF reader supports. Each set with a normal
 /// map takes as much memory as the mesh, and a file may have thousands.

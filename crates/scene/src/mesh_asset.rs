@@ -6,7 +6,7 @@ use trigon_math::{Bounds3, Vec3};
 use trigon_mesh::{ChangeError, ChangedElements, Mesh, MeshChange};
 
 use crate::arena::Id;
-use crate::geometry::{Geometry, StillBounds, box_around, made_once};
+use crate::geometry::{Geometry, StillBounds, box_around, made_once, runs_without};
 
 /// Names a mesh.
 pub type MeshId = Id<MeshAsset>;
@@ -125,19 +125,14 @@ impl MeshAsset {
 
     /// The box around all used vertices but those that are about to move, if it is known.
     fn bounds_without(&mut self, change: &MeshChange) -> Option<Bounds3> {
-        let moved = || change.positions.iter().map(|&(vertex, _)| vertex);
-        let is_repeated = self.still_bounds.update(moved());
-        let bounds = *self.derived.bounds.get()?;
-        let used = Arc::clone(self.used_vertices());
+        let (bounds, used) = (self.derived.bounds.get().copied(), Arc::clone(self.used_vertices()));
         let positions = self.mesh.positions();
-        let is_on_border = |vertex: u32| {
-            let place = positions[vertex as usize].as_dvec3();
-            used[vertex as usize] && (place.cmpeq(bounds.min) | place.cmpeq(bounds.max)).any()
-        };
-        if !moved().any(is_on_border) {
-            return Some(bounds);
-        }
-        is_repeated.then(|| self.still_bounds.others(|moved| box_without(positions, &used, moved)))
+        let moved = change.positions.iter().map(|&(vertex, _)| vertex);
+        let place = |vertex: u32| used[vertex as usize].then_some(positions[vertex as usize]);
+        self.still_bounds.without(bounds, moved, place, |moved| {
+            let still = runs_without(positions.len(), moved).flatten();
+            box_around(still.filter(|&vertex| used[vertex]).map(|vertex| positions[vertex]))
+        })
     }
 
     /// The box with the vertices that were moved.
@@ -146,14 +141,6 @@ impl MeshAsset {
         let used = moved.filter(|&vertex| self.used_vertices()[vertex]);
         bounds.union(box_around(used.map(|vertex| self.mesh.positions()[vertex])))
     }
-}
-
-/// The box around the used ones of some points without those at some indices, which increase.
-fn box_without(positions: &[Vec3], used: &[bool], indices: &[u32]) -> Bounds3 {
-    let ends = indices.iter().map(|&index| index as usize).chain([positions.len()]);
-    let mut start = 0;
-    let between = ends.flat_map(|end| std::mem::replace(&mut start, end + 1)..end);
-    box_around(between.filter(|&index| used[index]).map(|index| positions[index]))
 }
 
 impl Derived {

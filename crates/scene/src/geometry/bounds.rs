@@ -1,5 +1,7 @@
 //! Boxes around points.
 
+use std::ops::Range;
+
 use trigon_math::{Bounds3, Vec3};
 
 /// The smallest and the largest of some numbers, ignoring NaN. Several at a time, because updates of large
@@ -22,6 +24,26 @@ pub(super) fn range(values: &[f32]) -> [f32; 2] {
         least.into_iter().fold(f32::INFINITY, least_of),
         greatest.into_iter().fold(f32::NEG_INFINITY, greatest_of),
     ]
+}
+
+/// The same without the numbers at some indices, which increase.
+pub(super) fn range_without(values: &[f32], indices: &[u32]) -> [f32; 2] {
+    let ranges = runs_without(values.len(), indices).map(|run| range(&values[run]));
+    ranges.fold([f32::INFINITY, f32::NEG_INFINITY], |[least, greatest], [low, high]| {
+        [if low < least { low } else { least }, if high > greatest { high } else { greatest }]
+    })
+}
+
+/// The runs of numbers below `count` between those that are left out, which increase.
+pub(crate) fn runs_without(count: usize, left_out: &[u32]) -> impl Iterator<Item = Range<usize>> {
+    let ends = left_out.iter().map(|&number| number as usize).chain([count]);
+    let mut start = 0;
+    ends.map(move |end| {
+        let end = end.min(count);
+        let run = start.min(end)..end;
+        start = end + 1;
+        run
+    })
 }
 
 /// The smallest box around points. Its bits do not depend on their order: zeros in it are
@@ -51,7 +73,34 @@ fn box_between(min: Vec3, max: Vec3) -> Bounds3 {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
+
+    proptest! {
+        #[test]
+        fn runs_hold_all_numbers_but_those_left_out(
+            count in 0..40_usize,
+            mut left_out in prop::collection::vec(0..45_u32, 0..40),
+        ) {
+            left_out.sort_unstable();
+            let expected: Vec<_> = (0..count).filter(|&number| !left_out.contains(&(number as u32))).collect();
+            prop_assert_eq!(runs_without(count, &left_out).flatten().collect::<Vec<_>>(), expected);
+        }
+
+        #[test]
+        fn ranges_without_some_are_those_of_the_rest(
+            values in prop::collection::vec(prop_oneof![9 => -9.0_f32..9.0, 1 => Just(f32::NAN)], 0..40),
+            indices in prop::collection::btree_set(0..45_u32, 0..40),
+        ) {
+            let indices: Vec<u32> = indices.into_iter().collect();
+            let rest: Vec<f32> = (0..).zip(&values)
+                .filter(|(index, _)| !indices.contains(index))
+                .map(|(_, value)| *value)
+                .collect();
+            prop_assert_eq!(range_without(&values, &indices), range(&rest));
+        }
+    }
 
     #[test]
     fn a_box_around_points_is_that_of_all_of_them_in_any_order() {

@@ -7,7 +7,6 @@
 //! three corners are the same vertex, fill the rest of its slots.
 
 mod face_places;
-mod still_bounds;
 mod triangle_lists;
 
 use std::mem::take;
@@ -15,19 +14,18 @@ use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
-use trigon_math::{Bounds3, Vec3};
+use trigon_math::Bounds3;
 use trigon_mesh::{
     ChangedElements, Mesh, RenderLinks, RenderMesh, RenderUpdate, Triangulation, UpdatedVertex, WeldedMesh,
 };
 
 pub(super) use face_places::FacePlaces;
 use face_places::{FacePlace, PIECE};
-pub(crate) use still_bounds::StillBounds;
-use still_bounds::box_without;
 use triangle_lists::{Replaced, TriangleLists, fillers_of};
 
 use super::{
-    Columns, Geometry, GeometryChange, GeometryState, Triangles, box_around, large_flat, places_for,
+    Columns, Geometry, GeometryChange, GeometryState, Triangles, box_around, box_of_ranges, large_flat,
+    places_for, range_without,
 };
 
 impl Geometry {
@@ -114,17 +112,12 @@ impl Geometry {
     /// The box around all vertices but those that are about to move, if it is known.
     fn bounds_without(&mut self, update: &RenderUpdate) -> Option<Bounds3> {
         let moved = update.replaced().map(|vertex| vertex.vertex);
-        let is_repeated = self.still_bounds.update(moved);
-        let bounds = *self.bounds.get()?;
-        let is_on_border = |vertex: &UpdatedVertex| {
-            // New vertices have no position yet.
-            let place = self.columns.position(vertex.vertex).map(Vec3::as_dvec3);
-            place.is_some_and(|place| (place.cmpeq(bounds.min) | place.cmpeq(bounds.max)).any())
-        };
-        if update.replaced().any(is_on_border) {
-            return is_repeated.then(|| self.still_bounds.others(|moved| box_without(&self.columns, moved)));
-        }
-        Some(bounds)
+        let columns = &self.columns;
+        // New vertices have no position yet.
+        let place = |vertex| columns.position(vertex);
+        self.still_bounds.without(self.bounds.get().copied(), moved, place, |moved| {
+            box_of_ranges(columns.positions.each_ref().map(|column| range_without(column, moved)))
+        })
     }
 
     /// The box extended by vertices that were written.
