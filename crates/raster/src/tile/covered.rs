@@ -45,14 +45,13 @@ impl Covered {
         depth.compress(lanes).store_slice(&mut self.depths[count..count + LANES]);
         self.count += lanes.to_bitmask().count_ones() as usize;
     }
-}
 
-impl Covered {
     /// Drops pixels that are hidden by what is in the buffer, without a branch on whether they are.
     #[inline(never)]
     pub(super) fn drop_hidden(&mut self, buffer: &VisibilityBuffer) {
         let mut kept = 0;
-        for entry in 0..self.count.min(PIXELS + 2 * LANES) {
+        // A limit that the compiler knows, so that it checks no index.
+        for entry in 0..self.count.min(self.places.len()) {
             let (place, depth) = (self.places[entry], self.depths[entry]);
             (self.places[kept], self.depths[kept]) = (place, depth);
             kept += usize::from(depth >= buffer.depth[place as usize / LANES]);
@@ -90,8 +89,8 @@ impl TileRasterizer<'_> {
     /// Whether a triangle is visible rather than another at the same depth.
     ///
     /// Of two triangles in the same eight the later one may come first: `micro` lists pixel by pixel of the boxes, not
-    /// triangle by triangle, and the pixels of slivers are listed while other triangles of the eight are drawn. That is why numbers are compared even
-    /// when triangles are drawn in the order of their keys.
+    /// triangle by triangle, and slivers are drawn after the other triangles of the eight. That is why numbers are
+    /// compared even when triangles are drawn in the order of their keys.
     #[cold]
     fn precedes_at_tie(&self, place: u32, visible: u32) -> bool {
         if self.in_order {

@@ -13,8 +13,8 @@
 //!
 //! `TileRasterizer::visible_lanes` is **the depth test**: a covered sample shows the triangle if
 //! its depth is greater (nearer) than the stored one, or equal and the triangle has the smaller
-//! key ([`FrameView::precedes`](crate::view::FrameView::precedes)). The kernels `tiny`, `multisample`
-//! and `micro` and the queries of `depth_query` repeat it in the form that suits them.
+//! key ([`FrameView::precedes`](crate::view::FrameView::precedes)). The kernels `tiny` and
+//! `multisample`, the list of `covered` pixels and the queries of `depth_query` repeat it in the form that suits them.
 
 use super::sides::{ALL, Sides, steps};
 use super::store::{store, store_where};
@@ -400,7 +400,7 @@ impl TileRasterizer<'_> {
 
     /// The depth test: the covered lanes in which the triangle is visible.
     ///
-    /// `tiny` and `multisample` (`rows`), `micro` (`scatter`) and `TileView::visible_lanes` repeat it.
+    /// `tiny` and `multisample` (`rows`), `covered` (`scatter`) and `TileView::visible_lanes` repeat it.
     #[inline(always)]
     pub(super) fn visible_lanes<S: Simd>(
         &self,

@@ -20,7 +20,7 @@ use fearless_simd::f64x4;
 /// less than 1024 pixels, so each of their few roundings adds less than 1/64.
 const SLACK: i32 = 1;
 
-/// The least length, in 1/256 pixel.
+/// Slivers are at least so long, in 1/256 pixel.
 const LEAST: i32 = 4 << 8;
 
 /// Added to places in pixels, none of which is less than -256, so that cutting rounds down.
@@ -43,6 +43,7 @@ pub(super) struct Slivers {
 }
 
 impl Slivers {
+    /// Those that are thin enough, and of which following the longest edge takes less than visiting the box.
     #[inline(always)]
     pub(super) fn find<S: Simd>(simd: S, eight: &EightTriangles) -> Self {
         let column = |values: &[i32; LANES]| I32::simd_from(simd, *values);

@@ -1,6 +1,6 @@
 //! Which triangle is visible at each sample of a tile: opaque triangles first, then masked ones, then
 //! overlays. The coverage kernel of each opaque or overlay triangle is chosen here:
-//! [`cover_triangles`] chooses `points`, `quad` and `micro`, [`cover_one`] chooses `tiny` and the general
+//! [`cover_triangles`] chooses `points`, `quad`, `micro` and `sliver`, [`cover_one`] chooses `tiny` and the general
 //! kernel. (`tiny` uses the loops of `multisample` if pixels have several samples.) Masked triangles go
 //! through `masked` and `depth_query`.
 

@@ -17,7 +17,7 @@ pub(crate) const BEHIND_ALL: f32 = -f32::MIN_POSITIVE;
 pub(crate) struct BlockBounds {
     pub(crate) farthest: f32,
     pub(crate) nearest: f32,
-    /// How many writes were noted since `farthest` was found: `micro` notes one for each pixel,
+    /// How many writes were noted since `farthest` was found: `micro` and `sliver` note one for each pixel,
     /// `quad` and `points` for each group, the others for each triangle (`tiny` and `multisample`
     /// before they know whether any sample is written).
     pub(crate) writes: u32,
