@@ -19,7 +19,7 @@ use trigon_edit::scene::math::DVec2;
 use trigon_edit::scene::{Material, Scene};
 use trigon_edit::{Command, Document};
 use trigon_editor::measured_editor;
-use trigon_window::{Chord, DrawnFrame, HeadlessWindow, Key, Modifiers, PointerButton};
+use trigon_window::{Chord, DrawnFrame, HeadlessWindow, Key, LiveFrame, Modifiers, PointerButton};
 
 const SIZE: Viewport = Viewport { width: 1920, height: 1080 };
 
@@ -61,9 +61,7 @@ fn main() {
     tell_memory();
 }
 
-/// Drags for three seconds in a window whose images are drawn on threads of their own, with so many events a second.
-/// Tells how many images a second came to the screen after the first second, how many of them in full size, and the
-/// times between them.
+/// Drags for some seconds in a window whose images are drawn on threads of their own, with so many events a second.
 fn drag_live(name: &str, selected: &[u32], rate: u32) {
     const LASTS: Duration = Duration::from_secs(4);
     let folder = tempfile::tempdir().expect("a folder for the recovery file");
@@ -72,26 +70,33 @@ fn drag_live(name: &str, selected: &[u32], rate: u32) {
     window.move_to(MIDDLE);
     window.key(Chord::new(Modifiers::NONE, Key::Character('g')));
     let place = |time: Duration| {
-        // To and fro, as in the rows above.
+        // To and fro, about as far as in the rows above.
         let share = (time.as_secs_f64() % 2.0 - 1.0).abs();
         MIDDLE + DVec2::new(100.0, 27.0) - DVec2::new(60.0, 30.0) * share
     };
     let frames = window.drag_live((LASTS, Duration::from_secs(1) / rate), place);
-    let first = frames.iter().map(|frame| frame.shown).min().unwrap_or_default();
-    let steady: Vec<_> =
-        frames.iter().filter(|frame| frame.shown >= first + Duration::from_secs(1)).collect();
+    tell_frames(name, &frames);
+    window.key(Chord::new(Modifiers::NONE, Key::Escape));
+}
+
+/// Tells how many images a second came to the screen after the first second, how many of them in full size, and the
+/// times between them.
+fn tell_frames(name: &str, frames: &[LiveFrame]) {
+    let warm = frames.first().map_or(Duration::ZERO, |first| first.shown) + Duration::from_secs(1);
+    let steady: Vec<_> = frames.iter().filter(|frame| frame.shown >= warm).collect();
     let mut gaps: Vec<_> = steady.windows(2).map(|pair| pair[1].shown - pair[0].shown).collect();
     gaps.sort_unstable();
+    let Some(&last) = gaps.last() else {
+        return tell_line(&format!("{name}: less than two images after the first second"));
+    };
+    let rate = gaps.len() as f64 / gaps.iter().sum::<Duration>().as_secs_f64();
     let whole = steady.iter().filter(|frame| frame.size == [SIZE.width, SIZE.height]).count();
-    let all: Duration = gaps.iter().sum();
-    let rate = gaps.len() as f64 / all.as_secs_f64();
-    let gap = |part: usize| gaps.get((gaps.len() * part / 100).min(gaps.len().saturating_sub(1))).copied();
-    let [middle, late] = [50, 95].map(|part| milliseconds(gap(part).unwrap_or_default()));
+    let [middle, late] =
+        [50, 95].map(|part| milliseconds(gaps.get(gaps.len() * part / 100).copied().unwrap_or(last)));
     tell_line(&format!(
         "{name}: {rate:.1} images/s, {whole} of {} in full size, {middle} ms between them in the middle, {late} for one in 20",
         steady.len()
     ));
-    window.key(Chord::new(Modifiers::NONE, Key::Escape));
 }
 
 /// What is done and measured.

@@ -7,7 +7,8 @@
 //!   unexpectedly, it is abandoned, and a draft is drawn.
 //! - Images are drawn on a worker thread, one at a time. A draft is always finished, so that a
 //!   movement shows; any other image that nobody will see is cancelled.
-//! - The interface drawn over the image never waits for an image.
+//! - The interface drawn over the image never waits for an image. Only movements of the pointer that a tool follows
+//!   wait for a draft, for a tenth of a second at most ([`Pacing::expects_draft`]).
 
 mod budget;
 

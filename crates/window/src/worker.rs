@@ -75,7 +75,7 @@ pub(crate) struct Finished {
     pub(crate) purpose: Purpose,
     pub(crate) views: Views,
     pub(crate) took: Duration,
-    /// The part of it that is proportional to the number of pixels, as far as that is known.
+    /// The part of it that is proportional to the number of pixels: all of it where that is unknown.
     pub(crate) pixels: Duration,
     /// Of the last view.
     pub(crate) stages: StageTimes,
@@ -323,7 +323,11 @@ impl Drawing {
 
     fn run(&mut self, Job { purpose, views, task }: Job, cancel: &Cancel) -> Finished {
         let begun = (self.clock)();
-        let is_own = matches!(task, Task::Draw { drawer: None, .. });
+        let threads = match &task {
+            Task::Draw { drawer: None, settings, .. } => Some(settings.threads),
+            _ => None,
+        };
+        let count = views.count();
         let product = match task {
             Task::Draw { scene, settings, drawer } => {
                 // Also for a cancelled image: the next update relies on it.
@@ -359,14 +363,16 @@ impl Drawing {
             }
         };
         let (took, stages) = ((self.clock)().saturating_sub(begun), self.renderer.stats().times);
-        let pixels = if is_own { took.min(time_of_pixels(&stages)) } else { took };
+        let of_pixels = |threads| count * time_of_pixels(&stages, threads);
+        let pixels = threads.map_or(took, |threads| took.min(of_pixels(threads)));
         Finished { purpose, views, took, pixels, stages, product }
     }
 }
 
-/// How long the tiles of an image took, whose times are sums over all threads.
-fn time_of_pixels(stages: &StageTimes) -> Duration {
-    let threads = thread::available_parallelism().map_or(1, NonZeroUsize::get) as u32;
+/// How long the tiles of an image took, whose times are sums over all threads: so many, or as many as there are cores.
+fn time_of_pixels(stages: &StageTimes, threads: Option<NonZeroUsize>) -> Duration {
+    let cores = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let threads = threads.map_or_else(cores, NonZeroUsize::get) as u32;
     (stages.visibility + stages.shading + stages.blending + stages.resolve) / threads
 }
 

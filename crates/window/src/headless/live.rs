@@ -76,9 +76,9 @@ impl<'a> HeadlessWindow<'a> {
         self.session.settle(self.now);
         let wake = match self.session.next(self.now) {
             Wake::Now => {
-                if let Some(size) = self.draw_live() {
-                    shown.push(LiveFrame { shown: (self.clock)(), size });
-                }
+                let new = self.session.new_image();
+                self.draw();
+                shown.extend(new.map(|size| LiveFrame { shown: (self.clock)(), size }));
                 self.now
             }
             Wake::At(time) => time.min(until),
@@ -91,13 +91,6 @@ impl<'a> HeadlessWindow<'a> {
         for ring in ring.into_iter().chain(self.rings.try_iter().collect::<Vec<_>>()) {
             self.ring(ring);
         }
-    }
-
-    /// Draws a frame; the size of its image, if that is a new one.
-    fn draw_live(&mut self) -> Option<[u32; 2]> {
-        let new = self.session.new_image();
-        self.draw();
-        new
     }
 
     /// Waits until nothing is left to be drawn.

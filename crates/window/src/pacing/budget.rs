@@ -15,6 +15,9 @@ const AIM: f64 = 0.8;
 /// A smaller size has to save this fraction of a draft's time.
 const LEAST_SAVED: f64 = 0.25;
 
+/// Drafts become larger if this fraction of the pixels that fit would be more than they have.
+const ROOMY: f64 = 0.6;
+
 /// Learns from each draft how large the next one may be.
 #[derive(Debug)]
 pub(super) struct Budget {
@@ -79,7 +82,7 @@ impl Budget {
         let are_slow = drafts.iter().all(|draft| draft.share > 1.0 && draft.saved > LEAST_SAVED);
         let factor = if are_slow {
             least.sqrt()
-        } else if most < 0.6 {
+        } else if most < ROOMY {
             // At most twice the size at once.
             most.sqrt().max(0.5)
         } else {

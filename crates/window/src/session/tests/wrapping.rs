@@ -103,9 +103,8 @@ fn each_movement_counts_where_the_way_matters() {
     assert_eq!(handler.moves, 100, "as for a lasso");
 }
 
-/// The next image shows where the pointer is when the one before is finished.
-#[test]
-fn movements_wait_for_the_draft_under_way() {
+/// A drag while the first draft waits at a gate.
+fn dragged_beside_a_draft(moves: impl FnOnce(&mut Session<'_>, &Gate, &Receiver<()>)) -> Dragged {
     let gate = Gate::default();
     let (worker, rung) = gate.worker(|_| true);
     let (mut handler, mut stage) = (Dragged::default(), stage());
@@ -113,38 +112,39 @@ fn movements_wait_for_the_draft_under_way() {
     let mut session = Session::new(stage, &mut handler, worker);
     session.event(InputEvent::Resized { width: 200, height: 100 }, ms(0));
     session.start(ms(0));
-    let drawn = session.draw(ms(0), &|| ms(0)).is_some();
-    assert!(drawn, "the first draft is begun, and waits at the gate");
-    for time in 1..50 {
-        session.event(InputEvent::PointerMoved(DVec2::new(50.0 + time as f64, 50.0)), ms(time));
-        session.settle(ms(time));
-    }
-    assert!(session.has_moved, "nobody was told");
+    assert!(session.draw(ms(0), &|| ms(0)).is_some(), "the draft is begun");
+    moves(&mut session, &gate, &rung);
     gate.open();
-    rung.recv().expect("it is finished");
-    session.collect(ms(50));
-    assert!(!session.has_moved, "but now");
     drop(session);
+    handler
+}
+
+/// The next image shows where the pointer is when the one before is finished.
+#[test]
+fn movements_wait_for_the_draft_under_way() {
+    let handler = dragged_beside_a_draft(|session, gate, rung| {
+        for time in 1..50 {
+            session.event(InputEvent::PointerMoved(DVec2::new(50.0 + time as f64, 50.0)), ms(time));
+            session.settle(ms(time));
+        }
+        assert!(session.has_moved, "nobody was told");
+        gate.open();
+        rung.recv().expect("it is finished");
+        session.collect(ms(50));
+        assert!(!session.has_moved, "but now");
+    });
     assert_eq!((handler.moves, handler.last), (1, Some(DVec2::new(99.0, 50.0))), "once");
 }
 
 /// An image that takes long must not keep the numbers of a tool from changing.
 #[test]
 fn movements_do_not_wait_for_a_draft_that_takes_long() {
-    let gate = Gate::default();
-    let (worker, _rung) = gate.worker(|_| true);
-    let (mut handler, mut stage) = (Dragged::default(), stage());
-    stage.wraps_pointer = true;
-    let mut session = Session::new(stage, &mut handler, worker);
-    session.event(InputEvent::Resized { width: 200, height: 100 }, ms(0));
-    session.start(ms(0));
-    session.draw(ms(0), &|| ms(0));
-    for time in [10, 500] {
-        session.event(InputEvent::PointerMoved(DVec2::new(50.0, 50.0)), ms(time));
-        session.settle(ms(time));
-        assert_eq!(session.has_moved, time == 10, "after {time} ms");
-    }
-    gate.open();
-    drop(session);
+    let handler = dragged_beside_a_draft(|session, _, _| {
+        for time in [10, 500] {
+            session.event(InputEvent::PointerMoved(DVec2::new(50.0, 50.0)), ms(time));
+            session.settle(ms(time));
+            assert_eq!(session.has_moved, time == 10, "after {time} ms");
+        }
+    });
     assert_eq!(handler.moves, 1, "of the one that waited, too");
 }
