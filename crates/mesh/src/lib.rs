@@ -78,9 +78,9 @@ pub use deformed::Deformed;
 pub use error::MeshError;
 pub use flat_faces::FlatFaces;
 pub use mesh::Mesh;
-
+pub use quads::{Halves, QuadGroup, Quads};
 pub use render_mesh::RenderMesh;
-pub use triangulate::triangulate_polygon;
+pub use triangulate::{QuadCut, triangulate_polygon};
 pub use triangulation::Triangulation;
 pub use welded_mesh::WeldedMesh;
 

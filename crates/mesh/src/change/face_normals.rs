@@ -9,7 +9,7 @@ use trigon_math::{DVec3, Vec3};
 use super::corner_faces::FaceCorner;
 use crate::Mesh;
 use crate::normals::{corner_angle, or_if_zero, unit_or_zero};
-use crate::quads::Quads;
+use crate::quads::{QuadGroup, Quads};
 
 /// Faces or vertices that a thread takes at a time: about a tenth of a millisecond's work,
 /// a few times what it takes to wake a thread.
@@ -92,21 +92,11 @@ struct Part<'a> {
 
 impl Part<'_> {
     fn update(mut self, mesh: &Mesh) {
-        let mut group = QuadGroup { faces: Vec::with_capacity(GROUP), quads: [Quads::NONE; GROUP / LANES] };
-        for faces in self.faces.chunks(GROUP) {
-            mesh.prefetch_faces(faces.iter().copied());
-            group.faces.clear();
-            for &face in faces {
-                match *mesh.face_vertices(face as usize) {
-                    // Most faces of most meshes.
-                    [a, b, c, d] => {
-                        group.push(face, [a, b, c, d].map(|vertex| mesh.positions()[vertex as usize]));
-                    }
-                    _ => self.update_any(mesh, face as usize),
-                }
-            }
-            for (faces, quads) in group.faces.chunks(LANES).zip(&group.quads) {
-                self.update_quads(mesh, quads, faces);
+        let mut group = QuadGroup::default();
+        for faces in self.faces.chunks(QuadGroup::MOST) {
+            group.fill(mesh, faces.iter().copied(), |number| self.update_any(mesh, faces[number] as usize));
+            for (numbers, quads) in group.iter() {
+                self.update_quads(mesh, quads, numbers.iter().map(|&number| faces[number as usize]));
             }
         }
     }
@@ -121,38 +111,22 @@ impl Part<'_> {
     }
 
     /// Updates the faces of the first of some quads.
-    fn update_quads(&mut self, mesh: &Mesh, quads: &Quads<LANES>, faces: &[u32]) {
-        for (&face, normal) in faces.iter().zip(quads.normals()) {
+    fn update_quads<const N: usize>(
+        &mut self,
+        mesh: &Mesh,
+        quads: &Quads<N>,
+        faces: impl Iterator<Item = u32> + Clone,
+    ) {
+        for (face, normal) in faces.clone().zip(quads.normals()) {
             self.normals[face as usize - self.first_face] = normal;
         }
         if self.angles.is_empty() {
             return;
         }
-        for (&face, angles) in faces.iter().zip(quads.angles()) {
+        for (face, angles) in faces.zip(quads.angles()) {
             let first = mesh.face_corners(face as usize).start - self.first_corner;
             self.angles[first..first + 4].copy_from_slice(&angles);
         }
-    }
-}
-
-/// Quads that are computed at a time.
-const LANES: usize = 4;
-
-/// Quads that are placed before the first of them is computed: a processor waits when it reads several numbers at once
-/// that it has just written one by one.
-const GROUP: usize = 256;
-
-/// Some quads and where they are.
-struct QuadGroup {
-    faces: Vec<u32>,
-    quads: [Quads<LANES>; GROUP / LANES],
-}
-
-impl QuadGroup {
-    fn push(&mut self, face: u32, corners: [Vec3; 4]) {
-        let number = self.faces.len();
-        self.faces.push(face);
-        self.quads[number / LANES].place(number % LANES, corners);
     }
 }
 

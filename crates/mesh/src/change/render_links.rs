@@ -43,6 +43,8 @@ pub struct RenderLinks {
     fans: Fans,
     /// What shows the last change. The fans come first.
     update: RenderUpdate,
+    /// Whether the vertices of the update stay the same as long as the same elements change.
+    is_settled: bool,
 }
 
 impl RenderLinks {
@@ -60,6 +62,7 @@ impl RenderLinks {
             around: Neighborhood::default(),
             fans: Fans::default(),
             update: RenderUpdate::default(),
+            is_settled: false,
         }
     }
 
@@ -114,6 +117,9 @@ impl RenderLinks {
     /// Updates what the corners at affected vertices show; `are_others` says that they are other vertices than those
     /// of the last change.
     fn update_vertices(&mut self, mesh: &Mesh, are_others: bool) {
+        if self.is_settled && !are_others {
+            return;
+        }
         let Self { around, update, .. } = self;
         let none = FaceNormals::default();
         let face_normals = self.face_normals.as_ref().unwrap_or(&none);
@@ -129,6 +135,9 @@ impl RenderLinks {
         for part in &shown {
             update.add(&part.kept, &part.replaced);
         }
+        // Without normals nothing but places changes, and what has parted stays apart.
+        let parts = shown.iter().any(|part| !part.split.is_empty());
+        self.is_settled = self.is_flat && around.corners.is_empty() && !parts;
         let of_corner = CornerFaces::new(mesh);
         for SplitOff { corners, shown: (corner, normal) } in shown.iter().flat_map(|part| &part.split) {
             let vertex = self.vertex_count;

@@ -21,7 +21,9 @@ mod quad;
 
 use trigon_math::{DVec2, Vec3};
 
-pub(crate) use project::{View, area_vector, plane};
+pub(crate) use project::{CANCELLED, View, area_vector, plane};
+pub(crate) use quad::CLEARLY_SHORTER;
+pub use quad::QuadCut;
 
 use ears::EarCutter;
 
@@ -68,7 +70,7 @@ impl Triangulator {
             [] | [_] | [_, _] => {}
             [_, _, _] => triangles.push([0, 1, 2]),
             [a, b, c, d] => match quad::split([a, b, c, d]) {
-                Some(cut) => triangles.extend(cut),
+                Some(cut) => triangles.extend(cut.triangles()),
                 None => self.any(positions, triangles),
             },
             _ => self.any(positions, triangles),

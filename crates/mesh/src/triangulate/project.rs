@@ -4,7 +4,7 @@ use trigon_math::{DVec2, DVec3, Vec3};
 
 /// Below this share of what the parts add up to without their signs, an area
 /// vector is rounding or a figure of eight, and says nothing about a side.
-const CANCELLED: f64 = 1e-12;
+pub(crate) const CANCELLED: f64 = 1e-12;
 
 /// The vector whose direction is a polygon's normal and whose length is its
 /// area (M. Newell's normal, see Sutherland, Sproull and Schumacker, "A

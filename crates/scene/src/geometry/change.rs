@@ -93,7 +93,7 @@ impl Geometry {
         // They come last.
         let is_new = |last: &UpdatedVertex| last.vertex as usize >= columns.vertex_count();
         if update.vertices.last().is_some_and(is_new) {
-            self.face_places.forget_diagonals();
+            self.face_places.forget_cuts();
         }
         let (triangles, vertices) = rayon::join(
             || self.replace_triangles(mesh, (&links, is_flat)),
@@ -162,7 +162,8 @@ impl Geometry {
 
     /// Updates the list of fillers after triangles were replaced.
     fn note_fillers(&mut self, places: &[FacePlace], replaced: &[Replaced]) {
-        if self.fillers.is_empty() && replaced.iter().all(|part| part.counts.is_empty()) {
+        let are_all_full = self.fillers.is_empty() && replaced.iter().all(|part| part.counts.is_empty());
+        if are_all_full || !replaced.iter().any(|part| part.may_differ_in_counts) {
             return;
         }
         // The slots of a face are consecutive in the triangulation, too.

@@ -1,8 +1,7 @@
 //! Which sides of triangles are edges of their polygons, and how much larger a polygon is than each of its
 //! triangles.
 
-use trigon_math::DVec3;
-use trigon_mesh::Mesh;
+use trigon_mesh::{Halves, Mesh, QuadCut, Quads};
 use trigon_raster::EdgeFlags;
 
 /// For each triangle of a mesh's triangulation.
@@ -28,10 +27,11 @@ pub(super) fn flags_of_face(
     let corners = source.face_corners(face as usize);
     match source.corner_vertices()[corners.clone()] {
         // Most faces of most meshes.
-        [a, b, c, d] => match Diagonal::of(corners.start as u32, triangles) {
-            Some(diagonal) => {
-                let places = [a, b, c, d].map(|vertex| source.positions()[vertex as usize].as_dvec3());
-                flags_of_quad(places, diagonal).into_iter().for_each(give);
+        [a, b, c, d] => match diagonal(corners.start as u32, triangles) {
+            Some(cut) => {
+                let mut quads = Quads::<1>::NONE;
+                quads.place(0, [a, b, c, d].map(|vertex| source.positions()[vertex as usize]));
+                flags_of_quads(&quads, &[Some(cut)]).into_iter().flatten().for_each(give);
             }
             None => flags_of_any(source, (face, triangles), give),
         },
@@ -39,51 +39,40 @@ pub(super) fn flags_of_face(
     }
 }
 
-/// How a quad is cut into two triangles, in the order in which they come.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Diagonal {
-    /// From the first corner to the third.
-    First,
-    /// From the second corner to the last.
-    Second,
-}
-
-impl Diagonal {
-    /// That of a quad with this first corner; `None` if it is cut in another way.
-    pub(super) fn of(first: u32, triangles: &[[u32; 3]]) -> Option<Self> {
-        // Number by number: they were just written, and a processor waits to read several at once.
-        let &[[a, b, c], [d, e, f]] = triangles else { return None };
-        match [a, b, c, d, e, f].map(|corner| corner.wrapping_sub(first)) {
-            [0, 1, 2, 0, 2, 3] => Some(Self::First),
-            [0, 1, 3, 1, 2, 3] => Some(Self::Second),
-            _ => None,
-        }
+/// The diagonal along which a quad with this first corner is cut; `None` if it is cut in another way.
+fn diagonal(first: u32, triangles: &[[u32; 3]]) -> Option<QuadCut> {
+    // Number by number: they were just written, and a processor waits to read several at once.
+    let &[[a, b, c], [d, e, f]] = triangles else { return None };
+    match [a, b, c, d, e, f].map(|corner| corner.wrapping_sub(first)) {
+        [0, 1, 2, 0, 2, 3] => Some(QuadCut::First),
+        [0, 1, 3, 1, 2, 3] => Some(QuadCut::Second),
+        _ => None,
     }
 }
 
-/// For both triangles of a quad: what [`flags_of_any`] finds in more steps.
-fn flags_of_quad([a, b, c, d]: [DVec3; 4], diagonal: Diagonal) -> [EdgeFlags; 2] {
-    let ways = [b - a, c - b, d - c, a - d];
-    let [ab, bc, cd, da] = ways.map(DVec3::length);
-    let (across, doubled, edges, flags) = match diagonal {
-        Diagonal::First => {
-            let doubled = [ways[0].cross(ways[1]), (c - a).cross(ways[2])];
-            (c - a, doubled, [ab + bc, cd + da], [[true, true, false], [false, true, true]])
-        }
-        Diagonal::Second => {
-            let doubled = [ways[0].cross(d - b), ways[1].cross(ways[2])];
-            (d - b, doubled, [ab + da, bc + cd], [[true, false, true], [true, true, false]])
-        }
-    };
-    let areas = doubled.map(DVec3::length);
-    let measures = [0, 1].map(|triangle| Measure {
-        area: areas[triangle],
-        perimeter: edges[triangle] + across.length(),
-        edges: edges[triangle],
+/// For the triangles of each quad: what [`flags_of_any`] finds in more steps.
+pub(super) fn flags_of_quads<const N: usize>(
+    quads: &Quads<N>,
+    cuts: &[Option<QuadCut>; N],
+) -> [[EdgeFlags; 2]; N] {
+    let is_first = cuts.map(|cut| cut != Some(QuadCut::Second));
+    let Halves { doubled_areas, outer_lengths, diagonals } = quads.halves(is_first);
+    let ratios: [[f32; 2]; N] = std::array::from_fn(|lane| {
+        let measures = [0, 1].map(|triangle| Measure {
+            area: doubled_areas[triangle][lane],
+            perimeter: outer_lengths[triangle][lane] + diagonals[lane],
+            edges: outer_lengths[triangle][lane],
+        });
+        let whole = measures[0].sum(measures[1]);
+        measures.map(|measure| measure.radius_ratio(&whole))
     });
-    let whole = measures[0].sum(measures[1]);
-    [0, 1].map(|triangle| {
-        EdgeFlags::new(flags[triangle]).with_radius_ratio(measures[triangle].radius_ratio(&whole))
+    std::array::from_fn(|lane| {
+        let flags = match cuts[lane] {
+            Some(QuadCut::Ear(_)) => return [EdgeFlags::new([true, true, false]), EdgeFlags::NONE],
+            Some(QuadCut::Second) => [[true, false, true], [true, true, false]],
+            _ => [[true, true, false], [false, true, true]],
+        };
+        [0, 1].map(|triangle| EdgeFlags::new(flags[triangle]).with_radius_ratio(ratios[lane][triangle]))
     })
 }
 

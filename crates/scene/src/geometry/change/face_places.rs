@@ -3,8 +3,7 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-
-use super::super::edge_flags::Diagonal;
+use trigon_mesh::QuadCut;
 
 /// Faces per task.
 pub(super) const PIECE: usize = 1024;
@@ -25,8 +24,8 @@ pub(super) struct FacePlace {
     pub(super) face: u32,
     start: u32,
     end: u32,
-    /// The diagonal along which the last change has cut it, if it has, and it is a quad.
-    pub(super) diagonal: Option<Diagonal>,
+    /// How the last change has cut it, if it has, and it is a quad.
+    pub(super) cut: Option<QuadCut>,
 }
 
 impl FacePlace {
@@ -37,8 +36,8 @@ impl FacePlace {
 
 impl FacePlaces {
     /// Forgets how faces were cut: their triangles have other vertices now.
-    pub(super) fn forget_diagonals(&mut self) {
-        self.places.iter_mut().for_each(|place| place.diagonal = None);
+    pub(super) fn forget_cuts(&mut self) {
+        self.places.iter_mut().for_each(|place| place.cut = None);
     }
 
     /// Takes the place of those of an earlier change, if that was of other faces.
@@ -50,7 +49,7 @@ impl FacePlaces {
         if self.faces != faces {
             let place = |&face: &u32| {
                 let Range { start, end } = slots_of(face);
-                FacePlace { face, start: start as u32, end: end as u32, diagonal: None }
+                FacePlace { face, start: start as u32, end: end as u32, cut: None }
             };
             let places = faces.par_iter().with_min_len(PIECE).map(place);
             self.faces = faces.to_vec();

@@ -1,11 +1,13 @@
 //! Triangles that are written anew, with their edge flags and sides.
 
+use std::borrow::Cow;
 use std::mem::replace;
+use std::ops::Range;
 
-use trigon_mesh::{Mesh, Triangulation};
+use trigon_mesh::{Mesh, QuadCut, QuadGroup, Triangulation};
 use trigon_raster::EdgeFlags;
 
-use super::super::edge_flags::{Diagonal, flags_of_face};
+use super::super::edge_flags::{flags_of_face, flags_of_quads};
 use super::super::side_edges::{NO_EDGE, sides_of_triangle};
 use super::face_places::FacePlace;
 
@@ -23,6 +25,8 @@ pub(super) struct Replaced {
     pub(super) triangles: Vec<u32>,
     /// For each face how many triangles it has; none if each face has one in each of its slots.
     pub(super) counts: Vec<u32>,
+    /// Whether a face may have more or fewer triangles than before.
+    pub(super) may_differ_in_counts: bool,
 }
 
 impl<'a> TriangleLists<'a> {
@@ -47,30 +51,28 @@ impl<'a> TriangleLists<'a> {
         places: &mut [FacePlace],
         first: usize,
     ) -> Option<Replaced> {
-        /// Faces whose triangles and flags are made before the first of them are written: many a load is under
-        /// way then, since little else is done.
-        const GROUP: usize = 128;
         let (mut replaced, mut are_full) = (Replaced::default(), true);
         replaced.counts.reserve(places.len());
-        for places in places.chunks_mut(GROUP) {
-            let cut = CutFaces::new(mesh, places, !self.flags.is_empty());
-            let (mut triangles, mut flags) = (cut.triangles.as_slice(), cut.flags.as_slice());
-            for (place, &count) in places.iter_mut().zip(&cut.counts) {
-                let own = triangles.split_off(..count as usize)?;
-                let own_flags = flags.split_off(..count as usize).unwrap_or_default();
-                if place.slots().len() < own.len() {
+        let mut cut = CutFaces::default();
+        for places in places.chunks_mut(QuadGroup::MOST) {
+            cut.fill(mesh, places, !self.flags.is_empty());
+            for (place, face) in places.iter_mut().zip(&cut.faces) {
+                if place.slots().len() < face.count() {
                     return None;
                 }
-                are_full &= place.slots().len() == own.len();
-                let diagonal = Diagonal::of(mesh.face_corners(place.face as usize).start as u32, own);
-                if diagonal.is_some() && diagonal == place.diagonal {
-                    self.write_flags(place.slots().start, first, own_flags, &mut replaced.triangles);
+                are_full &= place.slots().len() == face.count();
+                replaced.counts.push(face.count() as u32);
+                let flags = cut.flags_of(face);
+                if face.cut.is_some() && face.cut == place.cut {
+                    self.write_flags(place.slots().start, first, flags, &mut replaced.triangles);
                     continue;
                 }
-                place.diagonal = diagonal;
-                self.write(mesh, vertex_of_corner, (place, first), (own, own_flags), &mut replaced.triangles);
+                place.cut = face.cut;
+                replaced.may_differ_in_counts = true;
+                let start = mesh.face_corners(place.face as usize).start as u32;
+                let triangles = (cut.triangles_of(face, start), flags);
+                self.write(mesh, vertex_of_corner, (place, first), triangles, &mut replaced.triangles);
             }
-            replaced.counts.extend(cut.counts);
         }
         if are_full {
             replaced.counts.clear();
@@ -93,10 +95,10 @@ impl<'a> TriangleLists<'a> {
         mesh: &Mesh,
         vertex_of_corner: &[u32],
         (place, first): (&FacePlace, usize),
-        (triangles, flags): (&[[u32; 3]], &[EdgeFlags]),
+        (triangles, flags): (Cow<'_, [[u32; 3]]>, &[EdgeFlags]),
         replaced: &mut Vec<u32>,
     ) {
-        let mut fillers = fillers_of(mesh, place.face, triangles);
+        let mut fillers = fillers_of(mesh, place.face, &triangles);
         for (number, slot) in place.slots().enumerate() {
             let (at, triangle) = (slot - first, triangles.get(number));
             let corners = triangle.copied().unwrap_or_else(|| [fillers.next(); 3]);
@@ -119,33 +121,93 @@ impl<'a> TriangleLists<'a> {
 }
 
 /// Some faces, triangulated.
+#[derive(Default)]
 struct CutFaces {
-    /// Over the corners of the mesh.
+    faces: Vec<CutFace>,
+    quads: QuadGroup,
+    /// The triangles of faces that are no quads, or need a closer look, over the corners of the mesh.
     triangles: Vec<[u32; 3]>,
-    /// Of the triangles; none if nobody needs them.
+    /// The flags of these; none if nobody needs them.
     flags: Vec<EdgeFlags>,
-    /// How many triangles each face has.
-    counts: Vec<u32>,
+    has_flags: bool,
+}
+
+/// A face.
+#[derive(Clone, Default)]
+struct CutFace {
+    /// If it is a quad that needs no closer look.
+    cut: Option<QuadCut>,
+    /// Of its triangles then.
+    flags: [EdgeFlags; 2],
+    /// Where its triangles are in the list otherwise.
+    listed: Range<usize>,
+}
+
+impl CutFace {
+    /// How many triangles it has.
+    fn count(&self) -> usize {
+        self.cut.map_or(self.listed.len(), |cut| cut.triangles().len())
+    }
 }
 
 impl CutFaces {
-    fn new(mesh: &Mesh, places: &[FacePlace], has_flags: bool) -> Self {
-        let Triangulation { triangles, triangle_faces } =
-            mesh.triangulation_of(places.iter().map(|place| place.face));
-        let (mut of_triangles, mut faces) = (triangles.as_slice(), triangle_faces.as_slice());
-        let (mut counts, mut flags) = (Vec::with_capacity(places.len()), Vec::new());
-        flags.reserve(if has_flags { triangles.len() } else { 0 });
-        for place in places {
-            let count = faces.iter().take_while(|&&face| face == place.face).count();
-            let own;
-            (own, of_triangles) = of_triangles.split_at(count);
-            faces = &faces[count..];
-            counts.push(count as u32);
-            if has_flags {
-                flags_of_face(mesh, (place.face, own), |made| flags.push(made));
+    /// Triangulates at most [`QuadGroup::MOST`] faces.
+    fn fill(&mut self, mesh: &Mesh, places: &[FacePlace], has_flags: bool) {
+        self.has_flags = has_flags;
+        self.faces.clear();
+        self.faces.resize(places.len(), CutFace::default());
+        let Self { faces, quads, .. } = self;
+        quads.fill(mesh, places.iter().map(|place| place.face), |_| {});
+        for (numbers, quads) in quads.iter() {
+            let cuts = quads.cuts();
+            let flags = if has_flags { flags_of_quads(quads, &cuts) } else { [[EdgeFlags::NONE; 2]; _] };
+            for ((&number, cut), flags) in numbers.iter().zip(cuts).zip(flags) {
+                faces[number as usize] = CutFace { cut, flags, listed: 0..0 };
             }
         }
-        Self { triangles, flags, counts }
+        self.cut_others(mesh, places);
+    }
+
+    /// Triangulates those faces that are no quads, or need a closer look.
+    fn cut_others(&mut self, mesh: &Mesh, places: &[FacePlace]) {
+        let others: Vec<u32> = places
+            .iter()
+            .zip(&self.faces)
+            .filter(|(_, face)| face.cut.is_none())
+            .map(|(place, _)| place.face)
+            .collect();
+        let Triangulation { triangles, triangle_faces } = mesh.triangulation_of(others.iter().copied());
+        self.triangles = triangles;
+        self.flags.clear();
+        let mut end = 0;
+        for (face, other) in self.faces.iter_mut().filter(|face| face.cut.is_none()).zip(others) {
+            let start = end;
+            end += triangle_faces[start..].iter().take_while(|&&face| face == other).count();
+            face.listed = start..end;
+            if self.has_flags {
+                let triangles = &self.triangles[start..end];
+                flags_of_face(mesh, (other, triangles), |made| self.flags.push(made));
+            }
+        }
+    }
+
+    /// The triangles of a face with this first corner, over the corners of the mesh.
+    fn triangles_of(&self, face: &CutFace, start: u32) -> Cow<'_, [[u32; 3]]> {
+        match face.cut {
+            Some(cut) => {
+                cut.triangles().iter().map(|triangle| triangle.map(|corner| start + corner)).collect()
+            }
+            None => Cow::Borrowed(&self.triangles[face.listed.clone()]),
+        }
+    }
+
+    /// The flags of a face's triangles; none if nobody needs them.
+    fn flags_of<'f>(&'f self, face: &'f CutFace) -> &'f [EdgeFlags] {
+        match face.cut {
+            _ if !self.has_flags => &[],
+            Some(_) => &face.flags[..face.count()],
+            None => &self.flags[face.listed.clone()],
+        }
     }
 }
 

@@ -1,25 +1,36 @@
-//! Normals and angles of several quads at a time: the bits that are computed for one polygon after the other.
+//! Several quads at a time: their normals, their angles, and how they are cut. All have the bits and the cuts that
+//! one polygon after the other gets.
+
+mod cuts;
+mod group;
+mod halves;
+mod vectors;
 
 use trigon_math::Vec3;
 
 use crate::normals::angles;
 
+pub use group::QuadGroup;
+pub use halves::Halves;
+use vectors::{Vectors, cross, difference, dot, each};
+
 /// The corners of quads side by side, so that the compiler computes several at once.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Quads<const N: usize> {
+pub struct Quads<const N: usize> {
     /// By corner.
     places: [Vectors<N>; 4],
 }
 
-/// A vector for each quad, by axis.
-type Vectors<const N: usize> = [[f64; N]; 3];
-
 impl<const N: usize> Quads<N> {
-    /// Without a size, until they are placed.
-    pub(crate) const NONE: Self = Self { places: [[[0.0; N]; 3]; 4] };
+    /// All corners at the origin, until they are placed.
+    pub const NONE: Self = Self { places: [[[0.0; N]; 3]; 4] };
 
     /// Places the corners of one quad.
-    pub(crate) fn place(&mut self, quad: usize, corners: [Vec3; 4]) {
+    ///
+    /// # Panics
+    ///
+    /// If `quad` is not below `N`.
+    pub fn place(&mut self, quad: usize, corners: [Vec3; 4]) {
         for (vectors, corner) in self.places.iter_mut().zip(corners) {
             for (axis, value) in vectors.iter_mut().zip(corner.to_array()) {
                 axis[quad] = f64::from(value);
@@ -62,25 +73,6 @@ impl<const N: usize> Quads<N> {
         });
         std::array::from_fn(|quad| by_corner.map(|angles| angles[quad]))
     }
-}
-
-fn each<const N: usize>(value: impl Fn(usize, usize) -> f64) -> Vectors<N> {
-    std::array::from_fn(|axis| std::array::from_fn(|quad| value(axis, quad)))
-}
-
-fn difference<const N: usize>(to: &Vectors<N>, from: &Vectors<N>) -> Vectors<N> {
-    each(|axis, quad| to[axis][quad] - from[axis][quad])
-}
-
-fn cross<const N: usize>(a: &Vectors<N>, b: &Vectors<N>) -> Vectors<N> {
-    each(|axis, quad| {
-        let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-        a[next][quad] * b[last][quad] - b[next][quad] * a[last][quad]
-    })
-}
-
-fn dot<const N: usize>(a: &Vectors<N>, b: &Vectors<N>) -> [f64; N] {
-    std::array::from_fn(|quad| a[0][quad] * b[0][quad] + a[1][quad] * b[1][quad] + a[2][quad] * b[2][quad])
 }
 
 #[cfg(test)]
