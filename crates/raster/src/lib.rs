@@ -144,7 +144,7 @@ pub use marks::{MarkColors, Marks};
 pub use paint2d::Rect;
 pub use pass::{Background, Pass};
 pub use pipeline::{LanePipeline, Pipeline, VertexOutput};
-pub use rasterizer::Rasterizer;
+pub use rasterizer::{Rasterizer, Threads};
 pub use settings::{DepthTest, ExecuteSettings, TileSize};
 pub use stats::{StageTimes, Stats};
 pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Target, TargetError, TargetImages};

@@ -4,9 +4,9 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 
-/// Who works on a frame: the calling thread, and perhaps others beside it.
+/// Who works on a frame: the threads of a pool, or the calling thread alone.
 pub(crate) struct Workers {
-    others: Option<ThreadPool>,
+    pool: Option<ThreadPool>,
     count: usize,
 }
 
@@ -15,17 +15,17 @@ const MOST: usize = 256;
 
 impl Workers {
     /// The calling thread.
-    pub(crate) const ALONE: Self = Self { others: None, count: 1 };
+    pub(crate) const ALONE: Self = Self { pool: None, count: 1 };
 
     /// As many threads as requested, or as the machine runs at once; fewer if the system refuses more.
     pub(crate) fn new(threads: Option<NonZeroUsize>) -> Self {
         let available = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         let count = threads.unwrap_or_else(available).get().min(MOST);
-        let build = |others: usize| ThreadPoolBuilder::new().num_threads(others).build().ok();
-        let others = if count > 1 { build(count - 1) } else { None };
+        let build = |count: usize| ThreadPoolBuilder::new().num_threads(count).build().ok();
+        let pool = if count > 1 { build(count) } else { None };
         // If threads cannot be started, the frame is drawn with fewer.
-        let count = others.as_ref().map_or(1, |pool| pool.current_num_threads() + 1);
-        Self { others, count }
+        let count = pool.as_ref().map_or(1, ThreadPool::current_num_threads);
+        Self { pool, count }
     }
 
     /// How many there are.
@@ -33,15 +33,25 @@ impl Workers {
         self.count
     }
 
-    /// Runs `work` on every worker at once, or on the calling thread alone if
+    /// Runs `work` on one of the threads, unless the calling thread is one already, or works alone.
+    pub(crate) fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
+    }
+
+    /// Runs `work` once for every worker, at once if all of them are free, or on the calling thread alone if
     /// it is not `shared`, and waits for all.
     ///
-    /// Between the stages of a frame the others look for work for a while before
-    /// they go to sleep, so that a stage starts without waking anybody.
+    /// Nobody waits for a worker that is not there in time: what it would have done is done by another one. Between the
+    /// stages of a frame workers look for work for a while before they go to sleep, so that a stage mostly starts
+    /// without waking anybody.
     pub(crate) fn run(&self, shared: bool, work: impl Fn(usize) + Sync) {
-        match &self.others {
-            Some(pool) if shared => pool.in_place_scope(|scope| {
-                scope.spawn_broadcast(|_, context| work(context.index() + 1));
+        match &self.pool {
+            Some(pool) if shared => pool.scope(|scope| {
+                let work = &work;
+                (1..self.count).for_each(|worker| scope.spawn(move |_| work(worker)));
                 work(0);
             }),
             _ => work(0),

@@ -5,6 +5,7 @@ use crate::pool::Workers;
 use crate::simd::{SimdLevel, SimdLevelError, Token};
 use crate::view::FrameView;
 use crate::{Cancel, ExecuteSettings, Pass, Stats, Target};
+use std::sync::Arc;
 
 /// Draws passes, and keeps its threads and memory from frame to frame.
 ///
@@ -19,8 +20,23 @@ pub struct Rasterizer {
 struct Execution {
     settings: ExecuteSettings,
     token: Token,
-    workers: Workers,
+    workers: Arc<Workers>,
     cancel: Option<Cancel>,
+}
+
+/// The threads of a [`Rasterizer`].
+#[derive(Clone)]
+pub struct Threads(Arc<Workers>);
+
+impl Threads {
+    /// Runs `work` on one of the threads, and waits for it; on the calling thread if the rasterizer has only one.
+    ///
+    /// The stages of frames that are drawn in it start at once, and what rayon shares out in between goes to the same
+    /// threads. Otherwise every stage would wake them, and the system may let two of them take turns on one core
+    /// for a while, since the calling thread seems to need another one.
+    pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        self.0.install(work)
+    }
 }
 
 impl Rasterizer {
@@ -32,7 +48,8 @@ impl Rasterizer {
     pub fn new(settings: ExecuteSettings) -> Result<Self, SimdLevelError> {
         let level = settings.simd.unwrap_or_else(SimdLevel::best);
         let token = level.token().ok_or(SimdLevelError::Unsupported(level))?;
-        let execution = Execution { settings, token, workers: Workers::new(settings.threads), cancel: None };
+        let workers = Arc::new(Workers::new(settings.threads));
+        let execution = Execution { settings, token, workers, cancel: None };
         Ok(Self { execution, arena: Arena::default() })
     }
 
@@ -40,6 +57,12 @@ impl Rasterizer {
     #[must_use]
     pub fn settings(&self) -> &ExecuteSettings {
         &self.execution.settings
+    }
+
+    /// The threads on which it draws.
+    #[must_use]
+    pub fn threads(&self) -> Threads {
+        Threads(Arc::clone(&self.execution.workers))
     }
 
     /// Sets a token that cancels the current and all later drawings; `None` removes it.
@@ -78,8 +101,9 @@ impl Rasterizer {
     /// The result is a function of the pass and the target's size, samples and
     /// outputs alone: the settings change no byte.
     pub fn draw(&mut self, pass: &Pass<'_>, target: &mut Target<'_>) -> Stats {
-        let options = self.execution.options(pass, target);
-        draw(&mut self.arena, pass, target, options)
+        let Self { execution, arena } = self;
+        let options = execution.options(pass, target);
+        options.workers.install(|| draw(arena, pass, target, options))
     }
 
     /// Like [`draw`](Self::draw), for passes that are drawn repeatedly with few changes: it
@@ -138,8 +162,9 @@ impl Rasterizer {
         target: &mut Target<'_>,
         changes: Option<&[DrawChange<'_>]>,
     ) -> Redraw {
-        let options = self.execution.options(pass, target);
-        redraw(&mut self.arena, pass, (target, changes), options)
+        let Self { execution, arena } = self;
+        let options = execution.options(pass, target);
+        options.workers.install(|| redraw(arena, pass, (target, changes), options))
     }
 
     /// Processes items of any kind on the rasterizer's threads; each item goes to the first

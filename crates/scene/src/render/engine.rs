@@ -43,6 +43,10 @@ pub(super) struct Engine {
     pub(super) is_timed: bool,
 }
 
+/// A frame of fewer samples is drawn on the calling thread, as far as it is not worth sharing: waking another one
+/// would take as long.
+const WORTH_SHARING: u64 = 1 << 17;
+
 /// What is to be drawn.
 #[derive(Clone, Copy)]
 pub(super) struct Request<'r> {
@@ -105,7 +109,7 @@ impl Engine {
     }
 
     fn draw_free(&mut self, request: Request<'_>, free: &mut FreeFrame) -> Result<(), RenderError> {
-        let Request { scene, camera, settings, cancel } = request;
+        let Request { settings, cancel, .. } = request;
         if settings.display == Display::Depth && settings.outputs.color {
             return self.draw_depth(request, free);
         }
@@ -114,6 +118,19 @@ impl Engine {
         free.frame.make_room(settings)?;
         let mut rasterizer = self.rasterizer(settings)?;
         rasterizer.set_cancel(cancel.cloned());
+        let threads = rasterizer.threads();
+        let draw = || self.draw_on(rasterizer, (request, sample), free);
+        if samples_of(settings) < WORTH_SHARING { draw() } else { threads.install(draw) }
+    }
+
+    /// Draws a frame for which there is memory.
+    fn draw_on(
+        &mut self,
+        mut rasterizer: Rasterizer,
+        (request, sample): (Request<'_>, [f64; 2]),
+        free: &mut FreeFrame,
+    ) -> Result<(), RenderError> {
+        let Request { scene, camera, settings, cancel } = request;
         let prepared = PreparedScene::new(scene, camera, settings);
         let plan = EffectPlan::of_prepared(&prepared);
         let mut counts = Counts::default();
@@ -293,6 +310,13 @@ fn record<T>(
     }
     draws.iter().for_each(|draw| draw.record(&mut pass));
     draw(&pass, &draws, counts)
+}
+
+/// How many samples a frame has.
+fn samples_of(settings: &RenderSettings) -> u64 {
+    let [width, height, axis, samples] =
+        [settings.width, settings.height, settings.samples_per_axis, settings.samples].map(u64::from);
+    width * height * axis * axis * samples
 }
 
 /// Whether depth and ids have a pass of their own, besides that of colours.
