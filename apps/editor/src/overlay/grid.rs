@@ -119,10 +119,12 @@ fn visible(view: &OverlayView, line: [DVec3; 2], is_hidden: impl Fn(DVec2) -> bo
     let Some([from, to]) = view.line(line[0], line[1]) else { return Vec::new() };
     let count = (from.distance(to) / PIECE).ceil().clamp(1.0, 1000.0) as usize;
     let at = |index: usize| from.lerp(to, index as f32 / count as f32);
+    // Look-ups wait for memory, so all of them begin before the first answer is used.
+    let is_seen = |index: usize| !is_hidden(view.physical(at(index).lerp(at(index + 1), 0.5)));
+    let seen: Vec<bool> = (0..count).map(is_seen).collect();
     let mut pieces: Vec<[Pos2; 2]> = Vec::new();
     let mut was_seen = false;
-    for index in 0..count {
-        let seen = !is_hidden(view.physical(at(index).lerp(at(index + 1), 0.5)));
+    for (index, seen) in seen.into_iter().enumerate() {
         match pieces.last_mut() {
             Some([_, end]) if seen && was_seen => *end = at(index + 1),
             _ if seen => pieces.push([at(index), at(index + 1)]),
