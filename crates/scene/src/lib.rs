@@ -98,7 +98,7 @@ pub use texture_asset::{TextureAsset, TextureId};
 pub use transform::Transform;
 pub use trigon_raster::simd::{SimdLevel, SimdLevelError};
 pub use trigon_raster::{
-    Cancel, EdgeExplanation, Filter, FragmentExplanation, MipFilter, PixelExplanation, PrimitiveKind,
+    Cancel, EdgeExplanation, Filter, FragmentExplanation, MipFilter, PixelExplanation, PrimitiveKind, Rect,
     SampleExplanation, Sampler, StageTimes, Stats, Texture, TextureError, TextureFormat, Verdict, Wrap,
 };
 pub use views::OVERVIEW_DIRECTION;

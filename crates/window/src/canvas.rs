@@ -2,6 +2,7 @@
 //! the order that windows have in memory.
 
 use std::ops::Range;
+use std::sync::{Arc, Weak};
 
 use rayon::prelude::*;
 use trigon_raster::paint2d::Rect;
@@ -10,41 +11,65 @@ use trigon_scene::Frame;
 use crate::egui_painter::{ChannelOrder, EguiPainter};
 use crate::refinement;
 use crate::shown::source_pixel;
+use crate::worker::Redrawn;
 
 /// Shown before the first image: dark, so as not to dazzle.
 const EMPTY: [u8; 4] = [24, 24, 24, 255];
 
 /// Rows from the top, without padding; blue, green, red, and an unused alpha.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Default)]
 pub(crate) struct Canvas {
     size: [u32; 2],
     /// The scene's image alone.
     beneath: Vec<[u8; 4]>,
     pixels: Vec<[u8; 4]>,
     painted: Vec<Rect>,
+    /// The frame whose pixels lie beneath the interface, if each is one of the canvas.
+    frame: Weak<Frame>,
 }
 
 impl Canvas {
     /// Takes this size and puts the frame's colours under the interface; calls `changed` with each
     /// part that differs from what was there. A frame of another size is stretched by repeating or
-    /// skipping pixels; transparent parts become black. Without a frame it is dark.
+    /// skipping pixels; transparent parts become black. Without a frame it is dark. If it is known in which parts the
+    /// frame may differ from the one that was there, only these are compared.
     pub(crate) fn show(
         &mut self,
-        frame: Option<&Frame>,
-        [width, height]: [u32; 2],
+        (frame, redrawn): (Option<&Arc<Frame>>, Option<&Redrawn>),
+        size: [u32; 2],
         mut changed: impl FnMut(Rect),
     ) {
-        self.size = [width, height];
-        let count = width as usize * height as usize;
+        let is_known = self.size == size
+            && redrawn.is_some_and(|Redrawn { images: [before, after], .. }| {
+                before.ptr_eq(&self.frame)
+                    && frame.is_some_and(|frame| std::ptr::eq(after.as_ptr(), &raw const **frame))
+            });
+        let parts = redrawn.filter(|_| is_known).map(|redrawn| redrawn.parts.as_slice());
+        self.size = size;
+        let count = size[0] as usize * size[1] as usize;
         self.pixels.resize(count, EMPTY);
         self.beneath.resize(count, EMPTY);
         let frame = frame.filter(|frame| !frame.color.is_empty());
-        let size = [width as usize, height as usize];
-        let columns = frame.and_then(|frame| source_columns(frame, size[0]));
-        let rows = || Rows::new(frame, size, columns.as_deref());
-        let bands = self.beneath.par_chunks_mut(size[0].max(1) * BAND).enumerate();
-        let parts = bands.map(|(band, shown)| show_band(band * BAND, shown, rows()));
-        parts.collect::<Vec<_>>().into_iter().flatten().for_each(&mut changed);
+        let own = frame.filter(|frame| [frame.width, frame.height] == size);
+        self.frame = own.map_or_else(Weak::new, Arc::downgrade);
+        let size = size.map(|side| side as usize);
+        let band = size[0].max(1) * BAND;
+        let differing: Vec<Vec<Rect>> = match (parts, own) {
+            (Some(parts), Some(frame)) => {
+                let bands = self.beneath.par_chunks_mut(band).zip(frame.color.as_chunks().0.par_chunks(band));
+                bands
+                    .enumerate()
+                    .map(|(band, lists)| show_parts(band * BAND, lists, size[0], parts))
+                    .collect()
+            }
+            _ => {
+                let columns = frame.and_then(|frame| source_columns(frame, size[0]));
+                let rows = || Rows::new(frame.map(|frame| &**frame), size, columns.as_deref());
+                let bands = self.beneath.par_chunks_mut(band).enumerate();
+                bands.map(|(band, shown)| show_band(band * BAND, shown, rows())).collect()
+            }
+        };
+        differing.into_iter().flatten().for_each(&mut changed);
     }
 
     /// Brings the pixels up to date with the interface. Returns whether any changed.
@@ -86,6 +111,31 @@ fn show_band(top: usize, shown: &mut [[u8; 4]], mut rows: Rows<'_>) -> Vec<Rect>
         }
     }
     parts
+}
+
+/// The same, of a frame of the window's size, in those parts of its rows alone.
+fn show_parts(
+    top: usize,
+    (shown, frame): (&mut [[u8; 4]], &[[u8; 4]]),
+    width: usize,
+    parts: &[Rect],
+) -> Vec<Rect> {
+    let rows = top as i32..(top + shown.len() / width) as i32;
+    let (mut differing_parts, mut row) = (Vec::new(), vec![EMPTY; width]);
+    for part in parts {
+        for y in part.min[1].max(rows.start)..part.max[1].min(rows.end) {
+            let start = (y - rows.start) as usize * width;
+            let [left, right] = [part.min[0], part.max[0]].map(|x| start + x as usize);
+            let (shown, row) = (&mut shown[left..right], &mut row[..right - left]);
+            over_black(&frame[left..right], row);
+            for columns in differing(shown, row) {
+                shown[columns.clone()].copy_from_slice(&row[columns.clone()]);
+                let [left, right] = [columns.start, columns.end].map(|x| part.min[0] + x as i32);
+                differing_parts.push(Rect::new([left, y], [right, y + 1]));
+            }
+        }
+    }
+    differing_parts
 }
 
 /// Pixels of a row that are compared at a time.
@@ -165,14 +215,14 @@ fn over_black(from: &[[u8; 4]], to: &mut [[u8; 4]]) {
 mod tests {
     use super::*;
 
-    fn frame(width: u32, height: u32, color: Vec<u8>) -> Frame {
-        Frame { width, height, color, ..Frame::default() }
+    fn frame(width: u32, height: u32, color: Vec<u8>) -> Arc<Frame> {
+        Arc::new(Frame { width, height, color, ..Frame::default() })
     }
 
-    fn shown(frame: Option<&Frame>, size: [u32; 2]) -> Vec<[u8; 4]> {
+    fn shown(frame: Option<&Arc<Frame>>, size: [u32; 2]) -> Vec<[u8; 4]> {
         let mut canvas = Canvas::default();
         let mut painter = EguiPainter::new(ChannelOrder::Bgra);
-        canvas.show(frame, size, |part| painter.invalidate_part(part));
+        canvas.show((frame, None), size, |part| painter.invalidate_part(part));
         assert!(canvas.paint(&mut painter), "all of it is new");
         assert!(!canvas.paint(&mut painter), "and then nothing");
         canvas.pixels().to_vec()
@@ -205,7 +255,7 @@ mod tests {
         let mut show = |color: &[u8]| {
             let frame = frame(200, 3, color.to_vec());
             let mut parts = Vec::new();
-            canvas.show(Some(&frame), size, |part| parts.push(part));
+            canvas.show((Some(&frame), None), size, |part| parts.push(part));
             parts.iter().for_each(|part| painter.invalidate_part(*part));
             canvas.paint(&mut painter);
             (parts, canvas.painted().to_vec(), canvas.pixels().to_vec())
@@ -220,6 +270,32 @@ mod tests {
         assert!(painted.iter().map(|rect| (rect.max[0] - rect.min[0]) * 3).sum::<i32>() < 300, "{painted:?}");
         assert_eq!(pixels[200 + 70], [255, 255, 9, 255], "the one pixel");
         assert_eq!(pixels.iter().filter(|&&pixel| pixel != [255; 4]).count(), 1, "and no other");
+    }
+
+    #[test]
+    fn only_parts_that_may_differ_are_compared() {
+        let color = |byte: u8| (0..600).flat_map(|_| [byte, 0, 9, 255]).collect::<Vec<u8>>();
+        let (first, mut color) = (frame(200, 3, color(1)), color(1));
+        (color[4 * 70], color[4 * (400 + 150)]) = (77, 88);
+        let second = frame(200, 3, color);
+        let redrawn = |before: &Arc<Frame>, after: &Arc<Frame>| Redrawn {
+            images: [before, after].map(Arc::downgrade),
+            parts: vec![Rect::new([60, 0], [80, 2])],
+        };
+        let differing = |known: &Redrawn, size: [u32; 2]| {
+            let (mut canvas, mut parts) = (Canvas::default(), Vec::new());
+            canvas.show((Some(&first), None), size, |_| {});
+            canvas.show((Some(&second), Some(known)), size, |part| parts.push(part));
+            (parts, canvas.beneath)
+        };
+        let (parts, beneath) = differing(&redrawn(&first, &second), [200, 3]);
+        assert_eq!(parts, [Rect::new([60, 0], [80, 1])], "a part of the upper row");
+        assert_eq!((beneath[70][2], beneath[550][2]), (77, 1), "nobody looked at the last row");
+        // Of other images, or in a window of another size, it says nothing.
+        for known in [redrawn(&second, &second), redrawn(&first, &first)] {
+            assert_eq!(differing(&known, [200, 3]).0.len(), 2, "{known:?}");
+        }
+        assert_eq!(differing(&redrawn(&first, &second), [400, 3]).0.len(), 2, "all of it is compared");
     }
 
     #[test]

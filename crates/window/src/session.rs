@@ -25,7 +25,7 @@ use crate::refinement::Gallery;
 use crate::shared_scene::Revision;
 use crate::shown::DrawnNodes;
 use crate::stage::{FrameReport, Stage, Subject, Visibility};
-use crate::worker::Worker;
+use crate::worker::{Redrawn, Worker};
 use offers::TakenInput;
 use wrapping::Wrapping;
 
@@ -65,6 +65,8 @@ pub(crate) struct Session<'a> {
     drawn_subject: Option<Subject>,
     /// The one on the canvas.
     shown: Option<Arc<Frame>>,
+    /// How the last image differs from the one before it.
+    redrawn: Option<Redrawn>,
     /// Requested images that are not begun.
     images: Vec<RenderSettings>,
     canvas: Canvas,
@@ -101,6 +103,7 @@ impl<'a> Session<'a> {
             gallery: Gallery::default(),
             drawn_subject: None,
             shown: None,
+            redrawn: None,
             images: Vec::new(),
             canvas: Canvas::default(),
             stale: true,

@@ -1,13 +1,13 @@
 //! Draws the scene on worker threads, so that the window never waits for an image.
 
 use std::num::NonZeroUsize;
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Weak};
 use std::thread;
 use std::time::Duration;
 
 use trigon_camera::Camera;
-use trigon_scene::{Cancel, Frame, Outputs, RenderError, RenderSettings, Renderer, Scene, StageTimes};
+use trigon_scene::{Cancel, Frame, Outputs, Rect, RenderError, RenderSettings, Renderer, Scene, StageTimes};
 
 use crate::drawer::Drawer;
 use crate::pacing::Quality;
@@ -80,6 +80,16 @@ pub(crate) struct Finished {
     /// Of the last view.
     pub(crate) stages: StageTimes,
     pub(crate) product: Result<Product, Unfinished>,
+    /// The difference between an image and the last one, if it is known.
+    pub(crate) redrawn: Option<Redrawn>,
+}
+
+/// The parts in which an image may differ from an earlier one.
+#[derive(Debug, Default)]
+pub(crate) struct Redrawn {
+    /// The earlier image and the later one.
+    pub(crate) images: [Weak<Frame>; 2],
+    pub(crate) parts: Vec<Rect>,
 }
 
 /// Does one job at a time.
@@ -136,6 +146,8 @@ struct Drawing {
     renderer: Renderer,
     /// A replica of the window's scene, so that neither waits for the other.
     scene: Scene,
+    /// The last image.
+    last: Weak<Frame>,
     /// Returns the time since any fixed moment.
     clock: Box<dyn Fn() -> Duration + Send>,
 }
@@ -231,6 +243,7 @@ impl Worker {
                 pixels: Duration::ZERO,
                 stages: StageTimes::default(),
                 product: Err(Unfinished::Cancelled),
+                redrawn: None,
             });
         }
         let &UnderWay { number, purpose, .. } = self.under_way.as_ref()?;
@@ -318,7 +331,7 @@ impl Drawing {
         let mut renderer = Renderer::builder().build();
         // From these times the size of drafts follows.
         renderer.time_stages();
-        Self { renderer, scene: Scene::new(), clock: Box::new(clock) }
+        Self { renderer, scene: Scene::new(), last: Weak::new(), clock: Box::new(clock) }
     }
 
     fn run(&mut self, Job { purpose, views, task }: Job, cancel: &Cancel) -> Finished {
@@ -365,7 +378,18 @@ impl Drawing {
         let (took, stages) = ((self.clock)().saturating_sub(begun), self.renderer.stats().times);
         let of_pixels = |threads| count * time_of_pixels(&stages, threads);
         let pixels = threads.map_or(took, |threads| took.min(of_pixels(threads)));
-        Finished { purpose, views, took, pixels, stages, product }
+        let redrawn = match &product {
+            Ok(Product::Frame(frame)) => self.redrawn(frame),
+            _ => None,
+        };
+        Finished { purpose, views, took, pixels, stages, product, redrawn }
+    }
+
+    /// The difference between an image and the last one, which it replaces.
+    fn redrawn(&mut self, frame: &Arc<Frame>) -> Option<Redrawn> {
+        let images = [std::mem::replace(&mut self.last, Arc::downgrade(frame)), Arc::downgrade(frame)];
+        let parts = self.renderer.redrawn_between(&*images[0].upgrade()?, frame)?;
+        Some(Redrawn { images, parts })
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use trigon_camera::Camera;
 use trigon_math::UVec2;
 use trigon_raster::{
-    Background, Cancel, ExecuteSettings, Pass, PixelExplanation, Rasterizer, Stats, Target, TargetError,
+    Background, Cancel, ExecuteSettings, Pass, PixelExplanation, Rasterizer, Rect, Stats, Target, TargetError,
 };
 
 use super::RenderError;
@@ -106,6 +106,11 @@ impl Engine {
                 Err(error)
             }
         }
+    }
+
+    /// The parts in which the last frame that is shared may differ from an earlier one; `None` if that is not known.
+    pub(super) fn redrawn_between(&self, before: &Frame, last: &Frame) -> Option<Vec<Rect>> {
+        self.frames.redrawn_between(before, last)
     }
 
     fn draw_free(&mut self, request: Request<'_>, free: &mut FreeFrame) -> Result<(), RenderError> {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use trigon_camera::Camera;
-use trigon_raster::{Cancel, PixelExplanation, Stats};
+use trigon_raster::{Cancel, PixelExplanation, Rect, Stats};
 
 use super::RenderError;
 use super::builder::RendererBuilder;
@@ -143,6 +143,29 @@ impl Renderer {
         cancel: Option<&Cancel>,
     ) -> Result<Arc<Frame>, RenderError> {
         self.engine.draw_shared(Request { scene, camera, settings: &self.settings, cancel })
+    }
+
+    /// The parts in which the last frame of [`render_shared`](Self::render_shared) may differ from an earlier one, for
+    /// whoever shows one after the other. Only frames that somebody holds are known. `None` if it may differ
+    /// anywhere.
+    ///
+    /// ```
+    /// use trigon_scene::mesh::primitives;
+    /// use trigon_scene::{Material, Renderer, Scene, VertexPoints};
+    ///
+    /// let mut scene = Scene::new();
+    /// scene.add_object("cube", primitives::cube(1.0), Material::default());
+    /// let mut renderer = Renderer::builder().size(320, 240).samples_per_axis(1).build();
+    /// renderer.settings_mut().vertices = Some(VertexPoints::default());
+    /// let camera = scene.overview(renderer.settings().aspect());
+    /// let before = renderer.render_shared(&scene, &camera, None)?;
+    /// let last = renderer.render_shared(&scene, &camera, None)?;
+    /// assert_eq!(renderer.redrawn_between(&before, &last), Some(vec![]), "nothing has changed");
+    /// # Ok::<(), trigon_scene::RenderError>(())
+    /// ```
+    #[must_use]
+    pub fn redrawn_between(&self, before: &Frame, last: &Frame) -> Option<Vec<Rect>> {
+        self.engine.redrawn_between(before, last)
     }
 
     /// Draws what each of these cameras sees, one after the other, and passes every frame with its

@@ -110,6 +110,16 @@ impl SharedFrames {
         true
     }
 
+    /// The parts in which the last image may differ from an earlier one; `None` if that is not known.
+    pub(super) fn redrawn_between(&self, before: &Frame, last: &Frame) -> Option<Vec<Rect>> {
+        let number = |frame: &Frame| {
+            let (_, image) = self.frames.iter().find(|(held, _)| std::ptr::eq(&raw const **held, frame))?;
+            *image
+        };
+        let before = number(before)?;
+        number(last).filter(|&last| last == self.latest).and_then(|_| self.redrawn_since(before))
+    }
+
     /// The parts that differ between an image and the last one; `None` if that is forgotten.
     fn redrawn_since(&self, image: u64) -> Option<Vec<Rect>> {
         let since = (self.latest - image) as usize;
@@ -237,6 +247,24 @@ mod tests {
         frames.give_back(newest.frame);
         let mut unknown = frames.take();
         assert!(!frames.bring_up_to_date(&mut unknown, &rasterizer), "the last image is gone");
+    }
+
+    #[test]
+    fn parts_between_images_are_known_while_somebody_holds_both() {
+        let mut frames = SharedFrames::default();
+        let rects = [part([0, 0], [2, 3]), part([1, 0], [2, 1]), part([0, 1], [1, 3])];
+        let images = [1_u8, 2, 3].map(|byte| {
+            let redrawn = rects[usize::from(byte) - 1].clone();
+            frames.share(filled(FreeFrame::default(), byte, Some(redrawn)))
+        });
+        let [first, second, third] = &images;
+        assert_eq!(frames.redrawn_between(second, third), Some(rects[2].clone()), "of the last one");
+        assert_eq!(frames.redrawn_between(first, third), Some(rects[1..].concat()), "of the last two");
+        assert_eq!(frames.redrawn_between(third, third), Some(Vec::new()), "none");
+        assert_eq!(frames.redrawn_between(first, second), None, "only the last one is of interest");
+        let unknown = frames.share(filled(FreeFrame::default(), 4, None));
+        assert_eq!(frames.redrawn_between(third, &unknown), None, "it may differ anywhere");
+        assert_eq!(frames.redrawn_between(&Frame::default(), third), None, "of another renderer");
     }
 
     #[test]

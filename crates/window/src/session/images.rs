@@ -32,9 +32,10 @@ impl Session<'_> {
     }
 
     fn window_finished(&mut self, quality: Quality, finished: Finished) {
-        let Finished { views, took, pixels, stages, product, .. } = finished;
+        let Finished { views, took, pixels, stages, product, redrawn, .. } = finished;
         match product {
             Ok(Product::Frame(frame)) => {
+                self.redrawn = redrawn;
                 self.pacing.finished(took, pixels);
                 let nodes = self.nodes.as_ref().map_or_else(Arc::default, |(_, nodes)| Arc::clone(nodes));
                 self.gallery.add(quality, Shown { frame, views, nodes }, took);
@@ -101,7 +102,8 @@ impl Session<'_> {
         }
         let Viewport { width, height } = self.stage.viewport();
         let painter = &mut self.interface.painter;
-        self.canvas.show(self.shown.as_deref(), [width, height], |changed| painter.invalidate_part(changed));
+        let shown = (self.shown.as_ref(), self.redrawn.as_ref());
+        self.canvas.show(shown, [width, height], |changed| painter.invalidate_part(changed));
     }
 
     /// Begins an image that was asked for, if the worker has time. It need not wait for

@@ -8,7 +8,7 @@ use trigon_camera::Camera;
 use trigon_math::{DVec3, Vec3, Vec4};
 use trigon_mesh::{Attributes, Mesh, MeshChange, primitives};
 use trigon_raster::simd::SimdLevel;
-use trigon_raster::{Cancel, Texture, TextureFormat};
+use trigon_raster::{Cancel, Rect, Texture, TextureFormat};
 
 use crate::{
     AlphaMode, AmbientOcclusion, Background, EffectSettings, ElementSet, Environment, FixedBitSet, Fog,
@@ -276,8 +276,12 @@ impl Sequence {
         if let Place::OwnFrame = place {
             return self.draw();
         }
+        let before = std::mem::take(&mut self.shown);
         self.shown = self.renderer.render_shared(&self.model.scene, &self.camera, None).expect("drawn");
         self.frame = Frame::clone(&self.shown);
+        if let Some(parts) = self.renderer.redrawn_between(&before, &self.shown) {
+            assert_same_outside(&before, &self.shown, &parts);
+        }
         if let Place::Held = place {
             self.held.push((Arc::clone(&self.shown), self.frame.clone()));
         }
@@ -285,6 +289,17 @@ impl Sequence {
 
     fn fresh(&self) -> Frame {
         render(&self.model.fresh(), &self.camera, self.renderer.settings()).expect("drawn")
+    }
+}
+
+/// Two frames of one size differ at most in some parts.
+fn assert_same_outside(before: &Frame, after: &Frame, parts: &[Rect]) {
+    assert_eq!((before.width, before.height), (after.width, after.height));
+    let [one, other] = [before, after].map(|frame| frame.color.as_chunks::<4>().0);
+    for (pixel, (one, other)) in one.iter().zip(other).enumerate() {
+        let at = [pixel as u32 % after.width, pixel as u32 / after.width].map(|at| at as i32);
+        let holds = |part: &Rect| (0..2).all(|axis| (part.min[axis]..part.max[axis]).contains(&at[axis]));
+        assert!(one == other || parts.iter().any(holds), "pixel {at:?} is in none of {parts:?}");
     }
 }
 
