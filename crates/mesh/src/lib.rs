@@ -72,7 +72,9 @@ mod welded_mesh;
 
 pub use attributes::{Attributes, Deltas, MorphTarget, SkinWeights};
 pub use builder::MeshBuilder;
-pub use change::{ChangeError, ChangedElements, MeshChange, RenderLinks, RenderUpdate, UpdatedVertex};
+pub use change::{
+    ChangeError, ChangedElements, MeshChange, Outlines, RenderLinks, RenderUpdate, UpdatedVertex,
+};
 pub use columns::MeshColumns;
 pub use deformed::Deformed;
 pub use error::MeshError;

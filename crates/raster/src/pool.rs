@@ -34,22 +34,25 @@ impl Workers {
     }
 
     /// Runs `work` on one of the threads, unless the calling thread is one already, or works alone.
+    ///
+    /// A thread of another pool runs it itself. While it waited, it would begin other work of its own pool, which may
+    /// be the next image of many, and would have to finish that first.
     pub(crate) fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         match &self.pool {
-            Some(pool) => pool.install(work),
-            None => work(),
+            Some(pool) if rayon::current_thread_index().is_none() => pool.install(work),
+            _ => work(),
         }
     }
 
     /// Runs `work` once for every worker, at once if all of them are free, or on the calling thread alone if
-    /// it is not `shared`, and waits for all.
+    /// it is not `shared`, and waits for all. The calling thread is one of them.
     ///
-    /// Nobody waits for a worker that is not there in time: what it would have done is done by another one. Between the
-    /// stages of a frame workers look for work for a while before they go to sleep, so that a stage mostly starts
-    /// without waking anybody.
+    /// If it is a thread of the pool, it waits for no other that comes late, but does its work, too. Between the stages
+    /// of a frame workers look for work for a while before they go to sleep, so that a stage mostly starts without
+    /// waking anybody.
     pub(crate) fn run(&self, shared: bool, work: impl Fn(usize) + Sync) {
         match &self.pool {
-            Some(pool) if shared => pool.scope(|scope| {
+            Some(pool) if shared => pool.in_place_scope(|scope| {
                 let work = &work;
                 (1..self.count).for_each(|worker| scope.spawn(move |_| work(worker)));
                 work(0);
@@ -96,6 +99,21 @@ mod tests {
             let expected: Vec<_> = (0..1000).map(|i| i / 7 + 1).collect();
             assert_eq!(numbers, expected, "{threads} threads");
         }
+    }
+
+    /// Begun one within another, images of a long list would need all memory, and overflow the stack.
+    #[test]
+    fn threads_of_other_pools_finish_one_image_before_the_next() {
+        let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+        let (under_way, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let image = || {
+            Workers::new(NonZeroUsize::new(2)).install(|| {
+                most.fetch_max(under_way.fetch_add(1, Ordering::Relaxed) + 1, Ordering::Relaxed);
+                under_way.fetch_sub(1, Ordering::Relaxed);
+            });
+        };
+        pool.scope(|scope| (0..20).for_each(|_| scope.spawn(|_| image())));
+        assert_eq!(most.into_inner(), 1, "at a time");
     }
 
     #[test]

@@ -6,6 +6,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 use trigon_math::{DVec3, Vec3};
 
+use super::Outlines;
 use super::corner_faces::FaceCorner;
 use crate::Mesh;
 use crate::normals::{corner_angle, or_if_zero, unit_or_zero};
@@ -42,17 +43,18 @@ impl FaceNormals {
         Self { normals, angles }
     }
 
-    /// Brings those of some faces up to date; the faces increase.
-    pub(super) fn update(&mut self, mesh: &Mesh, faces: &[u32]) {
+    /// Brings those of some faces up to date; the faces increase, and have these outlines.
+    pub(super) fn update(&mut self, mesh: &Mesh, faces: &[u32], outlines: &Outlines) {
         let (mut normals, mut angles) = (self.normals.as_mut_slice(), self.angles.as_mut_slice());
         let (mut first_face, mut first_corner) = (0, 0);
         let mut parts = Vec::with_capacity(faces.len().div_ceil(PIECE));
-        for faces in faces.chunks(PIECE) {
+        for (faces, first_place) in faces.chunks(PIECE).zip((0..).step_by(PIECE)) {
             let end = faces[faces.len() - 1] as usize + 1;
             let end_corner = mesh.face_corners(end - 1).end;
             let own_angles = if angles.is_empty() { 0 } else { end_corner - first_corner };
             parts.push(Part {
                 faces,
+                first_place,
                 first_face,
                 first_corner,
                 normals: normals.split_off_mut(..end - first_face).expect("faces increase"),
@@ -60,7 +62,7 @@ impl FaceNormals {
             });
             (first_face, first_corner) = (end, end_corner);
         }
-        parts.into_par_iter().for_each(|part| part.update(mesh));
+        parts.into_par_iter().for_each(|part| part.update(mesh, outlines));
     }
 
     /// The normal that a flat face shows.
@@ -83,6 +85,8 @@ impl FaceNormals {
 /// Some faces, and what is known of all from one of them to another.
 struct Part<'a> {
     faces: &'a [u32],
+    /// Of their outlines.
+    first_place: usize,
     first_face: usize,
     normals: &'a mut [Vec3],
     first_corner: usize,
@@ -91,10 +95,13 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
-    fn update(mut self, mesh: &Mesh) {
+    fn update(mut self, mesh: &Mesh, outlines: &Outlines) {
         let mut group = QuadGroup::default();
-        for faces in self.faces.chunks(QuadGroup::MOST) {
-            group.fill(mesh, faces.iter().copied(), |number| self.update_any(mesh, faces[number] as usize));
+        for (faces, first) in
+            self.faces.chunks(QuadGroup::MOST).zip((self.first_place..).step_by(QuadGroup::MOST))
+        {
+            let quads = outlines.quads(mesh, first..first + faces.len());
+            group.fill(quads, |number| self.update_any(mesh, faces[number] as usize));
             for (numbers, quads) in group.iter() {
                 self.update_quads(mesh, quads, numbers.iter().map(|&number| faces[number as usize]));
             }

@@ -15,11 +15,13 @@ mod local_normals;
 mod marks;
 mod mesh_change;
 mod neighborhood;
+mod outlines;
 mod render_links;
 mod render_update;
 mod vertex_values;
 
 pub use changed_elements::ChangedElements;
 pub use mesh_change::{ChangeError, MeshChange};
+pub use outlines::Outlines;
 pub use render_links::RenderLinks;
 pub use render_update::{RenderUpdate, UpdatedVertex};

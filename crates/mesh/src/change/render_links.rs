@@ -79,8 +79,14 @@ impl RenderLinks {
         self.find_face_normals(mesh, changed);
         let has_face_normals = self.face_normals.is_some() && !self.is_flat;
         let is_other = self.around.update(mesh, &self.corners_at, changed, has_face_normals);
+        let outlines = &mut self.update.outlines;
+        if is_other {
+            outlines.replace(mesh, &self.around.faces, &self.around.moved);
+        } else {
+            outlines.update(mesh);
+        }
         if let Some(normals) = &mut self.face_normals {
-            normals.update(mesh, &self.around.faces);
+            normals.update(mesh, &self.around.faces, outlines);
             if self.is_flat {
                 let shown = self.around.faces.iter().map(|&face| (face, normals.shown(face as usize)));
                 self.update.face_normals.clear();

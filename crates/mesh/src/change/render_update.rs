@@ -2,6 +2,8 @@
 
 use trigon_math::Vec3;
 
+use super::Outlines;
+
 /// What of a [`RenderMesh`](crate::RenderMesh) is to be written anew after a change of its
 /// mesh; told by [`RenderLinks::update`](crate::RenderLinks::update).
 #[derive(Debug, Clone, Default)]
@@ -15,6 +17,8 @@ pub struct RenderUpdate {
     /// before; increasing. See [`Mesh::triangulation_of`](crate::Mesh::triangulation_of): a polygon may have more
     /// or fewer triangles than before.
     pub faces: Vec<u32>,
+    /// The corners of these polygons, if they are quads.
+    pub outlines: Outlines,
     /// Polygons that may show another normal than before, increasing, and these normals, of unit length. None unless
     /// the links are those of a [`WeldedMesh::of_flat_with_links`](crate::WeldedMesh::of_flat_with_links).
     pub face_normals: Vec<(u32, Vec3)>,

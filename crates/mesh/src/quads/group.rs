@@ -1,7 +1,8 @@
 //! Quads among the faces of a mesh.
 
+use trigon_math::Vec3;
+
 use super::Quads;
-use crate::Mesh;
 
 /// Quads that are computed at a time.
 const LANES: usize = 4;
@@ -24,30 +25,22 @@ impl QuadGroup {
     /// How many faces a group can take.
     pub const MOST: usize = 256;
 
-    /// Takes the quads among some faces of a mesh, and calls back with the places of all others in the list.
+    /// Takes the corners of those faces in a list that are quads, and calls back with the places of all others.
     ///
     /// # Panics
     ///
-    /// If there are more than [`QuadGroup::MOST`] faces, or one of them does not exist.
-    pub fn fill(
-        &mut self,
-        mesh: &Mesh,
-        faces: impl Iterator<Item = u32> + Clone,
-        mut other: impl FnMut(usize),
-    ) {
-        mesh.prefetch_faces(faces.clone());
+    /// If there are more than [`QuadGroup::MOST`] faces.
+    pub fn fill(&mut self, faces: impl Iterator<Item = Option<[Vec3; 4]>>, mut other: impl FnMut(usize)) {
         self.numbers.clear();
-        for (number, face) in faces.enumerate() {
-            match *mesh.face_vertices(face as usize) {
-                // Most faces of most meshes.
-                [a, b, c, d] => {
-                    let at = self.numbers.len();
-                    self.numbers.push(number as u32);
-                    let corners = [a, b, c, d].map(|vertex| mesh.positions()[vertex as usize]);
-                    self.quads[at / LANES].place(at % LANES, corners);
-                }
-                _ => other(number),
-            }
+        for (number, corners) in faces.enumerate() {
+            // Most faces of most meshes.
+            let Some(corners) = corners else {
+                other(number);
+                continue;
+            };
+            let at = self.numbers.len();
+            self.numbers.push(number as u32);
+            self.quads[at / LANES].place(at % LANES, corners);
         }
     }
 

@@ -313,7 +313,7 @@ struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    /// Runs all groups of eight vertices of which at least one has changed.
+    /// Runs all groups of eight vertices of which at least one has changed, from the first to the last that has.
     fn run(self, token: Token, viewport: Viewport) {
         self.read_ahead();
         let pipeline = self.recorded.pipeline;
@@ -322,16 +322,16 @@ impl Piece<'_> {
         for (word, (&changed, moved)) in self.changed.iter().zip(self.moved).enumerate() {
             let mut byte = 0;
             while byte < 8 {
-                let ahead = |byte: usize| changed >> (8 * byte) & 0xff != 0;
-                if !ahead(byte) {
+                let group = |byte: usize| (changed >> (8 * byte)) as u8;
+                if group(byte) == 0 {
                     byte += 1;
                     continue;
                 }
-                let first = word * 64 + byte * 8;
-                while byte < 8 && ahead(byte) {
+                let first = word * 64 + byte * 8 + group(byte).trailing_zeros() as usize;
+                while byte < 8 && group(byte) != 0 {
                     byte += 1;
                 }
-                let end = self.places.len().min(word * 64 + byte * 8);
+                let end = word * 64 + byte * 8 - group(byte - 1).leading_zeros() as usize;
                 let places = &mut self.places[first..end];
                 before[..places.len()].copy_from_slice(places);
                 let slots = self.slots.start + first..self.slots.start + end;
@@ -345,9 +345,7 @@ impl Piece<'_> {
             }
         }
     }
-}
 
-impl Piece<'_> {
     /// Reads what the groups hold, which may lie all over the memory: a processor waits for many places at once if
     /// nothing else is done meanwhile, and finds them nearby afterwards.
     fn read_ahead(&self) {

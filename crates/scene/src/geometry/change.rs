@@ -131,7 +131,7 @@ impl Geometry {
     fn replace_triangles(&mut self, mesh: &Mesh, (links, is_flat): (&RenderLinks, bool)) -> Option<Vec<u32>> {
         let mut face_places = take(&mut self.face_places);
         let materials = mesh.attributes().face_materials.as_deref();
-        let places = face_places.update(&links.update().faces, |face| {
+        let places = face_places.update(links.update(), |face| {
             self.place_of(face, materials.map_or(0, |slots| slots[face as usize]), mesh.face_count())
         });
         let mut lists = TriangleLists {
@@ -147,7 +147,7 @@ impl Geometry {
             first = end;
         }
         let replace = |(places, first, lists): (&mut [FacePlace], usize, TriangleLists<'_>)| {
-            lists.replace(mesh, links.vertex_of_corner(), places, first)
+            lists.replace(mesh, links, places, first)
         };
         let replaced: Vec<Replaced> = pieces.into_par_iter().map(replace).collect::<Option<_>>()?;
         self.note_fillers(places, &replaced);

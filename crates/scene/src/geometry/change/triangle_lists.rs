@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::mem::replace;
 use std::ops::Range;
 
-use trigon_mesh::{Mesh, QuadCut, QuadGroup, Triangulation};
+use trigon_mesh::{Mesh, Outlines, QuadCut, QuadGroup, RenderLinks, Triangulation};
 use trigon_raster::EdgeFlags;
 
 use super::super::edge_flags::{flags_of_face, flags_of_quads};
@@ -47,15 +47,16 @@ impl<'a> TriangleLists<'a> {
     pub(super) fn replace(
         mut self,
         mesh: &Mesh,
-        vertex_of_corner: &[u32],
+        links: &RenderLinks,
         places: &mut [FacePlace],
         first: usize,
     ) -> Option<Replaced> {
+        let vertex_of_corner = links.vertex_of_corner();
         let (mut replaced, mut are_full) = (Replaced::default(), true);
         replaced.counts.reserve(places.len());
         let mut cut = CutFaces::default();
         for places in places.chunks_mut(QuadGroup::MOST) {
-            cut.fill(mesh, places, !self.flags.is_empty());
+            cut.fill(mesh, (places, &links.update().outlines), !self.flags.is_empty());
             for (place, face) in places.iter_mut().zip(&cut.faces) {
                 if place.slots().len() < face.count() {
                     return None;
@@ -152,12 +153,12 @@ impl CutFace {
 
 impl CutFaces {
     /// Triangulates at most [`QuadGroup::MOST`] faces.
-    fn fill(&mut self, mesh: &Mesh, places: &[FacePlace], has_flags: bool) {
+    fn fill(&mut self, mesh: &Mesh, (places, outlines): (&[FacePlace], &Outlines), has_flags: bool) {
         self.has_flags = has_flags;
         self.faces.clear();
         self.faces.resize(places.len(), CutFace::default());
         let Self { faces, quads, .. } = self;
-        quads.fill(mesh, places.iter().map(|place| place.face), |_| {});
+        quads.fill(places.iter().map(|place| outlines.quad(mesh, place.outline? as usize)), |_| {});
         for (numbers, quads) in quads.iter() {
             let cuts = quads.cuts();
             let flags = if has_flags { flags_of_quads(quads, &cuts) } else { [[EdgeFlags::NONE; 2]; _] };
