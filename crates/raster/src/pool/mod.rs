@@ -1,6 +1,9 @@
 //! The thread pool: workers that persist between frames and share each stage.
 
+mod standby;
+
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use standby::Standby;
 use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 
@@ -39,7 +42,13 @@ impl Workers {
     /// be the next image of many, and would have to finish that first.
     pub(crate) fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         match &self.pool {
-            Some(pool) if rayon::current_thread_index().is_none() => pool.install(work),
+            Some(pool) if rayon::current_thread_index().is_none() => {
+                let standby = Standby::new();
+                pool.scope(|scope| {
+                    let _frame = standby.call(scope, self.count - 1);
+                    work()
+                })
+            }
             _ => work(),
         }
     }
@@ -98,6 +107,38 @@ mod tests {
             );
             let expected: Vec<_> = (0..1000).map(|i| i / 7 + 1).collect();
             assert_eq!(numbers, expected, "{threads} threads");
+        }
+    }
+
+    /// Stages, what rayon shares out in them and between them, and one frame after the other.
+    #[test]
+    fn whatever_a_frame_shares_out_is_done() {
+        use rayon::prelude::*;
+        for threads in [1, 2, 3] {
+            let workers = Workers::new(NonZeroUsize::new(threads));
+            for frame in 0..300_u64 {
+                let sum = workers.install(|| {
+                    let between: u64 = (0..50_u64).into_par_iter().map(|number| number * frame).sum();
+                    let total = AtomicUsize::new(0);
+                    workers.share(0..40_usize, |number| {
+                        let within: usize = (0..number).into_par_iter().sum();
+                        total.fetch_add(within, Ordering::Relaxed);
+                    });
+                    between + total.into_inner() as u64
+                });
+                let within: u64 = (0..40_u64).map(|number| (0..number).sum::<u64>()).sum();
+                assert_eq!(sum, 1225 * frame + within, "frame {frame}, {threads} threads");
+            }
+        }
+    }
+
+    #[test]
+    fn after_a_frame_that_panics_nobody_stands_by() {
+        for threads in [1, 2, 3] {
+            let workers = Workers::new(NonZeroUsize::new(threads));
+            let panic = std::panic::AssertUnwindSafe(|| workers.install(|| panic!("as a pipeline might")));
+            assert!(std::panic::catch_unwind(panic).is_err(), "the caller learns of it");
+            assert_eq!(workers.install(|| 7), 7, "and can draw the next one");
         }
     }
 
