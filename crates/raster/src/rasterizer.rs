@@ -29,7 +29,8 @@ struct Execution {
 pub struct Threads(Arc<Workers>);
 
 impl Threads {
-    /// Runs `work` on one of the threads, and waits for it; on the calling thread if the rasterizer has only one.
+    /// Runs `work` on one of the threads, and waits for it; on the calling thread if the rasterizer has only one, or if that
+    /// is a thread of another rayon pool.
     ///
     /// The stages of frames that are drawn in it start at once, and what rayon shares out in between goes to the same
     /// threads. Otherwise every stage would wake them, and the system may let two of them take turns on one core

@@ -11,6 +11,8 @@ use std::sync::{Mutex, PoisonError};
 pub(crate) struct Workers {
     pool: Option<ThreadPool>,
     count: usize,
+    /// How many others stay awake during a frame: no more than have a core.
+    awake: usize,
 }
 
 /// More threads than this are never of use to a frame.
@@ -18,17 +20,17 @@ const MOST: usize = 256;
 
 impl Workers {
     /// The calling thread.
-    pub(crate) const ALONE: Self = Self { pool: None, count: 1 };
+    pub(crate) const ALONE: Self = Self { pool: None, count: 1, awake: 0 };
 
     /// As many threads as requested, or as the machine runs at once; fewer if the system refuses more.
     pub(crate) fn new(threads: Option<NonZeroUsize>) -> Self {
-        let available = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        let count = threads.unwrap_or_else(available).get().min(MOST);
+        let cores = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        let count = threads.unwrap_or(cores).get().min(MOST);
         let build = |count: usize| ThreadPoolBuilder::new().num_threads(count).build().ok();
         let pool = if count > 1 { build(count) } else { None };
         // If threads cannot be started, the frame is drawn with fewer.
         let count = pool.as_ref().map_or(1, ThreadPool::current_num_threads);
-        Self { pool, count }
+        Self { pool, count, awake: count.min(cores.get()) - 1 }
     }
 
     /// How many there are.
@@ -45,7 +47,7 @@ impl Workers {
             Some(pool) if rayon::current_thread_index().is_none() => {
                 let standby = Standby::new();
                 pool.scope(|scope| {
-                    let _frame = standby.call(scope, self.count - 1);
+                    let _frame = standby.call(scope, self.awake);
                     work()
                 })
             }
