@@ -146,8 +146,8 @@ impl Renderer {
     }
 
     /// The parts in which the last frame of [`render_shared`](Self::render_shared) may differ from an earlier one, for
-    /// whoever shows one after the other. Only frames that somebody holds are known. `None` if it may differ
-    /// anywhere.
+    /// whoever shows one after the other. Only frames of one size that somebody holds are known. `None` if it may
+    /// differ anywhere.
     ///
     /// ```
     /// use trigon_scene::mesh::primitives;

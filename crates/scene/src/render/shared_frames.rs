@@ -116,8 +116,10 @@ impl SharedFrames {
             let (_, image) = self.frames.iter().find(|(held, _)| std::ptr::eq(&raw const **held, frame))?;
             *image
         };
-        let before = number(before)?;
-        number(last).filter(|&last| last == self.latest).and_then(|_| self.redrawn_since(before))
+        let is_last = number(last).is_some_and(|last| last == self.latest);
+        let have_one_size = [before.width, before.height] == [last.width, last.height];
+        let before = number(before).filter(|_| is_last && have_one_size)?;
+        self.redrawn_since(before)
     }
 
     /// The parts that differ between an image and the last one; `None` if that is forgotten.
@@ -265,6 +267,10 @@ mod tests {
         let unknown = frames.share(filled(FreeFrame::default(), 4, None));
         assert_eq!(frames.redrawn_between(third, &unknown), None, "it may differ anywhere");
         assert_eq!(frames.redrawn_between(&Frame::default(), third), None, "of another renderer");
+        let mut larger = filled(FreeFrame::default(), 5, Some(part([0, 0], [2, 9])));
+        larger.frame.height = 9;
+        let larger = frames.share(larger);
+        assert_eq!(frames.redrawn_between(third, &larger), None, "of another size");
     }
 
     #[test]
