@@ -18,12 +18,23 @@ pub struct Outlines {
     faces: Vec<u32>,
     /// The corners of each, if it is a quad. Empty if they are not kept.
     quads: Vec<Option<[Vec3; 4]>>,
-    /// Which of the moved vertices lies at which corner of which face, by face.
-    moving: Vec<(u32, u32, usize)>,
+    /// The corners of these quads that move, in their order.
+    moving: Vec<MovingCorner>,
     /// The moved vertices, increasing, and where they are now.
     moved: Vec<u32>,
     places: Vec<Vec3>,
     version: u64,
+}
+
+/// A corner of a quad at which a moved vertex lies.
+#[derive(Debug, Clone, Copy)]
+struct MovingCorner {
+    /// The place of the quad in its list.
+    quad: u32,
+    /// 0 to 3.
+    corner: u8,
+    /// The place of the vertex in the list of those that were moved.
+    vertex: u32,
 }
 
 impl Outlines {
@@ -35,10 +46,10 @@ impl Outlines {
         }
         self.moved = moved.to_vec();
         self.quads = faces.iter().map(|&face| quad(mesh, face)).collect();
-        for (place, &face) in (0..).zip(faces).filter(|(place, _)| self.quads[*place as usize].is_some()) {
-            for (corner, vertex) in mesh.face_vertices(face as usize).iter().enumerate() {
-                if let Ok(number) = moved.binary_search(vertex) {
-                    self.moving.push((number as u32, place, corner));
+        for (quad, &face) in (0..).zip(faces).filter(|(quad, _)| self.quads[*quad as usize].is_some()) {
+            for (corner, vertex) in (0..).zip(mesh.face_vertices(face as usize)) {
+                if let Ok(vertex) = moved.binary_search(vertex) {
+                    self.moving.push(MovingCorner { quad, corner, vertex: vertex as u32 });
                 }
             }
         }
@@ -48,9 +59,9 @@ impl Outlines {
     pub(super) fn update(&mut self, mesh: &Mesh) {
         self.places.clear();
         self.places.extend(self.moved.iter().map(|&vertex| mesh.positions()[vertex as usize]));
-        for &(number, place, corner) in &self.moving {
-            if let Some(quad) = &mut self.quads[place as usize] {
-                quad[corner] = self.places[number as usize];
+        for &MovingCorner { quad, corner, vertex } in &self.moving {
+            if let Some(corners) = &mut self.quads[quad as usize] {
+                corners[usize::from(corner)] = self.places[vertex as usize];
             }
         }
     }

@@ -51,7 +51,6 @@ impl<'a> TriangleLists<'a> {
         places: &mut [FacePlace],
         first: usize,
     ) -> Option<Replaced> {
-        let vertex_of_corner = links.vertex_of_corner();
         let (mut replaced, mut are_full) = (Replaced::default(), true);
         replaced.counts.reserve(places.len());
         let mut cut = CutFaces::default();
@@ -63,16 +62,14 @@ impl<'a> TriangleLists<'a> {
                 }
                 are_full &= place.slots().len() == face.count();
                 replaced.counts.push(face.count() as u32);
-                let flags = cut.flags_of(face);
                 if face.cut.is_some() && face.cut == place.cut {
+                    let flags = cut.flags_of(face);
                     self.write_flags(place.slots().start, first, flags, &mut replaced.triangles);
                     continue;
                 }
                 place.cut = face.cut;
                 replaced.may_differ_in_counts = true;
-                let start = mesh.face_corners(place.face as usize).start as u32;
-                let triangles = (cut.triangles_of(face, start), flags);
-                self.write(mesh, vertex_of_corner, (place, first), triangles, &mut replaced.triangles);
+                self.write(mesh, links, (place, first), (&cut, face), &mut replaced.triangles);
             }
         }
         if are_full {
@@ -90,20 +87,22 @@ impl<'a> TriangleLists<'a> {
         }
     }
 
-    /// Writes the triangles of a face over corners, and records the slots that have changed.
+    /// Writes the triangles of a face, and records the slots that have changed.
     fn write(
         &mut self,
         mesh: &Mesh,
-        vertex_of_corner: &[u32],
+        links: &RenderLinks,
         (place, first): (&FacePlace, usize),
-        (triangles, flags): (Cow<'_, [[u32; 3]]>, &[EdgeFlags]),
+        (cut, face): (&CutFaces, &CutFace),
         replaced: &mut Vec<u32>,
     ) {
+        let start = mesh.face_corners(place.face as usize).start as u32;
+        let (triangles, flags) = (cut.triangles_of(face, start), cut.flags_of(face));
         let mut fillers = fillers_of(mesh, place.face, &triangles);
         for (number, slot) in place.slots().enumerate() {
             let (at, triangle) = (slot - first, triangles.get(number));
             let corners = triangle.copied().unwrap_or_else(|| [fillers.next(); 3]);
-            let corners = corners.map(|corner| vertex_of_corner[corner as usize]);
+            let corners = corners.map(|corner| links.vertex_of_corner()[corner as usize]);
             let mut differs = replace(&mut self.triangles[at], corners) != corners;
             if let Some(own) = self.flags.get_mut(at) {
                 let made = flags.get(number).copied().unwrap_or(EdgeFlags::NONE);
