@@ -32,9 +32,8 @@ impl Threads {
     /// Runs `work` on one of the threads, and waits for it; on the calling thread if the rasterizer has only one, or if that
     /// is a thread of another rayon pool.
     ///
-    /// The stages of frames that are drawn in it start at once, and what rayon shares out in between goes to the same
-    /// threads. Otherwise every stage would wake them, and the system may let two of them take turns on one core
-    /// for a while, since the calling thread seems to need another one.
+    /// The threads stay awake meanwhile, so the stages of frames that are drawn in `work` start at once. Parallel iterators
+    /// of rayon in it run on the same threads.
     pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         self.0.install(work)
     }

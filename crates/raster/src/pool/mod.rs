@@ -40,8 +40,8 @@ impl Workers {
 
     /// Runs `work` on one of the threads, unless the calling thread is one already, or works alone.
     ///
-    /// A thread of another pool runs it itself. While it waited, it would begin other work of its own pool, which may
-    /// be the next image of many, and would have to finish that first.
+    /// A thread of another pool runs it itself: while it waited, rayon would give it other work of its own pool, such as
+    /// the next image of a list, which it would have to finish first.
     pub(crate) fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         match &self.pool {
             Some(pool) if rayon::current_thread_index().is_none() => {
@@ -144,16 +144,15 @@ mod tests {
         }
     }
 
-    /// Begun one within another, images of a long list would need all memory, and overflow the stack.
+    /// Otherwise all images of a long list would be begun, each while the one before it waits, and overflow the stack.
     #[test]
     fn threads_of_other_pools_finish_one_image_before_the_next() {
         let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
         let (under_way, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let image = || {
-            Workers::new(NonZeroUsize::new(2)).install(|| {
-                most.fetch_max(under_way.fetch_add(1, Ordering::Relaxed) + 1, Ordering::Relaxed);
-                under_way.fetch_sub(1, Ordering::Relaxed);
-            });
+            most.fetch_max(under_way.fetch_add(1, Ordering::Relaxed) + 1, Ordering::Relaxed);
+            Workers::new(NonZeroUsize::new(2)).install(std::thread::yield_now);
+            under_way.fetch_sub(1, Ordering::Relaxed);
         };
         pool.scope(|scope| (0..20).for_each(|_| scope.spawn(|_| image())));
         assert_eq!(most.into_inner(), 1, "at a time");

@@ -1,9 +1,8 @@
 //! Threads that stand by for a frame.
 //!
-//! A thread that sleeps between two stages takes a tenth of a millisecond to wake up, and on a virtual machine the system
-//! may let it take turns with the one that woke it for milliseconds, because a core that is halted does not count as idle.
-//! So the other threads of a pool stay awake from the beginning of a frame to its end, unless there is nothing to do for
-//! long.
+//! A thread that sleeps between two stages takes a while to wake up. On virtual machines the system was seen to wake it on
+//! the core of the thread that woke it, and to leave both there for milliseconds while another core was idle. So the other
+//! threads of a pool stay awake from the beginning of a frame to its end, unless there is nothing to do for long.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -33,8 +32,8 @@ impl Standby {
         Self { there: Mutex::new(Some(0)), is_over: AtomicBool::new(false) }
     }
 
-    /// Calls `others` threads of the pool, and waits until they stand by, but not for long: whoever comes later is not
-    /// admitted. So none of them begins to stand by in the middle of a task that somebody waits for.
+    /// Calls `others` threads of the pool, and waits until they stand by, but not for long. Threads that come later are not
+    /// admitted: one could come in the middle of a task, which would then not end before the frame does.
     pub(super) fn call<'s>(&'s self, scope: &Scope<'s>, others: usize) -> Frame<'s> {
         (0..others).for_each(|_| scope.spawn(|_| self.stand_by()));
         let called = Instant::now();

@@ -43,8 +43,7 @@ pub(super) struct Engine {
     pub(super) is_timed: bool,
 }
 
-/// A frame of fewer samples is drawn on the calling thread, as far as it is not worth sharing: waking another one
-/// would take as long.
+/// A frame of fewer samples is begun on the calling thread: waking another one could take as long as the frame.
 const WORTH_SHARING: u64 = 1 << 17;
 
 /// What is to be drawn.
