@@ -39,19 +39,15 @@ impl Canvas {
         size: [u32; 2],
         mut changed: impl FnMut(Rect),
     ) {
-        let is_known = self.size == size
-            && redrawn.is_some_and(|Redrawn { images: [before, after], .. }| {
-                before.ptr_eq(&self.frame)
-                    && frame.is_some_and(|frame| std::ptr::eq(after.as_ptr(), &raw const **frame))
-            });
-        let parts = redrawn.filter(|_| is_known).map(|redrawn| redrawn.parts.as_slice());
+        let frame = frame.filter(|frame| !frame.color.is_empty());
+        let own = frame.filter(|frame| [frame.width, frame.height] == size);
+        let before = std::mem::replace(&mut self.frame, own.map_or_else(Weak::new, Arc::downgrade));
+        let parts = redrawn.zip(own).and_then(|(redrawn, own)| redrawn.between(&before, own));
+        let parts = parts.filter(|_| self.size == size);
         self.size = size;
         let count = size[0] as usize * size[1] as usize;
         self.pixels.resize(count, EMPTY);
         self.beneath.resize(count, EMPTY);
-        let frame = frame.filter(|frame| !frame.color.is_empty());
-        let own = frame.filter(|frame| [frame.width, frame.height] == size);
-        self.frame = own.map_or_else(Weak::new, Arc::downgrade);
         let size = size.map(|side| side as usize);
         let band = size[0].max(1) * BAND;
         let differing: Vec<Vec<Rect>> = match (parts, own) {
@@ -64,7 +60,7 @@ impl Canvas {
             }
             _ => {
                 let columns = frame.and_then(|frame| source_columns(frame, size[0]));
-                let rows = || Rows::new(frame.map(|frame| &**frame), size, columns.as_deref());
+                let rows = || Rows::new(frame.map(Arc::as_ref), size, columns.as_deref());
                 let bands = self.beneath.par_chunks_mut(band).enumerate();
                 bands.map(|(band, shown)| show_band(band * BAND, shown, rows())).collect()
             }

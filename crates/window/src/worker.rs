@@ -92,6 +92,14 @@ pub(crate) struct Redrawn {
     pub(crate) parts: Vec<Rect>,
 }
 
+impl Redrawn {
+    /// The parts, if these are the two images.
+    pub(crate) fn between(&self, before: &Weak<Frame>, after: &Arc<Frame>) -> Option<&[Rect]> {
+        let are_these = self.images[0].ptr_eq(before) && self.images[1].as_ptr() == Arc::as_ptr(after);
+        are_these.then_some(&self.parts)
+    }
+}
+
 /// Does one job at a time.
 pub(crate) struct Worker {
     /// Jobs that somebody waits for.
