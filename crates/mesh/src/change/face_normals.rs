@@ -48,13 +48,13 @@ impl FaceNormals {
         let (mut normals, mut angles) = (self.normals.as_mut_slice(), self.angles.as_mut_slice());
         let (mut first_face, mut first_corner) = (0, 0);
         let mut parts = Vec::with_capacity(faces.len().div_ceil(PIECE));
-        for (faces, first_place) in faces.chunks(PIECE).zip((0..).step_by(PIECE)) {
+        for (faces, first_group) in faces.chunks(PIECE).zip((0..).step_by(PIECE / QuadGroup::MOST)) {
             let end = faces[faces.len() - 1] as usize + 1;
             let end_corner = mesh.face_corners(end - 1).end;
             let own_angles = if angles.is_empty() { 0 } else { end_corner - first_corner };
             parts.push(Part {
                 faces,
-                first_place,
+                first_group,
                 first_face,
                 first_corner,
                 normals: normals.split_off_mut(..end - first_face).expect("faces increase"),
@@ -85,8 +85,8 @@ impl FaceNormals {
 /// Some faces, and what is known of all from one of them to another.
 struct Part<'a> {
     faces: &'a [u32],
-    /// Of their outlines.
-    first_place: usize,
+    /// Of their quads.
+    first_group: usize,
     first_face: usize,
     normals: &'a mut [Vec3],
     first_corner: usize,
@@ -96,12 +96,12 @@ struct Part<'a> {
 
 impl Part<'_> {
     fn update(mut self, mesh: &Mesh, outlines: &Outlines) {
-        let mut group = QuadGroup::default();
-        for (faces, first) in
-            self.faces.chunks(QuadGroup::MOST).zip((self.first_place..).step_by(QuadGroup::MOST))
-        {
-            let quads = outlines.quads(mesh, first..first + faces.len());
-            group.fill(quads, |number| self.update_any(mesh, faces[number] as usize));
+        let mut room = QuadGroup::default();
+        for (faces, number) in self.faces.chunks(QuadGroup::MOST).zip(self.first_group..) {
+            let group = outlines.group(mesh, number, &mut room);
+            for &other in group.others() {
+                self.update_any(mesh, faces[other as usize] as usize);
+            }
             for (numbers, quads) in group.iter() {
                 self.update_quads(mesh, quads, numbers.iter().map(|&number| faces[number as usize]));
             }

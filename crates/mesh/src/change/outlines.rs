@@ -1,36 +1,45 @@
 //! Where the corners of the quads around a change are.
 
-use std::ops::Range;
-
+use rayon::prelude::*;
 use trigon_math::Vec3;
 
+use super::face_normals::PIECE;
 use crate::Mesh;
+use crate::quads::QuadGroup;
 
 /// If more than one in so many faces lies around a change, their corners are not kept: little is saved where the faces
 /// are neighbours in memory.
 const MANY: usize = 4;
 
+/// Groups that a thread takes at a time.
+const GROUPS: usize = PIECE / QuadGroup::MOST;
+
 /// The corners of the quads around the elements of a change. They lie all over the memory, so they are kept side by side
-/// while the same elements change, and only those are written that move.
+/// while the same elements change, ready to be computed with, and only those are written that move.
 #[derive(Debug, Clone, Default)]
 pub struct Outlines {
     /// All faces with a vertex that was moved, increasing.
     faces: Vec<u32>,
-    /// The corners of each, if it is a quad. Empty if they are not kept.
-    quads: Vec<Option<[Vec3; 4]>>,
-    /// The corners of these quads that move, in their order.
-    moving: Vec<MovingCorner>,
+    /// Of each [`QuadGroup::MOST`] of these faces. Empty if they are not kept.
+    groups: Vec<MovingGroup>,
     /// The moved vertices, increasing, and where they are now.
     moved: Vec<u32>,
     places: Vec<Vec3>,
     version: u64,
 }
 
+/// Some quads, and those of their corners that move, in their order.
+#[derive(Debug, Clone, Default)]
+struct MovingGroup {
+    quads: QuadGroup,
+    moving: Vec<MovingCorner>,
+}
+
 /// A corner of a quad at which a moved vertex lies.
 #[derive(Debug, Clone, Copy)]
 struct MovingCorner {
-    /// The place of the quad in its list.
-    quad: u32,
+    /// The number of the quad among those of its group.
+    quad: u16,
     /// 0 to 3.
     corner: u8,
     /// The place of the vertex in the list of those that were moved.
@@ -45,25 +54,16 @@ impl Outlines {
             return;
         }
         self.moved = moved.to_vec();
-        self.quads = faces.iter().map(|&face| quad(mesh, face)).collect();
-        for (quad, &face) in (0..).zip(faces).filter(|(quad, _)| self.quads[*quad as usize].is_some()) {
-            for (corner, vertex) in (0..).zip(mesh.face_vertices(face as usize)) {
-                if let Ok(vertex) = moved.binary_search(vertex) {
-                    self.moving.push(MovingCorner { quad, corner, vertex: vertex as u32 });
-                }
-            }
-        }
+        let group = |faces: &[u32]| MovingGroup::new(mesh, faces, moved);
+        self.groups = faces.par_chunks(QuadGroup::MOST).with_min_len(GROUPS).map(group).collect();
     }
 
     /// Takes the new places of the vertices that move.
     pub(super) fn update(&mut self, mesh: &Mesh) {
         self.places.clear();
         self.places.extend(self.moved.iter().map(|&vertex| mesh.positions()[vertex as usize]));
-        for &MovingCorner { quad, corner, vertex } in &self.moving {
-            if let Some(corners) = &mut self.quads[quad as usize] {
-                corners[usize::from(corner)] = self.places[vertex as usize];
-            }
-        }
+        let Self { groups, places, .. } = self;
+        groups.par_iter_mut().with_min_len(GROUPS).for_each(|group| group.update(places));
     }
 
     /// Changes whenever the faces are others.
@@ -78,26 +78,49 @@ impl Outlines {
         self.faces.binary_search(&face).ok()
     }
 
-    /// The corners of the faces at these places that are quads.
-    pub(super) fn quads<'o>(
-        &'o self,
-        mesh: &'o Mesh,
-        places: Range<usize>,
-    ) -> impl Iterator<Item = Option<[Vec3; 4]>> + 'o {
-        if self.quads.is_empty() {
-            mesh.prefetch_faces(self.faces[places.clone()].iter().copied());
-        }
-        places.map(move |place| self.quad(mesh, place))
+    /// How many faces there are.
+    #[must_use]
+    pub fn face_count(&self) -> usize {
+        self.faces.len()
     }
 
-    /// The corners of the face at a place, if it is a quad.
+    /// The quads among [`QuadGroup::MOST`] of the faces, or among those that are left of them: `number` counts these
+    /// groups. They are gathered in `room` if they are not kept.
     ///
     /// # Panics
     ///
-    /// If there is no such place.
-    #[must_use]
-    pub fn quad(&self, mesh: &Mesh, place: usize) -> Option<[Vec3; 4]> {
-        if self.quads.is_empty() { quad(mesh, self.faces[place]) } else { self.quads[place] }
+    /// If there are no faces for that group.
+    pub fn group<'g>(&'g self, mesh: &Mesh, number: usize, room: &'g mut QuadGroup) -> &'g QuadGroup {
+        if let Some(group) = self.groups.get(number) {
+            return &group.quads;
+        }
+        let faces = &self.faces[number * QuadGroup::MOST..];
+        let faces = faces[..faces.len().min(QuadGroup::MOST)].iter();
+        mesh.prefetch_faces(faces.clone().copied());
+        room.fill(faces.map(|&face| quad(mesh, face)));
+        room
+    }
+}
+
+impl MovingGroup {
+    fn new(mesh: &Mesh, faces: &[u32], moved: &[u32]) -> Self {
+        let mut group = Self::default();
+        mesh.prefetch_faces(faces.iter().copied());
+        group.quads.fill(faces.iter().map(|&face| quad(mesh, face)));
+        for (quad, &number) in (0..).zip(group.quads.numbers()) {
+            for (corner, vertex) in (0..).zip(mesh.face_vertices(faces[number as usize] as usize)) {
+                if let Ok(vertex) = moved.binary_search(vertex) {
+                    group.moving.push(MovingCorner { quad, corner, vertex: vertex as u32 });
+                }
+            }
+        }
+        group
+    }
+
+    fn update(&mut self, places: &[Vec3]) {
+        for &MovingCorner { quad, corner, vertex } in &self.moving {
+            self.quads.move_corner(quad.into(), corner.into(), places[vertex as usize]);
+        }
     }
 }
 
@@ -127,15 +150,20 @@ mod tests {
             let faces: Vec<u32> = (0..mesh.face_count() as u32).filter(is_moved).collect();
             let mut outlines = Outlines::default();
             outlines.replace(&mesh, &faces, &moved);
-            prop_assert_eq!(outlines.quads.is_empty(), faces.len() * MANY > mesh.face_count());
+            prop_assert_eq!(outlines.groups.is_empty(), faces.len() * MANY > mesh.face_count());
             for place in places {
                 let to = |&vertex: &u32| (vertex, Vec3::from_array(place) * vertex as f32);
                 let positions = moved.iter().map(to).collect();
                 mesh.change(&MeshChange { positions, ..MeshChange::default() }).expect("they exist");
                 outlines.update(&mesh);
+                prop_assert_eq!(outlines.face_count(), faces.len());
+                for (number, faces) in faces.chunks(QuadGroup::MOST).enumerate() {
+                    let (mut room, mut expected) = (QuadGroup::default(), QuadGroup::default());
+                    expected.fill(faces.iter().map(|&face| quad(&mesh, face)));
+                    prop_assert_eq!(outlines.group(&mesh, number, &mut room), &expected, "group {}", number);
+                }
                 for (place, &face) in faces.iter().enumerate() {
                     prop_assert_eq!(outlines.place_of(face), Some(place));
-                    prop_assert_eq!(outlines.quad(&mesh, place), quad(&mesh, face));
                 }
             }
         }

@@ -38,11 +38,12 @@ impl<const N: usize> Quads<N> {
     /// that crosses itself is seen.
     #[must_use]
     pub fn cuts(&self) -> [Option<QuadCut>; N] {
-        let [a, b, c, d] = &self.places;
+        let places = self.wide();
+        let [a, b, c, d] = &places;
         let (first, second) = (difference(c, a), difference(d, b));
         let normals = cross(&first, &second);
         let views = Views::along(&longest(&normals), &normals);
-        let (areas, errors) = self.turns(&views);
+        let (areas, errors) = views.turns(&places);
         let (first, second) = (dot(&first, &first), dot(&second, &second));
         let mut bits = [0_u64; N];
         // Of finite corners the sum is finite, too.
@@ -61,35 +62,24 @@ impl<const N: usize> Quads<N> {
         if !cuts.iter().any(crosses) {
             return cuts;
         }
-        let general = self.general_views();
+        let general = Views::general(&places);
         std::array::from_fn(|lane| {
             let is_same = (views.axes[lane], views.ends[lane]) == (general.axes[lane], general.ends[lane]);
             cuts[lane].filter(|_| is_same || !crosses(&cuts[lane]))
         })
     }
+}
 
-    /// For each corner twice the area between its sides, positive where it turns left, and how much that may be off.
+impl<const N: usize> Views<N> {
+    /// Along these axes, against normals.
     #[inline(always)]
-    fn turns(&self, views: &Views<N>) -> ([[f64; N]; 4], [[f64; N]; 4]) {
-        let flat = self.places.each_ref().map(|places| views.plane(places));
-        let (mut areas, mut errors) = ([[0.0; N]; 4], [[0.0; N]; 4]);
-        for corner in 0..4 {
-            let [before, own, after] =
-                [(corner + 3) % 4, corner, (corner + 1) % 4].map(|corner| &flat[corner]);
-            for lane in 0..N {
-                let from = |point: &[[f64; N]; 2]| [0, 1].map(|axis| point[axis][lane] - after[axis][lane]);
-                let ([ax, ay], [bx, by]) = (from(before), from(own));
-                let (left, right) = (ax * by, ay * bx);
-                areas[corner][lane] = views.ends[lane] * (left - right);
-                errors[corner][lane] = ERROR * (left.abs() + right.abs());
-            }
-        }
-        (areas, errors)
+    fn along(axes: &[u64; N], normals: &Vectors<N>) -> Self {
+        let along = chosen(axes, normals);
+        Self { axes: *axes, ends: along.map(|along| if along < 0.0 { -1.0 } else { 1.0 }) }
     }
 
     /// From where polygons are seen that are cut in the general way.
-    fn general_views(&self) -> Views<N> {
-        let [a, b, c, d] = &self.places;
+    fn general([a, b, c, d]: &[Vectors<N>; 4]) -> Self {
         let [b, c, d] = [b, c, d].map(|corner| difference(corner, a));
         let parts = [cross(&b, &c), cross(&c, &d)];
         let sum: Vectors<N> = each(|axis, lane| parts[0][axis][lane] + parts[1][axis][lane]);
@@ -101,16 +91,26 @@ impl<const N: usize> Quads<N> {
                 .map(|vectors| vectors.iter().fold(0.0, |most: f64, axis| most.max(axis[lane].abs())));
             if longest > CANCELLED * largest { of_sum[lane] } else { of_magnitude[lane] }
         });
-        Views::along(&axes, &sum)
+        Self::along(&axes, &sum)
     }
-}
 
-impl<const N: usize> Views<N> {
-    /// Along these axes, against normals.
+    /// For each corner twice the area between its sides, positive where it turns left, and how much that may be off.
     #[inline(always)]
-    fn along(axes: &[u64; N], normals: &Vectors<N>) -> Self {
-        let along = chosen(axes, normals);
-        Self { axes: *axes, ends: along.map(|along| if along < 0.0 { -1.0 } else { 1.0 }) }
+    fn turns(&self, places: &[Vectors<N>; 4]) -> ([[f64; N]; 4], [[f64; N]; 4]) {
+        let flat = places.each_ref().map(|places| self.plane(places));
+        let (mut areas, mut errors) = ([[0.0; N]; 4], [[0.0; N]; 4]);
+        for corner in 0..4 {
+            let [before, own, after] =
+                [(corner + 3) % 4, corner, (corner + 1) % 4].map(|corner| &flat[corner]);
+            for lane in 0..N {
+                let from = |point: &[[f64; N]; 2]| [0, 1].map(|axis| point[axis][lane] - after[axis][lane]);
+                let ([ax, ay], [bx, by]) = (from(before), from(own));
+                let (left, right) = (ax * by, ay * bx);
+                areas[corner][lane] = self.ends[lane] * (left - right);
+                errors[corner][lane] = ERROR * (left.abs() + right.abs());
+            }
+        }
+        (areas, errors)
     }
 
     /// The other two coordinates of a point of each quad, as seen from the positive end of the axis.

@@ -18,7 +18,7 @@ impl<const N: usize> Quads<N> {
     /// The triangles of quads that are cut from their first corner to the third, or else from the second to the last.
     #[must_use]
     pub fn halves(&self, is_first: [bool; N]) -> Halves<N> {
-        let [a, b, c, d] = &self.places;
+        let [a, b, c, d] = &self.wide();
         let [ab, bc, cd, da] = [difference(b, a), difference(c, b), difference(d, c), difference(a, d)];
         let (first, second) = (difference(c, a), difference(d, b));
         // Twice the area is the cross product of two sides.

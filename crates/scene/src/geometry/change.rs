@@ -6,6 +6,7 @@
 //! two triangles fewer than it has corners. A folded polygon has fewer triangles; degenerate ones, whose
 //! three corners are the same vertex, fill the rest of its slots.
 
+mod cut_quads;
 mod face_places;
 mod triangle_lists;
 
@@ -19,6 +20,7 @@ use trigon_mesh::{
     ChangedElements, Mesh, RenderLinks, RenderMesh, RenderUpdate, Triangulation, UpdatedVertex, WeldedMesh,
 };
 
+use cut_quads::cut_quads;
 pub(super) use face_places::FacePlaces;
 use face_places::{FacePlace, PIECE};
 use triangle_lists::{Replaced, TriangleLists, fillers_of};
@@ -139,6 +141,7 @@ impl Geometry {
             flags: self.edge_flags.get_mut().map_or(&mut [], Vec::as_mut_slice),
             sides: self.side_edges.get_mut().map_or(&mut [], |sides| Arc::make_mut(sides).as_mut_slice()),
         };
+        let quads = cut_quads(mesh, &links.update().outlines, !lists.flags.is_empty());
         let mut first = 0;
         let mut pieces = Vec::with_capacity(places.len().div_ceil(PIECE));
         for places in places.chunks_mut(PIECE) {
@@ -147,7 +150,7 @@ impl Geometry {
             first = end;
         }
         let replace = |(places, first, lists): (&mut [FacePlace], usize, TriangleLists<'_>)| {
-            lists.replace(mesh, links, places, first)
+            lists.replace(mesh, links, (places, &quads), first)
         };
         let replaced: Vec<Replaced> = pieces.into_par_iter().map(replace).collect::<Option<_>>()?;
         self.note_fillers(places, &replaced);

@@ -4,11 +4,12 @@ use std::borrow::Cow;
 use std::mem::replace;
 use std::ops::Range;
 
-use trigon_mesh::{Mesh, Outlines, QuadCut, QuadGroup, RenderLinks, Triangulation};
+use trigon_mesh::{Mesh, RenderLinks, Triangulation};
 use trigon_raster::EdgeFlags;
 
-use super::super::edge_flags::{flags_of_face, flags_of_quads};
+use super::super::edge_flags::flags_of_face;
 use super::super::side_edges::{NO_EDGE, sides_of_triangle};
+use super::cut_quads::CutQuad;
 use super::face_places::FacePlace;
 
 /// Per-triangle data of consecutive triangles, or nothing where it is unknown.
@@ -42,35 +43,33 @@ impl<'a> TriangleLists<'a> {
         }
     }
 
-    /// Triangulates faces and writes their triangles; `first` is the slot where the lists begin. `None` if a face
-    /// needs more slots than it has.
+    /// Triangulates faces, of which these quads are cut, and writes their triangles; `first` is the slot where the lists
+    /// begin. `None` if a face needs more slots than it has.
     pub(super) fn replace(
         mut self,
         mesh: &Mesh,
         links: &RenderLinks,
-        places: &mut [FacePlace],
+        (places, quads): (&mut [FacePlace], &[CutQuad]),
         first: usize,
     ) -> Option<Replaced> {
         let (mut replaced, mut are_full) = (Replaced::default(), true);
         replaced.counts.reserve(places.len());
-        let mut cut = CutFaces::default();
-        for places in places.chunks_mut(QuadGroup::MOST) {
-            cut.fill(mesh, (places, &links.update().outlines), !self.flags.is_empty());
-            for (place, face) in places.iter_mut().zip(&cut.faces) {
-                if place.slots().len() < face.count() {
-                    return None;
-                }
-                are_full &= place.slots().len() == face.count();
-                replaced.counts.push(face.count() as u32);
-                if face.cut.is_some() && face.cut == place.cut {
-                    let flags = cut.flags_of(face);
-                    self.write_flags(place.slots().start, first, flags, &mut replaced.triangles);
-                    continue;
-                }
-                place.cut = face.cut;
-                replaced.may_differ_in_counts = true;
-                self.write(mesh, links, (place, first), (&cut, face), &mut replaced.triangles);
+        let cut = CutFaces::new(mesh, (places, quads), !self.flags.is_empty());
+        for (place, face) in places.iter_mut().zip(&cut.faces) {
+            if place.slots().len() < face.count() {
+                return None;
             }
+            are_full &= place.slots().len() == face.count();
+            replaced.counts.push(face.count() as u32);
+            let cut_quad = face.quad.cut;
+            if cut_quad.is_some() && cut_quad == place.cut {
+                let flags = cut.flags_of(face);
+                self.write_flags(place.slots().start, first, flags, &mut replaced.triangles);
+                continue;
+            }
+            place.cut = cut_quad;
+            replaced.may_differ_in_counts = true;
+            self.write(mesh, links, (place, first), (&cut, face), &mut replaced.triangles);
         }
         if are_full {
             replaced.counts.clear();
@@ -124,7 +123,6 @@ impl<'a> TriangleLists<'a> {
 #[derive(Default)]
 struct CutFaces {
     faces: Vec<CutFace>,
-    quads: QuadGroup,
     /// The triangles of faces that are no quads, or need a closer look, over the corners of the mesh.
     triangles: Vec<[u32; 3]>,
     /// The flags of these; none if nobody needs them.
@@ -133,39 +131,29 @@ struct CutFaces {
 }
 
 /// A face.
-#[derive(Clone, Default)]
 struct CutFace {
-    /// If it is a quad that needs no closer look.
-    cut: Option<QuadCut>,
-    /// Of its triangles then.
-    flags: [EdgeFlags; 2],
-    /// Where its triangles are in the list otherwise.
+    quad: CutQuad,
+    /// Where its triangles are in the list, unless it is a cut quad.
     listed: Range<usize>,
 }
 
 impl CutFace {
     /// How many triangles it has.
     fn count(&self) -> usize {
-        self.cut.map_or(self.listed.len(), |cut| cut.triangles().len())
+        self.quad.cut.map_or(self.listed.len(), |cut| cut.triangles().len())
     }
 }
 
 impl CutFaces {
-    /// Triangulates at most [`QuadGroup::MOST`] faces.
-    fn fill(&mut self, mesh: &Mesh, (places, outlines): (&[FacePlace], &Outlines), has_flags: bool) {
-        self.has_flags = has_flags;
-        self.faces.clear();
-        self.faces.resize(places.len(), CutFace::default());
-        let Self { faces, quads, .. } = self;
-        quads.fill(places.iter().map(|place| outlines.quad(mesh, place.outline? as usize)), |_| {});
-        for (numbers, quads) in quads.iter() {
-            let cuts = quads.cuts();
-            let flags = if has_flags { flags_of_quads(quads, &cuts) } else { [[EdgeFlags::NONE; 2]; _] };
-            for ((&number, cut), flags) in numbers.iter().zip(cuts).zip(flags) {
-                faces[number as usize] = CutFace { cut, flags, listed: 0..0 };
-            }
-        }
-        self.cut_others(mesh, places);
+    /// Triangulates faces, of which these quads are cut.
+    fn new(mesh: &Mesh, (places, quads): (&[FacePlace], &[CutQuad]), has_flags: bool) -> Self {
+        let face = |place: &FacePlace| {
+            let quad = place.outline.map_or(CutQuad::NONE, |outline| quads[outline as usize]);
+            CutFace { quad, listed: 0..0 }
+        };
+        let mut cut = Self { faces: places.iter().map(face).collect(), has_flags, ..Self::default() };
+        cut.cut_others(mesh, places);
+        cut
     }
 
     /// Triangulates those faces that are no quads, or need a closer look.
@@ -173,14 +161,13 @@ impl CutFaces {
         let others: Vec<u32> = places
             .iter()
             .zip(&self.faces)
-            .filter(|(_, face)| face.cut.is_none())
+            .filter(|(_, face)| face.quad.cut.is_none())
             .map(|(place, _)| place.face)
             .collect();
         let Triangulation { triangles, triangle_faces } = mesh.triangulation_of(others.iter().copied());
         self.triangles = triangles;
-        self.flags.clear();
         let mut end = 0;
-        for (face, other) in self.faces.iter_mut().filter(|face| face.cut.is_none()).zip(others) {
+        for (face, other) in self.faces.iter_mut().filter(|face| face.quad.cut.is_none()).zip(others) {
             let start = end;
             end += triangle_faces[start..].iter().take_while(|&&face| face == other).count();
             face.listed = start..end;
@@ -193,7 +180,7 @@ impl CutFaces {
 
     /// The triangles of a face with this first corner, over the corners of the mesh.
     fn triangles_of(&self, face: &CutFace, start: u32) -> Cow<'_, [[u32; 3]]> {
-        match face.cut {
+        match face.quad.cut {
             Some(cut) => {
                 cut.triangles().iter().map(|triangle| triangle.map(|corner| start + corner)).collect()
             }
@@ -203,9 +190,9 @@ impl CutFaces {
 
     /// The flags of a face's triangles; none if nobody needs them.
     fn flags_of<'f>(&'f self, face: &'f CutFace) -> &'f [EdgeFlags] {
-        match face.cut {
+        match face.quad.cut {
             _ if !self.has_flags => &[],
-            Some(_) => &face.flags[..face.count()],
+            Some(_) => &face.quad.flags[..face.count()],
             None => &self.flags[face.listed.clone()],
         }
     }
