@@ -185,6 +185,7 @@ pub(crate) fn angle(a: DVec3, b: DVec3) -> f64 {
 
 /// Angles between vectors, from their dot products and the products of their squared
 /// lengths. Step by step for all of them, so that the compiler takes several at a time.
+#[inline(always)]
 pub(crate) fn angles<const N: usize>(dots: [f64; N], squares: [f64; N]) -> [f64; N] {
     let (mut cosines, mut x, mut series, mut angles) = ([0.0; N], [0.0_f64; N], [0.0; N], [0.0; N]);
     for i in 0..N {

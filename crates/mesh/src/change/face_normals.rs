@@ -102,9 +102,12 @@ impl Part<'_> {
             for &other in group.others() {
                 self.update_any(mesh, faces[other as usize] as usize);
             }
-            for (numbers, quads) in group.iter() {
-                self.update_quads(mesh, quads, numbers.iter().map(|&number| faces[number as usize]));
-            }
+            group.for_each(
+                #[inline(always)]
+                |numbers, quads| {
+                    self.update_quads(mesh, quads, numbers.iter().map(|&number| faces[number as usize]));
+                },
+            );
         }
     }
 
@@ -118,6 +121,7 @@ impl Part<'_> {
     }
 
     /// Updates the faces of the first of some quads.
+    #[inline(always)]
     fn update_quads<const N: usize>(
         &mut self,
         mesh: &Mesh,

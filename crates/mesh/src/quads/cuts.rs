@@ -1,7 +1,7 @@
 //! Cuts several quads at a time, where rounding leaves no doubt.
 
 use super::Quads;
-use super::vectors::{Vectors, cross, difference, dot, each};
+use super::vectors::{Vectors, cross, difference, dot, each, lanes};
 use crate::triangulate::{CANCELLED, CLEARLY_SHORTER, QuadCut};
 
 /// An area of a parallelogram in a plane is off by at most this share of the sum of the two products whose difference
@@ -37,6 +37,7 @@ impl<const N: usize> Quads<N> {
     /// look: where three corners are nearly in one line, or not finite, or where it is doubtful from which side a quad
     /// that crosses itself is seen.
     #[must_use]
+    #[inline(always)]
     pub fn cuts(&self) -> [Option<QuadCut>; N] {
         let places = self.wide();
         let [a, b, c, d] = &places;
@@ -47,8 +48,7 @@ impl<const N: usize> Quads<N> {
         let (first, second) = (dot(&first, &first), dot(&second, &second));
         let mut bits = [0_u64; N];
         // Of finite corners the sum is finite, too.
-        let mut is_certain: [bool; N] =
-            std::array::from_fn(|lane| first[lane] + second[lane] < f64::INFINITY);
+        let mut is_certain: [bool; N] = lanes(|lane| first[lane] + second[lane] < f64::INFINITY);
         for lane in 0..N {
             bits[lane] = u64::from(second[lane] < CLEARLY_SHORTER * first[lane]) << 4;
             for corner in 0..4 {
@@ -56,14 +56,13 @@ impl<const N: usize> Quads<N> {
                 is_certain[lane] &= areas[corner][lane].abs() > errors[corner][lane];
             }
         }
-        let cuts: [Option<QuadCut>; N] =
-            std::array::from_fn(|lane| CUTS[bits[lane] as usize].filter(|_| is_certain[lane]));
+        let cuts: [Option<QuadCut>; N] = lanes(|lane| CUTS[bits[lane] as usize].filter(|_| is_certain[lane]));
         let crosses = |cut: &Option<QuadCut>| matches!(cut, Some(QuadCut::Ear(_)));
         if !cuts.iter().any(crosses) {
             return cuts;
         }
         let general = Views::general(&places);
-        std::array::from_fn(|lane| {
+        lanes(|lane| {
             let is_same = (views.axes[lane], views.ends[lane]) == (general.axes[lane], general.ends[lane]);
             cuts[lane].filter(|_| is_same || !crosses(&cuts[lane]))
         })
@@ -75,18 +74,19 @@ impl<const N: usize> Views<N> {
     #[inline(always)]
     fn along(axes: &[u64; N], normals: &Vectors<N>) -> Self {
         let along = chosen(axes, normals);
-        Self { axes: *axes, ends: along.map(|along| if along < 0.0 { -1.0 } else { 1.0 }) }
+        Self { axes: *axes, ends: lanes(|lane| if along[lane] < 0.0 { -1.0 } else { 1.0 }) }
     }
 
     /// From where polygons are seen that are cut in the general way.
+    #[inline(always)]
     fn general([a, b, c, d]: &[Vectors<N>; 4]) -> Self {
-        let [b, c, d] = [b, c, d].map(|corner| difference(corner, a));
+        let [b, c, d] = [difference(b, a), difference(c, a), difference(d, a)];
         let parts = [cross(&b, &c), cross(&c, &d)];
         let sum: Vectors<N> = each(|axis, lane| parts[0][axis][lane] + parts[1][axis][lane]);
         let magnitude: Vectors<N> =
             each(|axis, lane| parts[0][axis][lane].abs() + parts[1][axis][lane].abs());
         let (of_sum, of_magnitude) = (longest(&sum), longest(&magnitude));
-        let axes = std::array::from_fn(|lane| {
+        let axes = lanes(|lane| {
             let [longest, largest] = [sum, magnitude]
                 .map(|vectors| vectors.iter().fold(0.0, |most: f64, axis| most.max(axis[lane].abs())));
             if longest > CANCELLED * largest { of_sum[lane] } else { of_magnitude[lane] }
@@ -97,13 +97,13 @@ impl<const N: usize> Views<N> {
     /// For each corner twice the area between its sides, positive where it turns left, and how much that may be off.
     #[inline(always)]
     fn turns(&self, places: &[Vectors<N>; 4]) -> ([[f64; N]; 4], [[f64; N]; 4]) {
-        let flat = places.each_ref().map(|places| self.plane(places));
+        let flat =
+            [self.plane(&places[0]), self.plane(&places[1]), self.plane(&places[2]), self.plane(&places[3])];
         let (mut areas, mut errors) = ([[0.0; N]; 4], [[0.0; N]; 4]);
         for corner in 0..4 {
-            let [before, own, after] =
-                [(corner + 3) % 4, corner, (corner + 1) % 4].map(|corner| &flat[corner]);
+            let [before, own, after] = [&flat[(corner + 3) % 4], &flat[corner], &flat[(corner + 1) % 4]];
             for lane in 0..N {
-                let from = |point: &[[f64; N]; 2]| [0, 1].map(|axis| point[axis][lane] - after[axis][lane]);
+                let from = |[x, y]: &[[f64; N]; 2]| [x[lane] - after[0][lane], y[lane] - after[1][lane]];
                 let ([ax, ay], [bx, by]) = (from(before), from(own));
                 let (left, right) = (ax * by, ay * bx);
                 areas[corner][lane] = self.ends[lane] * (left - right);
@@ -123,7 +123,7 @@ impl<const N: usize> Views<N> {
 /// The coordinates along these axes.
 #[inline(always)]
 fn chosen<const N: usize>(axes: &[u64; N], [x, y, z]: &Vectors<N>) -> [f64; N] {
-    std::array::from_fn(|lane| match axes[lane] {
+    lanes(|lane| match axes[lane] {
         0 => x[lane],
         1 => y[lane],
         _ => z[lane],
@@ -133,8 +133,8 @@ fn chosen<const N: usize>(axes: &[u64; N], [x, y, z]: &Vectors<N>) -> [f64; N] {
 /// The first of the longest coordinates.
 #[inline(always)]
 fn longest<const N: usize>([x, y, z]: &Vectors<N>) -> [u64; N] {
-    std::array::from_fn(|lane| {
-        let [x, y, z] = [x, y, z].map(|axis| axis[lane].abs());
+    lanes(|lane| {
+        let [x, y, z] = [x[lane].abs(), y[lane].abs(), z[lane].abs()];
         if x >= y && x >= z {
             0
         } else if x < y && y >= z {

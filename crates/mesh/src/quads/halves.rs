@@ -1,7 +1,7 @@
 //! The triangles into which quads are cut along a diagonal.
 
 use super::Quads;
-use super::vectors::{Vectors, cross, difference, dot, each};
+use super::vectors::{Vectors, cross, difference, dot, each, lanes};
 
 /// Both triangles of each of several quads, side by side. First is the triangle of the quad's first two corners.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +17,7 @@ pub struct Halves<const N: usize> {
 impl<const N: usize> Quads<N> {
     /// The triangles of quads that are cut from their first corner to the third, or else from the second to the last.
     #[must_use]
+    #[inline(always)]
     pub fn halves(&self, is_first: [bool; N]) -> Halves<N> {
         let [a, b, c, d] = &self.wide();
         let [ab, bc, cd, da] = [difference(b, a), difference(c, b), difference(d, c), difference(a, d)];
@@ -24,13 +25,14 @@ impl<const N: usize> Quads<N> {
         // Twice the area is the cross product of two sides.
         let areas = [cross(&ab, &chosen(is_first, &bc, &second)), cross(&chosen(is_first, &first, &bc), &cd)];
         let diagonals = length(&chosen(is_first, &first, &second));
-        let [ab, bc, cd, da] = [ab, bc, cd, da].map(|way| length(&way));
+        let [ab, bc, cd, da] = [length(&ab), length(&bc), length(&cd), length(&da)];
         let pick = |first: f64, second: f64, lane: usize| if is_first[lane] { first } else { second };
         let outer_lengths = [
-            std::array::from_fn(|lane| ab[lane] + pick(bc[lane], da[lane], lane)),
-            std::array::from_fn(|lane| pick(cd[lane], bc[lane], lane) + pick(da[lane], cd[lane], lane)),
+            lanes(|lane| ab[lane] + pick(bc[lane], da[lane], lane)),
+            lanes(|lane| pick(cd[lane], bc[lane], lane) + pick(da[lane], cd[lane], lane)),
         ];
-        Halves { doubled_areas: areas.map(|area| length(&area)), outer_lengths, diagonals }
+        let [one, other] = areas;
+        Halves { doubled_areas: [length(&one), length(&other)], outer_lengths, diagonals }
     }
 }
 
@@ -42,5 +44,6 @@ fn chosen<const N: usize>(is_first: [bool; N], first: &Vectors<N>, second: &Vect
 
 #[inline(always)]
 fn length<const N: usize>(vectors: &Vectors<N>) -> [f64; N] {
-    dot(vectors, vectors).map(f64::sqrt)
+    let squares = dot(vectors, vectors);
+    lanes(|lane| squares[lane].sqrt())
 }

@@ -12,7 +12,7 @@ use crate::normals::angles;
 
 pub use group::QuadGroup;
 pub use halves::Halves;
-use vectors::{Vectors, cross, difference, dot, each};
+use vectors::{Vectors, cross, difference, dot, each, lanes};
 
 /// The corners of quads side by side, so that the compiler computes several at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,13 +47,18 @@ impl<const N: usize> Quads<N> {
     /// The corners as they are computed with.
     #[inline(always)]
     fn wide(&self) -> [Vectors<N>; 4] {
-        std::array::from_fn(|corner| each(|axis, quad| f64::from(self.places[corner][axis][quad])))
+        let mut wide = [[[0.0; N]; 3]; 4];
+        for (vectors, places) in wide.iter_mut().zip(&self.places) {
+            *vectors = each(|axis, quad| f64::from(places[axis][quad]));
+        }
+        wide
     }
 
     /// The unit normal of each quad; zero if it has none.
+    #[inline(always)]
     pub(crate) fn normals(&self) -> [Vec3; N] {
         let [a, b, c, d] = &self.wide();
-        let [b, c, d] = [b, c, d].map(|corner| difference(corner, a));
+        let [b, c, d] = [difference(b, a), difference(c, a), difference(d, a)];
         // In the order in which the area vector of any polygon is added up.
         let mut doubled = [[0.0; N]; 3];
         for part in [cross(&[[0.0; N]; 3], &b), cross(&b, &c), cross(&c, &d)] {
@@ -61,30 +66,34 @@ impl<const N: usize> Quads<N> {
         }
         let vectors: Vectors<N> = each(|axis, quad| doubled[axis][quad] * 0.5);
         let squares = dot(&vectors, &vectors);
-        let units: [[f32; N]; 3] = vectors.map(|axis| {
-            std::array::from_fn(|quad| {
-                let length = squares[quad].sqrt();
-                let has_direction = length > 0.0 && length.is_finite();
-                (if has_direction { axis[quad] / length } else { 0.0 }) as f32
-            })
-        });
-        std::array::from_fn(|quad| Vec3::from_array(units.map(|axis| axis[quad])))
+        let lengths: [f64; N] = lanes(|quad| squares[quad].sqrt());
+        let unit = |axis: usize, quad: usize| {
+            let has_direction = lengths[quad] > 0.0 && lengths[quad].is_finite();
+            if has_direction { vectors[axis][quad] / lengths[quad] } else { 0.0 }
+        };
+        let units: Vectors<N> = each(unit);
+        lanes(|quad| Vec3::new(units[0][quad] as f32, units[1][quad] as f32, units[2][quad] as f32))
     }
 
     /// The angles at the corners of each quad, in radians.
+    #[inline(always)]
     pub(crate) fn angles(&self) -> [[f64; 4]; N] {
         let places = self.wide();
-        let ahead: [Vectors<N>; 4] =
-            std::array::from_fn(|corner| difference(&places[(corner + 1) % 4], &places[corner]));
-        let squares = ahead.map(|way| dot(&way, &way));
-        let by_corner: [[f64; N]; 4] = std::array::from_fn(|corner| {
+        let (mut ahead, mut squares) = ([[[0.0; N]; 3]; 4], [[0.0; N]; 4]);
+        for corner in 0..4 {
+            ahead[corner] = difference(&places[(corner + 1) % 4], &places[corner]);
+            squares[corner] = dot(&ahead[corner], &ahead[corner]);
+        }
+        let mut by_corner = [[0.0; N]; 4];
+        for (corner, made) in by_corner.iter_mut().enumerate() {
             // The way back is the way ahead of the corner before, turned round.
             let before = (corner + 3) % 4;
-            let dots = dot(&ahead[before], &ahead[corner]).map(|product| -product);
-            let products = std::array::from_fn(|quad| squares[before][quad] * squares[corner][quad]);
-            angles(dots, products)
-        });
-        std::array::from_fn(|quad| by_corner.map(|angles| angles[quad]))
+            let dots = dot(&ahead[before], &ahead[corner]);
+            let products = lanes(|quad| squares[before][quad] * squares[corner][quad]);
+            *made = angles(lanes(|quad| -dots[quad]), products);
+        }
+        let [a, b, c, d] = by_corner;
+        lanes(|quad| [a[quad], b[quad], c[quad], d[quad]])
     }
 }
 

@@ -51,29 +51,43 @@ fn diagonal(first: u32, triangles: &[[u32; 3]]) -> Option<QuadCut> {
 }
 
 /// For the triangles of each quad: what [`flags_of_any`] finds in more steps.
+#[inline(always)]
 pub(super) fn flags_of_quads<const N: usize>(
     quads: &Quads<N>,
     cuts: &[Option<QuadCut>; N],
 ) -> [[EdgeFlags; 2]; N] {
-    let is_first = cuts.map(|cut| cut != Some(QuadCut::Second));
+    // Loops, because closures for arrays are not always inlined.
+    let mut is_first = [true; N];
+    for (is_first, cut) in is_first.iter_mut().zip(cuts) {
+        *is_first = *cut != Some(QuadCut::Second);
+    }
     let Halves { doubled_areas, outer_lengths, diagonals } = quads.halves(is_first);
-    let ratios: [[f32; 2]; N] = std::array::from_fn(|lane| {
-        let measures = [0, 1].map(|triangle| Measure {
+    let mut ratios = [[0.0; N]; 2];
+    for lane in 0..N {
+        let measure = |triangle: usize| Measure {
             area: doubled_areas[triangle][lane],
             perimeter: outer_lengths[triangle][lane] + diagonals[lane],
             edges: outer_lengths[triangle][lane],
-        });
-        let whole = measures[0].sum(measures[1]);
-        measures.map(|measure| measure.radius_ratio(&whole))
-    });
-    std::array::from_fn(|lane| {
-        let flags = match cuts[lane] {
-            Some(QuadCut::Ear(_)) => return [EdgeFlags::new([true, true, false]), EdgeFlags::NONE],
+        };
+        let (one, other) = (measure(0), measure(1));
+        let whole = one.sum(other);
+        (ratios[0][lane], ratios[1][lane]) = (one.radius_ratio(&whole), other.radius_ratio(&whole));
+    }
+    let mut flags = [[EdgeFlags::NONE; 2]; N];
+    for (lane, (flags, cut)) in flags.iter_mut().zip(cuts).enumerate() {
+        let made = match cut {
+            Some(QuadCut::Ear(_)) => {
+                flags[0] = EdgeFlags::new([true, true, false]);
+                continue;
+            }
             Some(QuadCut::Second) => [[true, false, true], [true, true, false]],
             _ => [[true, true, false], [false, true, true]],
         };
-        [0, 1].map(|triangle| EdgeFlags::new(flags[triangle]).with_radius_ratio(ratios[lane][triangle]))
-    })
+        let [one, other] = made;
+        flags[0] = EdgeFlags::new(one).with_radius_ratio(ratios[0][lane]);
+        flags[1] = EdgeFlags::new(other).with_radius_ratio(ratios[1][lane]);
+    }
+    flags
 }
 
 /// For the triangles of any face.
@@ -118,6 +132,7 @@ impl Measure {
     }
 
     /// The ratio of the polygon's inner radius to that of this triangle.
+    #[inline(always)]
     fn radius_ratio(&self, whole: &Self) -> f32 {
         // A triangle in the middle of a polygon may have no edge.
         let own = if self.edges > 0.0 { self.edges } else { self.perimeter };
@@ -125,6 +140,7 @@ impl Measure {
         ((whole.area * own) / (self.area * whole.edges)) as f32
     }
 
+    #[inline(always)]
     fn sum(self, other: Self) -> Self {
         Self {
             area: self.area + other.area,

@@ -26,13 +26,16 @@ pub(super) fn cut_quads(mesh: &Mesh, outlines: &Outlines, has_flags: bool) -> Ve
     let mut cut = vec![CutQuad::NONE; outlines.face_count()];
     let groups = cut.par_chunks_mut(QuadGroup::MOST).with_min_len(PIECE / QuadGroup::MOST).enumerate();
     groups.for_each_init(QuadGroup::default, |room, (number, cut)| {
-        for (numbers, quads) in outlines.group(mesh, number, room).iter() {
-            let cuts = quads.cuts();
-            let flags = if has_flags { flags_of_quads(quads, &cuts) } else { [CutQuad::NONE.flags; _] };
-            for ((&number, made), flags) in numbers.iter().zip(cuts).zip(flags) {
-                cut[number as usize] = CutQuad { cut: made, flags };
-            }
-        }
+        outlines.group(mesh, number, room).for_each(
+            #[inline(always)]
+            |numbers, quads| {
+                let cuts = quads.cuts();
+                let flags = if has_flags { flags_of_quads(quads, &cuts) } else { [CutQuad::NONE.flags; _] };
+                for ((&number, made), flags) in numbers.iter().zip(cuts).zip(flags) {
+                    cut[number as usize] = CutQuad { cut: made, flags };
+                }
+            },
+        );
     });
     cut
 }
