@@ -4,8 +4,10 @@ use rayon::prelude::*;
 use trigon_math::Vec3;
 
 use super::corner_faces::FaceCorner;
-use super::face_normals::FaceNormals;
+use super::face_normals::{FaceNormals, NearPlaces};
+use super::normal_lists::NormalLists;
 use super::render_update::{RenderUpdate, UpdatedVertex};
+use crate::Mesh;
 
 /// Vertices each of which is one render vertex, with what lies around them. That does not depend on their values,
 /// so it is found once for a drag that changes the same vertices in each frame.
@@ -18,6 +20,8 @@ pub(super) struct Fans {
     pub(super) moved: usize,
     /// Vertices of the mesh around a change that are no fans, increasing.
     pub(super) others: Vec<u32>,
+    /// Whether the corners are numbered as in [`FaceNormals::near`], and not as in the mesh.
+    are_near: bool,
 }
 
 /// The corners at some vertices.
@@ -51,20 +55,50 @@ impl Fans {
             others.extend(part.others);
             pieces.push(part.fans);
         }
-        Self { pieces, count: update.vertices.len(), moved: update.replaced.len(), others }
+        Self { pieces, count: update.vertices.len(), moved: update.replaced.len(), others, are_near: false }
+    }
+
+    /// Finds where the values are from now on that the fans take: side by side, those of faces that do not change
+    /// in the order of the fans, after those of faces that do.
+    fn bring_near(&mut self, mesh: &Mesh, face_normals: &mut FaceNormals) {
+        face_normals.forget_others();
+        let (places, all) = (face_normals.near_places(mesh), face_normals.all());
+        let others: Vec<_> = self.pieces.par_iter_mut().map(|piece| piece.bring_near(&places, all)).collect();
+        let near = &mut face_normals.near;
+        let count = others.iter().map(|part| part.normals.len()).sum();
+        near.normals.reserve_exact(count);
+        near.angles.reserve_exact(count);
+        let [first_face, first_corner] = [near.normals.len(), near.angles.len()].map(|count| count as u32);
+        for (piece, others) in self.pieces.iter_mut().zip(others) {
+            let [face, corner] = [near.normals.len(), near.angles.len()].map(|count| count as u32);
+            for of in piece.corners.iter_mut().filter(|of| of.face >= first_face) {
+                of.face += face - first_face;
+                of.corner += corner - first_corner;
+            }
+            near.normals.extend(others.normals);
+            near.angles.extend(others.angles);
+        }
+        self.are_near = true;
     }
 
     /// Brings the normals of the vertices up to date, which come in the order of the fans. Whether each has one.
-    pub(super) fn update(&self, face_normals: &FaceNormals, mut vertices: &mut [UpdatedVertex]) -> bool {
+    pub(super) fn update(
+        &mut self,
+        mesh: &Mesh,
+        face_normals: &mut FaceNormals,
+        mut vertices: &mut [UpdatedVertex],
+    ) -> bool {
+        // Not when they are found: other elements may change the next time.
+        if !self.are_near {
+            self.bring_near(mesh, face_normals);
+        }
+        let near = &face_normals.near;
         let mut parts = Vec::with_capacity(self.pieces.len());
         for piece in &self.pieces {
             let own = vertices.split_off_mut(..piece.ends.len()).expect("one for each fan");
             parts.push((piece, own));
         }
-        parts
-            .into_par_iter()
-            .map(|(piece, own)| piece.update(face_normals, own))
-            .reduce(|| true, |a, b| a & b)
+        parts.into_par_iter().map(|(piece, own)| piece.update(near, own)).reduce(|| true, |a, b| a & b)
     }
 }
 
@@ -73,7 +107,7 @@ impl FanPiece {
     /// them is missing, or if they have no mean.
     pub(super) fn push(
         &mut self,
-        face_normals: &FaceNormals,
+        face_normals: &NormalLists,
         corners: impl Iterator<Item = Option<FaceCorner>>,
     ) -> Option<Vec3> {
         let first = self.corners.len();
@@ -92,10 +126,28 @@ impl FanPiece {
         normal
     }
 
-    fn update(&self, face_normals: &FaceNormals, vertices: &mut [UpdatedVertex]) -> bool {
+    /// Replaces the corners by their places among the values of the faces that change, or after these values; returns
+    /// what belongs there for this piece.
+    fn bring_near(&mut self, places: &NearPlaces<'_>, all: &NormalLists) -> NormalLists {
+        let most = self.corners.len();
+        let mut others = NormalLists { normals: Vec::with_capacity(most), angles: Vec::with_capacity(most) };
+        let end = places.end();
+        for of in &mut self.corners {
+            let FaceCorner { face, corner } = *of;
+            *of = places.get(*of).unwrap_or_else(|| {
+                let number = others.normals.len() as u32;
+                others.normals.push(all.normals[face as usize]);
+                others.angles.push(all.angles[corner as usize]);
+                FaceCorner { face: end.face + number, corner: end.corner + number }
+            });
+        }
+        others
+    }
+
+    fn update(&self, near: &NormalLists, vertices: &mut [UpdatedVertex]) -> bool {
         let (mut first, mut have_all) = (0, true);
         for (vertex, &end) in vertices.iter_mut().zip(&self.ends) {
-            vertex.normal = face_normals.mean(self.corners[first..end as usize].iter().copied());
+            vertex.normal = near.mean(self.corners[first..end as usize].iter().copied());
             have_all &= vertex.normal != Vec3::ZERO;
             first = end as usize;
         }

@@ -4,8 +4,8 @@
 use trigon_math::Vec3;
 
 use super::corner_faces::{CornerFaces, FaceCorner};
-use super::face_normals::FaceNormals;
 use super::fans::FanPiece;
+use super::normal_lists::NormalLists;
 use crate::Mesh;
 use crate::normals::{or_if_zero, unit_keeping};
 
@@ -15,11 +15,11 @@ pub(super) struct LocalNormals<'a> {
     given: Option<&'a [Vec3]>,
     smooth: Option<&'a [bool]>,
     /// Of every face; none where all corners have normals of their own.
-    face_normals: &'a FaceNormals,
+    face_normals: &'a NormalLists,
 }
 
 impl<'a> LocalNormals<'a> {
-    pub(super) fn new(mesh: &'a Mesh, face_normals: &'a FaceNormals) -> Self {
+    pub(super) fn new(mesh: &'a Mesh, face_normals: &'a NormalLists) -> Self {
         let attributes = mesh.attributes();
         Self {
             faces: CornerFaces::new(mesh),

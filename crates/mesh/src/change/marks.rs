@@ -18,6 +18,17 @@ impl Marks {
         self
     }
 
+    /// To find places in the list of these elements.
+    pub(super) fn ranks(self) -> Ranks {
+        let mut before = 0;
+        let ranked = |word: u64| {
+            let first = before;
+            before += word.count_ones();
+            (word, first)
+        };
+        Ranks(self.0.into_iter().map(ranked).collect())
+    }
+
     /// The elements, increasing: whoever follows them through the lists of a mesh finds them
     /// in the order in which they lie in memory.
     pub(super) fn listed(self) -> Vec<u32> {
@@ -32,6 +43,18 @@ impl Marks {
     }
 }
 
+/// The marks of 64 elements each, and how many elements are marked before them.
+pub(super) struct Ranks(Vec<(u64, u32)>);
+
+impl Ranks {
+    /// How many elements are marked before an element that is marked, too.
+    pub(super) fn get(&self, element: u32) -> Option<u32> {
+        let (word, before) = self.0[element as usize / 64];
+        let bit = 1 << (element % 64);
+        (word & bit != 0).then(|| before + (word & (bit - 1)).count_ones())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Marks;
@@ -41,6 +64,11 @@ mod tests {
         let mut marks = Marks::new(130);
         [129, 64, 0, 63, 64].into_iter().for_each(|element| marks.insert(element));
         assert_eq!(marks.listed(), [0, 63, 64, 129]);
+        let mut marks = Marks::new(130);
+        [129, 64, 0, 63].into_iter().for_each(|element| marks.insert(element));
+        let ranks = marks.ranks();
+        assert_eq!([0, 63, 64, 129].map(|element| ranks.get(element)), [0, 1, 2, 3].map(Some), "of elements");
+        assert_eq!([1, 62, 65, 128].map(|element| ranks.get(element)), [None; 4], "of others");
         let [mut one, mut other] = [Marks::new(70), Marks::new(70)];
         [3, 69].into_iter().for_each(|element| one.insert(element));
         [0, 69].into_iter().for_each(|element| other.insert(element));

@@ -15,6 +15,7 @@ mod local_normals;
 mod marks;
 mod mesh_change;
 mod neighborhood;
+mod normal_lists;
 mod outlines;
 mod render_links;
 mod render_update;

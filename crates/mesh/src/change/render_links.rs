@@ -86,11 +86,13 @@ impl RenderLinks {
             outlines.update(mesh);
         }
         if let Some(normals) = &mut self.face_normals {
-            normals.update(mesh, &self.around.faces, outlines);
+            if is_other {
+                normals.replace(mesh, &self.around.faces);
+            }
+            normals.update(mesh, outlines);
             if self.is_flat {
-                let shown = self.around.faces.iter().map(|&face| (face, normals.shown(face as usize)));
                 self.update.face_normals.clear();
-                self.update.face_normals.extend(shown);
+                self.update.face_normals.extend(normals.shown());
             }
         }
         self.update.faces.clone_from(&self.around.polygons);
@@ -127,13 +129,17 @@ impl RenderLinks {
             return;
         }
         let Self { around, update, .. } = self;
-        let none = FaceNormals::default();
-        let face_normals = self.face_normals.as_ref().unwrap_or(&none);
-        let normals = (!self.is_flat).then(|| LocalNormals::new(mesh, face_normals));
-        let values = VertexValues::new(mesh, &self.vertex_of_corner, &self.corners_at, normals, around);
+        let mut none = FaceNormals::default();
+        let face_normals = self.face_normals.as_mut().unwrap_or(&mut none);
         update.vertices.truncate(self.fans.count);
         update.replaced.truncate(self.fans.moved);
-        if are_others || !self.fans.update(face_normals, &mut update.vertices) {
+        let are_fans = !are_others && self.fans.update(mesh, face_normals, &mut update.vertices);
+        if !are_fans || !self.fans.others.is_empty() {
+            face_normals.settle(mesh);
+        }
+        let normals = (!self.is_flat).then(|| LocalNormals::new(mesh, face_normals.all()));
+        let values = VertexValues::new(mesh, &self.vertex_of_corner, &self.corners_at, normals, around);
+        if !are_fans {
             let found = around.vertices.par_chunks(PIECE).map(|piece| values.fans_of(piece)).collect();
             self.fans = Fans::new(found, update);
         }

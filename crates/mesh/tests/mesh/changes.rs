@@ -130,3 +130,22 @@ fn a_tip_of_100_000_flat_faces_moves() {
     fan.set_attributes(Attributes { face_smooth: smooth, ..Attributes::default() }).expect("one each");
     assert_eq!(follow(&mut fan, &changes), count as usize + 2, "one normal at each vertex");
 }
+
+/// By turns, so that what is kept while the same vertices move is left and found again; beside flat faces, some vertices
+/// have several normals.
+#[test]
+fn vertices_move_again_and_again_in_turn_with_others() {
+    let mut sphere = primitives::uv_sphere(1.0, 24, 16);
+    let parts: [Vec<u32>; 2] = [vec![0, 30, 55, 130, 131, 250], vec![31, 32, 131, 200, 301]];
+    let places = sphere.positions().to_vec();
+    let turn = |(step, &part): (usize, &usize)| {
+        let to = |&vertex: &u32| (vertex, places[vertex as usize] * (1.0 + 0.01 * (step as f32 + 1.0)));
+        moved(parts[part].iter().map(to).collect())
+    };
+    let changes: Vec<_> = [0, 0, 0, 1, 0, 1, 1, 1, 0, 0].iter().enumerate().map(turn).collect();
+    for flat in [usize::MAX, 7, 2, 1] {
+        let face_smooth = Some((0..sphere.face_count()).map(|face| (face + 1) % flat != 0).collect());
+        sphere.set_attributes(Attributes { face_smooth, ..Attributes::default() }).expect("one each");
+        follow(&mut sphere.clone(), &changes);
+    }
+}
