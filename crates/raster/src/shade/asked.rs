@@ -3,19 +3,10 @@
 //! A pixel may look different if the triangle that it shows may, or if it shows another one. Edges of faces reach into
 //! pixels around them, so where a triangle has come, gone or moved, pixels within reach of a line are shaded, too.
 
+use super::tile_bits::{GROUP_COUNT, TileLanes, TileRows, lanes_of, rows_of_either};
 use crate::ink::VisibleFaces;
-use crate::simd::LANES;
-use crate::tile_buffer::{MAX_SIDE, PIXELS, TileArea};
+use crate::tile_buffer::MAX_SIDE;
 use std::ops::Range;
-
-/// Groups of eight pixels in a tile.
-pub(crate) const GROUP_COUNT: usize = PIXELS / LANES;
-
-/// A bit for each lane of each group of a tile.
-pub(crate) type TileLanes = [u8; GROUP_COUNT];
-
-/// A bit for each column of each row of a tile.
-pub(crate) type TileRows = [u64; MAX_SIDE];
 
 /// Which pixels of a tile are shaded.
 pub(crate) struct Asked {
@@ -69,34 +60,6 @@ impl Asked {
     }
 }
 
-/// Bits of lanes as bits of columns.
-pub(crate) fn rows_of(lanes: &TileLanes) -> TileRows {
-    let mut rows = [0; MAX_SIDE];
-    for (y, x) in (0..MAX_SIDE / 2).flat_map(|y| (0..MAX_SIDE / 4).map(move |x| (y, x))) {
-        let lanes = u64::from(lanes[TileArea::group_of([x, y])]);
-        rows[2 * y] |= (lanes & 0xf) << (4 * x);
-        rows[2 * y + 1] |= (lanes >> 4) << (4 * x);
-    }
-    rows
-}
-
-/// Bits of lanes of either as bits of columns.
-pub(crate) fn rows_of_either(one: &TileLanes, other: &TileLanes) -> TileRows {
-    let mut both = *one;
-    both.iter_mut().zip(other).for_each(|(both, other)| *both |= other);
-    rows_of(&both)
-}
-
-/// Bits of columns as bits of lanes.
-fn lanes_of(rows: &TileRows) -> TileLanes {
-    let mut lanes = [0; GROUP_COUNT];
-    for (y, x) in (0..MAX_SIDE / 2).flat_map(|y| (0..MAX_SIDE / 4).map(move |x| (y, x))) {
-        let [upper, lower] = [rows[2 * y], rows[2 * y + 1]].map(|row| (row >> (4 * x)) as u8 & 0xf);
-        lanes[TileArea::group_of([x, y])] = upper | lower << 4;
-    }
-    lanes
-}
-
 /// Those at most `reach` columns and rows away.
 fn spread(rows: &TileRows, reach: usize) -> TileRows {
     if reach == 0 {
@@ -119,7 +82,10 @@ fn spread(rows: &TileRows, reach: usize) -> TileRows {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tile_bits::rows_of;
     use super::*;
+    use crate::simd::LANES;
+    use crate::tile_buffer::{PIXELS, TileArea};
     use proptest::prelude::*;
 
     fn pixels() -> impl Strategy<Value = Vec<[usize; 2]>> {

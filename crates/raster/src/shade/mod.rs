@@ -7,6 +7,7 @@
 //! | file | what it does |
 //! |---|---|
 //! | `asked` | the pixels that are shaded, if not all are |
+//! | `tile_bits` | a bit for each pixel of a tile |
 //! | `visible` | lists the visible triangles of a tile, by draw |
 //! | `edges` | with multisampling, pixels that show several triangles |
 //! | `frame_context` | the context of a draw |
@@ -20,13 +21,15 @@ mod frame_context;
 mod list;
 mod shading;
 mod surface;
+mod tile_bits;
 mod visible;
 
 #[cfg(test)]
 mod tests;
 
-pub(crate) use asked::{Asked, GROUP_COUNT, Partly, TileLanes, TileRows, rows_of, rows_of_either};
+pub(crate) use asked::{Asked, Partly};
 pub(crate) use edges::{BEHIND, EdgeGroup};
 pub(crate) use list::{JobList, mask_jobs, shade_jobs, shade_jobs_with};
 pub(crate) use shading::{EmptyGroup, Shading};
 pub(crate) use surface::{list_visible, note_faces, shade_tile};
+pub(crate) use tile_bits::{GROUP_COUNT, TileLanes, TileRows, rows_of, rows_of_either};

@@ -1,7 +1,8 @@
 //! Shades a tile: every visible triangle once at every pixel where it is visible.
 
-use super::asked::{GROUP_COUNT, Partly};
+use super::asked::Partly;
 use super::shading::{Run, Shading};
+use super::tile_bits::GROUP_COUNT;
 use super::visible::{SomeLanes, divide, list};
 use crate::bin::TriangleRef;
 use crate::fragments::{

@@ -8,7 +8,7 @@ use crate::tile_buffer::{NO_TRIANGLE, VisibilityBuffer};
 use crate::view::FrameView;
 
 /// Groups with fewer pixels than this that see anything share vectors with others.
-const FULL: u32 = 4;
+const FULL: u32 = 6;
 
 /// Some lanes of each group of a tile.
 #[derive(Clone, Copy)]
