@@ -6,9 +6,9 @@ use super::perspective::perspective;
 use super::sorted::Sorted;
 use crate::EdgeFlags;
 use crate::bin::TriangleRef;
-use crate::ink::{DepthRange, FaceLine, Ink, LineColumns, VisibleFaces};
+use crate::ink::{DepthRange, FaceLine, Ink, LARGE, LineColumns, VisibleFaces};
 use crate::primitive::Corners;
-use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, inlined, lesser, prelude::*};
+use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, inlined, lesser, prelude::*, transpose};
 
 /// The radius in pixels of faces whose exact size does not matter.
 const HUGE: f32 = 1e9;
@@ -18,7 +18,8 @@ const LEAST: f32 = 1e-6;
 
 /// What is painted on eight triangles, and what others have to know of it.
 pub(crate) struct Lines {
-    columns: [[f32; LANES]; lined::COUNT],
+    /// Those of [`lined`], and more that are transposed with them.
+    columns: [Row; LANES],
     half: [f32; LANES],
     beyond: [f32; LANES],
     radius: [f32; LANES],
@@ -69,14 +70,17 @@ impl Lines {
         simd: S,
         (inverse, is_edge): ([F32<S>; 3], [Mask<S>; 3]),
         line: &LineColumns<S>,
-    ) -> [[f32; LANES]; lined::COUNT] {
+    ) -> [Row; LANES] {
         let LineColumns { half, weight, floor, .. } = *line;
         let [a, b, c] = [0, 1, 2].each(
             #[inline(always)]
             |corner| is_edge[corner].select(inverse[corner] * weight, F32::splat(simd, -1.0)),
         );
         let most = lesser(half * 2.0, F32::splat(simd, 1.0)) * weight;
-        [a, b, c, (half + 0.5) * weight, most, floor].each(Into::into)
+        [a, b, c, (half + 0.5) * weight, most, floor, floor, floor].each(
+            #[inline(always)]
+            |column| column.bitcast::<I32<S>>().into(),
+        )
     }
 
     /// Corrects the lane of a triangle that was cut: the edges are those of the whole one,
@@ -114,19 +118,21 @@ impl Lines {
             let (right, down): (f64, f64) = (slope(0), slope(1));
             let slope = (right * right + down * down).sqrt() * 256.0;
             let is_edge = flags.contains((usize::from(order[column]) + 1) % 3) && slope > 0.0;
-            self.columns[lined::INVERSE + column][lane] = if is_edge { (1.0 / slope) as f32 } else { -1.0 };
+            let inverse = if is_edge { (1.0 / slope) as f32 } else { -1.0 };
+            self.columns[lined::INVERSE + column][lane] = inverse.to_bits().cast_signed();
         }
     }
 
     /// Writes the columns to the records of the first `count` triangles.
     #[inline(always)]
-    pub(crate) fn store(&self, (rows, shape): (&mut [Row], RecordShape), count: usize) {
+    pub(crate) fn store<S: Simd>(&self, simd: S, (rows, shape): (&mut [Row], RecordShape), count: usize) {
         let Some(first) = shape.lines else { return };
-        for (lane, record) in rows.chunks_exact_mut(shape.rows()).take(count).enumerate() {
-            let values = &mut record.as_flattened_mut()[first..first + lined::COUNT];
-            for (value, column) in values.iter_mut().zip(&self.columns) {
-                *value = column[lane].to_bits().cast_signed();
-            }
+        let mut turned = [[0; LANES]; LANES];
+        transpose(simd, self.columns.each_ref(), &mut turned);
+        for (record, turned) in rows.chunks_exact_mut(shape.rows()).zip(&turned[..count]) {
+            let values = record.as_flattened_mut()[first..].first_chunk_mut().expect("there is room");
+            let made: &[i32; lined::COUNT] = turned.first_chunk().expect("there are as many");
+            *values = *made;
         }
     }
 
@@ -138,7 +144,12 @@ impl Lines {
         let none = F32::splat(simd, f32::NEG_INFINITY);
         let is_painted = F32::simd_from(simd, self.beyond).simd_gt(0.0);
         let least = is_painted.select(lesser(lesser(a, b), c), none);
-        let least: [f32; LANES] = if self.shows_edges { least.into() } else { none.into() };
+        let least = if self.shows_edges { least } else { none };
+        let lanes = (1 << seen.len()) - 1;
+        let is_large = F32::simd_from(simd, self.radius).simd_ge(LARGE);
+        outer.has_lines |= least.simd_gt(none).to_bitmask() & lanes != 0;
+        outer.has_large |= self.shows_edges && is_large.to_bitmask() & lanes != 0;
+        let least: [f32; LANES] = least.into();
         for (lane, &place) in seen.iter().enumerate() {
             let (half, weight, radius) = (self.half[lane], self.beyond[lane], self.radius[lane]);
             let line = if self.shows_edges { FaceLine { half, weight, radius } } else { FaceLine::UNLINED };
@@ -230,6 +241,10 @@ fn inverses<S: Simd>(simd: S, sorted: &Sorted<S>, lengths: [F32<S>; 3]) -> [F32<
 /// The index of the weights of a triangle that was cut, and the corners of their columns.
 #[inline(always)]
 fn corners_of(context: &ShadeContext<'_>, place: TriangleRef) -> Option<(u32, [u8; 3])> {
+    // Most are whole, and to find the chunk of one takes a search.
+    if place.is_whole() {
+        return None;
+    }
     match context.draw.chunk_of(place).made(place)?.corners {
         Corners::Cut { weights, order } => Some((weights, order)),
         Corners::Whole(_) | Corners::Ends(_) => None,

@@ -257,7 +257,7 @@ fn eight<S: Simd>(
             #[inline(always)]
             || {
                 let lines = Lines::new(simd, (context, ink), &sorted, (triangles, primitives));
-                lines.store((rows, shape), seen.len());
+                lines.store(simd, (rows, shape), seen.len());
                 if let Some(outer) = outer {
                     lines.note(simd, &sorted, seen, outer);
                 }
@@ -318,10 +318,8 @@ fn copy_varyings<'r, const COUNT: usize>(
     for (record, corners) in records {
         let values = record.as_flattened_mut()[hot::COUNT..].as_chunks_mut::<COUNT>().0;
         for (values, &corner) in values.iter_mut().zip(corners) {
-            let from = varyings.of(corner).first_chunk::<COUNT>();
-            for (to, from) in values.iter_mut().zip(from.expect("varyings are this many")) {
-                *to = from.to_bits().cast_signed();
-            }
+            let from: &[f32; COUNT] = varyings.of(corner).first_chunk().expect("varyings are this many");
+            *values = from.map(|value| value.to_bits().cast_signed());
         }
     }
 }

@@ -16,6 +16,12 @@ pub(crate) struct DepthRange {
 
 impl DepthRange {
     pub(crate) const EMPTY: Self = Self { least: f32::NEG_INFINITY, greatest: f32::NEG_INFINITY };
+
+    /// Both as one number, the least in the lower half.
+    #[inline(always)]
+    pub(crate) fn bits(self) -> u64 {
+        u64::from(self.least.to_bits()) | u64::from(self.greatest.to_bits()) << 32
+    }
 }
 
 /// The visible triangles of a tile, by their numbers among the tile's, and one more entry for the
@@ -60,12 +66,11 @@ impl VisibleFaces {
         self.has_large |= others.has_large;
     }
 
-    /// Takes a visible triangle of the tile.
+    /// Takes a visible triangle of the tile. Whoever notes one with lines, or a large one, says so in `has_lines` and
+    /// `has_large`.
     #[inline(always)]
     pub(crate) fn note(&mut self, place: u32, depths: DepthRange, line: FaceLine) {
         self.depths[place as usize] = depths;
         self.lines[place as usize] = line;
-        self.has_lines |= depths.least > f32::NEG_INFINITY;
-        self.has_large |= line.radius >= LARGE;
     }
 }

@@ -23,7 +23,7 @@ pub(crate) use edged_face::{parts, slots};
 use crate::bin::TriangleRef;
 use crate::ink::{Ink, LARGE, VisibleFaces};
 use crate::marks::Overlap;
-use crate::simd::{LANES, Simd, at_level};
+use crate::simd::{Each, F32, LANES, Simd, U32, at_level, inlined, prelude::*, unzipped};
 use crate::tile_buffer::{MAX_SIDE, NO_TRIANGLE, PIXELS, TileArea, VisibilityBuffer};
 use crate::view::FrameView;
 use edged_face::EdgedFace;
@@ -125,8 +125,10 @@ impl OuterInk {
         let mut rows = self.rows.take().unwrap_or_else(VisibleRows::new);
         const ALL: Rows = [u64::MAX; MAX_SIDE];
         let [asked, near] = asked.unwrap_or([&ALL; 2]);
-        self.spread(area, (buffer, triangles.len()), near, &mut rows);
-        let found = at_level!(frame.token, simd => self.candidates(simd, area, (&rows, asked), reach));
+        let found = at_level!(frame.token, simd => {
+            self.spread(simd, area, (buffer, triangles.len()), (near, &mut rows));
+            self.candidates(simd, area, (&rows, asked), reach)
+        });
         self.ready.iter_mut().for_each(Ready::clear);
         for y in self.own_part[1].clone() {
             let mut rest = found[y];
@@ -162,13 +164,14 @@ impl OuterInk {
         found
     }
 
-    /// Lays what pixels see out in rows. Where no column of a row is `near` what is asked for, anything may stay.
-    fn spread(
+    /// Lays what pixels see out in rows. Where no column of a group is `near` what is asked for, anything may stay.
+    #[inline(always)]
+    fn spread<S: Simd>(
         &self,
+        simd: S,
         area: &TileArea,
         (buffer, triangle_count): (&VisibilityBuffer, usize),
-        near: &Rows,
-        rows: &mut VisibleRows,
+        (near, rows): (&Rows, &mut VisibleRows),
     ) {
         if area.padded() != [MAX_SIDE; 2] {
             rows.least.fill([f32::NEG_INFINITY; MAX_SIDE]);
@@ -176,25 +179,43 @@ impl OuterInk {
             rows.nearest.fill([NO_TRIANGLE; MAX_SIDE]);
         }
         let [columns, height] = area.padded();
-        for (y, x) in (0..height).flat_map(|y| (0..columns).step_by(4).map(move |x| (y, x))) {
-            if near[y] >> x & 0xf == 0 {
+        for (y, x) in (0..height).step_by(2).flat_map(|y| (0..columns).step_by(4).map(move |x| (y, x))) {
+            if (near[y] | near[y + 1]) >> x & 0xf == 0 {
                 continue;
             }
-            let first = TileArea::index_of([x, y]);
-            for lane in 0..4 {
-                let [near, far] = ends(buffer, first + lane);
-                let depths = self.faces.depths[(near as usize).min(triangle_count)];
-                rows.least[y][x + lane] = depths.least;
-                rows.nearest[y][x + lane] = near;
-                rows.farthest[y][x + lane] = far;
-                rows.greatest[y][x + lane] = match near == far {
-                    true => depths.greatest,
-                    false => self.faces.depths[(far as usize).min(triangle_count)].greatest,
-                };
-                if self.faces.has_large {
-                    let is_large = self.faces.lines[(near as usize).min(triangle_count)].radius >= LARGE;
-                    rows.large[y][x + lane] = f32::from(u8::from(is_large));
-                }
+            let [nearest, farthest] = ends(buffer, TileArea::group_of([x / 4, y / 2]));
+            // The background comes after all triangles.
+            let indices = inlined(
+                #[inline(always)]
+                |visible: [u32; LANES]| {
+                    <[u32; LANES]>::from(U32::simd_from(simd, visible).min(triangle_count as u32))
+                },
+            );
+            let depths = inlined(
+                #[inline(always)]
+                |visible: [u32; LANES]| {
+                    let ranges = indices(visible).each(
+                        #[inline(always)]
+                        |index| self.faces.depths[index as usize].bits(),
+                    );
+                    unzipped(simd, ranges).each(
+                        #[inline(always)]
+                        |depths| <[f32; LANES]>::from(depths.bitcast::<F32<S>>()),
+                    )
+                },
+            );
+            let [least, mut greatest] = depths(nearest);
+            if buffer.samples > 1 {
+                [_, greatest] = depths(farthest);
+            }
+            put(&mut rows.least, [x, y], least);
+            put(&mut rows.greatest, [x, y], greatest);
+            put(&mut rows.nearest, [x, y], nearest);
+            put(&mut rows.farthest, [x, y], farthest);
+            if self.faces.has_large {
+                let is_large = |index: u32| self.faces.lines[index as usize].radius >= LARGE;
+                let large = indices(nearest).each(|index| f32::from(u8::from(is_large(index))));
+                put(&mut rows.large, [x, y], large);
             }
         }
     }
@@ -304,20 +325,32 @@ impl Ready {
     }
 }
 
-/// The nearest and the farthest triangle that the samples of a pixel see.
+/// Puts the values of a group of pixels into the rows of a tile; `x` and `y` are those of its first pixel.
 #[inline(always)]
-fn ends(buffer: &VisibilityBuffer, pixel: usize) -> [u32; 2] {
-    let first = buffer.index(pixel, 0);
-    let mut ends = [buffer.visible[first]; 2];
-    let mut depths = [buffer.depth[first]; 2];
-    for sample in 1..buffer.samples {
-        let index = first + sample * LANES;
-        let (visible, depth) = (buffer.visible[index], buffer.depth[index]);
-        if depth > depths[0] {
-            (ends[0], depths[0]) = (visible, depth);
-        }
-        if depth < depths[1] {
-            (ends[1], depths[1]) = (visible, depth);
+fn put<T: Copy>(rows: &mut [[T; MAX_SIDE]; MAX_SIDE], [x, y]: [usize; 2], values: [T; LANES]) {
+    let (upper, lower) = values.split_at(LANES / 2);
+    rows[y][x..x + LANES / 2].copy_from_slice(upper);
+    rows[y + 1][x..x + LANES / 2].copy_from_slice(lower);
+}
+
+/// The nearest and the farthest triangles that the samples of the pixels of a group see.
+#[inline(always)]
+fn ends(buffer: &VisibilityBuffer, group: usize) -> [[u32; LANES]; 2] {
+    let samples = group * buffer.samples..(group + 1) * buffer.samples;
+    let visible = &buffer.visible().as_chunks::<LANES>().0[samples.clone()];
+    if let [visible] = visible {
+        return [*visible; 2];
+    }
+    let depth = &buffer.depth.as_chunks::<LANES>().0[samples];
+    let (mut ends, mut depths) = ([visible[0]; 2], [depth[0]; 2]);
+    for (visible, depth) in visible.iter().zip(depth).skip(1) {
+        for lane in 0..LANES {
+            if depth[lane] > depths[0][lane] {
+                (ends[0][lane], depths[0][lane]) = (visible[lane], depth[lane]);
+            }
+            if depth[lane] < depths[1][lane] {
+                (ends[1][lane], depths[1][lane]) = (visible[lane], depth[lane]);
+            }
         }
     }
     ends
