@@ -54,10 +54,19 @@ impl Shown {
         Some((Hit { node: *node, face }, point))
     }
 
-    /// How far away what is seen at a point of a window of this size is, in metres along the line
-    /// of sight. `None` for background and outside the window.
-    pub(crate) fn distance(&self, at: DVec2, window: Viewport) -> Option<f64> {
-        self.depth(self.pixel(at, window)?).filter(|distance| distance.is_finite())
+    /// How far away what is seen at points of a window of this size is, in metres along the line of sight. `None` for
+    /// background and outside the window.
+    pub(crate) fn distances(
+        &self,
+        points: impl Iterator<Item = DVec2>,
+        window: Viewport,
+    ) -> Vec<Option<f64>> {
+        let pixels: Vec<usize> = points.map(|at| self.pixel(at, window).unwrap_or(usize::MAX)).collect();
+        let depth = self.frame.depth.as_deref().unwrap_or_default();
+        // Another core has just written them. A processor waits for many at once if nothing is done in between.
+        let seen: Vec<f32> =
+            pixels.iter().map(|&pixel| depth.get(pixel).copied().unwrap_or(f32::INFINITY)).collect();
+        seen.into_iter().map(|seen| seen.is_finite().then_some(f64::from(seen))).collect()
     }
 
     fn depth(&self, pixel: usize) -> Option<f64> {

@@ -343,12 +343,15 @@ impl Stage {
         self.shown.as_ref()?.pick(at, self.viewport, &self.scene)
     }
 
-    /// The distance of what the window shows at a point, in physical pixels, in metres along the line of
-    /// sight: cheaper than [`Stage::pick`] where thousands of points are looked up. `None` for background,
-    /// outside the window, and before there is an image.
+    /// The distances of what the window shows at points, in physical pixels, in metres along the line of
+    /// sight: much cheaper than [`Stage::pick`] where there are many. `None` for background, outside the window, and
+    /// before there is an image.
     #[must_use]
-    pub fn distance_at(&self, at: DVec2) -> Option<f64> {
-        self.shown.as_ref()?.distance(at, self.viewport)
+    pub fn distances_at(&self, points: impl Iterator<Item = DVec2>) -> Vec<Option<f64>> {
+        match &self.shown {
+            Some(shown) => shown.distances(points, self.viewport),
+            None => points.map(|_| None).collect(),
+        }
     }
 
     /// What a pointer at this point snaps to, within a radius, both in physical pixels: a vertex, an edge or a face of

@@ -20,16 +20,16 @@ const PIECE: f32 = 12.0;
 /// flicker.
 const BEHIND: f64 = 1.0 + 1e-3;
 
-/// The distance along the line of sight of what the image shows at a point in physical pixels; `None`
+/// The distances along the line of sight of what the image shows at points in physical pixels; `None`
 /// for background.
-pub(crate) type Depth<'a> = &'a dyn Fn(DVec2) -> Option<f64>;
+pub(crate) type Depths<'a> = &'a dyn Fn(&[DVec2]) -> Vec<Option<f64>>;
 
 /// Draws the grid and its two axes.
-pub(crate) fn draw_grid(painter: &Painter, view: &OverlayView, depth: Depth<'_>) {
+pub(crate) fn draw_grid(painter: &Painter, view: &OverlayView, depths: Depths<'_>) {
     let Some(grid) = Grid::of(view) else { return };
     let floor = FloorDepth::of(view);
     for (line, color, width) in grid.lines() {
-        for piece in visible(view, line, |pixel| floor.is_hidden(pixel, depth)) {
+        for piece in visible(view, line, (&floor, depths)) {
             painter.line_segment(piece, Stroke::new(width, color));
         }
     }
@@ -114,17 +114,21 @@ impl Grid {
     }
 }
 
-/// The pieces of a line that nothing hides.
-fn visible(view: &OverlayView, line: [DVec3; 2], is_hidden: impl Fn(DVec2) -> bool) -> Vec<[Pos2; 2]> {
+/// The pieces of a line on the floor that nothing hides.
+fn visible(
+    view: &OverlayView,
+    line: [DVec3; 2],
+    (floor, depths): (&FloorDepth, Depths<'_>),
+) -> Vec<[Pos2; 2]> {
     let Some([from, to]) = view.line(line[0], line[1]) else { return Vec::new() };
     let count = (from.distance(to) / PIECE).ceil().clamp(1.0, 1000.0) as usize;
     let at = |index: usize| from.lerp(to, index as f32 / count as f32);
-    // Look-ups wait for memory, so all of them begin before the first answer is used.
-    let is_seen = |index: usize| !is_hidden(view.physical(at(index).lerp(at(index + 1), 0.5)));
-    let seen: Vec<bool> = (0..count).map(is_seen).collect();
+    let middle = |index: usize| view.physical(at(index).lerp(at(index + 1), 0.5));
+    let middles: Vec<DVec2> = (0..count).map(middle).collect();
+    let seen = middles.iter().zip(depths(&middles)).map(|(&pixel, depth)| !floor.is_hidden(pixel, depth));
     let mut pieces: Vec<[Pos2; 2]> = Vec::new();
     let mut was_seen = false;
-    for (index, seen) in seen.into_iter().enumerate() {
+    for (index, seen) in seen.enumerate() {
         match pieces.last_mut() {
             Some([_, end]) if seen && was_seen => *end = at(index + 1),
             _ if seen => pieces.push([at(index), at(index + 1)]),
@@ -167,11 +171,11 @@ impl FloorDepth {
         Self { corner, growth, is_parallel }
     }
 
-    /// Whether the image shows something in front of the floor at a pixel. Where the floor's depth is NaN, as
-    /// seen edge-on, nothing hides it.
-    fn is_hidden(&self, pixel: DVec2, depth: Depth<'_>) -> bool {
+    /// Whether the image shows something in front of the floor at a pixel, given its depth there. Where the floor's
+    /// depth is NaN, as seen edge-on, nothing hides it.
+    fn is_hidden(&self, pixel: DVec2, depth: Option<f64>) -> bool {
         let floor = self.corner + self.growth.dot(pixel);
-        depth(pixel).is_some_and(|seen| {
+        depth.is_some_and(|seen| {
             let hides = seen * BEHIND;
             if self.is_parallel { floor > hides } else { floor > 0.0 && floor * hides < 1.0 }
         })
@@ -231,8 +235,8 @@ mod tests {
             for point in [DVec3::ZERO, DVec3::new(2.0, 0.0, 4.0), DVec3::new(-30.0, 0.0, -50.0)] {
                 let pixel = view.physical(view.point(point).expect("before the eye"));
                 let distance = view.distance(point);
-                assert!(floor.is_hidden(pixel, &|_| Some(distance * 0.998)), "{point} by what is before it");
-                assert!(!floor.is_hidden(pixel, &|_| Some(distance)), "{point} by what is as far away");
+                assert!(floor.is_hidden(pixel, Some(distance * 0.998)), "{point} by what is before it");
+                assert!(!floor.is_hidden(pixel, Some(distance)), "{point} by what is as far away");
             }
         }
         let level = OverlayView::new(
@@ -240,7 +244,7 @@ mod tests {
             Viewport { width: 800, height: 600 },
             1.0,
         );
-        assert!(!FloorDepth::of(&level).is_hidden(DVec2::ZERO, &|_| Some(1.0)), "the floor from its edge");
+        assert!(!FloorDepth::of(&level).is_hidden(DVec2::ZERO, Some(1.0)), "the floor from its edge");
     }
 
     #[test]
@@ -248,7 +252,9 @@ mod tests {
         let view = from(DVec3::new(0.0, 3.0, 10.0));
         let line = [DVec3::new(-5.0, 0.0, 0.0), DVec3::new(5.0, 0.0, 0.0)];
         let floor = FloorDepth::of(&view);
-        let visible = |depth: Depth<'_>| visible(&view, line, |pixel| floor.is_hidden(pixel, depth));
+        let visible = |depth: &dyn Fn(DVec2) -> Option<f64>| {
+            visible(&view, line, (&floor, &|points: &[DVec2]| points.iter().map(|&at| depth(at)).collect()))
+        };
         let whole = visible(&|_| None);
         assert_eq!(whole.len(), 1, "one piece: {whole:?}");
         // A wall 2 m before the eye in the middle of the image.

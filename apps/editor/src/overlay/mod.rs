@@ -66,7 +66,7 @@ mod tests {
     }
 
     fn draw_all(painter: &Painter, document: &Document, view: &OverlayView) {
-        draw_grid(painter, view, &|_| Some(3.0));
+        draw_grid(painter, view, &|points| vec![Some(3.0); points.len()]);
         draw_lights(painter, document, view);
         draw_cameras(painter, document, view);
         draw_origins(painter, document, view);

@@ -35,7 +35,7 @@ pub(super) fn show(ui: &Ui, editor: &mut Editor, stage: &Stage) {
 fn show_pane(painter: &Painter, editor: &mut Editor, (stage, pane): (&Stage, &Pane), view: &OverlayView) {
     let origin = pane.area.origin();
     if editor.view.overlays {
-        draw_grid(painter, view, &|at| stage.distance_at(at + origin));
+        draw_grid(painter, view, &|points| stage.distances_at(points.iter().map(|&at| at + origin)));
         draw_lights(painter, &editor.document, view);
         draw_cameras(painter, &editor.document, view);
         draw_origins(painter, &editor.document, view);

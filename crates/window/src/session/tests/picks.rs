@@ -161,12 +161,12 @@ fn distances_are_those_of_surfaces_along_the_line_of_sight() {
     // The eye looks straight at the fronts of both cubes, half a metre before their middles.
     for middle in [DVec3::ZERO, DVec3::X * 2.0] {
         let at = projector.to_screen(middle + DVec3::Z * 0.5).expect("before the eye");
-        let distance = session.stage.distance_at(at).expect("a cube");
+        let distances = session.stage.distances_at([DVec2::ONE, at].into_iter());
+        let [None, Some(distance)] = distances[..] else { panic!("{distances:?}: a cube beside nothing") };
         assert!((distance - (camera.position.z - 0.5)).abs() < 1e-5, "{distance} at {at}");
     }
-    for at in [DVec2::ONE, DVec2::new(-1.0, 32.0), DVec2::new(70.0, 64.0)] {
-        assert_eq!(session.stage.distance_at(at), None, "nothing is seen at {at}");
-    }
+    let beside = [DVec2::ONE, DVec2::new(-1.0, 32.0), DVec2::new(70.0, 64.0)];
+    assert_eq!(session.stage.distances_at(beside.into_iter()), [None; 3], "nothing is seen there");
 }
 
 /// What was known of the scene's size before put it in front of the near plane, or beyond the far one.
