@@ -6,7 +6,7 @@ use super::perspective::perspective;
 use super::sorted::Sorted;
 use crate::EdgeFlags;
 use crate::bin::TriangleRef;
-use crate::ink::{DepthRange, FaceLine, Ink, LARGE, LineColumns, VisibleFaces};
+use crate::ink::{FaceLine, Ink, LineColumns, VisibleFaces};
 use crate::primitive::Corners;
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, inlined, lesser, prelude::*, transpose};
 
@@ -18,7 +18,7 @@ const LEAST: f32 = 1e-6;
 
 /// What is painted on eight triangles, and what others have to know of it.
 pub(crate) struct Lines {
-    /// Those of [`lined`], and more that are transposed with them.
+    /// Those of [`lined`], and two that only fill up the eight that are transposed.
     columns: [Row; LANES],
     half: [f32; LANES],
     beyond: [f32; LANES],
@@ -140,20 +140,15 @@ impl Lines {
     #[inline(always)]
     pub(crate) fn note<S: Simd>(&self, simd: S, sorted: &Sorted<S>, seen: &[u32], outer: &mut VisibleFaces) {
         let [a, b, c] = sorted.depth;
-        let greatest: [f32; LANES] = greater(greater(a, b), c).into();
+        let greatest = greater(greater(a, b), c);
         let none = F32::splat(simd, f32::NEG_INFINITY);
-        let is_painted = F32::simd_from(simd, self.beyond).simd_gt(0.0);
-        let least = is_painted.select(lesser(lesser(a, b), c), none);
-        let least = if self.shows_edges { least } else { none };
-        let lanes = (1 << seen.len()) - 1;
-        let is_large = F32::simd_from(simd, self.radius).simd_ge(LARGE);
-        outer.has_lines |= least.simd_gt(none).to_bitmask() & lanes != 0;
-        outer.has_large |= self.shows_edges && is_large.to_bitmask() & lanes != 0;
-        let least: [f32; LANES] = least.into();
-        for (lane, &place) in seen.iter().enumerate() {
-            let (half, weight, radius) = (self.half[lane], self.beyond[lane], self.radius[lane]);
-            let line = if self.shows_edges { FaceLine { half, weight, radius } } else { FaceLine::UNLINED };
-            outer.note(place, DepthRange { least: least[lane], greatest: greatest[lane] }, line);
+        if self.shows_edges {
+            let is_painted = F32::simd_from(simd, self.beyond).simd_gt(0.0);
+            let least = is_painted.select(lesser(lesser(a, b), c), none);
+            outer.note_eight(simd, seen, [least, greatest], [self.half, self.beyond, self.radius]);
+        } else {
+            let FaceLine { half, weight, radius } = FaceLine::UNLINED;
+            outer.note_eight(simd, seen, [none, greatest], [[half; LANES], [weight; LANES], [radius; LANES]]);
         }
     }
 }

@@ -10,7 +10,7 @@ use super::layout::{RecordShape, cold, hot};
 use super::lines::Lines;
 use super::sorted::Sorted;
 use crate::bin::TriangleRef;
-use crate::ink::{DepthRange, FaceLine, VisibleFaces};
+use crate::ink::VisibleFaces;
 use crate::marks::Marks;
 use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
@@ -179,8 +179,7 @@ impl Records {
 fn note_flat(context: &ShadeContext<'_>, seen: &[u32], outer: &mut VisibleFaces) {
     for &number in seen {
         let greatest = context.draw.triangle(context.triangles[number as usize]).nearest();
-        let depths = DepthRange { least: f32::NEG_INFINITY, greatest };
-        outer.note(number, depths, FaceLine::UNLINED);
+        outer.note_unlined(number, greatest);
     }
 }
 

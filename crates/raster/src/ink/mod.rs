@@ -17,7 +17,7 @@ mod tests;
 mod visible_faces;
 
 pub(crate) use line_width::{EdgePoint, FaceLine, LineColumns};
-pub(crate) use visible_faces::{DepthRange, LARGE, VisibleFaces};
+pub(crate) use visible_faces::{LARGE, VisibleFaces};
 
 use crate::marks::{MarkColors, Overlap};
 use crate::simd::{Each, F32, LANES, Simd, U32, prelude::*};

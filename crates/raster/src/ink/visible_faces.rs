@@ -1,6 +1,7 @@
 //! The visible triangles of a tile, as the search for outer halves of lines needs them.
 
 use super::FaceLine;
+use crate::simd::{F32, LANES, Simd, prelude::*};
 
 /// Triangles whose faces have at least this inner radius, in pixels, are large.
 pub(crate) const LARGE: f32 = 3.0;
@@ -66,11 +67,32 @@ impl VisibleFaces {
         self.has_large |= others.has_large;
     }
 
-    /// Takes a visible triangle of the tile. Whoever notes one with lines, or a large one, says so in `has_lines` and
-    /// `has_large`.
+    /// Takes up to eight visible triangles of the tile: their least and greatest depths, as [`DepthRange`] has them, and
+    /// the half width, weight and inner radius of [`FaceLine`].
     #[inline(always)]
-    pub(crate) fn note(&mut self, place: u32, depths: DepthRange, line: FaceLine) {
-        self.depths[place as usize] = depths;
-        self.lines[place as usize] = line;
+    pub(crate) fn note_eight<S: Simd>(
+        &mut self,
+        simd: S,
+        places: &[u32],
+        [least, greatest]: [F32<S>; 2],
+        [half, weight, radius]: [[f32; LANES]; 3],
+    ) {
+        let lanes = (1 << places.len()) - 1;
+        let has_lines = least.simd_gt(F32::splat(simd, f32::NEG_INFINITY));
+        let is_large = F32::simd_from(simd, radius).simd_ge(LARGE);
+        self.has_lines |= has_lines.to_bitmask() & lanes != 0;
+        self.has_large |= is_large.to_bitmask() & lanes != 0;
+        let [least, greatest]: [[f32; LANES]; 2] = [least.into(), greatest.into()];
+        for (lane, &place) in places.iter().enumerate() {
+            self.depths[place as usize] = DepthRange { least: least[lane], greatest: greatest[lane] };
+            let line = FaceLine { half: half[lane], weight: weight[lane], radius: radius[lane] };
+            self.lines[place as usize] = line;
+        }
+    }
+
+    /// Takes a visible triangle of the tile that belongs to no face with edges, by its greatest depth.
+    pub(crate) fn note_unlined(&mut self, place: u32, greatest: f32) {
+        self.depths[place as usize] = DepthRange { greatest, ..DepthRange::EMPTY };
+        self.lines[place as usize] = FaceLine::UNLINED;
     }
 }

@@ -183,40 +183,52 @@ impl OuterInk {
             if (near[y] | near[y + 1]) >> x & 0xf == 0 {
                 continue;
             }
-            let [nearest, farthest] = ends(buffer, TileArea::group_of([x / 4, y / 2]));
-            // The background comes after all triangles.
-            let indices = inlined(
-                #[inline(always)]
-                |visible: [u32; LANES]| {
-                    <[u32; LANES]>::from(U32::simd_from(simd, visible).min(triangle_count as u32))
-                },
-            );
-            let depths = inlined(
-                #[inline(always)]
-                |visible: [u32; LANES]| {
-                    let ranges = indices(visible).each(
-                        #[inline(always)]
-                        |index| self.faces.depths[index as usize].bits(),
-                    );
-                    unzipped(simd, ranges).each(
-                        #[inline(always)]
-                        |depths| <[f32; LANES]>::from(depths.bitcast::<F32<S>>()),
-                    )
-                },
-            );
-            let [least, mut greatest] = depths(nearest);
-            if buffer.samples > 1 {
-                [_, greatest] = depths(farthest);
-            }
-            put(&mut rows.least, [x, y], least);
-            put(&mut rows.greatest, [x, y], greatest);
-            put(&mut rows.nearest, [x, y], nearest);
-            put(&mut rows.farthest, [x, y], farthest);
-            if self.faces.has_large {
-                let is_large = |index: u32| self.faces.lines[index as usize].radius >= LARGE;
-                let large = indices(nearest).each(|index| f32::from(u8::from(is_large(index))));
-                put(&mut rows.large, [x, y], large);
-            }
+            self.spread_group(simd, (buffer, triangle_count), rows, [x, y]);
+        }
+    }
+
+    /// Does so for a group of pixels, the first of which is in column `x` and row `y`.
+    #[inline(always)]
+    fn spread_group<S: Simd>(
+        &self,
+        simd: S,
+        (buffer, triangle_count): (&VisibilityBuffer, usize),
+        rows: &mut VisibleRows,
+        [x, y]: [usize; 2],
+    ) {
+        let [nearest, farthest] = ends(buffer, TileArea::group_of([x / 4, y / 2]));
+        // The background comes after all triangles.
+        let indices = inlined(
+            #[inline(always)]
+            |visible: [u32; LANES]| {
+                <[u32; LANES]>::from(U32::simd_from(simd, visible).min(triangle_count as u32))
+            },
+        );
+        let depths = inlined(
+            #[inline(always)]
+            |visible: [u32; LANES]| {
+                let ranges = indices(visible).each(
+                    #[inline(always)]
+                    |index| self.faces.depths[index as usize].bits(),
+                );
+                unzipped(simd, ranges).each(
+                    #[inline(always)]
+                    |depths| <[f32; LANES]>::from(depths.bitcast::<F32<S>>()),
+                )
+            },
+        );
+        let [least, mut greatest] = depths(nearest);
+        if buffer.samples > 1 {
+            [_, greatest] = depths(farthest);
+        }
+        put(&mut rows.least, [x, y], least);
+        put(&mut rows.greatest, [x, y], greatest);
+        put(&mut rows.nearest, [x, y], nearest);
+        put(&mut rows.farthest, [x, y], farthest);
+        if self.faces.has_large {
+            let is_large = |index: u32| self.faces.lines[index as usize].radius >= LARGE;
+            let large = indices(nearest).each(|index| f32::from(u8::from(is_large(index))));
+            put(&mut rows.large, [x, y], large);
         }
     }
 
