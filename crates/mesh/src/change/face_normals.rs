@@ -24,8 +24,8 @@ pub(super) const PIECE: usize = 1024;
 #[derive(Debug, Clone, Default)]
 pub(super) struct FaceNormals {
     all: NormalLists,
-    /// Of the faces around the last change, in their order. What follows them is up to the fans.
-    pub(super) near: NormalLists,
+    /// Of the faces around the last change, in their order; then copies of others that are read with them.
+    near: NormalLists,
     /// These faces, increasing, and their corners in `near`.
     faces: Vec<u32>,
     starts: FaceStarts,
@@ -115,11 +115,27 @@ impl FaceNormals {
         NearPlaces { mesh, ranks: marks.ranks(), starts: &self.starts, end: self.end() }
     }
 
-    /// Forgets what follows the values of the faces around the last change.
-    pub(super) fn forget_others(&mut self) {
-        let end = self.end();
-        self.near.normals.truncate(end.face as usize);
-        self.near.angles.truncate(end.corner as usize);
+    /// Those of the faces around the last change, and of others that are kept beside them.
+    pub(super) fn near(&self) -> &NormalLists {
+        &self.near
+    }
+
+    /// Keeps values of other faces beside those of the faces around the last change, in place of earlier ones. Returns
+    /// where each part begins.
+    pub(super) fn keep_others(&mut self, others: Vec<NormalLists>) -> Vec<FaceCorner> {
+        let FaceCorner { face, corner } = self.end();
+        let NormalLists { normals, angles } = &mut self.near;
+        normals.truncate(face as usize);
+        angles.truncate(corner as usize);
+        normals.reserve_exact(others.iter().map(|part| part.normals.len()).sum());
+        angles.reserve_exact(others.iter().map(|part| part.angles.len()).sum());
+        let keep = |part: NormalLists| {
+            let start = FaceCorner { face: normals.len() as u32, corner: angles.len() as u32 };
+            normals.extend(part.normals);
+            angles.extend(part.angles);
+            start
+        };
+        others.into_iter().map(keep).collect()
     }
 
     /// How many faces there are around the last change, and how many corners they have.

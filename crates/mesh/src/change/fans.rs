@@ -20,7 +20,7 @@ pub(super) struct Fans {
     pub(super) moved: usize,
     /// Vertices of the mesh around a change that are no fans, increasing.
     pub(super) others: Vec<u32>,
-    /// Whether the corners are numbered as in [`FaceNormals::near`], and not as in the mesh.
+    /// Whether the corners are numbered as in [`FaceNormals::near`], or else as in the mesh.
     are_near: bool,
 }
 
@@ -61,22 +61,15 @@ impl Fans {
     /// Finds where the values are from now on that the fans take: side by side, those of faces that do not change
     /// in the order of the fans, after those of faces that do.
     fn bring_near(&mut self, mesh: &Mesh, face_normals: &mut FaceNormals) {
-        face_normals.forget_others();
         let (places, all) = (face_normals.near_places(mesh), face_normals.all());
-        let others: Vec<_> = self.pieces.par_iter_mut().map(|piece| piece.bring_near(&places, all)).collect();
-        let near = &mut face_normals.near;
-        let count = others.iter().map(|part| part.normals.len()).sum();
-        near.normals.reserve_exact(count);
-        near.angles.reserve_exact(count);
-        let [first_face, first_corner] = [near.normals.len(), near.angles.len()].map(|count| count as u32);
-        for (piece, others) in self.pieces.iter_mut().zip(others) {
-            let [face, corner] = [near.normals.len(), near.angles.len()].map(|count| count as u32);
-            for of in piece.corners.iter_mut().filter(|of| of.face >= first_face) {
-                of.face += face - first_face;
-                of.corner += corner - first_corner;
+        let others = self.pieces.par_iter_mut().map(|piece| piece.bring_near(&places, all)).collect();
+        let end = places.end();
+        let starts = face_normals.keep_others(others);
+        for (piece, start) in self.pieces.iter_mut().zip(starts) {
+            for of in piece.corners.iter_mut().filter(|of| of.face >= end.face) {
+                of.face += start.face - end.face;
+                of.corner += start.corner - end.corner;
             }
-            near.normals.extend(others.normals);
-            near.angles.extend(others.angles);
         }
         self.are_near = true;
     }
@@ -92,7 +85,7 @@ impl Fans {
         if !self.are_near {
             self.bring_near(mesh, face_normals);
         }
-        let near = &face_normals.near;
+        let near = face_normals.near();
         let mut parts = Vec::with_capacity(self.pieces.len());
         for piece in &self.pieces {
             let own = vertices.split_off_mut(..piece.ends.len()).expect("one for each fan");
