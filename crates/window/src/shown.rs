@@ -63,7 +63,8 @@ impl Shown {
     ) -> Vec<Option<f64>> {
         let pixels: Vec<usize> = points.map(|at| self.pixel(at, window).unwrap_or(usize::MAX)).collect();
         let depth = self.frame.depth.as_deref().unwrap_or_default();
-        // Another core has just written them. A processor waits for many at once if nothing is done in between.
+        // Other cores have just written the depths, so each read waits for memory. In a loop that does nothing else, many
+        // reads wait at the same time.
         let seen: Vec<f32> =
             pixels.iter().map(|&pixel| depth.get(pixel).copied().unwrap_or(f32::INFINITY)).collect();
         seen.into_iter().map(|seen| seen.is_finite().then_some(f64::from(seen))).collect()
