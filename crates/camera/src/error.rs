@@ -29,6 +29,9 @@ pub enum CameraError {
         /// Its value.
         high: f64,
     },
+    /// A text that names no axis of the world.
+    #[error("write +X, -X, +Y, -Y, +Z or -Z")]
+    UnknownAxis,
 }
 
 impl CameraError {

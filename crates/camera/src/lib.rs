@@ -38,6 +38,7 @@ mod pinhole;
 mod projection;
 mod projector;
 mod ray;
+mod up_axis;
 mod view;
 mod viewport;
 
@@ -49,6 +50,7 @@ pub use pinhole::PixelCenters;
 pub use projection::Projection;
 pub use projector::Projector;
 pub use ray::Ray;
+pub use up_axis::UpAxis;
 pub use view::orientation_looking;
 pub use viewport::Viewport;
 

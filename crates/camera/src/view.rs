@@ -3,6 +3,8 @@
 
 use trigon_math::{DMat3, DQuat, DVec3};
 
+use crate::UpAxis;
+
 /// Below this sine of the angle between line of sight and up, up does not define the roll: its
 /// perpendicular part is mostly rounding.
 const PARALLEL: f64 = 1e-8;
@@ -23,7 +25,7 @@ pub fn orientation_looking(direction: DVec3, up: DVec3) -> DQuat {
     let right = if across.length() > PARALLEL {
         across.normalize()
     } else {
-        let right = up_frame(up).x_axis;
+        let right = UpAxis::new(up).frame().x_axis;
         (right - back * right.dot(back)).normalize()
     };
     let axes = DMat3::from_cols(right, back.cross(right), back);
@@ -38,16 +40,4 @@ pub(crate) fn unit_or(vector: DVec3, fallback: DVec3) -> DVec3 {
         return fallback;
     }
     (vector / largest).normalize()
-}
-
-/// Right, up and front (towards the viewer of the front view) for an up axis: the world's X, Y, Z
-/// rotated by the shortest arc that takes +Y to `up`. For +Z up this is right = +X, front = −Y, as
-/// in CAD; for −Y it rotates about X.
-pub(crate) fn up_frame(up: DVec3) -> DMat3 {
-    let up = unit_or(up, DVec3::Y);
-    let cross = DVec3::Y.cross(up);
-    let turn = DQuat::from_xyzw(cross.x, cross.y, cross.z, 1.0 + up.y);
-    let opposite = turn.length() < PARALLEL;
-    let turn = if opposite { DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0) } else { turn.normalize() };
-    DMat3::from_quat(turn)
 }

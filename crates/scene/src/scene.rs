@@ -6,11 +6,12 @@ mod parts;
 mod placed;
 mod pose;
 mod skin_pose;
+mod upright;
 
 use std::sync::Arc;
 
 use thiserror::Error;
-use trigon_camera::{Camera, Projection};
+use trigon_camera::{Camera, Projection, UpAxis};
 use trigon_math::{Bounds3, DAffine3, DMat3, DQuat, DVec3};
 use trigon_mesh::{ChangeError, Mesh, MeshChange};
 use trigon_raster::Texture;
@@ -74,6 +75,11 @@ pub struct Scene {
     pub skins: Arena<Skin>,
     /// Movements of nodes, evaluated by [`Scene::pose`].
     pub animations: Vec<Animation>,
+    /// The axis that points up; +Y by default. Nothing is turned by it: positions, cameras and lights keep
+    /// their coordinates, and everything that knows a vertical follows it: [`Scene::overview`] and
+    /// [`Scene::surround`], [environments](crate::EffectSettings::environment), also behind the model, and
+    /// what metals mirror without one. [`Scene::turn_to`] turns the contents instead.
+    pub up: UpAxis,
     nodes: Arena<Node>,
     /// Roots listed first; some may have been removed, or have a parent now.
     root_order: Vec<NodeId>,

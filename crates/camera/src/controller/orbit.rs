@@ -4,8 +4,7 @@ use trigon_math::{Bounds3, DMat3, DQuat, DVec3, elementary};
 
 use super::angle::Angle;
 use crate::fit::{Extent, Shot, finite_bounds, fit_distance, sight};
-use crate::view::up_frame;
-use crate::{AxisView, Camera, Projection};
+use crate::{AxisView, Camera, Projection, UpAxis};
 
 /// How dragging rotates the camera.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -54,7 +53,7 @@ pub struct Orbit {
     target: DVec3,
     distance: f64,
     attitude: Attitude,
-    up: DVec3,
+    up: UpAxis,
     /// Never orthographic.
     perspective: Projection,
     parallel: Lines,
@@ -76,7 +75,7 @@ impl Orbit {
             target: DVec3::ZERO,
             distance: 5.0,
             attitude: turntable(0.0, 0.0, 0.0),
-            up: up_frame(up).y_axis,
+            up: UpAxis::new(up),
             perspective: Projection::default(),
             parallel: Lines::Converging,
         }
@@ -130,13 +129,13 @@ impl Orbit {
     /// The up axis, unit length.
     #[must_use]
     pub fn up(&self) -> DVec3 {
-        self.up
+        self.up.direction()
     }
 
     /// Sets the up axis. Azimuth and elevation are kept, so the named views show the same sides
     /// relative to the new up axis.
     pub fn set_up(&mut self, up: DVec3) {
-        self.up = up_frame(up).y_axis;
+        self.up = UpAxis::new(up);
     }
 
     /// How dragging rotates the camera.
@@ -162,7 +161,7 @@ impl Orbit {
         match self.attitude {
             Attitude::Trackball(orientation) => orientation,
             Attitude::Turntable { azimuth, elevation, roll } => {
-                let frame = DQuat::from_mat3(&up_frame(self.up));
+                let frame = DQuat::from_mat3(&self.up.frame());
                 let turn =
                     about(1, azimuth.radians()) * about(0, -elevation.radians()) * about(2, roll.radians());
                 (frame * turn).normalize()
@@ -242,7 +241,7 @@ impl Orbit {
     pub fn look_along(&mut self, direction: DVec3) {
         if direction.is_finite() && direction != DVec3::ZERO {
             let style = self.style();
-            self.attitude = attitude_of(crate::orientation_looking(direction, self.up), self.up);
+            self.attitude = attitude_of(crate::orientation_looking(direction, self.up()), self.up);
             self.set_style(style);
         }
     }
@@ -333,9 +332,9 @@ fn turntable(azimuth: f64, elevation: f64, roll: f64) -> Attitude {
 
 /// The turntable angles of an orientation. At the poles azimuth and roll are the same rotation;
 /// there it counts as azimuth.
-fn attitude_of(orientation: DQuat, up: DVec3) -> Attitude {
+fn attitude_of(orientation: DQuat, up: UpAxis) -> Attitude {
     const POLE: f64 = 1e-9;
-    let axes = up_frame(up).transpose() * DMat3::from_quat(orientation);
+    let axes = up.frame().transpose() * DMat3::from_quat(orientation);
     let (right, above, back) = (axes.x_axis, axes.y_axis, axes.z_axis);
     let level = elementary::hypot(back.x, back.z);
     let elevation = elementary::atan2(back.y, level);

@@ -1,7 +1,7 @@
 //! The lighting environment of all surfaces in a frame: its lights, shadow casters, ambient light,
 //! and fog.
 
-use trigon_math::Vec3;
+use trigon_math::{Mat3, Vec3};
 use trigon_raster::simd::{F32, Simd, prelude::*};
 
 use super::fog::Mist;
@@ -28,6 +28,8 @@ pub(crate) struct LightingEnvironment {
     pub(crate) surroundings: Option<Surroundings>,
     /// What metals mirror instead of ambient light.
     pub(crate) metal_sky: Option<MetalSky>,
+    /// From world space to that of the surroundings and of the metals' sky, in which +Y is up.
+    pub(crate) world_to_sky: Mat3,
     pub(crate) mist: Option<Mist>,
 }
 

@@ -117,6 +117,7 @@ impl LightingEnvironment {
     /// What is visible in a world direction where a ray hits nothing: from a mirror, or otherwise
     /// from glass.
     fn far(&self, direction: Vec3, from_mirror: bool) -> Vec3 {
+        let direction = self.world_to_sky * direction;
         match (&self.surroundings, &self.metal_sky) {
             (Some(surroundings), _) => {
                 surroundings.environment.radiance(direction, 0.0) * surroundings.intensity

@@ -29,6 +29,9 @@ const MOST: usize = 2048;
 
 /// Ambient light from an environment. Radiance is in the unit of
 /// [`Light::intensity`](crate::Light): 1 all around shows a white surface as 1.
+///
+/// Its directions are those of a world in which +Y is up and +Z is the front; in other worlds it is turned
+/// ([`Scene::up`](crate::Scene::up)).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
     /// What it was made from, unless it was an image.
@@ -128,8 +131,8 @@ impl Environment {
         Self { sky: None, matt, halved, blurred }
     }
 
-    /// The light that a surface of a roughness from 0 to 1 mirrors from a direction in the world
-    /// (of any length but 0).
+    /// The light that a surface of a roughness from 0 to 1 mirrors from a direction (of any length
+    /// but 0).
     #[must_use]
     pub fn radiance(&self, direction: Vec3, roughness: f32) -> Vec3 {
         let last = self.blurred.len();
@@ -143,8 +146,8 @@ impl Environment {
         if share == 0.0 { shown(level) } else { shown(level).lerp(shown(level + 1), share) }
     }
 
-    /// The light from a direction in the world (of any length but 0), filtered to a pixel's width
-    /// in radians, so that pixels do not miss what lies between them.
+    /// The light from a direction (of any length but 0), filtered to a pixel's width in radians, so
+    /// that pixels do not miss what lies between them.
     pub(crate) fn seen(&self, direction: Vec3, width: f32) -> Vec3 {
         note(Work::EnvironmentLight);
         if let Some(sky) = &self.sky {
@@ -178,8 +181,8 @@ impl Environment {
 #[derive(Clone, Debug)]
 pub(crate) struct Surroundings {
     pub(crate) environment: Arc<Environment>,
-    /// From camera space.
-    pub(crate) to_world: Mat3,
+    /// From camera space to that of the environment.
+    pub(crate) from_camera: Mat3,
     /// Factor on all of its light.
     pub(crate) intensity: f32,
 }
@@ -189,7 +192,7 @@ impl Surroundings {
     #[inline(always)]
     pub(crate) fn matt<S: Simd>(&self, simd: S, normal: V3<S>) -> V3<S> {
         note(Work::EnvironmentLight);
-        let [r, g, b] = self.environment.matt.at_lanes(simd, turned(&self.to_world, normal));
+        let [r, g, b] = self.environment.matt.at_lanes(simd, turned(&self.from_camera, normal));
         [r * self.intensity, g * self.intensity, b * self.intensity]
     }
 
@@ -199,7 +202,7 @@ impl Surroundings {
         let [x, y, z] = simd.vectorize(
             #[inline(always)]
             || {
-                let axes: [[f32; LANES]; 3] = turned(&self.to_world, direction).each(
+                let axes: [[f32; LANES]; 3] = turned(&self.from_camera, direction).each(
                     #[inline(always)]
                     |axis| axis.into(),
                 );

@@ -26,7 +26,7 @@ impl Default for Sky {
 }
 
 impl Sky {
-    /// The light from a unit vector of the world, +Y up. Above the horizon, it approaches the
+    /// The light from a unit vector, +Y up. Above the horizon, it approaches the
     /// zenith colour with the third power of the elevation; below, the ground colour with the
     /// eighth: haze is thick, and the ground begins abruptly.
     #[must_use]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use trigon_camera::{Camera, Projector, Viewport};
+use trigon_camera::{Camera, Projector, UpAxis, Viewport};
 use trigon_math::{DVec2, DVec3, UVec2, Vec3, Vec4};
 
 use crate::background::Background;
@@ -25,7 +25,7 @@ pub(crate) enum Backdrop {
 pub(crate) struct Panorama {
     environment: Arc<Environment>,
     intensity: f32,
-    /// World directions with length 1 along the line of sight: at the corner of the image, and the
+    /// Directions of the environment with length 1 along the line of sight: at the corner of the image, and the
     /// steps to the next pixel to the right and below.
     corner: Vec3,
     steps: [Vec3; 2],
@@ -36,10 +36,10 @@ pub(crate) struct Panorama {
 impl Backdrop {
     /// If tone mapping follows, a background colour, which is a colour of the display, is added afterwards:
     /// the pass draws on a transparent background.
-    pub(crate) fn new(camera: &Camera, settings: &RenderSettings) -> Self {
+    pub(crate) fn new(camera: &Camera, settings: &RenderSettings, up: UpAxis) -> Self {
         match settings.background {
             Background::Environment => match &settings.effects.environment {
-                Some(environment) => Panorama::new(camera, settings, environment)
+                Some(environment) => Panorama::new(camera, settings, environment, up)
                     .map_or(Self::Color(Vec4::ZERO), Self::Environment),
                 None => Self::Color(Vec3::ZERO.extend(1.0)),
             },
@@ -63,12 +63,18 @@ impl Backdrop {
 
 impl Panorama {
     /// `None` if the image has no area.
-    fn new(camera: &Camera, settings: &RenderSettings, environment: &Arc<Environment>) -> Option<Self> {
+    fn new(
+        camera: &Camera,
+        settings: &RenderSettings,
+        environment: &Arc<Environment>,
+        up: UpAxis,
+    ) -> Option<Self> {
+        let to_sky = up.turn_to(UpAxis::Y);
         let viewport = Viewport { width: settings.width, height: settings.height };
         let (projector, DVec2 { x: width, y: height }) = (Projector::new(camera, viewport), viewport.size());
         let ray = |x: f64, y: f64| {
             let direction = projector.ray(DVec2::new(x, y))?.direction;
-            Some(direction / direction.dot(camera.forward()))
+            Some(to_sky * direction / direction.dot(camera.forward()))
         };
         let corner: DVec3 = ray(0.0, 0.0)?;
         let [right, below] = [(ray(width, 0.0)? - corner) / width, (ray(0.0, height)? - corner) / height];

@@ -1,7 +1,7 @@
 //! The scene as one frame sees it.
 
-use trigon_camera::Camera;
-use trigon_math::{DAffine3, DMat3, DVec3};
+use trigon_camera::{Camera, UpAxis};
+use trigon_math::{DAffine3, DMat3, DVec3, Mat3};
 
 use super::backdrop::Backdrop;
 use crate::effect_settings::Shadows;
@@ -39,7 +39,7 @@ impl<'s> PreparedScene<'s> {
         let lights = Lights::gather(scene, &transforms, &eye, settings);
         let turn = DMat3::from_quat(camera.orientation);
         let camera_to_world = DAffine3::from_mat3_translation(turn, camera.position);
-        let backdrop = Backdrop::new(camera, settings);
+        let backdrop = Backdrop::new(camera, settings, scene.up);
         Self { scene, settings, transforms, camera_to_world, eye, backdrop, shapes, lights }
     }
 
@@ -70,13 +70,23 @@ impl<'s> PreparedScene<'s> {
     pub(crate) fn surroundings(&self) -> Option<Surroundings> {
         Some(Surroundings {
             environment: self.settings.effects.environment.clone()?,
-            to_world: self.camera_to_world.matrix3.as_mat3(),
+            from_camera: self.camera_to_sky(),
             intensity: self.settings.light_factor(),
         })
     }
 
     pub(crate) fn metal_sky(&self) -> MetalSky {
-        MetalSky::new(&self.camera_to_world.matrix3.as_mat3(), self.settings.light_factor())
+        MetalSky::new(&self.camera_to_sky(), self.settings.light_factor())
+    }
+
+    /// The rotation from world space to that of environments and of the sky that metals mirror, in which +Y is
+    /// up.
+    pub(crate) fn world_to_sky(&self) -> DMat3 {
+        self.scene.up.turn_to(UpAxis::Y)
+    }
+
+    fn camera_to_sky(&self) -> Mat3 {
+        (self.world_to_sky() * self.camera_to_world.matrix3).as_mat3()
     }
 
     /// Half the angle of a spot light's cone.

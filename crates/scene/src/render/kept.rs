@@ -52,6 +52,7 @@ impl Kept {
             lights: prepared.lights.clone(),
             surroundings: prepared.surroundings().filter(|_| on(Effect::Environment)),
             metal_sky: on(Effect::MetalSky).then(|| prepared.metal_sky()),
+            world_to_sky: prepared.world_to_sky().as_mat3(),
             mist: effects.fog.as_ref().filter(|_| on(Effect::Fog)).and_then(Mist::new),
             shadow_rays: on(Effect::ShadowRays),
             ambient_rays: effects

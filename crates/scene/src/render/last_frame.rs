@@ -8,7 +8,7 @@ mod marked;
 
 use std::sync::Arc;
 
-use trigon_camera::Camera;
+use trigon_camera::{Camera, UpAxis};
 use trigon_raster::{DrawChange, Pass, Rasterizer, Rect, Stats, Target, TargetError, Texture};
 
 use self::marked::{MarkOrigin, MarkPalette, MarkedPrimitives};
@@ -59,6 +59,7 @@ struct Origin {
     palette: MarkPalette,
     environment: Option<Same<Environment>>,
     camera: Camera,
+    up: UpAxis,
     nodes: Arena<Node>,
     materials: Arena<Material>,
     textures: Vec<(TextureId, Same<Texture>)>,
@@ -218,6 +219,7 @@ impl Origin {
             palette: MarkPalette::new(&prepared.settings.marks),
             environment: environment_of(prepared),
             camera: *camera,
+            up: scene.up,
             nodes: scene.nodes().clone(),
             materials: scene.materials.clone(),
             textures: textures_of(prepared),
@@ -234,6 +236,7 @@ impl Origin {
             keep(&mut self.palette, &MarkPalette::new(&prepared.settings.marks)),
             keep(&mut self.environment, &environment_of(prepared)),
             keep(&mut self.camera, camera),
+            keep(&mut self.up, &prepared.scene.up),
             keep(&mut self.nodes, prepared.scene.nodes()),
             keep(&mut self.materials, &prepared.scene.materials),
             keep(&mut self.textures, &textures_of(prepared)),

@@ -7,8 +7,8 @@ use crate::material::Material;
 use crate::node::{Node, Skin};
 
 impl Scene {
-    /// Adds everything that another scene holds, placed as it is there. Meshes
-    /// and textures are shared between the two, not copied. Returns the ids of
+    /// Adds everything that another scene holds, placed as it is there, whichever axis is up there
+    /// ([`Scene::turn_to`] turns it before). Meshes and textures are shared between the two, not copied. Returns the ids of
     /// the new nodes, in the order of the other scene's.
     ///
     /// ```

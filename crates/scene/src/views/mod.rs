@@ -12,22 +12,23 @@ pub use viewpoints::{hemisphere, sphere, turntable};
 
 use crate::scene::{PlacedMesh, Scene};
 
-/// Where the overview looks: down from the upper right, in front.
+/// Where the overview looks in a world with +Y up: down from the upper right, in front.
 pub const OVERVIEW_DIRECTION: DVec3 = DVec3::new(-1.0, -0.5, -1.0);
 
 impl Scene {
     /// A perspective camera that sees everything visible from the upper right
-    /// in front, with +Y up and a tenth of the image left free. `aspect` is
-    /// width over height.
+    /// in front, with [`Scene::up`] up and a tenth of the image left free. `aspect`
+    /// is width over height.
     #[must_use]
     pub fn overview(&self, aspect: f64) -> Camera {
         let points: Vec<DVec3> = self.visible_points().collect();
-        Camera::default().fit_points(&points, OVERVIEW_DIRECTION, DVec3::Y, aspect, DEFAULT_MARGIN)
+        let (direction, up) = (self.up.frame() * OVERVIEW_DIRECTION, self.up.direction());
+        Camera::default().fit_points(&points, direction, up, aspect, DEFAULT_MARGIN)
     }
 
     /// A perspective camera at each of these viewpoints: unit vectors from the middle of
-    /// the box around everything visible towards the eye. +Y is up, `aspect` is width
-    /// over height.
+    /// the box around everything visible towards the eye, for a world with +Y up; they are
+    /// turned to [`Scene::up`]. `aspect` is width over height.
     ///
     /// All stand equally far away, so that nothing grows or shrinks from one image to
     /// the next: as near as a ball about that middle that holds every vertex allows,
@@ -48,9 +49,10 @@ impl Scene {
         let bounds = Bounds3::from_points(points.iter().copied().filter(|point| point.is_finite()));
         let center = Extent::new(&bounds).center();
         let distance = ball_distance(&points, &bounds, aspect);
+        let up = self.up;
         viewpoints.into_iter().map(move |viewpoint| {
-            let eye = center + viewpoint * distance;
-            Camera::look_at(eye, center, DVec3::Y).with_clip_planes(&bounds)
+            let eye = center + up.frame() * viewpoint * distance;
+            Camera::look_at(eye, center, up.direction()).with_clip_planes(&bounds)
         })
     }
 
