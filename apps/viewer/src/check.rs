@@ -2,12 +2,14 @@
 
 use std::fmt;
 use std::ops::ControlFlow;
+use std::path::Path;
 
 use serde_json::{Value, json};
 use trigon_io::Warning;
 use trigon_scene::{Finding, Severity};
 
-use crate::args::Request;
+use crate::args::{CheckPurpose, Request};
+use crate::facts::report_failure;
 use crate::failure::Failure;
 use crate::lists::{json_line, print_lines};
 use crate::loading;
@@ -24,14 +26,14 @@ struct Fault {
 }
 
 /// Checks every source; 1 if anything is wrong with one, or it cannot be loaded.
-pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
+pub(crate) fn run(request: &Request, purpose: CheckPurpose, reporter: Reporter) -> u8 {
     let mut worst = 0;
     for source in Source::all(request) {
-        let faults = match request.for_source(&source).and_then(|request| faults(&source, &request)) {
+        let faults = match request.for_source(&source).and_then(|request| faults(&source, &request, purpose))
+        {
             Ok(faults) => faults,
             Err(failure @ Failure::Usage(_)) => {
-                reporter.error(&failure);
-                worst = worst.max(failure.exit_code());
+                worst = worst.max(report_failure(&source, &failure, request.json, reporter));
                 continue;
             }
             Err(failure) => vec![Fault::unloadable(&failure)],
@@ -49,10 +51,14 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
 }
 
 /// What the reader said, and what the scene says itself.
-fn faults(source: &Source, request: &Request) -> Result<Vec<Fault>, Failure> {
+fn faults(source: &Source, request: &Request, purpose: CheckPurpose) -> Result<Vec<Fault>, Failure> {
     let (model, warnings) = loading::load(source, request, &|_| ControlFlow::Continue(()))?;
     let mut faults: Vec<Fault> = warnings.iter().map(Fault::of_reader).collect();
-    faults.extend(model.scene.check().into_iter().map(Fault::of_scene));
+    let findings = match purpose {
+        CheckPurpose::Show => model.scene.check(),
+        CheckPurpose::Print => model.scene.check_for_printing(),
+    };
+    faults.extend(findings.into_iter().map(Fault::of_scene));
     faults.sort_by_key(|fault| std::cmp::Reverse(fault.severity));
     Ok(faults)
 }
@@ -133,6 +139,6 @@ fn facts(source: &Source, faults: &[Fault]) -> Value {
     let (notes, findings): (Vec<&Fault>, Vec<&Fault>) = faults.iter().partition(|fault| fault.is_note());
     let all = |faults: Vec<&Fault>| faults.into_iter().map(Fault::facts).collect::<Vec<_>>();
     json!({
-        "file": source.first_file(), "ok": !is_wrong, "findings": all(findings), "notes": all(notes),
+        "file": source.first_file().map(Path::to_string_lossy), "ok": !is_wrong, "findings": all(findings), "notes": all(notes),
     })
 }

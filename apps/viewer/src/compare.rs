@@ -7,6 +7,7 @@ use trigon_io::{ImageDifference, RgbaImage, compare_images};
 use trigon_scene::{Frame, RenderSettings, Renderer, Scene};
 
 use crate::args::{Destination, Request, Subject};
+use crate::facts::{names, report_failure};
 use crate::failure::Failure;
 use crate::lists::json_line;
 use crate::loading;
@@ -21,8 +22,10 @@ pub(crate) fn run(request: &Request, other: &Path, output: &Destination, reporte
     match compared(request, other, &mut outlet, reporter) {
         Ok(()) => 0,
         Err(failure) => {
-            reporter.error(&failure);
-            failure.exit_code()
+            let source = Source::Files(request.files.clone());
+            // Models that differ have their line already.
+            let as_json = request.json && !matches!(failure, Failure::Mismatch(_));
+            report_failure(&source, &failure, as_json, reporter)
         }
     }
 }
@@ -75,8 +78,8 @@ fn facts(
     written: &[PathBuf],
 ) -> serde_json::Value {
     serde_json::json!({
-        "file": source.first_file(), "other": other, "error": difference.error,
-        "different_pixels": difference.different_pixels, "largest": difference.largest, "written": written,
+        "file": source.first_file().map(Path::to_string_lossy), "other": other.to_string_lossy(), "error": difference.error,
+        "different_pixels": difference.different_pixels, "largest": difference.largest, "written": names(written),
     })
 }
 

@@ -4,13 +4,13 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use serde_json::json;
-use trigon_camera::Camera;
+use trigon_camera::{Camera, Viewport};
 use trigon_io::{Capture, Limits, RgbaImage, Sequence, compare_images, load_image};
 use trigon_scene::{Frame, RenderSettings, Renderer};
 
 use crate::args::{Destination, Limit, Mode, Reference, Request, Subject, Template};
 use crate::axes;
+use crate::facts::{CameraFacts, DrawingFacts, ImageFacts, ModelFacts, names};
 use crate::failure::Failure;
 use crate::lettering::Lettering;
 use crate::lists::json_line;
@@ -49,10 +49,11 @@ pub(crate) fn draw_source(
     let mut model = loading::load_aloud(source, request, reporter)?;
     let loaded = started.elapsed().as_secs_f64();
     let before = outlet.written.len();
-    let mut facts = if request.json { model.facts() } else { json!({}) };
-    match output_template(request) {
+    let summary = model.summary();
+    let drawing = match output_template(request) {
         Some(template) if template.is_moving() || template.tells_frames_apart() => {
             draw_series(&mut model, request, outlet)?;
+            None
         }
         _ => {
             let camera = model.shot(&request.framing, request.settings.aspect())?.camera;
@@ -62,19 +63,32 @@ pub(crate) fn draw_source(
                 keep(&model, camera, &drawn, path, reporter)?;
             }
             let frame = finished(drawn.frame, &model, &camera, request)?;
-            facts["draw_seconds"] = json!(drawn.seconds);
-            facts["pixels_shaded"] = json!(drawn.pixels_shaded);
-            facts["error"] = json!(deliver(source, &frame, request, outlet, reporter)?);
+            Some(DrawingFacts {
+                camera: CameraFacts::new(&camera, viewport(&request.settings)),
+                draw_seconds: drawn.seconds,
+                pixels_shaded: drawn.pixels_shaded,
+                error: deliver(source, &frame, request, outlet, reporter)?,
+            })
         }
-    }
+    };
     if request.json {
-        facts["width"] = json!(request.settings.width);
-        facts["height"] = json!(request.settings.height);
-        facts["load_seconds"] = json!(loaded);
-        facts["written"] = json!(outlet.written[before..]);
-        json_line(&facts, reporter);
+        json_line(
+            &ImageFacts {
+                model: ModelFacts::new(&model, &summary),
+                drawing,
+                width: request.settings.width,
+                height: request.settings.height,
+                load_seconds: loaded,
+                written: names(&outlet.written[before..]),
+            },
+            reporter,
+        );
     }
     Ok(())
+}
+
+fn viewport(settings: &RenderSettings) -> Viewport {
+    Viewport { width: settings.width, height: settings.height }
 }
 
 fn output_template(request: &Request) -> Option<&Template> {

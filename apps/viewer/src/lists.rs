@@ -2,7 +2,10 @@
 
 use std::io::{self, Write};
 
+use serde::Serialize;
+
 use crate::args::Request;
+use crate::facts::ModelFacts;
 use crate::loading;
 use crate::report::Reporter;
 use crate::source::Source;
@@ -24,8 +27,10 @@ pub(crate) fn backends(reporter: Reporter) -> u8 {
 }
 
 /// One JSON object on a line of standard output.
-pub(crate) fn json_line(value: &serde_json::Value, reporter: Reporter) -> u8 {
-    print_lines([value.to_string()], reporter)
+pub(crate) fn json_line(facts: &impl Serialize, reporter: Reporter) -> u8 {
+    let mut stdout = io::BufWriter::new(io::stdout().lock());
+    let written = serde_json::to_writer(&mut stdout, facts).map_err(io::Error::from);
+    exit_code(written.and_then(|()| writeln!(stdout)).and_then(|()| stdout.flush()), reporter)
 }
 
 /// `--no-render`: what is in each file.
@@ -34,7 +39,8 @@ pub(crate) fn inspect(request: &Request, reporter: Reporter) -> u8 {
     let unread = Source::visit_all(request, reporter, |source, request| {
         let model = loading::load_aloud(source, request, reporter)?;
         if request.json {
-            unwritten = unwritten.max(json_line(&model.facts(), reporter));
+            let facts = ModelFacts::new(&model, &model.summary());
+            unwritten = unwritten.max(json_line(&facts, reporter));
             return Ok(());
         }
         let facts = model.summary().lines().into_iter().chain(model.choices());
@@ -49,8 +55,11 @@ pub(crate) fn inspect(request: &Request, reporter: Reporter) -> u8 {
 /// Writes lines to standard output; whoever closes it early wanted no more.
 pub(crate) fn print_lines(lines: impl IntoIterator<Item = String>, reporter: Reporter) -> u8 {
     let mut stdout = io::stdout().lock();
-    let outcome = lines.into_iter().try_for_each(|line| writeln!(stdout, "{line}"));
-    match outcome {
+    exit_code(lines.into_iter().try_for_each(|line| writeln!(stdout, "{line}")), reporter)
+}
+
+fn exit_code(written: io::Result<()>, reporter: Reporter) -> u8 {
+    match written {
         Ok(()) => 0,
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
         Err(error) => {

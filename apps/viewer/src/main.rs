@@ -10,6 +10,7 @@ mod check;
 mod compare;
 mod exact_camera;
 mod explain;
+mod facts;
 mod failure;
 mod folders;
 mod framing;
@@ -72,7 +73,7 @@ fn main() -> ExitCode {
         Mode::Window => look_at(&request, reporter),
         Mode::Explain(explanation) => explain::run(&request, *explanation, reporter),
         Mode::ExplainPixel(at) => pixel::run(&request, *at, reporter),
-        Mode::Check => check::run(&request, reporter),
+        Mode::Check(purpose) => check::run(&request, *purpose, reporter),
         Mode::Inspect => lists::inspect(&request, reporter),
         Mode::ListReaders => lists::readers(reporter),
         Mode::ListBindings => list_bindings(&request, reporter),

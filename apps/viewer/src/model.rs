@@ -3,13 +3,13 @@
 
 use std::path::PathBuf;
 
-use serde_json::json;
 use trigon_camera::Camera;
 use trigon_math::{Bounds3, DVec3};
 use trigon_mesh::Mesh;
 use trigon_scene::{NodeId, Scene};
 
 use crate::args::{PlacedNode, Request};
+use crate::facts::{report_failure, write_failure};
 use crate::failure::Failure;
 use crate::framing::{Eye, Framing, Shot};
 use crate::report::Reporter;
@@ -36,12 +36,14 @@ impl Source {
         for source in Self::all(request) {
             match request.for_source(&source).and_then(|request| visit(&source, &request)) {
                 Ok(()) => {}
-                Err(Failure::Empty(what)) if request.skip_empty => {
-                    reporter.info(format_args!("{what}; skipped"));
+                Err(empty @ Failure::Empty(_)) if request.skip_empty => {
+                    reporter.info(format_args!("{empty}; skipped"));
+                    if request.json {
+                        worst = worst.max(write_failure(source.first_file(), &empty, reporter));
+                    }
                 }
                 Err(failure) => {
-                    reporter.error(&failure);
-                    worst = worst.max(failure.exit_code());
+                    worst = worst.max(report_failure(&source, &failure, request.json, reporter));
                 }
             }
         }
@@ -190,19 +192,9 @@ impl Model {
         lines
     }
 
-    /// What is in it, for other programs.
-    pub(crate) fn facts(&self) -> serde_json::Value {
-        let Summary { vertices, edges, faces, nodes, materials, textures, size } = self.summary();
-        let animations = self.scene.animations.iter();
-        let animations =
-            animations.map(|animation| json!({"name": animation.name, "seconds": animation.duration()}));
-        json!({
-            "file": self.source.first_file(), "vertices": vertices, "edges": edges, "faces": faces,
-            "nodes": nodes, "materials": materials, "textures": textures,
-            "size": [size.x, size.y, size.z], "center": self.bounds.center().map(|center| center.to_array()),
-            "scenes": self.scene_names,
-            "animations": animations.collect::<Vec<_>>(),
-        })
+    /// The middle of the box around what is visible.
+    pub(crate) fn center(&self) -> Option<DVec3> {
+        self.bounds.center()
     }
 
     /// Counts and sizes of what is visible.

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::args::{CommandLine, Destination, Mode, Request, Step, Template, plain, steps};
+use crate::facts::report_failure;
 use crate::failure::Failure;
 use crate::image;
 use crate::lists::print_lines;
@@ -35,8 +36,8 @@ pub(crate) fn run(
     match done {
         Ok(()) => 0,
         Err(failure) => {
-            reporter.error(&failure);
-            failure.exit_code()
+            let source = Source::Files(request.files.clone());
+            report_failure(&source, &failure, request.json, reporter)
         }
     }
 }

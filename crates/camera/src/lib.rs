@@ -46,7 +46,7 @@ pub use camera::Camera;
 pub use controller::{AxisView, Orbit, OrbitStyle};
 pub use error::CameraError;
 pub use fit::{DEFAULT_MARGIN, Extent};
-pub use pinhole::PixelCenters;
+pub use pinhole::{Intrinsics, PixelCenters};
 pub use projection::Projection;
 pub use projector::Projector;
 pub use ray::Ray;

@@ -5,6 +5,7 @@
 
 use trigon_math::DVec2;
 
+use crate::clip_map::Kind;
 use crate::projection::check_planes;
 use crate::{CameraError, Projection, Viewport};
 
@@ -25,6 +26,16 @@ impl PixelCenters {
             Self::AtHalves => 0.0,
         }
     }
+}
+
+/// The camera matrix K without skew, in pixels: `u = fx · X / Z + cx`, `v = fy · Y / Z + cy` with Z
+/// forward and Y down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Intrinsics {
+    /// `(fx, fy)`.
+    pub focal: DVec2,
+    /// `(cx, cy)`, the principal point.
+    pub center: DVec2,
 }
 
 impl Projection {
@@ -57,5 +68,30 @@ impl Projection {
         check_planes(near, None)?;
         let center = center + DVec2::splat(pixel_centers.to_halves());
         Ok(Self::Pinhole { focal, center, size, near, far: None })
+    }
+
+    /// The K of an image of this size: the inverse of [`Projection::pinhole`], for any perspective. `None` for
+    /// a parallel projection, which has none.
+    ///
+    /// ```
+    /// use trigon_camera::math::DVec2;
+    /// use trigon_camera::{PixelCenters, Projection, Viewport};
+    ///
+    /// let image = Viewport { width: 640, height: 480 };
+    /// let wide = Projection::perspective(90f64.to_radians(), 0.1, None)?;
+    /// let k = wide.intrinsics(image, PixelCenters::AtHalves).expect("a perspective");
+    /// // At 90 degrees half the height lies as far off the axis as ahead.
+    /// assert!((k.focal - DVec2::splat(240.0)).length() < 1e-12);
+    /// assert_eq!(k.center, DVec2::new(320.0, 240.0));
+    /// # Ok::<(), trigon_camera::CameraError>(())
+    /// ```
+    #[must_use]
+    pub fn intrinsics(&self, image: Viewport, pixel_centers: PixelCenters) -> Option<Intrinsics> {
+        let map = self.clip_map(image.aspect());
+        let half = image.size() * 0.5;
+        // Device coordinates point up, rows down.
+        let shift = DVec2::new(-map.shift.x, map.shift.y);
+        let center = (shift + 1.0) * half - DVec2::splat(pixel_centers.to_halves());
+        (map.kind == Kind::Perspective).then_some(Intrinsics { focal: map.scale * half, center })
     }
 }

@@ -16,7 +16,7 @@ pub(crate) struct Beside {
 /// The format of a file for one output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
-    /// A 16-bit PNG.
+    /// A NumPy array.
     Npy,
     /// A PNG of 16 bits.
     Png16,

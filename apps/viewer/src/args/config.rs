@@ -45,6 +45,8 @@ pub(crate) struct Setting {
     pub(crate) flag: String,
     pub(crate) value: String,
     pub(crate) imperative: bool,
+    /// The file that it is from.
+    pub(crate) file: PathBuf,
 }
 
 impl Config {
@@ -78,7 +80,10 @@ impl Config {
         let name = file.display();
         let text = fs::read_to_string(file).map_err(|error| format!("{name}: cannot be read ({error})"))?;
         let mut warnings = Vec::new();
-        self.blocks.extend(blocks(&text, &mut warnings).map_err(|why| format!("{name}: {why}"))?);
+        let mut blocks = blocks(&text, &mut warnings).map_err(|why| format!("{name}: {why}"))?;
+        let settings = blocks.iter_mut().flat_map(|block| &mut block.options);
+        settings.for_each(|setting| file.clone_into(&mut setting.file));
+        self.blocks.extend(blocks);
         self.warnings.extend(warnings.into_iter().map(|warning| format!("{name}: {warning}")));
         self.files.push(file.to_owned());
         Ok(())
@@ -240,7 +245,9 @@ fn settings(options: &Map<String, Value>, warnings: &mut Vec<String>) -> Result<
         }
         let value = text(value).ok_or_else(|| format!("{name} is {value}; write text, a number or true"))?;
         match names::flag(name) {
-            Ok(flag) => settings.push(Setting { flag: flag.to_owned(), value, imperative }),
+            Ok(flag) => {
+                settings.push(Setting { flag: flag.to_owned(), value, imperative, file: PathBuf::new() })
+            }
             Err(why) => warnings.push(format!("{why}; it is ignored")),
         }
     }

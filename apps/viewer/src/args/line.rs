@@ -12,6 +12,7 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches};
 use super::config::KeyBinding;
 use super::config::{Config, Setting};
 use super::raw::RawArgs;
+use super::request::plain;
 use super::{names, words};
 use crate::state::State;
 
@@ -40,6 +41,8 @@ impl CommandLine {
             Some(file) => {
                 let state = State::read(file).map_err(conflict)?;
                 let mut typed = state.words(!(raw.files.is_empty() && raw.input.is_empty()));
+                let in_file = |error: clap::Error| conflict(format!("{}: {}", file.display(), plain(&error)));
+                parsed(words_after_name(&typed)).map_err(in_file)?;
                 typed.extend(line.typed);
                 Self { typed, ..Self::default() }
             }
@@ -183,12 +186,14 @@ impl CommandLine {
         let settings = self.config.settings(file);
         let (imperative, usual): (Vec<_>, Vec<_>) =
             settings.into_iter().partition(|setting| setting.imperative);
-        let mut words = vec![OsString::from("trigon-viewer")];
+        let mut words = vec![OsString::from(PROGRAM)];
+        let mut from_files: Vec<&Setting> = imperative.iter().collect();
         if !usual.is_empty() {
-            let typed = parsed(words.iter().chain(&self.typed))?;
-            let unset = |setting: &&Setting| self.edits.contains(&format!("--unset={}", setting.flag));
-            words
-                .extend(usual.iter().filter(|setting| is_free(setting, &typed) && !unset(setting)).map(word));
+            let typed = parsed(words_after_name(&self.typed))?;
+            let unset = |setting: &Setting| self.edits.contains(&format!("--unset={}", setting.flag));
+            let counts = |setting: &&Setting| is_free(setting, &typed) && !unset(setting);
+            from_files.extend(usual.iter().filter(counts));
+            words.extend(from_files[imperative.len()..].iter().copied().map(word));
         }
         // After `--` there are no flags.
         let end = self.typed.iter().position(|word| word == "--").unwrap_or(self.typed.len());
@@ -196,8 +201,24 @@ impl CommandLine {
         words.extend(imperative.iter().map(word));
         words.extend(self.edits.iter().map(OsString::from));
         words.extend_from_slice(&self.typed[end..]);
-        parsed(&words)
+        parsed(&words).map_err(|error| located(error, &from_files))
     }
+}
+
+/// The name that stands before the flags.
+const PROGRAM: &str = "trigon-viewer";
+
+fn words_after_name(words: &[OsString]) -> impl Iterator<Item = OsString> {
+    std::iter::once(OsString::from(PROGRAM)).chain(words.iter().cloned())
+}
+
+/// The error; if a setting of a configuration file causes it, with the name of that file.
+fn located(error: clap::Error, settings: &[&Setting]) -> clap::Error {
+    let wrong = settings.iter().find_map(|setting| {
+        let alone = parsed(words_after_name(&[word(setting)])).err()?;
+        Some(conflict(format!("{}: {}: {}", setting.file.display(), setting.flag, plain(&alone))))
+    });
+    wrong.unwrap_or(error)
 }
 
 /// The words as flags.

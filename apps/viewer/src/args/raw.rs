@@ -50,6 +50,18 @@ Examples:
   trigon-viewer *.obj --output '{model}.png'      an image of each
   trigon-viewer chair.glb --view=top --output - | other-program";
 
+/// What a model is checked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum CheckPurpose {
+    /// To be looked at.
+    Show,
+    /// To be printed: it has to enclose a volume.
+    Print,
+}
+
+/// What `--check` asks for; `None` is `--check=false`.
+pub(crate) type Check = Option<CheckPurpose>;
+
 /// Show 3D models, or render them to image files. No GPU is needed, and no display for image files.
 ///
 /// Without --output a window opens; press H for its keys. With --output an image is written
@@ -161,9 +173,9 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "ERROR", default_value = "0.04", value_parser = values::share, allow_negative_numbers = true, help_heading = "Files")]
     pub(crate) reference_threshold: f64,
 
-    /// List faults of the files instead of drawing them: exit code 1 if there are any errors
-    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, conflicts_with_all = ["output", "capture", "replay"], help_heading = "Files")]
-    pub(crate) check: Option<bool>,
+    /// List faults of the files instead of drawing them: exit code 1 if there are any errors; =print also takes for an error what keeps a model from being printed
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "WHAT", value_parser = values::check, conflicts_with_all = ["output", "capture", "replay"], help_heading = "Files")]
+    pub(crate) check: Option<Check>,
 
     /// Say why this pixel looks as it does: all triangles that touch it, and which of them is visible; columns and rows count from 0
     ///

@@ -23,7 +23,7 @@ use super::material::PointSprites;
 use super::output::{Destination, Template};
 use super::place::PlacedNode;
 use super::quality::{Insisted, Limit};
-use super::raw::{AntiAliasing, BackfaceType, DrawStyle, MultiFileMode, RawArgs, View};
+use super::raw::{AntiAliasing, BackfaceType, CheckPurpose, DrawStyle, MultiFileMode, RawArgs, View};
 use super::scenery::SceneryArgs;
 use super::window::WindowArgs;
 use crate::failure::Failure;
@@ -183,7 +183,7 @@ pub(crate) enum Mode {
     /// Explain this pixel of their images.
     ExplainPixel([u32; 2]),
     /// Say what is wrong with the models.
-    Check,
+    Check(CheckPurpose),
     /// List the rendering backends.
     ListBackends,
     /// List the formats that can be read.
@@ -305,7 +305,7 @@ fn mode(raw: &RawArgs) -> Mode {
         _ if raw.list_readers => Mode::ListReaders,
         _ if raw.list_bindings => Mode::ListBindings,
         _ if raw.list_rendering_backends => Mode::ListBackends,
-        _ if raw.check == Some(true) => Mode::Check,
+        _ if let Some(Some(purpose)) = raw.check => Mode::Check(purpose),
         _ if raw.no_render == Some(true) => Mode::Inspect,
         _ if let Some(pixel) = raw.explain_pixel => Mode::ExplainPixel(pixel),
         (_, Some(explanation)) => Mode::Explain(explanation),

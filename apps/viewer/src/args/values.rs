@@ -10,12 +10,23 @@ use trigon_math::glam::{Affine2, Vec2};
 use trigon_math::{DVec3, Vec3, color, elementary};
 use trigon_scene::{Display, MAX_SIZE, SimdLevel};
 
+use super::raw::{Check, CheckPurpose};
+
 /// A switch: `--edges`, `--edges=false` and their spellings.
 pub(crate) fn switch(text: &str) -> Result<bool, String> {
     match text.to_ascii_lowercase().as_str() {
         "true" | "on" | "yes" | "1" => Ok(true),
         "false" | "off" | "no" | "0" => Ok(false),
         _ => Err("write true or false (also on, off, yes, no, 1, 0)".to_owned()),
+    }
+}
+
+/// What `--check` is for: a purpose, or a switch.
+pub(crate) fn check(text: &str) -> Result<Check, String> {
+    let purpose = |is_on: bool| is_on.then_some(CheckPurpose::Show);
+    match text {
+        "print" => Ok(Some(CheckPurpose::Print)),
+        _ => switch(text).map(purpose).map_err(|_| "write true, false or print".to_owned()),
     }
 }
 

@@ -69,6 +69,32 @@ fn pinhole_follows_computer_vision() {
 }
 
 #[test]
+fn every_perspective_has_a_k_that_places_points_where_the_image_shows_them() {
+    let offset = DVec2::new(300.0, 200.0);
+    let perspectives = [
+        Projection::perspective(1.0, 0.1, Some(50.0)).expect("valid"),
+        Projection::frustum(-0.1, 0.3, -0.05, 0.2, 0.1, None).expect("valid"),
+        Projection::pinhole(DVec2::new(400.0, 420.0), offset, IMAGE, PixelCenters::AtHalves, 0.1)
+            .expect("valid"),
+    ];
+    for projection in perspectives {
+        for (centers, shift) in [(PixelCenters::AtHalves, 0.0), (PixelCenters::AtIntegers, 0.5)] {
+            let k = projection.intrinsics(IMAGE, centers).expect("a perspective");
+            for point in [DVec3::new(0.3, 0.2, -4.0), DVec3::new(-0.1, 0.4, -1.5)] {
+                let by_k = k.focal * DVec2::new(point.x, -point.y) / -point.z + k.center + shift;
+                assert_near(
+                    projector(projection).to_screen(point).expect("in front"),
+                    by_k,
+                    "u = fx X / Z + cx",
+                );
+            }
+        }
+    }
+    let parallel = Projection::orthographic(4.0, 0.1, 50.0).expect("valid");
+    assert_eq!(parallel.intrinsics(IMAGE, PixelCenters::AtHalves), None, "it has no focal length");
+}
+
+#[test]
 fn vertical_field_of_view_reaches_the_upper_edge() {
     let quarter = Projection::perspective(std::f64::consts::FRAC_PI_2, 0.1, None).expect("90 degrees");
     let screen = projector(quarter).to_screen(DVec3::new(0.0, 7.0, -7.0)).expect("before the eye");

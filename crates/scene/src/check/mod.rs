@@ -67,10 +67,26 @@ impl Scene {
     /// ```
     #[must_use]
     pub fn check(&self) -> Vec<Finding> {
+        self.check_with(|_| {})
+    }
+
+    /// As [`Scene::check`], for a model that is to be printed: whatever keeps a mesh from enclosing a volume
+    /// is an error.
+    #[must_use]
+    pub fn check_for_printing(&self) -> Vec<Finding> {
+        self.check_with(|finding| {
+            if matches!(finding.fault, surface::OPEN_EDGES | surface::NON_MANIFOLD | surface::MIXED_WINDING) {
+                finding.severity = Severity::Error;
+            }
+        })
+    }
+
+    fn check_with(&self, judge: impl FnMut(&mut Finding)) -> Vec<Finding> {
         let mut findings = Vec::new();
         space::check(self, &mut findings);
         surface::check(self, &mut findings);
         look::check(self, &mut findings);
+        findings.iter_mut().for_each(judge);
         let mut counts: Vec<(&str, usize)> = Vec::new();
         findings.retain(|finding| {
             let index = counts.iter().position(|(fault, _)| *fault == finding.fault).unwrap_or_else(|| {

@@ -1,16 +1,23 @@
 //! Checks of faces and how they join: inside out, inconsistent winding, non-manifold, without area,
 //! with normals that point inwards.
 
-use std::collections::HashMap;
-
 use trigon_math::{DVec3, Vec3};
-use trigon_mesh::Mesh;
+use trigon_mesh::{Mesh, Surface};
 
 use super::{Finding, Severity, counted, place};
 use crate::scene::Scene;
 
 /// From this number of faces on, a fraction without area counts as a fault.
 const SHARE_WITHOUT_AREA: f64 = 0.05;
+
+/// Edges of one face.
+pub(super) const OPEN_EDGES: &str = "open-edges";
+
+/// Edges of two faces that run along them in the same direction.
+pub(super) const MIXED_WINDING: &str = "mixed-winding";
+
+/// Edges of three faces or more.
+pub(super) const NON_MANIFOLD: &str = "non-manifold";
 
 pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
     for (id, asset) in scene.meshes().iter() {
@@ -19,164 +26,46 @@ pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
             continue;
         }
         let place = place("mesh", &asset.name, id.index());
-        let surface = Surface::new(mesh);
-        winding(&surface, &place, findings);
+        joins(mesh, &place, findings);
         without_area(mesh, &place, findings);
         normals(mesh, &place, findings);
     }
 }
 
-/// How the faces of a mesh join.
-struct Surface {
-    /// Edges of two faces that traverse them in the same direction.
-    turned: usize,
-    /// Edges of three or more faces.
-    crowded: usize,
-    /// Volume of the largest closed part with consistent winding; 0 without one.
-    volume: f64,
-    faces: usize,
-}
-
-/// The faces of an edge: the first two with their direction, and their number.
-#[derive(Clone, Copy, Default)]
-struct EdgeUse {
-    faces: [(usize, bool); 2],
-    count: usize,
-}
-
-impl Surface {
-    fn new(mesh: &Mesh) -> Self {
-        let points = welded(mesh);
-        let mut edges: HashMap<(u32, u32), EdgeUse> = HashMap::new();
-        for face in 0..mesh.face_count() {
-            for (from, to) in around(mesh, face, &points) {
-                let edge = edges.entry((from.min(to), from.max(to))).or_default();
-                if let Some(slot) = edge.faces.get_mut(edge.count) {
-                    *slot = (face, from < to);
-                }
-                edge.count += 1;
-            }
-        }
-        let mut parts = Parts::new(mesh.face_count());
-        let (mut turned, mut crowded) = (0, 0);
-        // The order of the map does not matter: everything in it is counted or joined.
-        for edge in edges.values() {
-            let [one, other] = edge.faces;
-            match edge.count {
-                2 if one.1 == other.1 => {
-                    turned += 1;
-                    parts.open(one.0);
-                    parts.join(one.0, other.0);
-                }
-                2 => parts.join(one.0, other.0),
-                1 => parts.open(one.0),
-                _ => {
-                    crowded += 1;
-                    parts.open(one.0);
-                    parts.open(other.0);
-                }
-            }
-        }
-        Self { turned, crowded, volume: parts.largest_volume(mesh), faces: mesh.face_count() }
-    }
-}
-
-/// For each vertex the first one at the same position: files split vertices at seams.
-fn welded(mesh: &Mesh) -> Vec<u32> {
-    let mut first: HashMap<[u32; 3], u32> = HashMap::new();
-    let at = |(position, index): (&Vec3, u32)| {
-        // . 0 and −0 are the same position.
-        let key = position.to_array().map(|coordinate| (coordinate + 0.0).to_bits());
-        *first.entry(key).or_insert(index)
-    };
-    mesh.positions().iter().zip(0..).map(at).collect()
-}
-
-/// The edges of a face in its direction, without those of length 0.
-fn around<'m>(mesh: &'m Mesh, face: usize, points: &'m [u32]) -> impl Iterator<Item = (u32, u32)> + 'm {
-    let vertices = mesh.face_vertices(face);
-    let next = vertices.iter().cycle().skip(1);
-    let ends = vertices.iter().zip(next).map(|(&from, &to)| (points[from as usize], points[to as usize]));
-    ends.filter(|(from, to)| from != to)
-}
-
-/// Connected faces.
-struct Parts {
-    /// For each face another of its part, or itself.
-    parents: Vec<usize>,
-    /// Whether a face has an edge that closes nothing.
-    is_open: Vec<bool>,
-}
-
-impl Parts {
-    fn new(faces: usize) -> Self {
-        Self { parents: (0..faces).collect(), is_open: vec![false; faces] }
-    }
-
-    fn root(&mut self, mut face: usize) -> usize {
-        while self.parents[face] != face {
-            self.parents[face] = self.parents[self.parents[face]];
-            face = self.parents[face];
-        }
-        face
-    }
-
-    fn join(&mut self, one: usize, other: usize) {
-        let (one, other) = (self.root(one), self.root(other));
-        self.parents[one.max(other)] = one.min(other);
-    }
-
-    fn open(&mut self, face: usize) {
-        self.is_open[face] = true;
-    }
-
-    /// The volume of the largest closed part, negative if it is inside out.
-    fn largest_volume(&mut self, mesh: &Mesh) -> f64 {
-        let faces = self.parents.len();
-        let (mut volumes, mut open) = (vec![0.0; faces], vec![false; faces]);
-        // Relative to a point of the mesh, so that a distant position costs no digits.
-        let origin = mesh.positions().first().copied().unwrap_or_default().as_dvec3();
-        for face in 0..faces {
-            let root = self.root(face);
-            volumes[root] += cone(mesh, face, origin);
-            open[root] |= self.is_open[face];
-        }
-        let closed = volumes.into_iter().zip(open).filter(|(_, open)| !open).map(|(volume, _)| volume);
-        closed.fold(0.0, |largest: f64, volume| if volume.abs() > largest.abs() { volume } else { largest })
-    }
-}
-
-/// Six times the volume between a face and a point: a fan of triangles gives the same as any other
-/// triangulation.
-fn cone(mesh: &Mesh, face: usize, origin: DVec3) -> f64 {
-    let at = |vertex: u32| mesh.positions()[vertex as usize].as_dvec3() - origin;
-    let vertices = mesh.face_vertices(face);
-    let first = at(vertices[0]);
-    vertices[1..].windows(2).map(|pair| first.dot(at(pair[0]).cross(at(pair[1])))).sum()
-}
-
-fn winding(surface: &Surface, place: &str, findings: &mut Vec<Finding>) {
+/// How its faces join.
+fn joins(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {
+    let Surface { open_edges, turned_edges, non_manifold_edges, volume, .. } = mesh.surface();
     let mut found = |severity, fault, what: String, remedy| {
         findings.push(Finding { severity, fault, place: place.to_owned(), what, remedy });
     };
-    if surface.volume < 0.0 {
+    if volume < 0.0 {
         let remedy = "flip its faces (in Blender: Mesh, Normals, Recalculate Outside)";
         found(Severity::Error, "inside-out", "its faces point inwards".to_owned(), remedy);
     }
-    if surface.turned > 0 {
-        let what = format!(
-            "its faces are turned against each other along {} (of {})",
-            counted(surface.turned, "edge"),
-            counted(surface.faces, "face")
-        );
+    let faces = counted(mesh.face_count(), "face");
+    if let Some(at) = first(mesh, &turned_edges) {
+        let edges = counted(turned_edges.len(), "edge");
+        let what = format!("its faces are turned against each other along {edges} (of {faces}), {at}");
         let remedy = "make them face the same way (in Blender: Mesh, Normals, Recalculate Outside)";
-        found(Severity::Warning, "mixed-winding", what, remedy);
+        found(Severity::Warning, MIXED_WINDING, what, remedy);
     }
-    if surface.crowded > 0 {
-        let what = format!("three faces or more share {}", counted(surface.crowded, "edge"));
+    if let Some(at) = first(mesh, &non_manifold_edges) {
+        let what = format!("three faces or more share {}, {at}", counted(non_manifold_edges.len(), "edge"));
         let remedy = "it is not a surface there: remove faces inside it before printing or cutting it";
-        found(Severity::Warning, "non-manifold", what, remedy);
+        found(Severity::Note, NON_MANIFOLD, what, remedy);
     }
+    if let Some(at) = first(mesh, &open_edges) {
+        let what = format!("{} of one face (of {faces}), {at}", counted(open_edges.len(), "open edge"));
+        let remedy = "it encloses no volume: fill its holes before printing it";
+        found(Severity::Note, OPEN_EDGES, what, remedy);
+    }
+}
+
+/// Where the first one is.
+fn first(mesh: &Mesh, edges: &[[u32; 2]]) -> Option<String> {
+    let ends = edges.first()?.map(|vertex| mesh.positions()[vertex as usize]);
+    let [from, to] = ends.map(|Vec3 { x, y, z }| format!("({x}, {y}, {z})"));
+    Some(format!("the first from {from} to {to}"))
 }
 
 fn without_area(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {

@@ -4,6 +4,7 @@ use fixedbitset::FixedBitSet;
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{CornerId, EdgeId, VertexId};
+use crate::EdgeJoin;
 
 /// Edges with one side of a face each, in the order in which they follow each other.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,21 +18,28 @@ pub struct BoundaryLoop {
 }
 
 impl EditMesh {
+    /// How the faces at an edge join.
+    #[must_use]
+    pub fn edge_join(&self, edge: EdgeId) -> EdgeJoin {
+        let [start, _] = self.edge_vertices(edge);
+        EdgeJoin::of(self.edge_corners(edge).map(|corner| self.corner_vertex(corner) == start))
+    }
+
     /// The edges with three or more sides of faces.
     #[must_use]
     pub fn non_manifold_edges(&self) -> Vec<EdgeId> {
-        self.edges().filter(|&edge| self.edge_corners(edge).nth(2).is_some()).collect()
+        self.edges_that(EdgeJoin::NonManifold)
     }
 
     /// The edges whose two faces run along them in the same direction, so that one of these shows its
     /// inside. [`Self::recalculate_normals`] repairs them, but for surfaces with one side.
     #[must_use]
     pub fn inconsistent_edges(&self) -> Vec<EdgeId> {
-        let is_inconsistent = |edge: &EdgeId| {
-            let pair = self.edge_pair(*edge);
-            pair.is_some_and(|[one, two]| self.corner_vertex(one) == self.corner_vertex(two))
-        };
-        self.edges().filter(is_inconsistent).collect()
+        self.edges_that(EdgeJoin::Turned)
+    }
+
+    fn edges_that(&self, join: EdgeJoin) -> Vec<EdgeId> {
+        self.edges().filter(|&edge| self.edge_join(edge) == join).collect()
     }
 
     /// The edges no longer than `most` metres.

@@ -4,6 +4,7 @@ use trigon_math::{Bounds3, DVec3};
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::VertexId;
+use crate::EdgeJoin;
 
 impl EditMesh {
     /// The box around some vertices; its size are the dimensions. Empty without a vertex.
@@ -21,10 +22,7 @@ impl EditMesh {
     /// any belongs to exactly two that run along it in opposite directions.
     #[must_use]
     pub fn is_watertight(&self) -> bool {
-        let is_tight = |edge| match self.edge_pair(edge) {
-            Some([one, two]) => self.corner_vertex(one) != self.corner_vertex(two),
-            None => self.edge_corners(edge).next().is_none(),
-        };
+        let is_tight = |edge| matches!(self.edge_join(edge), EdgeJoin::Closed | EdgeJoin::Loose);
         self.face_count() > 0 && self.edges().all(is_tight)
     }
 

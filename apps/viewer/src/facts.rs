@@ -1,0 +1,248 @@
+//! `--json`: one line for each input. What is in a model, by which camera it was drawn, and what was
+//! written; or why it failed.
+//!
+//! Nodes are written one by one as they are visited, so that a scene of a million nodes needs no copy.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Serialize, Serializer};
+use trigon_camera::{Camera, PixelCenters, Projection, Viewport};
+use trigon_math::{DAffine3, DMat4};
+use trigon_scene::{AlphaMode, Material, MaterialId, Node, NodeId, Scene};
+
+use crate::failure::Failure;
+use crate::lists::json_line;
+use crate::model::{Model, Summary};
+use crate::report::Reporter;
+use crate::source::Source;
+
+/// What is in a model.
+#[derive(Serialize)]
+pub(crate) struct ModelFacts<'a> {
+    file: Option<String>,
+    vertices: usize,
+    edges: usize,
+    faces: usize,
+    nodes: usize,
+    materials: usize,
+    textures: usize,
+    size: [f64; 3],
+    center: Option<[f64; 3]>,
+    scenes: &'a [String],
+    animations: Vec<AnimationFacts<'a>>,
+    node_list: NodeList<'a>,
+    material_list: Vec<MaterialFacts<'a>>,
+}
+
+#[derive(Serialize)]
+struct AnimationFacts<'a> {
+    name: &'a str,
+    seconds: f64,
+}
+
+#[derive(Serialize)]
+struct MaterialFacts<'a> {
+    id: usize,
+    name: &'a str,
+    /// Linear red, green, blue, and alpha.
+    base_color: [f32; 4],
+    alpha_mode: &'static str,
+}
+
+/// A node, by the number that the output `object-ids` holds for it.
+#[derive(Serialize)]
+struct NodeFacts<'a> {
+    id: usize,
+    name: &'a str,
+    parent: Option<usize>,
+    visible: bool,
+    /// From the node's space to the world, by columns, as in glTF.
+    matrix: [f64; 16],
+    mesh: Option<&'a str>,
+    /// The ids of the materials of its mesh's slots.
+    materials: Vec<usize>,
+}
+
+/// The nodes of a scene, each after its parent.
+struct NodeList<'a>(&'a Scene);
+
+/// A node on the path to the current one.
+struct Ancestor {
+    id: NodeId,
+    to_world: DAffine3,
+    visible: bool,
+}
+
+impl<'a> ModelFacts<'a> {
+    /// `summary` is that of the model before anything was added to show it: the list of nodes also holds
+    /// what was added, because the image's ids do.
+    pub(crate) fn new(model: &'a Model, summary: &Summary) -> Self {
+        let scene = &model.scene;
+        let animations = scene.animations.iter();
+        Self {
+            file: model.source.first_file().map(|file| file.to_string_lossy().into_owned()),
+            vertices: summary.vertices,
+            edges: summary.edges,
+            faces: summary.faces,
+            nodes: summary.nodes,
+            materials: summary.materials,
+            textures: summary.textures,
+            size: summary.size.to_array(),
+            center: model.center().map(|center| center.to_array()),
+            scenes: &model.scene_names,
+            animations: animations
+                .map(|animation| AnimationFacts { name: &animation.name, seconds: animation.duration() })
+                .collect(),
+            node_list: NodeList(scene),
+            material_list: scene.materials.iter().map(MaterialFacts::new).collect(),
+        }
+    }
+}
+
+impl<'a> MaterialFacts<'a> {
+    fn new((id, material): (MaterialId, &'a Material)) -> Self {
+        let alpha_mode = match material.alpha_mode {
+            AlphaMode::Opaque => "opaque",
+            AlphaMode::Mask { .. } => "mask",
+            AlphaMode::Blend => "blend",
+        };
+        Self { id: id.index(), name: &material.name, base_color: material.base_color.to_array(), alpha_mode }
+    }
+}
+
+impl Serialize for NodeList<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut path: Vec<Ancestor> = Vec::new();
+        serializer.collect_seq(self.0.tree().into_iter().filter_map(|(id, depth)| {
+            path.truncate(depth);
+            let node = self.0.node(id)?;
+            let (to_parent, shown) =
+                path.last().map_or((DAffine3::IDENTITY, true), |parent| (parent.to_world, parent.visible));
+            let place = Ancestor {
+                id,
+                to_world: to_parent * node.transform.to_affine(),
+                visible: shown && node.visible,
+            };
+            let facts = self.facts(node, &place, path.last());
+            path.push(place);
+            Some(facts)
+        }))
+    }
+}
+
+impl<'a> NodeList<'a> {
+    fn facts(&self, node: &'a Node, place: &Ancestor, parent: Option<&Ancestor>) -> NodeFacts<'a> {
+        NodeFacts {
+            id: place.id.index(),
+            name: &node.name,
+            parent: parent.map(|parent| parent.id.index()),
+            visible: place.visible,
+            matrix: DMat4::from(place.to_world).to_cols_array(),
+            mesh: node.mesh.and_then(|mesh| self.0.meshes().get(mesh)).map(|mesh| mesh.name.as_str()),
+            materials: node.materials.iter().map(|material| material.index()).collect(),
+        }
+    }
+}
+
+/// A camera, in the frame of the file.
+#[derive(Serialize)]
+pub(crate) struct CameraFacts {
+    /// Where the eye is.
+    position: [f64; 3],
+    /// From the camera's space (looking along −Z, +Y up) to the world: a unit quaternion x, y, z, w.
+    rotation: [f64; 4],
+    projection: &'static str,
+    /// From the lower to the upper edge of a perspective view, in degrees.
+    vertical_fov: Option<f64>,
+    /// The height of a parallel view.
+    height: Option<f64>,
+    near: f64,
+    /// `null` is at infinity.
+    far: Option<f64>,
+    /// By rows; Y down, Z forward, the centre of the first pixel at (0.5, 0.5). `null` for a parallel view.
+    #[serde(rename = "K")]
+    intrinsics: Option<[[f64; 3]; 3]>,
+}
+
+impl CameraFacts {
+    pub(crate) fn new(camera: &Camera, image: Viewport) -> Self {
+        let projection = camera.projection;
+        let intrinsics = projection.intrinsics(image, PixelCenters::AtHalves);
+        let (mut vertical_fov, mut height) = (None, None);
+        let projection_name = match projection {
+            Projection::Perspective { vertical_fov: angle, .. } => {
+                vertical_fov = Some(angle.to_degrees());
+                "perspective"
+            }
+            Projection::Orthographic { height: whole, .. } => {
+                height = Some(whole);
+                "orthographic"
+            }
+            Projection::Frustum { .. } => "frustum",
+            Projection::Pinhole { .. } => "pinhole",
+        };
+        Self {
+            position: camera.position.to_array(),
+            rotation: camera.orientation.to_array(),
+            projection: projection_name,
+            vertical_fov,
+            height,
+            near: projection.near(),
+            far: projection.far(),
+            intrinsics: intrinsics
+                .map(|k| [[k.focal.x, 0.0, k.center.x], [0.0, k.focal.y, k.center.y], [0.0, 0.0, 1.0]]),
+        }
+    }
+}
+
+/// What was drawn of a model, and where it was written.
+#[derive(Serialize)]
+pub(crate) struct ImageFacts<'a> {
+    #[serde(flatten)]
+    pub(crate) model: ModelFacts<'a>,
+    /// `None` for a series of images.
+    #[serde(flatten)]
+    pub(crate) drawing: Option<DrawingFacts>,
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) load_seconds: f64,
+    pub(crate) written: Vec<String>,
+}
+
+/// How one image was drawn.
+#[derive(Serialize)]
+pub(crate) struct DrawingFacts {
+    pub(crate) camera: CameraFacts,
+    pub(crate) draw_seconds: f64,
+    pub(crate) pixels_shaded: u64,
+    /// How far the image is from that of `--reference`.
+    pub(crate) error: Option<f64>,
+}
+
+/// Files as text.
+pub(crate) fn names(files: &[PathBuf]) -> Vec<String> {
+    files.iter().map(|file| file.to_string_lossy().into_owned()).collect()
+}
+
+/// Why there is nothing about an input.
+#[derive(Serialize)]
+struct FailureFacts {
+    file: Option<String>,
+    failure: String,
+    exit_code: u8,
+}
+
+/// Reports a failure, with `as_json` also on a line of its own, so that there is one for each input. Returns
+/// the exit code.
+pub(crate) fn report_failure(source: &Source, failure: &Failure, as_json: bool, reporter: Reporter) -> u8 {
+    reporter.error(failure);
+    let exit_code = failure.exit_code();
+    exit_code.max(if as_json { write_failure(source.first_file(), failure, reporter) } else { 0 })
+}
+
+/// Writes the line of an input of which there is nothing to tell; returns the exit code of writing.
+pub(crate) fn write_failure(file: Option<&Path>, failure: &Failure, reporter: Reporter) -> u8 {
+    let file = file.map(|file| file.to_string_lossy().into_owned());
+    let facts = FailureFacts { file, failure: failure.to_string(), exit_code: failure.exit_code() };
+    json_line(&facts, reporter)
+}
