@@ -34,6 +34,9 @@ pub struct Attributes {
     pub uv_sets: Vec<Vec<Vec2>>,
     /// Colours per corner: linear light, straight (not premultiplied) alpha.
     pub corner_colors: Option<Vec<Vec4>>,
+    /// Colours per vertex, as loose edges and points show them: linear light, straight alpha. Faces
+    /// show those of their corners.
+    pub vertex_colors: Option<Vec<Vec4>>,
     /// The material slot of each face. The scene defines what a slot means.
     pub face_materials: Option<Vec<u32>>,
     /// Which faces are shaded smoothly if no corner normal is given. Absent: all are flat.
@@ -45,6 +48,12 @@ pub struct Attributes {
 }
 
 impl Attributes {
+    /// Whether anything has colours: corners or vertices.
+    #[must_use]
+    pub fn has_colors(&self) -> bool {
+        self.corner_colors.is_some() || self.vertex_colors.is_some()
+    }
+
     /// Checks that every list has one value per corner, face or vertex.
     pub(crate) fn check(&self, vertices: usize, corners: usize, faces: usize) -> Result<(), MeshError> {
         let check = |attribute, element, expected, found: Option<usize>| match found {
@@ -62,6 +71,8 @@ impl Attributes {
         }
         let colors = self.corner_colors.as_ref().map(Vec::len);
         check("corner_colors", "corners", corners, colors)?;
+        let colors = self.vertex_colors.as_ref().map(Vec::len);
+        check("vertex_colors", "vertices", vertices, colors)?;
         let materials = self.face_materials.as_ref().map(Vec::len);
         check("face_materials", "faces", faces, materials)?;
         let smooth = self.face_smooth.as_ref().map(Vec::len);

@@ -140,8 +140,10 @@ pub struct Lines<'a, P> {
     /// Pairs of indices into the pipeline's vertices.
     pub segments: &'a [[u32; 2]],
     /// For each segment its id, which is written as the face id. Without it (or
-    /// beyond its end) the segment's index.
+    /// beyond its end) [`common_id`](Self::common_id).
     pub ids: Option<&'a [u32]>,
+    /// The id of all segments without one of their own; without it, the segment's index.
+    pub common_id: Option<u32>,
     /// The object id.
     pub object: u32,
     /// Width in output pixels, whatever the supersampling; below 1 counts as 1
@@ -166,6 +168,7 @@ impl<'a, P> Lines<'a, P> {
             pipeline,
             segments,
             ids: None,
+            common_id: None,
             object: 0,
             width: 1.0,
             smoothing: Smoothing::default(),
@@ -205,8 +208,10 @@ pub struct Points<'a, P> {
     /// Indices into the pipeline's vertices.
     pub points: &'a [u32],
     /// For each point its id, which is written as the face id. Without it (or
-    /// beyond its end) the point's index.
+    /// beyond its end) [`common_id`](Self::common_id).
     pub ids: Option<&'a [u32]>,
+    /// The id of all points without one of their own; without it, the point's index.
+    pub common_id: Option<u32>,
     /// The object id.
     pub object: u32,
     /// Diameter or edge in output pixels; below 1 counts as 1 unless it is
@@ -233,6 +238,7 @@ impl<'a, P> Points<'a, P> {
             pipeline,
             points,
             ids: None,
+            common_id: None,
             object: 0,
             size,
             marked: None,

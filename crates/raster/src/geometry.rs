@@ -48,8 +48,10 @@ impl PointSizes<'_> {
 /// One draw's primitives with what identifies them.
 pub(crate) struct Geometry<'a> {
     pub(crate) shape: Shape<'a>,
-    /// For each primitive its face id; the index where there is none.
+    /// For each primitive its face id.
     pub(crate) faces: Option<&'a [u32]>,
+    /// The face id of all primitives that have none of their own; without it, their indices.
+    pub(crate) common_face: Option<u32>,
     pub(crate) object: u32,
     pub(crate) blend_mode: BlendMode,
 }
@@ -97,11 +99,12 @@ impl Geometry<'_> {
     /// primitive.
     pub(crate) fn ascending_faces(&self) -> Option<[u32; 2]> {
         let last = (self.len() as u32).checked_sub(1)?;
-        // In the middle of the ids the primitives' indices take over.
+        // In the middle of the ids the common one or the primitives' indices take over.
         let listed = self.faces.unwrap_or(&[]);
         let listed = &listed[..listed.len().min(self.len())];
-        let in_order = listed.is_sorted()
-            && (listed.len() == self.len() || listed.last().is_none_or(|&id| id <= listed.len() as u32));
+        let next = self.common_face.unwrap_or(listed.len() as u32);
+        let in_order =
+            listed.is_sorted() && (listed.len() == self.len() || listed.last().is_none_or(|&id| id <= next));
         in_order.then(|| [self.face(0), self.face(last)])
     }
 
@@ -109,7 +112,7 @@ impl Geometry<'_> {
     #[inline]
     pub(crate) fn face(&self, primitive: u32) -> u32 {
         let listed = self.faces.and_then(|faces| faces.get(primitive as usize));
-        listed.copied().unwrap_or(primitive)
+        listed.copied().unwrap_or_else(|| self.common_face.unwrap_or(primitive))
     }
 
     /// Whether a pass that paints edges paints those of this draw.

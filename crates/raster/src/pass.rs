@@ -105,25 +105,26 @@ impl<'a> Pass<'a> {
     pub fn triangles<P: LanePipeline>(&mut self, draw: Draw<'a, P>) -> &mut Self {
         let Draw { pipeline, triangles, faces, edge_flags, marks, object, culling, blend_mode } = draw;
         let shape = Shape::Triangles { triangles, edge_flags, marks, culling };
-        self.record(pipeline, Geometry { shape, faces, object, blend_mode })
+        self.record(pipeline, Geometry { shape, faces, common_face: None, object, blend_mode })
     }
 
     /// Records lines.
     pub fn lines<P: LanePipeline>(&mut self, lines: Lines<'a, P>) -> &mut Self {
-        let Lines { pipeline, segments, ids, object, width, smoothing, depth_bias, blend_mode } = lines;
+        let Lines { pipeline, segments, ids, common_id, object, width, smoothing, depth_bias, blend_mode } =
+            lines;
         let shape = Shape::Lines { segments, width, smoothing, depth_bias };
         let blend_mode = smoothing.blend_mode(blend_mode);
-        self.record(pipeline, Geometry { shape, faces: ids, object, blend_mode })
+        self.record(pipeline, Geometry { shape, faces: ids, common_face: common_id, object, blend_mode })
     }
 
     /// Records points.
-    pub fn points<P: LanePipeline>(&mut self, points: Points<'a, P>) -> &mut Self {
-        let Points { pipeline, points, ids, object, size, marked, shape, smoothing, depth_bias, blend_mode } =
-            points;
+    pub fn points<P: LanePipeline>(&mut self, draw: Points<'a, P>) -> &mut Self {
+        let Points { pipeline, points, ids, common_id, object, size, marked, .. } = draw;
+        let Points { shape, smoothing, depth_bias, blend_mode, .. } = draw;
         let sizes = PointSizes { size, marked };
         let shape = Shape::Points { points, sizes, shape, smoothing, depth_bias };
         let blend_mode = smoothing.blend_mode(blend_mode);
-        self.record(pipeline, Geometry { shape, faces: ids, object, blend_mode })
+        self.record(pipeline, Geometry { shape, faces: ids, common_face: common_id, object, blend_mode })
     }
 
     fn record<P: LanePipeline>(&mut self, pipeline: &'a P, geometry: Geometry<'a>) -> &mut Self {

@@ -84,7 +84,8 @@ impl MeshAsset {
         box_around(used.map(|(point, _)| *point))
     }
 
-    fn has_nothing_loose(&self) -> bool {
+    /// Whether it consists of faces alone.
+    pub(crate) fn has_nothing_loose(&self) -> bool {
         self.mesh.loose_points().is_empty() && self.mesh.loose_edges().is_empty()
     }
 

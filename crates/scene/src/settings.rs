@@ -188,6 +188,9 @@ pub struct RenderSettings {
     /// pixels wide (fewer with supersampling), and narrower on small faces:
     /// [`trigon_raster::FaceEdges`] defines how much.
     pub line_width: f32,
+    /// Diameter of loose points, in pixels. `None`: three times `line_width`, and less, but not less than `line_width`,
+    /// where a scene has so many points that all together would cover the image more than four times.
+    pub point_size: Option<f32>,
     /// Linear RGB of the edges in all styles but [`Style::Surface`].
     pub edge_color: Vec3,
     /// Opacity of edges in [`Style::SurfaceWithEdges`] and [`Style::HiddenLine`], 0 to 1.
@@ -231,6 +234,7 @@ impl RenderSettings {
             style: Style::default(),
             display: Display::default(),
             line_width: 1.0,
+            point_size: None,
             edge_color: Vec3::splat(0.02),
             edge_opacity: 1.0,
             x_ray: 0.0,
@@ -245,6 +249,20 @@ impl RenderSettings {
             threads: None,
             simd: None,
         }
+    }
+
+    /// The diameter of loose points in a scene with so many.
+    pub(crate) fn size_of_points(&self, count: u64) -> f32 {
+        /// What MeshLab shows of a small cloud.
+        const POINT_TO_LINE: f32 = 3.0;
+        /// How often points may cover the image: a third of it shows the cloud, whose farther half is hidden, so the
+        /// nearer one still closes six times over.
+        const LAYERS: f64 = 4.0;
+        self.point_size.unwrap_or_else(|| {
+            let pixels = f64::from(self.width) * f64::from(self.height);
+            let closed = (LAYERS * pixels / count.max(1) as f64).sqrt() as f32;
+            closed.min(POINT_TO_LINE * self.line_width).max(self.line_width)
+        })
     }
 
     /// How the edges of faces are painted, in styles with edges.

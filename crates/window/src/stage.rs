@@ -533,6 +533,7 @@ impl Stage {
         settings.outputs = shown::OUTPUTS;
         let larger = (self.scale / shrink) as f32;
         settings.line_width *= larger;
+        settings.point_size = settings.point_size.map(|size| size * larger);
         if let Some(points) = &mut settings.vertices {
             points.size *= larger;
             points.marked_size *= larger;

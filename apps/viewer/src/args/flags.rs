@@ -77,6 +77,9 @@ pub(crate) fn of_settings(settings: &RenderSettings) -> Vec<String> {
     add(settings.style != Style::Surface, "style", &style(settings.style));
     add(settings.display != Display::Shaded, "display", &settings.display.name());
     add(settings.line_width != 1.0, "line-width", &settings.line_width);
+    if let Some(size) = settings.point_size {
+        add(true, "point-size", &size);
+    }
     add(settings.light_intensity != 1.0, "light-intensity", &settings.light_intensity);
     add(settings.shading != ShadingModel::Phong, "shading", &shading(settings.shading));
     add(settings.reflection != Reflection::Material, "reflection", &reflection(settings.reflection));

@@ -79,7 +79,7 @@ pub(crate) struct MaterialArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Material")]
     pub(crate) point_sprites_absolute_size: Option<bool>,
 
-    /// Diameter in pixels of points in the file
+    /// Diameter in pixels of points in the file (3, and less in dense clouds)
     #[arg(long, value_name = "PIXELS", value_parser = values::line_width, allow_negative_numbers = true, help_heading = "Material")]
     pub(crate) point_size: Option<f32>,
 }

@@ -472,7 +472,8 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
         (Some(DrawStyle::Surface), _) | (None, _) => Style::Surface,
     };
     settings.display = if raw.display_depth == Some(true) { Display::Depth } else { raw.display };
-    settings.line_width = line_width(raw, settings.style)?;
+    settings.line_width = raw.line_width;
+    settings.point_size = raw.material.point_size;
     settings.light_intensity = raw.light_intensity;
     raw.effects.apply(&mut settings);
     if let Some(preset) = raw.quality.preset {
@@ -485,19 +486,6 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
     settings.threads = raw.threads;
     settings.simd = raw.simd;
     Ok(settings)
-}
-
-/// The width of lines; points are three times as wide.
-fn line_width(raw: &RawArgs, style: Style) -> Result<f32, String> {
-    const POINT_TO_LINE: f32 = 3.0;
-    match raw.material.point_size {
-        Some(size) if style == Style::Surface => Ok(size / POINT_TO_LINE),
-        Some(_) => Err(
-            "--point-size is for images without edges, where points are three lines wide; leave out --point-size, or set --line-width"
-                .to_owned(),
-        ),
-        None => Ok(raw.line_width),
-    }
 }
 
 /// Samples along each side of a pixel by supersampling, and in each of those by

@@ -10,6 +10,7 @@ record!(Attributes {
     corner_tangents,
     uv_sets,
     corner_colors,
+    vertex_colors,
     face_materials,
     face_smooth,
     skin,

@@ -53,7 +53,7 @@ use stream::{Damage, Reader, Writer};
 const MAGIC: [u8; 8] = *b"\x93TRIGON\n";
 
 /// The version of the format.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 
 /// A scene, a camera, settings and the resulting image.
 ///

@@ -79,6 +79,7 @@ impl Stored for RenderSettings {
         background.write(to);
         style.write(to);
         line_width.write(to);
+        self.point_size.write(to);
         let Self { display, edge_color, edge_opacity, lighting, light_intensity, .. } = self;
         display.write(to);
         edge_color.write(to);
@@ -105,6 +106,7 @@ impl Stored for RenderSettings {
             background: Stored::read(from)?,
             style: Stored::read(from)?,
             line_width: Stored::read(from)?,
+            point_size: Stored::read(from)?,
             display: Stored::read(from)?,
             edge_color: Stored::read(from)?,
             edge_opacity: Stored::read(from)?,

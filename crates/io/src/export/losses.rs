@@ -58,7 +58,7 @@ pub(crate) fn add_losses(gathered: &mut Gathered<'_>, holds: &Holds) {
         holds.uvs && any(|object| object.mesh.attributes().uv_sets.len() > 1),
         "texture coordinates beyond the first set",
     );
-    add(!holds.colors && any(|object| object.mesh.attributes().corner_colors.is_some()), "vertex colours");
+    add(!holds.colors && any(|object| object.mesh.attributes().has_colors()), "vertex colours");
     add(!holds.edges && any(|object| !object.mesh.loose_edges().is_empty()), "edges without faces");
     let is_cloud = !any(|object| object.mesh.face_count() > 0 || !object.mesh.loose_edges().is_empty());
     let keeps_points = match holds.points {

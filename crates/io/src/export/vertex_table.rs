@@ -24,7 +24,7 @@ impl Columns {
         Self {
             normals: self.normals && any(|object| object.is_shaded()),
             uvs: self.uvs && any(|object| !object.mesh.attributes().uv_sets.is_empty()),
-            colors: self.colors && any(|object| object.mesh.attributes().corner_colors.is_some()),
+            colors: self.colors && any(|object| object.mesh.attributes().has_colors()),
         }
     }
 }
@@ -66,6 +66,9 @@ impl Values {
     }
 }
 
+/// The copies of an object's vertices, by the vertex and its other values.
+type Others = HashMap<(u32, [u32; 9]), u32>;
+
 /// The vertices of all objects, one object after the other.
 #[derive(Default)]
 pub(crate) struct VertexTable {
@@ -96,27 +99,45 @@ impl VertexTable {
         // Such files know no smooth faces: their normals say it.
         let has_normals = columns.normals && object.is_shaded();
         let normals = if has_normals { object.mesh.shading_normals() } else { Vec::new() };
-        let mut others: HashMap<(u32, [u32; 9]), u32> = HashMap::new();
+        let mut others = Others::new();
         for &corner in &object.corners {
             let vertex = object.vertex(corner);
-            let own = base + vertex as usize;
             let values = Values::of(object, corner, columns, &normals);
             if !std::mem::replace(&mut is_known[vertex as usize], true) {
-                self.values[own] = values;
+                self.values[base + vertex as usize] = values;
             }
-            if self.values[own].bits() == values.bits() {
-                self.corner_vertices.push(own as u32);
-                continue;
-            }
-            let next = self.positions.len() as u32;
-            let number = *others.entry((vertex, values.bits())).or_insert(next);
-            if number == next {
-                self.positions.push(self.positions[own]);
-                self.values.push(values);
-                self.split += 1;
-            }
+            let number = self.number(base, (vertex, values), &mut others);
             self.corner_vertices.push(number);
         }
-        self.edges.extend(object.mesh.loose_edges().iter().map(|edge| edge.map(|end| base as u32 + end)));
+        let colors = object.mesh.attributes().vertex_colors.as_deref().filter(|_| columns.colors);
+        for (vertex, color) in
+            colors.into_iter().flatten().enumerate().filter(|(vertex, _)| !is_known[*vertex])
+        {
+            self.values[base + vertex].color = *color;
+        }
+        for &edge in object.mesh.loose_edges() {
+            let edge = edge.map(|end| {
+                let values = self.values[base + end as usize];
+                let color = colors.map_or(values.color, |colors| colors[end as usize]);
+                self.number(base, (end, Values { color, ..values }), &mut others)
+            });
+            self.edges.push(edge);
+        }
+    }
+
+    /// The number of a vertex of an object with some values: its own if it has them, else that of a copy.
+    fn number(&mut self, base: usize, (vertex, values): (u32, Values), others: &mut Others) -> u32 {
+        let own = base + vertex as usize;
+        if self.values[own].bits() == values.bits() {
+            return own as u32;
+        }
+        let next = self.positions.len() as u32;
+        let number = *others.entry((vertex, values.bits())).or_insert(next);
+        if number == next {
+            self.positions.push(self.positions[own]);
+            self.values.push(values);
+            self.split += 1;
+        }
+        number
     }
 }

@@ -96,7 +96,8 @@ fn build_of_sound_faces(
     warn(import, &left_out);
     let mut mesh = builder.build();
     let vertices = kept.at_corners(take(&mut polygons.corner_vertices));
-    let attributes = attributes(polygons, &kept, &vertices, &mesh);
+    let vertex_colors = local.of_wires(&mut polygons);
+    let attributes = Attributes { vertex_colors, ..attributes(polygons, &kept, &vertices, &mesh) };
     mesh.set_attributes(attributes).expect("one value per accepted corner");
     Ok(mesh)
 }
@@ -147,6 +148,25 @@ impl Local {
             Self::Same => vertex,
             Self::Others(local) => local[vertex as usize],
         }
+    }
+
+    /// The colours of the mesh's vertices, if it has edges or points that show them. Those of a cloud are taken over:
+    /// they may be many.
+    fn of_wires(&self, polygons: &mut Polygons) -> Option<Vec<Vec4>> {
+        let has_faces = !polygons.face_sizes.is_empty();
+        if polygons.colors.is_empty() || (has_faces && polygons.edges.is_empty()) {
+            return None;
+        }
+        let colors = if has_faces { polygons.colors.clone() } else { take(&mut polygons.colors) };
+        Some(match self {
+            Self::Same => colors,
+            Self::Others(local) => colors
+                .into_iter()
+                .zip(local)
+                .filter(|(_, at)| **at != NOWHERE)
+                .map(|(color, _)| color)
+                .collect(),
+        })
     }
 }
 
@@ -206,13 +226,6 @@ fn push_edges(
     for vertex in 0..builder.vertex_count() as u32 {
         builder.push_loose_point(vertex).expect("the vertex exists");
     }
-    let is_colored = |color: &Vec4| color.truncate().min_element() < 1.0;
-    import.warnings.push_counted(
-        polygons.colors.iter().filter(|color| is_colored(color)).count(),
-        Place::Whole,
-        "points are drawn without the colours of their vertices",
-        "make a surface of them to see the colours",
-    );
     Ok(())
 }
 

@@ -73,7 +73,7 @@ fn every_style_law_and_background() {
     let plain = settings();
     for settings in [
         RenderSettings { style: Style::SurfaceWithEdges, line_width: 2.5, ..settings() },
-        RenderSettings { style: Style::Wireframe, edge_color: Vec3::Z, ..settings() },
+        RenderSettings { style: Style::Wireframe, edge_color: Vec3::Z, point_size: Some(5.5), ..settings() },
         RenderSettings { style: Style::HiddenLine, samples: 4, ..settings() },
         RenderSettings { lighting: Lighting::Studio, shading: ShadingModel::Flat, ..settings() },
         RenderSettings { shading: ShadingModel::Gouraud, background: Background::Transparent, ..settings() },
@@ -109,6 +109,9 @@ fn wires() -> Mesh {
     builder.push_loose_point(a).expect("a vertex");
     let mut mesh = builder.build();
     mesh.flip_faces();
+    let color = |vertex: usize| Vec4::new(1.0, vertex as f32 / 16.0, 0.25, 1.0);
+    let vertex_colors = Some((0..mesh.vertex_count()).map(color).collect());
+    mesh.set_attributes(Attributes { vertex_colors, ..mesh.attributes().clone() }).expect("one for each");
     mesh
 }
 

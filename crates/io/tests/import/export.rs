@@ -5,6 +5,7 @@ use trigon_io::{
     Encoding, Export, ExportOptions, FaceExport, Format, Loaded, UpAxis, WriteError, export, load,
     load_from_slice,
 };
+use trigon_math::color::srgba8_to_linear;
 use trigon_math::{DQuat, DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder, primitives};
 use trigon_raster::{Texture, TextureFormat};
@@ -187,6 +188,81 @@ fn values_of_corners_come_back() {
     let losses = written(&scene, FORMATS[1], &ExportOptions::default());
     let text: Vec<String> = losses.what_would_be_lost().iter().map(ToString::to_string).collect();
     assert!(text.iter().any(|loss| loss.contains("seams and sharp edges are one")), "{text:?}");
+}
+
+/// Three vertices with colours that are exact in 8 bits.
+fn colored_wires(elements: &[&[u32]]) -> Mesh {
+    let mut builder = MeshBuilder::new();
+    for place in [Vec3::ZERO, Vec3::X, Vec3::Y] {
+        builder.push_vertex(place);
+    }
+    for element in elements {
+        let added = match **element {
+            [point] => builder.push_loose_point(point),
+            [from, to] => builder.push_loose_edge(from, to),
+            _ => builder.push_face(element).map(|_| ()),
+        };
+        added.expect("vertices that exist");
+    }
+    let mut mesh = builder.build();
+    let colors = [[255, 0, 0, 255], [0, 128, 3, 255], [9, 99, 199, 255]].map(srgba8_to_linear);
+    let attributes = Attributes {
+        vertex_colors: Some(colors.to_vec()),
+        corner_colors: (mesh.face_count() > 0).then(|| vec![Vec4::ONE; mesh.corner_count()]),
+        ..Attributes::default()
+    };
+    mesh.set_attributes(attributes).expect("one each");
+    mesh
+}
+
+#[test]
+fn colours_of_points_and_lines_come_back() {
+    let clouds: [&[&[u32]]; 2] = [&[&[0], &[1], &[2]], &[&[0, 1], &[1, 2]]];
+    for mesh in clouds.map(colored_wires) {
+        let scene = scene_of(mesh.clone());
+        let expected = mesh.attributes().vertex_colors.clone().expect("they were set");
+        let check = |read: &Loaded, what: &str| {
+            let (_, asset) = read.scene.meshes().iter().next().expect("one");
+            let found = asset.mesh().attributes().vertex_colors.clone().expect(what);
+            let are_near = |(a, b): (&Vec4, &Vec4)| a.abs_diff_eq(*b, 1e-6);
+            assert!(found.len() == 3 && found.iter().zip(&expected).all(are_near), "{what}: {found:?}");
+            assert!(asset.mesh().loose_edges() == mesh.loose_edges(), "{what}: the lines");
+            assert!(asset.mesh().loose_points() == mesh.loose_points(), "{what}: the points");
+        };
+        for encoding in ENCODINGS {
+            let options = ExportOptions { encoding, ..ExportOptions::default() };
+            check(&again(&scene, FORMATS[1], &options), &format!("PLY, {encoding:?}"));
+        }
+        check(&again(&scene, FORMATS[0], &ExportOptions::default()), "OBJ");
+        let glb = trigon_io::encode_glb(&scene, &ExportOptions::default()).expect("it is small");
+        check(&loaded("a.glb", &glb), "GLB");
+    }
+}
+
+/// A vertex has one colour in a PLY: where a face and a line show different ones it is written twice.
+#[test]
+fn a_face_and_a_line_at_one_vertex_keep_their_colours_in_a_ply() {
+    let mut builder = MeshBuilder::new();
+    for place in [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z] {
+        builder.push_vertex(place);
+    }
+    builder.push_face(&[0, 1, 2]).expect("a face");
+    builder.push_loose_edge(0, 3).expect("an edge");
+    let mut mesh = builder.build();
+    let (red, green) = (Vec4::new(1.0, 0.0, 0.0, 1.0), Vec4::new(0.0, 1.0, 0.0, 1.0));
+    let attributes = Attributes {
+        corner_colors: Some(vec![red; 3]),
+        vertex_colors: Some(vec![green; 4]),
+        ..Attributes::default()
+    };
+    mesh.set_attributes(attributes).expect("one each");
+    let read = again(&scene_of(mesh), FORMATS[1], &ExportOptions::default());
+    let (_, asset) = read.scene.meshes().iter().next().expect("one");
+    let (mesh, attributes) = (asset.mesh(), asset.mesh().attributes());
+    assert_eq!(attributes.corner_colors.as_deref(), Some(&[red; 3][..]), "the face");
+    let of_vertices = attributes.vertex_colors.as_ref().expect("the line has colours");
+    let ends = mesh.loose_edges().as_flattened();
+    assert!(ends.len() == 2 && ends.iter().all(|&end| of_vertices[end as usize] == green), "the line");
 }
 
 /// Smooth meshes without normals of their own were written with normals of no length, and came back flat.

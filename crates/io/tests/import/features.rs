@@ -203,6 +203,33 @@ fn primitive_modes() {
     }
 }
 
+/// They were white: <https://github.com/KhronosGroup/glTF-Sample-Viewer/issues/549>.
+#[test]
+fn colours_of_vertices_multiply_the_base_colour_in_every_mode() {
+    let in_modes = |letter: char| {
+        let (points, line) = (".WWW.WWW", "..WWWWW");
+        let pictures = [
+            rows(1, &[points, points, points, ".", points, points, points].join("/")),
+            rows(2, &format!("{line}/./././{line}")),
+            rows(2, &format!("{line}/..W...W/..W...W/..W...W/{line}")),
+            rows(2, &format!("{line}/......W/......W/......W/{line}")),
+        ];
+        pictures.map(|rows| rows.iter().map(|row| row.replace('W', &letter.to_string())).collect::<Vec<_>>())
+    };
+    for (base, letter) in [([1, 1, 1, 1], 'G'), ([1, 1, 0, 1], 'G'), ([1, 0, 0, 1], 'K')] {
+        for (mode, expected) in in_modes(letter).iter().enumerate() {
+            let mut doc = white();
+            doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = json!(base);
+            doc.json["nodes"][0]["translation"] = json!([0.125, -0.125, 0]);
+            let colors = doc.floats("VEC3", &[0.0_f32, 1.0, 0.0].repeat(4));
+            let primitive = doc.primitive();
+            (primitive["mode"], primitive["attributes"]["COLOR_0"]) = (json!(mode), json!(colors));
+            primitive.as_object_mut().expect("an object").remove("indices");
+            check(&format!("{base:?} in mode {mode}"), &doc, expected);
+        }
+    }
+}
+
 #[test]
 fn sparse_and_quantized_positions() {
     let mut doc = white();

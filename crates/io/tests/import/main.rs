@@ -23,6 +23,7 @@ mod stl;
 mod texture;
 mod tobj_crate;
 mod validator;
+mod wires;
 
 use trigon_io::{LoadOptions, Loaded, load_from_slice};
 use trigon_mesh::Mesh;

@@ -88,6 +88,7 @@ impl MeshChange {
         let (was, is) = (old.attributes(), new.attributes());
         let is_same_kind = old.has_same_elements(new)
             && was.uv_sets.len() == is.uv_sets.len()
+            && was.vertex_colors == is.vertex_colors
             && was.face_materials == is.face_materials
             && was.face_smooth == is.face_smooth
             && was.corner_tangents == is.corner_tangents

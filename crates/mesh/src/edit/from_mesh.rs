@@ -165,6 +165,10 @@ fn vertex_layers(mesh: &Mesh, left_out: &mut LeftOut) -> Vec<Layer> {
     if let Some(skin) = &attributes.skin {
         layers.push(Layer { kind: LayerKind::Skin, values: influences(skin, left_out) });
     }
+    if let Some(colors) = &attributes.vertex_colors {
+        let values = LayerValues::Vec4(Column::with_room(colors.iter().copied()));
+        layers.push(Layer { kind: LayerKind::Color, values });
+    }
     for (number, target) in (0u16..).zip(&attributes.morph_targets) {
         let values = dense(&target.positions, mesh.vertex_count());
         layers.push(Layer { kind: LayerKind::MorphPosition(number), values });
@@ -197,7 +201,33 @@ fn influences(skin: &SkinWeights, left_out: &mut LeftOut) -> LayerValues {
 
 #[cfg(test)]
 mod tests {
+    use trigon_math::Vec4;
+
     use super::*;
+
+    /// A line from a black vertex to a white one.
+    fn colored_line() -> Mesh {
+        let mut line = crate::primitives::polyline(&[Vec3::ZERO, Vec3::X]);
+        let vertex_colors = Some(vec![Vec4::W, Vec4::ONE]);
+        line.set_attributes(Attributes { vertex_colors, ..Attributes::default() }).expect("one for each");
+        line
+    }
+
+    #[test]
+    fn colours_of_lines_and_points_are_edited_along() {
+        let line = colored_line();
+        let (mut mesh, _) = EditMesh::from_mesh(&line);
+        assert_eq!(mesh.to_mesh().0, line, "the same again");
+        mesh.split_edge(crate::edit::EdgeId::new(0), 0.25).expect("an edge");
+        mesh.add_vertex(Vec3::Y).expect("there is room");
+        let colors = mesh.to_mesh().0.attributes().vertex_colors.clone();
+        let quarter = Vec3::splat(0.25).extend(1.0);
+        assert_eq!(
+            colors,
+            Some(vec![Vec4::W, Vec4::ONE, quarter, Vec4::ONE]),
+            "a mean, and white without any"
+        );
+    }
 
     #[test]
     fn each_kind_of_what_is_left_out_has_a_warning_and_what_is_not_has_none() {

@@ -11,7 +11,8 @@ use super::skin::Influences;
 pub(super) enum LayerKind {
     /// Texture coordinates; sets count in the order of their layers. On corners.
     Uv,
-    /// Linear light, straight alpha. On corners.
+    /// Linear light, straight alpha. On corners, which faces show, and on vertices, which loose edges and
+    /// points show.
     Color,
     /// Normals that were given. On corners.
     Normal,
@@ -135,6 +136,14 @@ impl Layer {
 
     pub(super) fn clear(&mut self, to: u32) {
         for_column!(&mut self.values, column => *column.write(to) = Default::default());
+    }
+
+    /// Gives an element the value of one that was given none: white for colours, otherwise zero.
+    pub(super) fn set_usual(&mut self, to: u32) {
+        self.clear(to);
+        if let (LayerKind::Color, LayerValues::Vec4(column)) = (self.kind, &mut self.values) {
+            *column.write(to) = Vec4::ONE;
+        }
     }
 
     /// Gives an element the weighted sum of the values of others. A direction keeps unit length, as

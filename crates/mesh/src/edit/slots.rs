@@ -48,7 +48,7 @@ impl EditMesh {
         if totals.into_iter().all(|total| total < u64::from(NONE)) { Ok(()) } else { Err(Refusal::TooMany) }
     }
 
-    /// A vertex without edges; its values are zero.
+    /// A vertex without edges; its values are the usual ones.
     pub(super) fn new_vertex(&mut self, position: Vec3) -> u32 {
         let record = VertexRecord { edge: NONE, flags: ALIVE };
         let slots = &mut self.slots.vertices;
@@ -59,7 +59,10 @@ impl EditMesh {
             self.vertices.push(record);
             self.positions.push(position);
             self.first_positions.push(position);
-            self.vertex_layers.iter_mut().for_each(super::layers::Layer::push_default);
+            for layer in &mut self.vertex_layers {
+                layer.push_default();
+                layer.set_usual(index);
+            }
             return index;
         }
         slots.free = self.vertices[index].edge;
@@ -67,7 +70,7 @@ impl EditMesh {
         *self.positions.write(index) = position;
         *self.first_positions.write(index) = position;
         for layer in &mut self.vertex_layers {
-            layer.clear(index);
+            layer.set_usual(index);
         }
         index
     }

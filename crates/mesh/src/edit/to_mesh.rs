@@ -130,6 +130,9 @@ impl EditMesh {
                     morph_target(&mut attributes, number).positions = Deltas::from_dense(values);
                 }
                 (LayerValues::Influences(column), _) => attributes.skin = skin(map, column),
+                (LayerValues::Vec4(column), _) => {
+                    attributes.vertex_colors = Some(map.vertices.iter().map(|at| column[at.0]).collect());
+                }
                 _ => {}
             }
         }

@@ -93,6 +93,7 @@ fn attributes_have_one_value_each() {
         Attributes { corner_normals: Some(vec![Vec3::X; 23]), ..Attributes::default() },
         Attributes { uv_sets: vec![vec![Vec2::ZERO; 24], vec![]], ..Attributes::default() },
         Attributes { corner_colors: Some(vec![Vec4::ONE; 8]), ..Attributes::default() },
+        Attributes { vertex_colors: Some(vec![Vec4::ONE; 24]), ..Attributes::default() },
         Attributes { face_materials: Some(vec![0; 24]), ..Attributes::default() },
         Attributes { face_smooth: Some(vec![]), ..Attributes::default() },
     ];

@@ -268,7 +268,7 @@ fn of_objects(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> 
     match (in_view.count, elsewhere.count) {
         (0, 0) => Err(Absence::Nowhere),
         (0, _) => Err(Absence::OutOfView(elsewhere.clone())),
-        _ if !faces && effect != Effect::Poses => Err(Absence::NoFaces),
+        _ if !faces && effect != Effect::Poses && !survey.is_of_wires(effect) => Err(Absence::NoFaces),
         _ => Ok(Cause::Objects(in_view.clone())),
     }
 }

@@ -6,6 +6,8 @@ use super::Named;
 use crate::effect::Effect;
 use crate::effects::Optics;
 use crate::material::{AlphaMode, DrawnIf, Material, MaterialTexture, Shading};
+use crate::mesh_asset::MeshAsset;
+use crate::node::Node;
 use crate::prepare::PreparedScene;
 use crate::settings::ShadingModel;
 use crate::shapes::Shape;
@@ -15,6 +17,8 @@ use crate::shapes::Shape;
 pub(super) struct Survey {
     /// For each effect by its number: the objects that have it, in view and elsewhere.
     found: [[Named; 2]; Effect::ALL.len()],
+    /// For each effect by its number, whether lines or points in view have it, which every style shows.
+    of_wires: [bool; Effect::ALL.len()],
     /// Objects in view that light reaches.
     pub(super) lit: usize,
     /// Shadow casters, in view or not.
@@ -34,10 +38,16 @@ impl Survey {
                 id.and_then(|&id| prepared.scene.materials.get(id)).unwrap_or(&default)
             });
             let materials: Vec<&Material> = materials.collect();
+            let wires = Wires::of(node, prepared);
+            let sees_wires = wires.as_ref().is_some_and(|wires| wires.may_show(shape, prepared));
             for effect in Effect::ALL {
-                if materials.iter().any(|material| has(effect, material, shape, prepared)) {
+                let of_faces = materials.iter().any(|material| has(effect, material, shape, prepared));
+                let of_wires = wires.as_ref().is_some_and(|wires| wires.have(effect));
+                if of_faces || of_wires {
+                    let seen = of_faces && seen || of_wires && sees_wires;
                     survey.found[effect as usize][usize::from(!seen)].add(name);
                 }
+                survey.of_wires[effect as usize] |= of_wires && sees_wires;
             }
             let lit = |material: &&Material| material.shading != Shading::Unlit;
             survey.lit += usize::from(seen && materials.iter().any(lit));
@@ -50,6 +60,41 @@ impl Survey {
     /// The objects that have an effect, in view and elsewhere.
     pub(super) fn of(&self, effect: Effect) -> &[Named; 2] {
         &self.found[effect as usize]
+    }
+
+    /// Whether lines or points in view have an effect.
+    pub(super) fn is_of_wires(&self, effect: Effect) -> bool {
+        self.of_wires[effect as usize]
+    }
+}
+
+/// The loose edges and points of a node. They are unlit.
+struct Wires<'s> {
+    asset: &'s MeshAsset,
+    /// That of all of them.
+    material: Option<&'s Material>,
+}
+
+impl<'s> Wires<'s> {
+    fn of(node: &Node, prepared: &PreparedScene<'s>) -> Option<Self> {
+        let asset = prepared.scene.meshes().get(node.mesh?).filter(|asset| !asset.has_nothing_loose())?;
+        let material = node.materials.first().and_then(|&id| prepared.scene.materials.get(id));
+        Some(Self { asset, material })
+    }
+
+    fn may_show(&self, shape: &Shape, prepared: &PreparedScene<'_>) -> bool {
+        prepared.eye.may_see(&self.asset.bounds(), &shape.place.world)
+    }
+
+    fn have(&self, effect: Effect) -> bool {
+        let mode = self.material.map_or(AlphaMode::Opaque, |material| material.alpha_mode);
+        match effect {
+            Effect::VertexColors => self.asset.mesh().attributes().vertex_colors.is_some(),
+            Effect::Emission => self.material.is_some_and(|material| material.emissive != Vec3::ZERO),
+            Effect::Masks => matches!(mode, AlphaMode::Mask { .. }),
+            Effect::Transparency => mode == AlphaMode::Blend,
+            _ => false,
+        }
     }
 }
 

@@ -2,16 +2,17 @@
 //! others.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::Arc;
 
 use trigon_camera::Camera;
-use trigon_math::{Mat3, Vec3};
+use trigon_math::{Mat3, Vec3, Vec4};
 use trigon_raster::{Culling, EdgeFlags};
 
-use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles};
+use super::record::{Dots, MarkNumbers, ObjectMarks, PointList, Record, Segments, Triangles};
 use super::vertex_list::{VertexList, VertexLists};
-use super::wire::{HiddenLine, Wire, WireMarks};
+use super::wire::{ColoredLines, HiddenLine, PointColors, Wire, WireMarks, WirePaint};
 use crate::display::Display;
 use crate::effect::Effect;
 use crate::effects::{Counts, LightingEnvironment};
@@ -26,9 +27,6 @@ use crate::scene::Scene;
 use crate::settings::{RenderSettings, Style};
 use crate::shapes::{Shape, Shapes};
 use crate::surface::{BoundMaterial, Drawn, Illumination, MaterialContext, Surface};
-
-/// The size of loose points, in line widths.
-const POINT_TO_LINE: f32 = 3.0;
 
 /// The fraction of their distance by which vertex points are drawn nearer, so that faces that slope
 /// towards the eye around a vertex do not cut its point. Points hidden by more than that stay
@@ -48,6 +46,8 @@ pub(super) struct Composer<'s> {
     to_world: Mat3,
     default_material: Material,
     vertex_lists: &'s VertexLists,
+    /// Of loose points, once it is asked for.
+    point_size: OnceCell<f32>,
     purpose: Purpose,
 }
 
@@ -93,6 +93,7 @@ impl<'s> Composer<'s> {
             to_world: Mat3::from_quat(camera.orientation.as_quat()),
             default_material,
             vertex_lists,
+            point_size: OnceCell::new(),
             purpose: Purpose::Colors,
         }
     }
@@ -160,7 +161,8 @@ impl<'s> Composer<'s> {
             Style::Wireframe => {
                 let edges = &object.asset.mesh().edges()[..object.asset.mesh().face_edge_count()];
                 counts.of(Effect::Edges).bytes += size_of_val(edges) as u64;
-                draws.extend(self.segments(object, (0, edges), self.settings.edge_color));
+                let paint = WirePaint::of_color(self.settings.edge_color);
+                draws.extend(self.segments(object, EdgeRange { first: 0, edges }, (paint, None)));
             }
         }
         if self.shows_edges() {
@@ -170,12 +172,7 @@ impl<'s> Composer<'s> {
             let sides = size_of_val(self.sides(object, marks)) as u64;
             counts.of(Effect::Edges).bytes += sides + (marks.edges.len() + marks.faces.len()) as u64;
         }
-        let (mesh, color) = (object.asset.mesh(), self.material(object, 0).base_color.truncate());
-        let loose = mesh.loose_edges();
-        // Counting the edges of faces means to find them all.
-        let first = if loose.is_empty() { 0 } else { mesh.face_edge_count() };
-        draws.extend(self.segments(object, (first, loose), color));
-        draws.extend(self.points(object, color));
+        self.loose(object, draws);
         draws.extend(self.vertices(object));
     }
 
@@ -339,43 +336,81 @@ impl<'s> Composer<'s> {
         })
     }
 
-    fn wire(&self, object: &Object<'s>, color: Vec3, marks: WireMarks) -> Wire<'s> {
-        Wire { positions: object.asset.mesh().positions(), place: object.place, color, marks }
+    fn wire(&self, object: &Object<'s>, paint: WirePaint, marks: WireMarks) -> Wire<'s> {
+        let positions = object.asset.mesh().positions();
+        Wire { positions, place: object.place, paint, colors: None, marks }
     }
 
-    /// Lines along edges of a mesh, starting with the given one.
+    /// Loose edges and points, in the material of the first slot.
+    fn loose<'c>(&'c self, object: &Object<'s>, draws: &mut Vec<Box<dyn Record + 'c>>) {
+        let mesh = object.asset.mesh();
+        let (edges, points) = (mesh.loose_edges(), mesh.loose_points());
+        if edges.is_empty() && points.is_empty() {
+            return;
+        }
+        let mut paint = WirePaint::of(self.material(object, 0));
+        if self.purpose == Purpose::Shapes && paint.alpha_mode() == AlphaMode::Blend {
+            if !self.settings.outputs.of_blended {
+                return;
+            }
+            paint = paint.masked();
+        }
+        // Counting the edges of faces means to find them all.
+        let first = if edges.is_empty() { 0 } else { mesh.face_edge_count() };
+        let colors = mesh.attributes().vertex_colors.as_deref();
+        draws.extend(self.segments(object, EdgeRange { first, edges }, (paint, colors)));
+        draws.extend(self.points(object, paint));
+    }
+
+    /// Lines along edges of a mesh, in the colours of its vertices if there are any.
     fn segments<'c>(
         &'c self,
         object: &Object<'s>,
-        (first, segments): (usize, &'s [[u32; 2]]),
-        color: Vec3,
+        EdgeRange { first, edges: segments }: EdgeRange<'s>,
+        (paint, colors): (WirePaint, Option<&'s [Vec4]>),
     ) -> Option<Box<dyn Record + 'c>> {
         let edges = &self.settings.marks.edges;
         let mut numbers = marks::numbers(edges, object.id);
         numbers.drain(..first.min(numbers.len()));
         let marks = WireMarks { numbers: Arc::new(numbers), colors: marks::colors(edges) };
-        let (pipeline, geometry) = (self.wire(object, color, marks), object.geometry);
-        let (object, width) = (object.index, self.settings.line_width);
-        let no_face = vec![u32::MAX; segments.len()];
-        (!segments.is_empty()).then(|| {
-            Box::new(Segments { pipeline, geometry, segments, no_face, object, width }) as Box<dyn Record>
+        let (wire, geometry) = (self.wire(object, paint, marks), object.geometry);
+        let (object, width, blend_mode) =
+            (object.index, self.settings.line_width, blend_mode_of(paint.alpha_mode()));
+        (!segments.is_empty()).then(|| match colors {
+            Some(colors) => {
+                let pipeline = ColoredLines { wire, colors };
+                Box::new(Segments { pipeline, geometry, segments, object, width, blend_mode }) as _
+            }
+            None => Box::new(Segments { pipeline: wire, geometry, segments, object, width, blend_mode }) as _,
         })
     }
 
-    fn points<'c>(&'c self, object: &Object<'s>, color: Vec3) -> Option<Box<dyn Record + 'c>> {
-        let points = object.asset.mesh().loose_points();
+    fn points<'c>(&'c self, object: &Object<'s>, paint: WirePaint) -> Option<Box<dyn Record + 'c>> {
+        let mesh = object.asset.mesh();
+        let points = mesh.loose_points();
+        let colors = mesh.attributes().vertex_colors.as_deref();
+        let colors = colors.map(|of_vertices| PointColors { of_vertices, points });
         let dots = || Dots {
-            pipeline: self.wire(object, color, WireMarks::default()),
+            pipeline: Wire { colors, ..self.wire(object, paint, WireMarks::default()) },
             geometry: object.geometry,
-            points: Arc::new(points.to_vec()),
-            no_face: Arc::new(vec![u32::MAX; points.len()]),
+            points: PointList::Loose(points),
             object: object.index,
-            size: self.settings.line_width * POINT_TO_LINE,
+            size: self.point_size(),
             marked: None,
-            blend_mode: trigon_raster::BlendMode::Opaque,
+            blend_mode: blend_mode_of(paint.alpha_mode()),
             depth_bias: 0.0,
         };
         (!points.is_empty()).then(|| Box::new(dots()) as Box<dyn Record>)
+    }
+
+    /// The size of loose points.
+    fn point_size(&self) -> f32 {
+        let count = || {
+            let shown = self.scene.nodes().iter().filter(|(id, _)| self.shapes.get(id.index()).is_some());
+            let assets = shown.filter_map(|(_, node)| self.scene.meshes().get(node.mesh?));
+            assets.map(|asset| asset.mesh().loose_points().len() as u64).sum()
+        };
+        *self.point_size.get_or_init(|| self.settings.size_of_points(count()))
     }
 
     /// The vertices of faces, edges and points. They write neither depth nor ids, so that what lies
@@ -387,13 +422,12 @@ impl<'s> Composer<'s> {
         if list.points.is_empty() {
             return None;
         }
-        let VertexList { points, numbers, marked, no_face } = list;
+        let VertexList { points, numbers, marked } = list;
         let marks = WireMarks { numbers, colors: marks::colors(listed) };
         Some(Box::new(Dots {
-            pipeline: self.wire(object, shown.color, marks),
+            pipeline: self.wire(object, WirePaint::of_color(shown.color), marks),
             geometry: object.geometry,
-            no_face,
-            points,
+            points: PointList::Listed(points),
             object: object.index,
             size: shown.size,
             marked: Some((marked, shown.marked_size)),
@@ -401,6 +435,13 @@ impl<'s> Composer<'s> {
             depth_bias: VERTEX_DEPTH_BIAS,
         }))
     }
+}
+
+/// Some edges of a mesh.
+struct EdgeRange<'s> {
+    /// The number of the first.
+    first: usize,
+    edges: &'s [[u32; 2]],
 }
 
 /// How the rasterizer treats an alpha mode.

@@ -8,7 +8,7 @@ use trigon_raster::{
     BlendMode, Culling, Draw, EdgeFlags, LanePipeline, Lines, MarkedPoints, Marks, Pass, Points,
 };
 
-use super::wire::Wire;
+use super::wire::{AnyWire, Wire};
 use crate::geometry::Geometry;
 use crate::placement::Placement;
 
@@ -42,7 +42,7 @@ pub(super) enum Marked<'s> {
 #[derive(Clone, Copy)]
 pub(super) struct WireNumbers<'s> {
     pub(super) numbers: &'s Arc<Vec<u8>>,
-    /// The vertices that the points are; `None` of lines.
+    /// The vertices that the points are, if that may change while the mesh stays as it is.
     pub(super) points: Option<&'s Arc<Vec<u32>>>,
     /// The points that are larger.
     pub(super) large: Option<&'s Arc<FixedBitSet>>,
@@ -99,33 +99,48 @@ impl<P: LanePipeline> Record for Triangles<'_, P> {
 }
 
 /// Edges and loose lines of one mesh. They belong to no face.
-pub(super) struct Segments<'s> {
-    pub(super) pipeline: Wire<'s>,
+pub(super) struct Segments<'s, P> {
+    pub(super) pipeline: P,
     pub(super) geometry: &'s Geometry,
     pub(super) segments: &'s [[u32; 2]],
-    pub(super) no_face: Vec<u32>,
     pub(super) object: u32,
     pub(super) width: f32,
+    pub(super) blend_mode: BlendMode,
 }
 
-impl Record for Segments<'_> {
+impl<'s, P: AnyWire<'s>> Record for Segments<'s, P> {
     fn record<'a>(&'a self, pass: &mut Pass<'a>) {
-        let lines = Lines::new(&self.pipeline, self.segments);
-        pass.lines(Lines { ids: Some(&self.no_face), object: self.object, width: self.width, ..lines });
+        pass.lines(Lines {
+            common_id: Some(NO_FACE),
+            object: self.object,
+            width: self.width,
+            blend_mode: self.blend_mode,
+            ..Lines::new(&self.pipeline, self.segments)
+        });
     }
 
     fn source(&self) -> Source<'_> {
-        let wires = WireNumbers { numbers: &self.pipeline.marks.numbers, points: None, large: None };
-        self.pipeline.source(self.geometry, wires)
+        let wire = self.pipeline.wire();
+        let wires = WireNumbers { numbers: &wire.marks.numbers, points: None, large: None };
+        wire.source(self.geometry, wires)
     }
+}
+
+/// The id of lines and points.
+const NO_FACE: u32 = u32::MAX;
+
+/// The vertices that points show.
+pub(super) enum PointList<'s> {
+    /// All loose points of a mesh.
+    Loose(&'s [u32]),
+    Listed(Arc<Vec<u32>>),
 }
 
 /// Vertices of one mesh as points. They belong to no face.
 pub(super) struct Dots<'s> {
     pub(super) pipeline: Wire<'s>,
     pub(super) geometry: &'s Geometry,
-    pub(super) points: Arc<Vec<u32>>,
-    pub(super) no_face: Arc<Vec<u32>>,
+    pub(super) points: PointList<'s>,
     pub(super) object: u32,
     pub(super) size: f32,
     /// Those of another size.
@@ -138,20 +153,28 @@ pub(super) struct Dots<'s> {
 impl Record for Dots<'_> {
     fn record<'a>(&'a self, pass: &mut Pass<'a>) {
         let marked = self.marked.as_ref().map(|(set, size)| MarkedPoints { set, size: *size });
+        let points = match &self.points {
+            PointList::Loose(points) => points,
+            PointList::Listed(points) => points.as_slice(),
+        };
         pass.points(Points {
-            ids: Some(&self.no_face),
+            common_id: Some(NO_FACE),
             object: self.object,
             marked,
             blend_mode: self.blend_mode,
             depth_bias: self.depth_bias,
-            ..Points::new(&self.pipeline, &self.points, self.size)
+            ..Points::new(&self.pipeline, points, self.size)
         });
     }
 
     fn source(&self) -> Source<'_> {
         let large = self.marked.as_ref().map(|(set, _)| set);
         let numbers = &self.pipeline.marks.numbers;
-        self.pipeline.source(self.geometry, WireNumbers { numbers, points: Some(&self.points), large })
+        let points = match &self.points {
+            PointList::Loose(_) => None,
+            PointList::Listed(points) => Some(points),
+        };
+        self.pipeline.source(self.geometry, WireNumbers { numbers, points, large })
     }
 }
 

@@ -1,6 +1,7 @@
 //! Edges on surfaces: black on white, unlit, before white.
 
 mod marks;
+mod wires;
 
 use trigon_camera::{Camera, Projection};
 use trigon_math::{DVec3, Vec3, Vec4};

@@ -23,8 +23,6 @@ pub(super) struct VertexList {
     pub(super) numbers: Arc<Vec<u8>>,
     /// The points that have a mark.
     pub(super) marked: Arc<FixedBitSet>,
-    /// Whether each point belongs to no face.
-    pub(super) no_face: Arc<Vec<u32>>,
 }
 
 impl VertexList {
@@ -51,8 +49,7 @@ impl VertexList {
         };
         let words = numbers.chunks(usize::BITS as usize).map(word);
         let marked = FixedBitSet::with_capacity_and_blocks(numbers.len(), words);
-        let no_face = Arc::new(vec![u32::MAX; points.len()]);
-        Self { points: Arc::new(points), numbers: Arc::new(numbers), marked: Arc::new(marked), no_face }
+        Self { points: Arc::new(points), numbers: Arc::new(numbers), marked: Arc::new(marked) }
     }
 }
 

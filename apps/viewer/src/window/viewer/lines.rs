@@ -231,7 +231,7 @@ fn take_settings(now: &mut RenderSettings, before: &RenderSettings, after: &Rend
         shadows, ambient_occlusion, environment, metal_reflection, bounces, fog, exposure, tone_mapping, outline
     } but);
     take_all!(now, before, after; RenderSettings {
-        samples_per_axis, samples, background, style, display, line_width, edge_color, edge_opacity, x_ray, marks,
+        samples_per_axis, samples, background, style, display, line_width, point_size, edge_color, edge_opacity, x_ray, marks,
         vertices, lighting, light_intensity, shading, reflection, threads, simd
     } but width, height, effects, outputs);
 }

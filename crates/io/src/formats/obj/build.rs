@@ -1,7 +1,6 @@
 //! Builds nodes from the parsed lists: one for each object or group of the file.
 
 use std::collections::HashMap;
-use std::ops::Range;
 
 use trigon_math::{DVec3, Vec2, Vec3, Vec4, color::srgb_to_linear};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder};
@@ -137,11 +136,13 @@ impl Cutter<'_> {
         for &vertex in &draft.used {
             local[vertex as usize] = NOT_YET;
         }
-        let Draft { builder, sources, face_slots, face_groups, mut materials, mut bare, lines, .. } = draft;
+        let Draft { builder, sources, face_slots, face_groups, mut materials, mut bare, lines, used, .. } =
+            draft;
         let mut mesh = builder.build();
         passed.note_covered(lines, &mesh);
         self.go_on(passed)?;
         let mut attributes = self.attributes(&sources, face_slots, &face_groups, materials.len());
+        attributes.vertex_colors = self.wire_colors(&mesh, &used);
         self.go_on(passed)?;
         if has_several_groups(&face_groups) {
             let given = attributes.corner_normals.take();
@@ -186,7 +187,7 @@ impl Cutter<'_> {
                 continue;
             }
             if arity < 3 {
-                passed.note_wire(slot, span.material, self.has_color(corners.clone()));
+                passed.note_wire(slot, span.material);
             } else {
                 let coordinate = self.content.coordinate_indices.get(corners.start);
                 draft.bare[slot as usize] |= coordinate.is_none_or(|&index| index == NONE);
@@ -194,13 +195,6 @@ impl Cutter<'_> {
             draft.push(corners.start, slot, span.smoothing, passed);
         }
         Ok(())
-    }
-
-    /// Whether a vertex of these corners has a colour other than white.
-    fn has_color(&self, corners: Range<usize>) -> bool {
-        let Content { colors, position_indices, .. } = self.content;
-        let is_colored = |&vertex: &u32| colors[vertex as usize].to_array().iter().any(|&value| value < 1.0);
-        !colors.is_empty() && position_indices[corners].iter().any(is_colored)
     }
 
     /// The part's own index of a vertex; `None` when it has no finite place.
@@ -265,17 +259,22 @@ impl Cutter<'_> {
     }
 
     fn colors(&self, sources: &[u32]) -> Option<Vec<Vec4>> {
-        let Content { colors, position_indices, .. } = self.content;
-        if colors.is_empty() {
-            return None;
-        }
+        let color = |&corner: &u32| self.color(self.content.position_indices[corner as usize]);
+        (!self.content.colors.is_empty()).then(|| sources.iter().map(color).collect())
+    }
+
+    /// The colours of a part's vertices, if it has lines or points that show them. `used` are the file's vertices.
+    fn wire_colors(&self, mesh: &Mesh, used: &[u32]) -> Option<Vec<Vec4>> {
+        let has_wires = !mesh.loose_points().is_empty() || !mesh.loose_edges().is_empty();
+        let has_colors = has_wires && !self.content.colors.is_empty();
+        has_colors.then(|| used.iter().map(|&vertex| self.color(vertex)).collect())
+    }
+
+    /// The colour of a vertex of the file.
+    fn color(&self, vertex: u32) -> Vec4 {
         let channel = |value: f32| if value.is_nan() { 1.0 } else { srgb_to_linear(value) };
-        let color = |&corner: &u32| {
-            let [red, green, blue] =
-                colors[position_indices[corner as usize] as usize].to_array().map(channel);
-            Vec4::new(red, green, blue, 1.0)
-        };
-        Some(sources.iter().map(color).collect())
+        let [red, green, blue] = self.content.colors[vertex as usize].to_array().map(channel);
+        Vec4::new(red, green, blue, 1.0)
     }
 }
 

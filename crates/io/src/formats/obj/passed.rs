@@ -17,21 +17,17 @@ pub(super) struct Passed {
     plain: usize,
     /// The material of the first of those.
     plain_material: Option<u32>,
-    /// Edges and points whose vertices have colours.
-    colored: usize,
     /// Lines on edges of faces.
     covered: usize,
 }
 
 impl Passed {
-    /// Notes an edge or a point: it is drawn in the first material of its part,
-    /// without colours of vertices.
-    pub(super) fn note_wire(&mut self, slot: u32, material: Option<u32>, is_colored: bool) {
+    /// Notes an edge or a point: it is drawn in the first material of its part.
+    pub(super) fn note_wire(&mut self, slot: u32, material: Option<u32>) {
         if slot != 0 {
             self.plain += 1;
             self.plain_material = self.plain_material.or(material);
         }
-        self.colored += usize::from(is_colored);
     }
 
     /// Notes which lines of a mesh are edges of its faces, too: those are not loose.
@@ -62,12 +58,6 @@ impl Passed {
             self.plain_material.map(|material| parsed.record.material_lines[material as usize]),
             "a line or a point has another material than what its group starts with, whose colour it gets",
             "start a group for each material, with g",
-        );
-        warn(
-            self.colored,
-            parsed.wire_line,
-            "lines and points are drawn without the colours of their vertices",
-            "give them a material of that colour",
         );
         warn(
             self.covered,

@@ -75,6 +75,7 @@ fn with_everything(mut mesh: Mesh) -> Mesh {
         corner_tangents: Some(vec![Vec4::new(1.0, 0.0, 0.0, -1.0); corners]),
         uv_sets: vec![uv(0.3), uv(-1.7)],
         corner_colors: Some((0..corners).map(|corner| Vec4::new(number(corner), 0.5, 1.0, 0.25)).collect()),
+        vertex_colors: Some((0..vertices).map(|vertex| Vec4::new(0.25, number(vertex), 1.0, 0.5)).collect()),
         face_materials: Some((0..mesh.face_count() as u32).map(|face| face % 3).collect()),
         face_smooth: Some((0..mesh.face_count()).map(|face| face % 2 == 0).collect()),
         skin: SkinWeights::new(3, (0..vertices * 3).map(|index| (index % 5) as u16).collect(), weights),

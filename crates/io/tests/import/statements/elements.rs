@@ -1,7 +1,7 @@
 //! Points, lines and faces, and their indices.
 
 use trigon_io::Loaded;
-use trigon_math::Vec2;
+use trigon_math::{Vec2, Vec4};
 use trigon_mesh::Mesh;
 
 use super::row::Case::{File, Lines};
@@ -149,10 +149,12 @@ fn wires() -> Vec<Row> {
         read(
             "p or l, with vertices that have colours",
             File("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\nf 1 2 3\nv 2 2 0 1 0 0\n> p 1 2\n> l 2 4"),
-            "in the material's colour",
-            |loaded| mesh(loaded).loose_edges().len() == 1,
-        )
-        .says("a.obj, line 6: lines and points are drawn without the colours of their vertices … and 2 more; give them a material of that colour"),
+            "in these colours",
+            |loaded| {
+                let colors = mesh(loaded).attributes().vertex_colors.as_deref().unwrap_or_default();
+                mesh(loaded).loose_edges().len() == 1 && colors == [Vec4::new(1.0, 0.0, 0.0, 1.0); 4]
+            },
+        ),
         left("p or l, with a vertex that is not finite", Lines("v nan 0 0\np 5\nl 1 5"), "nobody knows where it is").says(
             "a.obj, line 8: a face, a line or a point has a vertex that is not finite and is left out … and 1 more; export the model again",
         ),

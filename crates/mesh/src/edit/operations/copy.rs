@@ -1,12 +1,10 @@
 //! Extracting part of a mesh as a separate mesh, and adding a whole mesh to another: the basis of
 //! duplicating, separating and joining.
 
-use trigon_math::Vec4;
-
 use super::super::column::Column;
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::layers::{Layer, LayerKind, LayerValues};
+use super::super::layers::{Layer, LayerValues};
 use super::tables::{IndexSet, IndexTable};
 
 /// Copies of elements, in the order of the originals' ids.
@@ -213,14 +211,6 @@ impl Layer {
             LayerValues::Influences(_) => LayerValues::Influences(Column::new(Vec::new())),
         };
         Self { kind: self.kind, values }
-    }
-
-    /// Gives an element the default value: white for colours, otherwise zero.
-    fn set_usual(&mut self, index: u32) {
-        self.clear(index);
-        if let (LayerKind::Color, LayerValues::Vec4(column)) = (self.kind, &mut self.values) {
-            *column.write(index) = Vec4::ONE;
-        }
     }
 
     /// Gives an element the value from another layer of the same kind.

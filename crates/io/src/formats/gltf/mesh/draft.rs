@@ -1,6 +1,7 @@
 //! The mesh under construction: parts welded into one.
 
 use std::collections::HashMap;
+use std::hash::Hash;
 use std::mem::take;
 use std::ops::Range;
 
@@ -23,6 +24,8 @@ pub(super) struct Draft {
     /// The vertices by position and movement.
     welded: VertexTable,
     movements: Movements,
+    /// The colours of the vertices, of a mesh in which lines or points have any.
+    vertex_colors: Option<Vec<Vec4>>,
     attributes: Attributes,
     /// Once there are several materials.
     face_materials: Vec<u32>,
@@ -44,7 +47,7 @@ impl Draft {
         let attributes = Attributes {
             corner_normals: any(|part| part.normals.is_some()).then(|| Vec::with_capacity(3 * faces)),
             corner_tangents: any(|part| part.tangents.is_some()).then(|| Vec::with_capacity(3 * faces)),
-            corner_colors: any(|part| part.colors.is_some()).then(|| Vec::with_capacity(3 * faces)),
+            corner_colors: any(Part::has_colored_faces).then(|| Vec::with_capacity(3 * faces)),
             uv_sets: (0..sets).map(|_| Vec::with_capacity(3 * faces)).collect(),
             ..Attributes::default()
         };
@@ -52,6 +55,7 @@ impl Draft {
             builder: MeshBuilder::with_capacity(vertices, faces, 3 * faces),
             welded: VertexTable::with_capacity(vertices),
             movements: Movements::new(parts, target_names),
+            vertex_colors: any(|part| part.wire_colors().is_some()).then(|| Vec::with_capacity(vertices)),
             attributes,
             face_materials: Vec::new(),
             materials: Vec::new(),
@@ -144,11 +148,22 @@ impl Draft {
 
     /// The vertices at the positions of a part; [`NOWHERE`] where one is not finite.
     fn weld(&mut self, part: &Part) -> Vec<u32> {
+        if self.vertex_colors.is_some() {
+            self.weld_by::<ColoredKey>(part)
+        } else {
+            self.weld_by::<Key>(part)
+        }
+    }
+
+    fn weld_by<K: VertexKey>(&mut self, part: &Part) -> Vec<u32> {
         let mut vertices = Vec::with_capacity(part.positions.len());
         let (mut keys, mut hashes) = (Vec::new(), Vec::new());
         for positions in part.positions.chunks(AT_ONCE) {
             let first = vertices.len();
-            let key = |(vertex, &position)| Key::new(position, self.movements.way(part, vertex));
+            let key = |(vertex, &position)| {
+                let way = self.movements.way(part, vertex);
+                K::new(Key::new(position, way), || wire_color(part, vertex))
+            };
             keys.clear();
             keys.extend((first..).zip(positions).map(key));
             self.welded.hash_all(keys.iter(), &mut hashes);
@@ -161,13 +176,19 @@ impl Draft {
     }
 
     /// The vertex of a vertex of a part.
-    fn vertex(&mut self, part: &Part, vertex: usize, key: Key, hash: u64) -> u32 {
+    fn vertex<K: VertexKey>(&mut self, part: &Part, vertex: usize, key: K, hash: u64) -> u32 {
         let (places, ways) = (self.builder.positions(), &self.movements.of_vertices);
-        let known =
-            |vertex: u32| Key::new(places[vertex as usize], ways.get(vertex as usize).copied().unwrap_or(0));
+        let colors = self.vertex_colors.as_deref().unwrap_or_default();
+        let known = |vertex: u32| {
+            let way = ways.get(vertex as usize).copied().unwrap_or(0);
+            K::new(Key::new(places[vertex as usize], way), || colors[vertex as usize])
+        };
         self.welded.number(&key, hash, known).unwrap_or_else(|new| {
             self.builder.push_vertex(part.positions[vertex]);
-            self.movements.push_vertex(part, vertex, (new, key.way));
+            self.movements.push_vertex(part, vertex, (new, key.way()));
+            if let Some(colors) = &mut self.vertex_colors {
+                colors.push(wire_color(part, vertex));
+            }
             new
         })
     }
@@ -198,13 +219,23 @@ impl Draft {
         if self.materials.len() > 1 {
             self.attributes.face_materials = Some(self.face_materials);
         }
+        self.attributes.vertex_colors = self.vertex_colors;
         (self.attributes.skin, self.attributes.morph_targets) = self.movements.finish();
         mesh.set_attributes(self.attributes).expect("one value per accepted vertex, corner and face");
         BuiltMesh { mesh, materials: self.materials, primitives: Vec::new(), marks: None }
     }
 }
 
-/// What tells vertices apart.
+/// What tells the vertices of a mesh apart.
+trait VertexKey: Copy + Eq + Hash {
+    /// `color` is that of its vertex.
+    fn new(key: Key, color: impl FnOnce() -> Vec4) -> Self;
+
+    /// The number of its movement.
+    fn way(&self) -> u32;
+}
+
+/// What tells vertices apart where lines and points have no colours.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Key {
     position: [u32; 3],
@@ -216,6 +247,39 @@ impl Key {
     fn new(position: Vec3, way: u32) -> Self {
         Self { position: position.to_array().map(bits), way }
     }
+}
+
+impl VertexKey for Key {
+    fn new(key: Key, _: impl FnOnce() -> Vec4) -> Self {
+        key
+    }
+
+    fn way(&self) -> u32 {
+        self.way
+    }
+}
+
+/// What tells vertices apart where they do: three axes that begin at one place keep their colours.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct ColoredKey {
+    key: Key,
+    color: [u32; 4],
+}
+
+impl VertexKey for ColoredKey {
+    fn new(key: Key, color: impl FnOnce() -> Vec4) -> Self {
+        Self { key, color: color().to_array().map(bits) }
+    }
+
+    fn way(&self) -> u32 {
+        self.key.way
+    }
+}
+
+/// The colour that lines or points of a part show at a vertex: white without one, and of faces, which have theirs at
+/// corners.
+fn wire_color(part: &Part, vertex: usize) -> Vec4 {
+    part.wire_colors().map_or(Vec4::ONE, |colors| sound_color(colors[vertex].into()))
 }
 
 /// Stands for a vertex that has no place.

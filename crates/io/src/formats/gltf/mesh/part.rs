@@ -32,6 +32,17 @@ pub(super) struct Part {
 }
 
 impl Part {
+    /// The colours of vertices of lines and points.
+    pub(super) fn wire_colors(&self) -> Option<&[[f32; 4]]> {
+        let Elements { edges, points, .. } = &self.elements;
+        self.colors.as_deref().filter(|_| !edges.is_empty() || !points.is_empty())
+    }
+
+    /// Whether it has triangles whose vertices have colours.
+    pub(super) fn has_colored_faces(&self) -> bool {
+        self.colors.is_some() && !self.elements.triangles.is_empty()
+    }
+
     /// The UV set for which a material needs tangents, if the file has none.
     pub(super) fn lacks_tangents_of(&self) -> Option<u32> {
         self.needs.tangents_of.filter(|_| self.tangents.is_none())

@@ -99,6 +99,9 @@ pub(in crate::formats::gltf) fn columns_of_mesh(
     if let Some(colors) = &attributes.corner_colors {
         writer.floats("cornerColors", colors.iter().map(|color| color.to_array()));
     }
+    if let Some(colors) = &attributes.vertex_colors {
+        writer.floats("vertexColors", colors.iter().map(|color| color.to_array()));
+    }
     for (set, uvs) in attributes.uv_sets.iter().enumerate() {
         writer.floats(format!("uv{set}"), uvs.iter().map(|uv| uv.to_array()));
     }
@@ -267,6 +270,10 @@ fn read_attributes(reader: &mut ColumnReader<'_>, header: &Header) -> Result<Att
     if let Some(bytes) = reader.optional("cornerColors") {
         let colors = floats::<4>("cornerColors", bytes)?;
         attributes.corner_colors = Some(colors.into_iter().map(Vec4::from_array).collect());
+    }
+    if let Some(bytes) = reader.optional("vertexColors") {
+        let colors = floats::<4>("vertexColors", bytes)?;
+        attributes.vertex_colors = Some(colors.into_iter().map(Vec4::from_array).collect());
     }
     while let Some(bytes) = reader.optional(&format!("uv{}", attributes.uv_sets.len())) {
         let uvs = floats::<2>("uv", bytes)?;

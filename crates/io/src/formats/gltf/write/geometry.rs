@@ -137,7 +137,7 @@ fn write_targets(
     all
 }
 
-/// Lines or points: they have no face attributes, but move with the others.
+/// Lines or points: they have no face attributes, but the colours of their vertices, and move with the others.
 fn write_loose(draft: &mut Draft<'_>, mesh: &Mesh, mode: u32, vertices: &[u32]) -> Part {
     let mut used = vertices.to_vec();
     used.sort_unstable();
@@ -148,6 +148,10 @@ fn write_loose(draft: &mut Draft<'_>, mesh: &Mesh, mode: u32, vertices: &[u32]) 
     let mut attributes = BTreeMap::new();
     let target = Some(Target::Vertices);
     attributes.insert("POSITION".to_owned(), draft.floats(&positions, target, Bounded::Yes));
+    if let Some(colors) = &mesh.attributes().vertex_colors {
+        let colors: Vec<[f32; 4]> = used.iter().map(|&vertex| clamped(colors[vertex as usize])).collect();
+        attributes.insert("COLOR_0".to_owned(), draft.floats(&colors, target, Bounded::No));
+    }
     if let Some(skin) = &mesh.attributes().skin {
         write_skin(draft, skin, used.iter().map(|&vertex| vertex as usize), &mut attributes);
     }

@@ -289,7 +289,7 @@ fn is_held(name: &str, mesh: &Mesh) -> bool {
     let below = |count: usize| number.parse::<usize>().is_ok_and(|number| number < count);
     match kind {
         "TEXCOORD" => below(attributes.uv_sets.len()),
-        "COLOR" => below(usize::from(attributes.corner_colors.is_some())),
+        "COLOR" => below(usize::from(attributes.has_colors())),
         "JOINTS" | "WEIGHTS" => {
             below(attributes.skin.as_ref().map_or(0, |skin| skin.per_vertex().div_ceil(4)))
         }

@@ -106,14 +106,23 @@ impl Elements {
         self.vertices += object.mesh.vertex_count();
     }
 
-    /// The colour of each vertex: that of its first corner.
+    /// The colour of each vertex: that of its first corner, or without one that of lines and points.
     fn colors(&mut self, object: &Object<'_>) -> Option<Vec<Vec4>> {
-        let of_corners = object.mesh.attributes().corner_colors.as_ref()?;
-        let mut colors: Vec<Option<Vec4>> = vec![None; object.mesh.vertex_count()];
-        for &corner in &object.corners {
-            let color = of_corners[corner as usize];
-            let first = *colors[object.vertex(corner) as usize].get_or_insert(color);
+        let (mesh, attributes) = (object.mesh, object.mesh.attributes());
+        if !attributes.has_colors() {
+            return None;
+        }
+        let mut colors: Vec<Option<Vec4>> = vec![None; mesh.vertex_count()];
+        let mut set = |vertex: u32, color: Vec4| {
+            let first = *colors[vertex as usize].get_or_insert(color);
             self.has_varying_colors |= first != color;
+        };
+        if let Some(of_corners) = &attributes.corner_colors {
+            object.corners.iter().for_each(|&corner| set(object.vertex(corner), of_corners[corner as usize]));
+        }
+        if let Some(of_vertices) = &attributes.vertex_colors {
+            let wires = mesh.loose_edges().as_flattened().iter().chain(mesh.loose_points());
+            wires.for_each(|&vertex| set(vertex, of_vertices[vertex as usize]));
         }
         Some(colors.into_iter().map(|color| color.unwrap_or(Vec4::ONE)).collect())
     }
