@@ -70,7 +70,7 @@ impl Jump {
     /// The time after a jump from another one; a frame is a part of a second.
     pub(crate) fn from(self, now: f64, scene: &Scene, chosen: &[usize], frame_rate: f64) -> f64 {
         let (duration, keyframes) = (duration(scene, chosen), keyframes(scene, chosen));
-        let last_frame = (duration * frame_rate).floor() as i64;
+        let last_frame = last_frame(duration, frame_rate) as i64;
         match self {
             Self::Time(to) => to,
             Self::TimeBy(by) => now + by,
@@ -79,6 +79,8 @@ impl Jump {
             Self::FrameBy(by) => now + by as f64 / frame_rate,
             Self::Keyframe(to) => keyframe(&keyframes, to).unwrap_or(now),
             Self::KeyframeBy(by) => {
+                // A frame's time may lie before its keyframe by what f32 rounds.
+                let now = f64::from(now as f32);
                 let here = keyframes.partition_point(|&time| time <= now) as i64 - 1;
                 keyframe(&keyframes, here + by).unwrap_or(now)
             }
@@ -112,6 +114,24 @@ pub(crate) fn chosen(scene: &Scene, clips: &[Clip]) -> Result<Vec<usize>, Failur
 pub(crate) fn duration(scene: &Scene, chosen: &[usize]) -> f64 {
     let ends = chosen.iter().filter_map(|&index| scene.animations.get(index)).map(Animation::duration);
     ends.fold(0.0, |longest, end| if end > longest { end } else { longest })
+}
+
+/// The number of the last frame that begins within so many seconds. The last keyframe is a number of f32: a
+/// frame that would begin there but for that rounding does.
+pub(crate) fn last_frame(seconds: f64, rate: f64) -> f64 {
+    let (before, nearest) = ((seconds * rate).floor(), (seconds * rate).round());
+    if is_at_frame(nearest, seconds, rate) { nearest } else { before }
+}
+
+/// A time, or that of the frame that has it but for what f32 rounds: frames counted from there, also
+/// backwards, are frames counted from 0.
+pub(crate) fn on_frame(seconds: f64, rate: f64) -> f64 {
+    let nearest = (seconds * rate).round();
+    if is_at_frame(nearest, seconds, rate) { nearest / rate } else { seconds }
+}
+
+fn is_at_frame(frame: f64, seconds: f64, rate: f64) -> bool {
+    (frame / rate) as f32 == seconds as f32
 }
 
 /// Puts nodes where animations have them at a time, one after the other.
@@ -194,6 +214,30 @@ mod tests {
             (&[Jump::Time(2.0), Jump::KeyframeBy(-1)], 0.0),
         ] {
             assert!((moment(jumps).time(&scene, &[0]) - expected).abs() < 1e-12, "{jumps:?}");
+        }
+    }
+
+    /// From a frame's time, which f32 rounds up in its keyframe, the next keyframe was the same one again.
+    #[test]
+    fn keyframes_follow_each_other_also_from_the_time_of_a_frame() {
+        let mut scene = Scene::new();
+        let node = scene.add(Node::default());
+        let times: Vec<f32> = (0..25).map(|key| (f64::from(key) / 24.0) as f32).collect();
+        let curve = Curve::new(Interpolation::Step, 3, times.clone(), vec![0.0; 75]).expect("a curve");
+        let channels = vec![Channel { node, property: Property::Translation, curve }];
+        scene.animations.push(Animation { name: String::new(), channels });
+        for frame in 0..24 {
+            let jumps = [Jump::Frame(frame), Jump::KeyframeBy(1)];
+            let moment = Moment { frame_rate: 24.0, ..moment(&jumps) };
+            assert_eq!(
+                moment.time(&scene, &[0]),
+                f64::from(times[frame as usize + 1]),
+                "after frame {frame}"
+            );
+        }
+        for keys in [24, 25] {
+            let end = f64::from((f64::from(keys - 1) / 30.0) as f32);
+            assert_eq!(last_frame(end, 30.0), f64::from(keys - 1), "frames at 30 per second until {end} s");
         }
     }
 

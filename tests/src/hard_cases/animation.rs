@@ -67,6 +67,8 @@ impl Keys {
     /// The keyframe at or before a time, the share of the way to the next, and the seconds between both; just the
     /// keyframe where none is on one of both sides.
     fn place(&self, time: f64) -> (usize, Option<[f64; 2]>) {
+        // Steps are at the numbers that keyframes are.
+        let time = if self.interpolation == Interpolation::Step { f64::from(time as f32) } else { time };
         let times: Vec<f64> = self.times.iter().map(|&time| f64::from(time)).collect();
         let last = times.len() - 1;
         if time < times[0] {
@@ -199,6 +201,31 @@ proptest! {
             let bound = 32.0 * f64::EPSILON * terms;
             let [low, high] = [exact - bound, exact + bound].map(|value| value as f32);
             prop_assert!((low..=high).contains(&found), "{found} at {time}, not {exact}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(8))]
+
+    /// Steps with a keyframe at every frame k, at k / fps rounded to f32 as exporters write it, are sampled at k / fps in
+    /// f64: frame k shows keyframe k, at every whole rate and also hours later; right before a keyframe the one before it
+    /// is shown. With times compared as they are 9 of 25 frames at 24 per second were late by one.
+    #[test]
+    fn every_frame_at_the_rate_of_its_steps_shows_its_own_keyframe(first in prop_oneof![Just(0_u32), 0..1_u32 << 20]) {
+        const KEYS: u32 = 60;
+        for fps in 1..=240_u32 {
+            let time = |key: u32| f64::from(first + key) / f64::from(fps);
+            let times: Vec<f32> = (0..KEYS).map(|key| time(key) as f32).collect();
+            let values = (0..KEYS).map(|key| key as f32).collect();
+            let curve = Curve::new(Interpolation::Step, 1, times.clone(), values).expect("times are apart");
+            for key in 0..KEYS {
+                let found = posed(Property::MorphWeights, curve.clone(), time(key)).morph_weights.expect("animated");
+                prop_assert_eq!(found[0], key as f32, "frame {} at {} per second", first + key, fps);
+                let before = f64::from(times[key as usize].next_down());
+                let shown = posed(Property::MorphWeights, curve.clone(), before).morph_weights.expect("animated");
+                prop_assert_eq!(shown[0], key.saturating_sub(1) as f32, "before frame {}", first + key);
+            }
         }
     }
 }

@@ -94,7 +94,8 @@ impl Curve {
     }
 
     /// The vector at a time in seconds. Before the first keyframe, and for NaN, it is the first
-    /// one's; after the last, the last one's.
+    /// one's; after the last, the last one's. With [`Interpolation::Step`] the time is rounded to f32
+    /// as keyframes are, so that a keyframe written for the time k / 24 is reached at k / 24 in f64.
     #[must_use]
     pub fn at(&self, time: f64) -> Vec<f64> {
         let place = self.locate(time);
@@ -131,6 +132,10 @@ impl Curve {
     }
 
     fn locate(&self, time: f64) -> Place {
+        // Keyframes are numbers of f32. The time k / fps in f64 lies before its own keyframe, wherever f32
+        // rounds that up: a step would show the value before. Rounded to f32, both are the same number.
+        // Between other keyframes nothing jumps, and the time stays as precise as it is.
+        let time = if self.interpolation == Interpolation::Step { f64::from(time as f32) } else { time };
         // The number of keyframes at or before the time.
         let passed = self.times.partition_point(|&key| f64::from(key) <= time);
         if passed == 0 || passed == self.times.len() {
