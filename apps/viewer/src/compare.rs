@@ -52,9 +52,10 @@ fn compared(
     let mut model = loading::load_aloud(&source, request, reporter)?;
     let mut changed = loading::load_aloud(&Source::Files(vec![other.to_owned()]), request, reporter)?;
     let shot = model.shot_with(&changed.scene, &request.framing, request.settings.aspect())?;
-    let camera = camera_for(&shot.camera, &changed.scene);
+    let mut camera = shot.camera;
     for scene in [&mut model.scene, &mut changed.scene] {
         request.scenery.add_to(scene);
+        camera = request.framing.with_room_for(&camera, scene);
     }
     let [one, two] = draw_both([&model.scene, &changed.scene], &camera, &request.settings)?;
     let difference = difference(&one, &two);
@@ -89,15 +90,6 @@ pub(crate) fn said(difference: &ImageDifference) -> String {
         "the error is {:.6}; {} pixels differ, by up to {} of 255",
         difference.error, difference.different_pixels, difference.largest
     )
-}
-
-/// A camera that is fitted to one model, with planes that cut nothing of another one.
-pub(crate) fn camera_for(camera: &Camera, other: &Scene) -> Camera {
-    let (fitted, wider) = (camera.projection, camera.with_clip_planes(&other.bounds()).projection);
-    let near = fitted.near().min(wider.near());
-    let far = fitted.far().zip(wider.far()).map(|(one, other)| one.max(other));
-    let projection = fitted.with_planes(near, far).unwrap_or(fitted);
-    camera.with_projection(projection)
 }
 
 /// How far apart two images of one size are.

@@ -213,6 +213,8 @@ pub(crate) struct ImageFacts<'a> {
 #[derive(Serialize)]
 pub(crate) struct DrawingFacts {
     pub(crate) camera: CameraFacts,
+    /// What is to be added to the output of positions, if it was asked for.
+    pub(crate) positions_origin: Option<[f64; 3]>,
     pub(crate) draw_seconds: f64,
     pub(crate) pixels_shaded: u64,
     /// How far the image is from that of `--reference`.

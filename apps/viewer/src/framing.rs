@@ -91,6 +91,23 @@ pub(crate) struct Shot {
     pub(crate) distance: f64,
 }
 
+impl Shot {
+    /// What positions are relative to: the world's origin; or, where that is so far away that f32 would round
+    /// positions visibly, a point near what the camera looks at.
+    pub(crate) fn positions_origin(&self) -> DVec3 {
+        /// As many heights of the image away from the origin, f32 rounds by 1/16 of a pixel where an image has
+        /// a thousand rows.
+        const FAR: f64 = 1024.0;
+        let target = self.camera.position + self.camera.forward() * self.distance;
+        let height = self.camera.projection.height_at(self.distance);
+        // The power of two up to it: a multiple is a number that is exact and short.
+        let step = f64::from_bits(height.to_bits() & f64::INFINITY.to_bits());
+        let origin = (target / step).round() * step;
+        let is_far = target.abs().max_element() > FAR * height;
+        if is_far && origin.is_finite() { origin } else { DVec3::ZERO }
+    }
+}
+
 impl Framing {
     /// The camera for a scene.
     pub(crate) fn shot(&self, scene: &Scene, aspect: f64) -> Result<Shot, Failure> {
@@ -108,6 +125,15 @@ impl Framing {
         };
         let shot = self.scripted(shot);
         Ok(Shot { camera: shot.camera.with_clip_planes(&bounds), ..shot })
+    }
+
+    /// A camera of these flags, with planes that cut nothing of a scene that shows more than the one it was placed
+    /// for. One that is given exactly stays as it is.
+    pub(crate) fn with_room_for(&self, camera: &Camera, scene: &Scene) -> Camera {
+        match self.eye {
+            Eye::Exact(_) => *camera,
+            _ => camera.with_room_for(&scene.bounds()),
+        }
     }
 
     /// Whether the distance follows from the size of the model.
@@ -421,6 +447,40 @@ mod tests {
         // What F3D's configuration has for STL files.
         let expected = DVec3::new(-1.0, 1.0, -0.5).normalize();
         assert!(camera.forward().distance(expected) < 1e-9, "{}", camera.forward());
+    }
+
+    #[test]
+    fn positions_of_what_is_far_away_are_relative_to_a_point_there() {
+        let seen_from = |direction| shot(&Framing { eye: Eye::Direction(direction), ..default() });
+        let near = Shot {
+            camera: Camera::look_at(DVec3::new(0.0, 0.0, 9.0), DVec3::new(0.0, 0.0, 2.0), DVec3::Y),
+            distance: 7.0,
+        };
+        assert_eq!(near.positions_origin(), DVec3::ZERO, "f32 is precise enough in the world");
+        let center = DVec3::new(1e6, 5.0, -3.0);
+        let origins = [DVec3::NEG_Z, DVec3::new(-1.0, -0.5, -1.0), DVec3::X]
+            .map(|direction| seen_from(direction).positions_origin());
+        for origin in origins {
+            assert!(
+                origin.distance(center) < 20.0 && origin == origin.round(),
+                "{origin}: whole metres there"
+            );
+        }
+    }
+
+    /// The box is 4 m to each side of 10⁶ m; what is added 2 m before the eye of a camera made for it alone.
+    #[test]
+    fn a_camera_gets_room_for_what_is_shown_besides_unless_it_is_exact() {
+        let framing = Framing { eye: Eye::Direction(DVec3::NEG_Z), ..default() };
+        let camera = shot(&framing).camera;
+        let mut more = scene();
+        let added = more.add_object("added", primitives::cube(0.5), Material::default());
+        more.node_mut(added).expect("just added").transform =
+            Transform::from_translation(camera.position + DVec3::NEG_Z * 2.0);
+        let wider = framing.with_room_for(&camera, &more);
+        assert!(camera.projection.near() > 2.0 && wider.projection.near() < 1.75, "{wider:?}");
+        let exact = Framing { eye: Eye::Exact(ExactCamera { camera, distance: 9.0 }), ..default() };
+        assert_eq!(exact.with_room_for(&camera, &more), camera, "it is given");
     }
 
     #[test]

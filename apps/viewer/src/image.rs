@@ -12,6 +12,7 @@ use crate::args::{Destination, Limit, Mode, Reference, Request, Subject, Templat
 use crate::axes;
 use crate::facts::{CameraFacts, DrawingFacts, ImageFacts, ModelFacts, names};
 use crate::failure::Failure;
+use crate::framing::Shot;
 use crate::lettering::Lettering;
 use crate::lists::json_line;
 use crate::loading;
@@ -56,15 +57,16 @@ pub(crate) fn draw_source(
             None
         }
         _ => {
-            let camera = model.shot(&request.framing, request.settings.aspect())?.camera;
-            request.scenery.add_to(&mut model.scene);
-            let drawn = draw(&model, &camera, request, reporter)?;
+            let shot = model.shot_with_scenery(request)?;
+            let camera = shot.camera;
+            let drawn = draw(&model, &shot, request, reporter)?;
             if let Some(path) = capture {
                 keep(&model, camera, &drawn, path, reporter)?;
             }
             let frame = finished(drawn.frame, &model, &camera, request)?;
             Some(DrawingFacts {
                 camera: CameraFacts::new(&camera, viewport(&request.settings)),
+                positions_origin: frame.positions.as_ref().map(|_| frame.origin.to_array()),
                 draw_seconds: drawn.seconds,
                 pixels_shaded: drawn.pixels_shaded,
                 error: deliver(source, &frame, request, outlet, reporter)?,
@@ -191,6 +193,8 @@ fn draw_series(model: &mut Model, request: &Request, outlet: &mut Outlet<'_>) ->
     let subject = |frame| Subject { model: subject.image_subject(), frame };
     let mut draw = |number| -> Result<Frame, Failure> {
         let camera = series.set(&mut model.scene, number);
+        // A pose may come nearer than the first one, and lines beside the model may, too.
+        let camera = request.framing.with_room_for(&camera, &model.scene);
         let frame = renderer.render(&model.scene, &camera).map_err(Failure::work)?;
         finished(frame, model, &camera, request)
     };
@@ -234,9 +238,10 @@ pub(crate) fn finished(
 }
 
 /// An image, and the settings that it was drawn with.
-fn draw(model: &Model, camera: &Camera, request: &Request, reporter: Reporter) -> Result<Drawn, Failure> {
-    let started = Instant::now();
+fn draw(model: &Model, shot: &Shot, request: &Request, reporter: Reporter) -> Result<Drawn, Failure> {
+    let (started, camera) = (Instant::now(), &shot.camera);
     let mut renderer = Renderer::new(request.settings.clone());
+    renderer.settings_mut().outputs.origin = shot.positions_origin();
     let frame = match &request.limit {
         None => renderer.render(&model.scene, camera).map_err(Failure::work)?,
         Some(limit) => draw_within(limit, model, camera, (&mut renderer, reporter))?,

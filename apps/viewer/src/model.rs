@@ -99,6 +99,15 @@ impl Model {
         self.composed(framing).shot(&both, aspect)
     }
 
+    /// The same with what is shown beside the model added to it, and room for that in front of the camera.
+    pub(crate) fn shot_with_scenery(&mut self, request: &Request) -> Result<Shot, Failure> {
+        let shot = self.shot(&request.framing, request.settings.aspect())?;
+        if request.scenery.add_to(&mut self.scene).is_empty() {
+            return Ok(shot);
+        }
+        Ok(Shot { camera: request.framing.with_room_for(&shot.camera, &self.scene), ..shot })
+    }
+
     /// Views once around it.
     pub(crate) fn turntable(
         &self,

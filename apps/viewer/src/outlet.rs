@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use trigon_io::{
     Pixels, Sequence, WriteError, encode_png, write_apng, write_exr, write_gif, write_jpeg, write_npy,
-    write_png, write_png16, write_webp,
+    write_origin_npy, write_png, write_png16, write_webp,
 };
 use trigon_scene::Frame;
 
@@ -49,12 +49,21 @@ impl<'a> Outlet<'a> {
                 self.save(&path, frame, write_file)?;
                 // OpenEXR has them in it.
                 let beside = if template.is_exr() { &[] } else { self.beside };
-                beside.iter().try_for_each(|beside| {
-                    self.save(&beside.path(&path), frame, |path, frame| write_beside(*beside, path, frame))
-                })?;
+                beside.iter().try_for_each(|beside| self.put_beside(*beside, &path, frame))?;
                 Ok(Some(path))
             }
         }
+    }
+
+    /// Writes one output to a file of its own, next to the image's.
+    fn put_beside(&mut self, beside: Beside, image: &Path, frame: &Frame) -> Result<(), Failure> {
+        self.save(&beside.path(image), frame, |path, frame| write_beside(beside, path, frame))?;
+        let Some(path) = beside.origin_path(image) else { return Ok(()) };
+        self.take(&path)?;
+        write_origin_npy(&path, frame).map_err(|error| unwritten(&path, error))?;
+        let [x, y, z] = frame.origin.to_array();
+        self.said(&path, format_args!("add it to the positions: {x}, {y}, {z}"));
+        Ok(())
     }
 
     /// Writes a file and says so. Models of the same name in different folders must

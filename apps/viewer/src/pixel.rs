@@ -19,8 +19,7 @@ pub(crate) fn run(request: &Request, at: [u32; 2], reporter: Reporter) -> u8 {
     let mut unwritten = 0;
     let code = Source::visit_all(request, reporter, |source, request| {
         let mut model = loading::load_aloud(source, request, reporter)?;
-        let camera = model.shot(&request.framing, request.settings.aspect())?.camera;
-        request.scenery.add_to(&mut model.scene);
+        let camera = model.shot_with_scenery(request)?.camera;
         let mut renderer = Renderer::new(request.settings.clone());
         let explained = explained(&mut renderer, &model.scene, &camera, at)?;
         let written = if request.json {

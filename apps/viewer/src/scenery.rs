@@ -117,17 +117,15 @@ impl Grid {
         let flat = Bounds3::from_points(corners);
         let unit = self.unit.unwrap_or_else(|| suitable_unit(flat.size()));
         let height = if self.absolute { 0.0 } else { flat.min.z };
-        let step = unit / f64::from(self.subdivisions);
-        let origin = turned * DVec3::new(0.0, 0.0, height);
-        let [x, y] = [0, 1].map(|axis| {
-            // A square more than the model on either side.
-            let from = (flat.min[axis] / unit).floor() - 1.0;
-            let to = (flat.max[axis] / unit).ceil() + 1.0;
-            let parts = f64::from(self.subdivisions);
-            (from * parts, to * parts)
-        });
-        let mesh = grid_lines([x, y].map(|(from, to)| (from, to.min(from + MOST_LINES))), step, &turned);
-        add_lines(scene, Scenery::GRID, mesh, origin, self.color)
+        let parts = f64::from(self.subdivisions);
+        // A square more than the model on either side.
+        let starts = [0, 1].map(|axis| (flat.min[axis] / unit).floor() - 1.0);
+        let ends = [0, 1].map(|axis| (flat.max[axis] / unit).ceil() + 1.0);
+        let counts = [0, 1].map(|axis| ((ends[axis] - starts[axis]) * parts).min(MOST_LINES));
+        // Vertices are f32: of a model far from the origin they are counted from a corner of the grid.
+        let corner = DVec3::new(starts[0] * unit, starts[1] * unit, height);
+        let mesh = grid_lines(counts, unit / parts, &turned);
+        add_lines(scene, Scenery::GRID, mesh, turned * corner, self.color)
     }
 }
 
@@ -147,22 +145,18 @@ fn suitable_unit(size: DVec3) -> f64 {
     unit
 }
 
-/// Lines along two axes of a plane, at whole numbers of steps.
-fn grid_lines(ranges: [(f64, f64); 2], step: f64, turned: &DMat3) -> Mesh {
+/// Lines along two axes of a plane, at whole numbers of steps from 0 to these.
+fn grid_lines([right, far]: [f64; 2], step: f64, turned: &DMat3) -> Mesh {
     let mut builder = MeshBuilder::new();
     let mut line = |from: [f64; 2], to: [f64; 2]| {
-        let ends = [from, to].map(|[x, y]| (*turned * (DVec3::new(x, y, 0.0) * step)).as_vec3());
-        let [from, to] = ends.map(|end| builder.push_vertex(end));
-        builder.push_loose_edge(from, to).expect("its ends are two vertices");
+        let ends = [from, to].map(|[x, y]| *turned * (DVec3::new(x, y, 0.0) * step));
+        push_line(&mut builder, ends[0], ends[1]);
     };
-    let [(left, right), (near, far)] = ranges;
-    for x in 0..=(right - left) as u32 {
-        let x = left + f64::from(x);
-        line([x, near], [x, far]);
+    for x in (0..=right as u32).map(f64::from) {
+        line([x, 0.0], [x, far]);
     }
-    for y in 0..=(far - near) as u32 {
-        let y = near + f64::from(y);
-        line([left, y], [right, y]);
+    for y in (0..=far as u32).map(f64::from) {
+        line([0.0, y], [right, y]);
     }
     builder.build()
 }
@@ -276,6 +270,40 @@ mod tests {
             // Positions are f32, of numbers up to 120.
             assert!(bounds.min.abs_diff_eq(expected.0, 1e-4), "{grid:?}: {bounds:?}");
             assert!(bounds.max.abs_diff_eq(expected.1, 1e-4), "{grid:?}: {bounds:?}");
+        }
+    }
+
+    /// A model of 5 m, 10⁶ and 10⁷ m from the origin: lines are where whole numbers of units are. In f32 from the
+    /// origin they were up to half a metre off, and several fell together.
+    #[test]
+    fn the_lines_of_a_grid_far_away_are_at_whole_units() {
+        for (far, up) in [1e6, -1e7].into_iter().flat_map(|far| [DVec3::Y, DVec3::Z].map(|up| (far, up))) {
+            let mut scene = Scene::new();
+            let node = scene.add_object("cube", primitives::cube(5.0), Material::default());
+            scene.node_mut(node).expect("just added").transform =
+                Transform::from_translation(DVec3::splat(far));
+            let grid = Grid { subdivisions: 4, up, ..grid() };
+            let id = Scenery { grid, shows_grid: true, ..Scenery::default() }.add_to(&mut scene)[0];
+            let place = scene.world_transform(id).translation;
+            let mesh = scene.node(id).and_then(|node| node.mesh).expect("it has a mesh");
+            let mesh = scene.meshes().get(mesh).expect("it is there").mesh();
+            // Between lines there is a quarter of a metre: (8 squares · 4 + 1) lines each way, and ends on whole metres.
+            assert_eq!(mesh.edge_count(), 2 * 33, "the model's squares and one on each side");
+            let mut places: Vec<[i64; 3]> = Vec::new();
+            for position in mesh.positions() {
+                let quarters = (place + position.as_dvec3()) * 4.0;
+                let across = if up == DVec3::Y { quarters.y } else { quarters.z };
+                assert!((across - (far - 2.5) * 4.0).abs() < 1e-6, "below the model: {across}");
+                let nearest = quarters.round();
+                // Turned by a quaternion in f64, which rounds each of two terms of 10⁷ m once or twice.
+                let off = (quarters - nearest).abs().max_element();
+                assert!(off < 4.0 * 8.0 * f64::EPSILON * 1e7, "{off} quarters off");
+                places.push(nearest.to_array().map(|quarter| quarter as i64));
+            }
+            places.sort_unstable();
+            places.dedup();
+            // Each line has ends of its own, but for the four corners.
+            assert_eq!(places.len(), 4 * 33 - 4, "no two lines fall together");
         }
     }
 

@@ -30,9 +30,14 @@ const LARGEST_COORDINATE: f64 = 1e150;
 /// The eye keeps at least this fraction of the radius away from the box.
 const CLEARANCE: f64 = 0.05;
 
-/// The near plane is never closer than this fraction of the farthest distance. Reversed depth would
-/// allow less; this keeps depths comparable between frames.
-const NEAREST: f64 = 1e-5;
+/// An eye within the box has its near plane at this fraction of the farthest distance, 2⁻⁹⁰ or
+/// 8·10⁻²⁸: right before itself. Reversed depth keeps its relative precision at any distance, so a near
+/// plane costs nothing for being near; depths only have to stay normal numbers of f32. They do up to
+/// 2³⁶ times as far as the box.
+const NEAREST: f64 = 1.0 / (1_u128 << 90) as f64;
+
+/// The least near plane, in metres, 2⁻⁸⁰: the rasterizer draws nothing that is nearer to the eye.
+const LEAST_NEAR: f64 = 1.0 / (1_u128 << 80) as f64;
 
 /// Planes keep this fraction of the depth range away from the box.
 const SLACK: f64 = 0.01;
@@ -150,8 +155,9 @@ impl Camera {
     }
 
     /// The same camera with its near and far planes just around these bounds, so that nothing in
-    /// front of the eye is cut. An infinite far plane stays infinite. The near plane of a
-    /// perspective is at least 10⁻⁵ of the distance to the farthest point.
+    /// front of the eye is cut. An infinite far plane stays infinite. In a perspective the near plane
+    /// of an eye within the bounds, or beside them, is right before it: at 2⁻⁹⁰ of the distance to the
+    /// farthest point, and at least at 2⁻⁸⁰ m.
     #[must_use]
     pub fn with_clip_planes(&self, bounds: &Bounds3) -> Self {
         let extent = Extent::new(bounds);
@@ -162,11 +168,28 @@ impl Camera {
         } else {
             // If everything is behind the eye, any planes will do.
             let far = if farthest > 0.0 { farthest + slack } else { extent.radius };
-            let near = larger(nearest - slack, far * NEAREST);
+            let near = larger(nearest - slack, near_of_an_eye_within(far));
             self.projection.with_planes(near, self.projection.far().map(|_| far))
         };
         Self { projection: planes.unwrap_or(self.projection), ..*self }
     }
+
+    /// The same camera with its near and far planes moved away from each other where they would cut
+    /// something of these bounds in front of the eye: the bounds of what a fitted camera shows besides.
+    #[must_use]
+    pub fn with_room_for(&self, bounds: &Bounds3) -> Self {
+        let (own, wider) = (self.projection, self.with_clip_planes(bounds).projection);
+        let near = if wider.near() < own.near() { wider.near() } else { own.near() };
+        let far = own.far().zip(wider.far()).map(|(own, wider)| larger(own, wider));
+        self.with_projection(own.with_planes(near, far).unwrap_or(own))
+    }
+}
+
+/// The near plane of an eye within a box whose farthest point is at this distance.
+fn near_of_an_eye_within(far: f64) -> f64 {
+    let near = larger(far * NEAREST, LEAST_NEAR);
+    // Of a box too small to be drawn.
+    if near < far { near } else { far * 0.5 }
 }
 
 /// The view parameters of a camera that is yet to be placed.

@@ -60,6 +60,26 @@ impl Projector {
         Some(self.viewport.to_screen(ndc))
     }
 
+    /// The screen positions of the ends of a line from one point to another, of the part of it that lies at
+    /// least `nearest` in front of the eye, along the line of sight; `None` where no part does. An end
+    /// right in front of the eye is far outside the image.
+    #[must_use]
+    pub fn line_to_screen(&self, ends: [DVec3; 2], nearest: f64) -> Option<[DVec2; 2]> {
+        let [from, to] = ends.map(|end| self.to_camera(end));
+        let [start, end] = [from, to].map(|point| -point.z - nearest);
+        let line = match (start >= 0.0, end >= 0.0) {
+            (true, true) => [from, to],
+            (false, false) => return None,
+            (is_start_seen, _) => {
+                // At this distance exactly: what rounding leaves of it may lie behind the eye.
+                let cut = DVec3 { z: -nearest, ..from + (to - from) * (start / (start - end)) };
+                if is_start_seen { [from, cut] } else { [cut, to] }
+            }
+        };
+        let [from, to] = line.map(|point| self.map.project(point).map(|ndc| self.viewport.to_screen(ndc)));
+        Some([from?, to?])
+    }
+
     /// The point's depth.
     #[must_use]
     pub fn to_depth(&self, point: DVec3) -> Option<f64> {

@@ -85,7 +85,8 @@ pub use lossy::{encode_jpeg, encode_webp, write_jpeg, write_webp};
 pub use native_document::{NativeDocument, NativeFile};
 pub use options::{LoadOptions, LoadStage, Progress, ProgressHook, SceneChoice};
 pub use outputs::{
-    Output, UnknownOutput, encode_exr, encode_npy, encode_png16, write_exr, write_npy, write_png16,
+    Output, UnknownOutput, encode_exr, encode_npy, encode_png16, write_exr, write_npy, write_origin_npy,
+    write_png16,
 };
 pub use png::{Pixels, encode_png, write_png};
 pub use rgba_image::{RgbaImage, load_image};

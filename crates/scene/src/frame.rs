@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use trigon_math::{Vec2, Vec3, Vec4};
+use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 use trigon_raster::TargetError;
 
 use crate::arena::Arena;
@@ -49,6 +49,8 @@ pub struct Frame {
     /// [`Outputs::origin`](crate::Outputs::origin); computed in f64 and rounded once. All 0 where
     /// no face was drawn.
     pub positions: Option<Vec<Vec3>>,
+    /// [`Outputs::origin`](crate::Outputs::origin), to which positions are added for those in the world.
+    pub origin: DVec3,
     /// Shading normals, unit vectors in world space: interpolated, perturbed by the material's
     /// normal map, and flipped for back faces. All 0 where no face was drawn.
     pub normals: Option<Vec<Vec3>>,
@@ -113,7 +115,7 @@ impl Frame {
     /// Allocates the requested outputs, reusing existing memory.
     pub(crate) fn make_room(&mut self, settings: &RenderSettings) -> Result<(), TargetError> {
         let RenderSettings { width, height, outputs, .. } = *settings;
-        (self.width, self.height) = (width, height);
+        (self.width, self.height, self.origin) = (width, height, outputs.origin);
         let pixels = width as usize * height as usize;
         let full = TargetError::Memory { width, height };
         let bytes = if outputs.color { 4 * pixels } else { 0 };

@@ -7,6 +7,11 @@ use trigon_math::DVec2;
 /// the f32 of shapes.
 #[must_use]
 pub fn clip_line(from: DVec2, to: DVec2, size: DVec2) -> Option<(DVec2, DVec2)> {
+    // From the end that is nearer to the canvas: where a line begins right in front of an eye, the other is 10³⁰
+    // pixels away, and nothing is left of places counted from there.
+    if from.abs().max_element() > to.abs().max_element() {
+        return clip_line(to, from, size).map(|(to, from)| (from, to));
+    }
     let way = to - from;
     let (mut enter, mut leave) = (0.0, 1.0);
     for axis in 0..2 {
@@ -39,6 +44,12 @@ mod tests {
         );
         assert_eq!(clip_line(DVec2::new(-1.0, 5.0), DVec2::new(-1.0, 8.0), size), None, "left of it");
         assert_eq!(clip_line(DVec2::new(-5.0, 2.0), DVec2::new(2.0, -5.0), size), None, "past its corner");
+        for [from, to] in [[-1e30, 7.0], [7.0, -1e30]] {
+            let line =
+                clip_line(DVec2::new(from, 5.0), DVec2::new(to, 5.0), size).expect("it ends in the canvas");
+            let expected = [from, to].map(|x| DVec2::new(x.max(0.0), 5.0));
+            assert_eq!([line.0, line.1], expected, "from {from} to {to}");
+        }
         let inside = (DVec2::new(1.0, 2.0), DVec2::new(3.0, 4.0));
         assert_eq!(clip_line(inside.0, inside.1, size), Some(inside), "as it is");
     }

@@ -34,7 +34,7 @@ proptest! {
     #[test]
     fn from_within_a_closed_mesh_nothing_of_the_background_is_seen(
         eye in vector(), sight in vector(), up in prop_oneof![Just(None), vector().prop_map(Some), Just(Some(DVec3::ZERO))],
-        angle in field_of_view(), round in any::<bool>(),
+        angle in field_of_view(), round in any::<bool>(), automatic in any::<bool>(),
     ) {
         let mut scene = Scene::new();
         let mesh = if round { primitives::uv_sphere(2.0, 24, 12) } else { primitives::cube(2.4) };
@@ -43,6 +43,7 @@ proptest! {
         // long as it gains depth.
         let projection = Projection::perspective(angle, 1e-4, None).expect("in range");
         let camera = Camera::look_at(eye, eye + sight, up.unwrap_or(sight)).with_projection(projection);
+        let camera = if automatic { camera.with_clip_planes(&scene.bounds()) } else { camera };
         let frame = render(&scene, &camera, &settings(SIZE)).expect("in range");
         check_numbers(&frame);
         let hidden = frame.object_ids.expect("asked for").iter().filter(|&&id| id == 0).count();

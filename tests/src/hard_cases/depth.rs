@@ -5,8 +5,8 @@ use crate::coverage_support::{SIDE, Values, clip_position, draw, pixel};
 use crate::effort::cases;
 use num_traits::Signed;
 use proptest::prelude::*;
-use trigon_camera::Projection;
-use trigon_math::{DVec3, Vec4, elementary};
+use trigon_camera::{Camera, Projection};
+use trigon_math::{Bounds3, DVec3, Vec4, elementary};
 use trigon_raster::{Culling, Draw, Pass, TargetImages};
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::area::rational;
@@ -111,6 +111,31 @@ fn perspective(near: f64, far: Option<f64>) -> Projection {
     Projection::perspective(1.0, near, far).expect("in range")
 }
 
+/// Where the near and far planes are.
+#[derive(Clone, Copy, Debug)]
+enum Planes {
+    /// As they are given.
+    Given,
+    /// As the engine sets them around a scene that reaches as far, also behind the eye.
+    Automatic,
+}
+
+fn planes() -> impl Strategy<Value = Planes> {
+    prop_oneof![Just(Planes::Given), Just(Planes::Automatic)]
+}
+
+impl Planes {
+    fn of(self, projection: Projection, reach: f64) -> Projection {
+        let around = Bounds3 { min: DVec3::splat(-reach), max: DVec3::splat(reach) };
+        match self {
+            Self::Given => projection,
+            Self::Automatic => {
+                Camera::default().with_projection(projection).with_clip_planes(&around).projection
+            }
+        }
+    }
+}
+
 /// A number from one to another, any magnitude as likely.
 fn magnitude(low: f64, high: f64) -> impl Strategy<Value = f64> {
     let [low, high] = [low, high].map(elementary::ln);
@@ -127,13 +152,14 @@ proptest! {
         chosen in proptest::sample::subsequence((0..50_u32).collect::<Vec<_>>(), 2..9),
         turn in any::<prop::sample::Index>(),
         far in prop_oneof![Just(Some(100.0)), Just(None)],
+        planes in planes(),
     ) {
         let nearest = chosen[0];
         let mut order = chosen;
         let turn = turn.index(order.len());
         order.rotate_left(turn);
         let distances: Vec<f64> = order.iter().map(|&i| 10.0 + 1e-5 * f64::from(i)).collect();
-        let (seen, _) = walls(&perspective(0.1, far), &distances);
+        let (seen, _) = walls(&planes.of(perspective(0.1, far), 100.0), &distances);
         prop_assert_eq!(order[seen as usize], nearest, "of {:?}", order);
     }
 
@@ -146,22 +172,26 @@ proptest! {
         distance in magnitude(1.1e-3, 9e5),
         infinite in any::<bool>(),
         swapped in any::<bool>(),
+        planes in planes(),
     ) {
-        let projection = perspective(1e-3, (!infinite).then_some(1e6));
+        let projection = planes.of(perspective(1e-3, (!infinite).then_some(1e6)), 1e6);
         let further = distance * (1.0 + elementary::exp2(-20.0));
         let order = if swapped { [further, distance] } else { [distance, further] };
         let (seen, depth) = walls(&projection, &order);
         prop_assert_eq!(seen, u32::from(swapped), "at {}", distance);
-        let exact = 1e-3 / distance * if infinite { 1.0 } else { (1e6 - distance) / (1e6 - 1e-3) };
-        let bound = 1e-3 / distance * elementary::exp2(-22.0);
+        let near = projection.near();
+        let exact = near / distance * projection.far().map_or(1.0, |far| (far - distance) / (far - near));
+        let bound = near / distance * elementary::exp2(-22.0);
         prop_assert!((f64::from(depth) - exact).abs() <= bound, "{depth} instead of {exact}");
     }
 
     /// Hard case 27: with the far plane at infinity nothing is too far.
     #[test]
-    fn an_infinite_far_plane_keeps_what_is_far(distance in magnitude(1e6, 1e28), swapped in any::<bool>()) {
+    fn an_infinite_far_plane_keeps_what_is_far(
+        distance in magnitude(1e6, 1e28), swapped in any::<bool>(), planes in planes(),
+    ) {
         let order = if swapped { [distance * 1.01, distance] } else { [distance, distance * 1.01] };
-        let (seen, depth) = walls(&perspective(0.01, None), &order);
+        let (seen, depth) = walls(&planes.of(perspective(0.01, None), 2.0 * distance), &order);
         prop_assert_eq!(seen, u32::from(swapped), "the nearer one");
         prop_assert!(depth > 0.0, "before infinity, {depth}");
     }
@@ -198,6 +228,7 @@ proptest! {
     fn depth_is_monotone_in_distance(
         nearest in proptest::collection::vec(magnitude(0.1, 9e5), SIDE as usize),
         far in prop_oneof![Just(Some(1e6)), Just(None)],
+        planes in planes(),
     ) {
         // From each on the next numbers that f32 has.
         let row = |first: &f64| {
@@ -205,7 +236,7 @@ proptest! {
             (0..SIDE as u32).map(move |step| f64::from(f32::from_bits(bits + step)))
         };
         let distances: Vec<f64> = nearest.iter().flat_map(row).collect();
-        let matrix = perspective(0.1, far).matrix(1.0);
+        let matrix = planes.of(perspective(0.1, far), 1e6).matrix(1.0);
         let vertices = distances.iter().enumerate().flat_map(|(index, &distance)| {
             let [x, y] = pixel(index).map(|v| 256 * v);
             let clip = matrix * (DVec3::Z * -distance).extend(1.0);

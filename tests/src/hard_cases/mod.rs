@@ -5,6 +5,7 @@ mod against_rays;
 mod animation;
 mod blending;
 mod camera;
+mod clip_planes;
 mod coverage;
 mod depth;
 mod edits;

@@ -209,6 +209,39 @@ mod tests {
         }
     }
 
+    /// Ten million metres from the origin: lines are whole numbers of gaps, which are decimal fractions or whole metres,
+    /// and are drawn where a projection of differences of whole numbers has them.
+    #[test]
+    fn lines_far_away_are_where_whole_numbers_have_them() {
+        for far in [1_000_000_i64, 10_000_000] {
+            let target = DVec3::new(far as f64, 0.0, -far as f64);
+            let eye = target + DVec3::new(0.0, 3.0, 4.0);
+            let camera = Camera::look_at(eye, target, DVec3::Y);
+            let view = OverlayView::new(&camera, Viewport { width: 800, height: 600 }, 1.0);
+            let grid = Grid::of(&view).expect("the floor is seen");
+            assert!((grid.gap - 0.1).abs() < 1e-12, "{} m", grid.gap);
+            assert_eq!(grid.middle, [10 * far, -10 * far], "around the target");
+            let per_metre = 300.0 / elementary::tan(15f64.to_radians());
+            let mut checked = 0;
+            for (line, ..) in grid.lines() {
+                for end in line {
+                    // Tenths of metres from the target, and the distance along the line of sight (0, −3, −4) / 5.
+                    let [x, z] = [end.x - target.x, end.z - target.z].map(|at| (at * 10.0).round() / 10.0);
+                    let distance = (3.0 * 3.0 + 4.0 * (4.0 - z)) / 5.0;
+                    let up = (-3.0 * 4.0 + 3.0 * (4.0 - z)) / 5.0;
+                    let Some(at) = view.point(end).filter(|_| distance > 1.0) else { continue };
+                    let expected =
+                        DVec2::new(400.0 + x * per_metre / distance, 300.0 - up * per_metre / distance);
+                    let off = view.physical(at).distance(expected);
+                    // f64 at 10⁷ m is 2⁻²⁹ m apart, and f32 at 10³ pixels 2⁻¹⁴ pixels.
+                    assert!(off < 1e-3 * (1.0 + expected.length() / 1e3), "{end} is {off} pixels off");
+                    checked += 1;
+                }
+            }
+            assert!(checked > 100, "{checked} ends are in front of the eye");
+        }
+    }
+
     #[test]
     fn the_axes_are_there_and_in_their_colours() {
         let grid = Grid { gap: 1.0, middle: [3, 0], share: 0.5 };

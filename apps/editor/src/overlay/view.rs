@@ -49,24 +49,9 @@ impl OverlayView {
 
     /// The visible part of a line in the world; `None` where there is none.
     pub(crate) fn line(&self, from: DVec3, to: DVec3) -> Option<[Pos2; 2]> {
-        let [from, to] = self.before_eye(from, to)?;
-        let ends = self.projector.to_screen(from).zip(self.projector.to_screen(to))?;
+        let [from, to] = self.projector.line_to_screen([from, to], self.nearest())?;
         let size = self.projector.viewport().size();
-        clip_line(ends.0, ends.1, size).map(|(from, to)| [self.logical(from), self.logical(to)])
-    }
-
-    /// The part of a line that lies before the eye.
-    fn before_eye(&self, from: DVec3, to: DVec3) -> Option<[DVec3; 2]> {
-        let near = self.nearest();
-        let [start, end] = [from, to].map(|point| self.distance(point) - near);
-        match (start >= 0.0, end >= 0.0) {
-            (true, true) => Some([from, to]),
-            (false, false) => None,
-            (is_start_seen, _) => {
-                let cut = from + (to - from) * (start / (start - end));
-                Some(if is_start_seen { [from, cut] } else { [cut, to] })
-            }
-        }
+        clip_line(from, to, size).map(|(from, to)| [self.logical(from), self.logical(to)])
     }
 
     /// The distance in front of the eye at which lines are clipped, in metres: much nearer than the near

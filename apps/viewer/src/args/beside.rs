@@ -32,6 +32,13 @@ impl Beside {
         self.format.unwrap_or(Format::Npy)
     }
 
+    /// The name of the file with what positions are relative to, as a NumPy array has no place for it:
+    /// `chair.positions-origin.npy`. Other outputs have none.
+    pub(crate) fn origin_path(self, image: &Path) -> Option<PathBuf> {
+        (self.output == Output::Positions)
+            .then(|| image.with_extension(format!("{}-origin.npy", self.output)))
+    }
+
     /// The name of its file, next to the image's: `chair.png` and `chair.depth.npy`.
     pub(crate) fn path(self, image: &Path) -> PathBuf {
         let ending = match self.format() {

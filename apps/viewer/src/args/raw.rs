@@ -102,7 +102,9 @@ pub(crate) struct RawArgs {
     /// object-ids, face-ids, material-ids, triangle-ids, barycentrics, positions, normals, geometric-normals,
     /// uvs and albedo. With --output chair.exr they are channels of that file. With --output chair.png each
     /// becomes a NumPy array next to it: depth goes to chair.depth.npy. Depth, ids and normals can be 16-bit
-    /// PNG files instead: depth.png goes to chair.depth.png, in millimetres.
+    /// PNG files instead: depth.png goes to chair.depth.png, in millimetres. Positions are relative to what
+    /// chair.positions-origin.npy holds, the attribute P.origin of an OpenEXR file and positions_origin of
+    /// --json: zero, but for models far away from the origin.
     #[arg(
         long,
         value_name = "NAME,...",

@@ -150,7 +150,7 @@ fn bounds_without_size_have_a_camera() {
 fn planes_follow_a_camera_inside_the_bounds() {
     let bounds = Bounds3 { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) };
     let inside = Camera::look_at(DVec3::ZERO, DVec3::X, DVec3::Y).with_clip_planes(&bounds);
-    assert!(inside.projection.near() < 1e-4, "near plane at {}", inside.projection.near());
+    assert!(inside.projection.near() < 1e-20, "near plane at {}", inside.projection.near());
     let away = Camera::look_at(DVec3::X * 5.0, DVec3::X * 6.0, DVec3::Y).with_clip_planes(&bounds);
     assert!(away.projection.near() > 0.0, "a camera that looks away keeps a near plane");
 }
@@ -180,16 +180,56 @@ fn planes_keep_a_hundredth_of_the_bounds_away_from_them() {
         }
     }
     let inside = camera.with_projection(perspective).with_clip_planes(&cube(10.0)).projection;
-    let far = 1.0 + of_cube + 1e-9;
-    assert!(
-        (inside.near() - 1e-5 * far).abs() < 1e-9,
-        "a hundred-thousandth of the farthest: {}",
-        inside.near()
-    );
+    assert!((0.0..1e-20).contains(&inside.near()), "right before the eye: {}", inside.near());
     let infinite = Projection::perspective(1.0, 0.1, None).expect("valid");
     assert_eq!(
         camera.with_projection(infinite).with_clip_planes(&square).projection.far(),
         None,
         "it stays infinite"
     );
+}
+
+/// A ball of 1 m, 2 m ahead of the eye, and a moon at 400 km: the near plane was 4 m away.
+#[test]
+fn planes_are_usable_and_cut_nothing_in_front_of_an_eye_within_bounds_of_any_size() {
+    for exponent in -20..=40 {
+        let reach = elementary::pow(10.0, f64::from(exponent));
+        let bounds = Bounds3 { min: DVec3::splat(-reach), max: DVec3::splat(reach) };
+        let finite = Projection::perspective(1.0, 0.1, Some(5.0)).expect("valid");
+        for projection in [Projection::default(), finite] {
+            let camera = Camera::look_at(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y).with_projection(projection);
+            let projection = camera.with_clip_planes(&bounds).projection;
+            let near = projection.near();
+            // What the rasterizer does not draw, or next to nothing beside the bounds.
+            assert!(near < 1e-24 || near < 1e-27 * reach, "{near} in bounds of {reach}");
+            // In f32 a depth anywhere in the bounds is a normal number, as is clip space's z.
+            let depth = near / (2.0 * reach);
+            assert!(
+                [near, depth].iter().all(|&number| (number as f32).is_normal()) || reach > 1e37,
+                "{near}"
+            );
+            assert_eq!(projection.far().is_some(), camera.projection.far().is_some(), "far stays as it is");
+            assert!(
+                projection.far().is_none_or(|far| far > reach && far > near),
+                "behind all: {projection:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn room_for_more_moves_planes_apart_and_never_together() {
+    let cube = |z: f64| Bounds3 { min: DVec3::new(-1.0, -1.0, z - 1.0), max: DVec3::new(1.0, 1.0, z + 1.0) };
+    let perspective = Projection::perspective(1.0, 0.1, Some(5.0)).expect("valid");
+    let parallel = Projection::orthographic(3.0, 0.1, 5.0).expect("valid");
+    for projection in [perspective, parallel] {
+        let camera = Camera::look_at(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y).with_projection(projection);
+        let fitted = camera.with_clip_planes(&cube(0.0));
+        assert_eq!(fitted.with_room_for(&cube(0.0)), fitted, "it has room");
+        let nearer = fitted.with_room_for(&cube(4.0)).projection;
+        assert!(nearer.near() < 5.0 && nearer.far() == fitted.projection.far(), "{nearer:?}");
+        let farther = fitted.with_room_for(&cube(-90.0)).projection;
+        let far = farther.far().expect("it stays finite");
+        assert!(far > 101.0 && farther.near() == fitted.projection.near(), "{farther:?}");
+    }
 }

@@ -11,7 +11,7 @@ use std::str::FromStr;
 use thiserror::Error;
 use trigon_scene::Outputs;
 
-pub use npy::{encode_npy, write_npy};
+pub use npy::{encode_npy, write_npy, write_origin_npy};
 pub use openexr::{encode_exr, write_exr};
 pub use png16::{encode_png16, write_png16};
 

@@ -37,8 +37,21 @@ pub fn encode_npy(writer: impl Write, frame: &Frame, output: Output) -> Result<(
     Ok(writer.flush()?)
 }
 
+/// Writes [`Frame::origin`] as a NumPy array of three f8: what is to be added to positions for those in the world.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write_origin_npy(path: impl AsRef<Path>, frame: &Frame) -> Result<(), WriteError> {
+    write_atomically(path.as_ref(), |file| {
+        file.write_all(&header("<f8", "3,"))?;
+        frame.origin.to_array().iter().try_for_each(|number| file.write_all(&number.to_le_bytes()))
+    })
+}
+
 fn encode(writer: &mut dyn Write, frame: &Frame, values: Values<'_>) -> io::Result<()> {
-    writer.write_all(&header(frame, values))?;
+    let last = values.per_pixel().map(|numbers| format!(", {numbers}")).unwrap_or_default();
+    let shape = format!("{}, {}{last}", frame.height, frame.width);
+    writer.write_all(&header(kind(values), &shape))?;
     let mut floats =
         |numbers: &[f32]| numbers.iter().try_for_each(|number| writer.write_all(&number.to_le_bytes()));
     match values {
@@ -51,17 +64,19 @@ fn encode(writer: &mut dyn Write, frame: &Frame, values: Values<'_>) -> io::Resu
     }
 }
 
-fn header(frame: &Frame, values: Values<'_>) -> Vec<u8> {
-    const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
-    let kind = match values {
+/// What the numbers are.
+fn kind(values: Values<'_>) -> &'static str {
+    match values {
         Values::Colors(_) => "|u1",
         Values::Ids(_) => "<u4",
         Values::Floats(_) | Values::Pairs(_) | Values::Vectors(_) | Values::Lights(_) => "<f4",
-    };
-    let last = values.per_pixel().map(|numbers| format!(", {numbers}")).unwrap_or_default();
-    let (height, width) = (frame.height, frame.width);
-    let mut text =
-        format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({height}, {width}{last}), }}");
+    }
+}
+
+/// `shape` is what stands between the parentheses of a tuple in Python.
+fn header(kind: &str, shape: &str) -> Vec<u8> {
+    const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
+    let mut text = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({shape}), }}");
     let before = MAGIC.len() + size_of::<u16>();
     let end = (before + text.len() + 1).next_multiple_of(ALIGNMENT);
     text.extend(std::iter::repeat_n(' ', end - before - text.len() - 1));

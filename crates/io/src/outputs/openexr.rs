@@ -4,8 +4,8 @@ use std::io::{Cursor, Write};
 use std::path::Path;
 
 use exr::prelude::{
-    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes,
-    LineOrder, WritableImage,
+    AnyChannel, AnyChannels, AttributeValue, Blocks, Compression, Encoding, FlatSamples, Image, Layer,
+    LayerAttributes, LineOrder, Text, WritableImage,
 };
 use trigon_math::color;
 use trigon_scene::Frame;
@@ -26,6 +26,7 @@ type Channel = AnyChannel<FlatSamples>;
 /// | ids, as u32 | `id.object` `id.face` `id.material` `id.triangle` |
 /// | barycentrics | `barycentric.X` `.Y` `.Z` |
 /// | positions, normals, geometric normals | `P.X` `P.Y` `P.Z`, `N.X` …, `Ng.X` … |
+/// | the origin of positions | the text attribute `P.origin`: three numbers of f64 |
 /// | texture coordinates | `U` `V` |
 /// | albedo | `albedo.R` `.G` `.B` |
 ///
@@ -60,7 +61,7 @@ fn encode(frame: &Frame) -> Result<Vec<u8>, WriteError> {
         blocks: Blocks::ScanLines,
         line_order: LineOrder::Increasing,
     };
-    let layer = Layer::new(size, LayerAttributes::default(), encoding, AnyChannels::sort(channels));
+    let layer = Layer::new(size, attributes(frame), encoding, AnyChannels::sort(channels));
     let mut bytes = Cursor::new(Vec::new());
     Image::from_layer(layer)
         .write()
@@ -68,6 +69,16 @@ fn encode(frame: &Frame) -> Result<Vec<u8>, WriteError> {
         .to_buffered(&mut bytes)
         .map_err(|error| WriteError::Stream(std::io::Error::other(error)))?;
     Ok(bytes.into_inner())
+}
+
+/// What channels do not tell: what positions are relative to. As text, for OpenEXR has no vectors of f64.
+fn attributes(frame: &Frame) -> LayerAttributes {
+    let mut attributes = LayerAttributes::default();
+    if frame.positions.is_some() {
+        let origin = frame.origin.to_array().map(|number| number.to_string()).join(" ");
+        attributes.other.insert(Text::from("P.origin"), AttributeValue::Text(Text::from(origin.as_str())));
+    }
+    attributes
 }
 
 fn channels(output: Output, values: Values<'_>) -> Vec<Channel> {

@@ -239,3 +239,25 @@ fn whoever_asks_gets() {
         encode_npy(Vec::new(), &frame, output).expect("the frame holds it");
     }
 }
+
+/// Positions of what is 10⁷ m away are relative to a point there: an array beside theirs and an attribute say which.
+#[test]
+fn the_origin_of_positions_is_said_beside_and_in_files() {
+    let origin = trigon_math::DVec3::new(1e7, -0.1, 3e-9);
+    let frame = Frame { origin, ..frame() };
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.npy");
+    write_origin_npy(&path, &frame).expect("written");
+    let bytes = std::fs::read(&path).expect("it is there");
+    let text = String::from_utf8_lossy(&bytes[10..]).into_owned();
+    assert!(text.contains("'<f8'") && text.contains("'shape': (3,)"), "{text}");
+    let numbers = bytes[bytes.len() - 24..].as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes));
+    assert_eq!(numbers.collect::<Vec<_>>(), origin.to_array(), "to the bit");
+    let mut bytes = Vec::new();
+    encode_exr(&mut bytes, &frame).expect("memory takes it");
+    let said = b"P.origin\0string\0\x1a\0\0\010000000 -0.1 0.000000003";
+    assert!(bytes.windows(said.len()).any(|window| window == said), "a text attribute");
+    bytes.clear();
+    encode_exr(&mut bytes, &Frame { positions: None, ..frame }).expect("memory takes it");
+    assert!(!bytes.windows(8).any(|window| window == b"P.origin"), "nothing without positions");
+}

@@ -321,7 +321,9 @@ fn positions_relative_to_an_origin_are_as_good_anywhere() {
         let mut camera = cameras()[0];
         camera.position += offset;
         let outputs = Outputs { origin: offset, ..EVERYTHING };
-        render(&scene, &camera, &settings(outputs)).expect("drawn")
+        let frame = render(&scene, &camera, &settings(outputs)).expect("drawn");
+        assert_eq!(frame.origin, offset, "as it was asked for");
+        Frame { origin: DVec3::ZERO, ..frame }
     };
     let (near, far) = (at(DVec3::ZERO), at(DVec3::new(1e7, -3e7, 2e7)));
     assert!(near == far, "to the bit");

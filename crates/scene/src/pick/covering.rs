@@ -7,7 +7,7 @@ use trigon_math::DVec2;
 
 use super::hiding::depth_at;
 use super::region::{Area, center};
-use super::screen::Spot;
+use super::screen::{Spot, doubled_area, nearer_first};
 
 /// The pixels whose centres lie in a region.
 pub(super) struct Centers {
@@ -45,7 +45,7 @@ impl Centers {
         mut visit: impl FnMut([u32; 2], f64) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let [a, b, c] = piece.map(|spot| spot.at);
-        if (b - a).perp_dot(c - a) == 0.0 {
+        if doubled_area([a, b, c]) == 0.0 {
             return ControlFlow::Continue(());
         }
         for row in pixels([a.y, b.y, c.y], 0.0, &self.rows) {
@@ -83,6 +83,7 @@ fn crossing([from, to]: [DVec2; 2], y: f64) -> f64 {
     if (from.y >= y) == (to.y >= y) && from.y != y && to.y != y {
         return f64::NAN;
     }
+    let [from, to] = nearer_first([from, to], |&end| end);
     // A side along the line has a crossing of no number, but its neighbours have theirs.
     from.x + (to.x - from.x) * ((y - from.y) / (to.y - from.y))
 }
@@ -96,7 +97,7 @@ mod tests {
     const SIDE: u32 = 12;
 
     /// Twice the area of a triangle, exact for multiples of a quarter.
-    fn doubled_area([a, b, c]: [DVec2; 3]) -> f64 {
+    fn exact_area([a, b, c]: [DVec2; 3]) -> f64 {
         (b - a).perp_dot(c - a)
     }
 
@@ -140,10 +141,10 @@ mod tests {
                 for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
                     let at = center(x, y);
                     let [a, b, c] = corners;
-                    let shares = [[at, b, c], [a, at, c], [a, b, at]].map(doubled_area);
+                    let shares = [[at, b, c], [a, at, c], [a, b, at]].map(exact_area);
                     let is_within =
                         shares.iter().all(|share| *share >= 0.0) || shares.iter().all(|share| *share <= 0.0);
-                    if is_within && doubled_area(corners) != 0.0 && area.contains(at) {
+                    if is_within && exact_area(corners) != 0.0 && area.contains(at) {
                         expected.push([x, y]);
                     }
                 }

@@ -21,7 +21,7 @@ use super::object::Object;
 use super::occluders::{Around, Extent, Group, Pixels};
 use super::probes::{Probe, Probes};
 use super::region::Area;
-use super::screen::{Screen, Spot};
+use super::screen::{Screen, Spot, doubled_area};
 use crate::frame::Frame;
 
 /// Triangles that a thread takes at a time.
@@ -127,7 +127,7 @@ impl<'p> Hiding<'p> {
         for place in places {
             triangles.pieces(place, |piece| {
                 let [a, b, c] = piece;
-                if !facing.draws((b.at - a.at).perp_dot(c.at - a.at)) {
+                if !facing.draws(doubled_area([a.at, b.at, c.at])) {
                     return;
                 }
                 let extent = Extent::new(piece);

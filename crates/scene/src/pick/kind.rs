@@ -4,7 +4,7 @@ use trigon_mesh::Mesh;
 
 use super::nearby::Nearby;
 use super::region::Area;
-use super::screen::Spot;
+use super::screen::{Spot, nearer_first};
 
 /// What has points of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,14 +54,15 @@ impl Kind {
 /// The points of a line that make an edge seen: where it crosses the middles of columns
 /// of pixels, or of rows where it is steeper; where it crosses none, its own middle. Those
 /// beside the area are left out.
-fn own_points([start, end]: &[Spot; 2], area: &Area<'_>, mut visit: impl FnMut(Spot)) {
+fn own_points(line: &[Spot; 2], area: &Area<'_>, mut visit: impl FnMut(Spot)) {
+    let [start, end] = nearer_first(*line, |spot| spot.at);
     let way = end.at - start.at;
     let (axis, pixels) = if way.x.abs() >= way.y.abs() { (0, &area.columns) } else { (1, &area.rows) };
     let (from, to) = (start.at[axis], end.at[axis]);
     let (low, high) = if from < to { (from, to) } else { (to, from) };
     let (first, last) = (-floor(0.5 - low), floor(high - 0.5));
     if first > last || low == high {
-        visit(start.towards(end, 0.5));
+        visit(start.towards(&end, 0.5));
         return;
     }
     // The casts saturate.
@@ -71,7 +72,7 @@ fn own_points([start, end]: &[Spot; 2], area: &Area<'_>, mut visit: impl FnMut(S
     }
     for pixel in inside {
         let middle = f64::from(pixel) + 0.5;
-        let mut spot = start.towards(end, (middle - from) / (to - from));
+        let mut spot = start.towards(&end, (middle - from) / (to - from));
         spot.at[axis] = middle;
         visit(spot);
     }

@@ -4,6 +4,8 @@ use trigon_camera::Projector;
 use trigon_math::{DVec2, DVec3};
 use trigon_mesh::Mesh;
 
+use super::screen::nearer_first;
+
 /// A polygon on the screen.
 pub(super) struct Outline<'m> {
     mesh: &'m Mesh,
@@ -24,14 +26,10 @@ impl<'m> Outline<'m> {
     ) -> Self {
         let points: Vec<DVec3> = mesh.face_vertices(face).iter().map(|&vertex| place(vertex)).collect();
         let near = projector.camera().projection.near();
-        // How far beyond the near plane.
-        let beyond = |point: DVec3| -projector.to_camera(point).z - near;
-        let corner = |&point: &DVec3| projector.to_screen(point).filter(|_| beyond(point) >= 0.0);
-        let side = |from: usize| {
-            let ends = [points[from], points[(from + 1) % points.len()]];
-            let [start, end] = cut(ends, ends.map(beyond))?.map(|point| projector.to_screen(point));
-            Some([start?, end?])
-        };
+        let is_seen = |point: DVec3| -projector.to_camera(point).z >= near;
+        let corner = |&point: &DVec3| projector.to_screen(point).filter(|_| is_seen(point));
+        let side =
+            |from: usize| projector.line_to_screen([points[from], points[(from + 1) % points.len()]], near);
         let corners = points.iter().map(corner).collect();
         Self { mesh, face, corners, sides: (0..points.len()).map(side).collect() }
     }
@@ -52,18 +50,8 @@ impl<'m> Outline<'m> {
     }
 }
 
-/// What lies beyond the near plane of a segment.
-fn cut([start, end]: [DVec3; 2], [from, to]: [f64; 2]) -> Option<[DVec3; 2]> {
-    let between = || start + (end - start) * (from / (from - to));
-    match (from >= 0.0, to >= 0.0) {
-        (true, true) => Some([start, end]),
-        (true, false) => Some([start, between()]),
-        (false, true) => Some([between(), end]),
-        (false, false) => None,
-    }
-}
-
-fn distance_to_segment(point: DVec2, &[start, end]: &[DVec2; 2]) -> f64 {
+fn distance_to_segment(point: DVec2, &ends: &[DVec2; 2]) -> f64 {
+    let [start, end] = nearer_first(ends, |&end| end);
     let along = end - start;
     let share = (point - start).dot(along) / along.length_squared();
     // A segment without length is its start.

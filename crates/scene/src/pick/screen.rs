@@ -182,13 +182,24 @@ impl Screen {
         if factor > 0.0 { (depth + scale) / factor - scale } else { f64::INFINITY }
     }
 
+    /// Where a line passes through the near plane. From inside to outside, so that neighbours find the same
+    /// point.
+    fn cut(&self, inside: DVec4, outside: DVec4) -> DVec4 {
+        let [near, far] = [inside, outside].map(beyond_near);
+        let cut = inside + (outside - inside) * (near / (near - far));
+        // On the plane, whatever was rounded: z and w are the same there. In a perspective w is what is left of
+        // large numbers, and z is nearly constant; in a parallel projection w is 1.
+        let plane = if self.is_parallel { cut.w } else { cut.z };
+        DVec4 { z: plane, w: plane, ..cut }
+    }
+
     /// What is beyond the near plane of the line between two points.
     pub(super) fn cut_line(&self, map: &DMat4, ends: [DVec3; 2]) -> Option<[Spot; 2]> {
         let clip = ends.map(|end| *map * end.extend(1.0));
         let spots = match clip.map(|end| beyond_near(end) >= 0.0) {
             [true, true] => clip.map(|end| self.project(end)),
-            [true, false] => [clip[0], cut(clip[0], clip[1])].map(|end| self.project(end)),
-            [false, true] => [cut(clip[1], clip[0]), clip[1]].map(|end| self.project(end)),
+            [true, false] => [clip[0], self.cut(clip[0], clip[1])].map(|end| self.project(end)),
+            [false, true] => [self.cut(clip[1], clip[0]), clip[1]].map(|end| self.project(end)),
             [false, false] => return None,
         };
         spots.iter().all(Spot::is_somewhere).then_some(spots)
@@ -201,9 +212,9 @@ impl Screen {
         for (from, to) in [(clip[2], clip[0]), (clip[0], clip[1]), (clip[1], clip[2])] {
             match [from, to].map(|corner| beyond_near(corner) >= 0.0) {
                 [true, true] => piece.push(self.project(to)),
-                [true, false] => piece.push(self.project(cut(from, to))),
+                [true, false] => piece.push(self.project(self.cut(from, to))),
                 [false, true] => {
-                    piece.push(self.project(cut(to, from)));
+                    piece.push(self.project(self.cut(to, from)));
                     piece.push(self.project(to));
                 }
                 [false, false] => {}
@@ -217,18 +228,33 @@ impl Screen {
     }
 }
 
-/// Where a line passes through the near plane. From inside to outside, so that
-/// neighbours find the same point.
-fn cut(inside: DVec4, outside: DVec4) -> DVec4 {
-    let [near, far] = [inside, outside].map(beyond_near);
-    let cut = inside + (outside - inside) * (near / (near - far));
-    // On the plane, whatever was rounded.
-    DVec4 { z: cut.w, ..cut }
+/// The ends of a line, that first which is nearer to the image's corner. Where the near plane cuts a line, its other
+/// end is 10³⁰ pixels away: a share of the way counts from the first, of which nothing is lost beside the other.
+pub(super) fn nearer_first<T>(ends: [T; 2], at: impl Fn(&T) -> DVec2) -> [T; 2] {
+    let [from, to] = [&ends[0], &ends[1]].map(|end| at(end).abs().max_element());
+    let [start, end] = ends;
+    if from > to { [end, start] } else { [start, end] }
 }
 
 /// How far a point of clip space is beyond the near plane; negative before it.
 fn beyond_near(clip: DVec4) -> f64 {
     clip.w - clip.z
+}
+
+/// Twice the area of a triangle on the screen, with the sign of its winding. Counted from a corner that is not far
+/// outside the image: beside 10²⁵ pixels nothing is left of the others.
+#[inline]
+pub(super) fn doubled_area([a, b, c]: [DVec2; 3]) -> f64 {
+    /// In pixels.
+    const FAR: f64 = 1e6;
+    let is_near = |corner: DVec2| corner.abs().max_element() < FAR;
+    if is_near(a) || !(is_near(b) || is_near(c)) {
+        (b - a).perp_dot(c - a)
+    } else if is_near(b) {
+        (c - b).perp_dot(a - b)
+    } else {
+        (a - c).perp_dot(b - c)
+    }
 }
 
 impl Piece {
