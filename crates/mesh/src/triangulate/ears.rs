@@ -11,16 +11,30 @@
 //! Corners wait in a queue and are tested again only after a neighbour was removed. Ears are therefore cut
 //! all around the polygon in turn, which gives well-shaped triangles on convex polygons, and there are at
 //! most three tests per corner.
+//!
+//! Corners in one place are all near the same ears, so that a polygon that repeats its corners would take quadratic
+//! time. One that takes too many tests of such corners is cut into its loops first (`loops`), each of which is in a
+//! place once.
 
+use std::cell::Cell;
 use std::collections::VecDeque;
 
 use trigon_math::{DVec2, Orientation, orientation};
 
 use super::grid::Grid;
+use super::loops::Loops;
 
 /// After so many rounds in which everything was tested afresh, a polygon
 /// counts as one that crosses itself.
 const MOST_ROUNDS: usize = 8;
+
+/// So many tests of corners that are not alone in their place are made for each corner, before the polygon is cut into
+/// its loops.
+const TESTS_PER_CORNER: usize = 64;
+
+/// So many such tests take about a second; a polygon whose loops are no outlines of their own, and that
+/// takes more, counts as one that crosses itself.
+const MOST_TESTS: usize = 1 << 27;
 
 /// Whether a, b, c turn left (y up): exact.
 fn is_left_turn(a: DVec2, b: DVec2, c: DVec2) -> bool {
@@ -53,7 +67,12 @@ pub(super) struct EarCutter {
     /// their place. Cutting ears makes no corner less convex.
     blockers: Vec<u32>,
     by_place: Vec<u32>,
+    /// Whether a corner is not alone in its place.
+    shared: Vec<bool>,
+    /// How many tests of such corners are left.
+    tests_left: Cell<usize>,
     grid: Grid,
+    loops: Loops,
 }
 
 /// What to do about the corner in the middle of three.
@@ -68,23 +87,71 @@ enum Verdict {
 impl EarCutter {
     /// Appends the triangles of a polygon that is counter-clockwise (y up).
     pub(super) fn cut(&mut self, points: &[DVec2], triangles: &mut Vec<[u32; 3]>) {
-        self.start(points);
+        let (start, usual) = (triangles.len(), TESTS_PER_CORNER * points.len());
+        self.start(points, usual);
+        self.cut_ears(points, triangles);
+        if self.has_tests_left() {
+            self.cut_crossing(points, triangles);
+            return;
+        }
+        triangles.truncate(start);
+        if !self.cut_loops(points, triangles) {
+            self.start(points, usual.max(MOST_TESTS));
+            self.cut_ears(points, triangles);
+            self.cut_crossing(points, triangles);
+        }
+    }
+
+    fn has_tests_left(&self) -> bool {
+        self.tests_left.get() > 0
+    }
+
+    /// Cuts ears until none is left.
+    fn cut_ears(&mut self, points: &[DVec2], triangles: &mut Vec<[u32; 3]>) {
         for _ in 0..MOST_ROUNDS {
             let before = self.left;
             self.queue_all();
             self.cut_queued(points, triangles, Self::verdict);
-            if self.left < 3 || self.left == before {
+            if self.left < 3 || self.left == before || !self.has_tests_left() {
                 break;
             }
         }
+    }
+
+    /// Cuts what no ear was found in.
+    fn cut_crossing(&mut self, points: &[DVec2], triangles: &mut Vec<[u32; 3]>) {
         if self.left >= 3 {
+            self.tests_left.set(usize::MAX);
             self.queue_all();
             self.cut_queued(points, triangles, Self::verdict_when_crossing);
         }
     }
 
-    fn start(&mut self, points: &[DVec2]) {
+    /// Cuts each loop of the polygon by itself. False, and nothing is cut, if one of them runs clockwise: it may be
+    /// a hole in another.
+    fn cut_loops(&mut self, points: &[DVec2], triangles: &mut Vec<[u32; 3]>) -> bool {
+        let mut loops = std::mem::take(&mut self.loops);
+        loops.find(points, &self.by_place);
+        let are_outlines = loops.are_outlines(points);
+        if are_outlines {
+            let (mut own, mut cut) = (Vec::new(), Vec::new());
+            for corners in loops.all() {
+                refill(&mut own, corners.iter().map(|&corner| points[corner as usize]));
+                cut.clear();
+                self.start(&own, usize::MAX);
+                self.cut_ears(&own, &mut cut);
+                self.cut_crossing(&own, &mut cut);
+                triangles.extend(cut.iter().map(|triangle| triangle.map(|i| corners[i as usize])));
+            }
+        }
+        self.loops = loops;
+        are_outlines
+    }
+
+    /// Begins with a polygon. `tests`: so many tests of corners that are not alone may be made.
+    fn start(&mut self, points: &[DVec2], tests: usize) {
         let count = points.len() as u32;
+        self.tests_left.set(tests);
         self.left = points.len();
         refill(&mut self.previous, (0..count).map(|i| (i + count - 1) % count));
         refill(&mut self.next, (0..count).map(|i| (i + 1) % count));
@@ -104,18 +171,16 @@ impl EarCutter {
             let finite = "the caller has checked that points are finite";
             by_x.expect(finite).then(by_y.expect(finite)).then(i.cmp(&j))
         });
-        let by_place = &self.by_place;
-        let not_alone = by_place.iter().enumerate().filter(|&(rank, &i)| {
-            let like = |other: Option<&u32>| other.is_some_and(|&j| place(j) == place(i));
-            like(by_place.get(rank + 1)) || (rank > 0 && like(by_place.get(rank - 1)))
-        });
-        refill(&mut self.blockers, not_alone.map(|(_, &i)| i));
-        self.blockers.sort_unstable();
-        let alone = self.blockers.len();
-        for i in 0..points.len() as u32 {
+        refill(&mut self.shared, points.iter().map(|_| false));
+        for pair in self.by_place.windows(2).filter(|pair| place(pair[0]) == place(pair[1])) {
+            pair.iter().for_each(|&i| self.shared[i as usize] = true);
+        }
+        let all = 0..points.len() as u32;
+        refill(&mut self.blockers, all.clone().filter(|&i| self.shared[i as usize]));
+        for i in all {
             let (a, c) = (self.previous[i as usize], self.next[i as usize]);
             let convex = is_left_turn(place(a), place(i), place(c));
-            if !convex && self.blockers[..alone].binary_search(&i).is_err() {
+            if !convex && !self.shared[i as usize] {
                 self.blockers.push(i);
             }
         }
@@ -138,6 +203,7 @@ impl EarCutter {
         verdict: impl Fn(&Self, &[DVec2], [u32; 3]) -> Verdict,
     ) {
         while self.left >= 3
+            && self.has_tests_left()
             && let Some((corner, changes)) = self.queue.pop_front()
         {
             if !self.present[corner as usize] || self.changes[corner as usize] != changes {
@@ -205,6 +271,9 @@ impl EarCutter {
         }
         let (low, high) = triangle.bounds();
         !self.grid.any(low, high, |i| {
+            if self.shared[i as usize] {
+                self.tests_left.set(self.tests_left.get().saturating_sub(1));
+            }
             let around = [self.previous[i as usize], self.next[i as usize]];
             let point = place(i);
             self.present[i as usize]
@@ -275,7 +344,7 @@ mod tests {
     /// What the usual way and that for crossing polygons say about the second of some points.
     fn verdicts(points: &[DVec2]) -> [char; 2] {
         let mut cutter = EarCutter::default();
-        cutter.start(points);
+        cutter.start(points, usize::MAX);
         let letter = |verdict: Verdict| match verdict {
             Verdict::Ear => 'E',
             Verdict::Needless => 'N',

@@ -16,6 +16,7 @@
 
 mod ears;
 mod grid;
+mod loops;
 mod project;
 mod quad;
 
