@@ -36,6 +36,11 @@ pub enum EditError {
     /// The command needs object mode.
     #[error("{0} works on whole objects: leave edit mode first")]
     Editing(&'static str),
+    /// An object would be placed or scaled by a number that no file holds.
+    #[error(
+        "object \"{0}\" would be placed or scaled beyond 3.4e38, the largest number of a coordinate: use a smaller value"
+    )]
+    Overflow(String),
     /// A mesh operation failed.
     #[error(transparent)]
     Mesh(#[from] Refusal),

@@ -1,6 +1,7 @@
 //! Random commands on documents: what is undone is undone to the same bytes.
 
 pub(crate) mod commands;
+mod overflow;
 mod parts;
 mod single_commands;
 mod told;

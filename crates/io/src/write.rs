@@ -45,6 +45,14 @@ pub enum WriteError {
         /// The extensions of those that are written.
         writers: String,
     },
+    /// A vertex or an object lies farther away than the numbers of the file can say.
+    #[error(
+        "node \"{node}\" lies or reaches beyond 3.4e38, the largest number of a coordinate; move or scale it back"
+    )]
+    Overflow {
+        /// The name of the node.
+        node: String,
+    },
     /// The file would be too large for its format.
     #[error("the file would have {bytes} bytes, and its format cannot exceed 4 GiB; save fewer meshes in it")]
     TooLarge {

@@ -52,6 +52,12 @@ impl Transform {
         }
     }
 
+    /// Whether the numbers of its map are within those of an f32, which files have. False where one is not finite.
+    #[must_use]
+    pub fn fits_f32(&self) -> bool {
+        self.to_affine().to_cols_array().iter().all(|number| number.abs() <= f64::from(f32::MAX))
+    }
+
     /// Whether it mirrors. Computed from the factors themselves: in a product of matrices that
     /// nearly flatten something, rounding is larger than the rest.
     pub(crate) fn is_mirroring(&self) -> bool {

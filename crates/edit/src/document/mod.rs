@@ -203,7 +203,8 @@ impl Document {
         self.revision = next_revision();
         let selection = self.state.selection.clone();
         let mut change = Change { state: &mut self.state, meshes: Vec::new(), parts: None };
-        let result = work(&command, &mut change);
+        let result =
+            work(&command, &mut change).and_then(|outcome| change.check_placements().map(|()| outcome));
         let Change { meshes, parts, .. } = change;
         let mut entry = Entry { command, meshes, parts, selection, bytes: 0 };
         match result {

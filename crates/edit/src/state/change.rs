@@ -45,6 +45,17 @@ impl Change<'_> {
         &mut self.state.file.scene
     }
 
+    /// Refuses a placement that the numbers of a file cannot hold.
+    pub(crate) fn check_placements(&self) -> Result<(), EditError> {
+        let Some(before) = &self.parts else { return Ok(()) };
+        let was = |id: NodeId| before.node(id).map(|node| node.transform);
+        let mut nodes = self.scene().nodes().iter();
+        match nodes.find(|(id, node)| !node.transform.fits_f32() && was(*id) != Some(node.transform)) {
+            Some((_, node)) => Err(EditError::Overflow(node.name.clone())),
+            None => Ok(()),
+        }
+    }
+
     pub(crate) fn selection(&self) -> &Selection {
         &self.state.selection
     }
@@ -80,7 +91,11 @@ impl Change<'_> {
         let Some(mesh) = self.state.file.edited.get_mut(&id) else {
             return Err(SceneError::NoSuchMesh(id).into());
         };
-        let (result, difference) = mesh.transaction(change)?;
+        let (result, mut difference) = mesh.transaction(change)?;
+        if let Some(vertex) = mesh.overflow(&difference) {
+            difference.apply(mesh);
+            return Err(Refusal::Overflow(vertex).into());
+        }
         if !difference.is_empty() {
             self.state.shown.note_difference(id, mesh, &difference);
             self.meshes.push((id, difference));

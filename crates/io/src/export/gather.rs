@@ -10,6 +10,7 @@ use super::{ExportOptions, FaceExport, Precision};
 use crate::error::Place;
 use crate::loss::Loss;
 use crate::rebase::offset_for;
+use crate::write::WriteError;
 
 /// What to write.
 pub(crate) struct Gathered<'a> {
@@ -37,7 +38,9 @@ pub(crate) struct Object<'a> {
 }
 
 impl<'a> Gathered<'a> {
-    pub(crate) fn new(scene: &'a Scene, options: &ExportOptions<'_>) -> Self {
+    /// # Errors
+    /// An object reaches farther than the numbers of files can say.
+    pub(crate) fn new(scene: &'a Scene, options: &ExportOptions<'_>) -> Result<Self, WriteError> {
         let root = options.root().unwrap_or(DAffine3::IDENTITY);
         let wanted: Option<BTreeSet<NodeId>> =
             options.nodes.as_ref().map(|nodes| nodes.iter().copied().collect());
@@ -51,12 +54,15 @@ impl<'a> Gathered<'a> {
             };
             objects.push(Object::new(node, asset.mesh(), root * world, options.faces));
         }
+        if let Some(object) = objects.iter().find(|object| object.overflows()) {
+            return Err(WriteError::Overflow { node: object.node.name.clone() });
+        }
         let positions = objects.iter().flat_map(|object| {
             (0..object.mesh.vertex_count() as u32).map(|vertex| object.exact_position(vertex))
         });
         let is_far = offset_for(positions) != DVec3::ZERO;
         let precision = if is_far { Precision::Double } else { Precision::Single };
-        Self { scene, objects, precision, losses }
+        Ok(Self { scene, objects, precision, losses })
     }
 
     /// The position of a vertex in the file, finite and in the precision in which it is written.
@@ -133,6 +139,16 @@ impl<'a> Object<'a> {
         let position = self.mesh.positions()[vertex as usize].as_dvec3();
         // The identity map keeps the sign of a zero.
         if self.map == DAffine3::IDENTITY { position } else { self.map.transform_point3(position) }
+    }
+
+    /// Whether a vertex that has a place has none in the file.
+    fn overflows(&self) -> bool {
+        let is_placed = |vertex: &u32| self.mesh.positions()[*vertex as usize].is_finite();
+        let placed = (0..self.mesh.vertex_count() as u32).filter(is_placed);
+        let fits = |position: DVec3| position.abs().max_element() <= f64::from(f32::MAX);
+        placed
+            .map(|vertex| self.exact_position(vertex))
+            .any(|position| !(position.is_finite() && fits(position)))
     }
 
     /// The normal of a corner in the file; zero if there is none.

@@ -8,6 +8,7 @@ use super::{ExportOptions, FaceExport, Gathered, Object};
 use crate::loss::Loss;
 
 const POLYGONS: &str = "polygons: they are cut into triangles";
+const NOT_FINITE: &str = "faces with vertices that are not finite";
 
 /// Which isolated vertices a format can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,10 +69,7 @@ pub(crate) fn add_losses(gathered: &mut Gathered<'_>, holds: &Holds) {
     };
     add(!keeps_points && any(|object| !object.mesh.loose_points().is_empty()), "points");
     add(!holds.polygons && any(|object| has_polygons(object.mesh)), POLYGONS);
-    add(
-        any(|object| object.mesh.positions().iter().any(|position| !position.is_finite())),
-        "faces with vertices that are not finite",
-    );
+    add(any(|object| has_lost_vertices(object.mesh)), NOT_FINITE);
     gathered.losses.append(&mut losses);
 }
 
@@ -79,9 +77,14 @@ pub(crate) fn add_losses(gathered: &mut Gathered<'_>, holds: &Holds) {
 pub(crate) fn losses_of_whole(scene: &Scene, options: &ExportOptions<'_>) -> Vec<Loss> {
     let is_wanted = |id: NodeId| options.nodes.as_ref().is_none_or(|wanted| wanted.contains(&id));
     let mesh = |node: &Node| scene.meshes().get(node.mesh?).map(|asset| asset.mesh());
-    let mut meshes = scene.nodes().iter().filter(|(id, _)| is_wanted(*id)).filter_map(|(_, node)| mesh(node));
-    let are_cut = options.faces == FaceExport::Polygons && meshes.any(has_polygons);
-    are_cut.then(|| Loss::of_scene(POLYGONS)).into_iter().collect()
+    let meshes = || scene.nodes().iter().filter(|(id, _)| is_wanted(*id)).filter_map(|(_, node)| mesh(node));
+    let are_cut = options.faces == FaceExport::Polygons && meshes().any(has_polygons);
+    let losses = [(are_cut, POLYGONS), (meshes().any(has_lost_vertices), NOT_FINITE)];
+    losses.into_iter().filter(|(is_lost, _)| *is_lost).map(|(_, what)| Loss::of_scene(what)).collect()
+}
+
+fn has_lost_vertices(mesh: &Mesh) -> bool {
+    mesh.positions().iter().any(|position| !position.is_finite())
 }
 
 fn has_polygons(mesh: &Mesh) -> bool {

@@ -31,7 +31,7 @@ use crate::write::WriteError;
 /// ```
 ///
 /// # Errors
-/// The format is not written, or the file would be too large for it.
+/// The format is not written, the file would be too large for it, or an object lies too far away for its numbers.
 pub fn export(
     scene: &Scene,
     name: &str,
@@ -45,7 +45,7 @@ pub fn export(
             Ok(Export { files, losses: losses_of_whole(scene, options) })
         }
         Writing::Objects(holds, write) => {
-            let mut gathered = Gathered::new(scene, options);
+            let mut gathered = Gathered::new(scene, options)?;
             add_losses(&mut gathered, holds);
             let files = write(name, &mut gathered, options)?;
             Ok(Export { files, losses: gathered.losses })

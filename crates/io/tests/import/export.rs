@@ -525,3 +525,45 @@ fn point_clouds_stay_point_clouds() {
         assert_eq!(asset.mesh().loose_points(), [0, 1, 2], "{format:?}");
     }
 }
+
+/// These were written as 0, or as infinity.
+#[test]
+fn a_coordinate_beyond_f32_is_refused_and_not_written() {
+    let far = |transform: Transform, mesh: Mesh| {
+        let mut scene = Scene::new();
+        let parent = scene.add(Node::default().with_name("parent").with_transform(transform));
+        let mesh = scene.add_mesh("cube", mesh);
+        let mut cube = Node::default().with_name("cube");
+        cube.mesh = Some(mesh);
+        scene.add_child(parent, cube).expect("the parent is there");
+        scene
+    };
+    let scaled = |scale: f64| {
+        Transform::from_scale_rotation_translation(DVec3::splat(scale), DQuat::IDENTITY, DVec3::ZERO)
+    };
+    let cases = [
+        far(scaled(1e39), primitives::cube(2.0)),
+        far(scaled(1e30), primitives::cube(2e30)),
+        far(Transform::from_translation(DVec3::Y * 1e39), primitives::cube(2.0)),
+        far(scaled(f64::INFINITY), primitives::cube(2.0)),
+    ];
+    for (number, scene) in cases.iter().enumerate() {
+        for ((format, name), encoding) in
+            FORMATS.into_iter().flat_map(|format| ENCODINGS.map(|way| (format, way)))
+        {
+            let options = ExportOptions { encoding, ..ExportOptions::default() };
+            let error = export(scene, name, format, &options).map(drop).expect_err("it does not fit");
+            assert!(
+                matches!(&error, WriteError::Overflow { node } if node == "cube"),
+                "{number}, {name}: {error}"
+            );
+        }
+        let fits = scene.nodes().iter().all(|(_, node)| node.transform.fits_f32());
+        let glb = export(scene, "a.glb", Format::Glb, &ExportOptions::default()).map(drop);
+        assert_eq!(glb.is_ok(), fits, "{number}: a GLB has the nodes, not their product");
+    }
+    let near = far(scaled(1e37), primitives::cube(2.0));
+    for format in FORMATS {
+        written(&near, format, &ExportOptions::default());
+    }
+}

@@ -180,6 +180,30 @@ impl<T: Copy> Column<T> {
         }
     }
 
+    /// The first element with a fault that it did not have in the other state, which came before. In new elements a
+    /// fault may be a copy, where others had it before. Takes time proportional to the difference, unless a new one has it.
+    pub(super) fn first_new_fault(
+        &self,
+        before: &ColumnDifference<T>,
+        is_fault: impl Fn(&T) -> bool,
+    ) -> Option<u32> {
+        let faulty = |index: &u32| self.values.get(*index as usize).is_some_and(&is_fault);
+        let (changed, kept) = match before {
+            ColumnDifference::Whole(old) => {
+                let pairs = (0_u32..).zip(self.values.iter().zip(old));
+                let mut found = pairs.filter(|(_, (own, old))| is_fault(own) && !is_fault(old));
+                (found.next().map(|(index, _)| index), old.len())
+            }
+            ColumnDifference::Elements { values, kept, .. } => {
+                let sound = values.iter().filter(|(_, old)| !is_fault(old)).map(|(index, _)| *index);
+                (sound.into_iter().find(faulty), *kept)
+            }
+        };
+        let (old, new) = self.values.split_at(kept.min(self.values.len()));
+        let added = new.iter().position(&is_fault).filter(|_| !old.iter().any(&is_fault));
+        changed.or(added.map(|at| (kept + at) as u32))
+    }
+
     /// Switches to the other state, and reverses the difference.
     pub(super) fn swap(&mut self, difference: &mut ColumnDifference<T>) {
         debug_assert!(matches!(self.record, Record::Off), "nothing is undone within a transaction");

@@ -46,6 +46,9 @@ pub enum Refusal {
         /// What is allowed, as "at least 1".
         range: &'static str,
     },
+    /// A vertex would lie farther away than its coordinates can say.
+    #[error("{0} would lie beyond 3.4e38, the largest number of a coordinate: use a smaller value")]
+    Overflow(VertexId),
     /// The mesh would have more elements than 32-bit indices can name.
     #[error("the mesh would have too many elements for 32-bit indices: do it to a part of it")]
     TooMany,

@@ -4,6 +4,7 @@ use trigon_math::Vec3;
 
 use super::column::ColumnDifference;
 use super::edit_mesh::{AllSlots, EditMesh};
+use super::ids::VertexId;
 use super::layers::{Layer, LayerDifference};
 use super::records::{CornerRecord, EdgeRecord, FaceRecord, VertexRecord};
 use super::refusal::Refusal;
@@ -132,6 +133,15 @@ impl Recording {
             slots: self.slots,
             subdivision: (self.subdivision != mesh.subdivision).then_some(self.subdivision),
         }
+    }
+}
+
+impl EditMesh {
+    /// A vertex that the change of a difference took farther away than its coordinates can say.
+    #[must_use]
+    pub fn overflow(&self, difference: &Difference) -> Option<VertexId> {
+        let before = difference.positions.as_ref()?;
+        self.positions.first_new_fault(before, |place| !place.is_finite()).map(VertexId::new)
     }
 }
 

@@ -31,6 +31,12 @@ pub struct SceneParts {
 }
 
 impl SceneParts {
+    /// A node as it was.
+    #[must_use]
+    pub fn node(&self, id: NodeId) -> Option<&Node> {
+        self.nodes.get(id)
+    }
+
     /// Roughly the memory that they take, in bytes; images and curves, which scenes share or
     /// seldom have, do not count.
     #[must_use]

@@ -53,9 +53,9 @@ use crate::write::{WriteError, write_atomically};
 /// ```
 ///
 /// # Errors
-/// The file would have 4 GiB or more.
+/// The file would have 4 GiB or more, or a node lies too far away for its numbers.
 pub fn encode_glb(scene: &Scene, options: &ExportOptions<'_>) -> Result<Vec<u8>, WriteError> {
-    Ok(write_scene(&export(scene, options))?.file.to_bytes())
+    Ok(write_scene(&export(scene, options)?)?.file.to_bytes())
 }
 
 /// Writes a file with the contents of [`encode_glb`] atomically.
@@ -67,17 +67,20 @@ pub fn write_glb(
     scene: &Scene,
     options: &ExportOptions<'_>,
 ) -> Result<(), WriteError> {
-    let written = write_scene(&export(scene, options))?;
+    let written = write_scene(&export(scene, options)?)?;
     write_atomically(path.as_ref(), |file| written.file.write_to(file))
 }
 
-fn export<'a>(scene: &'a Scene, options: &'a ExportOptions<'a>) -> Input<'a> {
-    Input {
+fn export<'a>(scene: &'a Scene, options: &'a ExportOptions<'a>) -> Result<Input<'a>, WriteError> {
+    if let Some((_, node)) = scene.nodes().iter().find(|(_, node)| !node.transform.fits_f32()) {
+        return Err(WriteError::Overflow { node: node.name.clone() });
+    }
+    Ok(Input {
         scene,
         edited: None,
         kept: None,
         images: options.images,
         nodes: options.nodes.as_deref(),
         root: options.root(),
-    }
+    })
 }
