@@ -12,6 +12,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use crate::error::LoadError;
+use crate::lfs::is_lfs_pointer;
 use crate::limits::Limits;
 use crate::refusal::{Refusal, relative_path};
 
@@ -102,13 +103,16 @@ impl Folder {
             Ok(found) => return Ok(found),
             Err(refusal) => refusal,
         };
-        if lookup == Lookup::Exact || matches!(refusal, Refusal::TooLarge(..) | Refusal::NoFolder) {
+        if lookup == Lookup::Exact
+            || refusal.is_of_a_file_that_is_there()
+            || matches!(refusal, Refusal::NoFolder)
+        {
             return Err(refusal);
         }
         for (within, spelling) in self.other_spellings(within, name) {
             match self.read_exact(&within, &spelling) {
                 Ok(found) => return Ok(Found { respelled: true, ..found }),
-                Err(found_but @ (Refusal::TooLarge(..) | Refusal::Read(_))) => refusal = found_but,
+                Err(found_but) if found_but.is_of_a_file_that_is_there() => refusal = found_but,
                 Err(_) => {}
             }
         }
@@ -176,7 +180,7 @@ impl Folder {
             return Err(Refusal::TooLarge(bytes.len() as u64, limit));
         }
         self.total += bytes.len() as u64;
-        Ok(bytes)
+        if is_lfs_pointer(&bytes) { Err(Refusal::LfsPointer) } else { Ok(bytes) }
     }
 
     fn note(&mut self, path: PathBuf) {

@@ -14,6 +14,7 @@ use crate::format::Format;
 use crate::formats::{detect_format, supported};
 use crate::gltf_source::{GltfSource, SourceDraft};
 use crate::import::Import;
+use crate::lfs::is_lfs_pointer;
 use crate::options::{LoadOptions, LoadStage};
 use crate::refusal::Refusal;
 use crate::warning::{Warning, Warnings};
@@ -77,6 +78,9 @@ pub fn load_from_slice(
     let (length, limit) = (bytes.len() as u64, options.limits.file_bytes);
     if length > limit {
         return Err(Refusal::TooLarge(length, limit).of_model(name));
+    }
+    if is_lfs_pointer(bytes) {
+        return Err(Refusal::LfsPointer.of_model(name));
     }
     options.report(name, LoadStage::Reading, 1.0)?;
     import_on(name, Cow::Borrowed(bytes), Folder::none(&options.limits), options)

@@ -6,6 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use thiserror::Error;
 
 use crate::error::{LoadError, LoadErrorKind};
+use crate::lfs;
 
 /// Why a name was not opened.
 #[derive(Debug, Error)]
@@ -26,6 +27,8 @@ pub(crate) enum Refusal {
     NoFolder,
     #[error("it has {0} bytes, more than the limit of {1}")]
     TooLarge(u64, u64),
+    #[error("it is a Git LFS pointer, not the file itself")]
+    LfsPointer,
     #[error("it cannot be read ({0})")]
     Read(io::Error),
     #[error("loading was cancelled")]
@@ -41,6 +44,11 @@ impl Refusal {
         }
     }
 
+    /// Whether a file has the name, and cannot be used.
+    pub(crate) fn is_of_a_file_that_is_there(&self) -> bool {
+        matches!(self, Self::TooLarge(..) | Self::LfsPointer | Self::Read(_))
+    }
+
     pub(crate) fn is_forbidden(&self) -> bool {
         matches!(self, Self::Scheme | Self::Absolute | Self::Outside | Self::NotAFile | Self::BadName)
     }
@@ -52,6 +60,7 @@ impl Refusal {
             Self::Cancelled => return LoadError::cancelled(path),
             Self::TooLarge(..) => (LoadErrorKind::Limit, "raise the limit if you trust the file"),
             Self::Missing => (LoadErrorKind::Read, "check the name and the folder"),
+            Self::LfsPointer => (LoadErrorKind::Malformed, lfs::REMEDY),
             _ => (LoadErrorKind::Forbidden, "name a regular file; pipe streams through `-`"),
         };
         LoadError::new(kind, path, self.to_string(), remedy)
@@ -63,6 +72,7 @@ impl Refusal {
             Self::Missing => "put the file there, or export the model again with it",
             Self::NoFolder => "load the model from a file instead of a stream, or embed everything in a GLB",
             Self::TooLarge(..) => "use a smaller file, or raise the limit",
+            Self::LfsPointer => lfs::REMEDY,
             Self::Read(_) => "check that the file can be read",
             _ => "put the file beside the model and name it by its relative path",
         }

@@ -118,9 +118,6 @@ fn image_format(bytes: &[u8]) -> Result<ImageFormat, String> {
         Err(_) if bytes.starts_with(b"\xabKTX 20\xbb\r\n\x1a\n") => {
             Err("KTX2 images are not supported, only PNG, JPEG and WebP are".to_owned())
         }
-        Err(_) if bytes.starts_with(b"version https://git-lfs") => {
-            Err("the image is a Git LFS pointer; run `git lfs pull`".to_owned())
-        }
         Err(_) => Err("its first bytes match no known image format".to_owned()),
     }
 }

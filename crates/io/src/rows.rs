@@ -69,6 +69,72 @@ impl<'a> Iterator for Rows<'a> {
     }
 }
 
+/// The words of a text, whatever lines they stand on.
+#[derive(Clone)]
+pub(crate) struct Words<'a> {
+    rows: Rows<'a>,
+    /// What is left of a line: it begins with a word, or is empty.
+    rest: &'a [u8],
+}
+
+impl<'a> Words<'a> {
+    pub(crate) fn of(rows: Rows<'a>) -> Self {
+        Self { rows, rest: &[] }
+    }
+
+    /// The number of the line of the word that was returned last.
+    pub(crate) fn line(&self) -> u64 {
+        self.rows.line()
+    }
+
+    /// What is left of the line of the last word.
+    pub(crate) fn rest_of_line(&self) -> &'a [u8] {
+        self.rest
+    }
+
+    /// Goes past some bytes of the rest of the line.
+    pub(crate) fn pass_in_line(&mut self, bytes: usize) {
+        self.rest = self.rest[bytes..].trim_ascii_start();
+    }
+
+    /// The rest of the line, or the next line if nothing is left of it; empty at the end of the text.
+    pub(crate) fn line_ahead(&mut self) -> &'a [u8] {
+        if self.rest.is_empty() {
+            self.rest = self.rows.next().unwrap_or_default();
+        }
+        self.rest
+    }
+
+    /// Takes what [`Self::line_ahead`] returns.
+    pub(crate) fn take_line(&mut self) -> Option<&'a [u8]> {
+        let line = self.line_ahead();
+        self.rest = &[];
+        (!line.is_empty()).then_some(line)
+    }
+
+    /// The rows that follow, unless something is left of a line.
+    pub(crate) fn whole_rows(&mut self) -> Option<&mut Rows<'a>> {
+        self.rest.is_empty().then_some(&mut self.rows)
+    }
+
+    /// The number of bytes read, and of bytes left.
+    pub(crate) fn progress(&self) -> (usize, usize) {
+        let (read, left) = self.rows.progress();
+        (read - self.rest.len().min(read), left + self.rest.len())
+    }
+}
+
+impl<'a> Iterator for Words<'a> {
+    type Item = &'a [u8];
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let line = self.line_ahead();
+        let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
+        self.pass_in_line(end);
+        (end > 0).then(|| &line[..end])
+    }
+}
+
 /// The words of a line.
 pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
@@ -82,6 +148,26 @@ pub(crate) fn quoted(word: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn words_do_not_care_for_lines() {
+        let mut words = Words::of(Rows::without_comments(b"a  b # c\n\n d\te\n#\nf"));
+        let mut found = Vec::new();
+        while let Some(word) = words.next() {
+            found.push((words.line(), String::from_utf8_lossy(word).into_owned()));
+        }
+        let expected = [(1, "a"), (1, "b"), (3, "d"), (3, "e"), (5, "f")];
+        assert_eq!(found, expected.map(|(line, word)| (line, word.to_owned())), "each with its line");
+        let mut words = Words::of(Rows::after(0, b"a b c\nd"));
+        assert_eq!(words.next(), Some(&b"a"[..]), "the first");
+        assert_eq!(
+            (words.rest_of_line(), words.whole_rows().is_some()),
+            (&b"b c"[..], false),
+            "within a line"
+        );
+        assert_eq!((words.take_line(), words.take_line()), (Some(&b"b c"[..]), Some(&b"d"[..])), "lines");
+        assert_eq!((words.take_line(), words.progress()), (None, (7, 0)), "the end");
+    }
 
     #[test]
     fn lines_are_numbered_whatever_ends_them() {

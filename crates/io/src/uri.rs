@@ -1,10 +1,12 @@
 //! The two kinds of reference that glTF uses and trigon follows: `data:` URIs
 //! and percent-encoded relative paths (RFC 2397, RFC 3986).
 
+use std::borrow::Cow;
+
 use base64::Engine;
 use base64::engine::DecodePaddingMode;
 use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
-use percent_encoding::percent_decode_str;
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
 
 /// Standard base64, with or without padding: exporters differ.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -19,8 +21,41 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 pub(crate) enum Reference {
     /// The bytes are in the reference itself.
     Data(Vec<u8>),
-    /// A path, decoded, not yet checked.
-    Path(String),
+    /// A path, not yet checked.
+    Path(FileNames),
+}
+
+/// The names that a reference may mean. Exporters write names percent-encoded, as the format asks, or as they
+/// are; and programs that fetch models keep encoded names.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct FileNames {
+    /// Decoded, and as it is written: the most likely first.
+    pub(crate) spelled: Vec<String>,
+    /// Encoded, if that is another name.
+    pub(crate) encoded: Option<String>,
+}
+
+/// What stays as it is in an encoded path (RFC 3986, sections 2.3 and 3.3).
+const KEPT_IN_PATHS: &AsciiSet =
+    &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_').remove(b'~').remove(b'/');
+
+impl FileNames {
+    fn of(uri: &str) -> Self {
+        let decoded = percent_decode_str(uri).decode_utf8().ok();
+        let mut spelled: Vec<String> = decoded.into_iter().map(Cow::into_owned).collect();
+        if spelled.first().is_none_or(|decoded| decoded != uri) {
+            spelled.push(uri.to_owned());
+        }
+        let encoded = utf8_percent_encode(uri, KEPT_IN_PATHS).to_string();
+        // What has percent signs already was encoded by the model's author.
+        let encoded = Some(encoded).filter(|encoded| encoded != uri && !uri.contains('%'));
+        Self { spelled, encoded }
+    }
+
+    /// All of them, the most likely first.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &str> {
+        self.spelled.iter().chain(&self.encoded).map(String::as_str)
+    }
 }
 
 /// Parses a reference, or returns why it is invalid.
@@ -28,8 +63,7 @@ pub(crate) fn parse_reference(uri: &str) -> Result<Reference, &'static str> {
     if uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:")) {
         return decode_data(&uri[5..]).map(Reference::Data);
     }
-    let decoded = percent_decode_str(uri).decode_utf8().map_err(|_| "its percent-encoding is not UTF-8")?;
-    Ok(Reference::Path(decoded.into_owned()))
+    Ok(Reference::Path(FileNames::of(uri)))
 }
 
 /// The reference as quoted in messages: never a megabyte of base64.
@@ -73,23 +107,23 @@ mod tests {
 
     #[test]
     fn broken_uris_are_refused_without_a_panic() {
-        for uri in ["data:", "data:;base64", "data:;base64,####", "%ff%fe.bin", "data:;base64,A"] {
+        for uri in ["data:", "data:;base64", "data:;base64,####", "data:;base64,A"] {
             parse_reference(uri).expect_err(uri);
         }
     }
 
     #[test]
-    fn paths_are_decoded() {
-        assert_eq!(
-            parse_reference("a%20b/%C3%A9.png"),
-            Ok(Reference::Path("a b/é.png".to_owned())),
-            "decoded"
-        );
-        assert_eq!(
-            parse_reference("%2e%2e/x"),
-            Ok(Reference::Path("../x".to_owned())),
-            "to be refused by the folder"
-        );
+    fn a_path_may_be_encoded_or_not() {
+        let names = |uri: &str| match parse_reference(uri) {
+            Ok(Reference::Path(names)) => names.all().map(str::to_owned).collect::<Vec<_>>(),
+            other => panic!("{uri}: {other:?}"),
+        };
+        assert_eq!(names("a%20b/%C3%A9.png"), ["a b/é.png", "a%20b/%C3%A9.png"], "decoded first");
+        assert_eq!(names("a b.png"), ["a b.png", "a%20b.png"], "as it is, and then encoded");
+        assert_eq!(names("%ff%fe.bin"), ["%ff%fe.bin"], "bytes that are no text are a name as it is");
+        assert_eq!(names("100%.png"), ["100%.png"], "a percent sign alone");
+        assert_eq!(names("a-b_c.d~/e"), ["a-b_c.d~/e"], "nothing to encode");
+        assert_eq!(names("%2e%2e/x")[0], "../x", "to be refused by the folder");
     }
 
     #[test]

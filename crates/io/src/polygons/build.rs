@@ -253,12 +253,16 @@ fn attributes(mut polygons: Polygons, kept: &Kept, vertices: &[u32], mesh: &Mesh
         false => Some(kept.at_corners(take(&mut polygons.corner_uvs))),
     };
     let colors = of_vertices(&polygons.colors, vertices);
-    let of_faces =
+    let colors_by_face =
         || (!polygons.face_colors.is_empty()).then(|| colors_of_faces(&polygons.face_colors, kept, mesh));
+    let textures = &polygons.textures.of_faces;
+    let of_faces = (!textures.is_empty())
+        .then(|| (0..mesh.face_count()).map(|face| textures[kept.face(face)]).collect());
     Attributes {
+        face_materials: of_faces,
         corner_normals: normals,
         uv_sets: uvs.into_iter().collect(),
-        corner_colors: colors.or_else(of_faces),
+        corner_colors: colors.or_else(colors_by_face),
         ..Attributes::default()
     }
 }

@@ -4,16 +4,22 @@
 //! are copied to the corners at each vertex.
 
 mod build;
+mod colors;
+mod materials;
 
 use trigon_math::color::{srgb_to_linear, srgb8_to_linear};
 use trigon_math::{DVec3, Vec2, Vec3, Vec4};
-use trigon_scene::{AlphaMode, Material, Node, Transform};
+use trigon_scene::{Node, Transform};
 
 use self::build::build;
+use self::materials::add_materials;
 use crate::error::{LoadError, LoadErrorKind};
 use crate::import::Import;
 use crate::options::LoadStage;
 use crate::rebase::offset_for;
+
+pub(crate) use self::colors::RawColors;
+pub(crate) use self::materials::NamedTextures;
 
 /// One mesh as a reader found it. Every index leads to a vertex.
 #[derive(Debug, Default)]
@@ -33,6 +39,9 @@ pub(crate) struct Polygons {
     pub(crate) corner_uvs: Vec<Vec2>,
     /// Of faces: empty, or one each. Those of vertices come before them.
     pub(crate) face_colors: Vec<Vec4>,
+    /// Of the whole, where neither vertices nor faces have colours.
+    pub(crate) color: Option<Vec4>,
+    pub(crate) textures: NamedTextures,
     pub(crate) edges: Vec<[u32; 2]>,
 }
 
@@ -88,29 +97,15 @@ pub(crate) fn add_polygons(import: &mut Import<'_>, list: Vec<Polygons>) -> Resu
     let offset = offset_for(list.iter().flat_map(|polygons| polygons.positions.iter().copied()));
     let stem = import.path.file_stem();
     let stem = stem.map_or_else(|| "object".to_owned(), |stem| stem.to_string_lossy().into_owned());
-    for polygons in list {
+    for mut polygons in list {
         import.options.report(import.path, LoadStage::Geometry, 0.9)?;
         let name = if polygons.name.is_empty() { stem.clone() } else { polygons.name.clone() };
-        let material = import.scene.add_material(material_for(&polygons));
+        let materials = add_materials(import, &mut polygons)?;
         let mesh = build(import, polygons, offset)?;
         let mesh = import.scene.add_mesh(name.clone(), mesh);
         let mut node = Node::default().with_name(name).with_transform(Transform::from_translation(offset));
-        (node.mesh, node.materials) = (Some(mesh), vec![material]);
+        (node.mesh, node.materials) = (Some(mesh), materials);
         import.scene.add(node);
     }
     import.options.report(import.path, LoadStage::Geometry, 1.0)
-}
-
-/// Colours of vertices are to be seen as they are. An alpha of 0 everywhere is what programs
-/// write that have none.
-fn material_for(polygons: &Polygons) -> Material {
-    let mut material = Material::default().with_name("default");
-    let colors = || polygons.colors.iter().chain(&polygons.face_colors);
-    if colors().next().is_some() {
-        material.base_color = Vec4::ONE;
-    }
-    if colors().any(|color| color.w < 1.0) && colors().any(|color| color.w > 0.0) {
-        material.alpha_mode = AlphaMode::Blend;
-    }
-    material
 }

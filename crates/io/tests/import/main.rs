@@ -3,6 +3,7 @@
 mod accessors;
 mod capture;
 mod captures;
+mod cases;
 mod export;
 mod features;
 mod gltf;

@@ -13,7 +13,8 @@ use super::compressed::compressed_view;
 use super::meshopt;
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::folder::{Folder, Lookup};
-use crate::uri::{Reference, parse_reference, quotable};
+use crate::refusal::Refusal;
+use crate::uri::{FileNames, Reference, parse_reference, quotable};
 
 /// What went wrong with a reference, before it has a place.
 pub(crate) struct Unread {
@@ -151,18 +152,34 @@ pub(crate) fn read_reference(
                 .map_err(|refusal| unread(LoadErrorKind::Limit, &refusal, refusal.remedy()))?;
             Ok((bytes, None))
         }
-        Ok(Reference::Path(name)) => match folder.read(Path::new(""), &name, lookup) {
-            Ok(found) => Ok((found.bytes, found.respelled.then(|| found.path.display().to_string()))),
-            // Some exporters write names as they are, percent signs and all.
-            Err(refusal) if name != uri => match folder.read(Path::new(""), uri, lookup) {
-                Ok(found) => Ok((found.bytes, None)),
-                Err(_) => Err(unread(kind_of(&refusal), &refusal, refusal.remedy())),
-            },
-            Err(refusal) => Err(unread(kind_of(&refusal), &refusal, refusal.remedy())),
-        },
+        Ok(Reference::Path(names)) => read_file(&names, folder, lookup)
+            .map_err(|refusal| unread(kind_of(&refusal), &refusal, refusal.remedy())),
     }
 }
 
-fn kind_of(refusal: &crate::refusal::Refusal) -> LoadErrorKind {
+/// Reads the first file that one of several names leads to; the second value is another spelling that was used.
+fn read_file(
+    names: &FileNames,
+    folder: &mut Folder,
+    lookup: Lookup,
+) -> Result<(Vec<u8>, Option<String>), Refusal> {
+    let mut refused = None;
+    // No guess comes before a name that is exact.
+    for (lookup, name) in
+        [Lookup::Exact, lookup].into_iter().flat_map(|way| names.all().map(move |name| (way, name)))
+    {
+        match folder.read(Path::new(""), name, lookup) {
+            Ok(found) => {
+                let is_guessed = found.respelled || names.encoded.as_deref() == Some(name);
+                return Ok((found.bytes, is_guessed.then(|| found.path.display().to_string())));
+            }
+            Err(refusal) if refusal.is_of_a_file_that_is_there() => return Err(refusal),
+            Err(refusal) => refused = refused.or(Some(refusal)),
+        }
+    }
+    Err(refused.unwrap_or(Refusal::Missing))
+}
+
+fn kind_of(refusal: &Refusal) -> LoadErrorKind {
     if refusal.is_forbidden() { LoadErrorKind::Forbidden } else { LoadErrorKind::Read }
 }

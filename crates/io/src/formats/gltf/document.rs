@@ -92,13 +92,6 @@ impl RawMesh {
 /// Parses the JSON and checks that it is glTF 2.
 pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadError> {
     let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
-    if json.starts_with(b"version https://git-lfs") {
-        return Err(LoadError::malformed(
-            path,
-            "the file is a Git LFS pointer, not a model",
-            "fetch the real file with `git lfs pull`",
-        ));
-    }
     let preview: Preview = serde_json::from_slice(json).map_err(|error| json_error(path, &error))?;
     check_version(path, &preview)?;
     let Mended { root, foreign_channels, unbounded } = match serde_json::from_slice(json) {

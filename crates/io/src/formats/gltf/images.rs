@@ -1,7 +1,7 @@
 //! Images of the document, for the textures that materials use.
 
 use std::collections::{BTreeMap, HashMap};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use gltf::json::Root;
 use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
@@ -19,6 +19,7 @@ use crate::import::Import;
 use crate::layers::Role;
 use crate::texture_request::{ImageBytes, Purpose, Request};
 use crate::textures::add_textures;
+use crate::uri::{Reference, parse_reference};
 
 /// The textures that images of the document became: one for colours, one for
 /// data, as they are used.
@@ -132,11 +133,24 @@ fn read_image(
         }
         Err(Unread { what, remedy, .. }) => {
             let said = (format!("the image is not drawn: {what}"), remedy);
-            let tried = import.folder.tried(Path::new(""), &image_name(root, image));
+            let tried = tried_for(&mut import.folder, root, image);
             import.warnings.push_unusable(import.path, place, said, tried);
             None
         }
     }
+}
+
+/// Every path at which the file of an image is looked for.
+fn tried_for(folder: &mut Folder, root: &Root, image: usize) -> Vec<PathBuf> {
+    let reference = root.images[image].uri.as_deref().map(parse_reference);
+    let Some(Ok(Reference::Path(names))) = reference else { return Vec::new() };
+    let mut tried = Vec::new();
+    for path in names.all().flat_map(|name| folder.tried(Path::new(""), name)) {
+        if !tried.contains(&path) {
+            tried.push(path);
+        }
+    }
+    tried
 }
 
 /// The bytes of an image; the second value is another spelling that was used for a file.

@@ -23,13 +23,14 @@ pub(super) fn convert(file: &Path, from: Fields, warnings: &mut Warnings) -> Mtl
         _ if textured => Vec3::ONE,
         _ => Material::default().base_color.truncate(),
     };
-    let alpha = value(from.dissolve).unwrap_or_else(|| alpha_from(file, &from, warnings));
+    let alpha = alpha(file, &from, warnings);
     warn_undrawn(file, &from, alpha, warnings);
     let specular = white_beside_map(value(from.specular), from.has(MapKind::Specular));
     let material = Material {
         name: from.name.clone(),
         base_color: Vec4::from((base, alpha)),
-        shading: metallic_roughness(&from).unwrap_or_else(|| shading(&from, specular.map(to_linear))),
+        shading: metallic_roughness(&from)
+            .unwrap_or_else(|| shading(file, &from, specular.map(to_linear), warnings)),
         emissive: white_beside_map(value(from.emissive), from.has(MapKind::Emissive))
             .map_or(Vec3::ZERO, to_linear),
         alpha_mode: match alpha < 1.0 {
@@ -77,35 +78,55 @@ fn metallic_roughness(from: &Fields) -> Option<Shading> {
     }))
 }
 
-/// `Tr` is 1 − d. Some exporters write 1 for opaque: nobody means a material
-/// that cannot be seen.
-fn alpha_from(file: &Path, from: &Fields, warnings: &mut Warnings) -> f32 {
-    match from.transparency {
-        Some(Stated { line, value: 1.0.. }) => {
-            warnings.push_about(
-                file,
-                Place::Line(line),
-                "Tr 1 would be invisible and is read as opaque",
-                "write d instead of Tr",
-            );
-            1.0
+/// `d`, or 1 − `Tr`. Exporters disagree about both; of two readings the one that shows the surface counts.
+fn alpha(file: &Path, from: &Fields, warnings: &mut Warnings) -> f32 {
+    let of_transparency = from.transparency.map(|stated| Stated { value: 1.0 - stated.value, ..stated });
+    let mut opaque = |line: u64, what: &str, remedy: &str| {
+        warnings.push_about(file, Place::Line(line), what, remedy);
+        1.0
+    };
+    match (from.dissolve, of_transparency) {
+        (Some(Stated { value: ..=0.0, .. }), Some(Stated { value, .. })) if value > 0.0 => value,
+        (Some(Stated { line, value: ..=0.0 }), _) if from.has(MapKind::Opacity) => {
+            opaque(line, "d 0 beside map_d would be invisible, and map_d counts alone", "write d 1")
         }
-        Some(Stated { value, .. }) => 1.0 - value,
-        None => 1.0,
+        (Some(Stated { value, .. }), _) => value,
+        (None, Some(Stated { line, value: ..=0.0 })) => {
+            opaque(line, "Tr 1 would be invisible and is read as opaque", "write d instead of Tr")
+        }
+        (None, Some(Stated { value, .. })) => value,
+        (None, None) => 1.0,
     }
 }
 
 /// Illumination model 0 has the colour alone, whatever the light, and 1 no highlight.
-fn shading(from: &Fields, specular: Option<Vec3>) -> Shading {
-    const SHININESS: f32 = 30.0;
+fn shading(file: &Path, from: &Fields, specular: Option<Vec3>, warnings: &mut Warnings) -> Shading {
     let model = value(from.illumination_model);
     match specular {
         _ if model == Some(0) => Shading::Unlit,
-        Some(specular) if specular != Vec3::ZERO && model != Some(1) => {
-            Shading::blinn_phong(specular, value(from.shininess).unwrap_or(SHININESS))
-        }
+        Some(specular) if specular != Vec3::ZERO && model != Some(1) => exponent(file, from, warnings)
+            .map_or(Shading::Lambert, |exponent| Shading::blinn_phong(specular, exponent)),
         _ => Shading::Lambert,
     }
+}
+
+/// How small a highlight is; none if there is no highlight. Many exporters write `Ks 1 1 1` for a surface
+/// without one, and leave `Ns` out or at 0 or 1: a highlight as wide as that is a white veil over everything.
+fn exponent(file: &Path, from: &Fields, warnings: &mut Warnings) -> Option<f32> {
+    const USUAL: f32 = 30.0;
+    const WIDEST: f32 = 1.0;
+    let stated = match (from.shininess, from.map(MapKind::Specular)) {
+        (Some(Stated { value, .. }), _) if value > WIDEST => return Some(value),
+        // An image of highlights is no placeholder.
+        (None, Some(_)) => return Some(USUAL),
+        (Some(Stated { line, .. }), _) => Some(line),
+        (None, None) => from.specular.map(|specular| specular.line),
+    };
+    if let Some(line) = stated {
+        let what = "Ks without Ns, or with Ns of at most 1, is a placeholder, and no highlight is drawn";
+        warnings.push_about(file, Place::Line(line), what, "write Ns, such as 30, or Ks 0");
+    }
+    None
 }
 
 fn to_linear(color: [f32; 3]) -> Vec3 {

@@ -4,15 +4,15 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::Path;
 
-use trigon_scene::{Material, MaterialId};
+use trigon_scene::{AlphaMode, Material, MaterialId};
 
 use super::mtl::{MapKind, MtlMaterial, parse_mtl};
 use super::oddities::Oddity;
 use super::record::Record;
-use super::respelled::note_respelled;
 use super::textures::Textures;
 use crate::error::{LoadError, Place};
 use crate::folder::{Found, Lookup};
+use crate::image_file::{Mention, note_respelled};
 use crate::import::Import;
 use crate::refusal::Refusal;
 use crate::warning::Warnings;
@@ -54,10 +54,20 @@ pub(crate) fn add_materials(
             None => {}
         }
     }
+    let has_only_these = record.runs.iter().all(|run| run.material.is_some())
+        && wanted.len() == used.iter().filter(|&&is_used| is_used).count();
+    let is_hidden = has_only_these && is_all_invisible(&wanted);
+    if is_hidden && let Some((_, first)) = wanted.first() {
+        let what = "every material is invisible (d 0 or Tr 1), and all are drawn opaque";
+        import.warnings.push_about(&first.file, Place::Line(first.line), what, "write d 1");
+    }
     let textures = Textures::read(import, wanted.iter().map(|(_, material)| *material))?;
     let mut ids = vec![None; used.len()];
     for (index, from) in wanted {
         let mut material = from.material.clone();
+        if is_hidden {
+            (material.base_color.w, material.alpha_mode) = (1.0, AlphaMode::Opaque);
+        }
         let is_textured = textures.dress(&mut material, from);
         if from.map(MapKind::BaseColor).is_some() && material.base_color_texture.is_none() {
             soften_without_texture(&mut material);
@@ -65,6 +75,11 @@ pub(crate) fn add_materials(
         ids[index] = Some(Added { id: import.scene.add_material(material), is_textured });
     }
     Ok(ids)
+}
+
+/// Nobody exports a model that cannot be seen: a single material may be hidden, but not all.
+fn is_all_invisible(wanted: &[(usize, &MtlMaterial)]) -> bool {
+    wanted.iter().all(|(_, material)| material.material.base_color.w == 0.0)
 }
 
 /// White that was meant for a texture is too bright without it.
@@ -95,8 +110,9 @@ fn read_libraries(import: &mut Import<'_>, record: &Record) -> (HashMap<String, 
                     continue;
                 }
             };
-            let (what, place) = (format!("material library \"{name}\""), Place::Line(*line));
-            note_respelled(import, &what, &found, import.path, place);
+            let what = format!("material library \"{name}\"");
+            let from = Mention { file: import.path, line: *line, name: &name };
+            note_respelled(import, &what, &found, from);
             for material in parse_mtl(&found.path, &found.bytes, &mut import.warnings) {
                 add_definition(&mut materials, material, &mut import.warnings);
             }

@@ -106,30 +106,6 @@ pub(crate) fn decode_name(bytes: &[u8]) -> String {
     }
 }
 
-/// The text as bytes of an ASCII superset without byte order mark, or why it
-/// is no text.
-pub(crate) fn plain_bytes(bytes: &[u8]) -> Result<Cow<'_, [u8]>, &'static str> {
-    if let Some(rest) = bytes.strip_prefix(b"\xef\xbb\xbf") {
-        return Ok(Cow::Borrowed(rest));
-    }
-    let from_units = |read: fn([u8; 2]) -> u16| {
-        let units = bytes[2..].chunks_exact(2).map(|pair| read([pair[0], pair[1]]));
-        let text: String =
-            char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
-        Cow::Owned(text.into_bytes())
-    };
-    if bytes.starts_with(b"\xff\xfe") {
-        return Ok(from_units(u16::from_le_bytes));
-    }
-    if bytes.starts_with(b"\xfe\xff") {
-        return Ok(from_units(u16::from_be_bytes));
-    }
-    if bytes.starts_with(b"version https://git-lfs") {
-        return Err("the file is a Git LFS pointer, not a model");
-    }
-    Ok(Cow::Borrowed(bytes))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -170,10 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn text_in_other_encodings_is_read() {
-        let utf16: Vec<u8> = "\u{feff}v 1".encode_utf16().flat_map(u16::to_le_bytes).collect();
-        assert_eq!(&*plain_bytes(&utf16).expect("text"), b"v 1", "UTF-16 with its mark");
-        assert_eq!(&*plain_bytes(b"\xef\xbb\xbfv").expect("text"), b"v", "UTF-8 with its mark");
+    fn names_in_other_encodings_are_read() {
         assert_eq!(decode_name(b" caf\xe9 "), "café", "Latin-1");
     }
 }

@@ -28,7 +28,6 @@ mod oddities;
 mod parse;
 mod passed;
 mod record;
-mod respelled;
 mod section;
 mod smoothing;
 mod textures;

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use trigon_scene::Material;
 
 use super::convert::convert;
-use super::lines::{Lines, decode_name, plain_bytes, split_keyword};
+use super::lines::{Lines, decode_name, split_keyword};
 use super::map_options::MapStatement;
 use super::mtl_reader::Reader;
 use super::mtl_values::Stated;
-use crate::error::Place;
+use crate::text::plain_text;
 use crate::warning::Warnings;
 
 /// What a `map_…` statement is for.
@@ -138,13 +138,7 @@ impl Fields {
 
 /// Reads a library. What is malformed in it becomes a warning.
 pub(crate) fn parse_mtl(file: &Path, bytes: &[u8], warnings: &mut Warnings) -> Vec<MtlMaterial> {
-    let text = match plain_bytes(bytes) {
-        Ok(text) => text,
-        Err(what) => {
-            warnings.push_about(file, Place::Whole, what, "fetch the real file with `git lfs pull`");
-            return Vec::new();
-        }
-    };
+    let text = plain_text(bytes);
     let mut reader = Reader::new(file, warnings);
     for (number, line) in Lines::new(&text) {
         if let Some((keyword, rest)) = split_keyword(&line) {

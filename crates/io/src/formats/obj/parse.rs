@@ -12,12 +12,12 @@ use rayon::prelude::*;
 use super::chunks::{Census, Chunk, census, cut, number};
 use super::content::Content;
 use super::index::{Counts, NONE};
-use super::lines::plain_bytes;
 use super::oddities::{Oddities, Oddity, Tally};
 use super::record::Record;
 use super::section::{Section, read_section};
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::options::{LoadOptions, LoadStage};
+use crate::text::plain_text;
 use crate::warning::Warnings;
 
 /// How many bytes are a piece: long enough to be worth a task.
@@ -57,8 +57,7 @@ pub(super) fn parse_in_pieces(
     options: &LoadOptions<'_>,
     warnings: &mut Warnings,
 ) -> Result<Parsed, LoadError> {
-    let text = plain_bytes(bytes)
-        .map_err(|what| LoadError::malformed(path, what, "fetch the real file with `git lfs pull`"))?;
+    let text = plain_text(bytes);
     options.report(path, LoadStage::Geometry, 0.0)?;
     let pieces = cut(&text, size);
     let (chunks, total) = number(&pieces, &count_all(path, &pieces, options)?);

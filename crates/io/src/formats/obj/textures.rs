@@ -12,12 +12,10 @@ use trigon_scene::{Material, NormalMap, Shading, TextureBinding, TextureId};
 
 use super::map_options::MapStatement;
 use super::mtl::{Map, MapKind, MtlMaterial};
-use super::respelled::note_respelled;
 use crate::error::{LoadError, Place};
-use crate::folder::{Found, Lookup};
+use crate::image_file::{Mention, find_image};
 use crate::import::Import;
 use crate::layers::Role;
-use crate::refusal::Refusal;
 use crate::texture_request::{ImageBytes, Purpose, Request};
 use crate::textures::add_textures;
 
@@ -154,7 +152,8 @@ impl Images {
         if let Some(known) = self.searched.get(&name) {
             return known.clone();
         }
-        let found = find_image(import, material, map);
+        let (file, name_there) = (&material.file, &map.statement.file);
+        let found = find_image(import, Mention { file, line: map.line, name: name_there });
         let path = found.as_ref().map(|found| found.path.clone());
         if let Some(found) = found {
             self.bytes.entry(found.path).or_insert_with(|| found.bytes.into());
@@ -168,30 +167,5 @@ impl Images {
         let bytes = self.bytes[path].clone();
         let whole = 0..bytes.len();
         ImageBytes::Shared(bytes, whole)
-    }
-}
-
-/// Looks beside the library, then beside the model.
-fn find_image(import: &mut Import<'_>, material: &MtlMaterial, map: &Map) -> Option<Found> {
-    let (name, place) = (&map.statement.file, Place::Line(map.line));
-    let beside = import.folder.relative_folder(&material.file);
-    let mut result = import.folder.read(&beside, name, Lookup::Forgiving);
-    if matches!(result, Err(Refusal::Missing)) && !beside.as_os_str().is_empty() {
-        result = import.folder.read(Path::new(""), name, Lookup::Forgiving);
-    }
-    match result {
-        Ok(found) => {
-            note_respelled(import, &format!("texture \"{name}\""), &found, &material.file, place);
-            Some(found)
-        }
-        Err(refusal) => {
-            let what = format!("texture \"{name}\" is not drawn: {refusal}");
-            let mut tried = import.folder.tried(&beside, name);
-            if !beside.as_os_str().is_empty() {
-                tried.extend(import.folder.tried(Path::new(""), name));
-            }
-            import.warnings.push_unusable(&material.file, place, (what, refusal.remedy()), tried);
-            None
-        }
     }
 }

@@ -77,8 +77,12 @@ impl Notes<'_> {
         const ROUNDING: f32 = 0.01;
         let (Some(dissolve), Some(transparency)) = (from.dissolve, from.transparency) else { return };
         if (dissolve.value + transparency.value - 1.0).abs() > ROUNDING {
-            let what = "d and Tr contradict each other (Tr is 1 − d), and d counts";
-            self.warn(transparency.line, what, "remove Tr");
+            // One of them hides the surface.
+            let what = match dissolve.value > 0.0 || transparency.value >= 1.0 {
+                true => "d and Tr contradict each other (Tr is 1 − d), and d counts",
+                false => "d 0 and Tr contradict each other (Tr is 1 − d), and Tr counts",
+            };
+            self.warn(transparency.line, what, "remove one of them");
         }
     }
 

@@ -2,11 +2,11 @@
 
 use trigon_math::Vec2;
 
+use super::colors::Channels;
 use super::header::{Element, Kind};
 use super::outcome::{Outcome, report, skip, stopped};
 use super::scalar::Scalar;
 use super::values::{Fault, Values};
-use super::vertices::{color, full_channel};
 use crate::import::Import;
 use crate::polygons::{Polygons, most_corners};
 
@@ -20,7 +20,10 @@ struct Roles {
     uvs: Option<usize>,
     /// Red, green, blue and alpha.
     color: [Option<usize>; 4],
+    /// The values of opaque white.
     full: [f64; 4],
+    /// The number of its image.
+    texture: Option<usize>,
 }
 
 impl Roles {
@@ -31,9 +34,15 @@ impl Roles {
         Self {
             indices: element.position(INDICES).filter(is_list),
             uvs: element.position(&["texcoord"]).filter(is_list),
-            full: color.map(|property| full_channel(element, property)),
+            texture: element.position(&["texnumber"]).filter(|index| !is_list(index)),
+            full: Channels::new(element, color).full(),
             color,
         }
+    }
+
+    /// Whether faces may differ in their images.
+    fn has_textures(&self) -> bool {
+        self.texture.is_some() || self.uvs.is_some()
     }
 
     fn has_color(&self) -> bool {
@@ -48,6 +57,13 @@ struct Face {
     /// As they are in the file.
     uvs: Vec<f64>,
     channels: [f64; 4],
+    texture: f64,
+}
+
+/// Where the values of faces go.
+struct Sink<'p> {
+    polygons: &'p mut Polygons,
+    colors: Channels,
 }
 
 impl Face {
@@ -63,6 +79,7 @@ impl Face {
         self.vertices.clear();
         self.uvs.clear();
         self.channels = roles.full;
+        self.texture = 0.0;
         for (index, property) in element.properties.iter().enumerate() {
             match property.kind {
                 Kind::List { count, item } if roles.indices == Some(index) => {
@@ -82,6 +99,7 @@ impl Face {
                 }
                 Kind::Scalar(scalar) => match roles.color.iter().position(|role| *role == Some(index)) {
                     Some(channel) => self.channels[channel] = values.value(scalar)?,
+                    None if roles.texture == Some(index) => self.texture = values.value(scalar)?,
                     None => values.pass(scalar, 1)?,
                 },
                 kind @ Kind::List { .. } => values.skip(kind)?,
@@ -91,11 +109,11 @@ impl Face {
         Ok(())
     }
 
-    fn push(&self, roles: &Roles, polygons: &mut Polygons) {
+    fn push(&self, roles: &Roles, Sink { polygons, colors }: &mut Sink<'_>) {
         polygons.face_sizes.push(self.vertices.len() as u32);
         polygons.corner_vertices.extend_from_slice(&self.vertices);
         if roles.has_color() {
-            polygons.face_colors.push(color(self.channels, roles.full));
+            colors.push(self.channels, &mut polygons.face_colors);
         }
         if roles.uvs.is_some() {
             let uv = |corner: usize| match self.uvs.get(2 * corner..2 * corner + 2) {
@@ -105,6 +123,16 @@ impl Face {
             let uvs = (0..self.vertices.len()).map(uv);
             polygons.corner_uvs.extend(uvs.map(|uv| if uv.is_finite() { uv } else { Vec2::ZERO }));
         }
+        if roles.has_textures() && !polygons.textures.names.is_empty() {
+            polygons.textures.of_faces.push(self.texture_number(roles));
+        }
+    }
+
+    /// The number of its image; that of none if it has no coordinates there.
+    fn texture_number(&self, roles: &Roles) -> u32 {
+        let is_placed = roles.uvs.is_none() || self.uvs.len() >= 2 * self.vertices.len();
+        let is_number = self.texture >= 0.0 && self.texture < f64::from(u32::MAX);
+        if is_placed && is_number { self.texture as u32 } else { u32::MAX }
     }
 }
 
@@ -141,15 +169,21 @@ pub(super) fn read_faces<V: Values>(
         polygons.corner_vertices.reserve(element.count.saturating_mul(3).min(most) as usize);
     }
     let mut face = Face::default();
+    let mut sink = Sink { polygons, colors: Channels::new(element, roles.color) };
+    let mut outcome = Ok(());
     for row in 0..element.count {
         report(import, row, values)?;
-        let most = most_corners(import).saturating_sub(polygons.corner_vertices.len());
+        let most = most_corners(import).saturating_sub(sink.polygons.corner_vertices.len());
         match face.read(element, &roles, vertices, values, most) {
-            Ok(()) => face.push(&roles, polygons),
-            Err(fault) => return stopped(import, element, row, values, fault),
+            Ok(()) => face.push(&roles, &mut sink),
+            Err(fault) => {
+                outcome = stopped(import, element, row, values, fault)?;
+                break;
+            }
         }
     }
-    Ok(Ok(()))
+    sink.colors.finish(&mut sink.polygons.face_colors, &mut import.warnings);
+    Ok(outcome)
 }
 
 pub(super) fn read_edges<V: Values>(

@@ -44,6 +44,8 @@ impl Element {
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
+    /// The names of images in comments, with their lines.
+    pub(super) textures: Vec<(u64, String)>,
     /// How many lines it has.
     pub(super) lines: u64,
     /// Where the data begin, in bytes.
@@ -89,7 +91,11 @@ impl<'a> Lines<'a> {
 struct Draft {
     encoding: Option<Encoding>,
     elements: Vec<Element>,
+    textures: Vec<(u64, String)>,
 }
+
+/// So many images are told apart.
+const MOST_TEXTURES: usize = 1 << 12;
 
 pub(super) fn read_header(import: &mut Import<'_>, bytes: &[u8]) -> Result<Header, LoadError> {
     const REMEDY: &str = "export the model again";
@@ -110,6 +116,11 @@ pub(super) fn read_header(import: &mut Import<'_>, bytes: &[u8]) -> Result<Heade
         if line == b"end_header" {
             break;
         }
+        if let Some(name) = texture_file(line)
+            && draft.textures.len() < MOST_TEXTURES
+        {
+            draft.textures.push((lines.number, name));
+        }
         match draft.statement(line) {
             Ok(true) => {}
             Ok(false) => import.warnings.push(
@@ -123,7 +134,19 @@ pub(super) fn read_header(import: &mut Import<'_>, bytes: &[u8]) -> Result<Heade
     let Some(encoding) = draft.encoding else {
         return Err(malformed(lines.number, "the header has no format statement".to_owned()));
     };
-    Ok(Header { encoding, elements: draft.elements, lines: lines.number, data: lines.at })
+    let Draft { elements, textures, .. } = draft;
+    Ok(Header { encoding, elements, textures, lines: lines.number, data: lines.at })
+}
+
+/// The name of an image, which MeshLab and others write as `comment TextureFile wood.png`.
+fn texture_file(line: &[u8]) -> Option<String> {
+    let rest = line.strip_prefix(b"comment")?.trim_ascii_start();
+    let (keyword, name) = rest.split_at_checked(b"TextureFile".len())?;
+    let is_it =
+        keyword.eq_ignore_ascii_case(b"TextureFile") && name.first().is_some_and(u8::is_ascii_whitespace);
+    let name = text(name.trim_ascii());
+    let name = name.trim_matches('"');
+    (is_it && !name.is_empty()).then(|| name.to_owned())
 }
 
 fn first_word(line: &[u8]) -> String {

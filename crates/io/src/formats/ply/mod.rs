@@ -8,6 +8,7 @@
 //! one bad row, also if only the last faces are cut off; it counts rows of binary data as lines, so its
 //! errors name no byte; and it delivers each number through a call with the name of its property.
 
+mod colors;
 mod faces;
 mod header;
 mod outcome;
@@ -28,7 +29,7 @@ use self::vertices::read_vertices;
 use crate::error::LoadError;
 use crate::import::Import;
 use crate::options::LoadStage;
-use crate::polygons::{Polygons, add_polygons};
+use crate::polygons::{NamedTextures, Polygons, add_polygons};
 
 pub(crate) use write::write_ply;
 
@@ -42,7 +43,8 @@ pub(crate) fn import_ply(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
     import.options.report(import.path, LoadStage::Geometry, 0.0)?;
     let header = read_header(import, &bytes)?;
     let data = &bytes[header.data..];
-    let mut polygons = Polygons::default();
+    let textures = NamedTextures { names: header.textures.clone(), of_faces: Vec::new() };
+    let mut polygons = Polygons { textures, ..Polygons::default() };
     match header.encoding {
         Encoding::Text => {
             read_elements(import, &header, &mut Text::new(header.lines, data), &mut polygons)?;
@@ -90,6 +92,9 @@ fn read_elements<V: Values>(
     }
     if polygons.corner_uvs.len() != polygons.corner_vertices.len() {
         polygons.corner_uvs.clear();
+    }
+    if polygons.textures.of_faces.len() != polygons.face_sizes.len() {
+        polygons.textures.of_faces.clear();
     }
     let surplus = values.surplus();
     import.warnings.push_counted(

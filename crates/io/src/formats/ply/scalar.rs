@@ -59,6 +59,10 @@ impl Scalar {
         }
     }
 
+    pub(super) fn is_float(self) -> bool {
+        matches!(self, Self::Float32 | Self::Float64)
+    }
+
     /// What stands for 1 where a number of this type is a channel of a colour: floats go to 1,
     /// and what is wider than a byte and not 16 bits without a sign still counts to 255.
     pub(super) fn full_channel(self) -> f64 {

@@ -1,13 +1,14 @@
 //! The vertices of a PLY: positions, normals, colours and texture coordinates.
 
-use trigon_math::{DVec3, Vec2, Vec3, Vec4};
+use trigon_math::{DVec3, Vec2, Vec3};
 
+use super::colors::Channels;
 use super::header::{Element, Kind};
 use super::outcome::{cut_off, report, stopped};
 use super::values::{Fault, Values};
 use crate::error::{LoadError, LoadErrorKind};
 use crate::import::Import;
-use crate::polygons::{Polygons, light_from_srgb};
+use crate::polygons::Polygons;
 
 /// The names of what is read, in the order of a row.
 const NAMES: [&[&str]; 12] = [
@@ -37,8 +38,7 @@ struct Row {
     has_normal: bool,
     has_color: bool,
     has_uv: bool,
-    /// What is 1 in each channel of the colour.
-    full: [f64; 4],
+    colors: Channels,
     values: [f64; NAMES.len()],
 }
 
@@ -55,10 +55,10 @@ impl Row {
         }
         let has = |from: usize, count: usize| (from..from + count).all(|slot| slots.contains(&Some(slot)));
         let (has_normal, has_color, has_uv) = (has(NORMAL, 3), has(RED, 3), has(S, 2));
-        let full = std::array::from_fn(|channel| full_channel(element, found[RED + channel]));
+        let colors = Channels::new(element, std::array::from_fn(|channel| found[RED + channel]));
         let mut values = [0.0; NAMES.len()];
-        values[ALPHA] = full[3];
-        Self { slots, has_normal, has_color, has_uv, full, values }
+        values[ALPHA] = colors.full()[3];
+        Self { slots, has_normal, has_color, has_uv, colors, values }
     }
 
     fn is_placed(&self) -> bool {
@@ -77,14 +77,14 @@ impl Row {
         Ok(())
     }
 
-    fn push(&self, polygons: &mut Polygons) {
+    fn push(&mut self, polygons: &mut Polygons) {
         let [x, y, z, nx, ny, nz, red, green, blue, alpha, s, t] = self.values;
         polygons.positions.push(DVec3::new(x, y, z));
         if self.has_normal {
             polygons.normals.push(Vec3::new(nx as f32, ny as f32, nz as f32));
         }
         if self.has_color {
-            polygons.colors.push(color([red, green, blue, alpha], self.full));
+            self.colors.push([red, green, blue, alpha], &mut polygons.colors);
         }
         if self.has_uv {
             // PLY counts v upwards.
@@ -94,21 +94,8 @@ impl Row {
     }
 }
 
-/// What is 1 in a channel: as its type says, and 255 where there is none.
-pub(super) fn full_channel(element: &Element, property: Option<usize>) -> f64 {
-    match property.map(|index| element.properties[index].kind) {
-        Some(Kind::Scalar(scalar)) => scalar.full_channel(),
-        _ => 255.0,
-    }
-}
-
-/// A colour in sRGB as linear light.
-pub(super) fn color(channels: [f64; 4], full: [f64; 4]) -> Vec4 {
-    light_from_srgb(std::array::from_fn(|channel| channels[channel] as f32 / full[channel] as f32))
-}
-
 pub(super) fn read_vertices<V: Values>(
-    import: &Import<'_>,
+    import: &mut Import<'_>,
     element: &Element,
     values: &mut V,
     polygons: &mut Polygons,
@@ -144,5 +131,6 @@ pub(super) fn read_vertices<V: Values>(
             }
         }
     }
+    row.colors.finish(&mut polygons.colors, &mut import.warnings);
     Ok(())
 }

@@ -1,9 +1,9 @@
 //! Binary STL: a header of 80 bytes, the number of triangles, and 50 bytes for each.
 
 use rayon::prelude::*;
-use trigon_math::color::srgb_to_linear;
-use trigon_math::{DVec3, Vec3, Vec4};
+use trigon_math::DVec3;
 
+use super::colors::Attributes;
 use crate::equal_keys::EqualKeys;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
@@ -35,14 +35,16 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
         let what = format!("it has {} bytes, and neither the start of text nor a binary header", bytes.len());
         return Err(LoadError::malformed(import.path, what, "copy or export the file again"));
     };
-    let length = ((bytes.len() - HEADER) / TRIANGLE).min(count as usize);
+    let room = (bytes.len() - HEADER) / TRIANGLE;
+    // Programs that write while they compute leave 0 where they would have to come back for the number.
+    let length = if count == 0 { room } else { room.min(count as usize) };
     warn_of_size(import, bytes, count, length);
     if length > most_corners(import) / 3 {
         return Err(too_many_corners(import));
     }
     let mut polygons = Polygons { face_sizes: vec![3; length], ..Polygons::default() };
     polygons.corner_vertices.reserve_exact(3 * length);
-    let mut colors = Colors::new(&bytes[..HEADER - 4]);
+    let mut attributes = Attributes::default();
     // Half as many vertices as triangles, as in a closed surface.
     let mut equal = EqualKeys::with_capacity(length / 2);
     let (triangles, _) = bytes[HEADER..][..length * TRIANGLE].as_chunks::<TRIANGLE>();
@@ -52,7 +54,8 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
         import.options.report(import.path, LoadStage::Geometry, 0.9 * share)?;
         // One thread adds what was found before, while all others find more.
         let add = || {
-            some.iter().for_each(|triangle| colors.push(u16::from_le_bytes([triangle[48], triangle[49]])));
+            some.iter()
+                .for_each(|triangle| attributes.push(u16::from_le_bytes([triangle[48], triangle[49]])));
             push_corners(&mut polygons, &found);
         };
         let ((), more) = rayon::join(add, || Corners::find(some, &mut equal));
@@ -61,8 +64,7 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
     }
     push_corners(&mut polygons, &found);
     check_vertices(import, polygons.positions.len() as u64)?;
-    // One for each triangle, unless none has any.
-    polygons.face_colors = colors.colors;
+    attributes.color(&bytes[..HEADER - 4], &mut polygons, &mut import.warnings);
     Ok(polygons)
 }
 
@@ -110,52 +112,11 @@ fn warn_of_size(import: &mut Import<'_>, bytes: &[u8], claimed: u32, there: usiz
     if there < claimed as usize {
         let what = format!("the header claims {claimed} triangles, and the file ends after {there}");
         import.warnings.push(end, what, "copy or export the file again");
+    } else if claimed == 0 && there > 0 {
+        let what = format!("the header claims no triangles, and the {there} that follow are read");
+        import.warnings.push(Place::Byte(HEADER as u64 - 4), what, "export the model again");
     } else if !has_exact_size(bytes) {
         let what = format!("there are bytes after the {claimed} triangles, which are ignored");
         import.warnings.push(end, what, "export the model again");
     }
-}
-
-/// The colours of triangles: 5 bits for each channel, and one that tells whether they count.
-struct Colors {
-    /// What Magics writes in the header: the colour of all triangles without one of their own. In such
-    /// files the bit is set where there is none, and red is in the lowest bits; elsewhere the
-    /// bit is set where there is one, and blue is.
-    of_all: Option<Vec4>,
-    /// Empty until a triangle has one.
-    colors: Vec<Vec4>,
-    /// The triangles so far.
-    count: usize,
-}
-
-impl Colors {
-    fn new(header: &[u8]) -> Self {
-        const KEY: &[u8] = b"COLOR=";
-        let start = header.windows(KEY.len()).position(|window| window == KEY);
-        let bytes = start.and_then(|start| header.get(start + KEY.len()..start + KEY.len() + 4));
-        let of_all = bytes.map(|bytes| {
-            let [red, green, blue, alpha] = [0, 1, 2, 3].map(|at| f32::from(bytes[at]) / 255.0);
-            linear([red, green, blue]).extend(alpha)
-        });
-        Self { of_all, colors: Vec::new(), count: 0 }
-    }
-
-    fn push(&mut self, attribute: u16) {
-        let channel = |shift: u16| f32::from((attribute >> shift) & 31) / 31.0;
-        let flag = attribute & 0x8000 != 0;
-        let color = match self.of_all {
-            Some(of_all) if flag => Some(of_all),
-            Some(of_all) => Some(linear([channel(0), channel(5), channel(10)]).extend(of_all.w)),
-            None => flag.then(|| linear([channel(10), channel(5), channel(0)]).extend(1.0)),
-        };
-        if color.is_some() || !self.colors.is_empty() {
-            self.colors.resize(self.count, Vec4::ONE);
-            self.colors.push(color.unwrap_or(Vec4::ONE));
-        }
-        self.count += 1;
-    }
-}
-
-fn linear(color: [f32; 3]) -> Vec3 {
-    Vec3::from(color.map(srgb_to_linear))
 }

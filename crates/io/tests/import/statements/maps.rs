@@ -180,8 +180,8 @@ fn files() -> Vec<Row> {
             .says("m.mtl, line 2: texture \"gone.png\" is not drawn: there is no such file; put the file there, or export the model again with it"),
         read("map_Kd of a file that is no image", Lines("map_Kd a.obj"), "a checkerboard that nobody overlooks", has_base_color)
             .says("m.mtl, line 2: image \"a.obj\" is shown as a checkerboard: its first bytes match no known image format; save it as PNG, JPEG or WebP"),
-        left("map_Ks of a file that is no image", File("newmtl m\nKs 1 1 1\n> map_Ks a.obj"), "the number alone is drawn")
-            .says("m.mtl, line 3: image \"a.obj\" is left out: its first bytes match no known image format; save it as PNG, JPEG or WebP"),
+        left("map_Ks of a file that is no image", File("newmtl m\nKs 1 1 1\nNs 50\n> map_Ks a.obj"), "the number alone is drawn")
+            .says("m.mtl, line 4: image \"a.obj\" is left out: its first bytes match no known image format; save it as PNG, JPEG or WebP"),
         read("map_Kd file of another case, or by another folder", Lines("map_Kd C:\\art\\COLOR.png"), "the file beside the model", has_base_color)
             .says("m.mtl, line 2: texture \"C:\\art\\COLOR.png\" was not found; \"color.png\" is used instead; correct the name there"),
         left("map_Kd without a file", Lines("map_Kd"), "it names nothing")

@@ -1,8 +1,8 @@
 //! Materials and their numbers.
 
 use trigon_io::Loaded;
+use trigon_math::Vec3;
 use trigon_math::color::srgb_to_linear;
-use trigon_math::{Vec3, Vec4};
 use trigon_scene::{AlphaMode, Material, MetallicRoughness, Shading};
 
 use super::row::Case::{File, Lines};
@@ -84,7 +84,7 @@ fn colors() -> Vec<Row> {
         left("Ka r g b", File("newmtl m\nKd 1 0 0\n> Ka 0.2 0 0"), "OBJ has no lights: ambient light is a choice of who looks at it, and Kd answers it; exporters write any number"),
         left("Ka without Kd", Lines("Ka 1 0 0"), "ambient light is answered by Kd")
             .says("m.mtl, line 2: a material has Ka and no Kd, and is drawn grey; write its colour as Kd"),
-        read("Ks r g b", Lines("Ks 1 0 0"), "a Blinn-Phong highlight", |loaded| {
+        read("Ks r g b", File("newmtl m\nNs 50\n> Ks 1 0 0"), "a Blinn-Phong highlight", |loaded| {
             matches!(shading(loaded), Shading::BlinnPhong { specular: Vec3::X, .. })
         }),
         read("Ke r g b", Lines("Ke 1 0 0"), "light that the surface sends out", |loaded| {
@@ -129,16 +129,21 @@ fn malformed_colors() -> Vec<Row> {
 
 fn highlights() -> Vec<Row> {
     vec![
-        read("Ns exponent", File("newmtl m\nKs 1 1 1\n> Ns 50"), "how sharp the highlight is; 30 without it", |loaded| {
+        read("Ns exponent", File("newmtl m\nKs 1 1 1\n> Ns 50"), "how sharp the highlight is", |loaded| {
             shading(loaded) == Shading::blinn_phong(Vec3::ONE, 50.0)
         }),
+        left("Ks without Ns", Lines("Ks 1 1 1"), "exporters write it for surfaces without a highlight")
+            .says("m.mtl, line 2: Ks without Ns, or with Ns of at most 1, is a placeholder, and no highlight is drawn; write Ns, such as 30, or Ks 0"),
+        left("Ns of at most 1", File("newmtl m\nKs 1 1 1\n> Ns 0.000000"), "a highlight as wide as diffuse light is a white veil, which nobody means")
+            .says("m.mtl, line 3: Ks without Ns, or with Ns of at most 1, is a placeholder, and no highlight is drawn; write Ns, such as 30, or Ks 0"),
         left("Ns without Ks", Lines("Ns 50"), "without Ks there is no highlight"),
         read("Ns outside of 0 to 1000", File("newmtl m\nKs 1 1 1\n> Ns 5000"), "a number within that range", |loaded| {
             shading(loaded) == Shading::blinn_phong(Vec3::ONE, 1000.0)
         })
         .says("m.mtl, line 3: Ns is outside of 0 to 1000 and is clamped; write a number within that range"),
         left("Ns without a number", File("newmtl m\nKs 1 1 1\n> Ns"), "it says nothing")
-            .says("m.mtl, line 3: Ns has no number, and is ignored; fix the line, or export the material again"),
+            .says("m.mtl, line 3: Ns has no number, and is ignored; fix the line, or export the material again")
+            .says("m.mtl, line 2: Ks without Ns, or with Ns of at most 1, is a placeholder, and no highlight is drawn; write Ns, such as 30, or Ks 0"),
         read("Ns with more than 1 number", File("newmtl m\nKs 1 1 1\n> Ns 50 60"), "the first", |loaded| {
             shading(loaded) == Shading::blinn_phong(Vec3::ONE, 50.0)
         })
@@ -152,7 +157,7 @@ fn highlights() -> Vec<Row> {
 }
 
 fn illumination_models() -> Vec<Row> {
-    const REFLECTS: &str = "m.mtl, line 3: illum 3 to 9 asks for reflections of what is around, and only highlights are drawn; write Pm and Pr for a surface that reflects";
+    const REFLECTS: &str = "m.mtl, line 4: illum 3 to 9 asks for reflections of what is around, and only highlights are drawn; write Pm and Pr for a surface that reflects";
     const GLASS: &str = "m.mtl, line 3: illum 4, 6, 7 or 9 asks for glass, and the surface is drawn clear without bending light; export the model as GLB, which keeps glass";
     let mirror = |statement: &'static str, case: &'static str| {
         left(statement, File(case), "it is drawn as illum 2").says(REFLECTS)
@@ -164,17 +169,17 @@ fn illumination_models() -> Vec<Row> {
         read("illum 0", Lines("illum 0"), "the colour alone, whatever the light", |loaded| {
             shading(loaded) == Shading::Unlit
         }),
-        read("illum 1", File("newmtl m\nKs 1 1 1\n> illum 1"), "no highlight", |loaded| {
+        read("illum 1", File("newmtl m\nKs 1 1 1\nNs 50\n> illum 1"), "no highlight", |loaded| {
             shading(loaded) == Shading::Lambert
         }),
-        left("illum 2", File("newmtl m\nKs 1 1 1\n> illum 2"), "what Ks and Ns say, as without it"),
-        mirror("illum 3", "newmtl m\nKs 1 1 1\n> illum 3"),
-        mirror("illum 4", "newmtl m\nKs 1 1 1\n> illum 4"),
-        mirror("illum 5", "newmtl m\nKs 1 1 1\n> illum 5"),
-        mirror("illum 6", "newmtl m\nKs 1 1 1\n> illum 6"),
-        mirror("illum 7", "newmtl m\nKs 1 1 1\n> illum 7"),
-        mirror("illum 8", "newmtl m\nKs 1 1 1\n> illum 8"),
-        mirror("illum 9", "newmtl m\nKs 1 1 1\n> illum 9"),
+        left("illum 2", File("newmtl m\nKs 1 1 1\nNs 50\n> illum 2"), "what Ks and Ns say, as without it"),
+        mirror("illum 3", "newmtl m\nKs 1 1 1\nNs 50\n> illum 3"),
+        mirror("illum 4", "newmtl m\nKs 1 1 1\nNs 50\n> illum 4"),
+        mirror("illum 5", "newmtl m\nKs 1 1 1\nNs 50\n> illum 5"),
+        mirror("illum 6", "newmtl m\nKs 1 1 1\nNs 50\n> illum 6"),
+        mirror("illum 7", "newmtl m\nKs 1 1 1\nNs 50\n> illum 7"),
+        mirror("illum 8", "newmtl m\nKs 1 1 1\nNs 50\n> illum 8"),
+        mirror("illum 9", "newmtl m\nKs 1 1 1\nNs 50\n> illum 9"),
         left("illum 3 to 9 without Ks", Lines("illum 4"), "reflections are as strong as Ks, and the surface is opaque"),
         glass("illum 4 on a transparent material", "newmtl m\nd 0.5\n> illum 4"),
         glass("illum 6 on a transparent material", "newmtl m\nd 0.5\n> illum 6"),
@@ -184,29 +189,30 @@ fn illumination_models() -> Vec<Row> {
             .says("m.mtl, line 2: illum 10 asks for a surface that shows nothing but shadows, and it is drawn whole; remove the surface, or write another illum"),
         left("illum above 10", Lines("illum 42"), "there is no such model")
             .says("m.mtl, line 2: illum 42 is not an illumination model (0 to 10), and is ignored; fix the line, or export the material again"),
-        read("illum with more than 1 number", File("newmtl m\nKs 1 1 1\n> illum 1 2"), "the first", |loaded| {
+        read("illum with more than 1 number", File("newmtl m\nKs 1 1 1\nNs 50\n> illum 1 2"), "the first", |loaded| {
             shading(loaded) == Shading::Lambert
         })
-        .says("m.mtl, line 3: illum has more than 1 number, and the first counts; fix the line, or export the material again"),
+        .says("m.mtl, line 4: illum has more than 1 number, and the first counts; fix the line, or export the material again"),
         left("illum without a number", Lines("illum"), "it says nothing")
             .says("m.mtl, line 2: illum has no number, and is ignored; fix the line, or export the material again"),
     ]
 }
 
 fn opacity() -> Vec<Row> {
+    const HIDDEN: &str =
+        "m.mtl, line 1: every material is invisible (d 0 or Tr 1), and all are drawn opaque; write d 1";
     let half = |loaded: &Loaded| {
         let Material { base_color, alpha_mode, .. } = material(loaded);
         base_color.w == 0.5 && *alpha_mode == AlphaMode::Blend
     };
     vec![
         read("d factor", Lines("d 0.5"), "opacity", half),
-        read("d 0", Lines("d 0"), "a surface that is not seen", |loaded| {
-            material(loaded).base_color == Vec4::from((Material::default().base_color.truncate(), 0.0))
-        }),
-        read("d outside of 0 to 1", Lines("d -1"), "a number within that range", |loaded| {
-            material(loaded).base_color.w == 0.0
-        })
-        .says("m.mtl, line 2: d is outside of 0 to 1 and is clamped; write a number within that range"),
+        left("d 0, in all materials", Lines("d 0"), "nobody exports a model that is not seen; one of several materials may be hidden")
+            .says(HIDDEN),
+        left("d outside of 0 to 1", Lines("d 1.5"), "a number within that range, which is opaque")
+            .says("m.mtl, line 2: d is outside of 0 to 1 and is clamped; write a number within that range"),
+        left("d 0 beside map_d", File("newmtl m\nmap_d grey.png\n> d 0"), "the image alone says what is seen")
+            .says("m.mtl, line 3: d 0 beside map_d would be invisible, and map_d counts alone; write d 1"),
         left("d that is not finite", Lines("d nan"), "it says nothing")
             .says("m.mtl, line 2: d has \"nan\", which is not a finite number, and is ignored; fix the line, or export the material again"),
         read("d -halo factor", Lines("d -halo 0.5"), "opacity, the same all over", half)
@@ -220,7 +226,10 @@ fn opacity() -> Vec<Row> {
             .says("m.mtl, line 2: Tr has \"x\", which is not a finite number, and is ignored; fix the line, or export the material again"),
         left("Tr beside the d that it means", File("newmtl m\nd 0.7\n> Tr 0.3"), "both say the same"),
         left("Tr beside another d", File("newmtl m\nd 0.5\n> Tr 0.9"), "d is the format's own")
-            .says("m.mtl, line 3: d and Tr contradict each other (Tr is 1 − d), and d counts; remove Tr"),
+            .says("m.mtl, line 3: d and Tr contradict each other (Tr is 1 − d), and d counts; remove one of them"),
+        read("Tr beside d 0", File("newmtl m\nd 0\n> Tr 0.5"), "of two readings the one that shows the surface", half)
+            .says("m.mtl, line 3: d 0 and Tr contradict each other (Tr is 1 − d), and Tr counts; remove one of them"),
+        left("Tr 1 beside d 0", File("newmtl m\nd 0\n> Tr 1"), "both say the same").says(HIDDEN),
     ]
 }
 
