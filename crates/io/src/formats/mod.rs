@@ -40,7 +40,7 @@ pub(crate) enum Writing {
     Objects(Holds, fn(&str, &mut Gathered<'_>, &ExportOptions<'_>) -> Result<Vec<ExportedFile>, WriteError>),
 }
 
-const GLTF: &str = "node tree, materials and all their textures, cameras, lights, skins, morph targets, animations, instances, meshopt compression; no Draco, no KTX2";
+const GLTF: &str = "node tree, materials and all their textures, cameras, lights, skins, morph targets, animations, instances, meshopt and Draco compression; no KTX2";
 
 /// The contents of a format that stores everything in a mesh.
 const ALL: Holds = Holds {

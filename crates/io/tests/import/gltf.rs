@@ -369,12 +369,10 @@ fn cameras_and_lights_stand_on_nodes() {
 
 #[test]
 fn extensions_that_are_required_are_named() {
-    for (name, word) in [("KHR_draco_mesh_compression", "Draco"), ("EXT_not_real", "re-export")] {
-        let mut doc = Doc::square();
-        doc.json["extensionsRequired"] = json!([name]);
-        let message = doc.refused();
-        assert!(message.contains(name) && message.contains(word), "{message}");
-    }
+    let mut doc = Doc::square();
+    doc.json["extensionsRequired"] = json!(["EXT_not_real"]);
+    let message = doc.refused();
+    assert!(message.contains("EXT_not_real") && message.contains("re-export"), "{message}");
     let mut doc = Doc::square();
     doc.json["extensionsUsed"] = json!(["EXT_not_real", "KHR_materials_unlit"]);
     warns_once(&doc.load(), "EXT_not_real");

@@ -4,6 +4,7 @@ mod accessors;
 mod capture;
 mod captures;
 mod cases;
+mod draco;
 mod export;
 mod features;
 mod gltf;

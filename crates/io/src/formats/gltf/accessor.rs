@@ -12,6 +12,7 @@ use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::validation::Checked;
 
 use super::buffers::{Buffers, Bytes, Unplaced, Unread};
+use super::packed::{Unpacked, UnpackedAttribute};
 use crate::error::{LoadErrorKind, Place};
 use crate::folder::Folder;
 use crate::warning::Warnings;
@@ -38,6 +39,8 @@ pub(crate) struct Accessors<'a> {
     pub(crate) most_corners: usize,
     /// The number used so far.
     pub(crate) spent: &'a mut usize,
+    /// What the compressed primitive that is being read holds.
+    pub(super) unpacked: Option<Unpacked>,
     /// Problems of accessors that were read anyway.
     pub(crate) doubts: Doubts,
 }
@@ -79,9 +82,10 @@ struct Layout {
 }
 
 impl Accessors<'_> {
-    /// The claimed number of elements.
+    /// The number of elements: the claimed one, unless they are compressed.
     pub(crate) fn count(&self, index: usize) -> u64 {
-        self.root.accessors[index].count.0
+        let unpacked = self.unpacked.as_ref().and_then(|unpacked| unpacked.attribute(index));
+        unpacked.map_or(self.root.accessors[index].count.0, |unpacked| unpacked.count as u64)
     }
 
     /// Counts the vertices or corners of a primitive. Thousands of primitives may share one
@@ -195,6 +199,12 @@ impl Accessors<'_> {
             .ok_or_else(|| malformed(index, "its componentType is unknown".to_owned()))?
             .0;
         let components = components_of(type_);
+        if let Some(unpacked) = self.unpacked.as_ref().and_then(|unpacked| unpacked.attribute(index)) {
+            let UnpackedAttribute { bytes, count, component, normalized } = unpacked;
+            let (&component, &normalized, stride) = (component, normalized, component.size() * components);
+            let layout = Layout { count: *count, stride, start: 0, component, components, normalized };
+            return Ok((layout, Some((bytes.clone(), 0..bytes.len()))));
+        }
         let count = self.checked_count(index)?;
         let size = component.size() * components;
         let layout = |start, stride| Layout {

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use gltf::json::Root;
 
 use super::compressed::compressed_view;
+use super::draco::Budget;
 use super::meshopt;
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::folder::{Folder, Lookup};
@@ -29,6 +30,10 @@ pub(crate) struct Buffers {
     read: Vec<Option<Arc<[u8]>>>,
     /// The views that were compressed.
     decoded: HashMap<usize, Arc<[u8]>>,
+    /// How many bytes were decoded of compressed primitives.
+    pub(crate) unpacked: usize,
+    /// What decoding them may cost.
+    pub(crate) budget: Budget,
 }
 
 /// A buffer and the range of a view in it.
@@ -36,13 +41,20 @@ pub(crate) type Bytes = (Arc<[u8]>, Range<usize>);
 
 impl Buffers {
     pub(crate) fn new(root: &Root, binary: Option<Arc<[u8]>>) -> Self {
-        Self { binary, read: vec![None; root.buffers.len()], decoded: HashMap::new() }
+        Self {
+            binary,
+            read: vec![None; root.buffers.len()],
+            decoded: HashMap::new(),
+            unpacked: 0,
+            budget: Budget::default(),
+        }
     }
 
     /// How many bytes the buffers that were needed so far have, and what was
     /// decoded of them.
     pub(crate) fn bytes_read(&self) -> usize {
-        self.read.iter().flatten().chain(self.decoded.values()).map(|bytes| bytes.len()).sum()
+        let bytes = self.read.iter().flatten().chain(self.decoded.values());
+        bytes.map(|bytes| bytes.len()).sum::<usize>() + self.unpacked
     }
 
     /// The bytes of a buffer view, at a checked index. At least as long as the

@@ -6,6 +6,7 @@ use std::path::Path;
 use gltf::json::Root;
 
 use super::material_extensions;
+use super::packed::DRACO;
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::warning::Warnings;
 
@@ -14,6 +15,7 @@ const READ: &[&str] = &[
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
+    DRACO,
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
@@ -99,9 +101,7 @@ fn warn_of_required(root: &Root, unread: &[&str], warnings: &mut Warnings) {
 
 fn remedy(missing: &[&str]) -> &'static str {
     let has = |part: &str| missing.iter().any(|name| name.contains(part));
-    if has("draco") {
-        "re-export without Draco compression, or decompress it with `gltf-transform dedup in.glb out.glb`"
-    } else if has("materials") {
+    if has("materials") {
         "re-export with plain metallic-roughness materials"
     } else {
         "re-export without it"

@@ -5,8 +5,8 @@
 //! 1. `container` takes a GLB apart; `document` parses the JSON, after a first look by `preview`.
 //! 2. `extensions`, `references` and `hierarchy` check the document and may refuse it;
 //!    `contradictions` only warns.
-//! 3. `mesh` reads the meshes, with `accessor`, `buffers` and `meshopt`; `native` reads those of the
-//!    editor's files.
+//! 3. `mesh` reads the meshes, with `accessor` and `buffers`; `compressed` and `packed` lead to the
+//!    decoders `meshopt` and `draco`. `native` reads the meshes of the editor's files.
 //! 4. `materials` reads the materials, with `slots` and `images`.
 //! 5. `nodes` adds the nodes, with `instances`; then come `skins` and `animations`.
 //!
@@ -16,12 +16,14 @@
 mod accessor;
 mod animations;
 mod attribute_names;
+mod broken;
 mod buffers;
 mod cameras;
 mod compressed;
 mod container;
 mod contradictions;
 mod document;
+mod draco;
 mod extensions;
 mod formats;
 mod hash;
@@ -36,6 +38,7 @@ mod mesh;
 mod meshopt;
 mod native;
 mod nodes;
+mod packed;
 mod preview;
 mod primitive;
 mod ranges;
@@ -43,6 +46,7 @@ mod reader;
 mod references;
 mod skins;
 mod slots;
+mod stream;
 mod triangle_hash;
 mod write;
 
@@ -139,6 +143,7 @@ fn build_meshes(
             most,
             most_corners: limits.corners,
             spent,
+            unpacked: None,
             doubts: Doubts::default(),
         };
         let needs = |material| Needs::of(&materials::slot_textures_of(root, material));

@@ -32,6 +32,7 @@ impl Reader<'_> {
             most: limits.vertices.max(limits.corners),
             most_corners: limits.corners,
             spent: &mut self.spent,
+            unpacked: None,
             doubts: Doubts::default(),
         };
         let read = read(&mut accessors, &mut import.warnings);

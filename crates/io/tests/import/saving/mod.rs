@@ -31,12 +31,12 @@ pub(crate) fn json_of(glb: &[u8]) -> Value {
     serde_json::from_slice(&glb.json).expect("JSON")
 }
 
-fn document(name: &str, bytes: &[u8]) -> (NativeDocument, Vec<Warning>) {
+pub(crate) fn document(name: &str, bytes: &[u8]) -> (NativeDocument, Vec<Warning>) {
     NativeDocument::load_from_slice(name, bytes, &LoadOptions::default()).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// The bytes of a document that loses nothing.
-fn saved(document: &NativeDocument) -> Vec<u8> {
+pub(crate) fn saved(document: &NativeDocument) -> Vec<u8> {
     let file = document.encode().expect("it is small");
     assert_eq!(file.what_would_be_lost(), [], "nothing is lost");
     file.to_bytes()
@@ -354,7 +354,7 @@ fn if_another_program_moved_a_vertex_the_triangles_win() {
 }
 
 /// The document and the bytes of a GLB, to be changed.
-fn doc_of(bytes: &[u8]) -> Doc {
+pub(crate) fn doc_of(bytes: &[u8]) -> Doc {
     let glb = ::gltf::Glb::from_slice(bytes).expect("a GLB");
     let bytes = glb.bin.expect("it has bytes").into_owned();
     Doc { json: serde_json::from_slice(&glb.json).expect("JSON"), bytes }

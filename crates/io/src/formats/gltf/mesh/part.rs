@@ -64,6 +64,7 @@ pub(super) fn read_primitive(
         warnings.push(place, "its mode is unknown and it is not drawn", "export the model again");
         return Ok(None);
     };
+    accessors.unpack(primitive, &place, warnings)?;
     check_bounds(accessors, position_index)?;
     if let Some(what) = formats::POSITION.fault(accessors.root, position_index) {
         warnings.push(place.clone(), what, "export the model again");
@@ -99,7 +100,7 @@ pub(super) fn read_primitive(
         elements,
         material,
         needs,
-        is_strip: matches!(mode, Mode::TriangleStrip),
+        is_strip: matches!(mode, Mode::TriangleStrip) && accessors.unpacked.is_none(),
     }))
 }
 
@@ -131,9 +132,12 @@ fn read_elements(
     place: &Place,
     warnings: &mut Warnings,
 ) -> Result<Elements, Unplaced> {
-    let indices = match primitive.indices {
-        Some(indices) => accessors.indices(indices.value())?,
-        None => (0..vertices as u32).collect(),
+    let unpacked = accessors.unpacked.as_mut().map(|unpacked| std::mem::take(&mut unpacked.triangles));
+    let mode = if unpacked.is_some() { Mode::Triangles } else { mode };
+    let indices = match (unpacked, primitive.indices) {
+        (Some(triangles), _) => triangles,
+        (None, Some(indices)) => accessors.indices(indices.value())?,
+        (None, None) => (0..vertices as u32).collect(),
     };
     accessors.spend(vertices.max(corner_count(mode, indices.len())), place)?;
     // The compiler finds the greatest of many at a time. The first one that does not exist is needed only if there is one.

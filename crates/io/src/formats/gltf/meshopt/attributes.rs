@@ -1,8 +1,8 @@
 //! Mode 0: elements as differences from the previous one, byte by byte, in groups of sixteen with
 //! as many bits as needed.
 
-use super::broken::Broken;
-use super::stream::Stream;
+use crate::formats::gltf::broken::Broken;
+use crate::formats::gltf::stream::Stream;
 
 /// Elements of a group.
 const GROUP: usize = 16;

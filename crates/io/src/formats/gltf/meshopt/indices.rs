@@ -1,7 +1,7 @@
 //! Mode 2: each index is a difference from one of two previous ones.
 
-use super::broken::Broken;
-use super::stream::{Stream, unzigzag};
+use crate::formats::gltf::broken::Broken;
+use crate::formats::gltf::stream::{Stream, unzigzag};
 
 const HEADER: u8 = 0xd1;
 const TAIL: usize = 4;

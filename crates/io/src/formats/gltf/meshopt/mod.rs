@@ -6,13 +6,11 @@
 //! first. Every read is checked, and memory grows with the decoded data, never with claimed sizes.
 
 mod attributes;
-mod broken;
 mod filters;
 mod indices;
-mod stream;
 mod triangles;
 
-pub(crate) use broken::Broken;
+use super::broken::Broken;
 pub(crate) use filters::Filter;
 
 /// The compression of a view.

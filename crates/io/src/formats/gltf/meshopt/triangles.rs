@@ -1,8 +1,8 @@
 //! Mode 1: each triangle is a byte that refers to a recent edge and a recent vertex, plus a few bytes where
 //! that is not enough.
 
-use super::broken::Broken;
-use super::stream::{Stream, unzigzag};
+use crate::formats::gltf::broken::Broken;
+use crate::formats::gltf::stream::{Stream, unzigzag};
 
 const HEADER: u8 = 0xe1;
 /// The table of frequent pairs.

@@ -1,5 +1,6 @@
 //! Frees what meshes of trigon's own files leave behind when they are rewritten: without this, a
-//! file would grow by a mesh each time it is opened, edited and saved.
+//! file would grow by a mesh each time it is opened, edited and saved. Meshes of any file leave the
+//! declaration behind that they are compressed.
 //!
 //! Other objects keep their numbers: an unused accessor or view becomes the smallest valid one, and
 //! its bytes are removed. Only objects that trigon wrote itself are considered, since unknown
@@ -13,17 +14,21 @@ use serde_json::{Value, json};
 use super::draft::{ALIGNMENT, Draft};
 use super::raw::RawObject;
 use crate::formats::gltf::native::{Header, MEMBER};
+use crate::formats::gltf::packed::DRACO;
 
-/// Accessors and views that may be unused now.
+/// Accessors, views and declarations that may be unused now.
 #[derive(Default)]
 pub(super) struct Replaced {
+    /// Whether there was a compressed primitive.
+    was_packed: bool,
     accessors: BTreeSet<usize>,
     views: BTreeSet<usize>,
 }
 
 impl Replaced {
-    /// Records a mesh of trigon's own that is about to be rewritten.
+    /// Records a mesh that is about to be rewritten.
     pub(super) fn note(&mut self, mesh: &RawObject) {
+        self.was_packed |= is_packed(mesh);
         let own = mesh.object("extras");
         let Some(header) = own.get(MEMBER).and_then(|own| serde_json::from_str::<Header>(own).ok()) else {
             return;
@@ -37,6 +42,9 @@ impl Replaced {
 
     /// Frees what nothing in the document uses.
     pub(super) fn free(mut self, draft: &mut Draft<'_>) {
+        if self.was_packed {
+            forget_packed(draft);
+        }
         if self.accessors.is_empty() && self.views.is_empty() {
             return;
         }
@@ -65,6 +73,30 @@ impl Replaced {
             shift(&mut view, &cuts);
             draft.update("bufferViews", index, &view);
         }
+    }
+}
+
+/// The compressed forms of a mesh's primitives.
+fn streams(mesh: &RawObject) -> impl Iterator<Item = RawObject> {
+    let primitives = mesh.list("primitives").into_iter();
+    let extensions = primitives.map(|primitive| RawObject::parse(primitive.get()).object("extensions"));
+    extensions.filter_map(|extensions| extensions.get(DRACO).map(RawObject::parse))
+}
+
+fn is_packed(mesh: &RawObject) -> bool {
+    streams(mesh).next().is_some()
+}
+
+/// Takes the extension of compressed primitives out of a document without any: others could not
+/// read the file.
+fn forget_packed(draft: &mut Draft<'_>) {
+    if draft.list("meshes").iter().any(|mesh| is_packed(&RawObject::parse(mesh.get()))) {
+        return;
+    }
+    for list in ["extensionsUsed", "extensionsRequired"] {
+        let mut names = draft.top.list(list);
+        names.retain(|name| serde_json::from_str::<String>(name.get()).is_ok_and(|name| name != DRACO));
+        draft.top.set_or_remove(list, Some(&names).filter(|names| !names.is_empty()));
     }
 }
 
@@ -120,9 +152,11 @@ fn used_views(draft: &Draft<'_>) -> Option<BTreeSet<usize>> {
         }
     }
     for mesh in draft.list("meshes") {
-        if let Some(own) = RawObject::parse(mesh.get()).object("extras").get(MEMBER) {
+        let mesh = RawObject::parse(mesh.get());
+        if let Some(own) = mesh.object("extras").get(MEMBER) {
             numbers(&serde_json::from_str(own).ok()?, &mut used);
         }
+        used.extend(streams(&mesh).filter_map(|stream| stream.index("bufferView")));
     }
     Some(used.into_iter().collect())
 }

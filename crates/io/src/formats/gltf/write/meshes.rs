@@ -18,6 +18,7 @@ use super::kept_file::KeptFile;
 use super::raw::{RawObject, raw};
 use crate::error::Place;
 use crate::formats::gltf::native::{self, Header, columns_of_mesh};
+use crate::formats::gltf::packed::DRACO;
 use crate::formats::gltf::triangle_hash::TriangleHash;
 use crate::loss::Loss;
 
@@ -266,7 +267,8 @@ pub(super) fn losses(object: &RawObject, index: usize, mesh: &Mesh) -> Vec<Loss>
         for name in primitive.object("attributes").names().filter(|name| !is_held(name, mesh)) {
             losses.push(Loss { place: place(), what: format!("its attribute {name}") });
         }
-        for name in primitive.object("extensions").names() {
+        // Only how it is stored.
+        for name in primitive.object("extensions").names().filter(|&name| name != DRACO) {
             losses.push(Loss { place: place(), what: format!("its extension {name}") });
         }
         if primitive.get("extras").is_some() {

@@ -1,0 +1,280 @@
+//! Attributes: positions, normals and whatever else points have.
+
+use gltf::json::accessor::ComponentType;
+
+use super::budget::Budget;
+use super::corners::NONE;
+use super::failure::Failure;
+use super::order::{Order, Visit, find_order};
+use super::prediction::{Neighbours, Positions, read_integers};
+use super::values::{Number, Values};
+use super::{DecodedAttribute, Shape, Stream};
+use crate::formats::gltf::broken::Broken;
+
+/// The kind of an attribute by which others are predicted.
+const POSITION: u8 = 0;
+
+/// Attributes that are stored in the same order.
+struct Group {
+    /// The table of corners: none for that of positions.
+    seams: Option<usize>,
+    visit: Visit,
+    attributes: Vec<Attribute>,
+}
+
+/// What the stream says of an attribute.
+struct Attribute {
+    id: u32,
+    /// Whether it is the first one of positions.
+    is_position: bool,
+    number: Number,
+    components: usize,
+    normalized: bool,
+    encoding: Encoding,
+}
+
+/// How values become the integers that are stored.
+#[derive(Clone, Copy)]
+enum Encoding {
+    /// They are stored as they are.
+    Plain,
+    /// They are integers.
+    Integers,
+    /// Steps of a range.
+    Steps,
+    /// Unit vectors as two integers.
+    Normals,
+}
+
+impl Encoding {
+    fn from_code(code: u8) -> Result<Self, Failure> {
+        match code {
+            0 => Ok(Self::Plain),
+            1 => Ok(Self::Integers),
+            2 => Ok(Self::Steps),
+            3 => Ok(Self::Normals),
+            _ => Err(Failure::Foreign("an attribute of an unknown encoding")),
+        }
+    }
+}
+
+pub(super) fn read_attributes(
+    stream: &mut Stream<'_>,
+    shape: &Shape,
+    budget: &mut Budget,
+) -> Result<Vec<DecodedAttribute>, Failure> {
+    let groups = read_groups(stream, shape)?;
+    let mut reader = Reader { stream, shape, budget, positions: None, found: Vec::new() };
+    for group in groups {
+        reader.read_group(group)?;
+    }
+    Ok(reader.found)
+}
+
+fn read_groups(stream: &mut Stream<'_>, shape: &Shape) -> Result<Vec<Group>, Failure> {
+    let count = stream.byte()?;
+    let mut groups = Vec::new();
+    for _ in 0..count {
+        let (seams, visit) = match &shape.tables {
+            Some(tables) => read_order(stream, tables.attributes.len())?,
+            None => (None, Visit::DepthFirst),
+        };
+        groups.push(Group { seams, visit, attributes: Vec::new() });
+    }
+    let mut has_position = false;
+    for group in &mut groups {
+        for _ in 0..stream.varint()? {
+            let attribute = read_attribute(stream, !has_position)?;
+            has_position |= attribute.is_position;
+            group.attributes.push(attribute);
+        }
+        for attribute in &mut group.attributes {
+            attribute.encoding = Encoding::from_code(stream.byte()?)?;
+        }
+    }
+    Ok(groups)
+}
+
+/// The table of corners of a group, and how it is walked.
+fn read_order(stream: &mut Stream<'_>, tables: usize) -> Result<(Option<usize>, Visit), Failure> {
+    let [table, kind, visit] = stream.array()?;
+    let visit = match visit {
+        0 => Visit::DepthFirst,
+        1 => Visit::MostKnown,
+        _ => return Err(Failure::Foreign("attributes in an unknown order")),
+    };
+    match (kind, visit) {
+        (0, visit) => Ok((None, visit)),
+        (1, Visit::DepthFirst) if usize::from(table) < tables => Ok((Some(usize::from(table)), visit)),
+        _ => Err("attributes have seams that do not exist".into()),
+    }
+}
+
+fn read_attribute(stream: &mut Stream<'_>, may_be_position: bool) -> Result<Attribute, Failure> {
+    let [kind, number, components, normalized] = stream.array()?;
+    if components == 0 {
+        return Err("an attribute has no components".into());
+    }
+    Ok(Attribute {
+        id: stream.varint()?,
+        is_position: kind == POSITION && may_be_position,
+        number: Number::from_code(number)?,
+        components: usize::from(components),
+        normalized: normalized > 0,
+        encoding: Encoding::Plain,
+    })
+}
+
+/// The values of an attribute in the stream, in their order.
+enum Stored {
+    Plain(Vec<u8>),
+    Integers(Vec<i32>),
+}
+
+struct Reader<'r, 'b> {
+    stream: &'r mut Stream<'b>,
+    shape: &'r Shape,
+    budget: &'r mut Budget,
+    positions: Option<Positions>,
+    found: Vec<DecodedAttribute>,
+}
+
+impl Reader<'_, '_> {
+    fn read_group(&mut self, group: Group) -> Result<(), Failure> {
+        let Shape { triangles, points, tables } = self.shape;
+        self.budget.spend(points.saturating_add(triangles.len()))?;
+        let table = tables.as_ref().map(|tables| match group.seams {
+            Some(kind) => &tables.attributes[kind],
+            None => &tables.positions,
+        });
+        let order = table.map(|table| find_order(table, group.visit)).transpose()?;
+        let of_points = match (table, &order) {
+            (Some(table), Some(order)) => values_of_points(self.shape, &table.vertices, order),
+            _ => (0..*points as u32).collect(),
+        };
+        let count = order.as_ref().map_or(*points, |order| order.corners.len());
+        let mut stored = Vec::with_capacity(group.attributes.len());
+        for attribute in &group.attributes {
+            let neighbours = table.zip(order.as_ref()).map(|(table, order)| {
+                let positions = self.positions.as_ref();
+                Neighbours { table, order, points: triangles, positions }
+            });
+            let values = read_stored(self.stream, attribute, count, neighbours, self.budget)?;
+            if let (true, 3, Stored::Integers(list)) = (attribute.is_position, attribute.components, &values)
+            {
+                self.budget.spend(list.len() + of_points.len())?;
+                self.positions = Some(Positions { values: list.clone(), of_points: of_points.clone() });
+            }
+            stored.push(values);
+        }
+        for (attribute, stored) in group.attributes.iter().zip(stored) {
+            let values = attribute.finish(self.stream, stored)?;
+            self.budget.spend(of_points.len().saturating_mul(attribute.components))?;
+            let values = values.of_points(&of_points)?;
+            self.found.push(DecodedAttribute { id: attribute.id, values });
+        }
+        Ok(())
+    }
+}
+
+/// The value of each point.
+fn values_of_points(shape: &Shape, vertices: &[u32], order: &Order) -> Vec<u32> {
+    let mut values = vec![NONE; shape.points];
+    for (&point, &vertex) in shape.triangles.iter().zip(vertices) {
+        if let (Some(to), Some(&value)) = (values.get_mut(point as usize), order.values.get(vertex as usize))
+        {
+            *to = value;
+        }
+    }
+    values
+}
+
+fn read_stored(
+    stream: &mut Stream<'_>,
+    attribute: &Attribute,
+    count: usize,
+    neighbours: Option<Neighbours<'_>>,
+    budget: &mut Budget,
+) -> Result<Stored, Failure> {
+    let components = match attribute.encoding {
+        Encoding::Plain => {
+            let size = attribute.number.size() * attribute.components;
+            let bytes = stream.take(count.checked_mul(size).ok_or(Failure::TooLarge)?)?;
+            budget.spend(bytes.len() / 4)?;
+            return Ok(Stored::Plain(attribute.number.converted(bytes)));
+        }
+        Encoding::Integers => attribute.components,
+        Encoding::Steps if attribute.number == Number::F32 => attribute.components,
+        Encoding::Normals if attribute.number == Number::F32 && attribute.components == 3 => 2,
+        _ => return Err("an attribute has the wrong type for its encoding".into()),
+    };
+    Ok(Stored::Integers(read_integers(stream, count, components, neighbours, budget)?))
+}
+
+impl Attribute {
+    /// Turns what is stored into values.
+    fn finish(&self, stream: &mut Stream<'_>, stored: Stored) -> Result<Values, Failure> {
+        let floats = |floats: &mut dyn Iterator<Item = f32>| floats.flat_map(f32::to_le_bytes).collect();
+        let (component, bytes) = match (stored, self.encoding) {
+            (Stored::Plain(bytes), _) => (self.number.component(), bytes),
+            (Stored::Integers(list), Encoding::Steps) => {
+                let steps = Steps::read(stream, self.components)?;
+                (ComponentType::F32, floats(&mut steps.values(&list)))
+            }
+            (Stored::Integers(list), Encoding::Normals) => {
+                let step = read_normal_step(stream)?;
+                let normals = list.as_chunks().0.iter().flat_map(|&point| normal(point, step));
+                (ComponentType::F32, floats(&mut { normals }))
+            }
+            (Stored::Integers(list), _) => (self.number.component(), self.number.narrowed(&list)?),
+        };
+        Ok(Values { component, components: self.components, normalized: self.normalized, bytes })
+    }
+}
+
+/// The steps of a range.
+struct Steps {
+    /// The smallest value of each component.
+    min: Vec<f32>,
+    step: f32,
+}
+
+impl Steps {
+    fn read(stream: &mut Stream<'_>, components: usize) -> Result<Self, Broken> {
+        let min = (0..components).map(|_| stream.array().map(f32::from_le_bytes));
+        let min = min.collect::<Result<_, _>>()?;
+        let range = f32::from_le_bytes(stream.array()?);
+        let bits = stream.byte()?;
+        if !(1..=30).contains(&bits) {
+            return Err("an attribute has an impossible precision");
+        }
+        Ok(Self { min, step: range / ((1_u32 << bits) - 1) as f32 })
+    }
+
+    fn values(&self, steps: &[i32]) -> impl Iterator<Item = f32> {
+        steps.iter().zip(self.min.iter().cycle()).map(|(&steps, min)| steps as f32 * self.step + min)
+    }
+}
+
+/// The step between points of the square of normals, whose side is 2.
+fn read_normal_step(stream: &mut Stream<'_>) -> Result<f32, Broken> {
+    match stream.byte()? {
+        bits @ 2..=30 => Ok(2.0 / ((1_u32 << bits) - 2) as f32),
+        _ => Err("its normals have an impossible precision"),
+    }
+}
+
+/// The unit vector of a point of the square; zero if there is none.
+fn normal(point: [i32; 2], step: f32) -> [f32; 3] {
+    let [s, t] = point.map(|number| number as f32 * step - 1.0);
+    let x = 1.0 - s.abs() - t.abs();
+    // Outside of the diamond the octahedron is folded back.
+    let fold = (-x).max(0.0);
+    let [y, z] = [s, t].map(|number| number + if number < 0.0 { fold } else { -fold });
+    let square = x * x + y * y + z * z;
+    if f64::from(square) < 1e-6 {
+        return [0.0; 3];
+    }
+    let scale = 1.0 / square.sqrt();
+    [x, y, z].map(|number| number * scale)
+}

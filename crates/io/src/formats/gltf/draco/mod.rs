@@ -1,0 +1,84 @@
+//! Draco: the mesh compression of KHR_draco_mesh_compression. Written from its "Draco Bitstream
+//! Specification" (Google, version 2.2), and where that is silent, from how Google's own decoder
+//! numbers points: other data of a primitive may rely on their order.
+//!
+//! A stream holds the triangles and then the attributes:
+//!
+//! 1. `header` reads the kind of the mesh and passes over metadata.
+//! 2. `sequential` reads triangles that are stored as indices. `edgebreaker` rebuilds those that are
+//!    stored as a walk, with the symbols of `walk`, into a table of `corners`; `seams` splits that
+//!    table for attributes that are discontinuous, and `points` numbers the vertices of the result.
+//! 3. `attributes` reads the values, in the order given by `order`. `prediction` adds to the stored
+//!    corrections what their neighbours let expect.
+//!
+//! `symbols`, `rans` and `bits` are the entropy coding below all of them. Every read is checked. A
+//! few bytes may stand for millions of equal symbols: a `Budget` bounds the memory and the time.
+
+mod attributes;
+mod bits;
+mod budget;
+mod corners;
+mod edgebreaker;
+mod failure;
+mod header;
+mod order;
+mod points;
+mod prediction;
+mod rans;
+mod seams;
+mod sequential;
+mod symbols;
+mod values;
+mod walk;
+
+use super::stream::Stream;
+pub(crate) use budget::Budget;
+pub(crate) use failure::Failure;
+use header::Method;
+pub(crate) use values::Values;
+
+/// A decoded mesh.
+pub(crate) struct DecodedMesh {
+    /// How many points it has: every attribute has one value for each.
+    pub(crate) points: usize,
+    /// Three points each.
+    pub(crate) triangles: Vec<u32>,
+    pub(crate) attributes: Vec<DecodedAttribute>,
+}
+
+/// A decoded attribute.
+pub(crate) struct DecodedAttribute {
+    /// The number by which the file refers to it.
+    pub(crate) id: u32,
+    pub(crate) values: Values,
+}
+
+/// Decodes a mesh.
+pub(crate) fn decode(bytes: &[u8], budget: &mut Budget) -> Result<DecodedMesh, Failure> {
+    let mut stream = Stream(bytes);
+    let method = header::read_header(&mut stream)?;
+    let shape = match method {
+        Method::Sequential => sequential::read_triangles(&mut stream, budget)?,
+        Method::Edgebreaker => edgebreaker::read_triangles(&mut stream, budget)?,
+    };
+    let attributes = attributes::read_attributes(&mut stream, &shape, budget)?;
+    Ok(DecodedMesh { points: shape.points, triangles: shape.triangles, attributes })
+}
+
+/// The triangles of a mesh, before its attributes are known.
+struct Shape {
+    points: usize,
+    /// Three points each.
+    triangles: Vec<u32>,
+    /// How the triangles hang together, if the stream says so.
+    tables: Option<Tables>,
+}
+
+/// The corners of a mesh: for positions, and for each kind of attribute with seams of its own.
+struct Tables {
+    positions: corners::CornerTable,
+    attributes: Vec<corners::CornerTable>,
+}
+
+#[cfg(test)]
+mod tests;

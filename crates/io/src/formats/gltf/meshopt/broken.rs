@@ -1,4 +1,0 @@
-//! Errors in compressed views.
-
-/// Why a stream is invalid.
-pub(crate) type Broken = &'static str;
