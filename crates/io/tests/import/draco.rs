@@ -7,7 +7,7 @@ use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::Mesh;
 use trigon_mesh::edit::{EditMesh, VertexId};
 
-use crate::gltf::Doc;
+use crate::gltf::{Doc, push};
 use crate::saving::{doc_of, document, json_of, saved};
 use crate::{loaded, meshes, warnings};
 
@@ -73,7 +73,7 @@ fn assert_same_triangles(name: &str, found: &Mesh, expected: &Mesh) {
     }
 }
 
-/// Asserts that a file shows what the uncompressed one shows, without a warning that has the word.
+/// Asserts that a file shows what the uncompressed one shows.
 fn assert_shows_plain(name: &str, found: &Loaded) {
     let plain = loaded("plain.glb", &file("plain.glb"));
     let (found, expected) = (meshes(found), meshes(&plain));
@@ -112,22 +112,25 @@ fn values_that_are_not_quantized_are_exact() {
     assert!(colors(&found) == colors(&plain), "the same bits");
 }
 
+/// The bytes of a view.
+fn bytes_of(doc: &Doc, view: u64) -> Vec<u8> {
+    let view = &doc.json["bufferViews"][view as usize];
+    let number = |name: &str| view[name].as_u64().unwrap_or(0) as usize;
+    doc.bytes[number("byteOffset")..][..number("byteLength")].to_vec()
+}
+
 /// The model compressed, and beside it the accessors of the plain one.
 fn with_plain_form() -> Doc {
-    let (mut doc, mut packed) = (doc_of(&file("plain.glb")), doc_of(&file("edgebreaker.glb")));
+    let (mut doc, packed) = (doc_of(&file("plain.glb")), doc_of(&file("edgebreaker.glb")));
     for mesh in 0..2 {
         for primitive in 0..if mesh == 0 { 2 } else { 1 } {
             let path = format!("/meshes/{mesh}/primitives/{primitive}");
             let mut stream = packed.json.pointer(&path).expect("it is there")["extensions"][DRACO].clone();
-            let view = stream["bufferView"].as_u64().expect("a view");
-            let view = packed.json["bufferViews"][view as usize].clone();
-            let number = |name: &str| view[name].as_u64().unwrap_or(0) as usize;
-            let bytes = packed.bytes[number("byteOffset")..][..number("byteLength")].to_vec();
+            let bytes = bytes_of(&packed, stream["bufferView"].as_u64().expect("a view"));
             stream["bufferView"] = json!(doc.view(&bytes));
             doc.json.pointer_mut(&path).expect("it is there")["extensions"] = json!({DRACO: stream});
         }
     }
-    packed.bytes.clear();
     doc.json["extensionsUsed"] = json!([DRACO]);
     doc
 }
@@ -199,31 +202,21 @@ fn descriptions_that_do_not_fit_the_stream_are_told() {
 #[test]
 fn an_accessor_of_two_streams_has_the_values_of_each() {
     let mut doc = doc_of(&file("edgebreaker.glb"));
-    let second = doc.json["meshes"][0]["primitives"][1].clone();
-    doc.json["meshes"][1]["primitives"] = json!([second]);
-    doc.json["nodes"][3]["skin"].take();
-    doc.json["nodes"][3].as_object_mut().expect("a node").remove("skin");
-    // Both have 36 indices; the other accessors are made one.
-    let found = doc.load();
-    let all = meshes(&found);
-    assert_eq!(all[1].face_count(), 12, "the cube alone");
-    assert_eq!(all[0].face_count(), 140, "the surface and the cube");
-}
-
-#[test]
-fn attributes_beside_a_stream_are_read_from_their_accessors() {
-    let mut doc = doc_of(&file("sequential.glb"));
-    // Sequential streams keep the order of vertices.
-    let shifted: Vec<f32> = (0..81).flat_map(|index| [index as f32, 0.5]).collect();
-    let set = doc.floats("VEC2", &shifted);
-    doc.primitive()["attributes"]["TEXCOORD_1"] = json!(set);
+    let mut second = doc.json["meshes"][0]["primitives"][1].clone();
+    let stream = &mut second["extensions"][DRACO]["bufferView"];
+    let mut bytes = bytes_of(&doc, stream.as_u64().expect("a view"));
+    // The smallest position of the cube is stored as it is.
+    let words = |numbers: [f32; 3]| numbers.map(f32::to_le_bytes).concat();
+    let smallest = words([-1.0, -1.0, 2.0]);
+    let at = bytes.windows(12).position(|window| window == smallest).expect("it is there");
+    bytes[at..at + 12].copy_from_slice(&words([-1.0, -1.0, 12.0]));
+    *stream = json!(doc.view(&bytes));
+    push(&mut doc.json["meshes"][0]["primitives"], second);
     let found = doc.load();
     let mesh = meshes(&found)[0];
-    let sets = &mesh.attributes().uv_sets;
-    for (first, second) in sets[0].iter().zip(&sets[1]).take(3 * 128) {
-        let index = (first.y * 8.0).round() * 9.0 + (first.x * 8.0).round();
-        assert_eq!(*second, Vec2::new(index, 0.5), "the vertex at {first}");
-    }
+    assert_eq!(mesh.face_count(), 152, "the surface and two cubes");
+    let high = mesh.positions().iter().filter(|position| position.z > 11.5).count();
+    assert_eq!((high, mesh.vertex_count()), (8, 81 + 2 * 8), "one of them is ten higher");
 }
 
 #[test]
