@@ -33,9 +33,15 @@ pub(crate) struct Arguments {
     #[arg(long)]
     pub(crate) accept_losses: bool,
 
-    /// Which axis is up in the result: +Y, as in glTF, or +Z.
-    #[arg(long, value_name = "AXIS", value_parser = up_axis)]
+    /// Which axis is up in the result: +X, -X, +Y, -Y, +Z or -Z [default: +Z for .stl, +Y for others].
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     pub(crate) up: Option<UpAxis>,
+
+    /// Which axis is up in the files that are opened or imported [default: +Z in .stl, +Y in others].
+    ///
+    /// The editor itself has +Y up: files with another axis are turned, without rounding.
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    pub(crate) import_up: Option<UpAxis>,
 
     /// Units of the result per metre, such as 1000 for millimetres.
     #[arg(long, value_name = "FACTOR", value_parser = scale)]
@@ -66,14 +72,6 @@ pub(crate) struct Arguments {
     #[cfg(feature = "window")]
     #[arg(long)]
     pub(crate) print_keymap: bool,
-}
-
-fn up_axis(text: &str) -> Result<UpAxis, String> {
-    match text.to_ascii_uppercase().as_str() {
-        "Y" | "+Y" => Ok(UpAxis::Y),
-        "Z" | "+Z" => Ok(UpAxis::Z),
-        _ => Err("write +Y or +Z".to_owned()),
-    }
 }
 
 fn scale(text: &str) -> Result<f64, String> {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use trigon_edit::{Disk, Document, save};
-use trigon_io::{Encoding, ExportOptions, FaceExport, Format, UpAxis, writers};
+use trigon_io::{Encoding, ExportOptions, FaceExport, Format, writers};
 
 use crate::arguments::Arguments;
 use crate::report;
@@ -40,7 +40,7 @@ pub(crate) fn write(
     let options = ExportOptions {
         nodes: arguments.selection_only.then(selected),
         scale: arguments.scale.unwrap_or(1.0),
-        up: arguments.up.unwrap_or(UpAxis::Y),
+        up: arguments.up,
         faces: if arguments.triangulate { FaceExport::Triangles } else { FaceExport::Polygons },
         encoding: if arguments.ascii { Encoding::Text } else { Encoding::Binary },
         ..ExportOptions::default()

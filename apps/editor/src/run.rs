@@ -46,8 +46,8 @@ fn open(arguments: &Arguments) -> Result<Document, String> {
             return Err(format!("{}: a script edits one file; run it once for each", second.display()));
         }
     };
-    let (document, warnings) =
-        Document::open(path, &LoadOptions::default()).map_err(|error| error.to_string())?;
+    let options = LoadOptions { up: arguments.import_up, ..LoadOptions::default() };
+    let (document, warnings) = Document::open(path, &options).map_err(|error| error.to_string())?;
     if !arguments.quiet {
         warnings.iter().for_each(|warning| report("warning", &warning.to_string()));
     }

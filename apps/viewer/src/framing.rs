@@ -5,7 +5,7 @@
 
 use std::str::FromStr;
 
-use trigon_camera::{AxisView, Camera, Extent, Orbit, Projection};
+use trigon_camera::{AxisView, Camera, Extent, Orbit, Projection, UpAxis};
 use trigon_math::{Bounds3, DQuat, DVec3};
 use trigon_scene::{OVERVIEW_DIRECTION, Scene};
 
@@ -16,8 +16,6 @@ use crate::failure::Failure;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Framing {
     pub(crate) eye: Eye,
-    /// The model's up axis.
-    pub(crate) up: DVec3,
     /// Up in the image, if it is not the model's up axis.
     pub(crate) view_up: Option<DVec3>,
     /// What the camera looks at, if it is not the model's middle.
@@ -117,10 +115,11 @@ impl Framing {
         let bounds = scene.tight_bounds();
         let center = self.focal_point.unwrap_or_else(|| Extent::new(&bounds).center());
         let shot = match self.eye {
-            Eye::Position(position) => self.standing(position, center)?,
+            Eye::Position(position) => self.standing(position, center, scene.up)?,
             Eye::SceneCamera(index) => self.borrowed(scene, index, center)?,
             Eye::Default | Eye::Direction(_) | Eye::Side(_) | Eye::Exact(_) => {
-                self.fitted(scene.visible_points().collect(), center, aspect)?
+                let orientation = self.turn(self.orientation(scene.up));
+                self.fitted(scene.visible_points().collect(), center, orientation, aspect)?
             }
         };
         let shot = self.scripted(shot);
@@ -174,7 +173,7 @@ impl Framing {
         let radius = reach.fold(0.0, |farthest, reach| if reach > farthest { reach } else { farthest });
         let keeps_place = matches!(self.eye, Eye::Position(_) | Eye::SceneCamera(_));
         let first = if keeps_place { first } else { self.around_ball(first, center, radius, aspect) };
-        let axis = self.up.normalize();
+        let axis = scene.up.direction();
         let camera = |view: u32| {
             let angle = std::f64::consts::TAU * f64::from(view) / f64::from(views);
             let turn = DQuat::from_axis_angle(axis, angle);
@@ -201,11 +200,16 @@ impl Framing {
         Camera { position: center + back * distance, ..camera }
     }
 
-    /// A camera that shows the whole model from a direction.
-    fn fitted(&self, mut points: Vec<DVec3>, center: DVec3, aspect: f64) -> Result<Shot, Failure> {
+    /// A camera of an orientation that shows the whole model.
+    fn fitted(
+        &self,
+        mut points: Vec<DVec3>,
+        center: DVec3,
+        orientation: DQuat,
+        aspect: f64,
+    ) -> Result<Shot, Failure> {
         /// The emptiest image that fitting itself can do.
         const LARGEST_MARGIN: f64 = 0.95;
-        let orientation = self.turn(self.orientation());
         let (direction, up) = (orientation * DVec3::NEG_Z, orientation * DVec3::Y);
         let margin = (1.0 - self.zoom).clamp(0.0, LARGEST_MARGIN);
         let base = Camera::default().with_projection(self.projection(1.0)?);
@@ -220,7 +224,7 @@ impl Framing {
     }
 
     /// A camera at a point.
-    fn standing(&self, position: DVec3, center: DVec3) -> Result<Shot, Failure> {
+    fn standing(&self, position: DVec3, center: DVec3, up: UpAxis) -> Result<Shot, Failure> {
         let distance = position.distance(center);
         if !(distance.is_finite() && distance > 0.0) {
             return Err(Failure::Usage(format!(
@@ -228,7 +232,7 @@ impl Framing {
                 Coordinates(position)
             )));
         }
-        let camera = Camera::look_at(position, center, self.view_up());
+        let camera = Camera::look_at(position, center, self.view_up(up));
         Ok(self.turned(camera.with_projection(self.projection(distance)?), center, distance))
     }
 
@@ -273,16 +277,16 @@ impl Framing {
         (orientation * azimuth * elevation).normalize()
     }
 
-    /// The orientation that the flags name, before turning.
-    fn orientation(&self) -> DQuat {
-        let mut orbit = Orbit::new(self.up);
+    /// The orientation that the flags name in a world with this up axis, before turning.
+    fn orientation(&self, up: UpAxis) -> DQuat {
+        let mut orbit = Orbit::new(up.direction());
         match self.eye {
             Eye::Side(side) => orbit.set_view(side),
             Eye::Direction(direction) => {
-                return trigon_camera::orientation_looking(direction, self.view_up());
+                return trigon_camera::orientation_looking(direction, self.view_up(up));
             }
             Eye::Default | Eye::Position(_) | Eye::SceneCamera(_) | Eye::Exact(_) => {
-                orbit.look_along(upright(self.up));
+                orbit.look_along(up.frame() * OVERVIEW_DIRECTION);
             }
         }
         match self.view_up {
@@ -291,8 +295,8 @@ impl Framing {
         }
     }
 
-    fn view_up(&self) -> DVec3 {
-        self.view_up.unwrap_or(self.up)
+    fn view_up(&self, up: UpAxis) -> DVec3 {
+        self.view_up.unwrap_or(up.direction())
     }
 
     /// The projection that shows things at `distance` as the view angle says.
@@ -306,13 +310,6 @@ impl Framing {
             Ok(perspective)
         }
     }
-}
-
-/// The direction of the overview, for a model with this up axis.
-fn upright(up: DVec3) -> DVec3 {
-    let mut front = Orbit::new(up);
-    front.set_view(AxisView::Front);
-    front.orientation() * OVERVIEW_DIRECTION
 }
 
 /// The camera that shows `center`, at which it looks, `factor` times as large.
@@ -354,7 +351,6 @@ mod tests {
     fn default() -> Framing {
         Framing {
             eye: Eye::Default,
-            up: DVec3::Y,
             view_up: None,
             focal_point: None,
             view_angle: 30f64.to_radians(),
@@ -400,7 +396,7 @@ mod tests {
             Framing { azimuth: 1.0, elevation: 0.7, ..default() },
             Framing { eye: Eye::Side(AxisView::Top), ..default() },
             Framing { eye: Eye::Direction(DVec3::new(0.0, 0.0, 3.0)), orthographic: true, ..default() },
-            Framing { up: DVec3::Z, view_angle: 1.5, ..default() },
+            Framing { view_up: Some(DVec3::Z), view_angle: 1.5, ..default() },
             Framing { view_up: Some(DVec3::X), orthographic: true, ..default() },
         ] {
             let filled = filled(&shot(&framing).camera);
@@ -443,7 +439,9 @@ mod tests {
 
     #[test]
     fn another_up_axis_shows_the_same_sides() {
-        let camera = shot(&Framing { up: DVec3::Z, ..default() }).camera;
+        let mut scene = scene();
+        scene.up = UpAxis::Z;
+        let camera = default().shot(&scene, IMAGE.aspect()).expect("a camera").camera;
         // What F3D's configuration has for STL files.
         let expected = DVec3::new(-1.0, 1.0, -0.5).normalize();
         assert!(camera.forward().distance(expected) < 1e-9, "{}", camera.forward());

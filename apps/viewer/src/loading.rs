@@ -29,24 +29,28 @@ pub(crate) fn load(
     progress: Progress<'_>,
 ) -> Result<(Model, Vec<Warning>), Failure> {
     let (mut scene, mut scene_names, mut warnings) = (Scene::new(), Vec::new(), Vec::new());
-    let mut read = Vec::new();
+    let (mut read, mut odd) = (Vec::new(), Vec::new());
     match source {
         Source::BuiltIn => scene = trigon_scene::showcase(),
         Source::Files(files) => {
             for (file, before) in files.iter().zip(0u16..) {
                 let part = |fraction| progress((f32::from(before) + fraction) / files.len() as f32);
-                let loaded = load_file(file, request, &part)?;
+                let mut loaded = load_file(file, request, &part)?;
                 warnings.extend(loaded.warnings);
                 scene_names.extend(loaded.scene_names);
                 read.extend(loaded.files);
+                if before == 0 {
+                    scene.up = loaded.scene.up;
+                }
+                odd.extend(stand_upright(&mut loaded.scene, &scene, file, request));
                 scene.append(&loaded.scene);
             }
         }
     }
-    let odd = match &request.moment {
-        Some(moment) => moment.apply(&mut scene)?,
-        None => None,
-    };
+    if let Some(moment) = &request.moment {
+        odd.extend(moment.apply(&mut scene)?);
+    }
+    scene.up = request.up.unwrap_or(scene.up);
     let mut model = Model::new(scene, source.clone(), request)?;
     model.hide(&request.hidden)?;
     model.place(&request.placed)?;
@@ -70,7 +74,7 @@ pub(crate) fn load_aloud(source: &Source, request: &Request, reporter: Reporter)
     bar.finish_and_clear();
     let (model, warnings) = loaded?;
     warnings.iter().for_each(|warning| reporter.warning(warning));
-    if let Some(odd) = &model.odd {
+    for odd in &model.odd {
         reporter.warning(format_args!("{}: {odd}", model.source.title()));
     }
     let seconds = started.elapsed().as_secs_f64();
@@ -113,6 +117,20 @@ fn load_file(path: &Path, request: &Request, progress: Progress<'_>) -> Result<L
         return trigon_io::load_from_slice("standard input", &bytes, &options).map_err(refused);
     }
     trigon_io::load(path, &options).map_err(refused)
+}
+
+/// Turns the contents of a file if another axis is up in them than in the scene that they join, unless the command
+/// line names the axis. Says so.
+fn stand_upright(added: &mut Scene, scene: &Scene, file: &Path, request: &Request) -> Option<String> {
+    let (own, up) = (added.up, scene.up);
+    if request.up.is_some() {
+        return None;
+    }
+    added.turn_to(up)?;
+    Some(format!(
+        "{} was turned: {own} is up in such files, and {up} in the first one; --up={up} leaves it as it is",
+        file.display()
+    ))
 }
 
 fn refused(error: LoadError) -> Failure {

@@ -59,8 +59,8 @@ pub(crate) struct Model {
     pub(crate) scene_names: Vec<String>,
     /// All that were read for it: what to watch for changes.
     pub(crate) files: Vec<PathBuf>,
-    /// What is odd about the time at which it is shown.
-    pub(crate) odd: Option<String>,
+    /// What is odd about how its files stand together, and about the time at which it is shown.
+    pub(crate) odd: Vec<String>,
     bounds: Bounds3,
 }
 
@@ -76,14 +76,14 @@ impl Model {
             )));
         }
         request.scenery.replace(&mut scene)?;
-        Ok(Self { scene, source, scene_names: Vec::new(), files: Vec::new(), odd: None, bounds })
+        Ok(Self { scene, source, scene_names: Vec::new(), files: Vec::new(), odd: Vec::new(), bounds })
     }
 
     /// The model of a scene that is shown already.
     #[cfg(feature = "window")]
     pub(crate) fn shown(scene: Scene, source: Source) -> Self {
         let bounds = scene.tight_bounds();
-        Self { scene, source, scene_names: Vec::new(), files: Vec::new(), odd: None, bounds }
+        Self { scene, source, scene_names: Vec::new(), files: Vec::new(), odd: Vec::new(), bounds }
     }
 
     /// The camera that the flags ask for. The built-in scene is composed for

@@ -1,7 +1,6 @@
 //! Additional objects shown with the model: a grid, normals and bones as lines, and vertices as
 //! balls instead of faces. All of them are geometry of the scene, hidden and lit like any other.
 
-use trigon_camera::orientation_looking;
 use trigon_math::{Bounds3, DMat3, DVec3, Vec3, Vec4};
 use trigon_mesh::{Mesh, MeshBuilder, primitives};
 use trigon_scene::{Material, Node, NodeId, Scene, Shading, Transform};
@@ -19,7 +18,7 @@ pub(crate) struct Scenery {
     pub(crate) sprites: Option<Sprites>,
 }
 
-/// A grid of lines in the plane across the up axis.
+/// A grid of lines in the plane across the scene's up axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Grid {
     /// Side of a square; `None` for a power of ten that suits the model.
@@ -30,8 +29,6 @@ pub(crate) struct Grid {
     pub(crate) color: Vec3,
     /// Whether it goes through the origin, not below the model.
     pub(crate) absolute: bool,
-    /// The direction that is up.
-    pub(crate) up: DVec3,
 }
 
 /// Balls in place of faces.
@@ -111,7 +108,8 @@ impl Scenery {
 impl Grid {
     fn add_to(&self, scene: &mut Scene, bounds: &Bounds3) -> NodeId {
         // Columns: along the plane, along the plane, up.
-        let turned = DMat3::from_quat(orientation_looking(-self.up, self.up.any_orthonormal_vector()));
+        let DMat3 { x_axis: right, y_axis: up, z_axis: front } = scene.up.frame();
+        let turned = DMat3::from_cols(right, -front, up);
         let to_plane = turned.transpose();
         let corners = bounds.corners().map(|corner| to_plane * corner);
         let flat = Bounds3::from_points(corners);
@@ -231,6 +229,8 @@ fn balls(points: &[DVec3], center: DVec3, radius: f64, ball: &Mesh) -> Mesh {
 
 #[cfg(test)]
 mod tests {
+    use trigon_camera::UpAxis;
+
     use super::*;
 
     fn scene() -> Scene {
@@ -242,7 +242,7 @@ mod tests {
     }
 
     fn grid() -> Grid {
-        Grid { unit: None, subdivisions: 1, color: Vec3::ZERO, absolute: false, up: DVec3::Y }
+        Grid { unit: None, subdivisions: 1, color: Vec3::ZERO, absolute: false }
     }
 
     fn bounds_of(scene: &Scene, id: NodeId) -> Bounds3 {
@@ -261,7 +261,6 @@ mod tests {
                 Grid { unit: Some(10.0), ..grid() },
                 (DVec3::new(80.0, 18.5, -20.0), DVec3::new(120.0, 18.5, 20.0)),
             ),
-            (Grid { up: DVec3::Z, ..grid() }, (DVec3::new(97.0, 17.0, -1.5), DVec3::new(103.0, 23.0, -1.5))),
         ] {
             let mut scene = scene();
             let scenery = Scenery { grid, shows_grid: true, ..Scenery::default() };
@@ -279,10 +278,11 @@ mod tests {
     fn the_lines_of_a_grid_far_away_are_at_whole_units() {
         for (far, up) in [1e6, -1e7].into_iter().flat_map(|far| [DVec3::Y, DVec3::Z].map(|up| (far, up))) {
             let mut scene = Scene::new();
+            scene.up = UpAxis::new(up);
             let node = scene.add_object("cube", primitives::cube(5.0), Material::default());
             scene.node_mut(node).expect("just added").transform =
                 Transform::from_translation(DVec3::splat(far));
-            let grid = Grid { subdivisions: 4, up, ..grid() };
+            let grid = Grid { subdivisions: 4, ..grid() };
             let id = Scenery { grid, shows_grid: true, ..Scenery::default() }.add_to(&mut scene)[0];
             let place = scene.world_transform(id).translation;
             let mesh = scene.node(id).and_then(|node| node.mesh).expect("it has a mesh");
@@ -295,7 +295,7 @@ mod tests {
                 let across = if up == DVec3::Y { quarters.y } else { quarters.z };
                 assert!((across - (far - 2.5) * 4.0).abs() < 1e-6, "below the model: {across}");
                 let nearest = quarters.round();
-                // Turned by a quaternion in f64, which rounds each of two terms of 10⁷ m once or twice.
+                // Positions in the world round twice in f64, at up to 4·10⁷ quarters.
                 let off = (quarters - nearest).abs().max_element();
                 assert!(off < 4.0 * 8.0 * f64::EPSILON * 1e7, "{off} quarters off");
                 places.push(nearest.to_array().map(|quarter| quarter as i64));
@@ -304,6 +304,24 @@ mod tests {
             places.dedup();
             // Each line has ends of its own, but for the four corners.
             assert_eq!(places.len(), 4 * 33 - 4, "no two lines fall together");
+        }
+    }
+
+    #[test]
+    fn a_grid_lies_across_the_up_axis_of_the_scene() {
+        for (up, expected) in [
+            (DVec3::Z, (DVec3::new(97.0, 17.0, -1.5), DVec3::new(103.0, 23.0, -1.5))),
+            (DVec3::NEG_Z, (DVec3::new(97.0, 17.0, 1.5), DVec3::new(103.0, 23.0, 1.5))),
+            (DVec3::X, (DVec3::new(98.5, 17.0, -3.0), DVec3::new(98.5, 23.0, 3.0))),
+        ] {
+            let mut scene = scene();
+            scene.up = UpAxis::new(up);
+            let scenery = Scenery { grid: grid(), shows_grid: true, ..Scenery::default() };
+            let added = scenery.add_to(&mut scene);
+            let bounds = bounds_of(&scene, added[0]);
+            // Positions are f32, of numbers up to 120.
+            assert!(bounds.min.abs_diff_eq(expected.0, 1e-4), "{up}: {bounds:?}");
+            assert!(bounds.max.abs_diff_eq(expected.1, 1e-4), "{up}: {bounds:?}");
         }
     }
 

@@ -29,8 +29,8 @@ pub enum CameraError {
         /// Its value.
         high: f64,
     },
-    /// A text that names no axis of the world.
-    #[error("write +X, -X, +Y, -Y, +Z or -Z")]
+    /// A text that is neither an axis nor a direction.
+    #[error("write +X, -X, +Y, -Y, +Z, -Z or a direction such as 0,1,0.5")]
     UnknownAxis,
 }
 

@@ -101,12 +101,14 @@ impl Default for UpAxis {
 impl FromStr for UpAxis {
     type Err = CameraError;
 
-    /// `+Z`, `-x` or `Y`.
+    /// `+Z`, `-x`, `Y`, or three numbers such as `0,1,0.5` that are not all zero: whatever [`fmt::Display`]
+    /// writes is read as the same bits.
     fn from_str(text: &str) -> Result<Self, CameraError> {
         let text = text.to_ascii_uppercase();
         let is_named = |name: &str| name == text || name.strip_prefix('+') == Some(text.as_str());
-        let named = NAMED.iter().find(|(name, _)| is_named(name));
-        named.map(|&(_, direction)| Self::new(direction)).ok_or(CameraError::UnknownAxis)
+        let named = NAMED.iter().find(|(name, _)| is_named(name)).map(|&(_, direction)| direction);
+        let direction = named.or_else(|| three_numbers(&text)).ok_or(CameraError::UnknownAxis)?;
+        Ok(Self::new(direction))
     }
 }
 
@@ -119,6 +121,14 @@ impl fmt::Display for UpAxis {
             None => write!(f, "{},{},{}", up.x, up.y, up.z),
         }
     }
+}
+
+/// Three finite numbers that are not all zero.
+fn three_numbers(text: &str) -> Option<DVec3> {
+    let numbers: Vec<f64> =
+        text.split(',').map(|number| number.trim().parse().ok()).collect::<Option<_>>()?;
+    let direction = DVec3::from_array(numbers.try_into().ok()?);
+    Some(direction).filter(|direction| direction.is_finite() && *direction != DVec3::ZERO)
 }
 
 /// The vector with length 1. One that has this length already keeps its bits, so that an axis made from the
@@ -153,7 +163,9 @@ mod tests {
             assert_eq!(UpAxis::new(up * 1e-30), axis, "{name} of another length");
         }
         assert_eq!("z".parse(), Ok(UpAxis::Z), "without a sign, in any case");
-        assert_eq!("+W".parse::<UpAxis>(), Err(CameraError::UnknownAxis), "no axis");
+        for broken in ["+W", "", "1,2", "0,0,0", "nan,0,1", "1,2,3,4"] {
+            assert_eq!(broken.parse::<UpAxis>(), Err(CameraError::UnknownAxis), "{broken}");
+        }
     }
 
     #[test]
@@ -170,6 +182,7 @@ mod tests {
             assert!(largest < 1e-15, "{direction}: {largest}");
             assert!(axis.direction().dot(direction) > 0.0, "{direction} is up");
             assert_eq!(UpAxis::new(axis.direction()), axis, "{direction}: the same bits again");
+            assert_eq!(axis.to_string().parse(), Ok(axis), "{direction}: also as text");
         }
     }
 

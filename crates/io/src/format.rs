@@ -1,5 +1,7 @@
 //! The model formats by name.
 
+use trigon_camera::UpAxis;
+
 /// A model format that can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -27,6 +29,8 @@ pub struct Reader {
     pub name: &'static str,
     /// The file extensions, in lower case, without the dot. The first names the format.
     pub extensions: &'static [&'static str],
+    /// The axis that points up in its files: that of the specification, or what programs write mostly.
+    pub up: UpAxis,
     /// What is read.
     pub reads: &'static str,
 }

@@ -30,8 +30,9 @@
 //! ```
 //!
 //! # Conventions
-//! Right-handed, +Y up, metres, counter-clockwise faces, as in glTF and OBJ. PLY, STL and OFF
-//! define neither the up axis nor the unit: their numbers are used as they are. In texture
+//! Right-handed, metres, counter-clockwise faces, as in glTF and OBJ. Coordinates are those of the file;
+//! `Scene::up` says which axis is up: +Z in STL, +Y in all others, or what [`LoadOptions::up`] says. PLY, STL
+//! and OFF define no unit: their numbers are used as they are. In texture
 //! coordinates v = 0 is the top edge, and v grows downwards. Colours are linear light. A model far from the
 //! origin is moved to the origin, and its node gets the offset. One node of the file is one node of the scene.
 
@@ -76,7 +77,7 @@ pub use capture::{Capture, Mismatch, PixelMismatch};
 pub use compare::{ImageDifference, SizeMismatch, compare_images};
 pub use environment::load_environment;
 pub use error::{LoadError, LoadErrorKind, Place};
-pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport, UpAxis};
+pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport};
 pub use format::{Format, Reader, Writer};
 pub use formats::gltf::{encode_glb, write_glb};
 pub use formats::{export, readers, writers};
@@ -94,6 +95,8 @@ pub use outputs::{
 pub use png::{Pixels, encode_png, write_png};
 pub use rgba_image::{RgbaImage, load_image};
 pub use sequence::{Sequence, write_apng, write_gif};
+/// Which way is up in a file.
+pub use trigon_camera::UpAxis;
 pub use warning::Warning;
 pub use write::{WriteError, write_atomically};
 

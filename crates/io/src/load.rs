@@ -23,7 +23,7 @@ use crate::warning::{Warning, Warnings};
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Loaded {
-    /// The contents of the file.
+    /// The contents of the file, in its own coordinates; [`Scene::up`] says which axis is up.
     pub scene: Scene,
     /// The names of all scenes in the file, in order; `scene` is one of them. Empty for formats
     /// without scenes.
@@ -115,12 +115,14 @@ fn import(
             format!("export it as GLB, for example from Blender; {}", supported()),
         )
     })?;
+    let mut scene = Scene::new();
+    scene.up = options.up.unwrap_or(format.up());
     let mut import = Import {
         path,
         options,
         folder,
         warnings: Warnings::about(path),
-        scene: Scene::new(),
+        scene,
         scene_names: Vec::new(),
         source: options.keep_source.then(SourceDraft::default),
         marks: BTreeMap::new(),

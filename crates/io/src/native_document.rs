@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use trigon_camera::UpAxis;
 use trigon_mesh::edit::EditMesh;
 use trigon_scene::{MeshId, Scene};
 
@@ -57,7 +58,8 @@ use crate::write::{WriteError, write_atomically};
 /// A clone shares textures and the loaded file; meshes that are being edited are copied.
 #[derive(Debug, Clone, Default)]
 pub struct NativeDocument {
-    /// The scene. A mesh that is being edited may be outdated here.
+    /// The scene, with +Y up as in glTF: a loaded file in which another axis is up is turned
+    /// ([`Scene::turn_to`]). A mesh that is being edited may be outdated here.
     pub scene: Scene,
     /// The meshes that are being edited: these are saved instead of the scene's.
     pub edited: BTreeMap<MeshId, EditMesh>,
@@ -65,9 +67,10 @@ pub struct NativeDocument {
 }
 
 impl NativeDocument {
-    /// A document without a file.
+    /// A document without a file. The scene is turned if another axis than +Y is up in it.
     #[must_use]
-    pub fn new(scene: Scene) -> Self {
+    pub fn new(mut scene: Scene) -> Self {
+        scene.turn_to(UpAxis::Y);
         Self { scene, edited: BTreeMap::new(), kept: None }
     }
 
@@ -97,7 +100,7 @@ impl NativeDocument {
     }
 
     fn from_loaded(name: &Path, loaded: Loaded) -> (Self, Vec<Warning>) {
-        let Loaded { scene, marks, source, mut warnings, .. } = loaded;
+        let Loaded { mut scene, marks, source, mut warnings, .. } = loaded;
         let mut edited = BTreeMap::new();
         let mut about = Warnings::about(name);
         for (&id, marks) in &marks {
@@ -113,6 +116,7 @@ impl NativeDocument {
         }
         warnings.extend(about.into_list());
         let kept = source.map(|source| Arc::new(KeptFile { source, scene: scene.clone(), marks }));
+        scene.turn_to(UpAxis::Y);
         (Self { scene, edited, kept }, warnings)
     }
 

@@ -5,6 +5,8 @@ use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use trigon_camera::UpAxis;
+
 use crate::error::LoadError;
 use crate::format::Format;
 use crate::limits::Limits;
@@ -53,6 +55,9 @@ pub struct LoadOptions<'a> {
     /// The scene to load from a file with several; by default the one that the file selects.
     /// Ignored for formats without scenes.
     pub scene: Option<SceneChoice>,
+    /// The axis that points up in the file, for [`Scene::up`](trigon_scene::Scene::up); by default that of its
+    /// [format](Format::up). No coordinate is changed by it.
+    pub up: Option<UpAxis>,
     /// The maximum number of threads; by default as many as the machine runs at once.
     pub threads: Option<NonZeroUsize>,
     /// Keeps the JSON, buffers and images of a glTF file, and which object in it each part of the
@@ -67,11 +72,12 @@ pub struct LoadOptions<'a> {
 impl fmt::Debug for LoadOptions<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let progress = self.progress.map(|_| "a callback");
-        let Self { limits, format, scene, threads, keep_source, .. } = self;
+        let Self { limits, format, scene, up, threads, keep_source, .. } = self;
         f.debug_struct("LoadOptions")
             .field("limits", limits)
             .field("format", format)
             .field("scene", scene)
+            .field("up", up)
             .field("threads", threads)
             .field("keep_source", keep_source)
             .field("progress", &progress)

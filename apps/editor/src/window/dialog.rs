@@ -8,6 +8,7 @@ use trigon_edit::{MaterialName, TextureSlot};
 use trigon_window::RecentFiles;
 use trigon_window::egui::{self, Key};
 
+use super::exchange::Exchange;
 use crate::request::{FileAction, FileRequest};
 
 /// What a file is chosen for.
@@ -25,6 +26,7 @@ pub(crate) enum Purpose {
 /// The window, shown or not.
 #[derive(Debug, Default)]
 pub(crate) struct FileWindow {
+    pub(crate) exchange: Exchange,
     purpose: Option<Purpose>,
     path: String,
     /// The system's dialog, while it is open.
@@ -135,6 +137,7 @@ impl FileWindow {
         let window = egui::Window::new(purpose.title()).open(&mut is_open).collapsible(false);
         window.anchor(egui::Align2::CENTER_CENTER, [0.0; 2]).default_width(460.0).show(context, |ui| {
             (chosen, browses) = self.fields(ui, &purpose);
+            self.exchange.show(ui, &purpose);
             if !self.note.is_empty() {
                 ui.label(self.note);
             }

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use trigon_edit::scene::{Light, Material, Node, Scene};
 use trigon_edit::{AssignTexture, Document, LeaveEditMode, ObjectName, Select, TextureSource};
-use trigon_io::ExportOptions;
 use trigon_window::Stage;
 use trigon_window::scene::math::DVec3;
 use trigon_window::scene::mesh::primitives;
@@ -156,7 +155,8 @@ impl Editor {
 
     fn load(&mut self, stage: &Stage, path: PathBuf, purpose: LoadPurpose) {
         let waker = stage.waker();
-        self.loading = Some(Loading::start(path, purpose, move || waker.wake()));
+        self.loading =
+            Some(Loading::start(path, purpose, self.dialog.exchange.import_up, move || waker.wake()));
     }
 
     /// A load has ended; the next one begins.
@@ -256,8 +256,9 @@ impl Editor {
     }
 
     fn export(&mut self, path: &Path) {
+        let options = self.dialog.exchange.export_options();
         let written = export::format_by_ending(path)
-            .and_then(|format| export::write_as(&self.document, format, path, &ExportOptions::default()));
+            .and_then(|format| export::write_as(&self.document, format, path, &options));
         self.message = match written {
             Ok(losses) if losses.is_empty() => Message::Info(format!("Exported {}", path.display())),
             Ok(losses) => {

@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 
 use trigon_edit::Document;
-use trigon_io::{LoadOptions, Loaded, Progress, Warning, load};
+use trigon_io::{LoadOptions, Loaded, Progress, UpAxis, Warning, load};
 
 /// What becomes of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,10 +46,11 @@ struct State {
 }
 
 impl Loading {
-    /// Starts to load; `wake` is called at the end, and when there is progress to be shown.
+    /// Starts to load, with this axis up in the file or that of its format; `wake` is called at the end, and when there is progress to be shown.
     pub(crate) fn start(
         path: PathBuf,
         purpose: LoadPurpose,
+        up: Option<UpAxis>,
         wake: impl Fn() + Send + Sync + 'static,
     ) -> Self {
         let state = Arc::new(State::default());
@@ -57,7 +58,8 @@ impl Loading {
         let (theirs, file) = (Arc::clone(&state), path.clone());
         thread::spawn(move || {
             // Nobody waits for it any more when this fails.
-            drop(sender.send(read(&file, purpose, &theirs, &wake)));
+            let options = LoadOptions { up, ..LoadOptions::default() };
+            drop(sender.send(read(&file, purpose, options, &theirs, &wake)));
             wake();
         });
         Self { path, purpose, outcome, state }
@@ -90,7 +92,13 @@ impl Loading {
 
 const NO_RESULT: &str = "loading ended without a result; this is a bug in trigon";
 
-fn read(path: &Path, purpose: LoadPurpose, state: &State, wake: &(impl Fn() + Sync)) -> Outcome {
+fn read(
+    path: &Path,
+    purpose: LoadPurpose,
+    options: LoadOptions<'_>,
+    state: &State,
+    wake: &(impl Fn() + Sync),
+) -> Outcome {
     let follow = |progress: Progress| {
         if state.is_cancelled.load(Ordering::Relaxed) {
             return ControlFlow::Break(());
@@ -101,7 +109,7 @@ fn read(path: &Path, purpose: LoadPurpose, state: &State, wake: &(impl Fn() + Sy
         }
         ControlFlow::Continue(())
     };
-    let options = LoadOptions { progress: Some(&follow), ..LoadOptions::default() };
+    let options = LoadOptions { progress: Some(&follow), ..options };
     let found = match purpose {
         LoadPurpose::Open => Document::open(path, &options)
             .map(|(document, warnings)| Found::Document(Box::new(document), warnings)),

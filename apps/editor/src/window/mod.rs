@@ -8,6 +8,7 @@ mod button_start;
 mod click;
 mod dialog;
 mod editor;
+mod exchange;
 mod files;
 mod four_views;
 mod gizmo;
@@ -42,6 +43,7 @@ use trigon_window::{Application, Handler, Stage, WindowError, state_folder};
 
 use crate::arguments::Arguments;
 use editor::Editor;
+use exchange::Exchange;
 use keys::Keys;
 
 /// The default keymap, as a file that users may change.
@@ -61,6 +63,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     notes.iter().for_each(|note| crate::report("warning", note));
     let mut application = Application::new("trigon");
     let mut editor = Editor::new(keys, state_folder(), arguments.files.clone());
+    editor.dialog.exchange = Exchange::new(arguments);
     settings::prepare(&mut application.stage);
     application.run_with(&mut editor).map_err(|error| match error {
         WindowError::NoDisplay { .. } => format!("{error}; run a script instead: --run script.json"),

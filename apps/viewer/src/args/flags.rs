@@ -5,7 +5,7 @@ use trigon_scene::{
 };
 
 /// The flags that [`of_settings`] and a window's camera and overlays decide. All that is typed of them is replaced.
-pub(crate) const DECIDED: [&str; 47] = [
+pub(crate) const DECIDED: [&str; 48] = [
     "ambient-occlusion",
     "ambient-occlusion-distance",
     "ambient-occlusion-rays",
@@ -52,6 +52,7 @@ pub(crate) const DECIDED: [&str; 47] = [
     "shadows",
     "style",
     "tone-mapping",
+    "up",
     "view",
 ];
 

@@ -7,6 +7,8 @@ use std::path::Path;
 use clap::error::{ContextKind, ErrorKind};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory, FromArgMatches};
+use trigon_camera::UpAxis;
+use trigon_io::Format;
 
 #[cfg(feature = "window")]
 use super::config::KeyBinding;
@@ -106,11 +108,13 @@ impl CommandLine {
         last.trim_start_matches('-').replacen('=', ": ", 1)
     }
 
-    /// The value of a flag as it was typed, or its default.
+    /// The value of a flag as it was typed, or its default; that of `--up` depends on the file.
     pub(crate) fn value(&self, flag: &str, file: Option<&Path>) -> Option<String> {
         let matches = self.matches(file).ok()?;
         let id = identifier(flag)?;
-        let values = matches.get_raw(&id)?;
+        let Some(values) = matches.get_raw(&id) else {
+            return (flag == "up").then(|| usual_up(file).to_string());
+        };
         Some(values.map(OsStr::to_string_lossy).collect::<Vec<_>>().join(","))
     }
 
@@ -248,6 +252,12 @@ fn conflict(message: impl std::fmt::Display) -> clap::Error {
     RawArgs::command().error(ErrorKind::ArgumentConflict, message)
 }
 
+/// The axis that points up in files with this name.
+fn usual_up(file: Option<&Path>) -> UpAxis {
+    let extension = file.and_then(Path::extension).unwrap_or_default().to_string_lossy();
+    Format::from_extension(&extension).map_or(UpAxis::Y, Format::up)
+}
+
 /// The flag in a word such as `--up=+Z`, without dashes; empty for other words.
 fn flag_of(word: &str) -> &str {
     word.strip_prefix("--").map_or("", |rest| rest.split('=').next().unwrap_or_default())
@@ -318,7 +328,9 @@ mod tests {
         assert_eq!(value(&typed, "up").as_deref(), Some("+X"), "typed");
         assert_eq!(value(&typed, "grid").as_deref(), Some("true"), "imperative");
         let reset = line("a.stl -R scene.up_direction", config);
-        assert_eq!(value(&reset, "up").as_deref(), Some("+Y"), "the default");
+        assert_eq!(value(&reset, "up").as_deref(), Some("+Z"), "the default of STL");
+        let other = reset.value("up", Some(Path::new("a.glb")));
+        assert_eq!(other.as_deref(), Some("+Y"), "that of all others");
     }
 
     /// A direction in a file and a camera on the command line were reported as conflicting.

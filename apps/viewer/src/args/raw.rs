@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use regex::Regex;
-use trigon_camera::Viewport;
+use trigon_camera::{UpAxis, Viewport};
 use trigon_io::{Format, SceneChoice};
 use trigon_math::{DVec3, Vec3};
 use trigon_scene::{Display, SimdLevel};
@@ -199,9 +199,13 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "N|NAME", value_parser = values::scene, help_heading = "Files")]
     pub(crate) scene: Option<SceneChoice>,
 
-    /// The axis of the model that points up
-    #[arg(long, value_name = "DIRECTION", default_value = "+Y", value_parser = values::direction, allow_hyphen_values = true, help_heading = "Camera")]
-    pub(crate) up: DVec3,
+    /// The axis of the model that points up; sky, grid and view follow it [default: +Z for STL, +Y for others]
+    ///
+    /// So do the environment and what metals mirror; coordinates and the
+    /// file's own lamps and cameras stay as they are. Files shown together have the axis of the first: a file
+    /// whose format has another one is turned, unless this flag is given.
+    #[arg(long, value_name = "DIRECTION", value_parser = values::up, allow_hyphen_values = true, help_heading = "Camera")]
+    pub(crate) up: Option<UpAxis>,
 
     /// Look from a named side
     #[arg(long, value_name = "SIDE", help_heading = "Camera", conflicts_with_all = ["camera_direction", "camera_position"])]

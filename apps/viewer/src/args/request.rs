@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use clap::CommandFactory;
 use clap::error::ErrorKind;
-use trigon_camera::AxisView;
+use trigon_camera::{AxisView, UpAxis};
 use trigon_io::{Format, SceneChoice};
 use trigon_math::Vec3;
 use trigon_scene::{Background, Display, RenderSettings, Style};
@@ -51,6 +51,8 @@ pub(crate) struct Request {
     pub(crate) max_bytes: Option<u64>,
     /// The format of all files, if it overrides their names.
     pub(crate) format: Option<Format>,
+    /// The axis that points up, if it is not that of the format.
+    pub(crate) up: Option<UpAxis>,
     /// The scene of files with several.
     pub(crate) scene: Option<SceneChoice>,
     /// The moment of an animation to show.
@@ -248,6 +250,7 @@ impl Request {
             grouping,
             max_bytes: raw.max_size,
             format: raw.force_reader,
+            up: raw.up,
             scene: raw.scene.clone(),
             moment: moment(&raw),
             sequence: sequence(&raw.animation),
@@ -352,7 +355,6 @@ fn scenery(raw: &RawArgs) -> Scenery {
         subdivisions: flags.grid_subdivisions,
         color: flags.grid_color,
         absolute: flags.grid_absolute == Some(true),
-        up: raw.up,
     };
     let sprites = Sprites {
         size: f64::from(material.point_sprites_size),
@@ -401,7 +403,6 @@ fn framing(raw: &RawArgs) -> Result<Framing, String> {
     };
     Ok(Framing {
         eye: exact.unwrap_or(eye),
-        up: raw.up,
         view_up: raw.camera_view_up,
         focal_point: raw.camera_focal_point,
         view_angle: raw.camera_view_angle,

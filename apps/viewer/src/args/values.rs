@@ -4,7 +4,7 @@ use std::convert::Infallible;
 use std::num::NonZeroUsize;
 use std::time::Duration;
 
-use trigon_camera::Viewport;
+use trigon_camera::{UpAxis, Viewport};
 use trigon_io::{Format, SceneChoice};
 use trigon_math::glam::{Affine2, Vec2};
 use trigon_math::{DVec3, Vec3, color, elementary};
@@ -146,6 +146,11 @@ pub(crate) fn direction(text: &str) -> Result<DVec3, String> {
     const FORMS: &str = "write axes such as +X or -y+z, or three numbers such as 1,0,-0.5";
     let found = three_numbers(text).or_else(|| signed_axes(text)).ok_or(FORMS)?;
     if found == DVec3::ZERO { Err("a direction cannot be all zeros".to_owned()) } else { Ok(found) }
+}
+
+/// The axis that points up: any direction.
+pub(crate) fn up(text: &str) -> Result<UpAxis, String> {
+    direction(text).map(UpAxis::new)
 }
 
 /// `+X`, `x`, `-y+z`: every axis at most once, a sign before all but the first.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use trigon_camera::Camera;
+use trigon_camera::{Camera, UpAxis};
 use trigon_scene::{Cancel, Frame, RenderSettings, Renderer, Scene};
 use trigon_window::{Drawer, Stage};
 
@@ -42,11 +42,13 @@ impl Comparing {
         self.loading = Some(Loading::start(self.source.clone(), request.clone(), stage.waker()));
     }
 
-    /// Takes over the other model once it is loaded. Returns whether that was now.
-    pub(super) fn woken(&mut self, stage: &mut Stage) -> Result<bool, Failure> {
+    /// Takes over the other model once it is loaded, turned to the up axis of the model beside it, if there is one.
+    /// Returns whether that was now.
+    pub(super) fn woken(&mut self, stage: &mut Stage, up: Option<UpAxis>) -> Result<bool, Failure> {
         let Some(outcome) = self.loading.as_ref().and_then(Loading::outcome) else { return Ok(false) };
         self.loading = None;
-        let (model, _) = outcome?;
+        let (mut model, _) = outcome?;
+        up.map(|up| model.scene.turn_to(up));
         self.other = Some(Arc::new(model.scene));
         self.show_pair(stage, Pair::Beside);
         Ok(true)
@@ -55,6 +57,22 @@ impl Comparing {
     /// The other model, once it is loaded.
     pub(super) fn other(&self) -> Option<&Scene> {
         self.other.as_deref()
+    }
+
+    /// Turns the other model so that this axis is up in it, too.
+    pub(super) fn stand_beside(&mut self, stage: &mut Stage, up: UpAxis) {
+        if let Some(other) = self.other.as_mut().filter(|other| other.up != up) {
+            Arc::make_mut(other).turn_to(up);
+            self.show_pair(stage, self.pair);
+        }
+    }
+
+    /// Another axis is up in both models; neither is turned.
+    pub(super) fn set_up(&mut self, stage: &mut Stage, up: UpAxis) {
+        if let Some(other) = &mut self.other {
+            Arc::make_mut(other).up = up;
+            self.show_pair(stage, self.pair);
+        }
     }
 
     /// One model, and then the other in its place.

@@ -9,8 +9,7 @@ mod state;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-use trigon_camera::Orbit;
-use trigon_math::DVec3;
+use trigon_camera::{Orbit, UpAxis};
 use trigon_scene::{Background, Frame, NodeId, RenderSettings, Scene};
 use trigon_window::{
     AnimationState, Corner, Handler, Hands, Input, Key, Modifiers, RecentFiles, Stage, Taken, Tick,
@@ -246,11 +245,20 @@ impl Viewer {
         stage.overlay.set(Corner::TopLeft, lines.unwrap_or_default());
     }
 
-    /// Another up axis, and the view that goes with it.
-    fn set_up(&mut self, stage: &mut Stage, up: DVec3, name: &str) {
-        self.request.framing.up = up;
+    /// Another up axis, and the grid and the view that go with it.
+    fn set_up(&mut self, stage: &mut Stage, up: UpAxis) {
+        self.request.up = Some(up);
+        stage.scene.up = up;
+        if let Some(comparing) = &mut self.comparing {
+            comparing.set_up(stage, up);
+        }
+        if self.request.scenery.shows_grid {
+            // Away and back again, across the new axis.
+            self.toggle_grid(stage);
+            self.toggle_grid(stage);
+        }
         self.reset_view(stage);
-        stage.overlay.notify(format!("{name} is up"));
+        stage.overlay.notify(format!("{up} is up"));
     }
 
     fn reset_view(&mut self, stage: &mut Stage) {
@@ -402,7 +410,8 @@ impl Handler for Viewer {
     fn woken(&mut self, stage: &mut Stage) {
         let picked = self.open.picked();
         self.add(stage, picked);
-        match self.comparing.as_mut().map(|comparing| comparing.woken(stage)) {
+        let up = self.shown.as_ref().map(|_| stage.scene.up);
+        match self.comparing.as_mut().map(|comparing| comparing.woken(stage, up)) {
             Some(Err(failure)) => self.tell_failure(stage, &failure),
             // Now it is known how large it is; who has turned the camera keeps it.
             Some(Ok(true)) if self.fitted == Some(stage.orbit) => self.reset_view(stage),

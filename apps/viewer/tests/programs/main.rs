@@ -4,6 +4,7 @@
 mod comparing;
 mod facts;
 mod moments;
+mod up;
 
 use std::fs;
 use std::path::{Path, PathBuf};

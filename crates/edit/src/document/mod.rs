@@ -114,7 +114,8 @@ impl Document {
     /// Those of the command, except that the file cannot be read.
     pub fn import(&mut self, path: String, loaded: &Loaded) -> Result<Outcome, EditError> {
         self.confirm();
-        let import = ImportFile { path };
+        let up = Some(loaded.scene.up).filter(|&up| up != loaded.format.up());
+        let import = ImportFile { path, up };
         let (entry, outcome) =
             self.attempt_as(import.clone().into(), |_, change| import.add(change, loaded))?;
         self.enter(entry);

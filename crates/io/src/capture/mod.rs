@@ -13,7 +13,7 @@
 //! | 4 | the version of the format, [`VERSION`] |
 //! | 1 + n | the version of the program that wrote it: its length, and text |
 //! | 8 | the hash of what follows (FNV-1a, 64 bits) |
-//! | rest | scene, settings, camera, the image's bytes and further parameters of materials, compressed by zlib |
+//! | rest | scene, settings, camera, the image's bytes, the up axis and further parameters of materials, compressed by zlib |
 //!
 //! Within the last part values follow each other without tags; the lists of fields in this folder
 //! are its order. Any change of them is a new version.

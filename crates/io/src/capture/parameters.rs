@@ -1,7 +1,8 @@
-//! Parameters of materials beyond the fixed list of a material, by their names in glTF. They follow at
-//! the end of a capture, and only where they are not the default, so that a further parameter is no new
-//! version of the format.
+//! The up axis, and parameters of materials beyond the fixed list of a material, by their names in glTF. They
+//! follow at the end of a capture, and only where they are not the default, so that a further parameter is no
+//! new version of the format.
 
+use trigon_camera::UpAxis;
 use trigon_math::Vec3;
 use trigon_scene::{ExtensionParameter, Material, MetallicRoughness, ParameterField, Scene, TextureBinding};
 
@@ -11,8 +12,11 @@ use super::stream::{Damage, Reader, Writer};
 /// The extensions whose parameters are in the fixed list.
 const FIXED: [&str; 2] = ["KHR_materials_specular", "KHR_materials_transmission"];
 
-/// Stands before the list, if there is one.
+/// Stands before the list of materials' parameters, if there is one.
 const LISTED: u8 = 1;
+
+/// Stands before the direction that is up, unless it is +Y.
+const UP: u8 = 2;
 
 /// What a parameter is set to.
 #[derive(Clone, Copy, PartialEq)]
@@ -53,8 +57,17 @@ fn listed() -> impl Iterator<Item = &'static ExtensionParameter> {
     Material::EXTENSION_PARAMETERS.iter().filter(|row| !FIXED.contains(&row.extension))
 }
 
-/// Writes the parameters that are not the default, if there are any.
+/// Writes what is not the default, if there is anything.
 pub(super) fn write(scene: &Scene, to: &mut Writer<'_>) {
+    if scene.up != UpAxis::default() {
+        UP.write(to);
+        // An axis made from its direction has the same bits.
+        scene.up.direction().write(to);
+    }
+    write_list(scene, to);
+}
+
+fn write_list(scene: &Scene, to: &mut Writer<'_>) {
     let mut count = 0_u64;
     let mut listing = Writer { bytes: Vec::new(), scene };
     for (id, material) in scene.materials.iter() {
@@ -83,12 +96,17 @@ pub(super) fn write(scene: &Scene, to: &mut Writer<'_>) {
 
 /// Reads what [`write`] wrote.
 pub(super) fn read(scene: &mut Scene, from: &mut Reader<'_>) -> Result<(), Damage> {
-    if from.is_at_end() {
-        return Ok(());
+    while !from.is_at_end() {
+        match u8::read(from)? {
+            UP => scene.up = UpAxis::new(Stored::read(from)?),
+            LISTED => read_list(scene, from)?,
+            _ => return Err(Damage::malformed("more follows where it should end")),
+        }
     }
-    if u8::read(from)? != LISTED {
-        return Err(Damage::malformed("more follows where it should end"));
-    }
+    Ok(())
+}
+
+fn read_list(scene: &mut Scene, from: &mut Reader<'_>) -> Result<(), Damage> {
     for _ in 0..from.count(size_of::<Value>())? {
         let id = Stored::read(from)?;
         let (extension, name) = <(String, String)>::read(from)?;

@@ -4,6 +4,7 @@ use std::io::Read;
 
 use flate2::read::ZlibDecoder;
 use proptest::prelude::*;
+use trigon_camera::UpAxis;
 use trigon_mesh::primitives;
 use trigon_scene::math::{DVec3, Vec3};
 use trigon_scene::{
@@ -108,6 +109,16 @@ fn parts_that_contradict_each_other_are_named() {
     other = capture();
     other.camera.position.x = f64::NAN;
     assert!(message(&other.to_bytes()).contains("no valid position"), "a camera that is nowhere");
+}
+
+#[test]
+fn the_up_axis_comes_back_bit_by_bit() {
+    for up in [UpAxis::Y, UpAxis::Z, UpAxis::new(DVec3::new(0.1, -0.2, 0.7))] {
+        let mut capture = capture();
+        capture.scene.up = up;
+        let again = read(&capture.to_bytes()).expect("a capture");
+        assert_eq!(again.scene.up, up, "with all sides");
+    }
 }
 
 /// A megabyte of zeros is a kilobyte of file.

@@ -41,7 +41,7 @@ impl<'a> Gathered<'a> {
     /// # Errors
     /// An object reaches farther than the numbers of files can say.
     pub(crate) fn new(scene: &'a Scene, options: &ExportOptions<'_>) -> Result<Self, WriteError> {
-        let root = options.root().unwrap_or(DAffine3::IDENTITY);
+        let root = options.root(scene).unwrap_or(DAffine3::IDENTITY);
         let wanted: Option<BTreeSet<NodeId>> =
             options.nodes.as_ref().map(|nodes| nodes.iter().copied().collect());
         let is_wanted = |id: &NodeId| wanted.as_ref().is_none_or(|wanted| wanted.contains(id));

@@ -16,6 +16,6 @@ pub use files::{Export, ExportedFile};
 pub(crate) use gather::{Gathered, Object};
 pub(crate) use losses::{HeldPoints, Holds, add_losses, losses_of_whole};
 pub(crate) use number::{Precision, number_text, push_number};
-pub use options::{Encoding, ExportOptions, FaceExport, UpAxis};
+pub use options::{Encoding, ExportOptions, FaceExport};
 pub(crate) use plain_name::plain_name;
 pub(crate) use vertex_table::{Columns, VertexTable};

@@ -1,19 +1,11 @@
 //! Export options.
 
+use trigon_camera::UpAxis;
 use trigon_math::{DAffine3, DMat3, DVec3};
-use trigon_scene::NodeId;
+use trigon_scene::{NodeId, Scene};
 
+use crate::format::Format;
 use crate::gltf_source::GltfSource;
-
-/// The up axis of a file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum UpAxis {
-    /// +Y, as in glTF and OBJ.
-    #[default]
-    Y,
-    /// +Z, as in programs for printing and scanning.
-    Z,
-}
 
 /// The faces of a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,8 +38,10 @@ pub struct ExportOptions<'a> {
     /// Units of the file per metre: 1 is what glTF defines. Must be positive and finite, otherwise it counts
     /// as 1.
     pub scale: f64,
-    /// The up axis.
-    pub up: UpAxis,
+    /// The axis that points up in the file; by default that of its [format](crate::Format::up), +Z for STL and +Y
+    /// for all others. A scene in which another axis is up ([`Scene::up`]) is turned, exactly between the axes of
+    /// the world.
+    pub up: Option<UpAxis>,
     /// The file that the scene came from: images are taken from it as they were encoded. Others are
     /// written as PNG.
     pub images: Option<&'a GltfSource>,
@@ -62,7 +56,7 @@ impl Default for ExportOptions<'_> {
         Self {
             nodes: None,
             scale: 1.0,
-            up: UpAxis::Y,
+            up: None,
             images: None,
             faces: FaceExport::Polygons,
             encoding: Encoding::Binary,
@@ -71,13 +65,15 @@ impl Default for ExportOptions<'_> {
 }
 
 impl ExportOptions<'_> {
-    /// The map from the scene to the file; none if they are the same.
-    pub(crate) fn root(&self) -> Option<DAffine3> {
+    /// With the conventions of a format where nothing else is said.
+    pub(crate) fn for_format(&self, format: Format) -> Self {
+        Self { up: self.up.or(Some(format.up())), ..self.clone() }
+    }
+
+    /// The map from a scene to the file; none if they are the same.
+    pub(crate) fn root(&self, scene: &Scene) -> Option<DAffine3> {
         let scale = if self.scale > 0.0 && self.scale.is_finite() { self.scale } else { 1.0 };
-        let turn = match self.up {
-            UpAxis::Y => DMat3::IDENTITY,
-            UpAxis::Z => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
-        };
+        let turn = scene.up.turn_to(self.up.unwrap_or_default());
         let map = DAffine3::from_mat3(turn * DMat3::from_diagonal(DVec3::splat(scale)));
         Some(map).filter(|map| *map != DAffine3::IDENTITY)
     }

@@ -38,6 +38,7 @@ pub fn export(
     format: Format,
     options: &ExportOptions<'_>,
 ) -> Result<Export, WriteError> {
+    let options = &options.for_format(format);
     match &format.row().writing {
         Writing::Unwritten => Err(WriteError::Unwritten { name: name.to_owned(), writers: endings() }),
         Writing::Scene(write) => {

@@ -11,6 +11,7 @@ mod stl;
 use std::borrow::Cow;
 use std::path::Path;
 
+use trigon_camera::UpAxis;
 use trigon_scene::Scene;
 
 use crate::error::LoadError;
@@ -73,6 +74,7 @@ static ROWS: &[FormatRow] = &[
             format: Format::Obj,
             name: "Wavefront OBJ with MTL",
             extensions: &["obj"],
+            up: UpAxis::Y,
             reads: "polygons, edges, points, groups, Phong and physically-based materials with their textures, vertex colours",
         },
         sniff: is_obj,
@@ -80,7 +82,13 @@ static ROWS: &[FormatRow] = &[
         writing: Writing::Objects(ALL, obj::write_obj),
     },
     FormatRow {
-        reader: Reader { format: Format::Gltf, name: "glTF 2.0", extensions: &["gltf"], reads: GLTF },
+        reader: Reader {
+            format: Format::Gltf,
+            name: "glTF 2.0",
+            extensions: &["gltf"],
+            up: UpAxis::Y,
+            reads: GLTF,
+        },
         sniff: |bytes| first_visible(bytes) == Some(b'{'),
         import: |import, bytes| gltf::import_gltf(import, &bytes),
         writing: Writing::Unwritten,
@@ -90,6 +98,7 @@ static ROWS: &[FormatRow] = &[
             format: Format::Glb,
             name: "glTF 2.0 binary",
             extensions: &["glb", "vrm"],
+            up: UpAxis::Y,
             reads: GLTF,
         },
         sniff: |bytes| bytes.starts_with(b"glTF"),
@@ -101,6 +110,7 @@ static ROWS: &[FormatRow] = &[
             format: Format::Ply,
             name: "Stanford PLY",
             extensions: &["ply"],
+            up: UpAxis::Y,
             reads: "text and binary of both byte orders: polygons, strips, edges, points, normals, colours, texture coordinates, textures of TextureFile comments",
         },
         sniff: ply::is_ply,
@@ -115,6 +125,8 @@ static ROWS: &[FormatRow] = &[
             format: Format::Stl,
             name: "STL",
             extensions: &["stl"],
+            // Parts lie on the bed of a printer or a milling machine, whose z points up.
+            up: UpAxis::Z,
             reads: "text and binary, several solids, colours of VisCAM, Magics and MeshLab",
         },
         sniff: stl::is_stl,
@@ -126,6 +138,7 @@ static ROWS: &[FormatRow] = &[
             format: Format::Off,
             name: "Geomview OFF",
             extensions: &["off"],
+            up: UpAxis::Y,
             reads: "text: polygons, edges, points, normals, colours, texture coordinates",
         },
         sniff: off::is_off,
@@ -161,6 +174,13 @@ impl Format {
         readers().find(|reader| reader.extensions.contains(&extension.as_str())).map(|reader| reader.format)
     }
 
+    /// The axis that points up in files of the format, unless somebody knows better
+    /// ([`LoadOptions::up`](crate::LoadOptions::up)): +Z in STL, +Y in all others.
+    #[must_use]
+    pub fn up(self) -> UpAxis {
+        self.row().reader.up
+    }
+
     pub(crate) fn row(self) -> &'static FormatRow {
         ROWS.iter().find(|row| row.reader.format == self).expect("every format has a row")
     }
@@ -177,9 +197,11 @@ pub(crate) fn detect_format(path: &Path, bytes: &[u8]) -> Result<Format, String>
     let extension =
         path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_lowercase();
     if let Some(format) = Format::from_extension(&extension) {
-        // Many GLB files are named .gltf and vice versa.
+        // Many GLB files are named .gltf and vice versa. What the editor recovers is a GLB, whatever the name of the
+        // model; the header of a binary STL may begin with the same four letters, but not with the version.
         return Ok(match (format, bytes.starts_with(b"glTF"), first_visible(bytes)) {
             (Format::Gltf, true, _) => Format::Glb,
+            (_, true, _) if bytes[4..].starts_with(&2_u32.to_le_bytes()) => Format::Glb,
             (Format::Glb, false, Some(b'{')) => Format::Gltf,
             (format, _, _) => format,
         });
@@ -235,6 +257,12 @@ mod tests {
         let detect = |name: &str, bytes: &[u8]| detect_format(Path::new(name), bytes).ok();
         assert_eq!(detect("a.OBJ", b""), Some(Format::Obj), "the name, in any case");
         assert_eq!(detect("a.gltf", b"glTF\x02"), Some(Format::Glb), "a GLB by another name");
+        assert_eq!(
+            detect("a.stl", b"glTF\x02\0\0\0"),
+            Some(Format::Glb),
+            "what the editor recovers of an STL"
+        );
+        assert_eq!(detect("a.stl", b"glTF to STL"), Some(Format::Stl), "a header");
         assert_eq!(detect("a.glb", b"\xef\xbb\xbf {"), Some(Format::Gltf), "and the other way round");
         assert_eq!(detect("", b"# x\nv 1 2 3\n"), Some(Format::Obj), "a stream of OBJ");
         assert_eq!(detect("", b" {\"asset\""), Some(Format::Gltf), "a stream of JSON");

@@ -32,9 +32,10 @@ fn again(scene: &Scene, format: (Format, &str), options: &ExportOptions<'_>) -> 
     loaded(format.1, bytes(&written(scene, format, options)))
 }
 
-/// The faces of all nodes as positions in the world, rounded as files have them.
+/// The faces of all nodes as positions in a world with +Y up, rounded as files have them.
 fn faces(scene: &Scene) -> Vec<Vec<[u32; 3]>> {
-    let mut faces = Vec::new();
+    let (mut scene, mut faces) = (scene.clone(), Vec::new());
+    scene.turn_to(UpAxis::Y);
     for (id, node) in scene.nodes().iter() {
         let Some(asset) = node.mesh.and_then(|mesh| scene.meshes().get(mesh)) else { continue };
         let (mesh, world) = (asset.mesh(), scene.world_transform(id));
@@ -313,7 +314,7 @@ fn up_and_scale_are_those_of_the_file() {
     let corners = [Vec3::new(1.0, 2.0, 3.0), Vec3::X, Vec3::Y].map(|place| builder.push_vertex(place));
     builder.push_face(&corners).expect("a triangle");
     let scene = scene_of(builder.build());
-    let options = ExportOptions { up: UpAxis::Z, scale: 1000.0, ..ExportOptions::default() };
+    let options = ExportOptions { up: Some(UpAxis::Z), scale: 1000.0, ..ExportOptions::default() };
     for format in FORMATS {
         let read = again(&scene, format, &options);
         let (_, asset) = read.scene.meshes().iter().next().expect("one");

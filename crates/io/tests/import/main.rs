@@ -24,6 +24,7 @@ mod statements;
 mod stl;
 mod texture;
 mod tobj_crate;
+mod up;
 mod validator;
 mod wires;
 

@@ -1,6 +1,7 @@
 //! What command lines ask for, and what they are refused for.
 
 use clap::Parser;
+use trigon_camera::UpAxis;
 use trigon_math::DVec3;
 use trigon_scene::quality::{Preset, Quality};
 use trigon_scene::{MetalReflection, Outputs, ShadingModel, Shadows};
@@ -38,7 +39,7 @@ fn without_flags_there_is_a_window_with_the_built_in_scene() {
 fn values_that_begin_with_a_sign_need_no_equals_sign() {
     let request =
         request("a.obj --up -Z --camera-direction -1,0,0.5 --camera-azimuth-angle -30").expect("fine");
-    assert_eq!(request.framing.up, DVec3::NEG_Z, "an axis");
+    assert_eq!(request.up, Some(UpAxis::new(DVec3::NEG_Z)), "an axis");
     assert_eq!(request.framing.eye, Eye::Direction(DVec3::new(-1.0, 0.0, 0.5)), "numbers");
     assert!((request.framing.azimuth.to_degrees() + 30.0).abs() < 1e-12, "an angle");
 }

@@ -83,6 +83,10 @@ fn the_copied_command_line_draws_the_same_bytes() {
         key(window, 'x');
         key(window, 'n');
         compare(window, "axes and a name, and no grid");
+        key(window, 'g');
+        window.key(Chord::new(Modifiers::ALT, Key::Character('z')));
+        compare(window, "a grid, and z up");
+        key(window, 'g');
         shift(window, 'h');
         click(window, "Hide teapot");
         window.key(Key::Escape.into());

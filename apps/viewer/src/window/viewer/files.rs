@@ -57,6 +57,9 @@ impl Viewer {
     }
 
     pub(super) fn show(&mut self, stage: &mut Stage, model: Model, view: View) -> Result<(), Failure> {
+        if let Some(comparing) = &mut self.comparing {
+            comparing.stand_beside(stage, model.scene.up);
+        }
         let playback = Playback::new(&model.scene, &self.request);
         let bar = playback.as_ref().map_or(0.0, Playback::height);
         if view == View::Fit || self.shown.is_none() {
@@ -74,7 +77,7 @@ impl Viewer {
         if self.playback.as_ref().is_some_and(Playback::is_playing) {
             stage.animate();
         }
-        if let Some(odd) = &model.odd {
+        for odd in &model.odd {
             self.notify(stage, odd.clone());
         }
         self.failure = None;
@@ -163,7 +166,7 @@ impl Viewer {
             Some(other) => model.shot_with(other, framing, aspect)?,
             None => model.shot(framing, aspect)?,
         };
-        let mut orbit = Orbit::from_camera(&shot.camera, shot.distance, self.request.framing.up);
+        let mut orbit = Orbit::from_camera(&shot.camera, shot.distance, model.scene.up.direction());
         if self.request.framing.is_fitted() {
             orbit.zoom(stage.room());
         }

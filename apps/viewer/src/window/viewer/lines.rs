@@ -152,7 +152,8 @@ impl Viewer {
         let mut after = request(&line)?;
         self.light(&mut after)?;
         let said = line.last_change();
-        let (is_framed, is_other) = (before.framing != after.framing, is_other_model(&before, &after));
+        let is_framed = before.framing != after.framing || before.up != after.up;
+        let is_other = is_other_model(&before, &after);
         take_settings(&mut stage.settings, &before.settings, &after.settings);
         take(&mut self.show_name, &before.overlay.name, &after.overlay.name);
         take(&mut self.show_metadata, &before.overlay.metadata, &after.overlay.metadata);
@@ -165,6 +166,9 @@ impl Viewer {
         after.screenshot.clone_from(&now.screenshot);
         after.state_file.clone_from(&now.state_file);
         after.framing.clone_from(&now.framing);
+        if before.up == after.up {
+            after.up = now.up;
+        }
         after.overlay.shows_axes = now.overlay.shows_axes;
         after.scenery.shows_grid = now.scenery.shows_grid;
         self.request = after;
@@ -206,6 +210,7 @@ fn is_other_model(before: &Request, after: &Request) -> bool {
         || before.moment != after.moment
         || before.scene != after.scene
         || before.format != after.format
+        || before.up != after.up
         || before.hidden != after.hidden
         || before.placed != after.placed
 }

@@ -1,6 +1,6 @@
 //! What the viewer's own keys do: an arm for each row of their table.
 
-use trigon_math::DVec3;
+use trigon_camera::UpAxis;
 use trigon_scene::{Background, Display};
 use trigon_window::{Stage, Visibility};
 
@@ -42,8 +42,8 @@ impl Viewer {
             Command::ToggleQuality => self.quality.toggle(stage),
             Command::Brighter => Self::brighten(stage, BRIGHTER),
             Command::Darker => Self::brighten(stage, 1.0 / BRIGHTER),
-            Command::UpY => self.set_up(stage, DVec3::Y, "+Y"),
-            Command::UpZ => self.set_up(stage, DVec3::Z, "+Z"),
+            Command::UpY => self.set_up(stage, UpAxis::Y),
+            Command::UpZ => self.set_up(stage, UpAxis::Z),
             Command::Screenshot => self.take_screenshot(stage, stage.settings.background, None),
             Command::ScreenshotWithoutBackground => {
                 self.take_screenshot(stage, Background::Transparent, None);

@@ -33,6 +33,7 @@ impl Viewer {
         flags.extend(of_settings(&settings));
         let exact = ExactCamera { camera: stage.camera(), distance: stage.orbit.distance() };
         flags.push(format!("--camera-exact={exact}"));
+        flags.extend(self.request.up.map(|up| format!("--up={up}")));
         flags.extend(self.overlay_flags());
         flags.extend(self.playback.iter().flat_map(|playback| playback.flags()));
         flags.extend(self.node_flags(stage));

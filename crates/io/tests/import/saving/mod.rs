@@ -308,8 +308,12 @@ fn a_selection_stands_where_it_stood_and_brings_its_joints() {
     child.mesh = Some(mesh);
     let child = scene.add_child(above, child).expect("a root");
     scene.add_object("other", primitives::cube(1.0), Material::default());
-    let options =
-        ExportOptions { nodes: Some(vec![child]), scale: 100.0, up: UpAxis::Z, ..ExportOptions::default() };
+    let options = ExportOptions {
+        nodes: Some(vec![child]),
+        scale: 100.0,
+        up: Some(UpAxis::Z),
+        ..ExportOptions::default()
+    };
     let again = loaded("a.glb", &encode_glb(&scene, &options).expect("small"));
     let shown: Vec<&str> = again
         .scene

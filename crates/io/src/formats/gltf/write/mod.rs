@@ -81,6 +81,6 @@ fn export<'a>(scene: &'a Scene, options: &'a ExportOptions<'a>) -> Result<Input<
         kept: None,
         images: options.images,
         nodes: options.nodes.as_deref(),
-        root: options.root(),
+        root: options.root(scene),
     })
 }
