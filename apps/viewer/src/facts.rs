@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use serde::{Serialize, Serializer};
 use trigon_camera::{Camera, PixelCenters, Projection, Viewport};
 use trigon_math::{DAffine3, DMat4};
-use trigon_scene::{AlphaMode, Material, MaterialId, Node, NodeId, Scene};
+use trigon_scene::{AlphaMode, LightReading, Material, MaterialId, Node, NodeId, Scene};
 
 use crate::failure::Failure;
 use crate::lists::json_line;
@@ -29,9 +29,18 @@ pub(crate) struct ModelFacts<'a> {
     size: [f64; 3],
     center: Option<[f64; 3]>,
     scenes: &'a [String],
+    light: Option<LightFacts>,
     animations: Vec<AnimationFacts<'a>>,
     node_list: NodeList<'a>,
     material_list: Vec<MaterialFacts<'a>>,
+}
+
+/// What a light meter reads in it.
+#[derive(Serialize)]
+struct LightFacts {
+    white: f32,
+    stops: f32,
+    in_range: bool,
 }
 
 #[derive(Serialize)]
@@ -90,12 +99,19 @@ impl<'a> ModelFacts<'a> {
             size: summary.size.to_array(),
             center: model.center().map(|center| center.to_array()),
             scenes: &model.scene_names,
+            light: scene.light_reading().map(LightFacts::new),
             animations: animations
                 .map(|animation| AnimationFacts { name: &animation.name, seconds: animation.duration() })
                 .collect(),
             node_list: NodeList(scene),
             material_list: scene.materials.iter().map(MaterialFacts::new).collect(),
         }
+    }
+}
+
+impl LightFacts {
+    fn new(reading: LightReading) -> Self {
+        Self { white: reading.white, stops: reading.stops, in_range: reading.is_in_range() }
     }
 }
 

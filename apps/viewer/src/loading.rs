@@ -54,6 +54,8 @@ pub(crate) fn load(
     let mut model = Model::new(scene, source.clone(), request)?;
     model.hide(&request.hidden)?;
     model.place(&request.placed)?;
+    let light = model.scene.exposure_warning(&request.settings).map(|warning| warning.to_string());
+    let odd = odd.into_iter().chain(light).collect();
     (model.scene_names, model.files, model.odd) = (scene_names, read, odd);
     Ok((model, warnings))
 }

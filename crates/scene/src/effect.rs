@@ -9,6 +9,8 @@ pub enum Effect {
     Lamps,
     /// Ambient light.
     AmbientLight,
+    /// Lamps exposed by a light meter.
+    LightMeter,
     /// Highlights of Blinn-Phong and metallic-roughness surfaces.
     Highlights,
     /// Textures of base colours, highlights and emission, and the coordinates of all textures.
@@ -29,8 +31,8 @@ pub enum Effect {
     Poses,
     /// Ambient light from a sky or an environment image.
     Environment,
-    /// The built-in sky in metals, if their surroundings are not defined.
-    MetalSky,
+    /// The built-in studio in metals, if their surroundings are not defined.
+    MetalStudio,
     /// Shadows by depth maps.
     ShadowMaps,
     /// Shadows by rays.
@@ -53,9 +55,10 @@ pub enum Effect {
 
 impl Effect {
     /// All of them, in the order in which a plan lists them.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 23] = [
         Self::Lamps,
         Self::AmbientLight,
+        Self::LightMeter,
         Self::Highlights,
         Self::Textures,
         Self::NormalMaps,
@@ -66,7 +69,7 @@ impl Effect {
         Self::Transparency,
         Self::Poses,
         Self::Environment,
-        Self::MetalSky,
+        Self::MetalStudio,
         Self::ShadowMaps,
         Self::ShadowRays,
         Self::AmbientOcclusion,
@@ -84,6 +87,7 @@ impl fmt::Display for Effect {
         f.write_str(match self {
             Self::Lamps => "lamps",
             Self::AmbientLight => "ambient light",
+            Self::LightMeter => "light meter",
             Self::Highlights => "highlights",
             Self::Textures => "textures",
             Self::NormalMaps => "normal maps",
@@ -94,7 +98,7 @@ impl fmt::Display for Effect {
             Self::Transparency => "transparency",
             Self::Poses => "poses",
             Self::Environment => "environment",
-            Self::MetalSky => "sky in metals",
+            Self::MetalStudio => "studio in metals",
             Self::ShadowMaps => "shadow maps",
             Self::ShadowRays => "shadow rays",
             Self::AmbientOcclusion => "ambient occlusion",

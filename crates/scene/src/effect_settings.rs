@@ -1,4 +1,4 @@
-//! Effects that a frame may have beyond directly lit surfaces. All except the sky that metals
+//! Effects that a frame may have beyond directly lit surfaces. All except the studio that metals
 //! mirror are off by default, and effects that are off cost nothing.
 
 use std::sync::Arc;
@@ -25,8 +25,8 @@ pub struct EffectSettings {
     pub bounces: u32,
     /// Fog between the eye and surfaces.
     pub fog: Option<Fog>,
-    /// Factor on the image's light, in stops: 1 is twice as bright.
-    pub exposure: f32,
+    /// How bright the image is.
+    pub exposure: Exposure,
     /// How light brighter than the display's white is mapped.
     pub tone_mapping: ToneMapping,
     /// Drawn around nodes.
@@ -53,10 +53,10 @@ pub enum Shadows {
 /// surroundings. It is weighted by metalness; dielectrics look the same either way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MetalReflection {
-    /// The built-in sky, [`Sky::default`](crate::Sky::default), +Y of the world up.
-    /// [`Lighting::Scene`](crate::Lighting::Scene) leaves it out.
+    /// The built-in studio, +Y of the world up: grey, so that metals keep their own colours, white above,
+    /// and darker below. [`Lighting::Scene`](crate::Lighting::Scene) leaves it out.
     #[default]
-    Sky,
+    Studio,
     /// The ambient light, as for dielectrics: apart from the highlights of lamps, metals are nearly
     /// black.
     Ambient,
@@ -79,6 +79,20 @@ pub struct Fog {
     pub color: Vec3,
     /// Per metre, at least 0.
     pub density: f32,
+}
+
+/// How bright an image is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Exposure {
+    /// The lights are as bright as they are, unless a light meter finds that a display could not show what the
+    /// scene's own lamps light: lamps in lux and candela, or very faint ones. Then these lamps, and the ambient
+    /// light of the scene, are dimmed or brightened. It does not depend on the camera, so all images of a model
+    /// are exposed alike. [`Scene::light_reading`](crate::Scene::light_reading) tells by how much, and
+    /// [`LightReading`](crate::LightReading) how the meter decides.
+    #[default]
+    Metered,
+    /// A factor on the whole image, in stops: 1 is twice as bright. No light is metered.
+    Stops(f32),
 }
 
 /// How light brighter than the display's white is mapped.
@@ -104,9 +118,10 @@ pub struct Outline {
 }
 
 impl EffectSettings {
-    /// The factor of the exposure.
+    /// The factor of the exposure on the image.
     pub(crate) fn exposure_factor(&self) -> f32 {
-        let factor = trigon_math::elementary::exp2_f32(self.exposure);
+        let Exposure::Stops(stops) = self.exposure else { return 1.0 };
+        let factor = trigon_math::elementary::exp2_f32(stops);
         if factor.is_finite() { factor } else { 1.0 }
     }
 

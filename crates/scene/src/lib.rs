@@ -42,6 +42,8 @@ mod frame;
 mod geometry;
 mod lanes;
 mod light;
+mod light_meter;
+mod light_reading;
 mod lighting;
 mod marks;
 mod material;
@@ -72,7 +74,7 @@ pub use check::{Finding, Severity};
 pub use display::Display;
 pub use effect::Effect;
 pub use effect_settings::{
-    AmbientOcclusion, EffectSettings, Fog, MetalReflection, Outline, Shadows, ToneMapping,
+    AmbientOcclusion, EffectSettings, Exposure, Fog, MetalReflection, Outline, Shadows, ToneMapping,
 };
 pub use effects::EffectCounts;
 pub use elements::ElementSet;
@@ -81,6 +83,8 @@ pub use environment::{Environment, EnvironmentError, Sky};
 pub use fixedbitset::FixedBitSet;
 pub use frame::{Frame, Hit};
 pub use light::{Light, LightKind};
+pub use light_meter::{ExposureFault, ExposureWarning};
+pub use light_reading::LightReading;
 pub use marks::{Mark, Marks, VertexPoints};
 pub use material::{
     AlphaMode, ExtensionParameter, Material, MaterialId, MaterialTexture, MetallicRoughness, NormalMap,

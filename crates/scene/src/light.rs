@@ -111,6 +111,11 @@ impl Light {
         (scale, -outer * scale)
     }
 
+    /// Whether it is the same from all directions.
+    pub(crate) fn is_ambient(&self) -> bool {
+        self.kind == LightKind::Ambient
+    }
+
     /// The linear RGB of a white surface; never negative, never NaN.
     pub(crate) fn radiance(&self) -> Vec3 {
         let value = self.color * self.intensity;

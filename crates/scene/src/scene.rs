@@ -18,6 +18,7 @@ use trigon_raster::Texture;
 
 use crate::animation::Animation;
 use crate::arena::Arena;
+use crate::light_reading::KeptReading;
 use crate::material::{Material, MaterialId};
 use crate::mesh_asset::{MeshAsset, MeshId};
 use crate::node::{Node, NodeId, Skin};
@@ -83,6 +84,8 @@ pub struct Scene {
     nodes: Arena<Node>,
     /// Roots listed first; some may have been removed, or have a parent now.
     root_order: Vec<NodeId>,
+    /// What a light meter reads; see [`Scene::light_reading`].
+    pub(crate) reading: KeptReading,
 }
 
 impl Scene {
@@ -99,6 +102,7 @@ impl Scene {
 
     /// Changes a mesh for every node that draws it; `None` if it was removed.
     pub fn replace_mesh(&mut self, id: MeshId, mesh: Mesh) -> Option<()> {
+        self.reading.forget();
         self.meshes.get_mut(id)?.replace(mesh);
         Some(())
     }
@@ -137,6 +141,7 @@ impl Scene {
     /// # Errors
     /// When the mesh is gone, or has not what is to be changed. It stays as it was.
     pub fn change_mesh(&mut self, id: MeshId, change: &MeshChange) -> Result<(), SceneError> {
+        self.reading.forget();
         let asset = self.meshes.get_mut(id).ok_or(SceneError::NoSuchMesh(id))?;
         Ok(asset.change(change)?)
     }
@@ -159,6 +164,7 @@ impl Scene {
     /// assert_eq!(shown.meshes().get(cube).map(|asset| asset.mesh().face_count()), Some(6));
     /// ```
     pub fn adopt_mesh(&mut self, from: &Self, id: MeshId) -> Option<()> {
+        self.reading.forget();
         let asset = from.meshes.get(id)?.clone();
         if let Some(own) = self.meshes.get_mut(id) {
             *own = asset;
@@ -189,11 +195,13 @@ impl Scene {
 
     /// Adds a node as a root.
     pub fn add(&mut self, node: Node) -> NodeId {
+        self.reading.forget();
         self.nodes.insert(Node { parent: None, children: Vec::new(), ..node })
     }
 
     /// Adds a node that hangs on another one; `None` when that one is gone.
     pub fn add_child(&mut self, parent: NodeId, node: Node) -> Option<NodeId> {
+        self.reading.forget();
         self.nodes.get(parent)?;
         let child = self.nodes.insert(Node { parent: Some(parent), children: Vec::new(), ..node });
         self.nodes.get_mut(parent)?.children.push(child);
@@ -222,17 +230,20 @@ impl Scene {
 
     /// A node, mutable, or `None` if it was removed.
     pub fn node_mut(&mut self, id: NodeId) -> Option<&mut Node> {
+        self.reading.forget();
         self.nodes.get_mut(id)
     }
 
     /// All nodes, mutable, in the order of their indices.
     pub fn nodes_mut(&mut self) -> impl Iterator<Item = (NodeId, &mut Node)> {
+        self.reading.forget();
         self.nodes.iter_mut()
     }
 
     /// Removes a node and its descendants. Meshes and materials stay, because others may share
     /// them. Returns the number of removed nodes.
     pub fn remove(&mut self, id: NodeId) -> usize {
+        self.reading.forget();
         self.unhook(id);
         let (mut waiting, mut removed) = (vec![id], 0);
         while let Some(next) = waiting.pop() {
@@ -250,6 +261,7 @@ impl Scene {
     /// # Errors
     /// Either was removed, or the node would become its own ancestor.
     pub fn set_parent(&mut self, child: NodeId, parent: Option<NodeId>) -> Result<(), SceneError> {
+        self.reading.forget();
         self.nodes.get(child).ok_or(SceneError::NoSuchNode(child))?;
         if let Some(parent) = parent {
             self.nodes.get(parent).ok_or(SceneError::NoSuchNode(parent))?;

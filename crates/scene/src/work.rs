@@ -26,6 +26,8 @@ pub(crate) enum Work {
     VertexColors,
     /// The vertices of a mesh are posed.
     Pose,
+    /// The lamps of an image are exposed by a light meter.
+    LightMeter,
     /// A map of depths is drawn as a lamp sees them.
     ShadowMap,
     /// Eight look-ups in the shadow maps of a lamp.
@@ -38,8 +40,8 @@ pub(crate) enum Work {
     SightRay,
     /// Light of the environment is looked up.
     EnvironmentLight,
-    /// Light of the sky on eight points of metal.
-    SkyLight,
+    /// Light of the studio on eight points of metal.
+    StudioLight,
     /// Eight colours are seen through fog.
     Fog,
     /// Tones of an image are mapped.

@@ -8,8 +8,8 @@ use trigon_camera::{Camera, Projection};
 use trigon_math::{DQuat, DVec3, Vec3, Vec4, color};
 use trigon_mesh::primitives;
 use trigon_scene::{
-    Background, Frame, Light, LightKind, Lighting, Material, MetallicRoughness, Node, RenderSettings, Scene,
-    Shading, ShadingModel, Transform, render,
+    Background, Exposure, Frame, Light, LightKind, Lighting, Material, MetallicRoughness, Node,
+    RenderSettings, Scene, Shading, ShadingModel, Transform, render,
 };
 
 use super::flight::{check_numbers, settings};
@@ -55,6 +55,8 @@ fn floor_under(shading: Shading, model: ShadingModel, lights: impl Iterator<Item
     };
     // In bytes, what is no number would be black.
     settings.outputs.radiance = true;
+    // The law holds for lamps of any brightness.
+    settings.effects.exposure = Exposure::Stops(0.0);
     render(&scene, &camera, &settings).expect("in range")
 }
 

@@ -31,15 +31,33 @@ Shadow rays need none of this.
 
 ## What metals reflect
 
-Lit by lamps alone, a metal is black outside its highlights. Metals therefore reflect the built-in sky (with the world's +Y up)
-if the scene has no environment and no ambient light of its own, unless it is drawn with nothing but its own lights
-(`Lighting::Scene`). The sky replaces the ambient light in proportion to how metallic a point is. Dielectrics keep every byte,
-and vectors of eight pixels without any metal look nothing up. `--metal-reflection=ambient` turns it off. Note that glTF's default
+Lit by lamps alone, a metal is black outside its highlights. Metals therefore reflect a studio if the scene has no environment and
+no ambient light of its own, unless it is drawn with nothing but its own lights (`Lighting::Scene`): a grey room that is bright
+above, darker below the horizon, and turns with the world's up axis. It has no colour, so a metal shows its own, and a white one
+stays white. The studio replaces the ambient light in proportion to how metallic a point is. Dielectrics keep every byte, and
+vectors of eight pixels without any metal look nothing up. `--metal-reflection=ambient` turns it off. Note that glTF's default
 material is a metal.
 
-Three metal balls of roughness 0, 0.35 and 0.7, on 43 % of 480×300 pixels, need 13 % more instructions with it, and 15 million
-once for the table of the sky, which is a quarter of such an image (callgrind, AVX2, one thread). Without a metal in view there
-is neither.
+The table of the studio takes 5 kB and is made when the first metal is drawn. Without a metal in view there is none.
+
+## How lamps are exposed
+
+Modelling programs export lamps in lux and candela: a lamp of 1000 W from Blender has 54,350 cd, and a white surface seven metres
+away has 330 times the white of a display. A light meter therefore reads the light that arrives at the model, and dims or
+brightens the scene's lamps if a display could not show what they light: if even middle grey (18 %) would be clipped in the key light,
+or white would be darker than a tenth of middle grey. Lamps in between keep every byte.
+
+- The key light is what nine tenths of the lit surface do not exceed. Every object counts the same, however large it is, and every
+  area within an object. So neither a wide floor nor the shade of a lamp decides.
+- Exposed, a white surface in the key light has 0.7 of the display's white, and about 0.8 with the ambient light that is added.
+- Ambient light that is added, environments, unlit surfaces and emitted light stay as they are. An environment replaces
+  brightening, but not dimming.
+- The reading is a property of the scene. It does not depend on the camera, the image or the pose of an animation: turntables,
+  animations and all other series of a model have one exposure. Shadows and reflections are no part of it.
+
+`--explain` tells the reading and the exposure, `--check` notes it, and `--json` has it as `light`. `--exposure=0` turns the meter off, as
+does any other exposure. `--light-intensity` makes a metered image brighter or darker. If most of a model is white or black anyway, a
+warning says how much of it, and what to do (`Scene::exposure_warning`).
 ";
 
 /// What stands below them.

@@ -9,7 +9,7 @@ use trigon_math::{DQuat, DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::primitives::{self, TorusKnot};
 use trigon_mesh::{Attributes, Deltas, Mesh, MorphTarget};
 use trigon_scene::{
-    AlphaMode, AmbientOcclusion, Background, Effect, Environment, Fog, Light, Lighting, Material,
+    AlphaMode, AmbientOcclusion, Background, Effect, Environment, Exposure, Fog, Light, Lighting, Material,
     MetallicRoughness, Node, NodeId, NormalMap, Occlusion, Outline, RenderSettings, Scene, Shading, Shadows,
     Sky, Style, Texture, TextureBinding, TextureFormat, ToneMapping, Transform, showcase,
 };
@@ -68,7 +68,7 @@ pub(crate) fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
             settings.background = Background::Environment;
         }),
         // These scenes have ambient light of their own, which metals mirror otherwise.
-        asked(Effect::MetalSky, &|settings| settings.lighting = Lighting::Studio),
+        asked(Effect::MetalStudio, &|settings| settings.lighting = Lighting::Studio),
         asked(Effect::ShadowMaps, &|settings| settings.effects.shadows = Shadows::Maps { resolution: 2048 }),
         asked(Effect::ShadowRays, &|settings| settings.effects.shadows = Shadows::Rays),
         asked(Effect::AmbientOcclusion, &|settings| {
@@ -80,7 +80,7 @@ pub(crate) fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
             settings.effects.fog = Some(Fog { color: Vec3::new(0.5, 0.53, 0.57), density: 0.12 });
         }),
         asked(Effect::ToneMapping, &|settings| {
-            settings.effects.exposure = 1.0;
+            settings.effects.exposure = Exposure::Stops(1.0);
             settings.effects.tone_mapping = ToneMapping::KhronosPbrNeutral;
         }),
         asked(Effect::Outline, &|settings| {

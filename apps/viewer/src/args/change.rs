@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::line::CommandLine;
 use super::request::plain;
-use super::script::{RANGES, Step};
+use super::script::{STEPS, Step, Steps};
 use super::values;
 
 /// Switches that are on unless they are turned off.
@@ -44,9 +44,9 @@ impl CommandLine {
     }
 
     fn increased(&self, flag: &str, up: bool, file: Option<&Path>) -> String {
-        let row = RANGES.iter().find(|row| row.0 == flag);
-        let &(_, least, most, step) = row.expect("the line was checked");
-        let now = self.typed_value(flag, file).parse::<f64>().unwrap_or(1.0);
+        let steps = STEPS.iter().find(|steps| steps.flag == flag);
+        let &Steps { least, most, step, unset, .. } = steps.expect("the line was checked");
+        let now = self.typed_value(flag, file).parse::<f64>().unwrap_or(unset);
         let next = (if up { now + step } else { now - step }).clamp(least, most);
         // In steps, without what rounding adds: none is finer than a hundredth.
         format!("--{flag}={}", ((next / step).round() * step * 100.0).round() / 100.0)
@@ -67,6 +67,14 @@ mod tests {
             line = line.changed(Step::Increase("opacity".to_owned(), true), None).expect("a number");
             assert_eq!(line.typed_value("opacity", None), expected, "a step more");
         }
+    }
+
+    /// The light meter has no value that could be typed.
+    #[test]
+    fn steps_of_the_exposure_begin_at_none() {
+        let line = CommandLine::new(["--no-config"].map(OsString::from)).expect("flags");
+        let line = line.changed(Step::Increase("exposure".to_owned(), false), None).expect("a number");
+        assert_eq!(line.typed_value("exposure", None), "-0.25", "a step less than 0");
     }
 
     #[test]

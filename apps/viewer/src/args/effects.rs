@@ -7,7 +7,7 @@ use std::sync::{Arc, LazyLock};
 use clap::ValueEnum;
 use trigon_math::Vec3;
 use trigon_scene::{
-    AmbientOcclusion, Background, EffectSettings, Environment, Fog, MetalReflection, Reflection,
+    AmbientOcclusion, Background, EffectSettings, Environment, Exposure, Fog, MetalReflection, Reflection,
     RenderSettings, ShadingModel, Shadows, Sky, ToneMapping,
 };
 
@@ -68,8 +68,8 @@ pub(crate) struct EffectArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) hdri_skybox: Option<bool>,
 
-    /// What metals mirror if there is no environment: a clear sky, or ambient light, which leaves them dark
-    #[arg(long, value_name = "WHAT", default_value = "sky", help_heading = "Effects")]
+    /// What metals mirror if there is no environment: a grey studio, or ambient light, which leaves them dark
+    #[arg(long, value_name = "WHAT", default_value = "studio", help_heading = "Effects")]
     pub(crate) metal_reflection: MetalReflectionArg,
 
     /// Maximum number of reflections at mirrors (metals without roughness) and passages through
@@ -85,9 +85,11 @@ pub(crate) struct EffectArgs {
     #[arg(long, value_name = "COLOR", default_value = "#b8bec6", value_parser = values::color, help_heading = "Effects")]
     pub(crate) fog_color: Vec3,
 
-    /// Brighten the image by this many stops; 1 is twice as bright
-    #[arg(long, value_name = "STOPS", default_value = "0", value_parser = values::stops, allow_hyphen_values = true, help_heading = "Effects")]
-    pub(crate) exposure: f32,
+    /// Brighten the image by this many stops: 1 is twice as bright, and 0 leaves all lights as they are
+    /// [default: a light meter dims or brightens the lamps of the model if the display could not show what they
+    /// light]
+    #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true, help_heading = "Effects")]
+    pub(crate) exposure: Option<f32>,
 
     /// Tone mapping: compress light brighter than white (Khronos PBR Neutral)
     #[arg(long, short, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
@@ -127,7 +129,7 @@ pub(crate) enum ShadowsArg {
 /// What metals mirror.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MetalReflectionArg {
-    Sky,
+    Studio,
     Ambient,
 }
 
@@ -219,12 +221,12 @@ impl EffectArgs {
             }),
             environment: self.is_lit_by_sky().then(clear_sky),
             metal_reflection: match self.metal_reflection {
-                MetalReflectionArg::Sky => MetalReflection::Sky,
+                MetalReflectionArg::Studio => MetalReflection::Studio,
                 MetalReflectionArg::Ambient => MetalReflection::Ambient,
             },
             bounces: self.bounces,
             fog: self.fog.map(|density| Fog { color: self.fog_color, density }),
-            exposure: self.exposure,
+            exposure: self.exposure.map_or(Exposure::Metered, Exposure::Stops),
             tone_mapping: if self.tone_mapping == Some(true) {
                 ToneMapping::KhronosPbrNeutral
             } else {

@@ -1,7 +1,7 @@
 //! From settings back to flags: the words that set what a window shows.
 
 use trigon_scene::{
-    Display, MetalReflection, Reflection, RenderSettings, ShadingModel, Shadows, Style, ToneMapping,
+    Display, Exposure, MetalReflection, Reflection, RenderSettings, ShadingModel, Shadows, Style, ToneMapping,
 };
 
 /// The flags that [`of_settings`] and a window's camera and overlays decide. All that is typed of them is replaced.
@@ -100,7 +100,9 @@ pub(crate) fn of_settings(settings: &RenderSettings) -> Vec<String> {
     }
     add(effects.metal_reflection == MetalReflection::Ambient, "metal-reflection", &"ambient");
     add(effects.bounces != 0, "bounces", &effects.bounces);
-    add(effects.exposure != 0.0, "exposure", &effects.exposure);
+    if let Exposure::Stops(stops) = effects.exposure {
+        add(true, "exposure", &stops);
+    }
     add(effects.tone_mapping != ToneMapping::None, "tone-mapping", &true);
     flags
 }

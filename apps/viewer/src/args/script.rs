@@ -37,19 +37,29 @@ pub(crate) enum Step {
     Stop,
 }
 
-/// The numbers that `increase` and `decrease` change: the flag, its minimum and maximum, and the
-/// step.
-pub(crate) const RANGES: [(&str, f64, f64, f64); 10] = [
-    ("light-intensity", 0.0, 1e6, 0.1),
-    ("opacity", 0.0, 1.0, 0.05),
-    ("roughness", 0.0, 1.0, 0.05),
-    ("metallic", 0.0, 1.0, 0.05),
-    ("line-width", 0.5, 100.0, 0.5),
-    ("point-size", 0.5, 100.0, 0.5),
-    ("point-sprites-size", 0.1, 100.0, 0.5),
-    ("normal-glyphs-scale", 0.1, 10.0, 0.1),
-    ("font-scale", 0.5, 4.0, 0.1),
-    ("exposure", -20.0, 20.0, 0.25),
+/// A number that `increase` and `decrease` change.
+#[derive(Clone, Copy)]
+pub(crate) struct Steps {
+    pub(crate) flag: &'static str,
+    pub(crate) least: f64,
+    pub(crate) most: f64,
+    pub(crate) step: f64,
+    /// The value from which steps begin if the flag has none.
+    pub(crate) unset: f64,
+}
+
+/// All of them.
+pub(crate) const STEPS: [Steps; 10] = [
+    Steps { flag: "light-intensity", least: 0.0, most: 1e6, step: 0.1, unset: 1.0 },
+    Steps { flag: "opacity", least: 0.0, most: 1.0, step: 0.05, unset: 1.0 },
+    Steps { flag: "roughness", least: 0.0, most: 1.0, step: 0.05, unset: 1.0 },
+    Steps { flag: "metallic", least: 0.0, most: 1.0, step: 0.05, unset: 1.0 },
+    Steps { flag: "line-width", least: 0.5, most: 100.0, step: 0.5, unset: 1.0 },
+    Steps { flag: "point-size", least: 0.5, most: 100.0, step: 0.5, unset: 1.0 },
+    Steps { flag: "point-sprites-size", least: 0.1, most: 100.0, step: 0.5, unset: 1.0 },
+    Steps { flag: "normal-glyphs-scale", least: 0.1, most: 10.0, step: 0.1, unset: 1.0 },
+    Steps { flag: "font-scale", least: 0.5, most: 4.0, step: 0.1, unset: 1.0 },
+    Steps { flag: "exposure", least: -20.0, most: 20.0, step: 0.25, unset: 0.0 },
 ];
 
 /// The meaning of a script, line by line; `aliases` replace beginnings of lines.
@@ -102,8 +112,8 @@ pub(crate) fn step(words: &[String]) -> Result<Step, String> {
         "reset" => Step::Reset(names::flag(one()?)?.to_owned()),
         "increase" | "decrease" => {
             let flag = names::flag(one()?)?;
-            if !RANGES.iter().any(|row| row.0 == flag) {
-                let known: Vec<&str> = RANGES.iter().map(|row| row.0).collect();
+            if !STEPS.iter().any(|steps| steps.flag == flag) {
+                let known: Vec<&str> = STEPS.iter().map(|steps| steps.flag).collect();
                 return Err(format!("{flag} has no steps; there are {}", known.join(", ")));
             }
             Step::Increase(flag.to_owned(), action == "increase")

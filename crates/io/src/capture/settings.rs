@@ -3,8 +3,9 @@
 use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Viewport};
 use trigon_math::{DQuat, DVec2, DVec3};
 use trigon_scene::{
-    AmbientOcclusion, Background, Display, EffectSettings, Environment, Fog, Lighting, MetalReflection,
-    Outline, Outputs, Reflection, RenderSettings, ShadingModel, Shadows, Sky, Style, ToneMapping,
+    AmbientOcclusion, Background, Display, EffectSettings, Environment, Exposure, Fog, Lighting,
+    MetalReflection, Outline, Outputs, Reflection, RenderSettings, ShadingModel, Shadows, Sky, Style,
+    ToneMapping,
 };
 
 use super::stored::{Stored, choice, record};
@@ -23,8 +24,9 @@ record!(EffectSettings {
 });
 choice!(Shadows { 0 => Off, 1 => Maps { resolution }, 2 => Rays });
 record!(AmbientOcclusion { rays, distance });
-choice!(MetalReflection { 0 => Sky, 1 => Ambient });
+choice!(MetalReflection { 0 => Studio, 1 => Ambient });
 record!(Fog { color, density });
+choice!(Exposure { 0 => Metered, 1 => Stops(stops) });
 choice!(ToneMapping { 0 => None, 1 => KhronosPbrNeutral });
 record!(Outline { nodes, color, width });
 

@@ -48,7 +48,11 @@ fn the_showcase_under_every_effect() {
         EffectSettings { metal_reflection: MetalReflection::Ambient, ..none() },
         EffectSettings { ambient_occlusion: Some(AmbientOcclusion { rays: 2, distance: 1.0 }), ..none() },
         EffectSettings { environment: environment(Environment::from_sky(&Sky::default())), ..none() },
-        EffectSettings { environment: environment(Environment::uniform(Vec3::X)), exposure: 0.5, ..none() },
+        EffectSettings {
+            environment: environment(Environment::uniform(Vec3::X)),
+            exposure: trigon_scene::Exposure::Stops(0.5),
+            ..none()
+        },
         EffectSettings {
             fog: Some(Fog { color: Vec3::ONE, density: 0.1 }),
             tone_mapping: ToneMapping::KhronosPbrNeutral,

@@ -4,8 +4,10 @@
 use std::collections::BTreeSet;
 
 use super::{Finding, Severity, place};
+use crate::light_meter::ExposureFault;
 use crate::material::{AlphaMode, Material, MaterialId, Shading};
 use crate::scene::Scene;
+use crate::settings::{Lighting, RenderSettings};
 
 /// Darker than this is black in an 8-bit image.
 const BLACK: f32 = 1.0 / 255.0 / 12.92;
@@ -21,6 +23,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
     }
     all_metal(scene, &seen, findings);
     lights(scene, findings);
+    exposure(scene, findings);
     meshes(scene, findings);
 }
 
@@ -80,6 +83,42 @@ fn lights(scene: &Scene, findings: &mut Vec<Finding>) {
             place: "scene".to_owned(),
             what: "its lights give no light".to_owned(),
             remedy: "raise their intensity, or leave them out of the export",
+        });
+    }
+}
+
+/// Lamps that a display could not show as they are, and a model that is black or white even when they are
+/// exposed.
+fn exposure(scene: &Scene, findings: &mut Vec<Finding>) {
+    let settings = RenderSettings { lighting: Lighting::Scene, ..RenderSettings::new(1, 1) };
+    if let Some(reading) = scene.exposed_by(&settings) {
+        findings.push(Finding {
+            severity: Severity::Note,
+            fault: "lamps-out-of-range",
+            place: "scene".to_owned(),
+            what: format!(
+                "white in the light of its lamps has {} times a display's white, so they are exposed by {} stops",
+                reading.white_text(),
+                reading.stops
+            ),
+            remedy: "programs without a light meter show it white or black: change their intensity for these",
+        });
+    }
+    if let Some(warning) = scene.exposure_warning(&settings) {
+        let (fault, remedy) = match warning.fault {
+            ExposureFault::Clipped => ("overexposed", "make its lamps less different in brightness"),
+            ExposureFault::Black => (
+                "underexposed",
+                "add lamps near the rest or raise their range, or light it with an environment",
+            ),
+        };
+        let what = warning.what();
+        findings.push(Finding {
+            severity: Severity::Warning,
+            fault,
+            place: "scene".to_owned(),
+            what,
+            remedy,
         });
     }
 }

@@ -5,7 +5,7 @@ use trigon_math::{Mat3, Vec3};
 use trigon_raster::simd::{F32, Simd, prelude::*};
 
 use super::fog::Mist;
-use super::metal_sky::{MetalSky, SkyOnMetal};
+use super::metal_studio::{MetalStudio, StudioOnMetal};
 use super::rays::{AmbientRays, RayScene};
 use super::shadow::ShadowMaps;
 use crate::environment::Surroundings;
@@ -27,8 +27,8 @@ pub(crate) struct LightingEnvironment {
     pub(crate) bounces: u32,
     pub(crate) surroundings: Option<Surroundings>,
     /// What metals mirror instead of ambient light.
-    pub(crate) metal_sky: Option<MetalSky>,
-    /// From world space to that of the surroundings and of the metals' sky, in which +Y is up.
+    pub(crate) metal_studio: Option<MetalStudio>,
+    /// From world space to that of the surroundings and of the metals' studio, in which +Y is up.
     pub(crate) world_to_sky: Mat3,
     pub(crate) mist: Option<Mist>,
 }
@@ -94,16 +94,16 @@ impl LightingEnvironment {
         splat(simd, self.lights.ambient)
     }
 
-    /// The built-in sky's light on metals, if they mirror it and any point is metallic.
+    /// The built-in studio's light on metals, if they mirror it and any point is metallic.
     #[inline(always)]
-    pub(crate) fn sky_on_metal<S: Simd>(
+    pub(crate) fn studio_on_metal<S: Simd>(
         &self,
         simd: S,
         points: &LitPoints<S>,
         facets: &Microfacets<S>,
-    ) -> Option<SkyOnMetal<S>> {
-        let sky = self.metal_sky.as_ref().filter(|_| facets.metallic.simd_gt(0.0).any_true())?;
-        Some(sky.light(simd, points, facets.roughness))
+    ) -> Option<StudioOnMetal<S>> {
+        let studio = self.metal_studio.as_ref().filter(|_| facets.metallic.simd_gt(0.0).any_true())?;
+        Some(studio.light(simd, points, facets.roughness))
     }
 
     /// Whether no light reaches any surface, except what reflected and refracted rays bring.

@@ -118,11 +118,11 @@ impl LightingEnvironment {
     /// from glass.
     fn far(&self, direction: Vec3, from_mirror: bool) -> Vec3 {
         let direction = self.world_to_sky * direction;
-        match (&self.surroundings, &self.metal_sky) {
+        match (&self.surroundings, &self.metal_studio) {
             (Some(surroundings), _) => {
                 surroundings.environment.radiance(direction, 0.0) * surroundings.intensity
             }
-            (None, Some(sky)) if from_mirror => sky.radiance(direction),
+            (None, Some(studio)) if from_mirror => studio.radiance(direction),
             (None, _) => self.lights.ambient,
         }
     }

@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn the_background_is_not_mapped() {
         let mut settings = RenderSettings::new(2, 1);
-        settings.effects.exposure = 3.0;
+        settings.effects.exposure = crate::Exposure::Stops(3.0);
         settings.background = Background::Color(Vec3::splat(0.2));
         let mut pixels = [[0; 4]; 2];
         let linear = [Vec4::ZERO, Vec4::new(0.05, 0.0, 0.0, 1.0)];

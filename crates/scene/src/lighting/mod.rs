@@ -13,13 +13,15 @@ pub(crate) use points::{Brdf, LitPoints, Reflected};
 use trigon_math::{DAffine3, Vec3};
 
 use crate::light::LightKind;
+use crate::light_reading::LightReading;
 use crate::placement::Eye;
 use crate::scene::Scene;
 use crate::settings::{Lighting, RenderSettings};
+use crate::work::{Work, note};
 
 /// The ambient light that is added if a scene has lamps but no ambient light. The lamps decide how bright the
 /// scene is; this only makes shapes visible that they do not reach.
-const ADDED_AMBIENT: Vec3 = Vec3::splat(0.1);
+pub(crate) const ADDED_AMBIENT: Vec3 = Vec3::splat(0.1);
 
 /// All lights of an image.
 #[derive(Clone, Debug, Default)]
@@ -70,6 +72,14 @@ impl Lights {
             }
         }
         lights
+    }
+
+    /// Dims or brightens the scene's own lights as a light meter says. Ambient light that was added stays.
+    pub(crate) fn exposed(self, reading: &LightReading) -> Self {
+        note(Work::LightMeter);
+        let ambient = self.ambient;
+        let exposed = self.scaled(reading.factor());
+        if exposed.own_ambient > 0 { exposed } else { Self { ambient, ..exposed } }
     }
 
     fn is_dark(&self) -> bool {

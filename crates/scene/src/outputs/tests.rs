@@ -355,7 +355,7 @@ fn radiance_is_the_light_that_colours_are_made_of() {
     ] {
         let mut settings =
             RenderSettings { background, samples_per_axis: axis, samples, ..settings(Outputs::default()) };
-        settings.effects.exposure = exposure;
+        settings.effects.exposure = crate::Exposure::Stops(exposure);
         let plain = render(&scene, &camera, &settings).expect("drawn");
         settings.outputs.radiance = true;
         let both = render(&scene, &camera, &settings).expect("drawn");

@@ -4,7 +4,7 @@ use trigon_math::Vec3;
 
 use crate::background::Background;
 use crate::effect::Effect;
-use crate::effect_settings::{MetalReflection, Shadows, ToneMapping};
+use crate::effect_settings::{Exposure, MetalReflection, Shadows, ToneMapping};
 use crate::material::{Material, MaterialTexture};
 use crate::scene::Scene;
 use crate::settings::{Reflection, RenderSettings, Style};
@@ -23,12 +23,18 @@ impl Effect {
                     settings.background = Background::default();
                 }
             }
-            Self::MetalSky => effects.metal_reflection = MetalReflection::Ambient,
+            Self::MetalStudio => effects.metal_reflection = MetalReflection::Ambient,
             Self::ShadowMaps | Self::ShadowRays => effects.shadows = Shadows::Off,
             Self::AmbientOcclusion => effects.ambient_occlusion = None,
             Self::Reflection | Self::Refraction => effects.bounces = 0,
             Self::Fog => effects.fog = None,
-            Self::ToneMapping => (effects.exposure, effects.tone_mapping) = (0.0, ToneMapping::None),
+            Self::LightMeter => effects.exposure = Exposure::Stops(0.0),
+            Self::ToneMapping => {
+                effects.tone_mapping = ToneMapping::None;
+                if let Exposure::Stops(stops) = &mut effects.exposure {
+                    *stops = 0.0;
+                }
+            }
             Self::Outline => effects.outline = None,
             Self::Edges => settings.style = Style::Surface,
             Self::Textures => each_material(&mut scene, strip_textures),

@@ -15,7 +15,7 @@ use trigon_math::Vec3;
 use crate::background::Background;
 use crate::display::Display;
 use crate::effect::Effect;
-use crate::effect_settings::{MetalReflection, Shadows};
+use crate::effect_settings::{Exposure, MetalReflection, Shadows};
 use crate::effects::Mist;
 use crate::prepare::PreparedScene;
 use crate::scene::Scene;
@@ -81,8 +81,9 @@ fn decide(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> Deci
         _ if let Some(absence) = not_displayed(effect, prepared.settings) => Err(absence),
         Effect::Lamps => lamps(prepared, survey),
         Effect::AmbientLight => ambient_light(prepared, survey),
+        Effect::LightMeter => light_meter(prepared, survey),
         Effect::Environment => environment(prepared, survey),
-        Effect::MetalSky => metal_sky(prepared, survey),
+        Effect::MetalStudio => metal_studio(prepared, survey),
         Effect::ShadowMaps => {
             shadows(matches!(prepared.settings.effects.shadows, Shadows::Maps { .. }), prepared, survey)
         }
@@ -132,6 +133,7 @@ fn shapes(effect: Effect) -> bool {
         Effect::Masks | Effect::Poses | Effect::Edges => true,
         Effect::Lamps
         | Effect::AmbientLight
+        | Effect::LightMeter
         | Effect::Highlights
         | Effect::Textures
         | Effect::NormalMaps
@@ -140,7 +142,7 @@ fn shapes(effect: Effect) -> bool {
         | Effect::VertexColors
         | Effect::Transparency
         | Effect::Environment
-        | Effect::MetalSky
+        | Effect::MetalStudio
         | Effect::ShadowMaps
         | Effect::ShadowRays
         | Effect::AmbientOcclusion
@@ -189,6 +191,24 @@ fn ambient_light(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     }
 }
 
+/// Lamps that a display can show stay as they are.
+fn light_meter(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    if prepared.settings.effects.exposure != Exposure::Metered {
+        return Err(Absence::FixedExposure);
+    }
+    check_lit(prepared, survey)?;
+    if prepared.lights.lamps.iter().all(|lamp| lamp.node.is_none()) {
+        return Err(Absence::NoOwnLamp);
+    }
+    let scene = prepared.scene;
+    match (scene.exposed_by(prepared.settings), scene.light_reading()) {
+        (Some(reading), _) => Ok(Cause::Metered(reading)),
+        (None, None) => Err(Absence::Unreached),
+        (None, Some(reading)) if reading.is_in_range() => Err(Absence::InRange(reading)),
+        (None, Some(_)) => Err(Absence::Environment),
+    }
+}
+
 fn environment(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     if prepared.settings.effects.environment.is_none() {
         return Err(Absence::NotAsked);
@@ -200,13 +220,13 @@ fn environment(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     Ok(Cause::Asked)
 }
 
-fn metal_sky(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+fn metal_studio(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     match prepared.settings.effects.metal_reflection {
         MetalReflection::Ambient => return Err(Absence::NotAsked),
-        MetalReflection::Sky => {}
+        MetalReflection::Studio => {}
     }
     check_lit(prepared, survey)?;
-    let [metals, _] = survey.of(Effect::MetalSky);
+    let [metals, _] = survey.of(Effect::MetalStudio);
     if metals.count == 0 {
         return Err(Absence::NoMetal);
     }

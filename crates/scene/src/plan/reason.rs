@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::light_reading::LightReading;
+
 /// Whether an effect is on, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Decision {
@@ -22,6 +24,8 @@ pub enum Cause {
     Lights(usize),
     /// Visible objects are lit, and the scene does not define this light.
     Studio,
+    /// A display could not show what the scene's lamps light.
+    Metered(LightReading),
     /// Visible objects have it.
     Objects(Named),
     /// Visible objects are metal, and nothing defines their surroundings.
@@ -62,6 +66,14 @@ pub enum Absence {
     ShadingModel,
     /// No faces are drawn.
     NoFaces,
+    /// The settings set the exposure.
+    FixedExposure,
+    /// No lamp of the scene shines.
+    NoOwnLamp,
+    /// No lamp reaches any face.
+    Unreached,
+    /// A display shows it as it is.
+    InRange(LightReading),
     /// Colour is not an output.
     NoColor,
     /// Faces show something else than their materials in light.
@@ -103,6 +115,12 @@ impl fmt::Display for Cause {
             Self::Lights(1) => f.write_str("one light shines on visible objects"),
             Self::Lights(count) => write!(f, "{count} lights shine on visible objects"),
             Self::Studio => f.write_str("the scene defines none, and lit surfaces are visible"),
+            Self::Metered(reading) => write!(
+                f,
+                "a white surface in the light of the lamps would have {} times the display's white; they are exposed by {} stops",
+                reading.white_text(),
+                reading.stops
+            ),
             Self::Objects(Named { count: 1, first }) => write!(f, "`{first}` has it"),
             Self::Objects(Named { count, first }) => write!(f, "{count} objects have it, such as `{first}`"),
             Self::Metals(Named { count: 1, first }) => {
@@ -146,6 +164,14 @@ impl fmt::Display for Absence {
             Self::Environment => f.write_str("the environment takes its place"),
             Self::ShadingModel => f.write_str("the shading model does not include it"),
             Self::NoFaces => f.write_str("no faces are drawn"),
+            Self::FixedExposure => f.write_str("the settings set the exposure"),
+            Self::NoOwnLamp => f.write_str("no lamp of the scene shines"),
+            Self::Unreached => f.write_str("no lamp reaches any face"),
+            Self::InRange(reading) => write!(
+                f,
+                "a white surface in the light of the lamps has {} times the display's white",
+                reading.white_text()
+            ),
             Self::NoColor => f.write_str("colour is not an output"),
             Self::Display => f.write_str("the display mode leaves it out"),
         }

@@ -118,12 +118,13 @@ fn has(effect: Effect, material: &Material, shape: &Shape, prepared: &PreparedSc
         Effect::Masks => matches!(material.alpha_mode, AlphaMode::Mask { .. }),
         Effect::Transparency => material.alpha_mode == AlphaMode::Blend,
         Effect::Poses => shape.is_posed,
-        Effect::MetalSky => is_metal(material, prepared),
+        Effect::MetalStudio => is_metal(material, prepared),
         Effect::Reflection => is_traced(material, false),
         Effect::Refraction => is_traced(material, true),
         // Those that depend on lights and settings, not on materials.
         Effect::Lamps
         | Effect::AmbientLight
+        | Effect::LightMeter
         | Effect::Environment
         | Effect::ShadowMaps
         | Effect::ShadowRays

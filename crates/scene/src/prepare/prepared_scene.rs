@@ -5,7 +5,7 @@ use trigon_math::{DAffine3, DMat3, DVec3, Mat3};
 
 use super::backdrop::Backdrop;
 use crate::effect_settings::Shadows;
-use crate::effects::{LampPose, MetalSky};
+use crate::effects::{LampPose, MetalStudio};
 use crate::environment::Surroundings;
 use crate::light::LightKind;
 use crate::lighting::{Lamp, Lights, Source};
@@ -75,12 +75,12 @@ impl<'s> PreparedScene<'s> {
         })
     }
 
-    pub(crate) fn metal_sky(&self) -> MetalSky {
-        MetalSky::new(&self.camera_to_sky(), self.settings.light_factor())
+    pub(crate) fn metal_studio(&self) -> MetalStudio {
+        MetalStudio::new(&self.camera_to_sky(), self.settings.light_factor())
     }
 
-    /// The rotation from world space to that of environments and of the sky that metals mirror, in which +Y is
-    /// up.
+    /// The rotation from world space to that of environments and of the studio that metals mirror, in which +Y
+    /// is up.
     pub(crate) fn world_to_sky(&self) -> DMat3 {
         self.scene.up.turn_to(UpAxis::Y)
     }

@@ -11,7 +11,7 @@ use crate::effects::{
 };
 use crate::frame::{Frame, resize};
 use crate::outputs::{Needed, Seen};
-use crate::plan::EffectPlan;
+use crate::plan::{Cause, Decision, EffectPlan};
 use crate::prepare::PreparedScene;
 use crate::settings::RenderSettings;
 use crate::shadow_maps::ShadowCache;
@@ -48,10 +48,14 @@ impl Kept {
     ) -> Result<LightingEnvironment, TargetError> {
         let effects = &prepared.settings.effects;
         let on = |effect| plan.is_on(effect);
+        let lights = prepared.lights.clone();
         let mut lighting = LightingEnvironment {
-            lights: prepared.lights.clone(),
+            lights: match plan.decision(Effect::LightMeter) {
+                Decision::On(Cause::Metered(reading)) => lights.exposed(reading),
+                _ => lights,
+            },
             surroundings: prepared.surroundings().filter(|_| on(Effect::Environment)),
-            metal_sky: on(Effect::MetalSky).then(|| prepared.metal_sky()),
+            metal_studio: on(Effect::MetalStudio).then(|| prepared.metal_studio()),
             world_to_sky: prepared.world_to_sky().as_mat3(),
             mist: effects.fog.as_ref().filter(|_| on(Effect::Fog)).and_then(Mist::new),
             shadow_rays: on(Effect::ShadowRays),
@@ -90,6 +94,9 @@ impl Kept {
 
     /// Adds the cost of the lighting.
     pub(super) fn count(&self, lighting: &LightingEnvironment, plan: &EffectPlan, counts: &mut Counts) {
+        if let Decision::On(Cause::Metered(reading)) = plan.decision(Effect::LightMeter) {
+            counts.of(Effect::LightMeter).bytes = size_of_val(reading) as u64;
+        }
         if let Some(maps) = &lighting.shadow_maps {
             counts.of(Effect::ShadowMaps).bytes = maps.byte_count() as u64;
             counts.of(Effect::ShadowMaps).passes = self.shadows.drawn() as u64;
@@ -97,8 +104,8 @@ impl Kept {
         if let Some(surroundings) = &lighting.surroundings {
             counts.of(Effect::Environment).bytes = surroundings.environment.byte_count() as u64;
         }
-        if let Some(sky) = &lighting.metal_sky {
-            counts.of(Effect::MetalSky).bytes = sky.byte_count() as u64;
+        if let Some(studio) = &lighting.metal_studio {
+            counts.of(Effect::MetalStudio).bytes = studio.byte_count() as u64;
         }
         if let Some(rays) = &lighting.rays {
             let [to_lamps, around, sight] = rays.cast();

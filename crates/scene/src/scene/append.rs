@@ -24,6 +24,7 @@ impl Scene {
     /// assert_eq!(scene.node(added[0]).expect("just added").name, "green");
     /// ```
     pub fn append(&mut self, other: &Self) -> Vec<NodeId> {
+        self.reading.forget();
         let meshes = NewIds::new(&other.meshes, |asset| self.meshes.insert(asset.clone()));
         let textures = NewIds::new(&other.textures, |asset| self.textures.insert(asset.clone()));
         let materials = NewIds::new(&other.materials, |material| {

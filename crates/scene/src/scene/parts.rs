@@ -65,6 +65,7 @@ impl Scene {
     /// Exchanges all but the meshes. Nodes of other parts may name meshes that are gone: these are not
     /// drawn.
     pub fn swap_parts(&mut self, parts: &mut SceneParts) {
+        self.reading.forget();
         std::mem::swap(&mut self.nodes, &mut parts.nodes);
         std::mem::swap(&mut self.root_order, &mut parts.root_order);
         std::mem::swap(&mut self.materials, &mut parts.materials);

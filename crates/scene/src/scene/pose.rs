@@ -48,10 +48,10 @@ impl Scene {
         pose
     }
 
-    /// Applies a pose to the nodes.
+    /// Applies a pose to the nodes. What a light meter reads stays the same.
     pub fn apply_pose(&mut self, pose: &Pose) {
         for (&id, posed) in &pose.nodes {
-            let Some(node) = self.node_mut(id) else { continue };
+            let Some(node) = self.nodes.get_mut(id) else { continue };
             if let Some(transform) = posed.transform {
                 node.transform = transform;
             }

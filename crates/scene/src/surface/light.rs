@@ -170,10 +170,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                     None => scaled(self.lighting.mirrored(simd, points, facets.roughness), open),
                 };
                 let mut repeated = around;
-                if let Some(sky) = self.lighting.sky_on_metal(simd, points, facets) {
-                    repeated = mixed(repeated, scaled(sky.around, open), facets.metallic);
+                if let Some(studio) = self.lighting.studio_on_metal(simd, points, facets) {
+                    repeated = mixed(repeated, [studio.around * open; 3], facets.metallic);
                     if traced.is_none() {
-                        mirrored = mixed(mirrored, scaled(sky.mirrored, open), facets.metallic);
+                        mirrored = mixed(mirrored, [studio.mirrored * open; 3], facets.metallic);
                     }
                 }
                 let specular = sum(product(mirrored, shares.single), product(repeated, shares.repeated));

@@ -66,7 +66,7 @@ fn a_ball_in_its_own_background_cannot_be_seen() {
     for (exposure, tone_mapping, samples) in
         [(0.0, ToneMapping::None, 1), (1.0, ToneMapping::KhronosPbrNeutral, 4)]
     {
-        let effects = EffectSettings { exposure, tone_mapping, ..room.clone() };
+        let effects = EffectSettings { exposure: Exposure::Stops(exposure), tone_mapping, ..room.clone() };
         let settings = RenderSettings { samples, ..behind(effects) };
         let frame = render(&scene, &from_front(), &settings).expect("drawn");
         let corner = light(&frame, 0, 0);
@@ -96,7 +96,7 @@ fn hidden_lines_are_drawn_on_the_background_with_exposure_too() {
     scene.add_object("box", primitives::cube(1.0), matt(Vec3::X));
     let style = Style::HiddenLine;
     for background in [Background::Color(Vec3::splat(0.2)), Background::Environment] {
-        let effects = EffectSettings { exposure: 1.0, ..by_direction() };
+        let effects = EffectSettings { exposure: Exposure::Stops(1.0), ..by_direction() };
         let settings = RenderSettings { style, background, ..settings(effects) };
         let with = render(&scene, &from_front(), &settings).expect("drawn");
         let without = render(&Scene::new(), &from_front(), &settings).expect("drawn");

@@ -282,7 +282,7 @@ impl Changing {
             Change::Laid(on) => {
                 let EffectSettings { fog, exposure, outline, .. } = &mut settings.effects;
                 *fog = on.then_some(Fog { color: Vec3::X, density: 0.1 });
-                *exposure = if on { 0.5 } else { 0.0 };
+                *exposure = Exposure::Stops(if on { 0.5 } else { 0.0 });
                 *outline = on.then(|| Outline { nodes: vec![nodes[1]], color: Vec3::Y, width: 1 });
             }
             Change::Outputs(all) => {

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::effect::Effect;
+use crate::effects::MetalStudio;
 use crate::lighting::{Lamp, Lights, Source};
 use crate::{Outputs, SimdLevel};
 
@@ -25,11 +26,11 @@ fn ball(material: Material) -> Scene {
 /// By the law of reflection, +Y of the world up, wherever the camera is; traced by rays
 /// or not.
 #[test]
-fn a_white_mirror_shows_the_sky() {
-    let sky = Sky::default();
+fn a_white_mirror_shows_the_studio() {
+    let studio = MetalStudio::new(&trigon_math::Mat3::IDENTITY, 1.0);
     let scene = ball(metal(1.0));
     for (camera, bounces) in [(from_front(), 0), (from_above(), 0), (from_above(), 2)] {
-        let mut settings = in_the_studio(MetalReflection::Sky);
+        let mut settings = in_the_studio(MetalReflection::Studio);
         settings.effects.bounces = bounces;
         let frame = render(&scene, &camera, &settings).expect("drawn");
         let (radiance, normals) = (frame.radiance.expect("asked for"), frame.normals.expect("asked for"));
@@ -43,7 +44,7 @@ fn a_white_mirror_shows_the_sky() {
             if normal.dot(view) < 0.2 || near_lamp {
                 continue;
             }
-            let (shown, exact) = (light.truncate(), sky.radiance(towards));
+            let (shown, exact) = (light.truncate(), studio.radiance(towards));
             let error = (shown - exact).abs().max_element();
             // The normals of the ball's faces are up to a hundredth askew near its poles.
             assert!(error < 0.02, "{towards}, {bounces} bounces: {shown}, not {exact}");
@@ -61,6 +62,19 @@ fn in_the_world(camera: &Camera) -> impl Fn(&Lamp) -> Vec3 {
     }
 }
 
+/// Metals were baby blue, among them the default material of glTF.
+#[test]
+fn white_metals_are_grey() {
+    for roughness in [0.0, 0.3, 0.6, 1.0] {
+        let scene = ball(of_roughness(1.0, roughness));
+        let frame = render(&scene, &from_front(), &in_the_studio(MetalReflection::Studio)).expect("drawn");
+        assert!(
+            frame.color.chunks(4).all(|pixel| pixel[0] == pixel[1] && pixel[1] == pixel[2]),
+            "{roughness}"
+        );
+    }
+}
+
 /// The complaint: metals were black but for their highlights.
 #[test]
 fn metals_are_not_black() {
@@ -74,13 +88,13 @@ fn metals_are_not_black() {
                 seen().filter(|(_, id)| **id != u32::MAX).map(|(light, _)| light.y.min(1.0)).collect();
             shown.iter().sum::<f32>() / shown.len() as f32
         };
-        let (with, without) = (mean(MetalReflection::Sky), mean(MetalReflection::Ambient));
+        let (with, without) = (mean(MetalReflection::Studio), mean(MetalReflection::Ambient));
         assert!(with > 0.3 && with > without, "roughness {roughness}: {with}, and {without} without");
     }
 }
 
 #[test]
-fn nothing_but_metal_changes_by_the_sky() {
+fn nothing_but_metal_changes_by_the_studio() {
     let mut scene = Scene::new();
     let texture = Texture::new(2, 1, vec![[255, 255, 255, 255], [255, 255, 0, 255]], TextureFormat::Linear);
     let halves = scene.add_texture("metal on the left", texture.expect("two texels"));
@@ -108,7 +122,7 @@ fn nothing_but_metal_changes_by_the_sky() {
     }
     for (shading, bounces) in [(ShadingModel::Phong, 0), (ShadingModel::Phong, 2), (ShadingModel::Gouraud, 0)]
     {
-        let [with, without] = [MetalReflection::Sky, MetalReflection::Ambient].map(|way| {
+        let [with, without] = [MetalReflection::Studio, MetalReflection::Ambient].map(|way| {
             let mut settings = RenderSettings { shading, ..in_the_studio(way) };
             settings.effects.bounces = bounces;
             render(&scene, &from_front(), &settings).expect("drawn")
@@ -133,7 +147,7 @@ fn metals_are_the_same_at_every_level_and_with_any_threads() {
     let scene = ball(of_roughness(0.8, 0.37));
     let draw = |simd, threads| {
         let threads = std::num::NonZeroUsize::new(threads);
-        let settings = RenderSettings { simd, threads, ..in_the_studio(MetalReflection::Sky) };
+        let settings = RenderSettings { simd, threads, ..in_the_studio(MetalReflection::Studio) };
         render(&scene, &from_front(), &settings).expect("drawn").radiance
     };
     let expected = draw(None, 1);
@@ -143,11 +157,11 @@ fn metals_are_the_same_at_every_level_and_with_any_threads() {
 }
 
 #[test]
-fn the_plan_says_why_metals_mirror_the_sky_or_not() {
+fn the_plan_says_why_metals_mirror_the_studio_or_not() {
     let said = |scene: &Scene, settings: &RenderSettings| {
-        EffectPlan::new(scene, &from_front(), settings).decision(Effect::MetalSky).to_string()
+        EffectPlan::new(scene, &from_front(), settings).decision(Effect::MetalStudio).to_string()
     };
-    let studio = in_the_studio(MetalReflection::Sky);
+    let studio = in_the_studio(MetalReflection::Studio);
     let mut scene = ball(matt(Vec3::ONE));
     assert_eq!(said(&scene, &studio), "off, because no metal is visible", "a matt ball");
     scene.add_object("coin", primitives::uv_sphere(1.0, 8, 4), metal(0.5));

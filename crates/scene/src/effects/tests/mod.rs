@@ -23,10 +23,10 @@ use trigon_raster::{Texture, TextureFormat};
 
 use super::*;
 use crate::{
-    AlphaMode, AmbientOcclusion, Background, Decision, EffectPlan, EffectSettings, Environment, Fog, Frame,
-    Light, LightKind, Lighting, Material, MetalReflection, MetallicRoughness, Node, NormalMap, Occlusion,
-    Outline, RenderSettings, Renderer, Scene, Shading, ShadingModel, Shadows, Sky, Style, TextureBinding,
-    ToneMapping, Transform, render,
+    AlphaMode, AmbientOcclusion, Background, Decision, EffectPlan, EffectSettings, Environment, Exposure,
+    Fog, Frame, Light, LightKind, Lighting, Material, MetalReflection, MetallicRoughness, Node, NormalMap,
+    Occlusion, Outline, RenderSettings, Renderer, Scene, Shading, ShadingModel, Shadows, Style,
+    TextureBinding, ToneMapping, Transform, render,
 };
 
 const SIDE: u32 = 128;

@@ -25,6 +25,7 @@ fn with(effect: Effect) -> [(Scene, RenderSettings); 2] {
     match effect {
         Effect::Lamps => (material, lights) = (lit, vec![Light::point(3.0)]),
         Effect::AmbientLight => (material, lights) = (lit, vec![Light::ambient(0.5)]),
+        Effect::LightMeter => (material, lights) = (lit, vec![Light::point(3000.0)]),
         Effect::Highlights => (material, lights) = (Material::default(), vec![Light::point(3.0)]),
         Effect::Textures => material.base_color_texture = Some(binding),
         Effect::NormalMaps => {
@@ -50,7 +51,7 @@ fn with(effect: Effect) -> [(Scene, RenderSettings); 2] {
             material = lit;
             effects.environment = Some(Arc::new(Environment::uniform(Vec3::ONE)));
         }
-        Effect::MetalSky => (material, lighting) = (metal(1.0), Lighting::Studio),
+        Effect::MetalStudio => (material, lighting) = (metal(1.0), Lighting::Studio),
         Effect::ShadowMaps | Effect::ShadowRays => {
             (material, lights) = (lit, vec![Light::point(3.0)]);
             effects.shadows =
@@ -66,7 +67,7 @@ fn with(effect: Effect) -> [(Scene, RenderSettings); 2] {
             (effects.bounces, lights) = (2, vec![Light::ambient(1.0)]);
         }
         Effect::Fog => effects.fog = Some(Fog { color: Vec3::ONE, density: 0.1 }),
-        Effect::ToneMapping => effects.exposure = 1.0,
+        Effect::ToneMapping => effects.exposure = Exposure::Stops(1.0),
         Effect::Edges => style = Style::SurfaceWithEdges,
         Effect::VertexColors | Effect::Poses | Effect::Outline => {}
     }
@@ -132,6 +133,7 @@ fn reasons(work: Work) -> &'static [Effect] {
     match work {
         Work::LampLight => &[Effect::Lamps],
         Work::AmbientLight => &[Effect::AmbientLight],
+        Work::LightMeter => &[Effect::LightMeter],
         Work::Highlight => &[Effect::Highlights],
         Work::TextureLookUp(place) => match place.row().effect {
             Effect::NormalMaps => &[Effect::NormalMaps],
@@ -151,7 +153,7 @@ fn reasons(work: Work) -> &'static [Effect] {
         Work::OcclusionRay => &[Effect::AmbientOcclusion],
         Work::SightRay => &[Effect::Reflection, Effect::Refraction],
         Work::EnvironmentLight => &[Effect::Environment],
-        Work::SkyLight => &[Effect::MetalSky],
+        Work::StudioLight => &[Effect::MetalStudio],
         Work::Fog => &[Effect::Fog],
         Work::ToneMapping => &[Effect::ToneMapping],
         Work::Outline => &[Effect::Outline],
@@ -358,11 +360,12 @@ fn an_unlit_material_takes_no_effect_of_light() {
     let of_light = [
         Effect::Lamps,
         Effect::AmbientLight,
+        Effect::LightMeter,
         Effect::Highlights,
         Effect::NormalMaps,
         Effect::OcclusionMaps,
         Effect::Environment,
-        Effect::MetalSky,
+        Effect::MetalStudio,
         Effect::ShadowMaps,
         Effect::ShadowRays,
         Effect::AmbientOcclusion,
@@ -395,7 +398,7 @@ fn an_effect_that_is_left_out_is_off() {
         assert!(!plan.is_on(effect), "{effect}: {}", plan.decision(effect));
         count += 1;
     }
-    assert_eq!(count, 16, "all but those that are the scene itself");
+    assert_eq!(count, 17, "all but those that are the scene itself");
 }
 
 #[test]

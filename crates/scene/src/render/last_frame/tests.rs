@@ -132,7 +132,7 @@ const SETTINGS: [fn(&mut RenderSettings, &Model); 20] = [
     |settings, _| settings.effects.shadows = Shadows::Rays,
     |settings, _| settings.effects.ambient_occlusion = Some(AmbientOcclusion { rays: 2, distance: 1.0 }),
     |settings, _| settings.effects.fog = Some(Fog { color: Vec3::ONE, density: 0.2 }),
-    |settings, _| settings.effects.exposure = 0.5,
+    |settings, _| settings.effects.exposure = crate::Exposure::Stops(0.5),
     |settings, _| settings.effects.tone_mapping = ToneMapping::KhronosPbrNeutral,
     |settings, model| {
         settings.effects.outline =
