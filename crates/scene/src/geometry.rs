@@ -6,6 +6,7 @@
 mod blocks;
 mod bounds;
 mod change;
+mod color_traits;
 mod columns;
 mod edge_flags;
 mod mesh_vertices;

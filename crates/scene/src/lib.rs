@@ -41,6 +41,7 @@ mod environment;
 mod frame;
 mod geometry;
 mod lanes;
+mod left_in;
 mod light;
 mod light_meter;
 mod light_reading;
@@ -64,6 +65,7 @@ mod showcase;
 mod surface;
 mod texture_asset;
 mod transform;
+mod unseen;
 pub mod views;
 mod work;
 
@@ -93,7 +95,7 @@ pub use material::{
 pub use mesh_asset::{MeshAsset, MeshId};
 pub use node::{Node, NodeId, Skin, SkinId};
 pub use pick::{KeptPoints, Nearest, Pick, Picker, Reach, Region, Snap, SnapElement};
-pub use plan::{Absence, Cause, Decision, EffectPlan, Named};
+pub use plan::{Absence, Cause, Decision, EffectPlan, Invisible, Named};
 pub use render::{RenderError, Renderer, RendererBuilder, render};
 pub use scene::{NodePose, Pose, Scene, SceneError, SceneParts, SkinPose};
 pub use settings::{Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style};

@@ -20,6 +20,7 @@ use texture_row::{TextureRow, texture_rows};
 
 use crate::arena::Id;
 use crate::effect::Effect;
+use crate::left_in::keeps_unseen;
 use crate::texture_asset::TextureId;
 
 /// Identifies a material.
@@ -187,7 +188,10 @@ texture_rows! {
         format: TextureFormat::Srgb,
         effect: Effect::Textures,
         drawn_if: DrawnIf::Always,
-        matters: |_| true,
+        // Its alpha shows where alpha does.
+        matters: |material| {
+            material.base_color.truncate() != Vec3::ZERO || material.alpha_mode != AlphaMode::Opaque
+        },
         get: |material| material.base_color_texture,
         set: |material, binding| material.base_color_texture = binding,
     },
@@ -209,7 +213,7 @@ texture_rows! {
         format: TextureFormat::Linear,
         effect: Effect::Textures,
         drawn_if: DrawnIf::LightInPixels,
-        matters: |_| true,
+        matters: |material| material.shading.metallic_roughness().is_some_and(MetallicRoughness::varies_by_texture),
         get: |material| material.shading.metallic_roughness().and_then(|model| model.texture),
         set: |material, binding| {
             if let Some(model) = material.shading.metallic_roughness_mut() {
@@ -222,7 +226,7 @@ texture_rows! {
         format: TextureFormat::Linear,
         effect: Effect::Textures,
         drawn_if: DrawnIf::LightInPixels,
-        matters: |_| true,
+        matters: |material| material.shading.metallic_roughness().is_some_and(|model| model.specular != 0.0),
         get: |material| material.shading.metallic_roughness().and_then(|model| model.specular_texture),
         set: |material, binding| {
             if let Some(model) = material.shading.metallic_roughness_mut() {
@@ -235,7 +239,11 @@ texture_rows! {
         format: TextureFormat::Srgb,
         effect: Effect::Textures,
         drawn_if: DrawnIf::LightInPixels,
-        matters: |_| true,
+        // An index of refraction of 1 reflects nothing.
+        matters: |material| {
+            let is_colored = |model: &MetallicRoughness| model.specular != 0.0 && model.specular_color != Vec3::ZERO;
+            material.ior != 1.0 && material.shading.metallic_roughness().is_some_and(is_colored)
+        },
         get: |material| material.shading.metallic_roughness().and_then(|model| model.specular_color_texture),
         set: |material, binding| {
             if let Some(model) = material.shading.metallic_roughness_mut() {
@@ -248,7 +256,7 @@ texture_rows! {
         format: TextureFormat::Linear,
         effect: Effect::NormalMaps,
         drawn_if: DrawnIf::TangentsInPixels,
-        matters: |_| true,
+        matters: |material| material.normal_map.is_some_and(|map| map.scale != 0.0),
         get: |material| material.normal_map.map(|map| map.binding),
         set: |material, binding| {
             let scale = material.normal_map.map_or(1.0, |map| map.scale);
@@ -272,7 +280,7 @@ texture_rows! {
         format: TextureFormat::Linear,
         effect: Effect::Refraction,
         drawn_if: DrawnIf::Refracting,
-        matters: |_| true,
+        matters: |material| material.transmission != 0.0,
         get: |material| material.transmission_texture,
         set: |material, binding| material.transmission_texture = binding,
     },

@@ -21,6 +21,22 @@ This page is written by
 
 and `trigon-viewer FILE --explain=time` measures any model in the same way.
 
+## What nobody could see
+
+What a file contains and nobody could see is off, too, with the reason (`--explain` tells it), and leaving it out changes no byte
+of any output (test `leaving_out_what_nobody_sees_changes_no_byte`):
+
+- a texture that a factor of 0 multiplies: a black base colour, no highlight, no emission, an occlusion strength of 0;
+- vertex colours that are white, or that a black base colour multiplies;
+- blending with an alpha of 1 everywhere: by the factor, the texture and the vertex colours. Depth and ids still show what lies
+  behind such a surface, unless outputs of blended surfaces are requested, and it casts no shadow;
+- a mask whose cutoff no alpha is below;
+- lamps whose intensity or colour is 0, or whose range or cone ends before any lit surface in view (with mirrors or glass: before any
+  lit surface). Bounds are those of the current pose;
+- maps of light on unlit surfaces.
+
+A normal map of scale 0 is flat by definition: the surface shows its own normals.
+
 ## How shadow maps keep off their own surface
 
 A shadow map holds the depth at the centre of each texel. A point on the same plane can lie up to √2 texels away from that

@@ -24,7 +24,7 @@ mod statements;
 mod stl;
 mod texture;
 mod tobj_crate;
-mod up;
+mod unneeded;
 mod validator;
 mod wires;
 

@@ -124,6 +124,12 @@ impl Texture {
         self.format
     }
 
+    /// Whether every texel is opaque. A look-up then returns an alpha of exactly 1, whatever its filter.
+    #[must_use]
+    pub fn is_opaque(&self) -> bool {
+        self.opaque
+    }
+
     /// The texels of the base level, row by row from the top: what
     /// [`Texture::new`] was given.
     pub fn texels(&self) -> impl Iterator<Item = [u8; 4]> + '_ {

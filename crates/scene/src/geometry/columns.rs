@@ -4,6 +4,8 @@ use rayon::prelude::*;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Deformed, Mesh, RenderMesh, RenderUpdate, UpdatedVertex, WeldedMesh};
 
+use super::color_traits::ColorTraits;
+
 /// The vertex values of a mesh. All columns have the same length, but that of normals may be empty.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Columns {
@@ -18,6 +20,7 @@ pub(crate) struct Columns {
     pub(crate) uv_sets: Vec<[Vec<f32>; 2]>,
     /// Linear light, straight alpha.
     pub(crate) colors: Option<[Vec<f32>; 4]>,
+    pub(super) color_traits: ColorTraits,
 }
 
 impl Columns {
@@ -31,6 +34,7 @@ impl Columns {
             tangents: tangents.map(|tangents| columns_of(tangents, Vec4::to_array)),
             uv_sets: uv_sets.into_iter().map(|set| columns_of(set, Vec2::to_array)).collect(),
             colors: colors.map(|colors| columns_of(colors, Vec4::to_array)),
+            color_traits: ColorTraits::default(),
         }
     }
 
@@ -49,6 +53,7 @@ impl Columns {
             tangents: attributes.corner_tangents.as_ref().map(fours),
             uv_sets: attributes.uv_sets.iter().map(uvs).collect(),
             colors: attributes.corner_colors.as_ref().map(fours),
+            color_traits: ColorTraits::default(),
         }
     }
 
@@ -71,7 +76,7 @@ impl Columns {
     /// Writes the values of vertices that a change of the mesh has affected; new vertices are appended in
     /// order.
     pub(crate) fn update(&mut self, mesh: &Mesh, update: &RenderUpdate) {
-        let Self { positions, normals, face_normals, tangents, uv_sets, colors } = self;
+        let Self { positions, normals, face_normals, tangents, uv_sets, colors, color_traits } = self;
         let attributes = mesh.attributes();
         let write_others = || {
             write(positions, update.replaced(), |of| {
@@ -84,7 +89,12 @@ impl Columns {
                 write(columns, update.replaced(), |of| values[of.corner as usize].to_array());
             }
             if let (Some(columns), Some(values)) = (colors, &attributes.corner_colors) {
-                write(columns, update.replaced(), |of| values[of.corner as usize].to_array());
+                let color = |of: &UpdatedVertex| values[of.corner as usize].to_array();
+                // Most changes move vertices, and leave their colours.
+                if update.replaced().any(|of| !holds(columns, of.vertex, color(of))) {
+                    *color_traits = ColorTraits::default();
+                }
+                write(columns, update.replaced(), color);
             }
         };
         let write_normals = || match face_normals {
@@ -119,6 +129,11 @@ impl Columns {
     pub(crate) fn vertex_count(&self) -> usize {
         self.positions[0].len()
     }
+}
+
+/// Whether a vertex has these values.
+fn holds<const N: usize>(columns: &[Vec<f32>; N], vertex: u32, values: [f32; N]) -> bool {
+    columns.iter().zip(values).all(|(column, value)| column.get(vertex as usize) == Some(&value))
 }
 
 fn write_face_normals(columns: &mut [Vec<f32>; 3], normals: &[(u32, Vec3)]) {

@@ -28,9 +28,20 @@ pub(crate) const ADDED_AMBIENT: Vec3 = Vec3::splat(0.1);
 pub(crate) struct Lights {
     /// Ambient light, linear RGB.
     pub(crate) ambient: Vec3,
-    /// The number of ambient lights in the scene.
+    /// The number of ambient lights in the scene that shine.
     pub(crate) own_ambient: usize,
     pub(crate) lamps: Vec<Lamp>,
+    /// The lamps that were left out of the list because nothing that is drawn gets light from them.
+    pub(crate) idle: IdleLamps,
+}
+
+/// How many lamps light nothing that is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct IdleLamps {
+    /// Those without any light.
+    pub(crate) dark: usize,
+    /// Those whose range or cone ends before any surface.
+    pub(crate) out_of_reach: usize,
 }
 
 impl Lights {
@@ -65,8 +76,9 @@ impl Lights {
             for (id, node) in scene.nodes().iter() {
                 let (Some(light), Some(world)) = (&node.light, &transforms[id.index()]) else { continue };
                 if light.kind == LightKind::Ambient {
-                    lights.ambient += light.radiance();
-                    lights.own_ambient += 1;
+                    let radiance = light.radiance();
+                    lights.ambient += radiance;
+                    lights.own_ambient += usize::from(radiance != Vec3::ZERO);
                 }
                 lights.lamps.extend(Lamp::new(light, id.index() as u32, &eye.to_camera(world)));
             }

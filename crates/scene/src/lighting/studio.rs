@@ -15,7 +15,7 @@ impl Lights {
         let key = Lamp::studio(Vec3::new(-0.5, 0.55, 0.75), 0.72);
         let fill = Lamp::studio(Vec3::new(0.75, -0.1, 0.65), 0.25);
         let rim = Lamp::studio(Vec3::new(0.25, 0.75, -0.6), 0.25);
-        Self { ambient: Vec3::splat(0.2), own_ambient: 0, lamps: vec![key, fill, rim] }
+        Self { ambient: Vec3::splat(0.2), lamps: vec![key, fill, rim], ..Self::default() }
     }
 }
 

@@ -95,6 +95,19 @@ pub struct MetallicRoughness {
     pub specular_color_texture: Option<TextureBinding>,
 }
 
+impl MetallicRoughness {
+    /// Whether it reflects like Lambert's surface: neither metal nor dielectric highlights show.
+    pub(crate) fn is_matt(&self) -> bool {
+        self.metallic == 0.0 && self.specular == 0.0
+    }
+
+    /// Whether its factors leave anything of its texture of roughness and metalness to be seen. The roughness shows in
+    /// highlights alone.
+    pub(super) fn varies_by_texture(&self) -> bool {
+        self.metallic != 0.0 || self.roughness != 0.0 && !self.is_matt()
+    }
+}
+
 impl Default for MetallicRoughness {
     /// A dielectric, half rough.
     fn default() -> Self {

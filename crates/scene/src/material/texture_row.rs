@@ -12,8 +12,9 @@ pub(crate) struct TextureRow {
     /// The effect that its look-ups are counted for.
     pub(crate) effect: Effect,
     pub(crate) drawn_if: DrawnIf,
-    /// Whether the material's factors leave anything of it to be seen.
-    pub(crate) matters: fn(&Material) -> bool,
+    /// Whether the material's factors leave anything of it to be seen: a texture times 0 shows nothing. Asked
+    /// through [`MaterialTexture::matters`].
+    pub(super) matters: fn(&Material) -> bool,
     pub(crate) get: fn(&Material) -> Option<TextureBinding>,
     pub(crate) set: fn(&mut Material, Option<TextureBinding>),
 }
@@ -51,6 +52,11 @@ macro_rules! texture_rows {
             #[must_use]
             pub fn format(self) -> TextureFormat {
                 self.row().format
+            }
+
+            /// Whether the material's factors leave anything of its texture here to be seen.
+            pub(crate) fn matters(self, material: &Material) -> bool {
+                keeps_unseen() || (self.row().matters)(material)
             }
 
             pub(crate) fn row(self) -> &'static TextureRow {

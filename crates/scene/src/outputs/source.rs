@@ -6,7 +6,7 @@ use trigon_raster::Texture;
 
 use super::facet::{Beam, Facet, mixed, mixed2, vertex};
 use crate::geometry::Geometry;
-use crate::material::{Material, Shading, TextureBinding};
+use crate::material::{Material, MaterialTexture, Shading, TextureBinding};
 use crate::node::Node;
 use crate::placement::normal_matrix;
 use crate::prepare::PreparedScene;
@@ -118,7 +118,8 @@ impl<'s> OutputMaterial<'s> {
             geometry.columns.uv_sets.get(binding.uv_set)?;
             Some(Map { texture, binding })
         };
-        let bent = material.normal_map.filter(|_| needs.normals && material.shading != Shading::Unlit);
+        let shows_normals = needs.normals && material.shading != Shading::Unlit;
+        let bent = material.normal_map.filter(|_| shows_normals && MaterialTexture::Normal.matters(material));
         let geometry = match bent {
             Some(bent) => geometry.with_tangents(mesh, bent.binding.uv_set),
             None => geometry,

@@ -5,7 +5,7 @@ mod left_out;
 mod reason;
 mod survey;
 
-pub use reason::{Absence, Cause, Decision, Named};
+pub use reason::{Absence, Cause, Decision, Invisible, Named};
 
 use std::fmt;
 
@@ -17,6 +17,7 @@ use crate::display::Display;
 use crate::effect::Effect;
 use crate::effect_settings::{Exposure, MetalReflection, Shadows};
 use crate::effects::Mist;
+use crate::lighting::{IdleLamps, Lights};
 use crate::prepare::PreparedScene;
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, ShadingModel, Style};
@@ -171,9 +172,11 @@ fn check_lit(prepared: &PreparedScene<'_>, survey: &Survey) -> Result<(), Absenc
 
 fn lamps(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     check_lit(prepared, survey)?;
-    let lamps = &prepared.lights.lamps;
+    let Lights { lamps, idle, .. } = &prepared.lights;
     match (lamps.len(), lamps.first().and_then(|lamp| lamp.node)) {
-        (0, _) => Err(Absence::Nowhere),
+        (0, _) if prepared.settings.light_factor() == 0.0 => Err(Absence::NoIntensity),
+        (0, _) if *idle == IdleLamps::default() => Err(Absence::Nowhere),
+        (0, _) => Err(Absence::IdleLamps { dark: idle.dark, out_of_reach: idle.out_of_reach }),
         (_, None) => Ok(Cause::Studio),
         (count, Some(_)) => Ok(Cause::Lights(count)),
     }
@@ -185,6 +188,7 @@ fn ambient_light(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
         return Err(Absence::Environment);
     }
     match (prepared.lights.ambient == Vec3::ZERO, prepared.lights.own_ambient) {
+        (true, _) if prepared.settings.light_factor() == 0.0 => Err(Absence::NoIntensity),
         (true, _) => Err(Absence::Nowhere),
         (false, 0) => Ok(Cause::Studio),
         (false, count) => Ok(Cause::Lights(count)),
@@ -286,7 +290,14 @@ fn of_objects(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> 
     let [in_view, elsewhere] = survey.of(effect);
     let faces = matches!(prepared.settings.style, Style::Surface | Style::SurfaceWithEdges);
     match (in_view.count, elsewhere.count) {
-        (0, 0) => Err(Absence::Nowhere),
+        (0, 0) => Err(match survey.invisible(effect) {
+            Some((why, objects)) => Absence::Invisible(*why, objects.clone()),
+            // Importers leave them out of unlit materials, which need none.
+            None if survey.lit == 0 && matches!(effect, Effect::NormalMaps | Effect::OcclusionMaps) => {
+                Absence::NothingLit
+            }
+            None => Absence::Nowhere,
+        }),
         (0, _) => Err(Absence::OutOfView(elsewhere.clone())),
         _ if !faces && effect != Effect::Poses && !survey.is_of_wires(effect) => Err(Absence::NoFaces),
         _ => Ok(Cause::Objects(in_view.clone())),

@@ -48,6 +48,17 @@ pub enum Absence {
     Nowhere,
     /// Only objects outside the view have it.
     OutOfView(Named),
+    /// Objects have it in a way that nobody could see.
+    Invisible(Invisible, Named),
+    /// None of the scene's lights reaches what is drawn.
+    IdleLamps {
+        /// The number of lights without intensity, or of black colour.
+        dark: usize,
+        /// The number of those whose range or cone ends before any lit surface.
+        out_of_reach: usize,
+    },
+    /// The settings turn all lights off.
+    NoIntensity,
     /// No visible surface is lit.
     NothingLit,
     /// The settings request it, but no lamp shines.
@@ -78,6 +89,23 @@ pub enum Absence {
     NoColor,
     /// Faces show something else than their materials in light.
     Display,
+}
+
+/// Why nobody could see an effect that objects have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Invisible {
+    /// They multiply it by 0.
+    Zero,
+    /// They are unlit, and need none.
+    Unlit,
+    /// Neither the light nor the shading model shows anything of it.
+    Light,
+    /// Their vertex colours are white.
+    White,
+    /// Their alpha is nowhere below the mask's cutoff.
+    NoHole,
+    /// Their alpha is 1 everywhere.
+    Opaque,
 }
 
 /// Some objects, one of them by name.
@@ -155,6 +183,26 @@ impl fmt::Display for Absence {
             Self::OutOfView(Named { count, first }) => {
                 write!(f, "the {count} objects that have it, such as `{first}`, are outside the view")
             }
+            Self::Invisible(why, objects) => tell_invisible(f, *why, objects),
+            Self::IdleLamps { dark, out_of_reach: 0 } => match dark {
+                1 => f.write_str("the only light is dark (its intensity or colour is 0)"),
+                count => write!(f, "all {count} lights are dark (their intensity or colour is 0)"),
+            },
+            Self::IdleLamps { dark: 0, out_of_reach } => match out_of_reach {
+                1 => f.write_str(
+                    "the only light reaches nothing that is visible (its range or cone ends before)",
+                ),
+                count => write!(
+                    f,
+                    "none of {count} lights reaches anything that is visible (their ranges or cones end before)"
+                ),
+            },
+            Self::IdleLamps { dark, out_of_reach } => write!(
+                f,
+                "of {} lights {dark} are dark (their intensity or colour is 0), and the others reach nothing that is visible",
+                dark + out_of_reach
+            ),
+            Self::NoIntensity => f.write_str("the settings multiply all light by 0"),
             Self::NothingLit => f.write_str("no visible surface is lit"),
             Self::NoLamp => f.write_str("no light casts shadows"),
             Self::NoAmbientLight => f.write_str("there is no ambient light"),
@@ -176,4 +224,27 @@ impl fmt::Display for Absence {
             Self::Display => f.write_str("the display mode leaves it out"),
         }
     }
+}
+
+fn tell_invisible(f: &mut fmt::Formatter<'_>, why: Invisible, objects: &Named) -> fmt::Result {
+    let Named { count, first } = objects;
+    let (who, is_one) = match count {
+        1 => (format!("the only object that has it, `{first}`,"), true),
+        _ => (format!("the {count} objects that have it, such as `{first}`,"), false),
+    };
+    let what = match (why, is_one) {
+        (Invisible::Zero, true) => "multiplies it by 0",
+        (Invisible::Zero, false) => "multiply it by 0",
+        (Invisible::Unlit, true) => "is unlit and needs none",
+        (Invisible::Unlit, false) => "are unlit and need none",
+        (Invisible::Light, true) => "shows nothing of it in this light",
+        (Invisible::Light, false) => "show nothing of it in this light",
+        (Invisible::White, true) => "has nothing but white",
+        (Invisible::White, false) => "have nothing but white",
+        (Invisible::NoHole, true) => "has no alpha below the cutoff",
+        (Invisible::NoHole, false) => "have no alpha below the cutoff",
+        (Invisible::Opaque, true) => "has an alpha of 1 everywhere",
+        (Invisible::Opaque, false) => "have an alpha of 1 everywhere",
+    };
+    write!(f, "{who} {what}")
 }

@@ -1,16 +1,18 @@
 //! What a scene contains, and what of it the camera can see.
 
-use trigon_math::Vec3;
+use trigon_math::{Vec3, Vec4};
 
-use super::Named;
+use super::{Invisible, Named};
 use crate::effect::Effect;
 use crate::effects::Optics;
+use crate::geometry::Run;
 use crate::material::{AlphaMode, DrawnIf, Material, MaterialTexture, Shading};
 use crate::mesh_asset::MeshAsset;
 use crate::node::Node;
 use crate::prepare::PreparedScene;
 use crate::settings::ShadingModel;
 use crate::shapes::Shape;
+use crate::unseen::Canvas;
 
 /// What a scene contains, and what of it the camera can see.
 #[derive(Debug, Default)]
@@ -19,42 +21,86 @@ pub(super) struct Survey {
     found: [[Named; 2]; Effect::ALL.len()],
     /// For each effect by its number, whether lines or points in view have it, which every style shows.
     of_wires: [bool; Effect::ALL.len()],
+    /// For each effect: objects that have it only in ways that nobody could see, and the first of these ways.
+    invisible: [Option<(Invisible, Named)>; Effect::ALL.len()],
     /// Objects in view that light reaches.
     pub(super) lit: usize,
     /// Shadow casters, in view or not.
     pub(super) casters: usize,
 }
 
+/// Whether a material on a mesh has an effect.
+#[derive(Clone, Copy, PartialEq)]
+enum Presence {
+    Absent,
+    /// It has it, and nobody could see it.
+    Invisible(Invisible),
+    Seen,
+}
+
+/// A material on a mesh.
+struct Look<'a> {
+    shape: &'a Shape,
+    prepared: &'a PreparedScene<'a>,
+    material: &'a Material,
+    /// The same as it is drawn: in the reflection model of the settings, with the alpha mode that can be seen, and black
+    /// where no light is.
+    drawn: Material,
+}
+
 impl Survey {
     pub(super) fn new(prepared: &PreparedScene<'_>) -> Self {
         let mut survey = Self::default();
+        let default = Material::default();
         for (id, node) in prepared.scene.nodes().iter() {
             let Some(shape) = prepared.shapes.get(id.index()) else { continue };
             let seen = prepared.may_show(shape);
             let name = if node.name.is_empty() { "an unnamed object" } else { &node.name };
-            let default = Material::default();
-            let materials = shape.geometry.runs.iter().map(|run| {
-                let id = node.materials.get(run.slot as usize);
-                id.and_then(|&id| prepared.scene.materials.get(id)).unwrap_or(&default)
-            });
-            let materials: Vec<&Material> = materials.collect();
+            let runs = shape.geometry.runs.iter();
+            let looks: Vec<Look<'_>> = runs
+                .map(|run| Look::new(material_of(prepared, (node, run), &default), shape, prepared))
+                .collect();
             let wires = Wires::of(node, prepared);
             let sees_wires = wires.as_ref().is_some_and(|wires| wires.may_show(shape, prepared));
             for effect in Effect::ALL {
-                let of_faces = materials.iter().any(|material| has(effect, material, shape, prepared));
                 let of_wires = wires.as_ref().is_some_and(|wires| wires.have(effect));
-                if of_faces || of_wires {
-                    let seen = of_faces && seen || of_wires && sees_wires;
-                    survey.found[effect as usize][usize::from(!seen)].add(name);
-                }
-                survey.of_wires[effect as usize] |= of_wires && sees_wires;
+                survey.add(effect, (&looks, seen), (of_wires, sees_wires), name);
             }
-            let lit = |material: &&Material| material.shading != Shading::Unlit;
-            survey.lit += usize::from(seen && materials.iter().any(lit));
-            let opaque = |material: &&Material| material.alpha_mode != AlphaMode::Blend;
-            survey.casters += usize::from(materials.iter().any(opaque));
+            let lit = |look: &Look<'_>| look.material.shading != Shading::Unlit;
+            survey.lit += usize::from(seen && looks.iter().any(lit));
+            let opaque = |look: &Look<'_>| look.material.alpha_mode != AlphaMode::Blend;
+            survey.casters += usize::from(looks.iter().any(opaque));
         }
         survey
+    }
+
+    /// Notes whether an object has an effect: its faces, and its lines and points; and which of both are in view.
+    fn add(
+        &mut self,
+        effect: Effect,
+        (looks, sees_faces): (&[Look<'_>], bool),
+        (of_wires, sees_wires): (bool, bool),
+        name: &str,
+    ) {
+        self.of_wires[effect as usize] |= of_wires && sees_wires;
+        let mut invisible = None;
+        let mut of_faces = false;
+        for look in looks {
+            match look.presence(effect) {
+                Presence::Absent => {}
+                Presence::Invisible(why) => invisible = invisible.or(Some(why)),
+                Presence::Seen => of_faces = true,
+            }
+        }
+        if of_faces || of_wires {
+            let is_in_view = of_faces && sees_faces || of_wires && sees_wires;
+            return self.found[effect as usize][usize::from(!is_in_view)].add(name);
+        }
+        let Some(why) = invisible else { return };
+        let (first, objects) = self.invisible[effect as usize].get_or_insert_with(|| (why, Named::default()));
+        if *first == why {
+            objects.add(name);
+        }
     }
 
     /// The objects that have an effect, in view and elsewhere.
@@ -65,6 +111,11 @@ impl Survey {
     /// Whether lines or points in view have an effect.
     pub(super) fn is_of_wires(&self, effect: Effect) -> bool {
         self.of_wires[effect as usize]
+    }
+
+    /// Objects that have an effect in a way that nobody could see.
+    pub(super) fn invisible(&self, effect: Effect) -> Option<&(Invisible, Named)> {
+        self.invisible[effect as usize].as_ref()
     }
 }
 
@@ -98,55 +149,127 @@ impl<'s> Wires<'s> {
     }
 }
 
-/// Whether a material on a mesh needs an effect.
-fn has(effect: Effect, material: &Material, shape: &Shape, prepared: &PreparedScene<'_>) -> bool {
-    let lit = material.shading != Shading::Unlit;
-    match effect {
-        Effect::Highlights => {
-            let shading = prepared.settings.reflection.of(material);
-            !matches!(shading, Shading::Unlit | Shading::Lambert)
-        }
-        Effect::Textures => {
-            let shading = prepared.settings.reflection.of(material);
-            let material = Material { shading, ..material.clone() };
-            material.textures().any(|(place, _)| is_drawn(place, &material, prepared))
-        }
-        Effect::NormalMaps => lit && material.normal_map.is_some(),
-        Effect::OcclusionMaps => lit && (MaterialTexture::Occlusion.row().matters)(material),
-        Effect::Emission => material.emissive != Vec3::ZERO,
-        Effect::VertexColors => shape.geometry.columns.colors.is_some(),
-        Effect::Masks => matches!(material.alpha_mode, AlphaMode::Mask { .. }),
-        Effect::Transparency => material.alpha_mode == AlphaMode::Blend,
-        Effect::Poses => shape.is_posed,
-        Effect::MetalStudio => is_metal(material, prepared),
-        Effect::Reflection => is_traced(material, false),
-        Effect::Refraction => is_traced(material, true),
-        // Those that depend on lights and settings, not on materials.
-        Effect::Lamps
-        | Effect::AmbientLight
-        | Effect::LightMeter
-        | Effect::Environment
-        | Effect::ShadowMaps
-        | Effect::ShadowRays
-        | Effect::AmbientOcclusion
-        | Effect::Fog
-        | Effect::ToneMapping
-        | Effect::Outline
-        | Effect::Edges => false,
-    }
+fn material_of<'a>(
+    prepared: &'a PreparedScene<'_>,
+    (node, run): (&Node, &Run),
+    default: &'a Material,
+) -> &'a Material {
+    let id = node.materials.get(run.slot as usize);
+    id.and_then(|&id| prepared.scene.materials.get(id)).unwrap_or(default)
 }
 
-/// Whether a texture of a material has an effect on what it shows.
-fn is_drawn(place: MaterialTexture, material: &Material, prepared: &PreparedScene<'_>) -> bool {
-    let settings = prepared.settings;
-    let in_pixels = material.shading != Shading::Unlit && settings.shading == ShadingModel::Phong;
-    let has_what_it_needs = match place.row().drawn_if {
-        DrawnIf::Always => true,
-        DrawnIf::LightInPixels | DrawnIf::TangentsInPixels => in_pixels,
-        DrawnIf::AmbientLightInPixels => in_pixels && has_ambient(prepared),
-        DrawnIf::Refracting => in_pixels && settings.effects.bounces > 0 && is_traced(material, true),
-    };
-    has_what_it_needs && material.texture(place).is_some() && (place.row().matters)(material)
+impl<'a> Look<'a> {
+    fn new(material: &'a Material, shape: &'a Shape, prepared: &'a PreparedScene<'_>) -> Self {
+        let canvas = Canvas { scene: prepared.scene, columns: &shape.geometry.columns };
+        let mut drawn = Material {
+            shading: prepared.settings.reflection.of(material),
+            alpha_mode: prepared.settings.visible_alpha(canvas, material),
+            ..material.clone()
+        };
+        let is_dark = prepared.lights.lamps.is_empty() && !has_ambient(prepared);
+        if is_dark && drawn.shading != Shading::Unlit && Optics::of(material).is_none() {
+            drawn.base_color *= Vec4::W;
+        }
+        Self { shape, prepared, material, drawn }
+    }
+
+    fn presence(&self, effect: Effect) -> Presence {
+        let Self { shape, material, drawn, .. } = self;
+        let seen_if = |is_seen: bool, why: Invisible| {
+            if is_seen { Presence::Seen } else { Presence::Invisible(why) }
+        };
+        let absent_unless = |is_there: bool| if is_there { Presence::Seen } else { Presence::Absent };
+        match effect {
+            Effect::Highlights => self.highlights(),
+            Effect::Textures => self.textures(),
+            Effect::NormalMaps => self.map_of_light(MaterialTexture::Normal),
+            Effect::OcclusionMaps => self.map_of_light(MaterialTexture::Occlusion),
+            Effect::Emission if material.emissive_texture.is_some() => {
+                seen_if(material.emissive != Vec3::ZERO, Invisible::Zero)
+            }
+            Effect::Emission => absent_unless(material.emissive != Vec3::ZERO),
+            Effect::VertexColors => self.vertex_colors(),
+            Effect::Masks if matches!(material.alpha_mode, AlphaMode::Mask { .. }) => {
+                seen_if(matches!(drawn.alpha_mode, AlphaMode::Mask { .. }), Invisible::NoHole)
+            }
+            Effect::Transparency if material.alpha_mode == AlphaMode::Blend => {
+                seen_if(drawn.alpha_mode == AlphaMode::Blend, Invisible::Opaque)
+            }
+            Effect::Poses => absent_unless(shape.is_posed),
+            Effect::MetalSky => absent_unless(is_metal(drawn)),
+            Effect::Reflection => absent_unless(is_traced(material, false)),
+            Effect::Refraction => absent_unless(is_traced(material, true)),
+            Effect::Masks | Effect::Transparency => Presence::Absent,
+            // Those that depend on lights and settings, not on materials.
+            Effect::Lamps
+            | Effect::AmbientLight
+            | Effect::Environment
+            | Effect::ShadowMaps
+            | Effect::ShadowRays
+            | Effect::AmbientOcclusion
+            | Effect::Fog
+            | Effect::ToneMapping
+            | Effect::Outline
+            | Effect::Edges => Presence::Absent,
+        }
+    }
+
+    fn highlights(&self) -> Presence {
+        let is_seen = match &self.drawn.shading {
+            Shading::Unlit | Shading::Lambert => return Presence::Absent,
+            Shading::BlinnPhong { specular, .. } => *specular != Vec3::ZERO,
+            Shading::MetallicRoughness(model) => !model.is_matt() || Optics::of(self.material).is_some(),
+        };
+        if is_seen { Presence::Seen } else { Presence::Invisible(Invisible::Zero) }
+    }
+
+    /// Textures of any kind: all of them need coordinates.
+    fn textures(&self) -> Presence {
+        let textures = || self.drawn.textures().map(|(place, _)| place);
+        let Some(first) = textures().next() else { return Presence::Absent };
+        if textures().any(|place| self.draws(place)) {
+            return Presence::Seen;
+        }
+        Presence::Invisible(match self.drawn.shading {
+            _ if !first.matters(&self.drawn) => Invisible::Zero,
+            Shading::Unlit => Invisible::Unlit,
+            _ => Invisible::Light,
+        })
+    }
+
+    /// A texture that changes nothing but light.
+    fn map_of_light(&self, place: MaterialTexture) -> Presence {
+        match self.material.texture(place) {
+            None => Presence::Absent,
+            Some(_) if self.material.shading == Shading::Unlit => Presence::Invisible(Invisible::Unlit),
+            Some(_) if !place.matters(self.material) => Presence::Invisible(Invisible::Zero),
+            Some(_) => Presence::Seen,
+        }
+    }
+
+    fn vertex_colors(&self) -> Presence {
+        let columns = &self.shape.geometry.columns;
+        match columns.colors {
+            None => Presence::Absent,
+            Some(_) if columns.show_colors(&self.drawn, self.prepared.settings.display) => Presence::Seen,
+            Some(_) if columns.are_colors_white() => Presence::Invisible(Invisible::White),
+            Some(_) => Presence::Invisible(Invisible::Zero),
+        }
+    }
+
+    /// Whether a texture has an effect on what is shown.
+    fn draws(&self, place: MaterialTexture) -> bool {
+        let (material, prepared) = (&self.drawn, self.prepared);
+        let settings = prepared.settings;
+        let in_pixels = material.shading != Shading::Unlit && settings.shading == ShadingModel::Phong;
+        let has_what_it_needs = match place.row().drawn_if {
+            DrawnIf::Always => true,
+            DrawnIf::LightInPixels | DrawnIf::TangentsInPixels => in_pixels,
+            DrawnIf::AmbientLightInPixels => in_pixels && has_ambient(prepared),
+            DrawnIf::Refracting => in_pixels && settings.effects.bounces > 0 && is_traced(material, true),
+        };
+        has_what_it_needs && place.matters(material)
+    }
 }
 
 /// Whether light comes from everywhere.
@@ -155,11 +278,8 @@ pub(super) fn has_ambient(prepared: &PreparedScene<'_>) -> bool {
 }
 
 /// Whether a material may be metallic somewhere: textures are not searched.
-fn is_metal(material: &Material, prepared: &PreparedScene<'_>) -> bool {
-    match prepared.settings.reflection.of(material) {
-        Shading::Unlit | Shading::Lambert | Shading::BlinnPhong { .. } => false,
-        Shading::MetallicRoughness(model) => model.metallic > 0.0,
-    }
+fn is_metal(material: &Material) -> bool {
+    material.shading.metallic_roughness().is_some_and(|model| model.metallic > 0.0)
 }
 
 /// Whether sight rays continue at a material, and through it.

@@ -2,6 +2,7 @@
 //! the lights.
 
 mod backdrop;
+mod lamp_reach;
 mod prepared_scene;
 
 pub(crate) use backdrop::Backdrop;

@@ -7,7 +7,7 @@ use super::backdrop::Backdrop;
 use crate::effect_settings::Shadows;
 use crate::effects::{LampPose, MetalStudio};
 use crate::environment::Surroundings;
-use crate::light::LightKind;
+use crate::light::{Light, LightKind};
 use crate::lighting::{Lamp, Lights, Source};
 use crate::placement::Eye;
 use crate::scene::Scene;
@@ -40,7 +40,10 @@ impl<'s> PreparedScene<'s> {
         let turn = DMat3::from_quat(camera.orientation);
         let camera_to_world = DAffine3::from_mat3_translation(turn, camera.position);
         let backdrop = Backdrop::new(camera, settings, scene.up);
-        Self { scene, settings, transforms, camera_to_world, eye, backdrop, shapes, lights }
+        let mut prepared =
+            Self { scene, settings, transforms, camera_to_world, eye, backdrop, shapes, lights };
+        prepared.leave_out_idle_lamps();
+        prepared
     }
 
     /// Whether some of a shape's faces may be in view.
@@ -91,10 +94,15 @@ impl<'s> PreparedScene<'s> {
 
     /// Half the angle of a spot light's cone.
     fn cone(&self, lamp: &Lamp) -> Option<f64> {
-        let node = self.scene.nodes().id_at(lamp.node? as usize)?;
-        match self.scene.node(node)?.light?.kind {
+        match self.light(lamp)?.kind {
             LightKind::Spot { outer, .. } => Some(f64::from(outer)),
             LightKind::Ambient | LightKind::Directional | LightKind::Point => None,
         }
+    }
+
+    /// The scene's light that a lamp is; `None` for a lamp of the studio.
+    pub(super) fn light(&self, lamp: &Lamp) -> Option<&Light> {
+        let node = self.scene.nodes().id_at(lamp.node? as usize)?;
+        self.scene.node(node)?.light.as_ref()
     }
 }

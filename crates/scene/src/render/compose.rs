@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use trigon_camera::Camera;
 use trigon_math::{Mat3, Vec3, Vec4};
-use trigon_raster::{Culling, EdgeFlags};
+use trigon_raster::{BlendMode, Culling, EdgeFlags};
 
 use super::record::{Dots, MarkNumbers, ObjectMarks, PointList, Record, Segments, Triangles};
 use super::vertex_list::{VertexList, VertexLists};
@@ -18,15 +18,16 @@ use crate::effect::Effect;
 use crate::effects::{Counts, LightingEnvironment};
 use crate::geometry::{Geometry, Run};
 use crate::marks;
-use crate::material::{AlphaMode, Material, Shading};
+use crate::material::{AlphaMode, Material, MaterialTexture, Shading};
 use crate::mesh_asset::MeshAsset;
 use crate::node::{Node, NodeId};
 use crate::placement::{Eye, Placement, Rays};
 use crate::prepare::{Backdrop, PreparedScene};
 use crate::scene::Scene;
-use crate::settings::{RenderSettings, Style};
+use crate::settings::{RenderSettings, ShadingModel, Style};
 use crate::shapes::{Shape, Shapes};
 use crate::surface::{BoundMaterial, Drawn, Illumination, MaterialContext, Surface};
+use crate::unseen::Canvas;
 
 /// The fraction of their distance by which vertex points are drawn nearer, so that faces that slope
 /// towards the eye around a vertex do not cut its point. Points hidden by more than that stay
@@ -207,10 +208,36 @@ impl<'s> Composer<'s> {
         id.and_then(|&id| self.scene.materials.get(id)).unwrap_or(&self.default_material)
     }
 
-    /// The material in which the faces of a slot are displayed.
+    /// The material in which the faces of a slot are displayed, as far as its alpha can be seen.
     fn displayed(&self, object: &Object<'s>, slot: u32) -> Cow<'_, Material> {
         let material = self.material(object, slot);
-        self.settings.display.replaced(material).map_or(Cow::Borrowed(material), Cow::Owned)
+        let mut material =
+            self.settings.display.replaced(material).map_or(Cow::Borrowed(material), Cow::Owned);
+        let alpha_mode = self.settings.visible_alpha(self.canvas(object), &material);
+        if alpha_mode != material.alpha_mode {
+            material.to_mut().alpha_mode = alpha_mode;
+        }
+        material
+    }
+
+    fn canvas(&self, object: &Object<'s>) -> Canvas<'s> {
+        Canvas { scene: self.scene, columns: &object.geometry.columns }
+    }
+
+    /// How the rasterizer treats the faces of a slot, which are displayed with this alpha mode. Blended surfaces write
+    /// neither depth nor ids unless the outputs ask for that, also those that are drawn as opaque ones.
+    fn blend_mode(&self, object: &Object<'s>, slot: u32, displayed: AlphaMode) -> BlendMode {
+        let outputs = &self.settings.outputs;
+        let is_unseen = outputs.beside_color() && !outputs.of_blended;
+        match displayed {
+            AlphaMode::Opaque if self.settings.display == Display::Shaded && is_unseen => {
+                match self.material(object, slot).alpha_mode {
+                    AlphaMode::Blend => BlendMode::Overlay,
+                    AlphaMode::Opaque | AlphaMode::Mask { .. } => BlendMode::Opaque,
+                }
+            }
+            mode => blend_mode_of(mode),
+        }
     }
 
     fn context(&self) -> MaterialContext<'_> {
@@ -225,7 +252,8 @@ impl<'s> Composer<'s> {
         's: 'c,
     {
         let material = &*self.displayed(object, run.slot);
-        let geometry = match &material.normal_map {
+        let bent = material.normal_map.filter(|_| self.shows_normal_map(material));
+        let geometry = match &bent {
             Some(map) => object.geometry.with_tangents(object.asset.mesh(), map.binding.uv_set),
             None => object.geometry,
         };
@@ -243,6 +271,12 @@ impl<'s> Composer<'s> {
         } else {
             self.bound::<false>(object, geometry, &draw, (material, bound))
         }
+    }
+
+    /// Whether a normal map can be seen: tangents are made for no other.
+    fn shows_normal_map(&self, material: &Material) -> bool {
+        let is_lit = material.shading != Shading::Unlit && self.settings.shading == ShadingModel::Phong;
+        (is_lit || self.settings.display == Display::Normal) && MaterialTexture::Normal.matters(material)
     }
 
     /// The same triangles without shading: positions and alpha masks. `None` if outputs see through blended
@@ -266,6 +300,7 @@ impl<'s> Composer<'s> {
             }
             bare.alpha_mode = AlphaMode::Mask { cutoff: f32::MIN_POSITIVE };
         }
+        bare.alpha_mode = self.canvas(object).visible_alpha(&bare);
         let geometry = object.geometry;
         let context = MaterialContext { display: Display::Shaded, ..self.context() };
         let mut bound = BoundMaterial::new(&bare, &geometry.columns, &context);
@@ -305,7 +340,7 @@ impl<'s> Composer<'s> {
             marks: self.marks_of(object, &run.triangles),
             object: object.index,
             culling: if material.double_sided { Culling::None } else { object.place.cull_back },
-            blend_mode: blend_mode_of(material.alpha_mode),
+            blend_mode: self.blend_mode(object, run.slot, material.alpha_mode),
         })
     }
 
@@ -332,7 +367,7 @@ impl<'s> Composer<'s> {
             marks: self.marks_of(object, &(0..geometry.triangles.len())),
             object: object.index,
             culling: Culling::None,
-            blend_mode: trigon_raster::BlendMode::Opaque,
+            blend_mode: BlendMode::Opaque,
         })
     }
 
@@ -431,7 +466,7 @@ impl<'s> Composer<'s> {
             object: object.index,
             size: shown.size,
             marked: Some((marked, shown.marked_size)),
-            blend_mode: trigon_raster::BlendMode::Overlay,
+            blend_mode: BlendMode::Overlay,
             depth_bias: VERTEX_DEPTH_BIAS,
         }))
     }
@@ -445,10 +480,10 @@ struct EdgeRange<'s> {
 }
 
 /// How the rasterizer treats an alpha mode.
-fn blend_mode_of(mode: AlphaMode) -> trigon_raster::BlendMode {
+fn blend_mode_of(mode: AlphaMode) -> BlendMode {
     match mode {
-        AlphaMode::Opaque => trigon_raster::BlendMode::Opaque,
-        AlphaMode::Mask { .. } => trigon_raster::BlendMode::Masked,
-        AlphaMode::Blend => trigon_raster::BlendMode::Translucent,
+        AlphaMode::Opaque => BlendMode::Opaque,
+        AlphaMode::Mask { .. } => BlendMode::Masked,
+        AlphaMode::Blend => BlendMode::Translucent,
     }
 }

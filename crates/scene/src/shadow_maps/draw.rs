@@ -11,6 +11,7 @@ use crate::placement::{Eye, Rays};
 use crate::scene::Scene;
 use crate::settings::{Reflection, ShadingModel};
 use crate::surface::{BoundMaterial, Drawn, MaterialContext, Surface};
+use crate::unseen::Canvas;
 
 /// The parameters of a run of triangles.
 enum Shape<'a> {
@@ -64,9 +65,10 @@ fn shape<'a>(
     caster: &'a Caster,
     material: &Material,
 ) -> Shape<'a> {
-    let masked = matches!(material.alpha_mode, AlphaMode::Mask { .. });
-    let material = Material { shading: Shading::Unlit, ..material.clone() };
     let columns = &caster.geometry.columns;
+    let alpha_mode = Canvas { scene, columns }.visible_alpha(material);
+    let masked = matches!(alpha_mode, AlphaMode::Mask { .. });
+    let material = Material { shading: Shading::Unlit, alpha_mode, ..material.clone() };
     let context = MaterialContext {
         scene,
         lighting: dark,

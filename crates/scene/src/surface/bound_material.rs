@@ -10,6 +10,7 @@ use super::{Coverage, Illumination, Layout, LightSlots, Map, Maps, MaterialParam
 use crate::display::Display;
 use crate::effects::{LightingEnvironment, Optics};
 use crate::geometry::Columns;
+use crate::left_in::keeps_unseen;
 use crate::material::{AlphaMode, DrawnIf, Material, MaterialTexture, Shading, TextureBinding};
 use crate::placement::Rays;
 use crate::scene::Scene;
@@ -36,6 +37,7 @@ pub(crate) struct BoundMaterial<'a> {
 }
 
 impl<'a> BoundMaterial<'a> {
+    /// The material's alpha mode is the one that can be seen on the mesh.
     pub(crate) fn new(material: &Material, columns: &Columns, context: &MaterialContext<'a>) -> Self {
         let mut fitting = Fitting { context, columns, layout: Layout::default() };
         let optics = Optics::of(material);
@@ -61,10 +63,12 @@ impl<'a> BoundMaterial<'a> {
         };
         let maps = Maps::new(|texture| {
             let binding = material.texture(texture).filter(|_| is_drawn(texture))?;
-            if (texture.row().matters)(&material) { fitting.map(texture, &binding) } else { None }
+            let shows = is_shown(texture) || texture.matters(&material);
+            if shows { fitting.map(texture, &binding) } else { None }
         });
+        let is_plain = optics.is_none() && !matches!(illumination, Illumination::Value(_));
         let params = MaterialParams {
-            model: model(&material),
+            model: model(&material, is_plain),
             maps,
             optics,
             cutoff: cutoff(material.alpha_mode),
@@ -108,7 +112,7 @@ impl<'a> Fitting<'_, 'a> {
     /// Adds the varyings that the material and its lighting need in each pixel.
     fn add_values(&mut self, params: &MaterialParams<'_>, illumination: Illumination) {
         let Self { context, columns, layout } = self;
-        if columns.colors.is_some() {
+        if columns.show_colors(&params.material, context.display) {
             layout.color = Some(layout.add(4));
         }
         let highlights = !matches!(params.model, Model::Lambert);
@@ -154,6 +158,7 @@ fn shown_as(texture: MaterialTexture) -> &'static [Display] {
     match texture {
         MaterialTexture::MetallicRoughness => &[Display::Metallic, Display::Roughness],
         MaterialTexture::Occlusion => &[Display::Occlusion],
+        MaterialTexture::BaseColor => &[Display::Alpha],
         _ => &[],
     }
 }
@@ -181,13 +186,16 @@ fn has_grey_highlights(model: &Model) -> bool {
     }
 }
 
-fn model(material: &Material) -> Model {
+/// `is_plain` where nothing but light is shown, and no ray goes on.
+fn model(material: &Material, is_plain: bool) -> Model {
     match &material.shading {
         Shading::Unlit | Shading::Lambert => Model::Lambert,
         Shading::BlinnPhong { specular, .. } if *specular == Vec3::ZERO => Model::Lambert,
         Shading::BlinnPhong { specular, shininess, .. } => {
             Model::BlinnPhong { specular: *specular, shininess: *shininess }
         }
+        // The highlights of microfacets times 0, and all other light for the diffuse part.
+        Shading::MetallicRoughness(model) if is_plain && model.is_matt() && !keeps_unseen() => Model::Lambert,
         Shading::MetallicRoughness(model) => Model::Microfacets(MicrofacetModel {
             metallic: model.metallic,
             roughness: model.roughness,

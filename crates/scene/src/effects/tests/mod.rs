@@ -12,6 +12,7 @@ mod shading;
 mod shadows;
 mod sight;
 mod studio;
+mod unseen;
 mod up;
 
 use std::sync::Arc;

@@ -42,11 +42,14 @@ fn with(effect: Effect) -> [(Scene, RenderSettings); 2] {
         Effect::Masks => {
             material = Material {
                 alpha_mode: AlphaMode::Mask { cutoff: 0.5 },
-                base_color_texture: Some(binding),
+                base_color_texture: Some(TextureBinding::new(scene.add_texture("veil", veil()))),
                 ..plain.clone()
             };
         }
-        Effect::Transparency => material.alpha_mode = AlphaMode::Blend,
+        Effect::Transparency => {
+            material =
+                Material { base_color: Vec4::splat(0.5), alpha_mode: AlphaMode::Blend, ..plain.clone() };
+        }
         Effect::Environment => {
             material = lit;
             effects.environment = Some(Arc::new(Environment::uniform(Vec3::ONE)));
@@ -75,7 +78,7 @@ fn with(effect: Effect) -> [(Scene, RenderSettings); 2] {
     without.add_object("ball", ball.clone(), plain);
     let mut ball = ball;
     if effect == Effect::VertexColors {
-        let corner_colors = Some(vec![Vec4::ONE; ball.corner_count()]);
+        let corner_colors = Some(vec![Vec4::new(1.0, 0.5, 1.0, 1.0); ball.corner_count()]);
         ball.set_attributes(Attributes { corner_colors, ..ball.attributes().clone() }).expect("one each");
     }
     if effect == Effect::Poses {
@@ -99,6 +102,11 @@ fn with(effect: Effect) -> [(Scene, RenderSettings); 2] {
 
 fn grey() -> Texture {
     Texture::new(1, 1, vec![[128, 128, 255, 255]], TextureFormat::Linear).expect("one texel")
+}
+
+/// One texel through which half of what lies behind it shows.
+fn veil() -> Texture {
+    Texture::new(1, 1, vec![[255, 255, 255, 128]], TextureFormat::Srgb).expect("one texel")
 }
 
 /// The promise of the planner: what is off takes nothing, whatever else is on.
@@ -405,7 +413,7 @@ fn an_effect_that_is_left_out_is_off() {
 fn what_is_out_of_view_is_named() {
     let mut scene = Scene::new();
     scene.add_object("ball", primitives::uv_sphere(1.0, 8, 4), matt(Vec3::ONE));
-    let glass = Material { alpha_mode: AlphaMode::Blend, ..matt(Vec3::ONE) };
+    let glass = Material { base_color: Vec4::splat(0.5), alpha_mode: AlphaMode::Blend, ..matt(Vec3::ONE) };
     let pane = scene.add_object("pane", primitives::plane(1.0, 1.0), glass);
     scene.node_mut(pane).expect("just added").transform = Transform::from_translation(DVec3::X * 50.0);
     let plan = EffectPlan::new(&scene, &from_front(), &settings(EffectSettings::default()));

@@ -441,7 +441,7 @@ fn a_polygon_may_lose_its_area_and_get_it_back() {
 
 /// What a vertex shows, as bits.
 fn shown(geometry: &Geometry, vertex: usize) -> Vec<u32> {
-    let Columns { positions, normals, face_normals: _, tangents, uv_sets, colors } = &geometry.columns;
+    let Columns { positions, normals, tangents, uv_sets, colors, .. } = &geometry.columns;
     let lists = positions.iter().chain(normals).chain(uv_sets.iter().flatten());
     let lists = lists.chain(tangents.iter().flatten()).chain(colors.iter().flatten());
     lists.map(|column| column[vertex].to_bits()).collect()
