@@ -34,17 +34,14 @@ pub use window::measured_editor;
 /// The program: parses the command line and runs it.
 #[must_use]
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    if arguments.list_commands {
-        print_line(&trigon_edit::command_reference());
-        return ExitCode::SUCCESS;
+    if let Err(error) = trigon_io::end_on_signals() {
+        report("warning", &format!("temporary files may stay when this program is interrupted ({error})"));
     }
-    #[cfg(feature = "window")]
-    if arguments.print_keymap {
-        print_line(&window::keymap());
-        return ExitCode::SUCCESS;
-    }
-    let result = if arguments.run.is_some() { run::run(&arguments) } else { edit(&arguments) };
+    let result = match Arguments::try_parse() {
+        Ok(arguments) => done(&arguments),
+        Err(mistake) if mistake.use_stderr() => mistake.exit(),
+        Err(answer) => print(&answer.render().to_string()),
+    };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
@@ -52,6 +49,17 @@ pub fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn done(arguments: &Arguments) -> Result<(), String> {
+    if arguments.list_commands {
+        return print(&format!("{}\n", trigon_edit::command_reference()));
+    }
+    #[cfg(feature = "window")]
+    if arguments.print_keymap {
+        return print(&format!("{}\n", window::keymap()));
+    }
+    if arguments.run.is_some() { run::run(arguments) } else { edit(arguments) }
 }
 
 #[cfg(feature = "window")]
@@ -65,7 +73,14 @@ fn edit(_: &Arguments) -> Result<(), String> {
 }
 
 /// Text on standard output. A reader that closed the pipe is no error.
-fn print_line(text: &str) {
-    use std::io::Write;
-    drop(writeln!(std::io::stdout().lock(), "{text}"));
+fn print(text: &str) -> Result<(), String> {
+    use std::io::{ErrorKind, Write, stdout};
+    let mut stdout = stdout().lock();
+    // What is left in the buffer would be written at the end of the program, where nobody is told of an error.
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(format!(
+            "standard output cannot be written ({error}); check that its destination is writable and has room"
+        )),
+        _ => Ok(()),
+    }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use trigon_edit::{Disk, Document, Outcome, Script, save};
-use trigon_io::LoadOptions;
+use trigon_io::{FileIdentity, LoadOptions};
 
 use crate::arguments::Arguments;
 use crate::export;
@@ -15,6 +15,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let (Some(script), Some(output)) = (&arguments.run, &arguments.output) else {
         return Err("write both a script and an output: --run SCRIPT --output FILE".into());
     };
+    refuse_script(script, output)?;
     let script = read_script(script)?;
     let mut document = open(arguments)?;
     run_script(&script, &mut document, arguments.quiet)?;
@@ -30,6 +31,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
         }
     }
     save(&mut Disk, output, &file.to_bytes()).map_err(|error| error.to_string())
+}
+
+/// The file that is edited may be replaced: a backup of it stays. The script is nothing that an output should replace.
+fn refuse_script(script: &Path, output: &Path) -> Result<(), String> {
+    let [one, other] = [script, output].map(|path| FileIdentity::of(path).ok());
+    if one.is_none() || one != other {
+        return Ok(());
+    }
+    Err(format!(
+        "{}: is the script itself (it is {}) and would be lost; write to another file",
+        output.display(),
+        script.display()
+    ))
 }
 
 fn read_script(path: &Path) -> Result<Script, String> {

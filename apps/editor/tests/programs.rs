@@ -103,3 +103,32 @@ fn the_ending_of_the_output_chooses_its_format() {
     assert!(message.contains(".obj, .glb, .ply, .stl, .off"), "{message}");
     std::fs::remove_dir_all(&folder).expect("it was made above");
 }
+
+/// The file that is edited may be replaced: a backup of it stays. Nothing else that is read may.
+#[cfg(unix)]
+#[test]
+fn a_script_is_not_replaced_by_its_result() {
+    let folder = folder("script");
+    let script = write(&folder, "twice.json", TWICE);
+    let link = folder.join("out.glb");
+    std::os::unix::fs::symlink("twice.json", &link).expect("a link");
+    let refused = run(&["--run".as_ref(), &script, "--output".as_ref(), &link]);
+    assert_eq!(refused.status.code(), Some(1), "it is the script");
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(message.contains("out.glb: is the script itself"), "{message}");
+    assert_eq!(std::fs::read_to_string(&script).expect("there"), TWICE, "untouched");
+    std::fs::remove_dir_all(&folder).expect("it was made above");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn full_devices_are_errors() {
+    for flag in ["--list-commands", "--help", "--version"] {
+        let full = std::fs::File::options().write(true).open("/dev/full").expect("Linux has it");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_trigon-editor"));
+        let output = command.arg(flag).stdout(full).output().expect("the program starts");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{flag}: {said}");
+        assert!(said.contains("No space left on device"), "{flag}: {said}");
+    }
+}

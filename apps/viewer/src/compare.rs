@@ -9,7 +9,7 @@ use trigon_scene::{Frame, RenderSettings, Renderer, Scene};
 use crate::args::{Destination, Request, Subject};
 use crate::facts::{names, report_failure};
 use crate::failure::Failure;
-use crate::lists::json_line;
+use crate::lists::write_json;
 use crate::loading;
 use crate::outlet::Outlet;
 use crate::report::Reporter;
@@ -18,7 +18,7 @@ use crate::source::Source;
 /// Writes both models beside each other and beside a map of their differences; returns the exit code, 3 if there are
 /// any.
 pub(crate) fn run(request: &Request, other: &Path, output: &Destination, reporter: Reporter) -> u8 {
-    let mut outlet = Outlet::new(Some(output), reporter);
+    let mut outlet = Outlet::new(Some(output), request, reporter);
     match compared(request, other, &mut outlet, reporter) {
         Ok(()) => 0,
         Err(failure) => {
@@ -51,10 +51,7 @@ fn compared(
     let source = only_source(request)?;
     let mut model = loading::load_aloud(&source, request, reporter)?;
     let mut changed = loading::load_aloud(&Source::Files(vec![other.to_owned()]), request, reporter)?;
-    if changed.scene.turn_to(model.scene.up).is_some() {
-        let up = model.scene.up;
-        reporter.warning(format_args!("{} was turned: {up} is up in {}", other.display(), source.title()));
-    }
+    outlet.inputs.add(model.files.iter().chain(&changed.files));
     let shot = model.shot_with(&changed.scene, &request.framing, request.settings.aspect())?;
     let mut camera = shot.camera;
     for scene in [&mut model.scene, &mut changed.scene] {
@@ -67,7 +64,7 @@ fn compared(
     let subject = Subject { model: source.image_subject(), frame: 0 };
     outlet.put(subject, &beside(&[&one, &two, &heat]))?;
     if request.json {
-        json_line(&facts(&source, other, &difference, &outlet.written), reporter);
+        write_json(&facts(&source, other, &difference, &outlet.written))?;
     }
     if difference.different_pixels == 0 {
         reporter.info(format_args!("{}: no pixel differs from {}", source.title(), other.display()));

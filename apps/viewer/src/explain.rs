@@ -1,6 +1,5 @@
 //! `--explain`: which effects a model needs, why, and what they cost.
 
-use std::io::{self, Write};
 use std::time::Instant;
 
 use trigon_camera::Camera;
@@ -8,6 +7,7 @@ use trigon_scene::{EffectPlan, Frame, RenderSettings, Renderer, Scene};
 
 use crate::args::{Explanation, Request};
 use crate::failure::Failure;
+use crate::lists::write_lines;
 use crate::loading;
 use crate::report::Reporter;
 use crate::source::Source;
@@ -30,17 +30,11 @@ fn explain(
     let camera = model.shot(&request.framing, request.settings.aspect())?.camera;
     let (scene, settings) = (&model.scene, &request.settings);
     let plan = EffectPlan::new(scene, &camera, settings);
-    let mut stdout = io::stdout().lock();
-    let said = match explanation {
-        Explanation::Reasons => write!(stdout, "{}\n{plan}", source.title()),
-        Explanation::Time => {
-            let table = timed(scene, &camera, settings, &plan)?;
-            write!(stdout, "{}\n{table}", source.title())
-        }
+    let table = match explanation {
+        Explanation::Reasons => plan.to_string(),
+        Explanation::Time => timed(scene, &camera, settings, &plan)?,
     };
-    // Whoever closes it early wanted no more.
-    said.or_else(|error| if error.kind() == io::ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })
-        .map_err(Failure::work)
+    write_lines(std::iter::once(source.title()).chain(table.lines().map(str::to_owned)))
 }
 
 /// The plan, and how much longer an image takes with each effect than without it.

@@ -1,7 +1,7 @@
 //! Image mode: from models to files with images and outputs, a PNG stream or a capture. No display
 //! needed.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 use trigon_camera::{Camera, Viewport};
@@ -14,7 +14,7 @@ use crate::facts::{CameraFacts, DrawingFacts, ImageFacts, ModelFacts, names};
 use crate::failure::Failure;
 use crate::framing::Shot;
 use crate::lettering::Lettering;
-use crate::lists::json_line;
+use crate::lists::write_json;
 use crate::loading;
 use crate::model::Model;
 use crate::outlet::{Outlet, write_file};
@@ -30,7 +30,7 @@ pub(crate) fn run(
     capture: Option<&Path>,
     reporter: Reporter,
 ) -> u8 {
-    let mut outlet = Outlet::new(output, reporter);
+    let mut outlet = Outlet::new(output, request, reporter);
     outlet.beside = &request.outputs;
     Source::visit_all(request, reporter, |source, request| {
         draw_source(source, request, capture, &mut outlet, reporter)
@@ -48,6 +48,7 @@ pub(crate) fn draw_source(
     outlet.refuse_terminal()?;
     let started = Instant::now();
     let mut model = loading::load_aloud(source, request, reporter)?;
+    outlet.inputs.add(&model.files);
     let loaded = started.elapsed().as_secs_f64();
     let before = outlet.written.len();
     let summary = model.summary();
@@ -61,6 +62,7 @@ pub(crate) fn draw_source(
             let camera = shot.camera;
             let drawn = draw(&model, &shot, request, reporter)?;
             if let Some(path) = capture {
+                outlet.inputs.refuse(path)?;
                 keep(&model, camera, &drawn, path, reporter)?;
             }
             let frame = finished(drawn.frame, &model, &camera, request)?;
@@ -74,17 +76,14 @@ pub(crate) fn draw_source(
         }
     };
     if request.json {
-        json_line(
-            &ImageFacts {
-                model: ModelFacts::new(&model, &summary),
-                drawing,
-                width: request.settings.width,
-                height: request.settings.height,
-                load_seconds: loaded,
-                written: names(&outlet.written[before..]),
-            },
-            reporter,
-        );
+        write_json(&ImageFacts {
+            model: ModelFacts::new(&model, &summary),
+            drawing,
+            width: request.settings.width,
+            height: request.settings.height,
+            load_seconds: loaded,
+            written: names(&outlet.written[before..]),
+        })?;
     }
     Ok(())
 }
@@ -145,14 +144,14 @@ fn deliver(
         };
         return Err(Failure::Mismatch(format!("{name}: there is no image to compare with; {remedy}")));
     }
-    compare(reference, frame, &mut |frame| outlet.put(subject, frame), reporter).map(Some)
+    compare(reference, (subject, frame), outlet, reporter).map(Some)
 }
 
 /// Compares an image; one that differs is written, and where it differs beside it.
 fn compare(
     reference: &Reference,
-    frame: &Frame,
-    put: &mut dyn FnMut(&Frame) -> Result<Option<PathBuf>, Failure>,
+    (subject, frame): (Subject<'_>, &Frame),
+    outlet: &mut Outlet<'_>,
     reporter: Reporter,
 ) -> Result<f64, Failure> {
     let wanted = load_image(&reference.file, &Limits::default()).map_err(Failure::work)?;
@@ -161,7 +160,7 @@ fn compare(
     let difference = match compare_images(&drawn, &wanted) {
         Ok(difference) => difference,
         Err(sizes) => {
-            put(frame)?;
+            outlet.put(subject, frame)?;
             return Err(Failure::Mismatch(format!("{name}: {sizes}")));
         }
     };
@@ -173,8 +172,9 @@ fn compare(
         return Ok(error);
     }
     let RgbaImage { width, height, rgba } = difference.image;
-    if let Some(path) = put(frame)? {
+    if let Some(path) = outlet.put(subject, frame)? {
         let path = path.with_extension("diff.png");
+        outlet.inputs.refuse(&path)?;
         write_file(&path, &Frame { width, height, color: rgba, ..Frame::default() })?;
         reporter.info(format_args!("wrote {} (where they differ)", path.display()));
     }

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::args::Request;
 use crate::facts::ModelFacts;
+use crate::failure::Failure;
 use crate::loading;
 use crate::report::Reporter;
 use crate::source::Source;
@@ -26,11 +27,16 @@ pub(crate) fn backends(reporter: Reporter) -> u8 {
     print_lines([format!("cpu: available, with {} (--simd)", levels.join(", "))], reporter)
 }
 
-/// One JSON object on a line of standard output.
+/// One JSON object on a line of standard output; returns the exit code.
 pub(crate) fn json_line(facts: &impl Serialize, reporter: Reporter) -> u8 {
+    exit_code(write_json(facts), reporter)
+}
+
+/// One JSON object on a line of standard output.
+pub(crate) fn write_json(facts: &impl Serialize) -> Result<(), Failure> {
     let mut stdout = io::BufWriter::new(io::stdout().lock());
     let written = serde_json::to_writer(&mut stdout, facts).map_err(io::Error::from);
-    exit_code(written.and_then(|()| writeln!(stdout)).and_then(|()| stdout.flush()), reporter)
+    told(written.and_then(|()| writeln!(stdout)).and_then(|()| stdout.flush()))
 }
 
 /// `--no-render`: what is in each file.
@@ -52,21 +58,35 @@ pub(crate) fn inspect(request: &Request, reporter: Reporter) -> u8 {
     unread.max(unwritten)
 }
 
-/// Writes lines to standard output; whoever closes it early wanted no more.
+/// Writes lines to standard output; returns the exit code.
 pub(crate) fn print_lines(lines: impl IntoIterator<Item = String>, reporter: Reporter) -> u8 {
-    let mut stdout = io::stdout().lock();
-    exit_code(lines.into_iter().try_for_each(|line| writeln!(stdout, "{line}")), reporter)
+    exit_code(write_lines(lines), reporter)
 }
 
-fn exit_code(written: io::Result<()>, reporter: Reporter) -> u8 {
+/// Writes lines to standard output.
+pub(crate) fn write_lines(lines: impl IntoIterator<Item = String>) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    let written = lines.into_iter().try_for_each(|line| writeln!(stdout, "{line}"));
+    // What is left in the buffer would be written at the end of the program, where nobody is told of an error.
+    told(written.and_then(|()| stdout.flush()))
+}
+
+/// Why standard output was not written; whoever closes it early wanted no more.
+fn told(written: io::Result<()>) -> Result<(), Failure> {
+    match written {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::work(format!(
+            "standard output cannot be written ({error}); check that its destination is writable and has room"
+        ))),
+        _ => Ok(()),
+    }
+}
+
+fn exit_code(written: Result<(), Failure>, reporter: Reporter) -> u8 {
     match written {
         Ok(()) => 0,
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
-        Err(error) => {
-            reporter.error(format_args!(
-                "standard output cannot be written ({error}); check that its destination is writable and has room"
-            ));
-            1
+        Err(failure) => {
+            reporter.error(&failure);
+            failure.exit_code()
         }
     }
 }

@@ -48,6 +48,13 @@ pub(crate) struct Textures {
     pub(crate) normal: Option<PathBuf>,
 }
 
+impl Textures {
+    /// Those that are named.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.base_color, &self.material, &self.emissive, &self.normal].into_iter().flatten()
+    }
+}
+
 /// What happens to faces seen from behind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Backfaces {

@@ -15,6 +15,7 @@ mod failure;
 mod folders;
 mod framing;
 mod image;
+mod inputs;
 mod ladder;
 mod lettering;
 mod lists;
@@ -41,11 +42,18 @@ use std::process::ExitCode;
 use clap::CommandFactory;
 
 use crate::args::{Command, CommandLine, HelpLength, Mode, RawArgs, Request};
-use crate::report::Reporter;
+use crate::report::{Level, Reporter};
 
 fn main() -> ExitCode {
-    let line = CommandLine::new(std::env::args_os().skip(1)).unwrap_or_else(|error| error.exit());
-    let raw = line.raw(None).unwrap_or_else(|error| error.exit());
+    if let Err(error) = trigon_io::end_on_signals() {
+        Reporter::new(Level::Warning)
+            .warning(format_args!("temporary files may stay when this program is interrupted ({error})"));
+    }
+    let read = CommandLine::new(std::env::args_os().skip(1)).and_then(|line| Ok((line.raw(None)?, line)));
+    let (raw, line) = match read {
+        Ok(read) => read,
+        Err(answer) => return ExitCode::from(said_by_clap(&answer)),
+    };
     if let Some(Command::Study(arguments)) = &raw.command {
         return ExitCode::from(study::run(arguments, Reporter::new(raw.verbose)));
     }
@@ -53,8 +61,10 @@ fn main() -> ExitCode {
         return ExitCode::from(help(length, Reporter::new(raw.verbose)));
     }
     let file = raw.files.iter().chain(&raw.input).next();
-    let request = Request::from_line(&line, file.map(PathBuf::as_path));
-    let mut request = request.unwrap_or_else(|error| error.exit());
+    let mut request = match Request::from_line(&line, file.map(PathBuf::as_path)) {
+        Ok(request) => request,
+        Err(mistake) => return ExitCode::from(said_by_clap(&mistake)),
+    };
     let reporter = Reporter::new(request.level);
     for warning in &request.ignored {
         reporter.warning(warning);
@@ -79,6 +89,17 @@ fn main() -> ExitCode {
         Mode::ListBindings => list_bindings(&request, reporter),
         Mode::ListBackends => lists::backends(reporter),
     })
+}
+
+/// A mistake on standard error, or the version on standard output; returns the exit code.
+fn said_by_clap(answer: &clap::Error) -> u8 {
+    if answer.use_stderr() {
+        // Nobody listens on a closed standard error.
+        let _ = answer.print();
+        return answer.exit_code() as u8;
+    }
+    let text = answer.render().to_string();
+    lists::print_lines(text.lines().map(str::to_owned), Reporter::new(Level::Error))
 }
 
 /// The help on standard output.

@@ -10,8 +10,9 @@ use trigon_io::{
 };
 use trigon_scene::Frame;
 
-use crate::args::{Beside, Destination, Format, Subject};
+use crate::args::{Beside, Destination, Format, Request, Subject};
 use crate::failure::Failure;
+use crate::inputs::Inputs;
 use crate::report::Reporter;
 
 /// Where finished images go.
@@ -19,14 +20,18 @@ pub(crate) struct Outlet<'a> {
     output: Option<&'a Destination>,
     pub(crate) beside: &'a [Beside],
     taken: HashSet<PathBuf>,
+    /// What must not be overwritten.
+    pub(crate) inputs: Inputs,
     /// All files that were written, in their order.
     pub(crate) written: Vec<PathBuf>,
     reporter: Reporter,
 }
 
 impl<'a> Outlet<'a> {
-    pub(crate) fn new(output: Option<&'a Destination>, reporter: Reporter) -> Self {
-        Self { output, beside: &[], taken: HashSet::new(), written: Vec::new(), reporter }
+    /// Of what a request reads, nothing is overwritten.
+    pub(crate) fn new(output: Option<&'a Destination>, request: &Request, reporter: Reporter) -> Self {
+        let inputs = Inputs::of(request);
+        Self { output, beside: &[], taken: HashSet::new(), inputs, written: Vec::new(), reporter }
     }
 
     /// Bytes of an image would only garble a terminal.
@@ -116,6 +121,7 @@ impl<'a> Outlet<'a> {
     }
 
     fn take(&mut self, path: &Path) -> Result<(), Failure> {
+        self.inputs.refuse(path)?;
         if self.taken.insert(path.to_owned()) {
             return Ok(());
         }

@@ -27,7 +27,7 @@ fn replay(
     request: &Request,
     reporter: Reporter,
 ) -> Result<(), Failure> {
-    let mut outlet = Outlet::new(output, reporter);
+    let mut outlet = Outlet::new(output, request, reporter);
     outlet.refuse_terminal()?;
     let capture = Capture::read(path, &Limits::default()).map_err(Failure::work)?;
     let RenderSettings { threads, simd, .. } = request.settings;

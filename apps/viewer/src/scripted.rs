@@ -7,7 +7,7 @@ use crate::args::{CommandLine, Destination, Mode, Request, Step, Template, plain
 use crate::facts::report_failure;
 use crate::failure::Failure;
 use crate::image;
-use crate::lists::print_lines;
+use crate::lists::write_lines;
 use crate::loading;
 use crate::outlet::Outlet;
 use crate::report::Reporter;
@@ -27,7 +27,7 @@ pub(crate) fn run(
     capture: Option<&Path>,
     reporter: Reporter,
 ) -> u8 {
-    let mut outlet = Outlet::new(output, reporter);
+    let mut outlet = Outlet::new(output, request, reporter);
     outlet.beside = &request.outputs;
     let done = done(request, &mut outlet, reporter).and_then(|session| {
         let request = session.request(reporter)?;
@@ -48,7 +48,7 @@ pub(crate) fn changed(request: &Request, reporter: Reporter) -> Result<Request, 
     if request.script.is_none() {
         return Ok(request.clone());
     }
-    let mut outlet = Outlet::new(None, reporter);
+    let mut outlet = Outlet::new(None, request, reporter);
     let session = done(request, &mut outlet, reporter)?;
     Ok(Request { script: None, ..session.request(reporter)? })
 }
@@ -115,7 +115,7 @@ impl Session {
         if matches!(&request.mode, Mode::Image { output: Some(Destination::Stdout), .. }) {
             lines.for_each(|line| reporter.info(line));
         } else {
-            print_lines(lines, reporter);
+            write_lines(lines)?;
         }
         Ok(())
     }
@@ -146,7 +146,8 @@ impl Session {
         let output = Destination::File(template);
         request.mode = Mode::Image { output: Some(output.clone()), capture: None };
         request.reference = None;
-        let mut own = Outlet::new(Some(&output), reporter);
+        let mut own = Outlet::new(Some(&output), &request, reporter);
+        own.inputs = outlet.inputs.clone();
         image::draw_source(session.source(), &request, None, &mut own, reporter)?;
         outlet.written.append(&mut own.written);
         Ok(())

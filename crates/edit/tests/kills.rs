@@ -56,12 +56,12 @@ impl Storage for Killing {
         self.step(|disk| disk.keep_permissions(old, new))
     }
 
-    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+    fn create(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
         if self.ends_here() {
-            self.disk.write(path, &bytes[..bytes.len() * self.eighths / 8])?;
+            self.disk.create(path, &bytes[..bytes.len() * self.eighths / 8])?;
             abort();
         }
-        self.disk.write(path, bytes)
+        self.disk.create(path, bytes)
     }
 
     fn append(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {

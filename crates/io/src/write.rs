@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::unfinished::{create_unfinished, forget_unfinished, unfinished_path};
+
 /// Why an image, an output, a capture or a model was not written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -82,7 +84,7 @@ pub enum WriteError {
 
 /// Runs `write` on a new file that takes the name `path` when all went well: `path` is the old file or the whole new
 /// one, also when the program or the machine stops meanwhile. Where it is a symbolic link, the file that this leads to is
-/// replaced, and the link stays.
+/// replaced, and the link stays. What is no file, such as `/dev/null` or a named pipe, is written to.
 ///
 /// # Errors
 /// When the old file is write-protected, the folder is missing, not writable or full, or `write` fails. The old file
@@ -92,8 +94,12 @@ pub fn write_atomically(
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), WriteError> {
     let target = followed(path);
-    let replaced = refuse_protected(&target).and_then(|()| replace(&target, write));
-    replaced.map_err(|source| WriteError::File { path: path.to_owned(), source })
+    let done = if is_passage(path) {
+        pass(path, write)
+    } else {
+        refuse_protected(&target).and_then(|()| replace(&target, write))
+    };
+    done.map_err(|source| WriteError::File { path: path.to_owned(), source })
 }
 
 /// Where a link leads, also if nothing is there yet.
@@ -120,19 +126,51 @@ fn refuse_protected(path: &Path) -> io::Result<()> {
 
 fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".trigon-").suffix(".part");
-    // Temporary files are private by default; an image gets the permissions of any new file.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let temporary = builder.tempfile_in(folder)?;
-    let mut writer = BufWriter::new(temporary.as_file());
-    write(&mut writer)?;
-    writer.flush()?;
-    drop(writer);
-    temporary.as_file().sync_all()?;
-    temporary.persist(path).map_err(|error| error.error)?;
+    let new = NewFile::beside(path)?;
+    written(&new.file, write)?;
+    new.file.sync_all()?;
+    new.take_place_of(path)?;
     sync_folder(folder)
+}
+
+/// A temporary file that is removed again unless it gets its name.
+struct NewFile {
+    file: fs::File,
+    path: PathBuf,
+}
+
+impl NewFile {
+    fn beside(path: &Path) -> io::Result<Self> {
+        let path = unfinished_path(path);
+        Ok(Self { file: create_unfinished(&path)?, path })
+    }
+
+    fn take_place_of(&self, path: &Path) -> io::Result<()> {
+        fs::rename(&self.path, path)
+    }
+}
+
+impl Drop for NewFile {
+    fn drop(&mut self) {
+        // There is none where it has got its name.
+        let _ = fs::remove_file(&self.path);
+        forget_unfinished(&self.path);
+    }
+}
+
+fn written(file: &fs::File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut writer = BufWriter::new(file);
+    write(&mut writer)?;
+    writer.flush()
+}
+
+/// A device or a pipe, such as `/dev/null`, stays what it is: the contents go through it.
+fn is_passage(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir())
+}
+
+fn pass(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    written(&fs::OpenOptions::new().write(true).open(path)?, write)
 }
 
 /// Makes the new name durable, if the system can.
@@ -169,6 +207,23 @@ mod tests {
             "{refused}"
         );
         assert_eq!(fs::read(&path).expect("a file"), b"old", "untouched");
+    }
+
+    /// Everything that writes a file goes this way, and must tell that the device is full.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn devices_stay_devices_and_a_full_one_is_an_error() {
+        let full = write_atomically(Path::new("/dev/full"), |file| file.write_all(b"new"));
+        let message = full.expect_err("nothing fits").to_string();
+        assert!(message.starts_with("/dev/full: cannot be written (No space left on device"), "{message}");
+        write_atomically(Path::new("/dev/null"), |file| file.write_all(b"new")).expect("it takes everything");
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        let link = dir.path().join("a.png");
+        std::os::unix::fs::symlink("/dev/null", &link).expect("a link");
+        write_atomically(&link, |file| file.write_all(b"new")).expect("through a link");
+        for device in [Path::new("/dev/full"), Path::new("/dev/null"), &link] {
+            assert!(!fs::metadata(device).expect("there").is_file(), "{} is what it was", device.display());
+        }
     }
 
     #[cfg(unix)]

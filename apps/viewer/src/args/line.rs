@@ -2,7 +2,7 @@
 //! and the changes that a command script made since.
 
 use std::ffi::{OsStr, OsString};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::error::{ContextKind, ErrorKind};
 use clap::parser::ValueSource;
@@ -24,6 +24,8 @@ pub(crate) struct CommandLine {
     /// Without the program's name.
     typed: Vec<OsString>,
     config: Config,
+    /// The state file, if one was named.
+    state: Option<PathBuf>,
     /// Later ones override earlier ones.
     edits: Vec<String>,
 }
@@ -46,7 +48,7 @@ impl CommandLine {
                 let in_file = |error: clap::Error| conflict(format!("{}: {}", file.display(), plain(&error)));
                 parsed(words_after_name(&typed)).map_err(in_file)?;
                 typed.extend(line.typed);
-                Self { typed, ..Self::default() }
+                Self { typed, state: Some(file.clone()), ..Self::default() }
             }
         };
         if raw.command.is_some() || raw.no_config == Some(true) {
@@ -73,6 +75,11 @@ impl CommandLine {
     #[cfg(feature = "window")]
     pub(crate) fn bindings(&self, file: Option<&Path>) -> Vec<KeyBinding> {
         self.config.bindings(file)
+    }
+
+    /// The configuration and state files that it was read from.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.config.files.iter().chain(&self.state)
     }
 
     /// Whether files may have different flags.

@@ -100,7 +100,6 @@ pub(crate) struct Request {
     /// The time budget.
     pub(crate) limit: Option<Limit>,
     /// Options of the window.
-    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
     pub(crate) window: WindowArgs,
     /// Whether the window shows the frame time.
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]

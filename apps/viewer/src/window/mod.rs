@@ -31,6 +31,7 @@ use trigon_window::{Application, Interaction, Refinement, Stage, Visibility, Win
 use crate::args::Request;
 use crate::compare;
 use crate::failure::Failure;
+use crate::inputs::Inputs;
 use crate::report::Reporter;
 use crate::scripted;
 use crate::source::Source;
@@ -106,9 +107,12 @@ fn interactions(
         application.play(Interaction::from_text(&text).map_err(|error| named(file, &error))?);
     }
     if let Some(file) = request.window.interaction_record.clone() {
+        Inputs::of(request).refuse(&file)?;
         application.record(move |interaction| {
-            if let Err(error) = std::fs::write(&file, interaction.to_text()) {
-                reporter.error(named(&file, &error));
+            let text = interaction.to_text();
+            let written = trigon_io::write_atomically(&file, |file| file.write_all(text.as_bytes()));
+            if let Err(error) = written {
+                reporter.error(error);
             }
         });
     }

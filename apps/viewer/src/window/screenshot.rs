@@ -8,16 +8,22 @@ use trigon_scene::Frame;
 
 use crate::args::{Subject, Template};
 use crate::failure::Failure;
+use crate::inputs::Inputs;
 use crate::outlet::write_file;
 
 /// Writes a screenshot of a model (`None` for the built-in scene) under a name
 /// that is not in use, and returns the name.
-pub(super) fn save(frame: &Frame, template: &Template, model: Option<&Path>) -> Result<PathBuf, Failure> {
+pub(super) fn save(
+    frame: &Frame,
+    (template, model): (&Template, Option<&Path>),
+    inputs: &Inputs,
+) -> Result<PathBuf, Failure> {
     let path = template.unused_in(&folder(), Subject { model, frame: 0 });
     if let Some(folder) = path.parent() {
         // What fails here is said when the file is written.
         let _ = fs::create_dir_all(folder);
     }
+    inputs.refuse(&path)?;
     write_file(&path, frame)?;
     Ok(path)
 }

@@ -34,6 +34,7 @@ use super::watch::Watch;
 use crate::args::{Request, Template};
 use crate::failure::Failure;
 use crate::image;
+use crate::inputs::Inputs;
 use crate::model::{Model, Summary};
 use crate::report::Reporter;
 use crate::source::Source;
@@ -57,6 +58,8 @@ struct Shown {
     summary: Option<Summary>,
     /// What is in the scene and not in the file.
     scenery: Vec<NodeId>,
+    /// What was read for it, and must not be overwritten.
+    inputs: Inputs,
 }
 
 impl Shown {
@@ -396,7 +399,10 @@ impl Handler for Viewer {
     fn image(&mut self, stage: &mut Stage, frame: Frame) {
         let model = self.shown.as_ref().and_then(|shown| shown.source.first_file());
         let name = self.shots.pop_front().unwrap_or_else(|| self.request.screenshot.clone());
-        let saved = self.with_overlay(stage, frame).and_then(|frame| screenshot::save(&frame, &name, model));
+        let inputs = self.inputs();
+        let saved = self
+            .with_overlay(stage, frame)
+            .and_then(|frame| screenshot::save(&frame, (&name, model), &inputs));
         match saved {
             Ok(path) => {
                 let path = std::path::absolute(&path).unwrap_or(path);

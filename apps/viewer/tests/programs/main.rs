@@ -4,7 +4,7 @@
 mod comparing;
 mod facts;
 mod moments;
-mod up;
+mod outputs;
 
 use std::fs;
 use std::path::{Path, PathBuf};

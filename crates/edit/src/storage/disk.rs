@@ -4,6 +4,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use trigon_io::{create_unfinished, forget_unfinished, link_unfinished};
+
 use super::Storage;
 
 /// Files of the operating system.
@@ -32,15 +34,22 @@ impl Storage for Disk {
     }
 
     fn keep_permissions(&mut self, old: &Path, new: &Path) -> io::Result<()> {
-        let permissions = fs::metadata(old)?.permissions();
+        let metadata = fs::metadata(old)?;
+        if !metadata.is_file() {
+            return Err(io::Error::new(
+                io::ErrorKind::InvalidInput,
+                "it is a device or a folder, and no file",
+            ));
+        }
+        let permissions = metadata.permissions();
         if permissions.readonly() {
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is read-only"));
         }
         fs::set_permissions(new, permissions)
     }
 
-    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        fs::write(path, bytes)
+    fn create(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        create_unfinished(path)?.write_all(bytes)
     }
 
     fn append(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
@@ -53,15 +62,19 @@ impl Storage for Disk {
     }
 
     fn link(&mut self, from: &Path, to: &Path) -> io::Result<()> {
-        fs::hard_link(from, to)
+        link_unfinished(from, to)
     }
 
     fn rename(&mut self, from: &Path, to: &Path) -> io::Result<()> {
-        fs::rename(from, to)
+        fs::rename(from, to)?;
+        forget_unfinished(from);
+        Ok(())
     }
 
     fn remove(&mut self, path: &Path) -> io::Result<()> {
-        fs::remove_file(path)
+        fs::remove_file(path)?;
+        forget_unfinished(path);
+        Ok(())
     }
 
     fn sync_folder(&mut self, folder: &Path) -> io::Result<()> {

@@ -80,7 +80,10 @@ impl Storage for FailingDisk {
         self.files().contains_key(path)
     }
 
-    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+    fn create(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        if self.exists(path) {
+            return Err(io::ErrorKind::AlreadyExists.into());
+        }
         self.step(Step::Write { path: path.into(), bytes: bytes.into(), appends: false })
     }
 

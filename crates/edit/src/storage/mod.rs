@@ -40,11 +40,12 @@ pub trait Storage {
         Ok(())
     }
 
-    /// Writes a file, replacing its contents.
+    /// Writes a new file under a temporary name. Until it is [renamed](Storage::rename) or [removed](Storage::remove),
+    /// it is also removed if the program is told to end.
     ///
     /// # Errors
-    /// An error of the operating system. The file may then be incomplete.
-    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()>;
+    /// There is a file of that name, or a link, or an error of the operating system. The file may then be incomplete.
+    fn create(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()>;
 
     /// Appends to a file, which is created if it does not exist.
     ///
@@ -58,7 +59,7 @@ pub trait Storage {
     /// An error of the operating system.
     fn sync(&mut self, path: &Path) -> io::Result<()>;
 
-    /// Gives a file a second name, which must not exist.
+    /// Gives a file a second name, which must not exist and is temporary, as that of a [created](Storage::create) file.
     ///
     /// # Errors
     /// An error of the operating system; some file systems cannot do this.

@@ -10,6 +10,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
+use trigon_io::unfinished_path;
 
 use super::Storage;
 
@@ -88,8 +89,8 @@ fn failed(path: &Path, step: &'static str) -> impl FnOnce(io::Error) -> SaveErro
 
 /// Writes and syncs a file next to the one that it will replace.
 fn write_new(storage: &mut dyn Storage, path: &Path, bytes: &[u8]) -> Result<PathBuf, SaveError> {
-    let new = part_path(path, "new");
-    let written = storage.write(&new, bytes).and_then(|()| storage.sync(&new));
+    let new = unfinished_path(path);
+    let written = storage.create(&new, bytes).and_then(|()| storage.sync(&new));
     remove_on_failure(storage, &new, written).map_err(failed(path, "writing the new file"))?;
     Ok(new)
 }
@@ -106,23 +107,17 @@ fn give_name(storage: &mut dyn Storage, new: &Path, path: &Path) -> Result<(), S
 }
 
 fn keep_backup(storage: &mut dyn Storage, target: &Path) -> io::Result<()> {
-    let part = part_path(target, "old");
-    if storage.exists(&part) {
-        // Left over from an interrupted save.
-        storage.remove(&part)?;
-    }
+    let part = unfinished_path(target);
     if storage.link(target, &part).is_err() {
         // On file systems without hard links a copy takes longer, but is just as good.
         let old = storage.read(target)?;
-        storage.write(&part, &old)?;
-        storage.sync(&part)?;
+        let copied = storage.create(&part, &old).and_then(|()| storage.sync(&part));
+        remove_on_failure(storage, &part, copied)?;
     }
-    storage.rename(&part, &backup_path(target))
-}
-
-/// A name in the same folder that no other process of ours uses.
-fn part_path(path: &Path, what: &str) -> PathBuf {
-    with_suffix(path, &format!(".{what}-{}.part", std::process::id()))
+    let renamed = storage.rename(&part, &backup_path(target));
+    remove_on_failure(storage, &part, renamed)?;
+    // Where the backup is this very file already, after a save that failed later, renaming does nothing.
+    if storage.exists(&part) { storage.remove(&part) } else { Ok(()) }
 }
 
 fn with_suffix(path: &Path, suffix: &str) -> PathBuf {

@@ -23,10 +23,10 @@ impl Storage for GatedDisk {
         Disk.exists(path)
     }
 
-    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+    fn create(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
         let let_through = self.0.lock().expect("no save panics").recv();
         let_through.map_err(io::Error::other)?;
-        Disk.write(path, bytes)
+        Disk.create(path, bytes)
     }
 
     fn append(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {

@@ -10,6 +10,7 @@ use super::{Pending, Shown, View, Viewer};
 use crate::args::InteractionStyle;
 use crate::failure::Failure;
 use crate::folders;
+use crate::inputs::Inputs;
 use crate::model::Model;
 use crate::source::Source;
 use crate::window::background::{Loading, Outcome};
@@ -91,11 +92,19 @@ impl Viewer {
             self.recent.add(file);
         }
         let is_other = self.shown.as_ref().is_none_or(|shown| shown.source != model.source);
-        self.shown = Some(Shown { source: model.source, index: self.current, summary: None, scenery });
+        let mut inputs = Inputs::default();
+        inputs.add(&model.files);
+        self.shown =
+            Some(Shown { source: model.source, index: self.current, summary: None, scenery, inputs });
         if is_other && self.sources.len() > 1 && !self.show_name {
             stage.overlay.notify(self.name());
         }
         Ok(())
+    }
+
+    /// What was read for the model that is shown.
+    pub(super) fn inputs(&self) -> Inputs {
+        self.shown.as_ref().map(|shown| shown.inputs.clone()).unwrap_or_default()
     }
 
     /// Watches the files that were read, if files are to be watched.

@@ -112,6 +112,7 @@ impl Viewer {
                 .files
                 .iter_mut()
                 .for_each(|file| *file = std::path::absolute(&*file).unwrap_or(file.clone()));
+            self.inputs().refuse(&path)?;
             state.write(&path).map_err(Failure::work)
         });
         match written {
