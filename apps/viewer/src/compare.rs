@@ -51,6 +51,10 @@ fn compared(
     let source = only_source(request)?;
     let mut model = loading::load_aloud(&source, request, reporter)?;
     let mut changed = loading::load_aloud(&Source::Files(vec![other.to_owned()]), request, reporter)?;
+    if changed.scene.turn_to(model.scene.up).is_some() {
+        let up = model.scene.up;
+        reporter.warning(format_args!("{} was turned: {up} is up in {}", other.display(), source.title()));
+    }
     outlet.inputs.add(model.files.iter().chain(&changed.files));
     let shot = model.shot_with(&changed.scene, &request.framing, request.settings.aspect())?;
     let mut camera = shot.camera;

@@ -59,7 +59,7 @@ pub(crate) struct Model {
     pub(crate) scene_names: Vec<String>,
     /// All that were read for it: what to watch for changes.
     pub(crate) files: Vec<PathBuf>,
-    /// What is odd about the time at which it is shown, and about its light.
+    /// What is odd about how its files stand together, about the time at which it is shown, and about its light.
     pub(crate) odd: Vec<String>,
     bounds: Bounds3,
 }

@@ -73,14 +73,28 @@ impl Source {
     /// For titles and lists.
     pub(crate) fn title(&self) -> String {
         let Self::Files(files) = self else { return "built-in scene".to_owned() };
-        let name =
-            |file: &PathBuf| file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
         match files.as_slice() {
             [file] => name(file),
             [file, rest @ ..] => format!("{} and {} more", name(file), rest.len()),
             [] => String::new(),
         }
     }
+
+    /// The file that a message begins with, if it is one of several; else the title.
+    #[cfg(feature = "window")]
+    pub(crate) fn title_in(&self, message: &str) -> String {
+        let Self::Files(files) = self else { return self.title() };
+        let is_meant = |file: &&PathBuf| {
+            let rest = message.strip_prefix(&*file.to_string_lossy());
+            // Or it is that of another file whose name goes on.
+            rest.is_some_and(|rest| rest.starts_with([':', ',']))
+        };
+        files.iter().find(is_meant).map_or_else(|| self.title(), name)
+    }
+}
+
+fn name(file: &PathBuf) -> String {
+    file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned()
 }
 
 /// A name with a star for each group of an expression that is found in it.

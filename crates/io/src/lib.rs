@@ -80,7 +80,7 @@ pub use capture::{Capture, Mismatch, PixelMismatch};
 pub use compare::{ImageDifference, SizeMismatch, compare_images};
 pub use environment::load_environment;
 pub use error::{LoadError, LoadErrorKind, Place};
-pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport, UpAxis};
+pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport};
 pub use file_identity::FileIdentity;
 pub use format::{Format, Reader, Writer};
 pub use formats::gltf::{encode_glb, write_glb};
@@ -100,6 +100,8 @@ pub use png::{Pixels, encode_png, write_png};
 pub use rgba_image::{RgbaImage, load_image};
 pub use sequence::{Sequence, write_apng, write_gif};
 pub use signals::end_on_signals;
+/// Which way is up in a file.
+pub use trigon_camera::UpAxis;
 pub use unfinished::{create_unfinished, forget_unfinished, link_unfinished, unfinished_path};
 pub use warning::Warning;
 pub use write::{WriteError, write_atomically};

@@ -10,7 +10,6 @@ use trigon_scene::Frame;
 
 use crate::egui_painter::{ChannelOrder, EguiPainter};
 use crate::refinement;
-use crate::shown::source_pixel;
 use crate::worker::Redrawn;
 
 /// Shown before the first image: dark, so as not to dazzle.
@@ -30,8 +29,8 @@ pub(crate) struct Canvas {
 
 impl Canvas {
     /// Takes this size and puts the frame's colours under the interface; calls `changed` with each
-    /// part that differs from what was there. A frame of another size is stretched by repeating or
-    /// skipping pixels; transparent parts become black. Without a frame it is dark. If it is known in which parts the
+    /// part that differs from what was there. A frame of another size, as drafts are, is stretched bilinearly;
+    /// transparent parts become black. Without a frame it is dark. If it is known in which parts the
     /// frame may differ from the one that was there, only these are compared.
     pub(crate) fn show(
         &mut self,
@@ -59,7 +58,7 @@ impl Canvas {
                     .collect()
             }
             _ => {
-                let columns = frame.and_then(|frame| source_columns(frame, size[0]));
+                let columns = frame.and_then(|frame| source_columns(frame, size));
                 let rows = || Rows::new(frame.map(Arc::as_ref), size, columns.as_deref());
                 let bands = self.beneath.par_chunks_mut(band).enumerate();
                 bands.map(|(band, shown)| show_band(band * BAND, shown, rows())).collect()
@@ -157,41 +156,107 @@ fn differing(a: &[[u8; 4]], b: &[[u8; 4]]) -> Vec<Range<usize>> {
 struct Rows<'f> {
     frame: Option<&'f Frame>,
     size: [usize; 2],
-    /// See [`source_columns`].
-    columns: Option<&'f [usize]>,
-    /// The last row, and the frame's row that it shows.
+    /// For each column what it shows, if the frame has another width.
+    columns: Option<&'f [Blend]>,
+    /// The last row.
     row: Vec<[u8; 4]>,
-    source: Option<usize>,
+    /// The frame's rows around it, as wide as the image, with their numbers.
+    around: [Stretched; 2],
+}
+
+/// A row of a frame, as wide as an image.
+#[derive(Default)]
+struct Stretched {
+    number: Option<usize>,
+    /// As the frame has it, over black.
+    opaque: Vec<[u8; 4]>,
+    /// In 1/256 levels.
+    pixels: Vec<[u16; 4]>,
 }
 
 impl<'f> Rows<'f> {
-    fn new(frame: Option<&'f Frame>, size: [usize; 2], columns: Option<&'f [usize]>) -> Self {
-        Self { frame, size, columns, row: vec![EMPTY; size[0]], source: None }
+    fn new(frame: Option<&'f Frame>, size: [usize; 2], columns: Option<&'f [Blend]>) -> Self {
+        Self {
+            frame,
+            size,
+            columns,
+            row: vec![EMPTY; size[0]],
+            around: [(); 2].map(|()| Stretched::default()),
+        }
     }
 
     fn row(&mut self, y: usize) -> &[[u8; 4]] {
         let Some(frame) = self.frame else { return &self.row };
-        let source = source_pixel(y, self.size[1], frame.height as usize);
-        if self.source != Some(source) {
-            self.source = Some(source);
-            let across = frame.width as usize;
-            let from = &frame.color.as_chunks::<4>().0[source * across..][..across];
-            match self.columns {
-                None => over_black(from, &mut self.row),
-                Some(columns) => {
-                    let picked: Vec<[u8; 4]> = columns.iter().map(|&column| from[column]).collect();
-                    over_black(&picked, &mut self.row);
-                }
+        let width = frame.width as usize;
+        let source = |y: usize| &frame.color.as_chunks::<4>().0[y * width..][..width];
+        let Some(columns) = self.columns else {
+            over_black(source(y), &mut self.row);
+            return &self.row;
+        };
+        let Blend { pair, share } = Blend::at(y, self.size[1], frame.height as usize);
+        if self.around[0].number != Some(pair[0]) {
+            // Going down, the lower one mostly becomes the upper one.
+            self.around.swap(0, 1);
+        }
+        for (stretched, number) in self.around.iter_mut().zip(pair) {
+            if stretched.number != Some(number) {
+                stretched.fill(source(number), columns);
+                stretched.number = Some(number);
             }
         }
+        let [upper, lower] = &self.around;
+        blend_rows(&mut self.row, [&upper.pixels, &lower.pixels], share);
         &self.row
     }
 }
 
-/// The frame's column for each one of an image of some width, unless they are the same.
-fn source_columns(frame: &Frame, width: usize) -> Option<Vec<usize>> {
-    let across = frame.width as usize;
-    (across != width).then(|| (0..width).map(|x| source_pixel(x, width, across)).collect())
+impl Stretched {
+    fn fill(&mut self, source: &[[u8; 4]], columns: &[Blend]) {
+        let Self { opaque, pixels, .. } = self;
+        opaque.resize(source.len(), EMPTY);
+        over_black(source, opaque);
+        pixels.clear();
+        pixels.extend(columns.iter().map(|Blend { pair, share }| {
+            let [left, right] = pair.map(|column| opaque[column].map(u16::from));
+            std::array::from_fn(|channel| left[channel] * (256 - share) + right[channel] * share)
+        }));
+    }
+}
+
+/// A row between two others.
+fn blend_rows(row: &mut [[u8; 4]], [upper, lower]: [&[[u16; 4]]; 2], share: u16) {
+    let share = u32::from(share);
+    let channels = upper.as_flattened().iter().zip(lower.as_flattened());
+    for (to, (&upper, &lower)) in row.as_flattened_mut().iter_mut().zip(channels) {
+        let sum = u32::from(upper) * (256 - share) + u32::from(lower) * share;
+        *to = ((sum + (1 << 15)) >> 16) as u8;
+    }
+}
+
+/// Two neighbouring columns or rows of a frame, and how much of the second one a column or row of an image
+/// shows, in 1/256: the middles of pixels are interpolated, as an image between drafts should have no blocks. Only with
+/// integers, so that it has the same bytes everywhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Blend {
+    pair: [usize; 2],
+    share: u16,
+}
+
+impl Blend {
+    /// What one of `to` columns or rows shows of the `from` ones of a frame.
+    fn at(at: usize, to: usize, from: usize) -> Self {
+        // From the middle of the first pixel, in half pixels of the image.
+        let whole = 2 * to;
+        let place = ((2 * at + 1) * from).saturating_sub(to).min(whole * (from - 1));
+        let (first, rest) = (place / whole, place % whole);
+        Self { pair: [first, (first + 1).min(from - 1)], share: ((256 * rest + to) / whole) as u16 }
+    }
+}
+
+/// What each column of an image of some size shows of a frame, unless they are of one size.
+fn source_columns(frame: &Frame, size: [usize; 2]) -> Option<Vec<Blend>> {
+    let (across, down) = (frame.width as usize, frame.height as usize);
+    ([across, down] != size).then(|| (0..size[0]).map(|x| Blend::at(x, size[0], across)).collect())
 }
 
 /// From straight alpha to opaque pixels over black, as windows have them.
@@ -224,13 +289,52 @@ mod tests {
         canvas.pixels().to_vec()
     }
 
+    /// Drafts were enlarged to blocks.
     #[test]
-    fn a_smaller_frame_is_magnified() {
+    fn a_smaller_frame_is_magnified_smoothly() {
         let frame = frame(2, 1, vec![255, 0, 0, 255, 0, 0, 255, 255]);
         let [red, blue] = [[0, 0, 255, 255], [255, 0, 0, 255]];
-        let row = [red, red, blue, blue];
-        assert_eq!(shown(Some(&frame), [4, 2]), [row, row].concat(), "each pixel became four");
-        assert_eq!(shown(Some(&frame), [3, 1]).len(), 3, "a size that does not divide is no problem");
+        // The middles of the pixels lie at 1 and 3 of 4.
+        let row = [red, [64, 0, 191, 255], [191, 0, 64, 255], blue];
+        assert_eq!(shown(Some(&frame), [4, 2]), [row, row].concat(), "quarters of the way");
+        assert_eq!(shown(Some(&frame), [3, 1])[1], [128, 0, 128, 255], "a size that does not divide");
+    }
+
+    #[test]
+    fn every_pixel_of_a_stretched_frame_is_the_bilinear_mean_of_its_neighbours() {
+        let (width, height) = (7, 5);
+        let color: Vec<u8> =
+            (0..4 * width * height).map(|i| if i % 4 == 3 { 255 } else { (i * 67 % 256) as u8 }).collect();
+        let small = frame(width, height, color.clone());
+        for size in [[16, 11], [7, 9], [64, 5], [3, 2], [1, 1]] {
+            let found = shown(Some(&small), size);
+            let at = |pixel: u32, to: u32, from: u32| {
+                let place = (f64::from(pixel) + 0.5) * f64::from(from) / f64::from(to) - 0.5;
+                let place = place.clamp(0.0, f64::from(from - 1));
+                (place.floor() as usize, place.fract())
+            };
+            for y in 0..size[1] {
+                for x in 0..size[0] {
+                    let ((column, right), (row, below)) = (at(x, size[0], width), at(y, size[1], height));
+                    let value = |dx: usize, dy: usize, channel: usize| {
+                        let (x, y) =
+                            ((column + dx).min(width as usize - 1), (row + dy).min(height as usize - 1));
+                        f64::from(color[4 * (y * width as usize + x) + channel])
+                    };
+                    for channel in 0..3 {
+                        let upper = value(0, 0, channel) * (1.0 - right) + value(1, 0, channel) * right;
+                        let lower = value(0, 1, channel) * (1.0 - right) + value(1, 1, channel) * right;
+                        let expected = upper * (1.0 - below) + lower * below;
+                        // Shares are rounded to 1/256.
+                        let shown = f64::from(found[(y * size[0] + x) as usize][2 - channel]);
+                        assert!(
+                            (shown - expected).abs() < 1.6,
+                            "{shown} for {expected} at {x}, {y} of {size:?}"
+                        );
+                    }
+                }
+            }
+        }
     }
 
     #[test]

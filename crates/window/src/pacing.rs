@@ -22,7 +22,7 @@ use budget::Budget;
 const FRAME: Duration = Duration::from_micros(16_667);
 
 /// After this long without movement, the image is refined.
-const REST: Duration = Duration::from_millis(150);
+pub(crate) const REST: Duration = Duration::from_millis(150);
 
 /// If a full image takes longer than this, a draft comes first.
 const PATIENCE: Duration = Duration::from_millis(100);
@@ -276,10 +276,15 @@ impl Pacing {
         }
     }
 
+    /// Whether images follow one another.
+    pub(crate) fn is_moving(&self, now: Duration, animated: Frames) -> bool {
+        animated == Frames::Wanted || self.moved.is_some_and(|moved| now < moved + REST)
+    }
+
     /// A frame begins: the image to be begun for it, if any.
     pub(crate) fn begin(&mut self, now: Duration, animated: Frames) -> Option<Quality> {
         self.drawn = Some(now);
-        let moving = animated == Frames::Wanted || self.moved.is_some_and(|moved| now < moved + REST);
+        let moving = self.is_moving(now, animated);
         let draft = moving || (self.shown == Shown::Old && self.full.is_none_or(|full| full > PATIENCE));
         let quality = match self.shown {
             _ if self.under_way.is_some() || self.occupied.is_some() => return None,

@@ -136,6 +136,7 @@ pub struct Stage {
     viewport: Viewport,
     scale: f64,
     report: FrameReport,
+    is_moving: bool,
     quality_report: Option<QualityReport>,
     progress: Option<Progress>,
     /// How much of the image in progress is drawn, in percent, if it takes long.
@@ -197,6 +198,7 @@ impl Stage {
             viewport: DEFAULT_SIZE,
             scale: 1.0,
             report: FrameReport::default(),
+            is_moving: false,
             quality_report: None,
             progress: None,
             percent: None,
@@ -457,6 +459,15 @@ impl Stage {
     /// The image in the window was replaced.
     pub(crate) fn show(&mut self, shown: Option<Shown>) {
         self.shown = shown;
+    }
+
+    /// Whether images follow one another.
+    pub(crate) fn is_moving(&self) -> bool {
+        self.is_moving
+    }
+
+    pub(crate) fn set_moving(&mut self, is_moving: bool) {
+        self.is_moving = is_moving;
     }
 
     pub(crate) fn set_report(&mut self, report: FrameReport) {

@@ -104,7 +104,7 @@ pub(super) struct Viewer {
     /// Whether the environment lights the model only because a key has shown it as the background.
     is_lit_by_skybox: bool,
     /// What went wrong last, until it is dismissed or put right.
-    failure: Option<String>,
+    failure: Option<Unshown>,
     /// Whether it is asked if objects that were moved may go back.
     asks_to_load_again: bool,
     hint: Hint,
@@ -116,6 +116,13 @@ pub(super) struct Viewer {
     shots: VecDeque<Template>,
     /// If files are to be watched, and can be.
     watch: Option<Watch>,
+}
+
+/// A file that is not shown.
+#[derive(Debug, PartialEq)]
+struct Unshown {
+    name: String,
+    why: String,
 }
 
 impl Viewer {
@@ -168,7 +175,7 @@ impl Viewer {
         let percent = self.pending.as_ref().map(|pending| pending.loading.percent());
         let notices = Notices {
             loading: percent.map(|percent| (name.as_str(), percent)),
-            failure: self.failure.as_deref().map(|failure| (name.as_str(), failure)),
+            failure: self.failure.as_ref().map(|unshown| (unshown.name.as_str(), unshown.why.as_str())),
             moved: self.asks_to_load_again.then(|| stage.moved_nodes().len()),
             is_empty: self.shown.is_none() && self.pending.is_none(),
         };
@@ -475,11 +482,27 @@ mod tests {
             let tick = Tick { time: Duration::from_secs(second), delta: Duration::from_secs(1) };
             viewer.frame(&mut stage, tick);
         }
-        assert!(viewer.failure.as_ref().is_some_and(|text| text.contains("gone.obj")), "a minute later");
+        assert!(
+            viewer.failure.as_ref().is_some_and(|unshown| unshown.why.contains("gone.obj")),
+            "a minute later"
+        );
         assert_eq!(press(&mut viewer, &mut stage, Key::Enter), Taken::No, "other keys leave it");
         assert_eq!(press(&mut viewer, &mut stage, Key::Escape), Taken::Yes, "it is closed");
         assert_eq!(viewer.failure, None, "and gone");
         assert_eq!(press(&mut viewer, &mut stage, Key::Escape), Taken::No, "then Escape is the window's");
+    }
+
+    #[test]
+    fn a_message_keeps_the_name_of_its_file_while_another_one_loads() {
+        let (mut viewer, mut stage) = (viewer("a.obj b.obj"), Stage::new("test"));
+        viewer.loaded(&mut stage, Err(Failure::work("a.obj: it is broken; mend it")), View::Fit);
+        viewer.step(&mut stage, 1, View::Fit);
+        assert_eq!(viewer.sources[viewer.current].title(), "b.obj", "the next one is loading");
+        assert_eq!(
+            viewer.failure.as_ref().map(|unshown| unshown.name.as_str()),
+            Some("a.obj"),
+            "the message's"
+        );
     }
 
     #[test]

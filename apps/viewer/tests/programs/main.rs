@@ -5,6 +5,7 @@ mod comparing;
 mod facts;
 mod moments;
 mod outputs;
+mod up;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -25,6 +25,7 @@ mod stl;
 mod texture;
 mod tobj_crate;
 mod unneeded;
+mod up;
 mod validator;
 mod wires;
 

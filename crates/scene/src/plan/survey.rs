@@ -196,13 +196,14 @@ impl<'a> Look<'a> {
                 seen_if(drawn.alpha_mode == AlphaMode::Blend, Invisible::Opaque)
             }
             Effect::Poses => absent_unless(shape.is_posed),
-            Effect::MetalSky => absent_unless(is_metal(drawn)),
+            Effect::MetalStudio => absent_unless(is_metal(drawn)),
             Effect::Reflection => absent_unless(is_traced(material, false)),
             Effect::Refraction => absent_unless(is_traced(material, true)),
             Effect::Masks | Effect::Transparency => Presence::Absent,
             // Those that depend on lights and settings, not on materials.
             Effect::Lamps
             | Effect::AmbientLight
+            | Effect::LightMeter
             | Effect::Environment
             | Effect::ShadowMaps
             | Effect::ShadowRays

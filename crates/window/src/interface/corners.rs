@@ -5,7 +5,7 @@ use std::time::Duration;
 use egui::{Align, Align2, Area, Color32, Context, Frame, Id, Layout, Order, RichText, vec2};
 
 use crate::overlay::Corner;
-use crate::pacing::Progress;
+use crate::pacing::{Progress, REST};
 use crate::stage::{FrameReport, Stage, Visibility};
 
 /// White on a dark backdrop is readable over any image.
@@ -24,7 +24,7 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: 
     let all = Corner::ALL.map(|corner| {
         let mut lines = stage.overlay.lines(corner).to_vec();
         match corner {
-            Corner::TopRight => lines.extend(times(stage)),
+            Corner::TopRight => lines.extend(times(context, stage)),
             Corner::BottomRight => lines.extend(stage.progress().map(|of| progress(of, stage.percent()))),
             Corner::BottomLeft => drop(lines.splice(..0, messages.iter().cloned())),
             _ => {}
@@ -147,11 +147,15 @@ fn progress(progress: Progress, percent: Option<u8>) -> String {
 }
 
 /// What the last frame took, as far as that is to be shown.
-fn times(stage: &Stage) -> Vec<String> {
+fn times(context: &Context, stage: &Stage) -> Vec<String> {
     let is_shown = |visibility| visibility == Visibility::Shown;
     let mut lines = Vec::new();
     if is_shown(stage.frame_time) || is_shown(stage.stage_times) {
-        lines.push(frame_time(stage.report()));
+        lines.push(frame_time(stage.report(), stage.is_moving()));
+        if stage.is_moving() {
+            // Then there is no rate any more.
+            context.request_repaint_after(REST);
+        }
     }
     if is_shown(stage.stage_times) {
         lines.extend(stage_times(stage.report()));
@@ -173,13 +177,14 @@ fn stage_times(FrameReport { stages, present, .. }: FrameReport) -> [String; 7] 
     .map(|(stage, time)| format!("{stage:10} {:8.2} ms", time.as_secs_f64() * 1e3))
 }
 
-/// "12.3 ms, 81 fps": the time of an image, and the corresponding rate.
-fn frame_time(report: FrameReport) -> String {
+/// "12.3 ms, 81 fps": the time of an image, and the corresponding rate while images follow one another.
+fn frame_time(report: FrameReport, is_moving: bool) -> String {
     let seconds = (report.render + report.present).as_secs_f64();
     if seconds <= 0.0 {
         return String::from("- ms");
     }
-    format!("{:.1} ms, {:.0} fps", seconds * 1e3, seconds.recip())
+    let time = format!("{:.1} ms", seconds * 1e3);
+    if is_moving { format!("{time}, {:.0} fps", seconds.recip()) } else { time }
 }
 
 #[cfg(test)]
@@ -213,9 +218,9 @@ mod tests {
     fn frame_time_reads_as_both_units() {
         let render = Duration::from_micros(10_000);
         let report = FrameReport { render, present: Duration::from_micros(2_500), ..FrameReport::default() };
-        let text = frame_time(report);
-        assert_eq!(text, "12.5 ms, 80 fps", "the whole frame counts");
-        assert_eq!(frame_time(FrameReport::default()), "- ms", "before the first frame");
+        assert_eq!(frame_time(report, true), "12.5 ms, 80 fps", "the whole frame counts");
+        assert_eq!(frame_time(report, false), "12.5 ms", "an image at rest has no rate");
+        assert_eq!(frame_time(FrameReport::default(), true), "- ms", "before the first frame");
     }
 
     /// Before anything is written it is decided by these widths what has to be wrapped.
@@ -246,7 +251,7 @@ mod tests {
         let told = |frame_time, stage_times| {
             let mut stage = Stage::new("test");
             (stage.frame_time, stage.stage_times) = (frame_time, stage_times);
-            times(&stage)
+            times(&Context::default(), &stage)
         };
         let (shown, hidden) = (Visibility::Shown, Visibility::Hidden);
         assert!(told(hidden, hidden).is_empty(), "nobody wants to know");

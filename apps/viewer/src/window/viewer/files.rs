@@ -6,7 +6,7 @@ use trigon_camera::{Orbit, OrbitStyle};
 use trigon_io::Warning;
 use trigon_window::Stage;
 
-use super::{Pending, Shown, View, Viewer};
+use super::{Pending, Shown, Unshown, View, Viewer};
 use crate::args::InteractionStyle;
 use crate::failure::Failure;
 use crate::folders;
@@ -53,7 +53,7 @@ impl Viewer {
             self.show(stage, model, view)
         });
         if let Err(failure) = shown {
-            self.tell_unshown(&failure);
+            self.tell_unshown(&self.sources[self.current].clone(), &failure);
         }
     }
 
@@ -130,7 +130,7 @@ impl Viewer {
         }
         let files = match folders::expanded(&files, false) {
             Ok(files) => files,
-            Err(reason) => return self.tell_unshown(&Failure::work(reason)),
+            Err(reason) => return self.tell_unshown(&Source::Files(files), &Failure::work(reason)),
         };
         let place = self.current + 1;
         if let Some(shown) = self.shown.as_mut().filter(|shown| shown.index >= place) {
@@ -204,10 +204,11 @@ impl Viewer {
         stage.overlay.notify(format!("error: {failure}"));
     }
 
-    /// A file could not be shown: that stays on the screen until another one is, or it is
+    /// A file of a source could not be shown: that stays on the screen until another one is, or it is
     /// closed.
-    pub(super) fn tell_unshown(&mut self, failure: &Failure) {
+    fn tell_unshown(&mut self, source: &Source, failure: &Failure) {
         self.reporter.error(failure);
-        self.failure = Some(failure.to_string());
+        let why = failure.to_string();
+        self.failure = Some(Unshown { name: source.title_in(&why), why });
     }
 }

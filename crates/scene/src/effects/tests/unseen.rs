@@ -372,7 +372,7 @@ fn any_settings() -> impl Strategy<Value = RenderSettings> {
             let effects = EffectSettings {
                 shadows: [Shadows::Off, Shadows::Rays, Shadows::Maps { resolution: 32 }][shadows],
                 environment: environment.then(|| Arc::new(Environment::uniform(Vec3::ONE))),
-                exposure: if tones { 0.5 } else { 0.0 },
+                exposure: Exposure::Stops(if tones { 0.5 } else { 0.0 }),
                 bounces,
                 ..EffectSettings::default()
             };

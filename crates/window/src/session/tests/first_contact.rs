@@ -25,6 +25,20 @@ fn a_click_with_the_right_button_opens_the_menu_and_a_drag_zooms() {
     assert!(session.interface.wants_keyboard(), "arrows choose from it");
 }
 
+/// It said "2 fps" of an image that took half a second and was not followed by another one.
+#[test]
+fn a_picture_at_rest_has_no_rate() {
+    let mut handler = Recorder::default();
+    let mut session = begun(&mut handler);
+    session.stage.frame_time = Visibility::Shown;
+    assert!(!session.stage.is_moving(), "nothing has moved yet");
+    drag(&mut session, PointerButton::Left, DVec2::new(20.0, 0.0), ms(1000));
+    draw(&mut session, ms(1010));
+    assert!(session.stage.is_moving(), "images follow one another");
+    run(&mut session, ms(1020));
+    assert!(!session.stage.is_moving(), "the time is written again once it rests");
+}
+
 #[test]
 fn the_menu_opens_by_keys_too() {
     for (modifiers, key) in [(Modifiers::NONE, Key::Menu), (Modifiers::SHIFT, Key::Function(10))] {

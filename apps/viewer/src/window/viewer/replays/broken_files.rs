@@ -139,6 +139,29 @@ fn a_file_that_is_deleted_while_it_is_open_stays_on_the_screen() {
     }
 }
 
+/// Under the name of another file that was loaded with it, or is current.
+#[test]
+fn the_headline_of_a_message_is_the_file_that_it_is_about() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = [("a.obj", OBJ), ("b.obj", "v 0")];
+    let files = files.map(|(name, contents)| written(folder.path(), name, contents));
+    let mut both = viewer("--multi-file-mode=all", &files);
+    let window = open(&mut both, SMALL);
+    assert!(
+        says(&window, "b.obj is not shown") && !says(&window, "a.obj and 1 more is"),
+        "{:?}",
+        said(&window)
+    );
+    drop(window);
+    let empty = folder.path().join("empty");
+    fs::create_dir(&empty).expect("a folder in it");
+    let mut viewer = viewer("", &files[..1]);
+    let mut window = open(&mut viewer, SMALL);
+    window.drop_files(&[empty]);
+    loaded(&mut window);
+    assert!(says(&window, "empty is not shown") && !says(&window, "a.obj is not"), "{:?}", said(&window));
+}
+
 #[test]
 fn title_counter_and_model_agree_beside_a_file_that_is_not_shown() {
     let folder = tempfile::tempdir().expect("a folder");
