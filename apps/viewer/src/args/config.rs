@@ -246,7 +246,7 @@ fn settings(options: &Map<String, Value>, warnings: &mut Vec<String>) -> Result<
         let value = text(value).ok_or_else(|| format!("{name} is {value}; write text, a number or true"))?;
         match names::flag(name) {
             Ok(flag) => {
-                settings.push(Setting { flag: flag.to_owned(), value, imperative, file: PathBuf::new() })
+                settings.push(Setting { flag: flag.to_owned(), value, imperative, file: PathBuf::new() });
             }
             Err(why) => warnings.push(format!("{why}; it is ignored")),
         }

@@ -131,7 +131,8 @@ fn the_camera_is_that_of_the_image() {
             let sides: Vec<f64> = (0..4)
                 .map(|i| {
                     let (a, b) = (corners[i], corners[(i + 1) % 4]);
-                    let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
+                    let (right, down) = (b[0] - a[0], b[1] - a[1]);
+                    let length = (right * right + down * down).sqrt();
                     ((b[0] - a[0]) * (center[1] - a[1]) - (b[1] - a[1]) * (center[0] - a[0])) / -length
                 })
                 .collect();

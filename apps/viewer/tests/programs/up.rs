@@ -4,9 +4,11 @@ use std::fs;
 
 use super::{Folder, image};
 
-/// The axes, and how a point of a world with +Y up is written where they are up: right stays right and front stays
-/// in front. The sides are those of F3D.
-const AXES: [(&str, fn([f64; 3]) -> [f64; 3]); 6] = [
+/// How a point of a world with +Y up is written where another axis is up.
+type Turn = fn([f64; 3]) -> [f64; 3];
+
+/// The axes, each with its turn: right stays right and front stays in front. The sides are those of F3D.
+const AXES: [(&str, Turn); 6] = [
     ("+X", |[x, y, z]| [y, x, -z]),
     ("-X", |[x, y, z]| [-y, x, z]),
     ("+Y", |[x, y, z]| [x, y, z]),
