@@ -62,7 +62,7 @@ fn drawn(folder: &Folder, flags: &str) -> Vec<u8> {
     image(&folder.path("o.png")).rgba
 }
 
-/// The picture of a turned part with its axis up has the bytes of the upright one: camera, sky in metals, grid,
+/// The picture of a turned part with its axis up has the bytes of the upright one: camera, studio in metals, grid,
 /// environment, what is behind the model, and rays.
 #[test]
 fn a_part_looks_the_same_whichever_axis_is_up() {

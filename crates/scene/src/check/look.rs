@@ -52,7 +52,7 @@ fn one(material: &Material, place: &str, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Metal shows only what it mirrors. Here that is a sky if there is nothing else, and polished metal is as good as any
+/// Metal shows only what it mirrors. Here that is a studio if there is nothing else, and polished metal is as good as any
 /// other material: a note.
 fn all_metal(scene: &Scene, seen: &BTreeSet<MaterialId>, findings: &mut Vec<Finding>) {
     let materials: Vec<&Material> = seen.iter().filter_map(|&id| scene.materials.get(id)).collect();

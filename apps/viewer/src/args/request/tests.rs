@@ -141,7 +141,7 @@ fn a_preset_says_what_no_other_flag_says() {
 }
 
 #[test]
-fn metals_mirror_the_sky_unless_told_otherwise() {
+fn metals_mirror_the_studio_unless_told_otherwise() {
     let asked = |flags: &str| request(flags).expect("fine").settings.effects.metal_reflection;
     assert_eq!(asked(""), MetalReflection::Studio, "usually");
     assert_eq!(asked("--metal-reflection=ambient"), MetalReflection::Ambient, "as asked");
