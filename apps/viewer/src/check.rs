@@ -9,12 +9,12 @@ use trigon_io::Warning;
 use trigon_scene::{Finding, Severity};
 
 use crate::args::{CheckPurpose, Request};
-use crate::facts::report_failure;
 use crate::failure::Failure;
-use crate::lists::{json_line, print_lines};
 use crate::loading;
 use crate::report::Reporter;
 use crate::source::Source;
+use crate::stdout::report_failure;
+use crate::stdout::{json_line, print_lines};
 
 /// One thing that is wrong.
 struct Fault {

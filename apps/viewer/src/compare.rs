@@ -7,13 +7,14 @@ use trigon_io::{ImageDifference, RgbaImage, compare_images};
 use trigon_scene::{Frame, RenderSettings, Renderer, Scene};
 
 use crate::args::{Destination, Request, Subject};
-use crate::facts::{names, report_failure};
+use crate::facts::names;
 use crate::failure::Failure;
-use crate::lists::write_json;
 use crate::loading;
 use crate::outlet::Outlet;
 use crate::report::Reporter;
 use crate::source::Source;
+use crate::stdout::report_failure;
+use crate::stdout::write_json;
 
 /// Writes both models beside each other and beside a map of their differences; returns the exit code, 3 if there are
 /// any.

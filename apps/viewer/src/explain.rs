@@ -7,10 +7,10 @@ use trigon_scene::{EffectPlan, Frame, RenderSettings, Renderer, Scene};
 
 use crate::args::{Explanation, Request};
 use crate::failure::Failure;
-use crate::lists::write_lines;
 use crate::loading;
 use crate::report::Reporter;
 use crate::source::Source;
+use crate::stdout::write_lines;
 
 /// Images of which the quickest counts.
 const REPETITIONS: usize = 5;

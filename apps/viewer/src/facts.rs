@@ -1,20 +1,16 @@
 //! `--json`: one line for each input. What is in a model, by which camera it was drawn, and what was
-//! written; or why it failed.
+//! written. Why one failed is written by [`stdout`](crate::stdout).
 //!
 //! Nodes are written one by one as they are visited, so that a scene of a million nodes needs no copy.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::{Serialize, Serializer};
 use trigon_camera::{Camera, PixelCenters, Projection, Viewport};
 use trigon_math::{DAffine3, DMat4};
 use trigon_scene::{AlphaMode, LightReading, Material, MaterialId, Node, NodeId, Scene};
 
-use crate::failure::Failure;
-use crate::lists::json_line;
 use crate::model::{Model, Summary};
-use crate::report::Reporter;
-use crate::source::Source;
 
 /// What is in a model.
 #[derive(Serialize)]
@@ -240,27 +236,4 @@ pub(crate) struct DrawingFacts {
 /// Files as text.
 pub(crate) fn names(files: &[PathBuf]) -> Vec<String> {
     files.iter().map(|file| file.to_string_lossy().into_owned()).collect()
-}
-
-/// Why there is nothing about an input.
-#[derive(Serialize)]
-struct FailureFacts {
-    file: Option<String>,
-    failure: String,
-    exit_code: u8,
-}
-
-/// Reports a failure, with `as_json` also on a line of its own, so that there is one for each input. Returns
-/// the exit code.
-pub(crate) fn report_failure(source: &Source, failure: &Failure, as_json: bool, reporter: Reporter) -> u8 {
-    reporter.error(failure);
-    let exit_code = failure.exit_code();
-    exit_code.max(if as_json { write_failure(source.first_file(), failure, reporter) } else { 0 })
-}
-
-/// Writes the line of an input of which there is nothing to tell; returns the exit code of writing.
-pub(crate) fn write_failure(file: Option<&Path>, failure: &Failure, reporter: Reporter) -> u8 {
-    let file = file.map(|file| file.to_string_lossy().into_owned());
-    let facts = FailureFacts { file, failure: failure.to_string(), exit_code: failure.exit_code() };
-    json_line(&facts, reporter)
 }

@@ -14,13 +14,13 @@ use crate::facts::{CameraFacts, DrawingFacts, ImageFacts, ModelFacts, names};
 use crate::failure::Failure;
 use crate::framing::Shot;
 use crate::lettering::Lettering;
-use crate::lists::write_json;
 use crate::loading;
 use crate::model::Model;
 use crate::outlet::{Outlet, write_file};
 use crate::report::Reporter;
 use crate::series::Series;
 use crate::source::Source;
+use crate::stdout::write_json;
 
 /// Draws and writes an image of every source. A source that fails does not
 /// keep the others from being drawn; the worst exit code is returned.

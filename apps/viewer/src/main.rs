@@ -32,6 +32,7 @@ mod scripted;
 mod series;
 mod source;
 mod state;
+mod stdout;
 mod study;
 #[cfg(feature = "window")]
 mod window;
@@ -99,7 +100,7 @@ fn said_by_clap(answer: &clap::Error) -> u8 {
         return answer.exit_code() as u8;
     }
     let text = answer.render().to_string();
-    lists::print_lines(text.lines().map(str::to_owned), Reporter::new(Level::Error))
+    stdout::print_lines(text.lines().map(str::to_owned), Reporter::new(Level::Error))
 }
 
 /// The help on standard output.
@@ -109,13 +110,13 @@ fn help(length: HelpLength, reporter: Reporter) -> u8 {
         HelpLength::Short => args::short_help(&command),
         HelpLength::All => command.render_long_help().to_string(),
     };
-    lists::print_lines(text.lines().map(str::to_owned), reporter)
+    stdout::print_lines(text.lines().map(str::to_owned), reporter)
 }
 
 /// `--list-bindings`: the keys under their headings.
 #[cfg(feature = "window")]
 fn list_bindings(request: &Request, reporter: Reporter) -> u8 {
-    lists::print_lines(window::bindings(request, reporter), reporter)
+    stdout::print_lines(window::bindings(request, reporter), reporter)
 }
 
 #[cfg(not(feature = "window"))]

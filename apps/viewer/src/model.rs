@@ -9,11 +9,11 @@ use trigon_mesh::Mesh;
 use trigon_scene::{NodeId, Scene};
 
 use crate::args::{PlacedNode, Request};
-use crate::facts::{report_failure, write_failure};
 use crate::failure::Failure;
 use crate::framing::{Eye, Framing, Shot};
 use crate::report::Reporter;
 use crate::source::Source;
+use crate::stdout::{report_failure, write_failure};
 
 impl Source {
     /// What the command line names, in the order in which it is shown.

@@ -9,10 +9,10 @@ use trigon_scene::{
 
 use crate::args::Request;
 use crate::failure::Failure;
-use crate::lists::{json_line, print_lines};
 use crate::loading;
 use crate::report::Reporter;
 use crate::source::Source;
+use crate::stdout::{json_line, print_lines};
 
 /// `--explain-pixel`: explains a pixel of every source's image; returns the worst exit code.
 pub(crate) fn run(request: &Request, at: [u32; 2], reporter: Reporter) -> u8 {

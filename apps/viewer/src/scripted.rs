@@ -4,14 +4,14 @@ use std::fs;
 use std::path::Path;
 
 use crate::args::{CommandLine, Destination, Mode, Request, Step, Template, plain, steps};
-use crate::facts::report_failure;
 use crate::failure::Failure;
 use crate::image;
-use crate::lists::write_lines;
 use crate::loading;
 use crate::outlet::Outlet;
 use crate::report::Reporter;
 use crate::source::Source;
+use crate::stdout::report_failure;
+use crate::stdout::write_lines;
 
 /// Where a script is: what it has changed, and which files there are.
 struct Session {

@@ -38,6 +38,7 @@ mod pinhole;
 mod projection;
 mod projector;
 mod ray;
+mod unit;
 mod up_axis;
 mod view;
 mod viewport;

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use trigon_math::{DMat3, DVec3};
 
 use crate::CameraError;
-use crate::view::unit_or;
+use crate::unit::unit_or;
 
 /// The up axis of a world. It also decides which sides are right and front:
 ///

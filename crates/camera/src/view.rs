@@ -4,6 +4,7 @@
 use trigon_math::{DMat3, DQuat, DVec3};
 
 use crate::UpAxis;
+use crate::unit::unit_or;
 
 /// Below this sine of the angle between line of sight and up, up does not define the roll: its
 /// perpendicular part is mostly rounding.
@@ -30,14 +31,4 @@ pub fn orientation_looking(direction: DVec3, up: DVec3) -> DQuat {
     };
     let axes = DMat3::from_cols(right, back.cross(right), back);
     DQuat::from_mat3(&axes).normalize()
-}
-
-/// The vector with length 1, or `fallback` if it has no direction. Scaled first, so that lengths
-/// beyond 1e154 or below 1e-154 neither overflow nor vanish.
-pub(crate) fn unit_or(vector: DVec3, fallback: DVec3) -> DVec3 {
-    let largest = vector.abs().max_element();
-    if !vector.is_finite() || largest < f64::MIN_POSITIVE {
-        return fallback;
-    }
-    (vector / largest).normalize()
 }

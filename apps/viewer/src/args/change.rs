@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::line::CommandLine;
-use super::request::plain;
+use super::line::plain;
 use super::script::{STEPS, Step, Steps};
 use super::values;
 

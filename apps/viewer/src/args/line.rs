@@ -14,7 +14,6 @@ use trigon_io::Format;
 use super::config::KeyBinding;
 use super::config::{Config, Setting};
 use super::raw::RawArgs;
-use super::request::plain;
 use super::{names, words};
 use crate::state::State;
 
@@ -253,6 +252,13 @@ fn explained(error: clap::Error) -> clap::Error {
         Some(meant) => conflict(format!("there is no {unknown}; write {meant}")),
         None => error,
     }
+}
+
+/// clap's error message on one line.
+pub(crate) fn plain(error: &clap::Error) -> String {
+    let text = error.to_string();
+    let first = text.lines().next().unwrap_or_default();
+    first.trim_start_matches("error: ").to_owned()
 }
 
 fn conflict(message: impl std::fmt::Display) -> clap::Error {

@@ -33,14 +33,14 @@ pub(crate) use effects::Explanation;
 #[cfg(feature = "window")]
 pub(crate) use flags::{DECIDED, of_settings};
 pub(crate) use help::short as short_help;
-pub(crate) use line::CommandLine;
+pub(crate) use line::{CommandLine, plain};
 #[cfg(feature = "window")]
 pub(crate) use names::flag as flag_named;
 pub(crate) use output::{Destination, Subject, Template};
 pub(crate) use place::PlacedNode;
 pub(crate) use quality::Limit;
 pub(crate) use raw::{CheckPurpose, Command, HelpLength, RawArgs};
-pub(crate) use request::{Mode, Reference, Request, STDIN, plain};
+pub(crate) use request::{Mode, Reference, Request, STDIN};
 pub(crate) use script::{Step, steps};
 #[cfg(feature = "window")]
 pub(crate) use script::{split, step};

@@ -18,7 +18,7 @@ use self::checks::{check_frames, check_output, check_outputs, check_stdin};
 use super::animation::{AnimationArgs, AnimationProgress};
 use super::beside::Beside;
 use super::effects::Explanation;
-use super::line::CommandLine;
+use super::line::{CommandLine, plain};
 use super::material::PointSprites;
 use super::output::{Destination, Template};
 use super::place::PlacedNode;
@@ -278,13 +278,6 @@ impl Request {
             line: CommandLine::default(),
         })
     }
-}
-
-/// clap's error message on one line.
-pub(crate) fn plain(error: &clap::Error) -> String {
-    let text = error.to_string();
-    let first = text.lines().next().unwrap_or_default();
-    first.trim_start_matches("error: ").to_owned()
 }
 
 fn grouping(raw: &RawArgs) -> Grouping {

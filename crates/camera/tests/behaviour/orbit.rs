@@ -69,7 +69,7 @@ fn named_views_show_their_side_for_any_up() {
         (DVec3::Y, DVec3::X, DVec3::Z),
         (DVec3::Z, DVec3::X, DVec3::NEG_Y),
         (DVec3::NEG_Y, DVec3::X, DVec3::NEG_Z),
-        (DVec3::X, DVec3::NEG_Y, DVec3::Z),
+        (DVec3::X, DVec3::Y, DVec3::NEG_Z),
         (DVec3::NEG_Z, DVec3::X, DVec3::Y),
     ];
     for (up, right, front) in frames {

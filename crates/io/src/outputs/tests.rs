@@ -255,7 +255,7 @@ fn the_origin_of_positions_is_said_beside_and_in_files() {
     assert_eq!(numbers.collect::<Vec<_>>(), origin.to_array(), "to the bit");
     let mut bytes = Vec::new();
     encode_exr(&mut bytes, &frame).expect("memory takes it");
-    let said = b"P.origin\0string\0\x1a\0\0\x0010000000 -0.1 0.000000003";
+    let said = b"P.origin\0string\0\x19\0\0\x0010000000 -0.1 0.000000003";
     assert!(bytes.windows(said.len()).any(|window| window == said), "a text attribute");
     bytes.clear();
     encode_exr(&mut bytes, &Frame { positions: None, ..frame }).expect("memory takes it");

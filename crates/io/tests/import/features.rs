@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 use trigon_camera::{Camera, Projection};
 use trigon_math::{DVec3, Vec3, color};
 use trigon_scene::{
-    Background, Frame, Lighting, Material, MetallicRoughness, ParameterField, RenderSettings, Scene, Shading,
-    Texture, TextureBinding, TextureFormat, render,
+    Background, EffectSettings, Exposure, Frame, Lighting, Material, MetallicRoughness, ParameterField,
+    RenderSettings, Scene, Shading, Texture, TextureBinding, TextureFormat, render,
 };
 
 use crate::gltf::{Doc, push};
@@ -39,6 +39,8 @@ fn image(scene: &Scene, camera: &Camera, side: u32) -> Frame {
         samples_per_axis: 1,
         background: Background::Transparent,
         lighting: Lighting::Scene,
+        // Lamps as bright as the file has them.
+        effects: EffectSettings { exposure: Exposure::Stops(0.0), ..EffectSettings::default() },
         ..RenderSettings::new(side, side)
     };
     render(scene, camera, &settings).expect("the settings are in range")

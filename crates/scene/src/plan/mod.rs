@@ -202,7 +202,8 @@ fn light_meter(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     }
     check_lit(prepared, survey)?;
     if prepared.lights.lamps.iter().all(|lamp| lamp.node.is_none()) {
-        return Err(Absence::NoOwnLamp);
+        let is_far = prepared.lights.idle.out_of_reach > 0;
+        return Err(if is_far { Absence::Unreached } else { Absence::NoOwnLamp });
     }
     let scene = prepared.scene;
     match (scene.exposed_by(prepared.settings), scene.light_reading()) {

@@ -2,17 +2,25 @@
 
 use gltf::json::accessor::ComponentType;
 
+use super::Stream;
 use super::budget::Budget;
 use super::corners::NONE;
 use super::failure::Failure;
 use super::order::{Order, Visit, find_order};
 use super::prediction::{Neighbours, Positions, read_integers};
+use super::shape::Shape;
 use super::values::{Number, Values};
-use super::{DecodedAttribute, Shape, Stream};
 use crate::formats::gltf::broken::Broken;
 
 /// The kind of an attribute by which others are predicted.
 const POSITION: u8 = 0;
+
+/// A decoded attribute.
+pub(crate) struct DecodedAttribute {
+    /// The number by which the file refers to it.
+    pub(crate) id: u32,
+    pub(crate) values: Values,
+}
 
 /// Attributes that are stored in the same order.
 struct Group {

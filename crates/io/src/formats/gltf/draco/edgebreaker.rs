@@ -3,45 +3,16 @@
 
 use std::collections::HashMap;
 
+use super::Stream;
 use super::bits::Bits;
 use super::budget::Budget;
 use super::corners::{CornerTable, NONE, next, previous};
 use super::failure::Failure;
 use super::points::{Numbered, number_points};
 use super::seams::{read_seams, split_at_seams};
-use super::walk::{Symbol, Walk};
-use super::{Shape, Stream, Tables};
+use super::shape::{Shape, Tables};
+use super::walk::{Header, Symbol, Walk};
 use crate::formats::gltf::broken::Broken;
-
-/// The numbers before a walk.
-pub(super) struct Header {
-    /// How symbols are stored.
-    pub(super) walk_kind: u8,
-    faces: usize,
-    /// How many kinds of attributes have seams of their own.
-    pub(super) seam_kinds: u8,
-    symbols: u32,
-    /// The maximum number of vertices, with those that are merged on the way.
-    pub(super) most_vertices: usize,
-}
-
-impl Header {
-    fn read(stream: &mut Stream<'_>) -> Result<Self, Broken> {
-        let walk_kind = stream.byte()?;
-        let (vertices, faces) = (stream.varint()?, stream.varint()?);
-        let seam_kinds = stream.byte()?;
-        let (symbols, splits) = (stream.varint()?, stream.varint()?);
-        // Each part has at most one triangle without a symbol, and at least three with.
-        if faces < symbols || faces - symbols > symbols / 3 || splits > symbols {
-            return Err("its triangles are not as many as its walk has");
-        }
-        if faces > NONE / 3 || vertices > 3 * faces {
-            return Err("it has too many vertices");
-        }
-        let most_vertices = vertices as usize + splits as usize;
-        Ok(Self { walk_kind, faces: faces as usize, seam_kinds, symbols, most_vertices })
-    }
-}
 
 pub(super) fn read_triangles(stream: &mut Stream<'_>, budget: &mut Budget) -> Result<Shape, Failure> {
     let header = Header::read(stream)?;

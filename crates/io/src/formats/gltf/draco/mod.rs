@@ -27,15 +27,16 @@ mod prediction;
 mod rans;
 mod seams;
 mod sequential;
+mod shape;
 mod symbols;
 mod values;
 mod walk;
 
 use super::stream::Stream;
+pub(crate) use attributes::DecodedAttribute;
 pub(crate) use budget::Budget;
 pub(crate) use failure::Failure;
 use header::Method;
-pub(crate) use values::Values;
 
 /// A decoded mesh.
 pub(crate) struct DecodedMesh {
@@ -44,13 +45,6 @@ pub(crate) struct DecodedMesh {
     /// Three points each.
     pub(crate) triangles: Vec<u32>,
     pub(crate) attributes: Vec<DecodedAttribute>,
-}
-
-/// A decoded attribute.
-pub(crate) struct DecodedAttribute {
-    /// The number by which the file refers to it.
-    pub(crate) id: u32,
-    pub(crate) values: Values,
 }
 
 /// Decodes a mesh.
@@ -63,21 +57,6 @@ pub(crate) fn decode(bytes: &[u8], budget: &mut Budget) -> Result<DecodedMesh, F
     };
     let attributes = attributes::read_attributes(&mut stream, &shape, budget)?;
     Ok(DecodedMesh { points: shape.points, triangles: shape.triangles, attributes })
-}
-
-/// The triangles of a mesh, before its attributes are known.
-struct Shape {
-    points: usize,
-    /// Three points each.
-    triangles: Vec<u32>,
-    /// How the triangles hang together, if the stream says so.
-    tables: Option<Tables>,
-}
-
-/// The corners of a mesh: for positions, and for each kind of attribute with seams of its own.
-struct Tables {
-    positions: corners::CornerTable,
-    attributes: Vec<corners::CornerTable>,
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The points of a mesh: its vertices, split wherever any attribute has a seam.
 
-use super::Tables;
 use super::corners::{CornerTable, NONE};
+use super::shape::Tables;
 use crate::formats::gltf::broken::Broken;
 
 /// The triangles in points.

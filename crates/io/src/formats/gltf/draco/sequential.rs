@@ -1,9 +1,10 @@
 //! Triangles that are stored as indices.
 
+use super::Stream;
 use super::budget::Budget;
 use super::failure::Failure;
+use super::shape::Shape;
 use super::symbols::read_symbols;
-use super::{Shape, Stream};
 use crate::formats::gltf::broken::Broken;
 
 pub(super) fn read_triangles(stream: &mut Stream<'_>, budget: &mut Budget) -> Result<Shape, Failure> {

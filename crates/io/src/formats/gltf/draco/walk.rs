@@ -1,12 +1,12 @@
 //! The symbols of the walk over a surface: how each triangle joins those before it.
 
+use super::Stream;
 use super::bits::Bits;
 use super::budget::Budget;
-use super::corners::{CornerTable, next, previous};
+use super::corners::{CornerTable, NONE, next, previous};
 use super::failure::Failure;
 use super::rans::LikelyBits;
 use super::symbols::read_symbols;
-use super::{Stream, edgebreaker::Header};
 use crate::formats::gltf::broken::Broken;
 
 /// How a triangle joins those before it, as Rossignac's EdgeBreaker (1999) names the cases.
@@ -30,6 +30,36 @@ const NUMBERED: [Symbol; 5] = [Symbol::Close, Symbol::Split, Symbol::Left, Symbo
 /// How many neighbours of a vertex are told apart when the next symbol is stored.
 const FEWEST_NEIGHBOURS: u32 = 2;
 const MOST_NEIGHBOURS: u32 = 7;
+
+/// The numbers before a walk.
+pub(super) struct Header {
+    /// How symbols are stored.
+    pub(super) walk_kind: u8,
+    pub(super) faces: usize,
+    /// How many kinds of attributes have seams of their own.
+    pub(super) seam_kinds: u8,
+    pub(super) symbols: u32,
+    /// The maximum number of vertices, with those that are merged on the way.
+    pub(super) most_vertices: usize,
+}
+
+impl Header {
+    pub(super) fn read(stream: &mut Stream<'_>) -> Result<Self, Broken> {
+        let walk_kind = stream.byte()?;
+        let (vertices, faces) = (stream.varint()?, stream.varint()?);
+        let seam_kinds = stream.byte()?;
+        let (symbols, splits) = (stream.varint()?, stream.varint()?);
+        // Each part has at most one triangle without a symbol, and at least three with.
+        if faces < symbols || faces - symbols > symbols / 3 || splits > symbols {
+            return Err("its triangles are not as many as its walk has");
+        }
+        if faces > NONE / 3 || vertices > 3 * faces {
+            return Err("it has too many vertices");
+        }
+        let most_vertices = vertices as usize + splits as usize;
+        Ok(Self { walk_kind, faces: faces as usize, seam_kinds, symbols, most_vertices })
+    }
+}
 
 /// Everything that the stream holds about a walk.
 pub(super) struct Walk<'b> {
