@@ -111,10 +111,11 @@ impl LampReach {
 }
 
 impl ConeReach {
-    /// `None` for a cone without an axis, or so wide that no plane touches it.
+    /// `None` for a cone without an axis, with an angle that no cone has, or so wide that no plane touches it.
     fn new(axis: DVec3, half_angle: f64) -> Option<Self> {
         let angle = half_angle + CONE_MARGIN;
-        let is_one = axis != DVec3::ZERO && angle < std::f64::consts::FRAC_PI_2;
+        // The formula of the light goes on with the cosine of an angle below 0, however large.
+        let is_one = axis != DVec3::ZERO && half_angle >= 0.0 && angle < std::f64::consts::FRAC_PI_2;
         let (sine, cosine) = elementary::sin_cos(angle);
         is_one.then_some(Self { axis, sine, cosine })
     }
@@ -162,7 +163,9 @@ mod tests {
         // The nearest corner in x is at (x − 1, −z = 6).
         assert!(may_light(DVec3::new(6.9, 0.0, -5.0)), "a corner is inside");
         assert!(!may_light(DVec3::new(7.1, 0.0, -5.0)), "none is");
-        assert!(ConeReach::new(DVec3::NEG_Z, 1.6).is_none(), "more than half a space");
+        for angle in [1.6, -7.8e18, -0.1, f64::NAN] {
+            assert!(ConeReach::new(DVec3::NEG_Z, angle).is_none(), "{angle} is none that a plane touches");
+        }
     }
 
     #[test]
