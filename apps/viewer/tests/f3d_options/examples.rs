@@ -31,7 +31,7 @@ pub(crate) const OPTIONS: &[Row] = &[
     ("version", NO_MODEL, "--version", Says("trigon-viewer ")),
     ("list-readers", NO_MODEL, "--list-readers", Says(".gltf")),
     ("force-reader", BOX, "--force-reader=OBJ", Keeps),
-    ("force-reader: another", BOX, "--force-reader=STL --output=o.png", Exit(1, "nothing to draw")),
+    ("force-reader: another", BOX, "--force-reader=STL --output=o.png", Exit(1, "is not an STL")),
     ("list-bindings", NO_MODEL, "--list-bindings", Says("this list")),
     ("list-rendering-backends", NO_MODEL, "--list-rendering-backends", Says("cpu: available")),
     ("config", BOX, "--config=blue.json", Shows("--background-color=blue")),

@@ -9,7 +9,7 @@ use crate::Folder;
 fn textured() -> Folder {
     let folder = Folder::new();
     folder.write("corner.mtl", "newmtl red\nKd 1 1 1\nmap_Kd tex.png\n");
-    for name in ["tex.png", "sky.png", "other.png", "out.depth.png"] {
+    for name in ["tex.png", "other.png", "out.depth.png"] {
         trigon_io::write_png(folder.path(name), 1, 1, trigon_io::Pixels::Rgb8(&[255, 0, 0]))
             .expect("written");
     }
@@ -62,7 +62,6 @@ fn no_file_that_is_read_is_overwritten() {
             "corner.obj --texture-base-color out.depth.png --outputs depth.png --output out.png",
             "out.depth.png",
         ),
-        ("corner.obj --hdri-file sky.png --output sky.png", "sky.png"),
         ("corner.obj --texture-base-color other.png --output other.png", "other.png"),
         ("corner.obj --reference first.png --reference-threshold 0 --edges --output first.png", "first.png"),
         ("--statefile state.json --output state.png", "state.png"),

@@ -43,7 +43,10 @@ impl Fit {
 /// Shows the list if it is visible, in the area that no panel covers. Returns the selected command.
 pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<Binding> {
     let seen = egui::Id::unique("the list of keys was shown");
-    if stage.cheat_sheet == Visibility::Hidden {
+    // Without the keyboard the interface does not hear of Escape, and it is a command of the window.
+    let is_closed = context.input(|input| input.key_pressed(egui::Key::Escape));
+    if is_closed || stage.cheat_sheet == Visibility::Hidden {
+        stage.cheat_sheet = Visibility::Hidden;
         context.data_mut(|data| data.remove::<()>(seen));
         return None;
     }
@@ -54,7 +57,6 @@ pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<B
     let window = Window::new("Keys and commands").open(&mut open).collapsible(false).fade_in(false);
     let window = window.anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0));
     let Fit { size, columns: count, width, cell } = Fit::new(free.size());
-    let mut is_wanted = true;
     window.auto_sized().constrain_to(free).show(context, |ui| {
         ui.set_max_width(size.x);
         let search = TextEdit::singleline(&mut stage.command_search).hint_text("search");
@@ -64,8 +66,6 @@ pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<B
             // Otherwise the letters of a name would be keys, and change the model.
             search.request_focus();
         }
-        // Without the keyboard the interface does not hear of it, and it is a command of the window.
-        is_wanted = !ui.input(|input| input.key_pressed(egui::Key::Escape));
         let rows: Vec<SheetRow> =
             sheet(&stage.keymap).into_iter().filter(|row| row.matches(&stage.command_search)).collect();
         if rows.is_empty() {
@@ -88,7 +88,7 @@ pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<B
             });
         });
     });
-    if !open || !is_wanted {
+    if !open {
         stage.cheat_sheet = Visibility::Hidden;
     }
     chosen
