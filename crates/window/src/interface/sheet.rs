@@ -1,5 +1,4 @@
-//! The list of keys and commands: typing filters it, and clicking a line runs it. It has as many columns as fit. While it
-//! is searched all keys are letters of the search; Escape closes it.
+//! The list of keys and commands: typing filters it, and clicking a line runs it. It has as many columns as fit.
 
 use std::borrow::Cow;
 
@@ -42,16 +41,9 @@ impl Fit {
 
 /// Shows the list if it is visible, in the area that no panel covers. Returns the selected command.
 pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<Binding> {
-    let seen = egui::Id::unique("the list of keys was shown");
-    // Without the keyboard the interface does not hear of Escape, and it is a command of the window.
-    let is_closed = context.input(|input| input.key_pressed(egui::Key::Escape));
-    if is_closed || stage.cheat_sheet == Visibility::Hidden {
-        stage.cheat_sheet = Visibility::Hidden;
-        context.data_mut(|data| data.remove::<()>(seen));
+    if stage.cheat_sheet == Visibility::Hidden {
         return None;
     }
-    let is_new = context.data_mut(|data| data.get_temp::<()>(seen).is_none());
-    context.data_mut(|data| data.insert_temp(seen, ()));
     let mut open = true;
     let mut chosen = None;
     let window = Window::new("Keys and commands").open(&mut open).collapsible(false).fade_in(false);
@@ -62,10 +54,6 @@ pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<B
         let search = TextEdit::singleline(&mut stage.command_search).hint_text("search");
         let search = ui.add(search.desired_width(f32::INFINITY));
         context.accesskit_node_builder(search.id, |node| node.set_label("search keys and commands"));
-        if is_new {
-            // Otherwise the letters of a name would be keys, and change the model.
-            search.request_focus();
-        }
         let rows: Vec<SheetRow> =
             sheet(&stage.keymap).into_iter().filter(|row| row.matches(&stage.command_search)).collect();
         if rows.is_empty() {

@@ -69,25 +69,6 @@ fn the_list_of_keys_is_searched_and_chosen_from() {
     assert!(says(&window, "isometric view"), "not searched any more: {:?}", said(&window));
 }
 
-/// The letters of "save" toggled shadows and more.
-#[test]
-fn what_is_typed_when_the_list_of_keys_opens_is_searched() {
-    let (_folder, mut viewer) = simple();
-    let mut window = open(&mut viewer, SIZE);
-    let (settings, orbit) = (window.stage().settings.clone(), window.stage().orbit);
-    key(&mut window, "H");
-    type_text(&mut window, "save");
-    assert!(!says(&window, "isometric view"), "only what is searched for is listed: {:?}", said(&window));
-    assert!(window.stage().settings == settings, "no letter is a key");
-    key(&mut window, "Down");
-    key(&mut window, "Left");
-    assert_eq!(window.stage().orbit, orbit, "and no arrow turns the camera");
-    key(&mut window, "Escape");
-    assert!(!says(&window, "Keys and commands"), "Escape closes it at once: {:?}", said(&window));
-    key(&mut window, "S");
-    assert!(window.stage().settings != settings, "then letters are keys again");
-}
-
 #[test]
 fn a_path_is_typed_at_once_and_completed() {
     let folder = tempfile::tempdir().expect("a folder");
