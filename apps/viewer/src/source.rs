@@ -89,11 +89,11 @@ impl Source {
             // Or it is that of another file whose name goes on.
             rest.is_some_and(|rest| rest.starts_with([':', ',']))
         };
-        files.iter().find(is_meant).map_or_else(|| self.title(), name)
+        files.iter().find(is_meant).map_or_else(|| self.title(), |file| name(file))
     }
 }
 
-fn name(file: &PathBuf) -> String {
+fn name(file: &Path) -> String {
     file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned()
 }
 

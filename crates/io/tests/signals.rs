@@ -27,6 +27,7 @@ mod unix {
     /// The numbers of POSIX, to which a shell adds 128.
     const SIGNALS: [(&str, i32); 3] = [("HUP", 1), ("INT", 2), ("TERM", 15)];
 
+    #[expect(clippy::print_stdout, reason = "a test without a harness tells by itself what it did")]
     pub(super) fn parent() {
         let folder = std::env::temp_dir().join(format!("trigon-signals-{}", std::process::id()));
         std::fs::create_dir_all(&folder).expect("a temporary folder");
@@ -77,7 +78,7 @@ mod unix {
         let mut line = String::new();
         let stdout = child.stdout.as_mut().expect("a pipe");
         BufReader::new(stdout).read_line(&mut line).expect("the child says when it is ready");
-        assert_eq!(line, "half\n");
+        assert_eq!(line, "half\n", "it is ready");
         let folder = path.parent().expect("in a folder");
         assert_eq!(
             names(folder).iter().filter(|name| name.ends_with(".part")).count(),
@@ -107,6 +108,7 @@ mod unix {
     }
 
     /// Writes a half, says so, and writes the other when its input ends.
+    #[expect(clippy::print_stdout, reason = "the parent reads when it is ready")]
     pub(super) fn child(path: &Path) {
         trigon_io::end_on_signals().expect("the system tells of signals");
         let written = trigon_io::write_atomically(path, |file| {

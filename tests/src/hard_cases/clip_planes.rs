@@ -127,7 +127,7 @@ proptest! {
         height in magnitude(-3.0..2.0),
         reach in magnitude(1.0..5.5),
         pitch in -1.4_f64..0.3,
-        turn in 0.0_f64..6.28,
+        turn in 0.0_f64..std::f64::consts::TAU,
         planes in planes(),
     ) {
         let reach = f64::from((height * reach) as f32);
