@@ -44,6 +44,7 @@ fn no_file_that_is_read_is_overwritten() {
         ("script.png", "script.txt"),
         ("capture.png", "a.trigon"),
         ("link.png", "tex.png"),
+        ("link.gif", "tex.png"),
     ] {
         symlink(target, folder.path(link)).expect("a link");
     }
@@ -70,7 +71,7 @@ fn no_file_that_is_read_is_overwritten() {
         ("--replay a.trigon --output capture.png", "capture.png"),
         ("corner.obj --capture corner.obj", "corner.obj"),
         ("corner.obj --compare other.obj --output link.png", "link.png"),
-        ("corner.obj --turntable 2 --output link.png", "link.png"),
+        ("corner.obj --turntable 2 --output link.gif", "link.gif"),
     ] {
         let said = folder.said(&format!("{flags} {small}"), 2);
         let expected = format!("{output}: is read by this very command");
