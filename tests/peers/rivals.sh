@@ -6,7 +6,7 @@
 #
 # PEERS is the folder of the programs that draw the workloads with OpenGL, Vulkan, euc and retrofire, where ./setup.sh has been
 # run once. To publish: images, then `cargo run --release -p trigon-study --example rivals -- FOLDER > crates/study/rivals/errors.csv`,
-# then on a machine that does nothing else times > crates/study/rivals/times.csv, then trigon-viewer study.
+# then on a machine that does nothing else times > crates/study/rivals/times.csv, then trigon-study.
 set -e
 [ $# -ge 2 ] || { sed -n '2,9s/^# \?//p' "$0"; exit 2; }
 cd "$(dirname "$0")/../.."

@@ -33,7 +33,6 @@ mod series;
 mod source;
 mod state;
 mod stdout;
-mod study;
 #[cfg(feature = "window")]
 mod window;
 
@@ -42,7 +41,7 @@ use std::process::ExitCode;
 
 use clap::CommandFactory;
 
-use crate::args::{Command, CommandLine, HelpLength, Mode, RawArgs, Request};
+use crate::args::{CommandLine, HelpLength, Mode, RawArgs, Request};
 use crate::report::{Level, Reporter};
 
 fn main() -> ExitCode {
@@ -55,9 +54,6 @@ fn main() -> ExitCode {
         Ok(read) => read,
         Err(answer) => return ExitCode::from(said_by_clap(&answer)),
     };
-    if let Some(Command::Study(arguments)) = &raw.command {
-        return ExitCode::from(study::run(arguments, Reporter::new(raw.verbose)));
-    }
     if let Some(length) = raw.help {
         return ExitCode::from(help(length, Reporter::new(raw.verbose)));
     }

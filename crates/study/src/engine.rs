@@ -1,7 +1,7 @@
 //! Runs the engine on the same input as the other algorithms.
 
-use crate::field::Field;
 use std::num::NonZeroUsize;
+use trigon_classic::Field;
 use trigon_math::{DVec2, Vec2, Vec4};
 use trigon_raster::simd::{F32, Simd, prelude::*};
 use trigon_raster::{

@@ -53,12 +53,10 @@ pub mod visibility;
 pub mod workloads;
 
 mod engine;
-mod field;
 mod measure;
 mod metric;
 
 pub use engine::Engine;
-pub use field::Field;
 pub use measure::{Spread, interleaved};
 pub use metric::{Difference, lightness};
 

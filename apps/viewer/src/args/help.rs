@@ -103,7 +103,7 @@ Show 3D models, or render them to image files. No GPU is needed, and no display 
 const FOOT: &str = "
 Exit codes: 0 done; 1 something was not loaded, drawn or written, or --check found errors;
 2 the command line is invalid; 3 an image differs from --reference or --replay.
-More: --help=all for every flag, values and examples; trigon-viewer study --help.
+More: --help=all for every flag, values and examples.
 ";
 
 /// Two screens.

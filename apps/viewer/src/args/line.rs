@@ -50,7 +50,7 @@ impl CommandLine {
                 Self { typed, state: Some(file.clone()), ..Self::default() }
             }
         };
-        if raw.command.is_some() || raw.no_config == Some(true) {
+        if raw.no_config == Some(true) {
             return Ok(line);
         }
         let config = Config::read(raw.config.as_deref()).map_err(conflict)?;

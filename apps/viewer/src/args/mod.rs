@@ -39,7 +39,7 @@ pub(crate) use names::flag as flag_named;
 pub(crate) use output::{Destination, Subject, Template};
 pub(crate) use place::PlacedNode;
 pub(crate) use quality::Limit;
-pub(crate) use raw::{CheckPurpose, Command, HelpLength, RawArgs};
+pub(crate) use raw::{CheckPurpose, HelpLength, RawArgs};
 pub(crate) use request::{Mode, Reference, Request, STDIN};
 pub(crate) use script::{Step, steps};
 #[cfg(feature = "window")]

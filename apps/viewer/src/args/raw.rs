@@ -6,7 +6,7 @@
 
 use std::path::PathBuf;
 
-use clap::{ArgAction, Parser, Subcommand, ValueEnum};
+use clap::{ArgAction, Parser, ValueEnum};
 use regex::Regex;
 use trigon_camera::{UpAxis, Viewport};
 use trigon_io::{Format, SceneChoice};
@@ -27,7 +27,6 @@ use super::window::WindowArgs;
 use crate::exact_camera::ExactCamera;
 use crate::framing::Turn;
 use crate::report::Level;
-use crate::study::StudyArgs;
 
 pub(crate) const AFTER_HELP: &str = "\
 Exit codes:
@@ -69,11 +68,7 @@ pub(crate) type Check = Option<CheckPurpose>;
 #[derive(Debug, Parser)]
 #[command(name = "trigon-viewer", version, after_long_help = AFTER_HELP, disable_help_flag = true)]
 #[command(args_override_self = true, max_term_width = 100)]
-#[command(args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
 pub(crate) struct RawArgs {
-    #[command(subcommand)]
-    pub(crate) command: Option<Command>,
-
     /// Models to show: OBJ, glTF, GLB, PLY, STL, OFF (see --list-readers); - is standard input, if an image
     /// is written
     #[arg(value_name = "FILES")]
@@ -445,14 +440,6 @@ pub(crate) enum View {
     Top,
     Bottom,
     Iso,
-}
-
-/// Subcommands.
-#[derive(Clone, Debug, Subcommand)]
-pub(crate) enum Command {
-    /// Measure what accuracy costs in time on this machine, and write a report
-    #[cfg_attr(not(feature = "study"), command(hide = true))]
-    Study(StudyArgs),
 }
 
 /// How polygons are drawn.

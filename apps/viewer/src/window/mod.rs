@@ -2,7 +2,6 @@
 
 mod axes;
 mod background;
-#[cfg(feature = "study")]
 mod classic;
 mod commands;
 mod comparing;

@@ -18,7 +18,6 @@ use trigon_window::{
 
 use super::axes::AxesOverlay;
 use super::background::Loading;
-#[cfg(feature = "study")]
 use super::classic::Classics;
 use super::comparing::Comparing;
 use super::hint::Hint;
@@ -96,7 +95,6 @@ pub(super) struct Viewer {
     /// If there is another model beside the one that is shown.
     comparing: Option<Comparing>,
     axes: AxesOverlay,
-    #[cfg(feature = "study")]
     classics: Classics,
     recent: RecentFiles,
     /// If the model that is shown has animations.
@@ -146,7 +144,6 @@ impl Viewer {
             measuring: Measuring::default(),
             comparing,
             axes: AxesOverlay::default(),
-            #[cfg(feature = "study")]
             classics: Classics::default(),
             recent: RecentFiles::load(state_folder().map(|folder| folder.join("recent"))),
             playback: None,
@@ -379,10 +376,7 @@ impl Handler for Viewer {
         }
         let beside = self.shown.as_ref().map_or(&[][..], |shown| &shown.scenery);
         self.side.show(ui, stage, beside);
-        #[cfg(feature = "study")]
         self.quality.show(ui, stage, |ui, stage| self.classics.show(ui, stage));
-        #[cfg(not(feature = "study"))]
-        self.quality.show(ui, stage, |_, _| {});
         // On what no panel covers.
         self.measuring.show(ui, stage);
         if self.comparing.is_some() {

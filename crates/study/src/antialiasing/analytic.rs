@@ -2,8 +2,8 @@
 //! with anti-aliasing", SIGGRAPH 1978): the pixel's square is cut by the three edges.
 
 use super::Star;
-use crate::field::Field;
 use crate::oracle::{GridPoint, STEPS};
+use trigon_classic::Field;
 use trigon_math::DVec2;
 
 pub(super) fn draw(star: &Star) -> Field<f64> {

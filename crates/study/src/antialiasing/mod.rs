@@ -9,8 +9,8 @@ mod tests;
 
 pub use star::Star;
 
-use crate::field::Field;
 use crate::metric::Difference;
+use trigon_classic::Field;
 
 /// A method of anti-aliasing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -2,7 +2,7 @@
 //! above it that is drawn later.
 
 use super::DepthFormat;
-use crate::field::Field;
+use trigon_classic::Field;
 
 /// An image of the road.
 pub struct Road {

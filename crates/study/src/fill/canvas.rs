@@ -1,7 +1,7 @@
 //! The image into which triangles are painted. It counts how often each pixel is painted.
 
 use super::Triangle;
-use crate::field::Field;
+use trigon_classic::Field;
 
 /// The history of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 
 use super::{Canvas, Painted, Triangle};
 use crate::engine::{Corners, Engine};
-use crate::field::Field;
+use trigon_classic::Field;
 
 pub(super) fn fill(triangles: &[Triangle], canvas: &mut Canvas) {
     let size = canvas.pixels.size();

@@ -1,9 +1,9 @@
 //! The difference between an image of a tiling and the exact one.
 
 use super::{Canvas, Painted, Triangle, edges::bounding_box};
-use crate::field::Field;
 use crate::oracle::coverage::covers;
 use std::ops::AddAssign;
+use trigon_classic::Field;
 
 /// What is wrong with an image of a tiling, in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -9,7 +9,7 @@ mod cases;
 mod edges;
 mod engine;
 mod errors;
-pub(crate) mod fixed;
+mod fixed;
 mod float;
 mod lanes;
 mod scanlines;

@@ -1,7 +1,7 @@
 //! What the report claims of filling, and that each algorithm is what it says.
 
 use super::*;
-use crate::field::Field;
+use trigon_classic::Field;
 use trigon_math::{Vec2, elementary};
 
 const SIDE: usize = 256;

@@ -12,7 +12,7 @@ mod tests;
 
 pub use wall::{Texel, Wall};
 
-use crate::field::Field;
+use trigon_classic::Field;
 
 /// A method of interpolation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

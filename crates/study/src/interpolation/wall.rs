@@ -1,9 +1,8 @@
 //! A receding wall of two triangles.
 
-use crate::field::Field;
-use crate::fill::fixed::Edges;
 use crate::oracle::{coverage, perspective};
 use std::ops::Range;
+use trigon_classic::{Edges, Field};
 
 /// Texture coordinates in texels.
 pub type Texel = [f32; 2];

@@ -2,7 +2,7 @@
 //! for all eight directions: integers only, so no error accumulates.
 
 use super::segment::{Segment, paint};
-use crate::field::Field;
+use trigon_classic::Field;
 
 pub(super) fn draw([from, to]: Segment, coverage: &mut Field<f32>) {
     let distance = [0, 1].map(|axis| (to[axis] - from[axis]).abs());

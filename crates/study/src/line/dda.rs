@@ -2,8 +2,8 @@
 //! side. There are no gaps, but rounding errors accumulate.
 
 use super::segment::{Segment, paint};
-use crate::field::Field;
 use crate::fill::interpolate;
+use trigon_classic::Field;
 
 pub(super) fn draw(segment: Segment, coverage: &mut Field<f32>) {
     for pixel in pixels(segment) {

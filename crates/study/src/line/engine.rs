@@ -2,7 +2,7 @@
 
 use super::Segment;
 use crate::engine::{Corners, Engine, clip_position, field, target};
-use crate::field::Field;
+use trigon_classic::Field;
 use trigon_math::DVec2;
 use trigon_raster::{Output, Smoothing, Target};
 

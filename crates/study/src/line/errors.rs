@@ -1,9 +1,9 @@
 //! The distance of drawn lines from the ideal one.
 
 use super::{Line, Segment};
-use crate::field::Field;
 use crate::oracle::half_plane;
 use std::ops::AddAssign;
+use trigon_classic::Field;
 use trigon_math::DVec2;
 
 /// The errors of lines.

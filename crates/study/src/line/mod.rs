@@ -19,7 +19,7 @@ pub use errors::LineErrors;
 pub use outline::{Outline, OutlineErrors};
 pub use segment::Segment;
 
-use crate::field::Field;
+use trigon_classic::Field;
 
 /// A method of drawing lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

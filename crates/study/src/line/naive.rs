@@ -2,7 +2,7 @@
 //! gaps, and vertical ones are not drawn.
 
 use super::segment::{Segment, paint};
-use crate::field::Field;
+use trigon_classic::Field;
 
 pub(super) fn draw([from, to]: Segment, coverage: &mut Field<f32>) {
     let ([x0, y0], [x1, y1]) = if from[0] < to[0] { (from, to) } else { (to, from) };

@@ -2,9 +2,9 @@
 
 use super::{Line, Segment, dda};
 use crate::engine::{Corners, Engine};
-use crate::field::Field;
 use crate::fill::{Canvas, Fill};
 use std::ops::AddAssign;
+use trigon_classic::Field;
 use trigon_math::Vec2;
 
 /// A method of filling a triangle and drawing its outline.

@@ -1,6 +1,6 @@
 //! The lines that all algorithms draw, and the image that they paint.
 
-use crate::field::Field;
+use trigon_classic::Field;
 
 /// A segment between the centres of two pixels.
 pub type Segment = [[i32; 2]; 2];

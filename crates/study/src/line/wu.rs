@@ -2,7 +2,7 @@
 //! the ink of one pixel, in proportion to their distances.
 
 use super::segment::{Segment, paint};
-use crate::field::Field;
+use trigon_classic::Field;
 
 pub(super) fn draw([from, to]: Segment, coverage: &mut Field<f32>) {
     let along = usize::from((to[0] - from[0]).abs() < (to[1] - from[1]).abs());

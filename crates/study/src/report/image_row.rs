@@ -1,11 +1,11 @@
 //! Images side by side.
 
-use crate::field::Field;
 use image::RgbImage;
 use image::codecs::png::PngEncoder;
 use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::Path;
+use trigon_classic::Field;
 
 /// Some images of the same size next to each other.
 pub(super) struct ImageRow {

@@ -16,7 +16,7 @@ const RULES: &str = "Each sentence divides one row of the tables below by anothe
 /// The whole report.
 pub(super) fn report(effort: Effort, answers: &[Answer]) -> String {
     let mut text = String::from("# What accuracy costs in time\n\n");
-    let command = effort.pick("trigon-viewer study --quick", "trigon-viewer study");
+    let command = effort.pick("trigon-study --quick", "trigon-study");
     let _ = writeln!(
         text,
         "Made by `{command}`. Errors are the same on every machine (but those of fused operations and estimated reciprocals, which are the processor's, and how well times and errors are foreseen, which follows from measured times) and held by tests; times were measured by that \

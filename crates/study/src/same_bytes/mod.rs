@@ -8,10 +8,10 @@ mod kernel;
 #[cfg(test)]
 mod tests;
 
-use crate::field::Field;
 use crate::metric::Difference;
 use arithmetic::{Fast, Fused, Ours};
 use fearless_simd::{Level, dispatch};
+use trigon_classic::Field;
 
 /// The rules by which light is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,8 +1,6 @@
 //! A ball of triangles in parallel projection.
 
-use crate::field::Field;
-use crate::fill::fixed::Edges;
-use crate::visibility::{Body, Pose};
+use trigon_classic::{Body, Edges, Field, Pose};
 use trigon_math::DVec3;
 use trigon_mesh::primitives;
 

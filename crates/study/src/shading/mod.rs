@@ -11,8 +11,8 @@ mod tests;
 
 pub use ball::Ball;
 
-use crate::field::Field;
 use crate::metric::Difference;
+use trigon_classic::Field;
 use trigon_math::DVec3;
 
 /// Where light is computed.

@@ -3,7 +3,7 @@
 
 use super::ball::{BallImage, Facet};
 use super::light_of;
-use crate::fill::fixed::weighted;
+use trigon_classic::weighted;
 use trigon_math::DVec3;
 
 pub(super) fn draw(face: &Facet, image: &mut BallImage) {

@@ -1,6 +1,6 @@
 //! A ball of 5,120 triangles, one metre in radius, above a floor of four by four metres.
 
-use crate::field::Field;
+use trigon_classic::Field;
 use trigon_math::DVec3;
 use trigon_mesh::{Mesh, primitives};
 

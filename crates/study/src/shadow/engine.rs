@@ -1,8 +1,8 @@
 //! The engine's shadows of the same ball on the same floor.
 
 use super::ball_on_floor::{self, BALL, FLOOR, LIGHT};
-use crate::field::Field;
 use std::num::NonZeroUsize;
+use trigon_classic::Field;
 use trigon_math::{DVec3, Vec3};
 use trigon_mesh::primitives;
 use trigon_scene::camera::{Camera, Projection};

@@ -5,8 +5,7 @@
 
 use super::MapFilter;
 use super::ball_on_floor::{BALL, LIGHT, across, on_floor, triangles};
-use crate::field::Field;
-use crate::fill::fixed::{Edges, weighted};
+use trigon_classic::{Edges, Field, weighted};
 use trigon_math::DVec3;
 
 /// The distance of the nearest triangle from the light's plane through the origin, by texel; minus

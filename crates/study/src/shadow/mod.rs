@@ -10,8 +10,8 @@ mod rays;
 #[cfg(test)]
 mod tests;
 
-use crate::field::Field;
 use crate::metric::Difference;
+use trigon_classic::Field;
 
 pub use engine::Drawer;
 pub use map::ShadowMap;

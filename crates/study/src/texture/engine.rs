@@ -2,7 +2,7 @@
 
 use super::{Ground, TextureFilter};
 use crate::engine::{Engine, clip_position, field, positions, target};
-use crate::field::Field;
+use trigon_classic::Field;
 use trigon_math::{DVec2, Vec4};
 use trigon_raster::simd::{F32, Simd, prelude::*};
 use trigon_raster::{

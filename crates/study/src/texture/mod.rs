@@ -10,8 +10,8 @@ mod tests;
 pub use engine::Drawer;
 pub use ground::Ground;
 
-use crate::field::Field;
 use crate::metric::Difference;
+use trigon_classic::Field;
 use trigon_raster::{Filter, MipFilter, Sampler};
 
 /// A way to look a texture up.

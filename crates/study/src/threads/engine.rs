@@ -2,8 +2,8 @@
 
 use super::Corner;
 use crate::engine::{Corners, Engine, clip_position, field, target};
-use crate::field::Field;
 use std::num::NonZeroUsize;
+use trigon_classic::Field;
 use trigon_math::DVec2;
 use trigon_raster::{Output, Target};
 

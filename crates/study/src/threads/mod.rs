@@ -9,7 +9,7 @@ mod tests;
 
 pub use engine::Shared;
 
-use crate::field::Field;
+use trigon_classic::Field;
 
 /// Numbers of threads in the source's table; 0 is to draw without any.
 pub const THREADS: [usize; 9] = [0, 1, 2, 4, 8, 16, 32, 64, 128];

@@ -3,8 +3,8 @@
 //! requested, each with some rows of the box.
 
 use super::Corner;
-use crate::field::Field;
 use std::thread;
+use trigon_classic::Field;
 
 /// What the source keeps of a pixel.
 #[derive(Clone, Copy)]

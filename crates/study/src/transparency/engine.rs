@@ -2,8 +2,8 @@
 
 use super::{SHOWS, Way, lights};
 use crate::engine::{Engine, field, target};
-use crate::field::Field;
-use crate::visibility::{Scene, clip_corners};
+use crate::visibility::clip_corners;
+use trigon_classic::{Field, Scene};
 use trigon_math::Vec4;
 use trigon_raster::simd::{Each, F32, Simd, prelude::*};
 use trigon_raster::{

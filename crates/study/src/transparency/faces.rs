@@ -2,8 +2,7 @@
 //! images", SIGGRAPH 1984).
 
 use super::{SHOWS, Way, lights};
-use crate::field::Field;
-use crate::visibility::{Scene, Surface};
+use trigon_classic::{Field, Scene, Surface};
 
 /// What faces are sorted by, in ascending order.
 type Key = fn(&Scene, u32) -> i64;

@@ -2,8 +2,7 @@
 //! method", SIGGRAPH 1984, without its masks).
 
 use super::{SHOWS, Way, lights};
-use crate::field::Field;
-use crate::visibility::{Scene, Surface};
+use trigon_classic::{Field, Scene, Surface};
 
 /// The fragments of all pixels, in lists that keep their memory.
 pub(super) struct Fragments {

@@ -8,14 +8,13 @@ mod fragments;
 #[cfg(test)]
 mod tests;
 
-use crate::field::Field;
 use crate::metric::Difference;
 use crate::oracle::nearness::{self, Nearness};
-use crate::visibility::Scene;
 use engine::Drawer;
 use faces::Faces;
 use fragments::Fragments;
 use std::cmp::Reverse;
+use trigon_classic::{Field, Scene};
 use trigon_math::SplitMix64;
 
 /// A way to order what is translucent.

@@ -19,7 +19,7 @@ fn finer_sorting_is_nearer_and_fragments_are_right() {
 fn one_face_lets_half_of_the_light_through() {
     let scene = Scene::new(
         [16; 2],
-        vec![crate::visibility::Body {
+        vec![trigon_classic::Body {
             corners: vec![[-4000, -4000, 100], [20_000, -4000, 100], [-4000, 20_000, 100]],
             triangles: vec![[0, 1, 2]],
         }],
@@ -48,7 +48,7 @@ fn what_is_drawn_twice_is_the_same() {
 #[test]
 fn faces_are_sorted_by_their_middle_and_bodies_by_theirs() {
     let body = |depths: [i32; 4]| {
-        crate::visibility::Body::tetrahedron([
+        trigon_classic::Body::tetrahedron([
             [0, 0, depths[0]],
             [900, 0, depths[1]],
             [0, 900, depths[2]],

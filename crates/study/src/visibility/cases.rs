@@ -1,7 +1,6 @@
 //! The scenes in which the algorithms are compared.
 
-use super::scene::{Pose, STEPS};
-use super::{Body, Scene};
+use trigon_classic::{Body, Pose, STEPS_PER_PIXEL, Scene};
 use trigon_math::{DVec3, SplitMix64};
 use trigon_mesh::{Mesh, primitives};
 
@@ -71,10 +70,10 @@ pub fn sheets(side: usize, tilt: i32) -> Scene {
     let sheet = |i: i32| {
         let corner = |j: i32, x: i32, y: i32| {
             let depth = side_px * 3 / 2 + i * side_px / 64 + ((i + j) % 3 - 1) * tilt;
-            [x * side_px, y * side_px, depth].map(|part| part * STEPS)
+            [x * side_px, y * side_px, depth].map(|part| part * STEPS_PER_PIXEL)
         };
         // Its far side is a point behind its middle.
-        let behind = [side_px, side_px, 0].map(|part| part * STEPS);
+        let behind = [side_px, side_px, 0].map(|part| part * STEPS_PER_PIXEL);
         Body::tetrahedron([corner(0, -1, -1), corner(1, 3, -1), corner(2, -1, 3), behind])
     };
     Scene::new([side; 2], (0..16).map(sheet).collect())
@@ -96,7 +95,7 @@ fn crossing(side: usize) -> Scene {
 
 /// Three tetrahedra, each with its far end under the one before it.
 fn ring(size: f64) -> Vec<Body> {
-    let grid = |point: [f64; 3]| point.map(|part| (part * size * f64::from(STEPS)).round() as i32);
+    let grid = |point: [f64; 3]| point.map(|part| (part * size * f64::from(STEPS_PER_PIXEL)).round() as i32);
     let ends = [[0.1, 0.2], [0.9, 0.3], [0.4, 0.9]];
     let bar = |i: usize| {
         let ([x, y], [u, v]) = (ends[i], ends[(i + 1) % 3]);

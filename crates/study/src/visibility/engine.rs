@@ -1,8 +1,7 @@
 //! The engine, drawing ids alone.
 
-use super::scene::{DEEPEST, STEPS};
-use super::{Drawing, Scene};
 use crate::engine::{Corners, Engine, clip_position, target};
+use trigon_classic::{DEPTH_LIMIT, Drawing, STEPS_PER_PIXEL, Scene};
 use trigon_math::{DVec2, Vec4};
 use trigon_raster::Output;
 
@@ -21,8 +20,8 @@ pub(super) fn repeated(scene: &Scene) -> impl FnMut() + use<> {
 /// The corners of all faces, three for each, as the engine takes them.
 pub(crate) fn clip_corners(scene: &Scene) -> Vec<Vec4> {
     let position = |[x, y, z]: [i32; 3]| {
-        let point = DVec2::new(x.into(), y.into()) / f64::from(STEPS);
-        clip_position(point, f64::from(z) / f64::from(DEEPEST), scene.size())
+        let point = DVec2::new(x.into(), y.into()) / f64::from(STEPS_PER_PIXEL);
+        clip_position(point, f64::from(z) / f64::from(DEPTH_LIMIT), scene.size())
     };
     scene.faces().flat_map(|(_, face)| face.corners.map(position)).collect()
 }

@@ -1,8 +1,7 @@
 //! Counts the pixels that show the wrong face, in exact integers.
 
-use super::Scene;
-use crate::field::Field;
 use crate::oracle::nearness::{self, Nearness};
+use trigon_classic::{Field, Scene};
 
 /// What is wrong with an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

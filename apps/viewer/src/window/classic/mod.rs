@@ -6,22 +6,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use trigon_camera::Camera;
+use trigon_classic::{Field, Method};
 use trigon_scene::{Cancel, Frame, RenderSettings, Scene};
-use trigon_study::Field;
-use trigon_study::visibility::Visibility;
 use trigon_window::{Drawer, Stage, choose, egui};
 
 use projected::Projected;
-
-/// Those that can be chosen.
-const WAYS: [Visibility; 6] = [
-    Visibility::Painter,
-    Visibility::Roberts,
-    Visibility::Warnock,
-    Visibility::ZBuffer,
-    Visibility::AllRays,
-    Visibility::TreeRays,
-];
 
 /// Rays against faces and points against planes that an image may take: about ten
 /// seconds.
@@ -30,7 +19,7 @@ const MOST_PAIRS: usize = 2_000_000_000;
 /// What hides what in the image at rest is found by one of the algorithms; light comes
 /// from the eye, on whole triangles.
 struct Classic {
-    way: Visibility,
+    method: Method,
     /// What became of it, for the panel.
     told: Mutex<String>,
 }
@@ -47,15 +36,15 @@ impl Classics {
         ui.separator();
         ui.horizontal(|ui| {
             let label = ui.label("drawn by");
-            let name = |way: Option<Visibility>| way.map_or("the renderer", Visibility::name);
-            let current = self.chosen.as_ref().map(|classic| classic.way);
-            let ways = std::iter::once(None).chain(WAYS.map(Some));
-            let ways: Vec<_> = ways.map(|way| (name(way).to_owned(), way)).collect();
+            let name = |method: Option<Method>| method.map_or("the renderer", Method::name);
+            let current = self.chosen.as_ref().map(|classic| classic.method);
+            let methods = std::iter::once(None).chain(Method::ALL.map(Some));
+            let methods: Vec<_> = methods.map(|method| (name(method).to_owned(), method)).collect();
             let list = egui::ComboBox::from_id_salt("drawn by").selected_text(name(current));
-            let (list, chosen) = choose(ui, list, &ways, &current);
+            let (list, chosen) = choose(ui, list, &methods, &current);
             list.labelled_by(label.id);
-            if let Some(way) = chosen {
-                self.choose(way, stage);
+            if let Some(method) = chosen {
+                self.choose(method, stage);
             }
         });
         if let Some(classic) = &self.chosen {
@@ -64,8 +53,8 @@ impl Classics {
         }
     }
 
-    fn choose(&mut self, way: Option<Visibility>, stage: &mut Stage) {
-        self.chosen = way.map(|way| Arc::new(Classic { way, told: Mutex::default() }));
+    fn choose(&mut self, method: Option<Method>, stage: &mut Stage) {
+        self.chosen = method.map(|method| Arc::new(Classic { method, told: Mutex::default() }));
         stage.drawer = self.chosen.clone().map(|classic| classic as Arc<dyn Drawer>);
     }
 }
@@ -78,27 +67,29 @@ impl Classic {
     /// The image, and what there is to say of it.
     fn attempt(
         &self,
-        (scene, camera): (&Scene, &Camera),
+        scene: &Scene,
+        camera: &Camera,
         settings: &RenderSettings,
         cancel: &Cancel,
     ) -> Result<(Frame, String), String> {
         let projected = Projected::new(scene, camera, settings)?;
         let bodies = &projected.bodies;
-        refuse_long_work(self.way, bodies.face_count(), bodies.size())?;
+        refuse_long_work(self.method, bodies.face_count(), bodies.size())?;
         let begun = Instant::now();
-        let drawing = self.way.draw(bodies).map_err(|refused| refused.to_string())?;
+        let drawing = self.method.draw(bodies).map_err(|refused| refused.to_string())?;
         let took = begun.elapsed().as_secs_f64() * 1e3;
         if cancel.is_cancelled() {
             return Err("cancelled".to_owned());
         }
-        let right = Visibility::Engine.draw(bodies).map_err(|refused| refused.to_string())?;
+        // The rule of the renderer: the nearest depth in `f32`.
+        let right = Method::ZBuffer.draw(bodies).map_err(|refused| refused.to_string())?;
         let others = drawing.faces.values().iter().zip(right.faces.values()).filter(|(a, b)| a != b).count();
-        let work = match self.way.test() {
+        let work = match self.method.test() {
             "" => String::new(),
             test => format!(", {} {test}", drawing.tests),
         };
         let frame = colored(&drawing.faces, &projected.colors);
-        let told = format!("{took:.1} ms{work}; {others} pixels show another face than the engine's");
+        let told = format!("{took:.1} ms{work}; {others} pixels show another face than the z-buffer's");
         Ok((frame, told))
     }
 }
@@ -111,9 +102,9 @@ impl Drawer for Classic {
         settings: &RenderSettings,
         cancel: &Cancel,
     ) -> Result<Frame, String> {
-        let (frame, told) = match self.attempt((scene, camera), settings, cancel) {
+        let (frame, told) = match self.attempt(scene, camera, settings, cancel) {
             Ok((frame, told)) => (Ok(frame), told),
-            Err(reason) => (Err(format!("{}: {reason}", self.way.name())), reason),
+            Err(reason) => (Err(format!("{}: {reason}", self.method.name())), reason),
         };
         *self.told() = told;
         frame
@@ -121,11 +112,11 @@ impl Drawer for Classic {
 }
 
 /// What would keep the worker busy for minutes is not begun.
-fn refuse_long_work(way: Visibility, faces: usize, [width, height]: [usize; 2]) -> Result<(), String> {
-    let most = match way {
-        Visibility::AllRays | Visibility::Roberts => MOST_PAIRS / (width * height).max(1),
-        Visibility::Warnock => 100_000,
-        Visibility::Painter | Visibility::ZBuffer | Visibility::TreeRays | Visibility::Engine => 2_000_000,
+fn refuse_long_work(method: Method, faces: usize, [width, height]: [usize; 2]) -> Result<(), String> {
+    let most = match method {
+        Method::AllRays | Method::Roberts => MOST_PAIRS / (width * height).max(1),
+        Method::Warnock => 100_000,
+        Method::Painter | Method::ZBuffer | Method::TreeRays => 2_000_000,
     };
     if faces <= most {
         return Ok(());
@@ -149,8 +140,8 @@ mod tests {
     use trigon_mesh::primitives;
     use trigon_scene::Material;
 
-    fn drawn(way: Visibility, scene: &Scene) -> (Result<Frame, String>, String) {
-        let classic = Classic { way, told: Mutex::default() };
+    fn drawn(method: Method, scene: &Scene) -> (Result<Frame, String>, String) {
+        let classic = Classic { method, told: Mutex::default() };
         let settings = RenderSettings::new(60, 40);
         let camera = scene.overview(settings.aspect());
         let frame = classic.draw(scene, &camera, &settings, &Cancel::default());
@@ -169,13 +160,13 @@ mod tests {
 
     #[test]
     fn every_algorithm_draws_a_model_and_says_how_well() {
-        for way in WAYS {
-            let (frame, told) = drawn(way, &balls());
-            let frame = frame.unwrap_or_else(|reason| panic!("{}: {reason}", way.name()));
+        for method in Method::ALL {
+            let (frame, told) = drawn(method, &balls());
+            let frame = frame.unwrap_or_else(|reason| panic!("{}: {reason}", method.name()));
             let seen = frame.color.as_chunks::<4>().0.iter().filter(|pixel| pixel[0] > 0).count();
-            assert!((600..2000).contains(&seen), "{}: {seen} pixels of the balls", way.name());
-            let sameness = if way == Visibility::Painter { "" } else { "; 0 pixels" };
-            assert!(told.contains(" ms") && told.contains(sameness), "{}: {told}", way.name());
+            assert!((600..2000).contains(&seen), "{}: {seen} pixels of the balls", method.name());
+            let sameness = if method == Method::Painter { "" } else { "; 0 pixels" };
+            assert!(told.contains(" ms") && told.contains(sameness), "{}: {told}", method.name());
         }
     }
 
@@ -183,12 +174,12 @@ mod tests {
     fn what_cannot_be_drawn_is_refused_with_the_reason() {
         let mut scene = Scene::new();
         scene.add_object("ring", primitives::torus(1.0, 0.3, 24, 12), Material::default());
-        let (frame, told) = drawn(Visibility::Roberts, &scene);
+        let (frame, told) = drawn(Method::Roberts, &scene);
         let reason = frame.expect_err("a ring is not convex");
         assert!(reason.starts_with("Roberts: ") && reason.contains("not convex"), "{reason}");
         assert!(told.contains("not convex"), "the panel says so, too: {told}");
-        assert!(drawn(Visibility::Warnock, &scene).0.is_ok(), "others can");
-        let refused = refuse_long_work(Visibility::AllRays, 1_000_000, [1920, 1080]);
+        assert!(drawn(Method::Warnock, &scene).0.is_ok(), "others can");
+        let refused = refuse_long_work(Method::AllRays, 1_000_000, [1920, 1080]);
         assert!(refused.is_err_and(|reason| reason.contains("1920×1080")), "nobody waits for hours");
     }
 }

@@ -1,21 +1,21 @@
-//! A scene in the form that the study's algorithms need: bodies on the pixel grid.
+//! A scene in the form that the classical algorithms need: bodies on the pixel grid.
 
 use std::collections::HashMap;
 
 use trigon_camera::{Camera, Projector, Viewport};
+use trigon_classic::{Body, Corner, DEPTH_LIMIT, STEPS_PER_PIXEL, Scene as Bodies};
 use trigon_math::{DAffine3, DVec2, DVec3};
 use trigon_mesh::Mesh;
 use trigon_scene::math::color;
 use trigon_scene::{Node, RenderSettings, Scene};
-use trigon_study::visibility::{Body, Corner, Scene as Bodies};
 
-/// Steps of the study's grid in a pixel.
-const STEPS: f64 = 256.0;
+/// Steps of the grid in a pixel.
+const STEPS: f64 = STEPS_PER_PIXEL as f64;
 
-/// The greatest depth that the study takes, towards the eye.
-const DEEPEST: f64 = (1 << 18) as f64 - 1.0;
+/// The greatest depth that they take, towards the eye.
+const DEEPEST: f64 = DEPTH_LIMIT as f64 - 1.0;
 
-/// Pixels from the image's corner within which the study's integers are exact: the
+/// Pixels from the image's corner within which their integers are exact: the
 /// engine's guard band.
 const FARTHEST: f64 = 32_768.0;
 

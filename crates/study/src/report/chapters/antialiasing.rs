@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::antialiasing::{AntiAliasing, Star, exact};
-use crate::field::Field;
+use trigon_classic::Field;
 
 const RMSE: &str = "RMSE at edges, linear light";
 const WORST: &str = "worst pixel";

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::engine::{Corners, Engine, target};
-use crate::field::Field;
 use crate::fill::{Canvas, Case, Fill, FillErrors, Painted, Triangle, owners, tiles};
+use trigon_classic::Field;
 use trigon_raster::Output;
 
 const WRONG: &str = "wrong pixels, ‰ of edge pixels";

@@ -1,10 +1,10 @@
 //! What does a whole image's accuracy cost?
 
 use super::*;
-use crate::field::Field;
 use crate::frames::{Case, Kept, Prover, Repeated, Step, errors, fly, name, other_shadows, variants};
 use crate::workloads::Workload;
 use std::time::{Duration, Instant};
+use trigon_classic::Field;
 use trigon_math::elementary;
 use trigon_scene::SimdLevel;
 use trigon_scene::quality::{Preset, Quality};

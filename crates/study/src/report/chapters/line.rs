@@ -1,8 +1,8 @@
 //! Which pixels make a line?
 
 use super::*;
-use crate::field::Field;
 use crate::line::{Line, LineErrors, Outline, OutlineErrors, star};
+use trigon_classic::Field;
 
 const WRONG: &str = "strays and gaps, ‰ of steps";
 const RMSE: &str = "RMSE of coverage";

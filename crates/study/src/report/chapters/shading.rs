@@ -1,8 +1,8 @@
 //! What do normals in each pixel buy?
 
 use super::*;
-use crate::field::Field;
 use crate::shading::{Ball, Shading, error_at};
+use trigon_classic::Field;
 
 const RMSE: &str = "RMSE, linear light";
 const WORST: &str = "worst pixel";

@@ -1,8 +1,8 @@
 //! What does a shadow's edge cost?
 
 use super::*;
-use crate::field::Field;
 use crate::shadow::{Drawer, MapFilter, Shadow, draw, draw_into, error, exact};
+use trigon_classic::Field;
 use trigon_scene::Shadows;
 
 const RMSE: &str = "RMSE near the edge";

@@ -1,9 +1,9 @@
 //! What is in front?
 
 use super::*;
-use crate::field::Field;
 use crate::line::Line;
-use crate::visibility::{Case, OrderErrors, Scene, Visibility, balls, sheets, visible_lines};
+use crate::visibility::{Case, OrderErrors, Visibility, balls, sheets};
+use trigon_classic::{Field, Method, Scene, visible_lines};
 
 const WRONG: &str = "misordered pixels, ‰";
 const TIME: &str = "ms per frame";
@@ -58,7 +58,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
 /// All algorithms, those that refuse the scene without numbers; then rays with a new tree.
 fn of_scene(name: &str, scene: &Scene, effort: Effort) -> Vec<Row> {
     let kept = Visibility::ALL.map(|way| (way, way.name()));
-    let ways: Vec<_> = kept.into_iter().chain([(Visibility::TreeRays, ANEW)]).collect();
+    let ways: Vec<_> = kept.into_iter().chain([(Visibility::Classic(Method::TreeRays), ANEW)]).collect();
     let times = nanoseconds(effort.rounds().div_ceil(2), &ways, |(way, name)| {
         if name == ANEW { way.repeated_anew(scene) } else { way.repeated(scene) }
     });
@@ -87,7 +87,8 @@ fn growth(side: usize, counts: &[usize], effort: Effort) -> (Lines, Lines) {
         let scene = balls(side, count, side as f64 / 20.0, 5);
         for (index, way) in Visibility::ALL.into_iter().enumerate() {
             // What is quadratic, or takes each pixel with each face, ends early.
-            let slow = [Visibility::Roberts, Visibility::AllRays].contains(&way);
+            let slow =
+                [Visibility::Classic(Method::Roberts), Visibility::Classic(Method::AllRays)].contains(&way);
             if slow && count > 160 {
                 continue;
             }
@@ -112,7 +113,7 @@ fn errors_image() -> ImageRow {
     let faces = |way: Visibility| {
         way.draw(&scene).map_or_else(|_| Field::new([256; 2], u32::MAX), |drawing| drawing.faces)
     };
-    let (painter, engine) = (faces(Visibility::Painter), faces(Visibility::Engine));
+    let (painter, engine) = (faces(Visibility::Classic(Method::Painter)), faces(Visibility::Engine));
     let wrong =
         Field::from_fn([256; 2], |place| heat(if painter[place] == engine[place] { 0.0 } else { 0.5 }));
     let caption =
@@ -138,7 +139,8 @@ fn drawn(lines: Vec<[[f64; 3]; 2]>) -> Field<[u8; 3]> {
 }
 
 pub(super) fn findings(rows: &[Row], by_time: &Lines) -> Vec<String> {
-    let painter = |case: Case| number(value(rows, case.name(), Visibility::Painter.name(), WRONG));
+    let painter =
+        |case: Case| number(value(rows, case.name(), Visibility::Classic(Method::Painter).name(), WRONG));
     vec![
         crossover(by_time),
         format!(
@@ -160,13 +162,13 @@ pub(super) fn headlines() -> Vec<Headline> {
     };
     let crossing = |way: Visibility| Headline::between([CROSSING, PARALLEL], way.name(), [TESTS]);
     vec![
-        of(Case::Balls, [Visibility::TreeRays, Visibility::ZBuffer]),
-        of(Case::Balls, [Visibility::AllRays, Visibility::TreeRays]),
-        Headline::within(Case::Balls.name(), [ANEW, Visibility::TreeRays.name()], [TIME]),
-        of(Case::Balls, [Visibility::Engine, Visibility::ZBuffer]),
-        of(Case::Crossing, [Visibility::Painter, Visibility::ZBuffer]),
-        crossing(Visibility::Warnock),
-        crossing(Visibility::ZBuffer),
+        of(Case::Balls, [Visibility::Classic(Method::TreeRays), Visibility::Classic(Method::ZBuffer)]),
+        of(Case::Balls, [Visibility::Classic(Method::AllRays), Visibility::Classic(Method::TreeRays)]),
+        Headline::within(Case::Balls.name(), [ANEW, Visibility::Classic(Method::TreeRays).name()], [TIME]),
+        of(Case::Balls, [Visibility::Engine, Visibility::Classic(Method::ZBuffer)]),
+        of(Case::Crossing, [Visibility::Classic(Method::Painter), Visibility::Classic(Method::ZBuffer)]),
+        crossing(Visibility::Classic(Method::Warnock)),
+        crossing(Visibility::Classic(Method::ZBuffer)),
     ]
 }
 
@@ -176,9 +178,10 @@ fn crossover(by_time: &Lines) -> String {
         let found = by_time.iter().find(|(name, _)| name == way.name());
         found.map_or(&[][..], |(_, line)| line.as_slice())
     };
-    let pairs = line(Visibility::TreeRays).iter().zip(line(Visibility::ZBuffer));
+    let pairs =
+        line(Visibility::Classic(Method::TreeRays)).iter().zip(line(Visibility::Classic(Method::ZBuffer)));
     let mut faster = pairs.filter(|(rays, buffer)| rays[1] < buffer[1]);
-    match (faster.next(), line(Visibility::ZBuffer).last()) {
+    match (faster.next(), line(Visibility::Classic(Method::ZBuffer)).last()) {
         (Some((rays, _)), _) => {
             format!(
                 "From {} triangles on rays with a tree are faster than the plain z-buffer.",
@@ -210,9 +213,9 @@ mod tests {
         let lines = |rays: &[f64]| {
             let line = |times: &[f64]| (1..).zip(times).map(|(i, &time)| [f64::from(10 * i), time]).collect();
             vec![
-                (Visibility::Painter.name().to_owned(), line(&[0.0; 3])),
-                (Visibility::TreeRays.name().to_owned(), line(rays)),
-                (Visibility::ZBuffer.name().to_owned(), line(&[1.0, 2.0, 4.0])),
+                (Visibility::Classic(Method::Painter).name().to_owned(), line(&[0.0; 3])),
+                (Visibility::Classic(Method::TreeRays).name().to_owned(), line(rays)),
+                (Visibility::Classic(Method::ZBuffer).name().to_owned(), line(&[1.0, 2.0, 4.0])),
             ]
         };
         // A ball has 80 triangles.

@@ -1,7 +1,7 @@
 //! The scenes are what they are said to be.
 
 use super::*;
-use crate::visibility::{Visibility, scene::Corner};
+use trigon_classic::{Corner, Method};
 use trigon_math::{DMat3, DVec2, elementary};
 
 const SIDE: usize = 64;
@@ -9,7 +9,7 @@ const SIZE: f64 = SIDE as f64;
 
 /// A corner in pixels.
 fn point(corner: &Corner) -> DVec3 {
-    DVec3::from_array(corner.map(f64::from)) / f64::from(STEPS)
+    DVec3::from_array(corner.map(f64::from)) / f64::from(STEPS_PER_PIXEL)
 }
 
 fn points(body: &Body) -> Vec<DVec3> {
@@ -23,7 +23,9 @@ fn middle(body: &Body) -> DVec3 {
 
 /// Whether all corners lie so far from a point, but for rounding to the grid.
 fn is_ball(body: &Body, middle: DVec3, radius: f64) -> bool {
-    points(body).iter().all(|point| (point.distance(middle) - radius).abs() < 2.0 / f64::from(STEPS))
+    points(body)
+        .iter()
+        .all(|point| (point.distance(middle) - radius).abs() < 2.0 / f64::from(STEPS_PER_PIXEL))
 }
 
 #[test]
@@ -109,7 +111,7 @@ fn crossing_balls_stick_in_their_neighbours() {
 fn each_bar_of_the_ring_has_its_far_end_under_the_one_before_it() {
     let scene = Case::Ring.scene(SIDE);
     let ends = [[0.1, 0.2], [0.9, 0.3], [0.4, 0.9]].map(|end| DVec2::from_array(end) * SIZE);
-    let drawn = Visibility::Warnock.draw(&scene).unwrap().faces;
+    let drawn = Method::Warnock.draw(&scene).unwrap().faces;
     for (i, body) in scene.bodies().iter().enumerate() {
         let along = ends[(i + 1) % 3] - ends[i];
         let [a, b, c, d] = points(body)[..] else { panic!("a tetrahedron has four corners") };

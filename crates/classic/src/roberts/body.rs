@@ -1,7 +1,7 @@
 //! A convex body as a matrix of planes.
 
 use super::{NotConvex, Scene};
-use crate::visibility::scene::{Body, Corner};
+use crate::scene::{Body, Corner};
 
 /// A plane in whole numbers, with the body on its positive side.
 #[derive(Clone, Copy, Debug)]

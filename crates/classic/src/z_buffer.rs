@@ -1,8 +1,8 @@
 //! The z-buffer (E. Catmull, "A subdivision algorithm for computer display of curved surfaces", 1974): each
 //! pixel stores the nearest depth so far, here in `f32`. Faces come in any order.
 
+use super::Field;
 use super::{Drawing, Scene, Surface};
-use crate::field::Field;
 
 /// An image with its depths, kept from frame to frame.
 pub(super) struct Buffers {

@@ -9,10 +9,9 @@
 mod body;
 mod lines;
 
-pub(super) use lines::visible_lines;
-pub use lines::{Line, Lines};
+pub use lines::{Line, Lines, visible_lines};
 
-use super::scene::STEPS;
+use super::scene::STEPS_PER_PIXEL;
 use super::{Drawing, NotConvex, Scene, Surface};
 use body::convex_bodies;
 
@@ -24,7 +23,7 @@ pub(super) fn draw(scene: &Scene) -> Result<Drawing, NotConvex> {
     for ((number, face), _) in scene.faces().zip(faces_toward_eye).filter(|(_, faces_eye)| *faces_eye) {
         let Some(surface) = Surface::new(face) else { continue };
         surface.each_pixel(scene.limits(), |pixel, depth| {
-            let [x, y] = pixel.map(|part| f64::from(part * STEPS + STEPS / 2));
+            let [x, y] = pixel.map(|part| f64::from(part * STEPS_PER_PIXEL + STEPS_PER_PIXEL / 2));
             let point = [x, y, depth];
             let others = bodies.iter().enumerate().filter(|(other, _)| *other != face.body);
             let mut hiding = others.filter(|(_, body)| body.hides(point, &mut drawing.tests));

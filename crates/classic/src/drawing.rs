@@ -1,13 +1,13 @@
 //! The result of every algorithm.
 
-use crate::field::Field;
+use super::Field;
 
 /// What an image shows, and what it took to find out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
     /// The number of the face in each pixel, `u32::MAX` for none.
     pub faces: Field<u32>,
-    /// The algorithm's own unit of work; see [`Visibility::test`](super::Visibility::test). 0 where it is not
+    /// The algorithm's own unit of work; see [`Method::test`](super::Method::test). 0 where it is not
     /// counted.
     pub tests: u64,
 }

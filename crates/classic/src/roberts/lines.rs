@@ -6,7 +6,7 @@
 
 use super::body::{ConvexBody, convex_bodies};
 use super::{NotConvex, Scene};
-use crate::visibility::scene::{Body, DEEPEST};
+use crate::{Body, DEPTH_LIMIT};
 use std::collections::BTreeMap;
 
 /// A part of an edge, in 1/256 pixel.
@@ -21,7 +21,11 @@ pub struct Lines {
     pub tests: u64,
 }
 
-pub(in crate::visibility) fn visible_lines(scene: &Scene) -> Result<Lines, NotConvex> {
+/// The lines that Roberts' algorithm shows of a scene's edges.
+///
+/// # Errors
+/// A body that is not convex.
+pub fn visible_lines(scene: &Scene) -> Result<Lines, NotConvex> {
     let bodies = convex_bodies(scene)?;
     let mut seen = Lines::default();
     for (number, (body, planes)) in scene.bodies().iter().zip(&bodies).enumerate() {
@@ -51,7 +55,7 @@ fn edges_toward_eye(body: &Body, convex: &ConvexBody) -> Vec<[usize; 2]> {
 /// Between which t a body hides an edge.
 fn hidden_part([from, to]: Line, body: &ConvexBody, tests: &mut u64) -> Option<[f64; 2]> {
     // The eye lies beyond all bodies.
-    let eye = f64::from(DEEPEST);
+    let eye = f64::from(DEPTH_LIMIT);
     let mut polygon = vec![[0.0, 0.0], [1.0, 0.0], [1.0, eye], [0.0, eye]];
     let along = [0, 1, 2].map(|i| to[i] - from[i]);
     for plane in &body.planes {

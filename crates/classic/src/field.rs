@@ -1,4 +1,4 @@
-//! An image of values of any type, into which every algorithm of the study draws.
+//! An image of values of any type, into which every algorithm draws.
 
 use std::ops::{Index, IndexMut};
 

@@ -22,7 +22,7 @@ impl Body {
         let place = |position: &trigon_math::Vec3| {
             let seen = pose.turn * position.as_dvec3() * pose.scale;
             let point = DVec3::new(seen.x, -seen.y, seen.z) + pose.middle;
-            (point * f64::from(STEPS)).round().as_ivec3().to_array()
+            (point * f64::from(STEPS_PER_PIXEL)).round().as_ivec3().to_array()
         };
         let corners = mesh.positions().iter().map(place).collect();
         let vertices = mesh.corner_vertices();
@@ -63,16 +63,18 @@ impl Pose {
 }
 
 /// How many steps of the grid make a pixel: as many as the engine's.
-pub(crate) const STEPS: i32 = 256;
+pub const STEPS_PER_PIXEL: i32 = 256;
 
-/// The depth that the engine gives 1, in the same steps.
-pub(super) const DEEPEST: i32 = 1 << 18;
+/// The depth below which all corners lie, in the same steps.
+pub const DEPTH_LIMIT: i32 = 1 << 18;
 
 /// One triangle of a body.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Face {
-    pub(crate) corners: [Corner; 3],
-    pub(crate) body: usize,
+pub struct Face {
+    /// Its corners, in either winding.
+    pub corners: [Corner; 3],
+    /// The number of its body in the scene.
+    pub body: usize,
 }
 
 /// Bodies before the eye, which looks along parallel rays: what is left after any
@@ -116,16 +118,22 @@ impl Scene {
     }
 
     /// The faces in the order of their numbers.
-    pub(crate) fn faces(&self) -> impl Iterator<Item = (u32, &Face)> {
+    pub fn faces(&self) -> impl Iterator<Item = (u32, &Face)> {
         (0..).zip(&self.faces)
     }
 
-    pub(crate) fn face(&self, number: u32) -> &Face {
+    /// The face of a number.
+    ///
+    /// # Panics
+    /// If the scene has fewer faces.
+    #[must_use]
+    pub fn face(&self, number: u32) -> &Face {
         &self.faces[number as usize]
     }
 
     /// Width and height, in the type of coordinates.
-    pub(crate) fn limits(&self) -> [i32; 2] {
+    #[must_use]
+    pub fn limits(&self) -> [i32; 2] {
         self.size.map(|side| side as i32)
     }
 }

@@ -1,9 +1,9 @@
 //! Ray casting (A. Appel, "Some techniques for shading machine renderings of solids", AFIPS 1968): a ray
 //! through the centre of each pixel, and the nearest face that it hits.
 
-use super::scene::{Face, STEPS};
+use super::Field;
+use super::scene::{Face, STEPS_PER_PIXEL};
 use super::{Drawing, Scene, Surface};
-use crate::field::Field;
 use trigon_math::{Bvh, Ray, Vec3};
 
 /// All faces, set up.
@@ -44,7 +44,7 @@ pub(super) struct Tree {
 impl Tree {
     pub(super) fn new(scene: &Scene) -> Self {
         // In pixels. Depths are turned round, so that rays start at the eye.
-        let corner = |[x, y, z]: [i32; 3]| Vec3::new(x as f32, y as f32, -z as f32) / STEPS as f32;
+        let corner = |[x, y, z]: [i32; 3]| Vec3::new(x as f32, y as f32, -z as f32) / STEPS_PER_PIXEL as f32;
         let triangles: Vec<[Vec3; 3]> =
             scene.faces().map(|(_, Face { corners, .. })| corners.map(corner)).collect();
         let front = triangles.as_flattened().iter().map(|corner| corner.z).fold(0.0, f32::min) - 1.0;
