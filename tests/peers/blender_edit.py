@@ -1,4 +1,4 @@
-"""What operations on meshes cost in Blender, beside crates/edit/examples/edit_prices.rs.
+"""What operations on meshes cost in Blender, beside crates/document/examples/edit_prices.rs.
 
     blender --background --factory-startup --python tests/peers/blender_edit.py
 

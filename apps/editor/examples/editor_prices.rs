@@ -12,12 +12,12 @@
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
-use trigon_edit::mesh::math::elementary::sin_cos;
-use trigon_edit::mesh::{Mesh, primitives};
-use trigon_edit::scene::camera::Viewport;
-use trigon_edit::scene::math::DVec2;
-use trigon_edit::scene::{Material, Scene};
-use trigon_edit::{Command, Document};
+use trigon_document::mesh::math::elementary::sin_cos;
+use trigon_document::mesh::{Mesh, primitives};
+use trigon_document::scene::camera::Viewport;
+use trigon_document::scene::math::DVec2;
+use trigon_document::scene::{Material, Scene};
+use trigon_document::{Command, Document};
 use trigon_editor::measured_editor;
 use trigon_window::{Chord, DrawnFrame, HeadlessWindow, Key, LiveFrame, Modifiers, PointerButton};
 

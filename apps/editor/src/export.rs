@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use trigon_edit::{Disk, Document, save};
+use trigon_document::{Disk, Document, save};
 use trigon_io::{Encoding, ExportOptions, FaceExport, Format, writers};
 
 use crate::arguments::Arguments;

@@ -1,7 +1,7 @@
 //! The editor: a window on a document, or scripts of commands without one. It is a library, so that its
 //! program and its benchmarks ([`measured_editor`]) share the code.
 //!
-//! It only assembles: documents and commands come from `trigon-edit`, files from `trigon-io`.
+//! It only assembles: documents and commands come from `trigon-document`, files from `trigon-io`.
 //! Errors become one line on standard error and an exit code here.
 
 mod arguments;
@@ -53,7 +53,7 @@ pub fn main() -> ExitCode {
 
 fn done(arguments: &Arguments) -> Result<(), String> {
     if arguments.list_commands {
-        return print(&format!("{}\n", trigon_edit::command_reference()));
+        return print(&format!("{}\n", trigon_document::command_reference()));
     }
     #[cfg(feature = "window")]
     if arguments.print_keymap {

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use trigon_edit::{Command, ElementKind, MaterialName, TextureSlot};
+use trigon_document::{Command, ElementKind, MaterialName, TextureSlot};
 use trigon_window::scene::camera::AxisView;
 use trigon_window::{Comparison, Refinement};
 

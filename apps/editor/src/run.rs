@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use trigon_edit::{Disk, Document, Outcome, Script, save};
+use trigon_document::{Disk, Document, Outcome, Script, save};
 use trigon_io::{FileIdentity, LoadOptions};
 
 use crate::arguments::Arguments;

@@ -1,6 +1,6 @@
 //! Keeps the window's scene in step with the document.
 
-use trigon_edit::{Document, SceneChange};
+use trigon_document::{Document, SceneChange};
 use trigon_window::SharedScene;
 
 /// What of a scene changed.
@@ -34,12 +34,12 @@ pub(crate) fn show(document: &mut Document, scene: &mut SharedScene) -> Changed 
 
 #[cfg(test)]
 mod tests {
-    use trigon_edit::Command;
-    use trigon_edit::scene::{Scene, showcase};
+    use trigon_document::Command;
+    use trigon_document::scene::{Scene, showcase};
 
     use super::*;
 
-    fn positions(scene: &Scene) -> Vec<Vec<trigon_edit::scene::math::Vec3>> {
+    fn positions(scene: &Scene) -> Vec<Vec<trigon_document::scene::math::Vec3>> {
         scene.meshes().iter().map(|(_, asset)| asset.mesh().positions().to_vec()).collect()
     }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use trigon_edit::Document;
+use trigon_document::Document;
 use trigon_io::LoadOptions;
 
 fn folder(name: &str) -> PathBuf {

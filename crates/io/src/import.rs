@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use trigon_mesh::edit::Marks;
+use trigon_modelling::Marks;
 use trigon_scene::{MeshId, Scene};
 
 use crate::folder::Folder;

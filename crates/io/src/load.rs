@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use rayon::ThreadPoolBuilder;
-use trigon_mesh::edit::Marks;
+use trigon_modelling::Marks;
 use trigon_scene::{MeshId, Scene};
 
 use crate::error::{LoadError, LoadErrorKind};

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use trigon_camera::UpAxis;
-use trigon_mesh::edit::EditMesh;
+use trigon_modelling::EditMesh;
 use trigon_scene::{MeshId, Scene};
 
 use crate::error::{LoadError, Place};
@@ -30,7 +30,7 @@ use crate::write::{WriteError, write_atomically};
 ///
 /// ```
 /// use trigon_io::{LoadOptions, NativeDocument};
-/// use trigon_mesh::edit::EditMesh;
+/// use trigon_modelling::EditMesh;
 /// use trigon_mesh::math::Vec3;
 /// use trigon_mesh::primitives;
 /// use trigon_scene::{Material, Scene};

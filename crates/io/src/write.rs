@@ -1,6 +1,6 @@
 //! Atomic writing of files that can be made again: images, outputs, captures, exported models.
 //!
-//! The editor's documents are saved by `trigon_edit::save` instead. It keeps a backup and the permissions,
+//! The editor's documents are saved by `trigon_document::save` instead. It keeps a backup and the permissions,
 //! and goes through a trait, so that tests can make a disk lose what was not synced. Here the contents are streamed into a temporary file and never held in memory as a whole.
 
 use std::fs;
@@ -67,7 +67,7 @@ pub enum WriteError {
         /// The name of the mesh.
         name: String,
         /// Why it cannot be made.
-        source: trigon_mesh::edit::Refusal,
+        source: trigon_modelling::Refusal,
     },
     /// The folder or the disk refused.
     #[error("{}: cannot be written ({source}); check that the folder exists, is writable and has room", path.display())]

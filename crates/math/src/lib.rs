@@ -32,12 +32,14 @@ mod bounds;
 mod bvh;
 pub mod clip;
 pub mod color;
+mod direction;
 pub mod elementary;
 mod fixed;
 mod frustum;
 mod homogeneous;
 mod matrix;
 mod plane;
+mod polygon;
 mod predicates;
 mod random;
 
@@ -53,8 +55,12 @@ pub use bounds::Bounds3;
 pub use bvh::{Bvh, Ray, RayHit};
 pub use clip::{Band, ClipPolygon, ClipVertex, ClipVolume, HalfSpace, Outcode, clip_segment, clip_triangle};
 
+pub use direction::{
+    angle, angles, cofactors, or_if_zero, transformed_delta, transformed_direction, unit_or_zero,
+};
 pub use frustum::{Frustum, FrustumSide};
 pub use plane::Plane;
+pub use polygon::{AxisProjection, area_vector};
 
 pub use homogeneous::HomogeneousPoint;
 pub use matrix::Matrix;

@@ -88,15 +88,25 @@ impl Mesh {
     /// A face with fewer than three different vertices, a vertex that does not exist, sizes that do
     /// not add up to the number of corners, a loose edge from a vertex to itself, or more elements
     /// than indices can count.
-    pub fn from_columns(columns: MeshColumns) -> Result<Self, MeshError> {
+    pub fn from_columns(mut columns: MeshColumns) -> Result<Self, MeshError> {
         columns.check()?;
-        let MeshColumns { positions, face_sizes, corner_vertices, loose_edges, mut loose_points } = columns;
-        let face_starts = FaceStarts::of_sizes(&face_sizes);
+        let MeshColumns { positions, loose_points, .. } = &mut columns;
         if !loose_points.is_empty() {
             let mut seen = vec![false; positions.len()];
             loose_points.retain(|&point| !std::mem::replace(&mut seen[point as usize], true));
         }
-        Ok(Self::from_parts(Parts { positions, face_starts, corner_vertices, loose_edges, loose_points }))
+        Ok(Self::from_valid_columns(columns))
+    }
+
+    /// The mesh with these elements, in this order, without a check: for a program that keeps all rules of
+    /// [`Mesh::from_columns`] itself and names each loose point once. Elements that break a rule make the mesh's
+    /// functions panic or give nonsense.
+    #[must_use]
+    pub fn from_valid_columns(columns: MeshColumns) -> Self {
+        debug_assert!(columns.check().is_ok(), "the program keeps the rules: {:?}", columns.check());
+        let MeshColumns { positions, face_sizes, corner_vertices, loose_edges, loose_points } = columns;
+        let face_starts = FaceStarts::of_sizes(&face_sizes);
+        Self::from_parts(Parts { positions, face_starts, corner_vertices, loose_edges, loose_points })
     }
 }
 

@@ -3,10 +3,8 @@
 
 use std::ops::Range;
 
-use trigon_math::{DVec3, Vec3};
+use trigon_math::{DVec3, Vec3, area_vector, unit_or_zero};
 
-use crate::normals::unit_or_zero;
-use crate::triangulate::area_vector;
 use crate::{Attributes, Mesh};
 
 /// Polygons that are shaded flat, by their vertices in a

@@ -50,7 +50,6 @@ mod change;
 mod columns;
 mod deformed;
 mod edges;
-pub mod edit;
 mod error;
 mod face_starts;
 mod flat_faces;
@@ -84,7 +83,7 @@ pub use mesh::Mesh;
 pub use quads::{Halves, QuadGroup, Quads};
 pub use render_mesh::RenderMesh;
 pub use surface::{EdgeJoin, Surface};
-pub use triangulate::{QuadCut, triangulate_polygon};
+pub use triangulate::{QuadCut, Triangulator, triangulate_polygon};
 pub use triangulation::Triangulation;
 pub use welded_mesh::WeldedMesh;
 

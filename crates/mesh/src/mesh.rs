@@ -243,13 +243,6 @@ impl Mesh {
             && self.loose_points == other.loose_points
     }
 
-    /// Adds vertices without values, and edges between vertices that no face has.
-    pub(crate) fn add_wires(&mut self, positions: impl Iterator<Item = Vec3>, edges: Vec<[u32; 2]>) {
-        self.positions.extend(positions);
-        self.loose_edges.extend(edges);
-        self.edges = OnceLock::new();
-    }
-
     /// For changes that preserve lengths.
     pub(crate) fn attributes_mut(&mut self) -> &mut Attributes {
         &mut self.attributes

@@ -2,12 +2,10 @@
 //! and of corners as a renderer needs them.
 
 use std::borrow::Cow;
-use std::f64::consts::PI;
 
 use rayon::prelude::*;
-use trigon_math::{DVec3, Vec3};
+use trigon_math::{DVec3, Vec3, angle, area_vector, or_if_zero, unit_or_zero};
 
-use crate::triangulate::area_vector;
 use crate::{Attributes, Mesh};
 
 impl Mesh {
@@ -161,58 +159,6 @@ pub(crate) fn corner_angle(mesh: &Mesh, vertices: &[u32], index: usize) -> f64 {
     angle(back, next - here)
 }
 
-/// acos(x) / √(1 − x) for x from 0 to 1, by powers of x: within 2·10⁻⁸
-/// (M. Abramowitz and I. Stegun, "Handbook of Mathematical Functions", 1964,
-/// 4.4.46).
-const ARC_COSINE: [f64; 8] = [
-    1.570_796_305_0,
-    -0.214_598_801_6,
-    0.088_978_987_4,
-    -0.050_174_304_6,
-    0.030_891_881_0,
-    -0.017_088_125_6,
-    0.006_670_090_1,
-    -0.001_262_491_1,
-];
-
-/// The angle between two vectors in radians, 0 if one of them is zero. Within
-/// 10⁻⁷ away from 0 and π, which is plenty for a weight, and several times
-/// faster than the exact one.
-pub(crate) fn angle(a: DVec3, b: DVec3) -> f64 {
-    let [angle] = angles([a.dot(b)], [a.length_squared() * b.length_squared()]);
-    angle
-}
-
-/// Angles between vectors, from their dot products and the products of their squared
-/// lengths. Step by step for all of them, so that the compiler takes several at a time.
-#[inline(always)]
-pub(crate) fn angles<const N: usize>(dots: [f64; N], squares: [f64; N]) -> [f64; N] {
-    let (mut cosines, mut x, mut series, mut angles) = ([0.0; N], [0.0_f64; N], [0.0; N], [0.0; N]);
-    for i in 0..N {
-        cosines[i] = dots[i] / squares[i].sqrt();
-        let size = cosines[i].abs();
-        // No number counts as 1, too.
-        x[i] = if size < 1.0 { size } else { 1.0 };
-    }
-    for factor in ARC_COSINE.iter().rev() {
-        for i in 0..N {
-            series[i] = series[i] * x[i] + factor;
-        }
-    }
-    for i in 0..N {
-        let acute = (1.0 - x[i]).sqrt() * series[i];
-        let angle = if cosines[i] < 0.0 { PI - acute } else { acute };
-        angles[i] = if squares[i] <= 0.0 { 0.0 } else { angle };
-    }
-    angles
-}
-
-/// The direction of a vector, or zero if it has none.
-pub(crate) fn unit_or_zero(vector: DVec3) -> DVec3 {
-    let length = vector.length();
-    if length > 0.0 && length.is_finite() { vector / length } else { DVec3::ZERO }
-}
-
 /// The largest deviation of a squared length from 1 for a normal to be kept as given: a few f32
 /// roundings.
 const UNIT_TOLERANCE: f64 = 1e-6;
@@ -225,25 +171,4 @@ pub(crate) fn unit_keeping(normal: Vec3) -> Vec3 {
 
 fn is_unit(normal: Vec3) -> bool {
     (normal.as_dvec3().length_squared() - 1.0).abs() <= UNIT_TOLERANCE
-}
-
-pub(crate) fn or_if_zero(normal: Vec3, other: Vec3) -> Vec3 {
-    if normal == Vec3::ZERO { other } else { normal }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use trigon_math::elementary;
-
-    #[test]
-    fn angles_are_as_close_as_they_say() {
-        for step in 0..=1000 {
-            let exact = PI * f64::from(step) / 1000.0;
-            let (sin, cos) = elementary::sin_cos(exact);
-            let found = angle(DVec3::X * 3.0, DVec3::new(cos, sin, 0.0) * 0.1);
-            assert!((found - exact).abs() < 1e-7, "{found} for {exact}");
-        }
-        assert_eq!(angle(DVec3::ZERO, DVec3::X), 0.0, "no direction, no weight");
-    }
 }

@@ -1,9 +1,8 @@
 //! Corner normals that are smooth across flat edges and split at sharp ones.
 
-use trigon_math::{DVec3, Vec3, elementary};
+use trigon_math::{DVec3, Vec3, elementary, unit_or_zero};
 
 use crate::Mesh;
-use crate::normals::unit_or_zero;
 
 impl Mesh {
     /// Sets corner normals so that faces are smooth across every edge at which their normals differ

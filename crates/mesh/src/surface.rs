@@ -196,10 +196,7 @@ fn cone(mesh: &Mesh, face: usize, origin: DVec3) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use proptest::prelude::*;
-
     use super::*;
-    use crate::edit::EditMesh;
     use crate::{MeshBuilder, primitives};
 
     /// Triangles over these vertices.
@@ -239,22 +236,5 @@ mod tests {
         let mut cube = primitives::cube(2.0);
         cube.flip_faces();
         assert_eq!(cube.surface().volume, -8.0, "inside out");
-    }
-
-    proptest! {
-        /// The editor's mesh keeps its own adjacency; both must see the same edges.
-        #[test]
-        fn the_editor_finds_the_same_edges(faces in prop::collection::vec([0u32..9, 0u32..9, 0u32..9], 1..30)) {
-            let corners: Vec<Vec3> = (0u8..9).map(|i| Vec3::new(f32::from(i), f32::from(i * i), 1.0)).collect();
-            let faces: Vec<[u32; 3]> =
-                faces.into_iter().filter(|[a, b, c]| a != b && b != c && c != a).collect();
-            let mesh = triangles(&corners, &faces);
-            let (edited, _) = EditMesh::from_mesh(&mesh);
-            let surface = mesh.surface();
-            prop_assert_eq!(surface.non_manifold_edges.len(), edited.non_manifold_edges().len());
-            prop_assert_eq!(surface.turned_edges.len(), edited.inconsistent_edges().len());
-            let open: usize = edited.boundary_loops().iter().map(|rim| rim.edges.len()).sum();
-            prop_assert_eq!(surface.open_edges.len(), open);
-        }
     }
 }

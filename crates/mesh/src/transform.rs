@@ -1,9 +1,8 @@
 //! Baking a transform into the vertices.
 
-use trigon_math::{DAffine3, DMat3, Vec3, Vec4, is_mirroring};
+use trigon_math::{DAffine3, Vec3, Vec4, cofactors, is_mirroring, transformed_delta, transformed_direction};
 
 use crate::Mesh;
-use crate::normals::unit_or_zero;
 
 impl Mesh {
     /// A copy with a transform baked into its vertices, see [`Mesh::transform`].
@@ -55,23 +54,4 @@ impl Mesh {
             *tangent = Vec4::from((direction, tangent.w * handedness));
         }
     }
-}
-
-pub(crate) fn transformed_direction(matrix: &DMat3, direction: Vec3) -> Vec3 {
-    unit_or_zero(*matrix * direction.as_dvec3()).as_vec3()
-}
-
-/// What is to be added to a transformed direction, which becomes a unit vector,
-/// so that the sum points where the transformed sum did.
-pub(crate) fn transformed_delta(matrix: &DMat3, base: Vec3, delta: Vec3) -> Vec3 {
-    let length = (*matrix * base.as_dvec3()).length();
-    let scale = if length > 0.0 && length.is_finite() { 1.0 / length } else { 1.0 };
-    (*matrix * delta.as_dvec3() * scale).as_vec3()
-}
-
-/// The matrix of cofactors: determinant times inverse transpose, but defined
-/// without an inverse. It maps area vectors.
-pub(crate) fn cofactors(matrix: &DMat3) -> DMat3 {
-    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
-    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
 }

@@ -28,7 +28,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// The crates that are mutated, those first that others depend on.
-const CRATES: [&str; 9] = ["math", "mesh", "camera", "raster", "scene", "io", "edit", "study", "window"];
+const CRATES: [&str; 10] =
+    ["math", "mesh", "modelling", "camera", "raster", "scene", "io", "document", "study", "window"];
 
 const USAGE: &str = "usage:
   trigon-mutants build DIR [SIZE] [CRATE]...

@@ -106,7 +106,7 @@ fn hash(bytes: &[u8]) -> u64 {
 pub(crate) fn judging(folder: &Folder, krate: &str) -> Result<Vec<Test>> {
     let home = PathBuf::from("crates").join(krate);
     let mut tests = of_package(folder, &format!("trigon-{krate}"), &home)?;
-    if !["edit", "window"].contains(&krate) {
+    if !["modelling", "document", "window"].contains(&krate) {
         tests.extend(of_package(folder, "trigon-tests", Path::new("tests"))?);
     }
     Ok(tests)

@@ -1,8 +1,8 @@
 //! The axes in the corner: they show the directions of x, y and z, and a click on one looks along
 //! it.
 
-use trigon_edit::scene::camera::AxisView;
-use trigon_edit::scene::math::DVec3;
+use trigon_document::scene::camera::AxisView;
+use trigon_document::scene::math::DVec3;
 use trigon_window::egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, vec2};
 
 use super::view::OverlayView;

@@ -1,9 +1,9 @@
 //! The cameras of the scene, drawn as their view pyramids.
 
-use trigon_edit::Document;
-use trigon_edit::scene::NodeId;
-use trigon_edit::scene::camera::{Camera, Projector, Viewport};
-use trigon_edit::scene::math::{DVec2, DVec3};
+use trigon_document::Document;
+use trigon_document::scene::NodeId;
+use trigon_document::scene::camera::{Camera, Projector, Viewport};
+use trigon_document::scene::math::{DVec2, DVec3};
 use trigon_window::egui::{Painter, Pos2, Stroke};
 
 use super::view::{OverlayView, distance_to_line};
@@ -74,8 +74,8 @@ fn frame(camera: &Camera) -> Viewport {
 
 #[cfg(test)]
 mod tests {
-    use trigon_edit::scene::camera::Projection;
-    use trigon_edit::scene::{Node, Scene};
+    use trigon_document::scene::camera::Projection;
+    use trigon_document::scene::{Node, Scene};
     use trigon_window::egui::pos2;
 
     use super::super::view::tests::front;

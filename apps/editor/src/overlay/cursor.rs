@@ -1,7 +1,7 @@
 //! The 3D cursor, and the origins of selected objects.
 
-use trigon_edit::Document;
-use trigon_edit::scene::math::DVec3;
+use trigon_document::Document;
+use trigon_document::scene::math::DVec3;
 use trigon_window::egui::{Color32, Painter, Stroke, vec2};
 
 use super::SELECTED;

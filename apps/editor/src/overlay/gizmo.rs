@@ -1,6 +1,6 @@
 //! The gizmo on the selection: handles to move, rotate and scale it with the mouse.
 
-use trigon_edit::scene::math::{DMat3, DVec3, elementary};
+use trigon_document::scene::math::{DMat3, DVec3, elementary};
 use trigon_window::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
 
 use super::AXIS_COLORS;
@@ -196,7 +196,7 @@ fn contains(polygon: &[Pos2], point: Pos2) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use trigon_edit::scene::camera::{Camera, Viewport};
+    use trigon_document::scene::camera::{Camera, Viewport};
 
     use super::*;
 
@@ -211,7 +211,7 @@ mod tests {
 
     #[test]
     fn squares_are_left_out_that_are_seen_from_their_edges() {
-        use trigon_edit::scene::camera::{Camera, Projection, Viewport};
+        use trigon_document::scene::camera::{Camera, Projection, Viewport};
         let camera = Camera::look_at(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y);
         let projection = Projection::orthographic(5.0, 0.1, 100.0).expect("valid");
         let viewport = Viewport { width: 800, height: 600 };

@@ -4,7 +4,7 @@
 //! middle of the image; lines in between fade in as the camera approaches. A piece of a line that lies behind
 //! the image's surfaces is not drawn: one depth look-up decides for each piece.
 
-use trigon_edit::scene::math::{DVec2, DVec3, elementary};
+use trigon_document::scene::math::{DVec2, DVec3, elementary};
 use trigon_window::egui::{Color32, Painter, Pos2, Stroke};
 
 use super::AXIS_COLORS;
@@ -184,7 +184,7 @@ impl FloorDepth {
 
 #[cfg(test)]
 mod tests {
-    use trigon_edit::scene::camera::{Camera, Projection, Viewport};
+    use trigon_document::scene::camera::{Camera, Projection, Viewport};
 
     use super::*;
 

@@ -1,9 +1,9 @@
 //! Lights as a few concentric circles with their names, and a line in the direction in which
 //! they shine.
 
-use trigon_edit::Document;
-use trigon_edit::scene::math::{DAffine3, DVec3, elementary};
-use trigon_edit::scene::{Light, LightKind, NodeId};
+use trigon_document::Document;
+use trigon_document::scene::math::{DAffine3, DVec3, elementary};
+use trigon_document::scene::{Light, LightKind, NodeId};
 use trigon_window::egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, vec2};
 
 use super::view::OverlayView;
@@ -86,7 +86,7 @@ fn shape(light: &Light, world: &DAffine3, view: &OverlayView) -> Vec<[DVec3; 2]>
 
 #[cfg(test)]
 mod tests {
-    use trigon_edit::scene::{Node, Scene};
+    use trigon_document::scene::{Node, Scene};
     use trigon_window::egui::pos2;
 
     use super::super::view::tests::front;

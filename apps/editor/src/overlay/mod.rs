@@ -43,10 +43,10 @@ const GRAB: f32 = 8.0;
 
 #[cfg(test)]
 mod tests {
-    use trigon_edit::scene::camera::{Camera, Viewport};
-    use trigon_edit::scene::math::{DMat3, DVec3};
-    use trigon_edit::scene::{Light, Node, Scene};
-    use trigon_edit::{Command, Document};
+    use trigon_document::scene::camera::{Camera, Viewport};
+    use trigon_document::scene::math::{DMat3, DVec3};
+    use trigon_document::scene::{Light, Node, Scene};
+    use trigon_document::{Command, Document};
     use trigon_window::egui::{Context, Painter, RawInput, Rect, pos2};
 
     use super::*;

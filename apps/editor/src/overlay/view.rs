@@ -1,7 +1,7 @@
 //! From the world to logical pixels.
 
-use trigon_edit::scene::camera::{Camera, Projector, Ray, Viewport};
-use trigon_edit::scene::math::{DVec2, DVec3};
+use trigon_document::scene::camera::{Camera, Projector, Ray, Viewport};
+use trigon_document::scene::math::{DVec2, DVec3};
 use trigon_window::clip_line;
 use trigon_window::egui::{Pos2, Rect, pos2};
 
@@ -116,7 +116,8 @@ pub(super) mod tests {
     #[test]
     fn the_near_plane_of_a_view_cuts_nothing() {
         let camera = Camera::look_at(DVec3::new(0.0, 0.0, 10.0), DVec3::ZERO, DVec3::Y);
-        let projection = trigon_edit::scene::camera::Projection::perspective(0.8, 9.0, None).expect("valid");
+        let projection =
+            trigon_document::scene::camera::Projection::perspective(0.8, 9.0, None).expect("valid");
         let viewport = Viewport { width: 800, height: 600 };
         let view = OverlayView::new(&camera.with_projection(projection), viewport, 1.0);
         assert_eq!(view.point(DVec3::Z * 5.0), Some(pos2(400.0, 300.0)), "4 m before the plane");

@@ -1,6 +1,6 @@
 //! The tab *Add*: standard objects with their dimensions, lights, empties.
 
-use trigon_edit::{AddEmpty, AddLight, AddObject, Command, Document, LeaveEditMode, LightShape, Shape};
+use trigon_document::{AddEmpty, AddLight, AddObject, Command, Document, LeaveEditMode, LightShape, Shape};
 use trigon_window::egui::{self, Ui};
 
 use super::adjust::changed;

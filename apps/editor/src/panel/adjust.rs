@@ -1,6 +1,6 @@
 //! The panel for adjusting the last command (F9).
 
-use trigon_edit::{Command, Document};
+use trigon_document::{Command, Document};
 use trigon_window::egui::{self, Ui};
 
 use super::form;
@@ -37,8 +37,8 @@ pub(super) fn changed(ui: &mut Ui, document: &Document, command: &Command) -> Op
 mod tests {
     use egui_kittest::kittest::Queryable;
     use serde_json::{Value, json};
-    use trigon_edit::mesh::primitives;
-    use trigon_edit::scene::{Material, Scene};
+    use trigon_document::mesh::primitives;
+    use trigon_document::scene::{Material, Scene};
 
     use super::super::testing::Case;
     use super::super::unit::Unit;

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use serde_json::Value;
-use trigon_edit::command_schema;
+use trigon_document::command_schema;
 
 use super::unit::Unit;
 

@@ -1,6 +1,6 @@
 //! The history list, latest entry first; a click undoes or redoes up to an entry.
 
-use trigon_edit::{Document, Entry};
+use trigon_document::{Document, Entry};
 use trigon_window::egui::{self, Ui};
 
 use crate::request::Request;
@@ -40,7 +40,7 @@ fn line(ui: &mut Ui, entry: &Entry, is_now: bool) -> egui::Response {
 #[cfg(test)]
 mod tests {
     use serde_json::json;
-    use trigon_edit::scene::Scene;
+    use trigon_document::scene::Scene;
 
     use super::super::testing::Case;
     use super::*;

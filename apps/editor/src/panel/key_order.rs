@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::Deserialize;
 use serde::de::{Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
-use trigon_edit::Command;
+use trigon_document::Command;
 
 /// The keys of a JSON object in the order of its text, each with those of its own value.
 #[derive(Debug, Default, PartialEq)]
@@ -85,7 +85,7 @@ impl<'de> Visitor<'de> for Keys {
 
 #[cfg(test)]
 mod tests {
-    use trigon_edit::Bevel;
+    use trigon_document::Bevel;
 
     use super::*;
 

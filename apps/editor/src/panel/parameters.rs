@@ -1,7 +1,7 @@
 //! Widgets for the parameters of any command, by their forms.
 
 use serde_json::Value;
-use trigon_edit::{Document, ElementKind};
+use trigon_document::{Document, ElementKind};
 use trigon_window::egui::{self, Response, Ui};
 
 use super::form::{self, Form, NumberForm, Variant};

@@ -1,6 +1,6 @@
 //! Turns a changed widget into a request.
 
-use trigon_edit::{Command, Document};
+use trigon_document::{Command, Document};
 use trigon_window::egui::{Response, Ui};
 
 use crate::request::Request;

@@ -2,7 +2,7 @@
 
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, HarnessBuilder};
-use trigon_edit::{Command, Document};
+use trigon_document::{Command, Document};
 use trigon_window::EguiTestRenderer;
 use trigon_window::egui::{self, Key, Role, Shape, Ui};
 

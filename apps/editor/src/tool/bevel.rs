@@ -1,8 +1,8 @@
 //! Ctrl+B: bevels the selected edges or vertices. The width grows with the distance of the pointer from their
 //! centre; the wheel changes the number of segments, and keys change everything else.
 
-use trigon_edit::mesh::math::{DVec2, DVec3};
-use trigon_edit::{Bevel, BevelWidth, Command, Document, InnerMiter, OuterMiter};
+use trigon_document::mesh::math::{DVec2, DVec3};
+use trigon_document::{Bevel, BevelWidth, Command, Document, InnerMiter, OuterMiter};
 use trigon_window::{Hands, Input};
 
 use super::expression::Quantity;

@@ -1,7 +1,7 @@
 //! Axis and plane locks, as in Blender: X, Shift+X, the key once more for other axes and once more
 //! for none, C for none, the middle button for the nearest axis.
 
-use trigon_edit::mesh::math::{DMat3, DVec2, DVec3};
+use trigon_document::mesh::math::{DMat3, DVec2, DVec3};
 
 use super::view::ToolView;
 

@@ -1,8 +1,8 @@
 //! E: extrudes, then moves the result: along the mean normal, or locked like a move. Cancelling also removes
 //! the new geometry.
 
-use trigon_edit::mesh::math::{DMat3, DVec3};
-use trigon_edit::{Command, Document, ElementKind, Extrude, TransformSpace};
+use trigon_document::mesh::math::{DMat3, DVec3};
+use trigon_document::{Command, Document, ElementKind, Extrude, TransformSpace};
 use trigon_window::{Hands, Input, Modifiers};
 
 use super::constraint::{Axis, Constraint, Frames, Freedom, Orientation};

@@ -1,7 +1,7 @@
 //! I: insets the selected faces. The thickness grows as the pointer approaches their centre.
 
-use trigon_edit::mesh::math::{DVec2, DVec3};
-use trigon_edit::{Command, Document, Inset, InsetMode};
+use trigon_document::mesh::math::{DVec2, DVec3};
+use trigon_document::{Command, Document, Inset, InsetMode};
 use trigon_window::{Hands, Input};
 
 use super::expression::Quantity;

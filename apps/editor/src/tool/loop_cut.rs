@@ -1,9 +1,9 @@
 //! Ctrl+R: shows the ring under the pointer, a click cuts it, and then the cuts slide.
 
-use trigon_edit::mesh::edit::{EdgeId, EditMesh, FaceId};
-use trigon_edit::mesh::math::{DAffine3, DVec2, DVec3};
-use trigon_edit::scene::MeshId;
-use trigon_edit::{Document, LoopCut, ObjectName, edge_ring, face_loop};
+use trigon_document::mesh::math::{DAffine3, DVec2, DVec3};
+use trigon_document::modelling::{EdgeId, EditMesh, FaceId};
+use trigon_document::scene::MeshId;
+use trigon_document::{Document, LoopCut, ObjectName, edge_ring, face_loop};
 use trigon_window::{Hands, Input, PointerButton};
 
 use super::expression::Quantity;

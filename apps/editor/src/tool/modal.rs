@@ -1,8 +1,8 @@
 //! The common part of modal tools: keys that confirm and cancel, the pointer, typed numbers, and the preview
 //! of a command.
 
-use trigon_edit::mesh::math::DVec2;
-use trigon_edit::{Command, Document};
+use trigon_document::mesh::math::DVec2;
+use trigon_document::{Command, Document};
 use trigon_window::{Hands, Input, Key, Modifiers, PointerButton};
 
 use super::ToolState;

@@ -1,6 +1,6 @@
 //! Pivots: the fixed point of rotations and scales.
 
-use trigon_edit::mesh::math::DVec3;
+use trigon_document::mesh::math::DVec3;
 
 use super::selected::Selected;
 
@@ -42,7 +42,7 @@ impl Pivot {
 
 #[cfg(test)]
 mod tests {
-    use trigon_edit::mesh::math::DMat3;
+    use trigon_document::mesh::math::DMat3;
 
     use super::*;
 

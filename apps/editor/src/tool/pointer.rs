@@ -1,7 +1,7 @@
 //! The pointer of a tool: it continues when the window's pointer wraps around at a border, and slows down
 //! while Shift is held.
 
-use trigon_edit::mesh::math::DVec2;
+use trigon_document::mesh::math::DVec2;
 
 /// How much slower the pointer is while Shift is held.
 const PRECISE: f64 = 0.1;

@@ -1,6 +1,6 @@
 //! What bevel, inset and extrude have in common: each previews one command, which follows the pointer and typed numbers.
 
-use trigon_edit::{Command, Document};
+use trigon_document::{Command, Document};
 
 use super::modal::{Modal, Step};
 use super::view::ToolView;

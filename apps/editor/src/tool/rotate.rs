@@ -1,7 +1,7 @@
 //! Rotating: from the pointer or typed numbers to axis and angle.
 
-use trigon_edit::mesh::math::DVec3;
-use trigon_edit::{Command, Rotate, TransformSpace};
+use trigon_document::mesh::math::DVec3;
+use trigon_document::{Command, Rotate, TransformSpace};
 
 use super::snap::rounded;
 use super::transform::TransformTool;

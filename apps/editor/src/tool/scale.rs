@@ -1,7 +1,7 @@
 //! Scaling: from the pointer or typed numbers to factors along axes.
 
-use trigon_edit::mesh::math::DMat3;
-use trigon_edit::{Command, Scale, TransformSpace};
+use trigon_document::mesh::math::DMat3;
+use trigon_document::{Command, Scale, TransformSpace};
 
 use super::constraint::Freedom;
 use super::snap::rounded;

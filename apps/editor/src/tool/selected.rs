@@ -1,9 +1,9 @@
 //! The start of a transform: the world positions of the selection, and its axes.
 
-use trigon_edit::mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
-use trigon_edit::mesh::math::{DAffine3, DMat3, DVec3};
-use trigon_edit::scene::MeshId;
-use trigon_edit::{Document, ElementKind, MeshSelection};
+use trigon_document::mesh::math::{DAffine3, DMat3, DVec3};
+use trigon_document::modelling::{EdgeId, EditMesh, FaceId, VertexId};
+use trigon_document::scene::MeshId;
+use trigon_document::{Document, ElementKind, MeshSelection};
 
 /// The selected vertices, or the origins of the selected objects, before anything moves.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,9 +1,9 @@
 //! G G: sliding along edges. The vertex nearest to the pointer determines the scale between screen and edge.
 
-use trigon_edit::mesh::edit::{EditMesh, VertexId};
-use trigon_edit::mesh::math::{DAffine3, DVec2, DVec3};
-use trigon_edit::scene::MeshId;
-use trigon_edit::{Document, ElementKind, SlideEdges};
+use trigon_document::mesh::math::{DAffine3, DVec2, DVec3};
+use trigon_document::modelling::{EditMesh, VertexId};
+use trigon_document::scene::MeshId;
+use trigon_document::{Document, ElementKind, SlideEdges};
 
 use super::selected::placed;
 use super::view::ToolView;

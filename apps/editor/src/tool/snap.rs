@@ -1,7 +1,7 @@
 //! Snapping: to increments, to the grid, and to vertices, edges and faces of elements that do not
 //! move.
 
-use trigon_edit::mesh::math::{DMat3, DVec2, DVec3};
+use trigon_document::mesh::math::{DMat3, DVec2, DVec3};
 
 use super::selected::Selected;
 

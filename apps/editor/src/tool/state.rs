@@ -1,7 +1,7 @@
 //! What all tools are to the window: they take inputs, tell their state, and say what is drawn over the image.
 
-use trigon_edit::Document;
-use trigon_edit::mesh::math::{DVec2, DVec3};
+use trigon_document::Document;
+use trigon_document::mesh::math::{DVec2, DVec3};
 use trigon_window::{Hands, Input};
 
 use super::modal::Modal;

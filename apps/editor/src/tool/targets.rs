@@ -1,11 +1,11 @@
 //! Snap targets: vertices, edges and faces that do not move with the selection.
 
-use trigon_edit::mesh::Mesh;
-use trigon_edit::mesh::edit::EditMesh;
-use trigon_edit::mesh::math::{DAffine3, DVec2, DVec3, Vec3};
-use trigon_edit::scene::camera::Ray;
-use trigon_edit::scene::{Node, NodeId};
-use trigon_edit::{Document, ElementKind, MeshSelection};
+use trigon_document::mesh::Mesh;
+use trigon_document::mesh::math::{DAffine3, DVec2, DVec3, Vec3};
+use trigon_document::modelling::EditMesh;
+use trigon_document::scene::camera::Ray;
+use trigon_document::scene::{Node, NodeId};
+use trigon_document::{Document, ElementKind, MeshSelection};
 
 use super::snap::SnapTarget;
 use super::view::ToolView;
@@ -183,8 +183,8 @@ fn contains(outline: &[DVec2], point: DVec2) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use trigon_edit::mesh::primitives;
-    use trigon_edit::scene::{Material, Scene};
+    use trigon_document::mesh::primitives;
+    use trigon_document::scene::{Material, Scene};
 
     use super::super::view::tests::front;
     use super::*;

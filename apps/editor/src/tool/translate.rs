@@ -1,7 +1,7 @@
 //! Moving: from the pointer or typed numbers to the offset.
 
-use trigon_edit::mesh::math::{DMat3, DVec3};
-use trigon_edit::{Command, TransformSpace, Translate};
+use trigon_document::mesh::math::{DMat3, DVec3};
+use trigon_document::{Command, TransformSpace, Translate};
 
 use super::constraint::Freedom;
 use super::numeric::NumericEntry;

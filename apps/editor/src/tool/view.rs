@@ -1,7 +1,7 @@
 //! From the pointer to the world: the meaning of a drag for a point, along an axis and in a plane.
 
-use trigon_edit::mesh::math::{DVec2, DVec3};
-use trigon_edit::scene::camera::{Camera, Projector, Viewport};
+use trigon_document::mesh::math::{DVec2, DVec3};
+use trigon_document::scene::camera::{Camera, Projector, Viewport};
 
 /// How a tool sees the world while it runs.
 #[derive(Debug, Clone, Copy)]
@@ -113,7 +113,7 @@ impl ToolView {
 #[cfg(test)]
 pub(in crate::tool) mod tests {
     use proptest::prelude::*;
-    use trigon_edit::scene::camera::Projection;
+    use trigon_document::scene::camera::Projection;
 
     use super::*;
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 
-use trigon_edit::{MaterialName, TextureSlot};
+use trigon_document::{MaterialName, TextureSlot};
 use trigon_window::RecentFiles;
 use trigon_window::egui::{self, Key};
 

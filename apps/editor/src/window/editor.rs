@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-use trigon_edit::{
+use trigon_document::{
     Command, Disk, Document, EditError, EditObjects, LeaveEditMode, Outcome, SetElementKind, Storage,
 };
 use trigon_window::egui::Rect;

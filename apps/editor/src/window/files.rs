@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use trigon_edit::scene::{Light, Material, Node, Scene};
-use trigon_edit::{AssignTexture, Document, LeaveEditMode, ObjectName, Select, TextureSource};
+use trigon_document::scene::{Light, Material, Node, Scene};
+use trigon_document::{AssignTexture, Document, LeaveEditMode, ObjectName, Select, TextureSource};
 use trigon_window::Stage;
 use trigon_window::scene::math::DVec3;
 use trigon_window::scene::mesh::primitives;

@@ -1,7 +1,7 @@
 //! Position and axes of the gizmo, computed again only when something that they depend on has changed.
 
-use trigon_edit::Document;
-use trigon_edit::mesh::math::{DMat3, DVec3};
+use trigon_document::Document;
+use trigon_document::mesh::math::{DMat3, DVec3};
 
 use crate::tool::{Orientation, Pivot, Selected};
 

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 
-use trigon_edit::Document;
+use trigon_document::Document;
 use trigon_io::{LoadOptions, Loaded, Progress, UpAxis, Warning, load};
 
 /// What becomes of the file.

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use trigon_edit::DisplayMarks;
-use trigon_edit::scene::NodeId;
+use trigon_document::DisplayMarks;
+use trigon_document::scene::NodeId;
 
 use super::surfaces::Surfaces;
 

@@ -38,7 +38,7 @@ mod tests;
 
 use std::path::PathBuf;
 
-use trigon_edit::Document;
+use trigon_document::Document;
 use trigon_window::{Application, Handler, Stage, WindowError, state_folder};
 
 use crate::arguments::Arguments;

@@ -1,8 +1,8 @@
 //! The modal tool: how it is started, its input, and its result.
 
-use trigon_edit::scene::camera::AxisView;
-use trigon_edit::scene::{Reach, Region};
-use trigon_edit::{ElementKind, SelectAction, Shear};
+use trigon_document::scene::camera::AxisView;
+use trigon_document::scene::{Reach, Region};
+use trigon_document::{ElementKind, SelectAction, Shear};
 use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, Pane, PointerButton, Stage, Taken};
 
 use super::button_start::{ButtonStart, Passed};

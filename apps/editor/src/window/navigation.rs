@@ -1,7 +1,7 @@
 //! View changes by keys and menus; the window itself handles drags.
 
-use trigon_edit::scene::NodeId;
-use trigon_edit::{Document, ObjectName, Rotation, SetTransform, TransformSpace};
+use trigon_document::scene::NodeId;
+use trigon_document::{Document, ObjectName, Rotation, SetTransform, TransformSpace};
 use trigon_window::scene::camera::{Camera, DEFAULT_MARGIN, Orbit};
 use trigon_window::scene::math::{DVec2, DVec3, Vec3};
 use trigon_window::{Area, Stage};

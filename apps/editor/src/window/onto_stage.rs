@@ -1,7 +1,7 @@
 //! The document on the stage: its scene, its selection, and its display settings.
 
-use trigon_edit::X_RAY;
-use trigon_edit::scene::{Reach, Style};
+use trigon_document::X_RAY;
+use trigon_document::scene::{Reach, Style};
 use trigon_window::Stage;
 use trigon_window::scene::{Display, Lighting, Reflection};
 

@@ -1,6 +1,6 @@
 //! What parts of the interface remember.
 
-use trigon_edit::{Document, ObjectName};
+use trigon_document::{Document, ObjectName};
 use trigon_window::egui::Pos2;
 use trigon_window::matches_search;
 

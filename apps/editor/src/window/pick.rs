@@ -1,7 +1,7 @@
 //! Clicks that select.
 
-use trigon_edit::scene::NodeId;
-use trigon_edit::{Command, ObjectName, PICK_RADIUS, Picks, Select, SelectAction};
+use trigon_document::scene::NodeId;
+use trigon_document::{Command, ObjectName, PICK_RADIUS, Picks, Select, SelectAction};
 use trigon_window::scene::math::DVec2;
 use trigon_window::{Modifiers, Pane, Stage};
 

@@ -1,6 +1,6 @@
 //! Where menus put new objects, and parenting.
 
-use trigon_edit::{Command, ObjectName, SetParent};
+use trigon_document::{Command, ObjectName, SetParent};
 use trigon_window::scene::math::DVec3;
 
 use super::editor::{Editor, Message};

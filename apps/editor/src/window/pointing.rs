@@ -8,12 +8,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 
-use trigon_edit::mesh::edit::FaceId;
-use trigon_edit::scene::camera::{Camera, Projector, Viewport};
-use trigon_edit::scene::{
+use trigon_document::modelling::FaceId;
+use trigon_document::scene::camera::{Camera, Projector, Viewport};
+use trigon_document::scene::{
     Frame, KeptPoints, MeshId, Outputs, Picker, Reach, RenderSettings, Renderer, Scene,
 };
-use trigon_edit::{Document, Picks};
+use trigon_document::{Document, Picks};
 use trigon_window::scene::math::DVec2;
 use trigon_window::{Pane, Stage};
 

@@ -8,7 +8,7 @@ use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use trigon_edit::{Disk, Document, Event, RecoveryLog, RecoveryWriter};
+use trigon_document::{Disk, Document, Event, RecoveryLog, RecoveryWriter};
 use trigon_io::LoadOptions;
 
 /// The recovery file of the document that is open.
@@ -186,7 +186,7 @@ impl Left {
 mod tests {
     use super::*;
 
-    fn command(json: &str) -> trigon_edit::Command {
+    fn command(json: &str) -> trigon_document::Command {
         serde_json::from_str(json).expect("a command")
     }
 
@@ -194,7 +194,7 @@ mod tests {
     fn what_a_crash_leaves_is_found_once_and_comes_back() {
         let folder = tempfile::tempdir().expect("a folder");
         let folder = folder.path();
-        let mut document = Document::new(trigon_edit::scene::showcase());
+        let mut document = Document::new(trigon_document::scene::showcase());
         let before = document.nodes().nodes().len();
         let path = Path::new("/models/chair.glb");
         let mut recovery = Recovery::start(folder, &mut document, Some(path)).expect("it can be written");
@@ -286,7 +286,7 @@ mod tests {
 
     #[test]
     fn the_base_of_a_recovery_file_numbers_objects_as_the_document_does() {
-        let document = Document::new(trigon_edit::scene::showcase());
+        let document = Document::new(trigon_document::scene::showcase());
         let base = document.encode().expect("small").to_bytes();
         let (again, _) =
             Document::open_bytes(Path::new("a.glb"), &base, &LoadOptions::default()).expect("ours");

@@ -1,7 +1,7 @@
 //! V and Alt+V: the mesh opens on the pointer's side of the selection, and that side follows the pointer.
 
-use trigon_edit::mesh::math::DVec2;
-use trigon_edit::{Rip, TransformSpace};
+use trigon_document::mesh::math::DVec2;
+use trigon_document::{Rip, TransformSpace};
 use trigon_window::Stage;
 
 use super::editor::Editor;

@@ -1,8 +1,8 @@
 //! An active tool or gesture: its status line and drawing, and which inputs remain the camera's meanwhile.
 
-use trigon_edit::mesh::math::DVec2;
-use trigon_edit::scene::Region;
-use trigon_edit::scene::camera::AxisView;
+use trigon_document::mesh::math::DVec2;
+use trigon_document::scene::Region;
+use trigon_document::scene::camera::AxisView;
 use trigon_window::{Hands, Input, Modifiers, Pane, PointerButton};
 
 use super::button_start::ButtonStart;

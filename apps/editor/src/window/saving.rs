@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 
-use trigon_edit::{Storage, save};
+use trigon_document::{Storage, save};
 use trigon_io::NativeDocument;
 
 use super::open_file::Next;

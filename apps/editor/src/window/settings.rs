@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-use trigon_edit::Proportional;
-use trigon_edit::scene::{NodeId, Reach};
+use trigon_document::Proportional;
+use trigon_document::scene::{NodeId, Reach};
 use trigon_window::scene::camera::{Orbit, Viewport};
 use trigon_window::scene::math::DVec3;
 use trigon_window::{

@@ -1,6 +1,6 @@
 //! Materials that a display mode shows instead of the scene's own. The clay of matcap is the renderer's.
 
-use trigon_edit::scene::{Material, Scene};
+use trigon_document::scene::{Material, Scene};
 use trigon_window::scene::math::Vec3;
 
 use crate::request::DisplayMode;
@@ -45,8 +45,8 @@ fn take_images_off(material: &mut Material) {
 
 #[cfg(test)]
 mod tests {
-    use trigon_edit::scene::mesh::primitives;
-    use trigon_edit::scene::{Texture, TextureBinding, TextureFormat};
+    use trigon_document::scene::mesh::primitives;
+    use trigon_document::scene::{Texture, TextureBinding, TextureFormat};
 
     use super::*;
 

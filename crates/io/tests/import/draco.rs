@@ -5,7 +5,7 @@ use serde_json::json;
 use trigon_io::{LoadErrorKind, LoadOptions, Loaded, load_from_slice};
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::Mesh;
-use trigon_mesh::edit::{EditMesh, VertexId};
+use trigon_modelling::{EditMesh, VertexId};
 
 use crate::gltf::{Doc, push};
 use crate::saving::{doc_of, document, json_of, saved};

@@ -1,13 +1,13 @@
 //! Shading normals of the corners at one vertex: the bits of [`Mesh::shading_normals`], without computing
 //! the rest of the mesh.
 
-use trigon_math::Vec3;
+use trigon_math::{Vec3, or_if_zero};
 
 use super::corner_faces::{CornerFaces, FaceCorner};
 use super::fans::FanPiece;
 use super::normal_lists::NormalLists;
 use crate::Mesh;
-use crate::normals::{or_if_zero, unit_keeping};
+use crate::normals::unit_keeping;
 
 /// What the normals at a vertex are made of.
 pub(super) struct LocalNormals<'a> {

@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use trigon_math::{DVec3, Vec3};
+use trigon_math::{DVec3, Vec3, or_if_zero, unit_or_zero};
 
 use super::corner_faces::FaceCorner;
 use super::face_normals::PIECE;
 use crate::Mesh;
-use crate::normals::{corner_angle, or_if_zero, unit_or_zero};
+use crate::normals::corner_angle;
 
 /// The normals of faces, and the angles by which they are weighted.
 #[derive(Debug, Clone, Default)]

@@ -1,9 +1,8 @@
 //! What all standard objects are made with: a builder that keeps texture
 //! coordinates and normals beside the faces.
 
-use trigon_math::{Vec2, Vec3};
+use trigon_math::{Vec2, Vec3, area_vector};
 
-use crate::triangulate::area_vector;
 use crate::{Attributes, Mesh, MeshBuilder};
 
 /// The highest number of pieces along one direction of a surface: four

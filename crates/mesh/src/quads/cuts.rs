@@ -1,8 +1,10 @@
 //! Cuts several quads at a time, where rounding leaves no doubt.
 
+use trigon_math::AxisProjection;
+
 use super::Quads;
 use super::vectors::{Vectors, cross, difference, dot, each, lanes};
-use crate::triangulate::{CANCELLED, CLEARLY_SHORTER, QuadCut};
+use crate::triangulate::{CLEARLY_SHORTER, QuadCut};
 
 /// An area of a parallelogram in a plane is off by at most this share of the sum of the two products whose difference
 /// it is: `ccwerrboundA` of J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
@@ -89,7 +91,7 @@ impl<const N: usize> Views<N> {
         let axes = lanes(|lane| {
             let [longest, largest] = [sum, magnitude]
                 .map(|vectors| vectors.iter().fold(0.0, |most: f64, axis| most.max(axis[lane].abs())));
-            if longest > CANCELLED * largest { of_sum[lane] } else { of_magnitude[lane] }
+            if longest > AxisProjection::CANCELLED * largest { of_sum[lane] } else { of_magnitude[lane] }
         });
         Self::along(&axes, &sum)
     }

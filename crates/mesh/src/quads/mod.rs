@@ -6,9 +6,7 @@ mod group;
 mod halves;
 mod vectors;
 
-use trigon_math::Vec3;
-
-use crate::normals::angles;
+use trigon_math::{Vec3, angles};
 
 pub use group::QuadGroup;
 pub use halves::Halves;

@@ -52,7 +52,7 @@ pub(super) fn turn(a: DVec2, b: DVec2, c: DVec2) -> i32 {
 }
 
 /// What is left of the polygon: a ring of corners, and its buffers.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct EarCutter {
     previous: Vec<u32>,
     next: Vec<u32>,

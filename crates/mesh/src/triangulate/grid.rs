@@ -9,7 +9,7 @@ const MOST_CELLS: usize = 512;
 const FEWEST_POINTS: usize = 24;
 
 /// Indices of points, by the cell that they are in.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Grid {
     origin: DVec2,
     /// Cells per unit of length.

@@ -11,7 +11,7 @@ use super::ears::turn;
 const NOWHERE: u32 = u32::MAX;
 
 /// The loops of a polygon, one after another.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Loops {
     corners: Vec<u32>,
     /// Where each ends.

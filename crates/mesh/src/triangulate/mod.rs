@@ -17,12 +17,10 @@
 mod ears;
 mod grid;
 mod loops;
-mod project;
 mod quad;
 
-use trigon_math::{DVec2, Vec3};
+use trigon_math::{AxisProjection, DVec2, Vec3};
 
-pub(crate) use project::{CANCELLED, View, area_vector, plane};
 pub(crate) use quad::CLEARLY_SHORTER;
 pub use quad::QuadCut;
 
@@ -57,16 +55,28 @@ pub fn triangulate_polygon(positions: &[Vec3]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// Buffers that are reused from polygon to polygon.
-#[derive(Default)]
-pub(crate) struct Triangulator {
+/// Cuts one polygon after another into triangles, as [`triangulate_polygon`] does, in the same memory.
+///
+/// ```
+/// use trigon_math::Vec3;
+/// use trigon_mesh::Triangulator;
+///
+/// let mut triangulator = Triangulator::default();
+/// let mut triangles = Vec::new();
+/// let square = [Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y];
+/// triangulator.polygon(&square, &mut triangles);
+/// triangulator.polygon(&square[1..], &mut triangles);
+/// assert_eq!(triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 2]]);
+/// ```
+#[derive(Debug, Default)]
+pub struct Triangulator {
     projected: Vec<DVec2>,
     cutter: EarCutter,
 }
 
 impl Triangulator {
     /// Appends a polygon's triangles, as indices into `positions`.
-    pub(crate) fn polygon(&mut self, positions: &[Vec3], triangles: &mut Vec<[u32; 3]>) {
+    pub fn polygon(&mut self, positions: &[Vec3], triangles: &mut Vec<[u32; 3]>) {
         match *positions {
             [] | [_] | [_, _] => {}
             [_, _, _] => triangles.push([0, 1, 2]),
@@ -80,7 +90,9 @@ impl Triangulator {
 
     fn any(&mut self, positions: &[Vec3], triangles: &mut Vec<[u32; 3]>) {
         if positions.iter().all(|position| position.is_finite()) {
-            project::project(positions, &mut self.projected);
+            let view = AxisProjection::of(positions);
+            self.projected.clear();
+            self.projected.extend(positions.iter().map(|p| view.project(p.as_dvec3())));
             self.cutter.cut(&self.projected, triangles);
         } else {
             triangles.extend((2..positions.len() as u32).map(|i| [0, i - 1, i]));

@@ -1,9 +1,8 @@
 //! Quads, the most frequent polygon: two triangles without any search.
 
-use trigon_math::{DVec3, Vec3};
+use trigon_math::{AxisProjection, DVec3, Vec3};
 
 use super::ears::turn;
-use super::project::{View, plane};
 
 /// The second diagonal is taken only if its square is smaller by this factor.
 /// Squares on a curved surface have diagonals that differ by rounding; without
@@ -57,13 +56,13 @@ impl QuadCut {
 /// doubtful from which side that is seen: then the general way decides.
 pub(super) fn split(corners: [Vec3; 4]) -> Option<QuadCut> {
     let [a, b, c, d] = corners.map(|p| p.as_dvec3());
-    let view = View::against((c - a).cross(d - b));
-    let [pa, pb, pc, pd] = [a, b, c, d].map(|p| plane(p, view));
+    let view = AxisProjection::against((c - a).cross(d - b));
+    let [pa, pb, pc, pd] = [a, b, c, d].map(|p| view.project(p));
     // At a, b, c and d.
     let turns = [turn(pd, pa, pb), turn(pa, pb, pc), turn(pb, pc, pd), turn(pc, pd, pa)];
     let cut = QuadCut::of(turns.map(|turn| turn > 0), is_clearly_shorter(d - b, c - a))?;
     let is_certain = || !turns.contains(&0) && corners.iter().all(|corner| corner.is_finite());
-    let is_sure = !matches!(cut, QuadCut::Ear(_)) || is_certain() && View::of(&corners) == view;
+    let is_sure = !matches!(cut, QuadCut::Ear(_)) || is_certain() && AxisProjection::of(&corners) == view;
     is_sure.then_some(cut)
 }
 

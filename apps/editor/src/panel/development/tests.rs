@@ -1,7 +1,7 @@
 //! Figures and buffers of a small image.
 
 use egui_kittest::kittest::Queryable;
-use trigon_edit::Document;
+use trigon_document::Document;
 use trigon_window::scene::math::Vec3;
 use trigon_window::scene::{Material, mesh::primitives, render};
 use trigon_window::{Comparison, Refinement};

@@ -1,9 +1,9 @@
 //! Element counts.
 
-use trigon_edit::mesh::edit::EditMesh;
-use trigon_edit::mesh::math::Bounds3;
-use trigon_edit::scene::{MeshId, NodeId};
-use trigon_edit::{Document, MeshSelection};
+use trigon_document::mesh::math::Bounds3;
+use trigon_document::modelling::EditMesh;
+use trigon_document::scene::{MeshId, NodeId};
+use trigon_document::{Document, MeshSelection};
 
 /// Elements of meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

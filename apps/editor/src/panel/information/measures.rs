@@ -1,8 +1,8 @@
 //! Lengths, angles, areas, volumes, and possible faults of meshes: computed on request.
 
-use trigon_edit::mesh::edit::{EditMesh, Inspection, InspectionSettings, VertexId};
-use trigon_edit::mesh::math::{DVec3, elementary};
-use trigon_edit::{Document, MeshSelection};
+use trigon_document::mesh::math::{DVec3, elementary};
+use trigon_document::modelling::{EditMesh, Inspection, InspectionSettings, VertexId};
+use trigon_document::{Document, MeshSelection};
 
 use super::super::row::written;
 

@@ -5,7 +5,7 @@ mod measures;
 #[cfg(test)]
 mod tests;
 
-use trigon_edit::{Document, ElementKind};
+use trigon_document::{Document, ElementKind};
 use trigon_window::egui::{self, CollapsingHeader, Grid, Ui};
 
 use super::row::{is_narrow, written};

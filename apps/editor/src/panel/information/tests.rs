@@ -2,8 +2,8 @@
 
 use egui_kittest::kittest::Queryable;
 use serde_json::json;
-use trigon_edit::mesh::primitives;
-use trigon_edit::scene::{Material, Scene};
+use trigon_document::mesh::primitives;
+use trigon_document::scene::{Material, Scene};
 
 use super::super::testing::Case;
 use super::*;

@@ -1,7 +1,7 @@
 //! Dragging rows: onto another row to set the parent, between rows to reorder.
 
-use trigon_edit::scene::{NodeId, Scene};
-use trigon_edit::{Command, Document, ObjectName, ReorderObject, SetParent};
+use trigon_document::scene::{NodeId, Scene};
+use trigon_document::{Command, Document, ObjectName, ReorderObject, SetParent};
 use trigon_window::egui::{self, DragAndDrop, Rect, Response, Ui};
 
 use crate::request::Request;

@@ -1,6 +1,6 @@
 //! Icons in rows, painted: the interface's fonts have letters only.
 
-use trigon_edit::scene::Node;
+use trigon_document::scene::Node;
 use trigon_window::egui::{Color32, Painter, Pos2, Rect, Stroke, StrokeKind, vec2};
 
 /// What a node holds, as it is shown.

@@ -1,7 +1,7 @@
 //! One row of the outliner: fold, kind, name, visibility.
 
-use trigon_edit::scene::{Node, NodeId};
-use trigon_edit::{Document, ObjectName, RenameObject, SelectAction, ShowObjects};
+use trigon_document::scene::{Node, NodeId};
+use trigon_document::{Document, ObjectName, RenameObject, SelectAction, ShowObjects};
 use trigon_window::egui::{
     self, Key, Rect, Response, RichText, Role, Sense, Ui, Vec2, WidgetInfo, collapsing_header,
 };

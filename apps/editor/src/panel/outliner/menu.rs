@@ -1,7 +1,7 @@
 //! The menu of a row.
 
-use trigon_edit::scene::NodeId;
-use trigon_edit::{
+use trigon_document::scene::NodeId;
+use trigon_document::{
     Command, DeleteObjects, Document, DuplicateObjects, ObjectName, ReorderObject, SelectAction, ShowObjects,
 };
 use trigon_window::egui::{Response, Ui};

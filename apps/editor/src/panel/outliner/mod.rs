@@ -9,8 +9,8 @@ mod rows;
 #[cfg(test)]
 mod tests;
 
-use trigon_edit::scene::NodeId;
-use trigon_edit::{Command, Document, LeaveEditMode, ObjectName, Select, SelectAction};
+use trigon_document::scene::NodeId;
+use trigon_document::{Command, Document, LeaveEditMode, ObjectName, Select, SelectAction};
 use trigon_window::egui::{self, Key, Modifiers, ScrollArea, Ui};
 
 use crate::request::Request;
@@ -99,7 +99,7 @@ fn keys(
     }
     if !document.selection().objects.is_empty() && !document.selection().is_editing() && pressed(Key::Delete)
     {
-        requests.push(Request::Run(trigon_edit::DeleteObjects {}.into()));
+        requests.push(Request::Run(trigon_document::DeleteObjects {}.into()));
     }
 }
 

@@ -3,8 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use trigon_edit::Document;
-use trigon_edit::scene::{NodeId, Scene};
+use trigon_document::Document;
+use trigon_document::scene::{NodeId, Scene};
 
 /// A row.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,9 @@
 //! The outliner by name and pointer.
 
 use egui_kittest::kittest::Queryable;
-use trigon_edit::mesh::primitives;
-use trigon_edit::scene::{Light, Material, Node, Scene};
-use trigon_edit::{RenameObject, ShowObjects};
+use trigon_document::mesh::primitives;
+use trigon_document::scene::{Light, Material, Node, Scene};
+use trigon_document::{RenameObject, ShowObjects};
 
 use super::super::testing::Case;
 use super::*;

@@ -1,8 +1,8 @@
 //! The selected elements of meshes: positions and marks.
 
-use trigon_edit::mesh::edit::EditMesh;
-use trigon_edit::mesh::math::DVec3;
-use trigon_edit::{Command, Crease, Document, MeshSelection, ResetVertices, Selection, Translate};
+use trigon_document::mesh::math::DVec3;
+use trigon_document::modelling::EditMesh;
+use trigon_document::{Command, Crease, Document, MeshSelection, ResetVertices, Selection, Translate};
 use trigon_window::egui::{self, Response, Ui};
 
 use super::super::row::{number, plain, positive, row, vector};

@@ -1,7 +1,7 @@
 //! Parameters of a light.
 
-use trigon_edit::scene::{Light, LightKind, NodeId};
-use trigon_edit::{Document, LightShape, ObjectName, SetLight};
+use trigon_document::scene::{Light, LightKind, NodeId};
+use trigon_document::{Document, LightShape, ObjectName, SetLight};
 use trigon_window::egui::{self, Ui};
 
 use super::super::parameters::check_box;

@@ -1,7 +1,7 @@
 //! The materials of an object: its slots, their values, their textures.
 
-use trigon_edit::scene::{AlphaMode, Arena, Material, MaterialId, Node, NodeId, Shading};
-use trigon_edit::{
+use trigon_document::scene::{AlphaMode, Arena, Material, MaterialId, Node, NodeId, Shading};
+use trigon_document::{
     AddMaterial, AssignTexture, Document, MaterialName, ObjectName, SetMaterial, SetMaterialSlot,
     SurfaceAlpha, SurfaceShading, TextureSlot,
 };

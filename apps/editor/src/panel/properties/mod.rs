@@ -7,7 +7,7 @@ mod material;
 mod tests;
 mod transform;
 
-use trigon_edit::{Document, ObjectName, RenameObject};
+use trigon_document::{Document, ObjectName, RenameObject};
 use trigon_window::egui::{self, CollapsingHeader, Ui};
 
 use super::row::{row, text};

@@ -2,10 +2,10 @@
 
 use egui_kittest::kittest::Queryable;
 use serde_json::json;
-use trigon_edit::mesh::math::DVec3;
-use trigon_edit::mesh::primitives;
-use trigon_edit::scene::{Light, Material, Node, NodeId, Scene};
-use trigon_edit::{Command, Crease, SetMaterial, SurfaceAlpha, TextureSlot, Translate};
+use trigon_document::mesh::math::DVec3;
+use trigon_document::mesh::primitives;
+use trigon_document::scene::{Light, Material, Node, NodeId, Scene};
+use trigon_document::{Command, Crease, SetMaterial, SurfaceAlpha, TextureSlot, Translate};
 
 use super::super::testing::Case;
 use super::*;
@@ -79,7 +79,7 @@ fn a_light_has_its_parameters() {
     case.type_number("Range", "4");
     let light = case.document().nodes().node(lamp).and_then(|node| node.light).expect("it is a light");
     assert_eq!((light.intensity, light.range), (7.5, 4.0), "as typed");
-    let trigon_edit::scene::LightKind::Spot { outer, .. } = light.kind else { panic!("it is a spot") };
+    let trigon_document::scene::LightKind::Spot { outer, .. } = light.kind else { panic!("it is a spot") };
     assert_eq!(outer, 30f32.to_radians(), "shown in degrees");
     case.image("properties_light");
     case.choose("Kind", "Point");
@@ -96,12 +96,14 @@ fn a_material_has_its_values_and_images() {
     case.take_requests();
     case.type_number("Alpha cutoff", "0.25");
     let expected =
-        SetMaterial { material: Some(trigon_edit::MaterialName::Number(0)), ..SetMaterial::default() };
+        SetMaterial { material: Some(trigon_document::MaterialName::Number(0)), ..SetMaterial::default() };
     let cutoff = SetMaterial { alpha_cutoff: Some(0.25), ..expected.clone() };
     assert_eq!(case.take_requests(), [Request::Run(cutoff.into())], "one value");
     case.click("Open Normal map");
-    let choose =
-        Request::ChooseTexture { material: trigon_edit::MaterialName::Number(0), slot: TextureSlot::Normal };
+    let choose = Request::ChooseTexture {
+        material: trigon_document::MaterialName::Number(0),
+        slot: TextureSlot::Normal,
+    };
     assert_eq!(case.take_requests(), [choose], "the editor asks for a file");
     case.choose("Alpha mode", "Blend");
     let blend = SetMaterial { alpha: Some(SurfaceAlpha::Blend), ..expected };

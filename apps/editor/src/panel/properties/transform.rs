@@ -1,8 +1,8 @@
 //! Location, rotation and scale of an object.
 
-use trigon_edit::mesh::math::{DQuat, DVec3};
-use trigon_edit::scene::{Node, NodeId, Transform};
-use trigon_edit::{Document, ObjectName, Rotation, SetTransform, TransformSpace};
+use trigon_document::mesh::math::{DQuat, DVec3};
+use trigon_document::scene::{Node, NodeId, Transform};
+use trigon_document::{Document, ObjectName, Rotation, SetTransform, TransformSpace};
 use trigon_window::egui::Ui;
 
 use super::super::row::{choice, plain, vector};

@@ -9,7 +9,7 @@ mod tests;
 use std::f64::consts::PI;
 
 use thiserror::Error;
-use trigon_edit::mesh::math::elementary;
+use trigon_document::mesh::math::elementary;
 
 /// What a number means, and so which units it may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 #[cfg(test)]
 mod tests;
 
-use trigon_edit::mesh::math::{DVec2, elementary};
-use trigon_edit::scene::Region;
+use trigon_document::mesh::math::{DVec2, elementary};
+use trigon_document::scene::Region;
 use trigon_window::{Hands, Input, Key, Modifiers, PointerButton};
 
 /// What becomes of what was selected before.

@@ -8,11 +8,11 @@ mod moves;
 mod properties;
 mod transforms;
 
-use trigon_edit::mesh::edit::EditMesh;
-use trigon_edit::mesh::math::{DVec2, DVec3, Vec3};
-use trigon_edit::mesh::primitives;
-use trigon_edit::scene::{Material, MeshId, Scene};
-use trigon_edit::{Command, Document};
+use trigon_document::mesh::math::{DVec2, DVec3, Vec3};
+use trigon_document::mesh::primitives;
+use trigon_document::modelling::EditMesh;
+use trigon_document::scene::{Material, MeshId, Scene};
+use trigon_document::{Command, Document};
 use trigon_window::{Hands, Input, Key, Modifiers};
 
 use super::view::tests::front;

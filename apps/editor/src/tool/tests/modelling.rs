@@ -1,7 +1,7 @@
 //! Tools that make geometry, and those that follow it.
 
-use trigon_edit::mesh::edit::FaceId;
-use trigon_edit::mesh::math::{DVec3, Vec3};
+use trigon_document::mesh::math::{DVec3, Vec3};
+use trigon_document::modelling::FaceId;
 use trigon_window::{Input, PointerButton};
 
 use super::super::{

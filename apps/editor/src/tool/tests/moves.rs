@@ -1,6 +1,6 @@
 //! Moves: typed, dragged, locked, snapped.
 
-use trigon_edit::mesh::math::{DVec2, DVec3, Vec3};
+use trigon_document::mesh::math::{DVec2, DVec3, Vec3};
 use trigon_window::{Input, Key, Modifiers, PointerButton};
 
 use super::super::{Tool, ToolState, TransformKind};

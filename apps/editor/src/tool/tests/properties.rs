@@ -1,7 +1,7 @@
 //! What holds for any hands and any view.
 
 use proptest::prelude::*;
-use trigon_edit::mesh::math::{DVec2, DVec3};
+use trigon_document::mesh::math::{DVec2, DVec3};
 use trigon_window::{Hands, Input, Key, Modifiers, PointerButton};
 
 use super::super::view::tests::views;

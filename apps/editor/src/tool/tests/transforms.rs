@@ -1,6 +1,6 @@
 //! Turns, scales, pivots, orientations, proportional editing.
 
-use trigon_edit::mesh::math::{DVec2, DVec3};
+use trigon_document::mesh::math::{DVec2, DVec3};
 use trigon_window::{Input, Modifiers, PointerButton};
 
 use super::super::{Orientation, Pivot, Tool, ToolState, TransformKind, TransformSettings};
@@ -93,8 +93,9 @@ fn orientations_and_pivots_come_from_the_settings() {
     session.moved(&before, |p| (p - DVec3::X) * 3.0 + DVec3::X);
     session.document.undo().expect("one");
     let view = TransformSettings { orientation: Orientation::View, ..settings() };
-    session.view.camera = trigon_edit::scene::camera::Camera::look_at(DVec3::X * 10.0, DVec3::ZERO, DVec3::Y)
-        .with_projection(session.view.camera.projection);
+    session.view.camera =
+        trigon_document::scene::camera::Camera::look_at(DVec3::X * 10.0, DVec3::ZERO, DVec3::Y)
+            .with_projection(session.view.camera.projection);
     let mut tool = session.transform(TransformKind::Translate, view);
     session.keys(&mut tool, "x2!");
     session.moved(&before, |p| p + DVec3::NEG_Z * 2.0);

@@ -1,7 +1,7 @@
 //! Shrink and fatten, push and pull, to sphere: one number from the pointer, which grows upwards and
 //! rightwards.
 
-use trigon_edit::{Command, PushPull, ShrinkFatten, ToSphere};
+use trigon_document::{Command, PushPull, ShrinkFatten, ToSphere};
 
 use super::super::snap::rounded;
 use super::super::view::ToolView;

@@ -1,7 +1,7 @@
 //! Keys, wheel and pointer during a transform.
 
-use trigon_edit::mesh::math::{DVec2, elementary};
-use trigon_edit::{Document, Proportional};
+use trigon_document::mesh::math::{DVec2, elementary};
+use trigon_document::{Document, Proportional};
 use trigon_window::Modifiers;
 
 use super::super::ToolState;

@@ -5,8 +5,8 @@ mod deform;
 mod input;
 mod slide;
 
-use trigon_edit::mesh::math::{DVec2, DVec3};
-use trigon_edit::{Document, Proportional};
+use trigon_document::mesh::math::{DVec2, DVec3};
+use trigon_document::{Document, Proportional};
 use trigon_window::{Hands, Input};
 
 use super::constraint::{Axis, Constraint, Frames, Freedom, Orientation};

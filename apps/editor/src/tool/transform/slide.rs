@@ -1,6 +1,6 @@
 //! The command of a slide along edges.
 
-use trigon_edit::{Command, SlideEdges, SlideVertices, TransformSpace};
+use trigon_document::{Command, SlideEdges, SlideVertices, TransformSpace};
 
 use super::super::snap::rounded;
 use super::TransformTool;

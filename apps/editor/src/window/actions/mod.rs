@@ -8,7 +8,7 @@ mod mesh;
 mod select;
 mod view;
 
-use trigon_edit::Document;
+use trigon_document::Document;
 
 use crate::request::{FileAction, FileRequest, Request, ToolKind, UiRequest, ViewRequest};
 

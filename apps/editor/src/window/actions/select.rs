@@ -1,6 +1,6 @@
 //! The menu Select.
 
-use trigon_edit::ElementKind;
+use trigon_document::ElementKind;
 
 use super::{Action, Does::*, Needs, actions};
 use crate::request::{ToolKind, UiRequest};

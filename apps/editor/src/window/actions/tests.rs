@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use trigon_edit::command_reference;
+use trigon_document::command_reference;
 use trigon_window::Chord;
 
 use super::*;

@@ -1,6 +1,6 @@
 //! The top bar with modes and settings, and the tools on the left.
 
-use trigon_edit::ElementKind;
+use trigon_document::ElementKind;
 use trigon_window::Stage;
 use trigon_window::egui::{self, Button, Ui};
 

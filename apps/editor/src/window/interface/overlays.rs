@@ -1,6 +1,6 @@
 //! The list of keys, and the rename field.
 
-use trigon_edit::RenameObject;
+use trigon_document::RenameObject;
 use trigon_window::egui::{self, Align2, Context, Grid, Key, RichText, ScrollArea, TextEdit};
 
 use super::widgets::label;

@@ -1,6 +1,6 @@
 //! The status line: the keys and numbers of the active tool, results and errors, and the selection.
 
-use trigon_edit::{Document, ElementKind};
+use trigon_document::{Document, ElementKind};
 use trigon_window::egui::{Align, Color32, Layout, RichText, Ui};
 
 use crate::window::editor::{Editor, Message};

@@ -1,7 +1,7 @@
 //! Everything drawn over the image: the grid, lights, cameras, the cursor, gizmos, and the drawings of tools
 //! and gestures.
 
-use trigon_edit::scene::Region;
+use trigon_document::scene::Region;
 use trigon_window::egui::{Color32, Painter, Shape, Stroke, Ui};
 use trigon_window::{Pane, Stage};
 

@@ -1,6 +1,6 @@
 //! What keys and menus do to the document and the view, one chord after the other.
 
-use trigon_edit::scene::{Display, NodeId, Style};
+use trigon_document::scene::{Display, NodeId, Style};
 use trigon_window::Chord;
 use trigon_window::scene::Lighting;
 use trigon_window::scene::math::DVec3;
@@ -117,7 +117,7 @@ fn ctrl_a_applies_the_placement_of_an_object() {
     worked.choose("apply.all");
     let (id, document) = (worked.object("Cube"), &worked.editor.document);
     let node = document.nodes().nodes().get(id).expect("it is there");
-    assert_eq!(node.transform, trigon_edit::scene::Transform::IDENTITY, "nothing is left of it");
+    assert_eq!(node.transform, trigon_document::scene::Transform::IDENTITY, "nothing is left of it");
     let mesh = document.mesh(node.mesh.expect("it has one")).expect("it was edited");
     let width = mesh.vertices().map(|vertex| mesh.position(vertex).x).fold(0.0, f32::max);
     assert_eq!(width, 2.0, "the mesh is as wide as it was shown");

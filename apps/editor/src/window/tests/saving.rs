@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 
-use trigon_edit::{Disk, Storage};
+use trigon_document::{Disk, Storage};
 
 use super::*;
 use crate::request::{FileAction, FileRequest};
@@ -81,7 +81,7 @@ impl Worked {
 }
 
 fn count_of_objects(path: &Path) -> usize {
-    let (document, _) = trigon_edit::Document::open(path, &Default::default()).expect("it was saved");
+    let (document, _) = trigon_document::Document::open(path, &Default::default()).expect("it was saved");
     document.nodes().nodes().len()
 }
 

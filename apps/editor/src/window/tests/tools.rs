@@ -1,7 +1,7 @@
 //! Tools and selection by mouse and keys, from the window's inputs to the document.
 
-use trigon_edit::scene::Region;
-use trigon_edit::{Command, SelectAction};
+use trigon_document::scene::Region;
+use trigon_document::{Command, SelectAction};
 use trigon_window::scene::camera::{AxisView, Projector};
 use trigon_window::scene::math::{DVec2, DVec3};
 use trigon_window::{InputOwner, PointerButton};

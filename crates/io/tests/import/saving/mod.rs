@@ -10,8 +10,8 @@ use trigon_io::{
     ExportOptions, Format, LoadOptions, Loaded, NativeDocument, UpAxis, Warning, encode_glb, load_from_slice,
 };
 use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, Vec4};
-use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
 use trigon_mesh::{Attributes, Deltas, Mesh, MorphTarget, RenderMesh, SkinWeights, primitives};
+use trigon_modelling::{EdgeId, EditMesh, FaceId, VertexId};
 use trigon_scene::{
     Animation, Channel, Curve, Interpolation, Light, LightKind, Material, MeshId, Node, NodeId, Property,
     RenderSettings, Scene, Shading, Skin, Texture, TextureFormat, Transform, render, showcase,

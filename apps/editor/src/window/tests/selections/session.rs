@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use trigon_edit::PICK_RADIUS;
-use trigon_edit::mesh::edit::{EditMesh, ElementMap};
+use trigon_document::PICK_RADIUS;
+use trigon_document::modelling::{EditMesh, ElementMap};
 use trigon_window::scene::math::DVec2;
 use trigon_window::scene::mesh::Mesh;
 use trigon_window::{Modifiers, PointerButton};

@@ -1,7 +1,7 @@
 //! A light that is found in the view, moved by a key and by the gizmo, and made brighter.
 
 use super::*;
-use trigon_edit::scene::math::DVec3;
+use trigon_document::scene::math::DVec3;
 
 const LIGHT: &str = "
     click 4 6 3                              # on its circles

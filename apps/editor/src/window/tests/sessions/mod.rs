@@ -14,8 +14,8 @@ use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use trigon_edit::Document;
-use trigon_edit::mesh::edit::EditMesh;
+use trigon_document::Document;
+use trigon_document::modelling::EditMesh;
 use trigon_window::scene::Frame;
 use trigon_window::scene::camera::Viewport;
 use trigon_window::{

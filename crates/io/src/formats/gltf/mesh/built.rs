@@ -1,7 +1,7 @@
 //! A converted mesh, and what its materials need to know about it.
 
 use trigon_mesh::Mesh;
-use trigon_mesh::edit::Marks;
+use trigon_modelling::Marks;
 use trigon_scene::MaterialTexture;
 
 use crate::formats::gltf::slots::SlotTexture;

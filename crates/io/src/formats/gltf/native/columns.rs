@@ -6,8 +6,8 @@
 use std::collections::BTreeSet;
 
 use trigon_math::{Vec2, Vec3, Vec4};
-use trigon_mesh::edit::{EdgeMark, Marks};
 use trigon_mesh::{Attributes, Deltas, Mesh, MeshColumns, MorphTarget, SkinWeights};
+use trigon_modelling::{EdgeMark, Marks};
 
 use super::extras::Header;
 use crate::formats::gltf::hash::xxh64;

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 use gltf::json::mesh::Primitive;
 use gltf::json::validation::Checked;
 use trigon_mesh::Mesh;
-use trigon_mesh::edit::Marks;
+use trigon_modelling::Marks;
 
 use super::columns::{ColumnReader, mesh_from_columns};
 use super::extras::Header;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use trigon_mesh::edit::Marks;
+use trigon_modelling::Marks;
 use trigon_scene::{MeshId, Scene};
 
 use crate::gltf_source::GltfSource;

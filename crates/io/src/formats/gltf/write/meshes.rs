@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use serde_json::value::RawValue;
-use trigon_mesh::edit::{EditMesh, Marks, Refusal};
 use trigon_mesh::{Mesh, RenderMesh};
+use trigon_modelling::{EditMesh, Marks, Refusal};
 use trigon_scene::{MeshAsset, MeshId};
 
 use super::draft::Draft;

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::json;
 use trigon_math::DAffine3;
-use trigon_mesh::edit::EditMesh;
+use trigon_modelling::EditMesh;
 use trigon_scene::{Material, MaterialId, MeshAsset, MeshId, Node, NodeId, Scene, Skin, SkinId};
 
 use super::draft::Draft;

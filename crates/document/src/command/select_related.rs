@@ -1,0 +1,158 @@
+//! Selecting what is related to the selection, or to one element of it.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_modelling::{EdgeId, EditMesh, Refusal};
+
+use super::{Action, Outcome};
+use crate::error::EditError;
+use crate::selection::{
+    ElementKind, Elements, MeshSelection, edge_loop, edge_ring, face_loop, shortest_path,
+};
+use crate::state::Change;
+
+/// Changes the selection of each mesh that is edited.
+pub(super) fn change_selections(
+    change: &mut Change<'_>,
+    command: &'static str,
+    mut select: impl FnMut(&EditMesh, ElementKind, &mut MeshSelection) -> Result<(), EditError>,
+) -> Result<Outcome, EditError> {
+    if !change.selection().is_editing() {
+        return Err(EditError::NotEditing(command));
+    }
+    let kind = change.selection().kind();
+    let ids: Vec<_> = change.selection().meshes().map(|(id, _)| id).collect();
+    let (selection, meshes) = change.selection_and_meshes();
+    for id in ids {
+        if let (Some(mesh), Some(selection)) = (meshes.get(&id), selection.of_mut(id)) {
+            select(mesh, kind, selection)?;
+        }
+    }
+    Ok(Outcome::silent())
+}
+
+/// Selects everything connected to the selection.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SelectLinked {}
+
+impl Action for SelectLinked {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        change_selections(change, "select linked", |mesh, kind, selection| {
+            selection.grow_linked(mesh, kind);
+            Ok(())
+        })
+    }
+}
+
+/// Grows the selection by its neighbours.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SelectMore {}
+
+impl Action for SelectMore {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        change_selections(change, "select more", |mesh, kind, selection| {
+            selection.grow(mesh, kind);
+            Ok(())
+        })
+    }
+}
+
+/// Shrinks the selection: elements that touch an unselected one are deselected.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SelectLess {}
+
+impl Action for SelectLess {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        change_selections(change, "select less", |mesh, kind, selection| {
+            selection.shrink(mesh, kind);
+            Ok(())
+        })
+    }
+}
+
+/// Selects the edge loops through the selected edges; in face mode, the loops of quads across their
+/// fully selected edges.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SelectLoop {}
+
+impl Action for SelectLoop {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        change_selections(change, "select loop", |mesh, kind, selection| {
+            extend(mesh, kind, selection, |edge| match kind {
+                ElementKind::Face => Elements::Faces(face_loop(mesh, edge)),
+                _ => Elements::Edges(edge_loop(mesh, edge)),
+            });
+            Ok(())
+        })
+    }
+}
+
+/// Selects the rings of edges across quads, starting from the selected edges.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SelectRing {}
+
+impl Action for SelectRing {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        change_selections(change, "select ring", |mesh, kind, selection| {
+            extend(mesh, kind, selection, |edge| Elements::Edges(edge_ring(mesh, edge)));
+            Ok(())
+        })
+    }
+}
+
+/// Adds the edges related to each selected edge. An edge that another one added is not examined
+/// again.
+fn extend(
+    mesh: &EditMesh,
+    kind: ElementKind,
+    selection: &mut MeshSelection,
+    along: impl Fn(EdgeId) -> Elements,
+) {
+    let mut asked = vec![false; mesh.edge_capacity()];
+    let mut bits = selection.bits().clone();
+    for edge in selection.edges(mesh, kind) {
+        if std::mem::replace(&mut asked[edge.index() as usize], true) {
+            continue;
+        }
+        let elements = along(edge);
+        if let Elements::Edges(edges) = &elements {
+            edges.iter().for_each(|edge| asked[edge.index() as usize] = true);
+        }
+        let mut found = MeshSelection::default();
+        found.select(mesh, kind, &elements);
+        bits.union_with(found.bits());
+    }
+    selection.set(bits);
+}
+
+/// Selects the shortest path between the last two elements that were selected individually.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SelectPath {}
+
+impl Action for SelectPath {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let mut found = false;
+        change_selections(change, "select path", |mesh, kind, selection| {
+            let &[.., from, to] = selection.order() else { return Ok(()) };
+            let path = shortest_path(mesh, kind, from, to).ok_or(Refusal::NotPossible {
+                operation: "selecting a path",
+                reason: "both are in different parts of the mesh",
+            })?;
+            selection.insert(&path);
+            found = true;
+            Ok(())
+        })?;
+        let needed = "two elements selected one after the other";
+        if found {
+            Ok(Outcome::silent())
+        } else {
+            Err(EditError::NothingSelected { command: "selecting a path", needed })
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Other faces for the same surface: Catmull-Clark, triangles, quads; and filling holes.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_modelling::QuadLimits;
+
+use super::whole_meshes::{remake, whole_meshes};
+use super::{Action, Outcome};
+use crate::error::EditError;
+use crate::selection::{ElementKind, Elements};
+use crate::state::{AfterEdit, Change};
+
+const FACES: &str = "at least one selected face";
+
+/// Subdivides whole meshes into smooth surfaces: the edited ones, or those of the selected objects.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct CatmullClark {
+    /// The number of subdivisions.
+    #[schemars(range(min = 1, max = 10))]
+    pub levels: u32,
+}
+
+impl Default for CatmullClark {
+    fn default() -> Self {
+        Self { levels: 1 }
+    }
+}
+
+impl Action for CatmullClark {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let mut faces = 0;
+        for id in whole_meshes(change, "subdividing")? {
+            faces += remake(change, id, |mesh| Ok(mesh.catmull_clark(self.levels).map(drop)?))?;
+        }
+        Ok(Outcome::counted("made", faces, ["face", "faces"]))
+    }
+}
+
+/// Cuts the selected faces into triangles.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Triangulate {}
+
+impl Action for Triangulate {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        let mut left = 0;
+        change.edit_selected("triangulating", FACES, |mesh, selection| {
+            let made = mesh.triangulate_faces(&selection.faces(mesh, kind))?;
+            left += made.left.len();
+            Ok(AfterEdit::Select(Elements::Faces(made.faces)))
+        })?;
+        if left == 0 {
+            Ok(Outcome::silent())
+        } else {
+            Ok(Outcome::counted("left as they were", left, ["face", "faces"]))
+        }
+    }
+}
+
+/// Joins pairs of selected triangles into quads.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct TrisToQuads {
+    /// The largest angle between the two triangles, in degrees.
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub face_angle: f64,
+    /// The largest deviation of the quad's corners from right angles, in degrees.
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub shape_angle: f64,
+}
+
+impl Default for TrisToQuads {
+    fn default() -> Self {
+        Self { face_angle: 40.0, shape_angle: 40.0 }
+    }
+}
+
+impl Action for TrisToQuads {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        let limits = QuadLimits {
+            face_angle: self.face_angle.to_radians(),
+            shape_angle: self.shape_angle.to_radians(),
+        };
+        let mut quads = 0;
+        change.edit_selected("joining triangles", "at least two selected triangles", |mesh, selection| {
+            quads += mesh.tris_to_quads(&selection.faces(mesh, kind), limits)?.len();
+            Ok(AfterEdit::Keep)
+        })?;
+        Ok(Outcome::counted("made", quads, ["quad", "quads"]))
+    }
+}
+
+/// Makes a face from a loop or a chain of edges, or from vertices; two vertices become an edge.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Fill {}
+
+impl Action for Fill {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        change.edit_selected("filling", "edges or vertices", |mesh, selection| {
+            let edges = selection.edges(mesh, kind);
+            let made = if kind == ElementKind::Vertex && edges.len() < 2 {
+                mesh.fill_vertices(&selection.vertices(mesh, kind))?
+            } else {
+                mesh.fill_edges(&edges)?
+            };
+            let elements =
+                if made.faces.is_empty() { Elements::Edges(made.edges) } else { Elements::Faces(made.faces) };
+            Ok(AfterEdit::Select(elements))
+        })?;
+        Ok(Outcome::silent())
+    }
+}
+
+/// Joins two selected loops or chains of edges with a band of faces. Selected faces are removed and their
+/// outlines joined, so two faces become a handle or a hole.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Bridge {}
+
+impl Action for Bridge {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        change.edit_selected("bridging", "two loops of edges", |mesh, selection| {
+            let (faces, edges) = (selection.faces(mesh, kind), selection.edges(mesh, kind));
+            let made = match &faces[..] {
+                [] => mesh.bridge_edges(&edges)?,
+                faces => mesh.bridge_faces(faces, &edges)?,
+            };
+            Ok(AfterEdit::Select(Elements::Faces(made.faces)))
+        })?;
+        Ok(Outcome::silent())
+    }
+}
+
+/// Connects the selected vertices with edges through the faces between them.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ConnectVertices {}
+
+impl Action for ConnectVertices {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        change.edit_selected_vertices("connecting", "at least two selected vertices", |mesh, vertices| {
+            mesh.connect_vertices(vertices).map(drop)
+        })?;
+        Ok(Outcome::silent())
+    }
+}

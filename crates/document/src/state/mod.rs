@@ -1,0 +1,57 @@
+//! The state of a document: what commands change, and what its scene shows of it.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `mod` | the state |
+//! | `change` | a command's access to it |
+//! | `shown` | how the scene follows the edited meshes |
+//! | `visible` | what a view shows instead of a mesh of the scene |
+//! | `marked` | which elements of a mesh are marked |
+//! | `scene_change` | the changes that keep a copy of the scene equal to it |
+
+mod change;
+mod marked;
+mod scene_change;
+mod shown;
+mod visible;
+
+use trigon_io::NativeDocument;
+use trigon_mesh::math::DAffine3;
+use trigon_modelling::EditMesh;
+use trigon_scene::{MeshId, NodeId};
+
+use crate::selection::Selection;
+
+pub(crate) use change::{AfterEdit, Change};
+pub(crate) use marked::MarkedElements;
+pub use scene_change::SceneChange;
+pub(crate) use shown::{Outdated, Shown, Untold};
+pub(crate) use visible::shown_levels;
+
+/// What commands change of a document, and what its scene shows of it.
+#[derive(Debug, Default)]
+pub(crate) struct State {
+    /// The scene, its edited meshes, and what is kept of the file.
+    pub(crate) file: NativeDocument,
+    pub(crate) selection: Selection,
+    /// How the scene follows the edited meshes.
+    pub(crate) shown: Shown,
+    /// What was lost when meshes were made editable and has not been reported yet.
+    pub(crate) untold: Vec<String>,
+}
+
+impl State {
+    /// A mesh with its neighbours, if it is or was edited.
+    pub(crate) fn mesh(&self, id: MeshId) -> Option<&EditMesh> {
+        self.file.edited.get(&id)
+    }
+
+    /// The map from a mesh into the world; see [`Document::mesh_transform`](crate::Document::mesh_transform).
+    pub(crate) fn mesh_transform(&self, id: MeshId) -> DAffine3 {
+        let scene = &self.file.scene;
+        let shows = |object: &NodeId| scene.node(*object).is_some_and(|node| node.mesh == Some(id));
+        let selected = self.selection.objects.iter().copied().find(shows);
+        let object = selected.or_else(|| scene.nodes().iter().map(|(object, _)| object).find(shows));
+        object.map_or(DAffine3::IDENTITY, |object| scene.world_transform(object))
+    }
+}

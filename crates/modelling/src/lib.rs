@@ -1,0 +1,64 @@
+//! Editable polygon meshes and their operations.
+//!
+//! [`EditMesh`] stores the full adjacency of every element, so an operation finds what it needs at
+//! once. Each operation is a file with one function, which returns what it made or a [`Refusal`]
+//! with the reason why it did nothing. Within [`EditMesh::transaction`] it can be undone to the
+//! last byte. [`EditMesh::from_mesh`] and [`EditMesh::to_mesh`] convert from and to the
+//! [`Mesh`](trigon_mesh::Mesh) that is drawn and saved.
+//!
+//! This crate knows no documents, selections, files or windows, and gives the same bits on every machine.
+//!
+//! # Modules
+//! From low to high: `ids`, `column` (values with a record of changes), `records` and `layers` (the stored
+//! data), `edit_mesh` (all columns), `slots` (adds and removes single elements) and `rings` (links and
+//! unlinks them), `walk` (navigation between elements), `euler` (elementary changes), and the operations.
+
+mod blends;
+mod column;
+mod edit_mesh;
+mod euler;
+mod follow;
+mod from_mesh;
+mod ids;
+mod inspect;
+mod layers;
+mod marks;
+mod measure;
+mod numbering;
+mod operations;
+mod records;
+mod refusal;
+mod rings;
+mod sharp_normals;
+mod skin;
+mod slots;
+mod subdivision;
+#[cfg(test)]
+mod tests;
+mod to_mesh;
+mod transaction;
+mod validate;
+mod values;
+mod walk;
+
+pub use edit_mesh::EditMesh;
+pub use euler::{SplitEdge, SplitFace};
+pub use follow::{ChangedValues, ElementNumbers};
+pub use from_mesh::LeftOut;
+pub use ids::{CornerId, EdgeId, FaceId, VertexId};
+pub use inspect::{
+    BoundaryLoop, DoubledFace, DoubledVertex, Inspection, InspectionSettings, NonPlanarFace, TouchingFaces,
+};
+pub use marks::{EdgeMark, Marks, MarksError};
+pub use operations::*;
+pub use refusal::Refusal;
+pub use to_mesh::ElementMap;
+pub use transaction::Difference;
+
+/// Re-export of the crate below, so that programs need no other dependency.
+pub use trigon_mesh as mesh;
+
+/// Runs the README's example as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

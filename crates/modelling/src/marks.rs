@@ -1,0 +1,293 @@
+//! The data of an editable mesh that a [`Mesh`] does not have, as plain lists: original positions, marks of
+//! edges, hidden elements. Together with the mesh of [`EditMesh::to_mesh`] they are complete, so a file that
+//! holds both loses nothing.
+
+use thiserror::Error;
+use trigon_math::Vec3;
+use trigon_mesh::Mesh;
+
+use super::column::Column;
+use super::edit_mesh::EditMesh;
+use super::from_mesh::LeftOut;
+use super::ids::{CornerId, FaceId, VertexId};
+use super::layers::LayerKind;
+use super::records::{HIDDEN, SEAM, SHARP};
+use super::to_mesh::ElementMap;
+
+/// Marks on the elements of a [`Mesh`], which they name by its indices.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Marks {
+    /// To where each vertex can be reset, in metres; empty if each is where it was.
+    pub first_positions: Vec<Vec3>,
+    /// Edges with any mark, by their vertices.
+    pub edges: Vec<EdgeMark>,
+    /// Vertices that are hidden from the user.
+    pub hidden_vertices: Vec<u32>,
+    /// Faces that are hidden from the user.
+    pub hidden_faces: Vec<u32>,
+    /// Corners whose normal in the mesh was not given: sharp edges make it, and it follows them.
+    pub sharp_corners: Vec<u32>,
+    /// In how many Catmull-Clark levels the mesh is shown, at most [`EditMesh::MOST_SUBDIVISION`].
+    pub subdivision: u32,
+}
+
+/// The marks of one edge.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct EdgeMark {
+    /// Its two vertices, the smaller one first.
+    pub vertices: [u32; 2],
+    /// It stays sharp in smooth shading.
+    pub is_sharp: bool,
+    /// Texture coordinates are cut there when they are laid out.
+    pub is_seam: bool,
+    /// It is hidden from the user.
+    pub is_hidden: bool,
+    /// How sharp it stays in Catmull-Clark subdivision, 0 to 1.
+    pub crease: f32,
+}
+
+/// Marks that do not belong to the mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum MarksError {
+    /// There is not one first position for each vertex.
+    #[error("there are {found} original positions for {expected} vertices")]
+    FirstPositions {
+        /// How many vertices the mesh has.
+        expected: usize,
+        /// How many were given.
+        found: usize,
+    },
+    /// Two vertices that are marked as an edge are not joined.
+    #[error("vertices {} and {} are marked as an edge and are not joined by one", .0[0], .0[1])]
+    NoSuchEdge([u32; 2]),
+    /// There is no such vertex.
+    #[error("vertex {0} is hidden and does not exist")]
+    NoSuchVertex(u32),
+    /// There is no such face.
+    #[error("face {0} is hidden and does not exist")]
+    NoSuchFace(u32),
+    /// There is no such corner.
+    #[error("corner {0} has a normal made by sharp edges and does not exist")]
+    NoSuchCorner(u32),
+    /// There are too many levels.
+    #[error("the mesh is shown in {0} levels of subdivision, and 5 are the most")]
+    Subdivision(u32),
+}
+
+impl EditMesh {
+    /// The marks, by the indices of the mesh of [`EditMesh::to_mesh`], which gave `map`.
+    #[must_use]
+    pub fn marks(&self, map: &ElementMap) -> Marks {
+        let position = |&vertex: &VertexId| self.first_position(vertex);
+        let is_moved = |vertex: &VertexId| position(vertex) != self.position(*vertex);
+        let first_positions = match map.vertices.iter().any(is_moved) {
+            true => map.vertices.iter().map(position).collect(),
+            false => Vec::new(),
+        };
+        let hidden_vertices =
+            (0u32..).zip(&map.vertices).filter(|(_, vertex)| self.is_vertex_hidden(**vertex));
+        let hidden_faces = (0u32..).zip(&map.faces).filter(|(_, face)| self.is_face_hidden(**face));
+        Marks {
+            first_positions,
+            edges: self.edge_marks(map),
+            hidden_vertices: hidden_vertices.map(|(index, _)| index).collect(),
+            hidden_faces: hidden_faces.map(|(index, _)| index).collect(),
+            sharp_corners: self.sharp_corners(map),
+            subdivision: self.subdivision,
+        }
+    }
+
+    /// The corners of the mesh of [`EditMesh::to_mesh`] whose normals sharp edges make.
+    fn sharp_corners(&self, map: &ElementMap) -> Vec<u32> {
+        let Some(of_fans) = self.sharp_normals() else { return Vec::new() };
+        let is_made = |corner: CornerId| {
+            of_fans[corner.0 as usize] != Vec3::ZERO && self.custom_normal(corner).is_none()
+        };
+        (0u32..).zip(&map.corners).filter(|(_, corner)| is_made(**corner)).map(|(index, _)| index).collect()
+    }
+
+    /// Takes away normals that were not given, and all of them if none was.
+    fn clear_sharp_corners(&mut self, corners: &[u32]) -> Result<(), MarksError> {
+        for &index in corners {
+            let corner = CornerId(index);
+            if !self.has_corner(corner) {
+                return Err(MarksError::NoSuchCorner(index));
+            }
+            self.set_custom_normal(corner, Vec3::ZERO);
+        }
+        if !corners.is_empty() && self.corners().all(|corner| self.custom_normal(corner).is_none()) {
+            self.corner_layers.retain(|layer| layer.kind != LayerKind::Normal);
+        }
+        Ok(())
+    }
+
+    fn edge_marks(&self, map: &ElementMap) -> Vec<EdgeMark> {
+        let is_marked = |edge: &super::ids::EdgeId| {
+            let record = &self.edges[edge.0];
+            record.flags & (SHARP | SEAM | HIDDEN) != 0 || record.crease != 0.0
+        };
+        if !self.edges().any(|edge| is_marked(&edge)) {
+            return Vec::new();
+        }
+        let mut numbers = vec![0; self.vertex_capacity()];
+        for (number, vertex) in (0u32..).zip(&map.vertices) {
+            numbers[vertex.0 as usize] = number;
+        }
+        let ends = |edge| {
+            let mut ends = self.edge_vertices(edge).map(|vertex| numbers[vertex.0 as usize]);
+            ends.sort_unstable();
+            ends
+        };
+        let mark = |edge| EdgeMark {
+            vertices: ends(edge),
+            is_sharp: self.is_sharp(edge),
+            is_seam: self.is_seam(edge),
+            is_hidden: self.is_edge_hidden(edge),
+            crease: self.crease(edge),
+        };
+        let mut marks: Vec<EdgeMark> = self.edges().filter(is_marked).map(mark).collect();
+        // Edges are numbered anew when a mesh is made editable.
+        marks.sort_unstable_by_key(|mark| mark.vertices);
+        marks
+    }
+
+    /// Makes a mesh editable, with its marks: what [`EditMesh::from_mesh`] makes of it, and
+    /// then each mark set.
+    ///
+    /// ```
+    /// use trigon_mesh::primitives;
+    /// use trigon_modelling::{EdgeId, EditMesh};
+    ///
+    /// let (mut cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
+    /// cube.set_crease(EdgeId::new(3), 0.5);
+    /// let (mesh, map) = cube.to_mesh();
+    /// let (again, _) = EditMesh::from_mesh_and_marks(&mesh, &cube.marks(&map))?;
+    /// assert!(again == cube);
+    /// # Ok::<(), trigon_modelling::MarksError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The marks name what the mesh has not.
+    pub fn from_mesh_and_marks(mesh: &Mesh, marks: &Marks) -> Result<(Self, LeftOut), MarksError> {
+        let (mut editable, left_out) = Self::from_mesh(mesh);
+        let (expected, found) = (editable.vertex_count(), marks.first_positions.len());
+        if found != 0 && found != expected {
+            return Err(MarksError::FirstPositions { expected, found });
+        }
+        if found != 0 {
+            editable.first_positions = Column::new(marks.first_positions.clone());
+        }
+        for mark in &marks.edges {
+            editable.set_edge_mark(mark)?;
+        }
+        for &index in &marks.hidden_vertices {
+            let vertex = VertexId(index);
+            editable.check_vertex(vertex).map_err(|_| MarksError::NoSuchVertex(index))?;
+            editable.set_vertex_hidden(vertex, true);
+        }
+        for &index in &marks.hidden_faces {
+            let face = FaceId(index);
+            editable.check_face(face).map_err(|_| MarksError::NoSuchFace(index))?;
+            editable.set_face_hidden(face, true);
+        }
+        editable.clear_sharp_corners(&marks.sharp_corners)?;
+        editable
+            .set_subdivision(marks.subdivision)
+            .map_err(|_| MarksError::Subdivision(marks.subdivision))?;
+        Ok((editable, left_out))
+    }
+
+    fn set_edge_mark(&mut self, mark: &EdgeMark) -> Result<(), MarksError> {
+        let [a, b] = mark.vertices.map(VertexId);
+        let exist = self.has_vertex(a) && self.has_vertex(b);
+        let edge = exist.then(|| self.find_edge(a, b)).flatten();
+        let edge = edge.ok_or(MarksError::NoSuchEdge(mark.vertices))?;
+        self.set_sharp(edge, mark.is_sharp);
+        self.set_seam(edge, mark.is_seam);
+        self.set_edge_hidden(edge, mark.is_hidden);
+        self.set_crease(edge, mark.crease);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use trigon_mesh::primitives;
+
+    use super::super::ids::EdgeId;
+    use super::super::tests::meshes;
+    use super::*;
+
+    #[test]
+    fn normals_that_sharp_edges_make_are_not_frozen() {
+        let (mut cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
+        let faces: Vec<FaceId> = cube.faces().collect();
+        let edges: Vec<EdgeId> = cube.edges().collect();
+        cube.shade_smooth(&faces).expect("a cube has faces");
+        cube.mark_sharp(&edges[..5]).expect("a cube has edges");
+        let (mesh, map) = cube.to_mesh();
+        assert!(mesh.attributes().corner_normals.is_some(), "they are shown");
+        let (again, _) = EditMesh::from_mesh_and_marks(&mesh, &cube.marks(&map)).expect("its own");
+        assert!(again == cube, "and not given");
+    }
+
+    /// Marks elements by their indices and a number.
+    fn marked(mesh: &Mesh, seed: u32) -> EditMesh {
+        let (mut mesh, _) = EditMesh::from_mesh(mesh);
+        let is_chosen = |index: u32, kind: u32| (index ^ seed).wrapping_mul(2_654_435_769) >> 28 == kind;
+        for edge in mesh.edges().collect::<Vec<_>>() {
+            mesh.set_sharp(edge, is_chosen(edge.0, 0));
+            mesh.set_seam(edge, is_chosen(edge.0, 1));
+            mesh.set_edge_hidden(edge, is_chosen(edge.0, 2));
+            mesh.set_crease(edge, if is_chosen(edge.0, 3) { 0.375 } else { 0.0 });
+        }
+        for vertex in mesh.vertices().collect::<Vec<_>>() {
+            mesh.set_vertex_hidden(vertex, is_chosen(vertex.0, 4));
+            if is_chosen(vertex.0, 5) {
+                mesh.set_position(vertex, Vec3::splat(seed as f32));
+            }
+        }
+        for face in mesh.faces().collect::<Vec<_>>() {
+            mesh.set_face_hidden(face, is_chosen(face.0, 6));
+        }
+        mesh
+    }
+
+    proptest! {
+        /// Also with holes in the numbering, which the first step closes.
+        #[test]
+        fn mesh_and_marks_are_all_there_is(start in meshes(), seed in any::<u32>(), removed in any::<u32>()) {
+            let mut first = marked(&start, seed);
+            let face = FaceId(removed % first.face_capacity().max(1) as u32);
+            drop(first.remove_face(face));
+            let (mesh, map) = first.to_mesh();
+            let marks = first.marks(&map);
+            let (second, _) = EditMesh::from_mesh_and_marks(&mesh, &marks).expect("they belong together");
+            prop_assert_eq!(second.check_structure(), Ok(()));
+            let (again, map) = second.to_mesh();
+            prop_assert_eq!(&again, &mesh);
+            prop_assert_eq!(second.marks(&map), marks);
+        }
+    }
+
+    #[test]
+    fn marks_of_another_mesh_are_refused() {
+        let cube = primitives::cube(2.0);
+        let refused =
+            |marks: Marks| EditMesh::from_mesh_and_marks(&cube, &marks).expect_err("not of this mesh");
+        let edge = |vertices| Marks {
+            edges: vec![EdgeMark { vertices, ..EdgeMark::default() }],
+            ..Marks::default()
+        };
+        let (mesh, _) = EditMesh::from_mesh(&cube);
+        let [a, _] = mesh.edge_vertices(EdgeId(0)).map(VertexId::index);
+        assert_eq!(refused(edge([a, a])), MarksError::NoSuchEdge([a, a]), "no edge from a vertex to itself");
+        assert_eq!(refused(edge([0, u32::MAX])), MarksError::NoSuchEdge([0, u32::MAX]), "no such vertex");
+        refused(Marks { hidden_vertices: vec![8], ..Marks::default() });
+        refused(Marks { hidden_faces: vec![6], ..Marks::default() });
+        refused(Marks { subdivision: 6, ..Marks::default() });
+        refused(Marks { first_positions: vec![Vec3::ZERO; 7], ..Marks::default() });
+    }
+}

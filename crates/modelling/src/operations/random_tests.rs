@@ -1,0 +1,98 @@
+//! Random sequences of moves, marks, mirrors, projections and repairs on random meshes, a third of them
+//! non-manifold or open.
+
+use proptest::prelude::*;
+use trigon_math::{DMat3, DVec3, Plane};
+
+use super::super::tests::{check_undo_and_redo, keeps_affine_values, meshes};
+use super::*;
+use crate::{EdgeId, EditMesh, FaceId, Refusal, VertexId};
+
+/// Which operation, what chooses its elements, and two parameters within −1…1.
+type Step = (u8, u64, f64, f64);
+
+/// About half of some elements, as the bits of a number say, repeated.
+fn some<T: Copy>(all: impl Iterator<Item = T>, bits: u64) -> Vec<T> {
+    all.enumerate().filter(|(i, _)| bits >> (i % 64) & 1 != 0).map(|(_, element)| element).collect()
+}
+
+fn step(mesh: &mut EditMesh, (kind, bits, a, b): Step) -> Result<(), Refusal> {
+    let vertices: Vec<VertexId> = some(mesh.vertices(), bits);
+    let edges: Vec<EdgeId> = some(mesh.edges(), bits);
+    let faces: Vec<FaceId> = some(mesh.faces(), bits);
+    let center = DVec3::new(a, b, 0.5);
+    let plane = Plane::from_point_and_normal(center * 0.5, DVec3::new(1.0, b, a)).expect("a direction");
+    let falloff = Falloff { radius: 1.0 + a, ..Falloff::default() };
+    match kind % 21 {
+        0 => mesh.transform_vertices(&vertices, &Transform::Translate { offset: center }, Some(&falloff)),
+        1 => {
+            let rotation = Transform::Rotate {
+                center,
+                axis: DVec3::new(1.0, a, b),
+                angle: 3.0 * b,
+                orientation: DMat3::IDENTITY,
+            };
+            mesh.transform_vertices(&vertices, &rotation, None)
+        }
+        2 => mesh.transform_vertices(&vertices, &Transform::ToSphere { center, factor: b }, None),
+        3 => mesh.transform_vertices(&vertices, &Transform::AlongNormals { distance: a }, None),
+        4 => mesh.reset_vertices(&vertices).map(drop),
+        5 => mesh.mark_sharp(&edges).map(drop),
+        6 => mesh.clear_sharp(&edges).map(drop),
+        7 => mesh.mark_sharp_by_angle(&edges, a.abs()).map(drop),
+        8 => mesh.mark_seams(&edges).map(drop),
+        9 => mesh.crease_edges(&edges, b as f32).map(drop),
+        10 => mesh.shade_smooth(&faces).map(drop),
+        11 => mesh.shade_flat(&faces).map(drop),
+        12 => mesh.assign_material(&faces, (bits % 4) as u32).map(drop),
+        13 => mesh.flip_faces(&faces),
+        14 => mesh.recalculate_normals(&faces).map(drop),
+        15 => mesh.mirror(&vertices, &plane),
+        16 => mesh.mirror_copy(&faces, &edges, &plane, (a > 0.0).then_some(b.abs())).map(drop),
+        17 => mesh.symmetrize(&faces, &plane, b.abs() * 0.1).map(drop),
+        18 => mesh.project_uvs_on_box(&faces, 1, &BoxProjection::default()),
+        19 => mesh.hide_faces(&faces).map(drop),
+        _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// After each step the structure is whole; a refusal changes nothing; undoing all gives the first
+    /// bytes, redoing all the last; and what is shown of it can be made.
+    #[test]
+    fn random_operations_keep_every_rule(
+        start in meshes(),
+        has_normals in any::<bool>(),
+        steps in prop::collection::vec((any::<u8>(), any::<u64>(), -1.0f64..1.0, -1.0f64..1.0), 1..8),
+    ) {
+        let mut start = start;
+        if has_normals {
+            start.smooth_by_angle(1.0);
+        }
+        let (mut mesh, _) = EditMesh::from_mesh(&start);
+        let first = mesh.clone();
+        let mut differences = Vec::new();
+        for s in steps {
+            // What grows with each mirror is enough.
+            if mesh.face_count() > 2000 {
+                break;
+            }
+            let before = mesh.clone();
+            match mesh.transaction(|mesh| step(mesh, s)) {
+                Ok(((), difference)) => differences.push(difference),
+                Err(_) => prop_assert!(mesh == before, "a refusal changes nothing: {:?}", s),
+            }
+            prop_assert_eq!(mesh.check_structure(), Ok(()), "after {:?}", s);
+            // Marks and windings move no place, and no value from it.
+            if (5..15).contains(&(s.0 % 21)) {
+                prop_assert!(keeps_affine_values(&before).is_err() || keeps_affine_values(&mesh).is_ok(), "{:?}", s);
+            }
+        }
+        let (shown, _) = mesh.to_mesh();
+        let normals = shown.shading_normals();
+        prop_assert!(normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-5), "directions");
+        check_undo_and_redo(mesh, &first, &mut differences)?;
+    }
+}

@@ -1,0 +1,66 @@
+//! Separating: faces become a separate mesh.
+
+use super::super::edit_mesh::EditMesh;
+use super::super::ids::FaceId;
+use super::super::refusal::Refusal;
+use super::copy::Elements;
+use super::region::Region;
+
+impl EditMesh {
+    /// Moves faces into a separate mesh with the same layers and subdivision level. Edges and vertices that other
+    /// faces or edges need are copied; the others move with the faces.
+    ///
+    /// # Errors
+    /// No face is given, or one does not exist.
+    pub fn separate(&mut self, faces: &[FaceId]) -> Result<Self, Refusal> {
+        let region = Region::new(self, faces, "separating")?;
+        let mut part = self.part(&Elements::with_parts(self, &[], &[], &region.faces));
+        part.subdivision = self.subdivision;
+        self.delete_faces(&region.faces)?;
+        Ok(part)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use trigon_mesh::primitives;
+
+    use super::super::region::tests::{check_change, chosen_faces, counts};
+    use super::*;
+    use crate::tests::{keeps_affine_values, meshes, with_affine_values};
+
+    #[test]
+    fn a_cubes_lid_comes_off() {
+        let start = with_affine_values(primitives::cube(2.0));
+        let (mesh, lid) = check_change(&start, |mesh| mesh.separate(&[FaceId(4)])).expect("a face");
+        assert_eq!(counts(&mesh), [8, 12, 5], "a box without a lid");
+        assert_eq!(counts(&lid), [4, 4, 1], "the lid");
+        lid.check_structure().expect("whole");
+        keeps_affine_values(&lid).expect("values came along");
+        let places = |mesh: &EditMesh, face| -> Vec<_> {
+            mesh.face_vertices(face).map(|vertex| mesh.position(vertex)).collect()
+        };
+        let before = EditMesh::from_mesh(&start).0;
+        assert_eq!(places(&lid, FaceId(0)), places(&before, FaceId(4)), "where it was");
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_separated_and_joined_again_has_all_faces(start in meshes(), bits in any::<u64>()) {
+            let faces = chosen_faces(&start, bits);
+            let Ok((mut mesh, part)) = check_change(&start, |mesh| mesh.separate(&faces)) else {
+                prop_assert!(faces.is_empty(), "nothing else is refused");
+                return Ok(());
+            };
+            prop_assert_eq!(part.check_structure(), Ok(()));
+            prop_assert_eq!(part.face_count(), faces.len());
+            prop_assert_eq!(mesh.face_count() + part.face_count(), start.face_count());
+            let joined = mesh.join_mesh(&part, &trigon_math::DAffine3::IDENTITY).expect("room");
+            prop_assert_eq!(mesh.check_structure(), Ok(()));
+            prop_assert_eq!(joined.faces.len(), faces.len());
+            prop_assert_eq!(mesh.corner_count(), EditMesh::from_mesh(&start).0.corner_count());
+            prop_assert_eq!(keeps_affine_values(&mesh), Ok(()));
+        }
+    }
+}

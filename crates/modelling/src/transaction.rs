@@ -1,0 +1,253 @@
+//! Transactions: changes that happen as a whole or not at all, and that can be undone to the same bytes.
+
+use trigon_math::Vec3;
+
+use super::column::ColumnDifference;
+use super::edit_mesh::{AllSlots, EditMesh};
+use super::ids::VertexId;
+use super::layers::{Layer, LayerDifference};
+use super::records::{CornerRecord, EdgeRecord, FaceRecord, VertexRecord};
+use super::refusal::Refusal;
+
+/// What leads from a mesh to its state before or after a change.
+///
+/// It keeps the values that differ, or whole lists where these take less memory.
+/// [`Difference::apply`] goes to the other state and turns the difference around, so that
+/// one difference serves to undo and to redo, any number of times.
+#[derive(Debug, Clone)]
+#[must_use = "without it the change cannot be undone"]
+pub struct Difference {
+    pub(super) vertices: Option<ColumnDifference<VertexRecord>>,
+    pub(super) positions: Option<ColumnDifference<Vec3>>,
+    first_positions: Option<ColumnDifference<Vec3>>,
+    pub(super) edges: Option<ColumnDifference<EdgeRecord>>,
+    pub(super) corners: Option<ColumnDifference<CornerRecord>>,
+    pub(super) faces: Option<ColumnDifference<FaceRecord>>,
+    pub(super) vertex_layers: LayersDifference,
+    pub(super) corner_layers: LayersDifference,
+    pub(super) slots: AllSlots,
+    /// In how many levels the other state is shown, if that differs.
+    subdivision: Option<u32>,
+}
+
+/// Of the layers of one kind of element. A change may add layers after the others.
+#[derive(Debug, Clone)]
+pub(super) struct LayersDifference {
+    pub(super) common: Vec<LayerDifference>,
+    /// Those that the state without them has not.
+    pub(super) added: Vec<Layer>,
+}
+
+impl EditMesh {
+    /// Runs a change. If it is refused, the mesh is as it was before, to the last byte.
+    /// Otherwise what it returns, and what undoes it.
+    ///
+    /// A transaction within another belongs to the outer one; so operations may be
+    /// used within operations. Its own difference is empty then, and a refusal within is only
+    /// taken back when the outer one is refused, too: pass it on.
+    ///
+    /// # Errors
+    /// Those of the change.
+    ///
+    /// ```
+    /// use trigon_mesh::math::Vec3;
+    /// use trigon_modelling::{EditMesh, Refusal};
+    ///
+    /// let mut mesh = EditMesh::new();
+    /// let (vertex, mut difference) = mesh.transaction(|mesh| Ok::<_, Refusal>(mesh.add_vertex(Vec3::X)?))?;
+    /// difference.apply(&mut mesh);
+    /// assert!(!mesh.has_vertex(vertex), "undone");
+    /// difference.apply(&mut mesh);
+    /// assert_eq!(mesh.position(vertex), Vec3::X, "and done again");
+    /// # Ok::<(), Refusal>(())
+    /// ```
+    pub fn transaction<T, E>(
+        &mut self,
+        change: impl FnOnce(&mut Self) -> Result<T, E>,
+    ) -> Result<(T, Difference), E> {
+        if self.is_recording {
+            let slots = self.slots;
+            return change(self).map(|result| (result, Difference::none(slots)));
+        }
+        let recording = Recording::begin(self);
+        let result = change(self);
+        let mut difference = recording.finish(self);
+        match result {
+            Ok(result) => Ok((result, difference)),
+            Err(refusal) => {
+                difference.apply(self);
+                Err(refusal)
+            }
+        }
+    }
+
+    /// Runs an operation that may be refused half way: then the mesh is as it was before.
+    /// Within a transaction it belongs to that.
+    pub(super) fn whole<T>(
+        &mut self,
+        operation: impl FnOnce(&mut Self) -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
+        // What undoes it is not wanted here.
+        self.transaction(operation).map(|(result, _)| result)
+    }
+}
+
+/// A transaction that runs.
+struct Recording {
+    slots: AllSlots,
+    subdivision: u32,
+    vertex_layers: usize,
+    corner_layers: usize,
+}
+
+impl Recording {
+    fn begin(mesh: &mut EditMesh) -> Self {
+        mesh.is_recording = true;
+        mesh.vertices.begin();
+        mesh.positions.begin();
+        mesh.first_positions.begin();
+        mesh.edges.begin();
+        mesh.corners.begin();
+        mesh.faces.begin();
+        mesh.vertex_layers.iter_mut().for_each(Layer::begin);
+        mesh.corner_layers.iter_mut().for_each(Layer::begin);
+        let (vertex_layers, corner_layers) = (mesh.vertex_layers.len(), mesh.corner_layers.len());
+        Self { slots: mesh.slots, subdivision: mesh.subdivision, vertex_layers, corner_layers }
+    }
+
+    fn finish(self, mesh: &mut EditMesh) -> Difference {
+        mesh.is_recording = false;
+        let layers = |layers: &mut [Layer], common: usize| LayersDifference {
+            common: layers[..common].iter_mut().map(Layer::finish).collect(),
+            added: Vec::new(),
+        };
+        Difference {
+            vertices: mesh.vertices.finish(),
+            positions: mesh.positions.finish(),
+            first_positions: mesh.first_positions.finish(),
+            edges: mesh.edges.finish(),
+            corners: mesh.corners.finish(),
+            faces: mesh.faces.finish(),
+            vertex_layers: layers(&mut mesh.vertex_layers, self.vertex_layers),
+            corner_layers: layers(&mut mesh.corner_layers, self.corner_layers),
+            slots: self.slots,
+            subdivision: (self.subdivision != mesh.subdivision).then_some(self.subdivision),
+        }
+    }
+}
+
+impl EditMesh {
+    /// A vertex that the change of a difference took farther away than its coordinates can say.
+    #[must_use]
+    pub fn overflow(&self, difference: &Difference) -> Option<VertexId> {
+        let before = difference.positions.as_ref()?;
+        self.positions.first_new_fault(before, |place| !place.is_finite()).map(VertexId::new)
+    }
+}
+
+impl Difference {
+    fn none(slots: AllSlots) -> Self {
+        let none = || LayersDifference { common: Vec::new(), added: Vec::new() };
+        Self {
+            vertices: None,
+            positions: None,
+            first_positions: None,
+            edges: None,
+            corners: None,
+            faces: None,
+            vertex_layers: none(),
+            corner_layers: none(),
+            slots,
+            subdivision: None,
+        }
+    }
+
+    /// Takes the mesh to the other state: the one before the change, or after it again. In
+    /// time proportional to what differs.
+    ///
+    /// # Panics
+    /// May panic, or leave a mesh without sense, unless the mesh is in the state to which this
+    /// difference belongs: differences are applied backwards in the order of their changes.
+    pub fn apply(&mut self, mesh: &mut EditMesh) {
+        fn swap<T: Copy>(
+            column: &mut super::column::Column<T>,
+            difference: &mut Option<ColumnDifference<T>>,
+        ) {
+            if let Some(difference) = difference {
+                column.swap(difference);
+            }
+        }
+        swap(&mut mesh.vertices, &mut self.vertices);
+        swap(&mut mesh.positions, &mut self.positions);
+        swap(&mut mesh.first_positions, &mut self.first_positions);
+        swap(&mut mesh.edges, &mut self.edges);
+        swap(&mut mesh.corners, &mut self.corners);
+        swap(&mut mesh.faces, &mut self.faces);
+        self.vertex_layers.apply(&mut mesh.vertex_layers);
+        self.corner_layers.apply(&mut mesh.corner_layers);
+        std::mem::swap(&mut mesh.slots, &mut self.slots);
+        if let Some(levels) = &mut self.subdivision {
+            std::mem::swap(&mut mesh.subdivision, levels);
+        }
+    }
+
+    /// Whether both states are the same.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        // What only added elements takes no memory until it is undone.
+        self.vertices.is_none()
+            && self.positions.is_none()
+            && self.first_positions.is_none()
+            && self.edges.is_none()
+            && self.corners.is_none()
+            && self.faces.is_none()
+            && self.subdivision.is_none()
+            && [&self.vertex_layers, &self.corner_layers].iter().all(|layers| layers.is_empty())
+    }
+
+    /// Whether the two states are shown in different numbers of Catmull-Clark levels.
+    #[must_use]
+    pub fn changes_subdivision(&self) -> bool {
+        self.subdivision.is_some()
+    }
+
+    /// The memory that it takes, in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        fn of<T>(difference: &Option<ColumnDifference<T>>) -> usize {
+            difference.as_ref().map_or(0, ColumnDifference::bytes)
+        }
+        of(&self.vertices)
+            + of(&self.positions)
+            + of(&self.first_positions)
+            + of(&self.edges)
+            + of(&self.corners)
+            + of(&self.faces)
+            + self.vertex_layers.bytes()
+            + self.corner_layers.bytes()
+    }
+}
+
+impl LayersDifference {
+    fn apply(&mut self, layers: &mut Vec<Layer>) {
+        for (layer, difference) in layers.iter_mut().zip(&mut self.common) {
+            layer.swap(difference);
+        }
+        if self.added.is_empty() {
+            self.added = layers.split_off(self.common.len());
+        } else {
+            layers.append(&mut self.added);
+        }
+    }
+
+    /// Whether both states have the same layers with the same values.
+    pub(super) fn is_empty(&self) -> bool {
+        let is_unchanged = |layer: &LayerDifference| matches!(layer, LayerDifference::Unchanged);
+        self.added.is_empty() && self.common.iter().all(is_unchanged)
+    }
+
+    fn bytes(&self) -> usize {
+        let common = self.common.iter().map(LayerDifference::bytes);
+        common.sum::<usize>() + self.added.iter().map(Layer::bytes).sum::<usize>()
+    }
+}
