@@ -22,7 +22,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     if let Some(format) = export::format_of(arguments, output)? {
         return export::write(&document, format, output, arguments);
     }
-    let file = document.encode().map_err(|error| error.to_string())?;
+    let native = document.to_native();
+    let file = native.encode().map_err(|error| error.to_string())?;
     let losses = file.what_would_be_lost();
     if !losses.is_empty() {
         losses.iter().for_each(|loss| report("warning", &format!("would be lost: {loss}")));

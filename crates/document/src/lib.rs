@@ -7,6 +7,7 @@
 mod command;
 mod display;
 mod document;
+mod document_file;
 mod error;
 mod recovery;
 mod revision;
@@ -20,6 +21,7 @@ mod tests;
 pub use command::*;
 pub use display::{DisplayMarks, PICK_RADIUS, Picks, X_RAY};
 pub use document::{Document, Entry, Event, History};
+pub use document_file::{DocumentFile, ExportError};
 pub use error::EditError;
 pub use recovery::{RecoveryLog, RecoveryStatus, RecoveryWriter, UnreadableRecovery};
 pub use script::{Script, ScriptProgress};

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use trigon_modelling::Marks;
+use trigon_mesh::EditData;
 use trigon_scene::{MeshId, Scene};
 
 use crate::folder::Folder;
@@ -24,5 +24,5 @@ pub(crate) struct Import<'a> {
     /// The file itself, if it is kept.
     pub(crate) source: Option<SourceDraft>,
     /// Of the meshes of a native file that were being edited.
-    pub(crate) marks: BTreeMap<MeshId, Marks>,
+    pub(crate) edit_data: BTreeMap<MeshId, EditData>,
 }

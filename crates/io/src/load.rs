@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use rayon::ThreadPoolBuilder;
-use trigon_modelling::Marks;
+use trigon_mesh::EditData;
 use trigon_scene::{MeshId, Scene};
 
 use crate::error::{LoadError, LoadErrorKind};
@@ -37,9 +37,9 @@ pub struct Loaded {
     /// The file itself, for writing it back; only for glTF and GLB, and only with
     /// [`LoadOptions::keep_source`].
     pub source: Option<GltfSource>,
-    /// Marks and original positions of the meshes that were being edited when a native file was
-    /// saved; see [`NativeDocument`](crate::NativeDocument).
-    pub marks: BTreeMap<MeshId, Marks>,
+    /// The edit data of the meshes that were being edited when a native file was saved; see
+    /// [`NativeDocument`](crate::NativeDocument).
+    pub edit_data: BTreeMap<MeshId, EditData>,
 }
 
 /// Loads a model file and the files it refers to, nothing outside its folder.
@@ -125,12 +125,12 @@ fn import(
         scene,
         scene_names: Vec::new(),
         source: options.keep_source.then(SourceDraft::default),
-        marks: BTreeMap::new(),
+        edit_data: BTreeMap::new(),
     };
     (format.row().import)(&mut import, bytes)?;
     options.report(path, LoadStage::Textures, 1.0)?;
-    let Import { folder, warnings, scene, scene_names, source, marks, .. } = import;
+    let Import { folder, warnings, scene, scene_names, source, edit_data, .. } = import;
     let (warnings, files) = (warnings.into_list(), folder.into_files());
     let source = source.and_then(SourceDraft::finish);
-    Ok(Loaded { scene, scene_names, warnings, files, format, source, marks })
+    Ok(Loaded { scene, scene_names, warnings, files, format, source, edit_data })
 }

@@ -6,23 +6,23 @@ use std::path::Path;
 use std::sync::Arc;
 
 use trigon_camera::UpAxis;
-use trigon_modelling::EditMesh;
+use trigon_mesh::{EditData, Mesh};
 use trigon_scene::{MeshId, Scene};
 
-use crate::error::{LoadError, Place};
+use crate::error::LoadError;
 use crate::export::{Export, ExportOptions};
 use crate::format::Format;
 use crate::formats::export;
-use crate::formats::gltf::{GlbFile, Input, KeptFile, exported, write_scene};
+use crate::formats::gltf::{GlbFile, Input, KeptFile, write_scene};
 use crate::load::{Loaded, load, load_from_slice};
 use crate::loss::Loss;
 use crate::options::LoadOptions;
-use crate::warning::{Warning, Warnings};
+use crate::warning::Warning;
 use crate::write::{WriteError, write_atomically};
 
-/// A scene with the meshes that are being edited, and the glTF file that it came from.
+/// A scene with the edit data of its meshes, and the glTF file that it came from.
 ///
-/// Saving writes one GLB. It contains polygons, original positions, marks and all values of meshes
+/// Saving writes one GLB. It contains polygons, edit data and all values of meshes
 /// besides their triangles, restored to the bit on reading; if another program changed the
 /// triangles of a mesh in the meantime, these are used, with a warning. Unchanged parts of a loaded
 /// glTF (including what trigon does not know: extensions, `extras`, other scenes) are written back
@@ -30,19 +30,17 @@ use crate::write::{WriteError, write_atomically};
 ///
 /// ```
 /// use trigon_io::{LoadOptions, NativeDocument};
-/// use trigon_modelling::EditMesh;
-/// use trigon_mesh::math::Vec3;
-/// use trigon_mesh::primitives;
+/// use trigon_mesh::{EdgeMark, EditData, primitives};
 /// use trigon_scene::{Material, Scene};
 ///
 /// let mut scene = Scene::new();
 /// scene.add_object("cube", primitives::cube(2.0), Material::default());
 /// let mut document = NativeDocument::new(scene);
 /// let (id, asset) = document.scene.meshes().iter().next().expect("one was added");
-/// let (mut cube, _) = EditMesh::from_mesh(asset.mesh());
-/// let corner = cube.vertices().next().expect("a cube has eight");
-/// cube.set_position(corner, Vec3::ONE * 3.0);
-/// document.edited.insert(id, cube.clone());
+/// let vertices = asset.mesh().edges()[0];
+/// let edges = vec![EdgeMark { vertices, crease: 0.5, ..EdgeMark::default() }];
+/// let data = EditData { edges, ..EditData::default() };
+/// document.edit_data.insert(id, data.clone());
 ///
 /// let file = document.encode()?;
 /// assert!(file.what_would_be_lost().is_empty());
@@ -50,19 +48,20 @@ use crate::write::{WriteError, write_atomically};
 ///
 /// let (again, warnings) = NativeDocument::load_from_slice("cube.glb", &bytes, &LoadOptions::default())?;
 /// assert!(warnings.is_empty());
-/// let (_, again) = again.edited.iter().next().expect("it is still being edited");
-/// assert!(*again == cube, "also where the corner was before");
+/// let again = again.edit_data.values().next().expect("the mesh still has its data");
+/// assert!(*again == data, "the crease is still there");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// A clone shares textures and the loaded file; meshes that are being edited are copied.
+/// A clone shares meshes, textures and the loaded file.
 #[derive(Debug, Clone, Default)]
 pub struct NativeDocument {
     /// The scene, with +Y up as in glTF: a loaded file in which another axis is up is turned
-    /// ([`Scene::turn_to`]). A mesh that is being edited may be outdated here.
+    /// ([`Scene::turn_to`]).
     pub scene: Scene,
-    /// The meshes that are being edited: these are saved instead of the scene's.
-    pub edited: BTreeMap<MeshId, EditMesh>,
+    /// What is saved with the meshes that are being edited. It is read as it stands in the file: whether it
+    /// belongs to the mesh, the caller checks.
+    pub edit_data: BTreeMap<MeshId, EditData>,
     kept: Option<Arc<KeptFile>>,
 }
 
@@ -71,7 +70,7 @@ impl NativeDocument {
     #[must_use]
     pub fn new(mut scene: Scene) -> Self {
         scene.turn_to(UpAxis::Y);
-        Self { scene, edited: BTreeMap::new(), kept: None }
+        Self { scene, edit_data: BTreeMap::new(), kept: None }
     }
 
     /// Loads a file of any readable format. A glTF is kept for writing it back.
@@ -82,8 +81,7 @@ impl NativeDocument {
         path: impl AsRef<Path>,
         options: &LoadOptions<'_>,
     ) -> Result<(Self, Vec<Warning>), LoadError> {
-        let path = path.as_ref();
-        Ok(Self::from_loaded(path, load(path, &keeping(options))?))
+        Ok(Self::from_loaded(load(path, &keeping(options))?))
     }
 
     /// Loads a file from memory. `name` stands for it in messages.
@@ -95,29 +93,23 @@ impl NativeDocument {
         bytes: &[u8],
         options: &LoadOptions<'_>,
     ) -> Result<(Self, Vec<Warning>), LoadError> {
-        let name = name.as_ref();
-        Ok(Self::from_loaded(name, load_from_slice(name, bytes, &keeping(options))?))
+        Ok(Self::from_loaded(load_from_slice(name, bytes, &keeping(options))?))
     }
 
-    fn from_loaded(name: &Path, loaded: Loaded) -> (Self, Vec<Warning>) {
-        let Loaded { mut scene, marks, source, mut warnings, .. } = loaded;
-        let mut edited = BTreeMap::new();
-        let mut about = Warnings::about(name);
-        for (&id, marks) in &marks {
-            let Some(asset) = scene.meshes().get(id) else { continue };
-            match EditMesh::from_mesh_and_marks(asset.mesh(), marks) {
-                Ok((mesh, _)) => drop(edited.insert(id, mesh)),
-                Err(error) => {
-                    let place = Place::Named(format!("mesh \"{}\"", asset.name));
-                    let what = format!("marks and original positions are left out: {error}");
-                    about.push(place, what, "open an older copy of the file if you need them");
-                }
-            }
-        }
-        warnings.extend(about.into_list());
-        let kept = source.map(|source| Arc::new(KeptFile { source, scene: scene.clone(), marks }));
+    fn from_loaded(loaded: Loaded) -> (Self, Vec<Warning>) {
+        let Loaded { mut scene, edit_data, source, warnings, .. } = loaded;
+        let keep = |source| Arc::new(KeptFile { source, scene: scene.clone(), edit_data: edit_data.clone() });
+        let kept = source.map(keep);
         scene.turn_to(UpAxis::Y);
-        (Self { scene, edited, kept }, warnings)
+        (Self { scene, edit_data, kept }, warnings)
+    }
+
+    /// A mesh as it was read from a glTF, with its edit data if it has any. A document with the same mesh and
+    /// data is written with that mesh as it stands in the file.
+    #[must_use]
+    pub fn loaded_mesh(&self, id: MeshId) -> Option<(&Mesh, Option<&EditData>)> {
+        let kept = self.kept.as_ref()?;
+        Some((kept.scene.meshes().get(id)?.mesh(), kept.edit_data.get(&id)))
     }
 
     /// The document as a file, not written yet, so that the caller can first ask about losses.
@@ -127,7 +119,7 @@ impl NativeDocument {
     pub fn encode(&self) -> Result<NativeFile<'_>, WriteError> {
         let written = write_scene(&Input {
             scene: &self.scene,
-            edited: Some(&self.edited),
+            edit_data: Some(&self.edit_data),
             kept: self.kept.as_deref(),
             images: self.kept.as_ref().map(|kept| &kept.source),
             nodes: None,
@@ -136,29 +128,19 @@ impl NativeDocument {
         Ok(NativeFile { file: written.file, losses: written.losses })
     }
 
-    /// The document for other programs; see [`export`](crate::export). A mesh with a subdivision surface
-    /// ([`EditMesh::subdivision`]) is written as that surface, with all levels. Images are those of the
-    /// loaded file, unless the options name another.
+    /// The scene for other programs; see [`export`](crate::export). Edit data are left out, and meshes are written
+    /// without their subdivision surfaces. Images are those of the loaded file, unless the options name another.
     ///
     /// # Errors
-    /// As [`export`](crate::export), or a subdivision surface is too large.
+    /// As [`export`](crate::export).
     pub fn export(
         &self,
         name: &str,
         format: Format,
         options: &ExportOptions<'_>,
     ) -> Result<Export, WriteError> {
-        // Meshes are shared: a copy of the scene only copies its lists.
-        let mut scene = self.scene.clone();
-        for (&id, edited) in &self.edited {
-            if let Some(asset) = self.scene.meshes().get(id) {
-                let mesh = exported(asset, edited);
-                let mesh = mesh.map_err(|source| WriteError::Surface { name: asset.name.clone(), source })?;
-                scene.replace_mesh(id, mesh);
-            }
-        }
         let images = options.images.or(self.kept.as_ref().map(|kept| &kept.source));
-        export(&scene, name, format, &ExportOptions { images, ..options.clone() })
+        export(&self.scene, name, format, &ExportOptions { images, ..options.clone() })
     }
 }
 

@@ -29,12 +29,15 @@ pub struct Warning {
 }
 
 impl Warning {
-    fn new(file: &Path, place: Place, what: String, remedy: String) -> Self {
+    /// A warning about a file: where it is, what is wrong, and a remedy. Characters that a terminal would obey are
+    /// replaced.
+    #[must_use]
+    pub fn new(file: &Path, place: Place, what: &str, remedy: &str) -> Self {
         Self {
             file: file.to_owned(),
             place,
-            what: printable(&what),
-            remedy: printable(&remedy),
+            what: printable(what),
+            remedy: printable(remedy),
             more: 0,
             tried: Vec::new(),
         }
@@ -93,7 +96,7 @@ impl Warnings {
         what: impl Into<String>,
         remedy: impl Into<String>,
     ) {
-        self.add(Warning::new(file, place, what.into(), remedy.into()));
+        self.add(Warning::new(file, place, &what.into(), &remedy.into()));
     }
 
     /// A warning about a file that could not be used; `tried` is where it was looked for.
@@ -104,7 +107,7 @@ impl Warnings {
         (what, remedy): (String, &str),
         tried: Vec<PathBuf>,
     ) {
-        self.add(Warning { tried, ..Warning::new(file, place, what, remedy.to_owned()) });
+        self.add(Warning { tried, ..Warning::new(file, place, &what, remedy) });
     }
 
     /// A warning that occurred `count` times, first at `place`.
@@ -116,7 +119,7 @@ impl Warnings {
         remedy: impl Into<String>,
     ) {
         let Some(more) = count.checked_sub(1) else { return };
-        self.add(Warning { more, ..Warning::new(&self.file, place, what.into(), remedy.into()) });
+        self.add(Warning { more, ..Warning::new(&self.file, place, &what.into(), &remedy.into()) });
     }
 
     /// Adds a warning, or its count to the one with the same file and text, or to the last one if

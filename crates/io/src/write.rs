@@ -61,14 +61,6 @@ pub enum WriteError {
         /// The size that the file would have, in bytes.
         bytes: u64,
     },
-    /// The subdivision surface of a mesh is too large.
-    #[error("mesh \"{name}\": {source}")]
-    Surface {
-        /// The name of the mesh.
-        name: String,
-        /// Why it cannot be made.
-        source: trigon_modelling::Refusal,
-    },
     /// The folder or the disk refused.
     #[error("{}: cannot be written ({source}); check that the folder exists, is writable and has room", path.display())]
     File {

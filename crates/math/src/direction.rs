@@ -86,6 +86,7 @@ pub fn cofactors(matrix: &DMat3) -> DMat3 {
 
 /// A direction after a linear map, as a unit vector; zero if the map leaves none of it.
 #[must_use]
+#[inline]
 pub fn transformed_direction(matrix: &DMat3, direction: Vec3) -> Vec3 {
     unit_or_zero(*matrix * direction.as_dvec3()).as_vec3()
 }
@@ -93,6 +94,7 @@ pub fn transformed_direction(matrix: &DMat3, direction: Vec3) -> Vec3 {
 /// What is to be added to a transformed direction, which becomes a unit vector,
 /// so that the sum points where the transformed sum did.
 #[must_use]
+#[inline]
 pub fn transformed_delta(matrix: &DMat3, base: Vec3, delta: Vec3) -> Vec3 {
     let length = (*matrix * base.as_dvec3()).length();
     let scale = if length > 0.0 && length.is_finite() { 1.0 / length } else { 1.0 };

@@ -50,6 +50,7 @@ mod change;
 mod columns;
 mod deformed;
 mod edges;
+mod edit_data;
 mod error;
 mod face_starts;
 mod flat_faces;
@@ -77,6 +78,7 @@ pub use change::{
 };
 pub use columns::MeshColumns;
 pub use deformed::Deformed;
+pub use edit_data::{EdgeMark, EditData};
 pub use error::MeshError;
 pub use flat_faces::FlatFaces;
 pub use mesh::Mesh;

@@ -15,6 +15,7 @@
 
 mod blends;
 mod column;
+mod edit_data;
 mod edit_mesh;
 mod euler;
 mod follow;
@@ -22,7 +23,6 @@ mod from_mesh;
 mod ids;
 mod inspect;
 mod layers;
-mod marks;
 mod measure;
 mod numbering;
 mod operations;
@@ -41,6 +41,7 @@ mod validate;
 mod values;
 mod walk;
 
+pub use edit_data::EditDataError;
 pub use edit_mesh::EditMesh;
 pub use euler::{SplitEdge, SplitFace};
 pub use follow::{ChangedValues, ElementNumbers};
@@ -49,7 +50,6 @@ pub use ids::{CornerId, EdgeId, FaceId, VertexId};
 pub use inspect::{
     BoundaryLoop, DoubledFace, DoubledVertex, Inspection, InspectionSettings, NonPlanarFace, TouchingFaces,
 };
-pub use marks::{EdgeMark, Marks, MarksError};
 pub use operations::*;
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;

@@ -42,7 +42,7 @@ pub(crate) struct Left {
 impl Recovery {
     /// Starts to write down what is done to a document, in this folder. `None` if no file can be made there.
     pub(crate) fn start(folder: &Path, document: &mut Document, path: Option<&Path>) -> Option<Self> {
-        let base = document.encode().ok()?.to_bytes();
+        let base = document.to_native().encode().ok()?.to_bytes();
         // From now on the document remembers its events.
         drop(document.take_events());
         Self::write(folder, RecoveryLog { base, events: Vec::new(), is_cut_off: false }, path)
@@ -287,7 +287,7 @@ mod tests {
     #[test]
     fn the_base_of_a_recovery_file_numbers_objects_as_the_document_does() {
         let document = Document::new(trigon_document::scene::showcase());
-        let base = document.encode().expect("small").to_bytes();
+        let base = document.to_native().encode().expect("small").to_bytes();
         let (again, _) =
             Document::open_bytes(Path::new("a.glb"), &base, &LoadOptions::default()).expect("ours");
         let names = |document: &Document| -> Vec<(usize, String)> {

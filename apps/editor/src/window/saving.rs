@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 
-use trigon_document::{Storage, save};
-use trigon_io::NativeDocument;
+use trigon_document::{DocumentFile, Storage, save};
 
 use super::open_file::Next;
 
@@ -41,7 +40,7 @@ impl Saving {
     /// Starts to save; `wake` is called at the end.
     pub(crate) fn start(
         order: SaveOrder,
-        document: NativeDocument,
+        document: DocumentFile,
         mut storage: Box<dyn Storage + Send>,
         wake: impl FnOnce() + Send + 'static,
     ) -> Self {
@@ -75,12 +74,13 @@ impl Saving {
 const NO_RESULT: &str = "saving ended without a result; this is a bug in trigon";
 
 fn write(
-    document: &NativeDocument,
+    document: &DocumentFile,
     path: &Path,
     accepts_losses: bool,
     storage: &mut dyn Storage,
 ) -> Result<Saved, String> {
-    let file = document.encode().map_err(|error| error.to_string())?;
+    let native = document.to_native();
+    let file = native.encode().map_err(|error| error.to_string())?;
     let losses = file.what_would_be_lost();
     if !losses.is_empty() && !accepts_losses {
         return Ok(Saved::WouldLose(losses.iter().map(ToString::to_string).collect()));

@@ -129,12 +129,12 @@ mod tests {
         // A file without any mesh cannot be opened.
         run(&mut document, json!({ "op": "add_object", "object": { "shape": "cube", "edge": 1.0 } }));
         run(&mut document, json!({ "op": "reorder_object", "object": "three", "to": 0 }));
-        let bytes = document.encode().expect("small").to_bytes();
+        let bytes = document.to_native().encode().expect("small").to_bytes();
         let name = std::path::Path::new("order.glb");
         let (again, _) = Document::open_bytes(name, &bytes, &Default::default()).expect("as written");
         let names = again.nodes().roots().filter_map(|id| Some(again.nodes().node(id)?.name.clone()));
         assert_eq!(names.collect::<Vec<_>>(), ["three", "one", "two", "Cube"], "as ordered");
-        let bytes_again = again.encode().expect("small").to_bytes();
+        let bytes_again = again.to_native().encode().expect("small").to_bytes();
         assert!(bytes == bytes_again, "and saved as loaded");
     }
 }

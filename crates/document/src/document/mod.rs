@@ -7,15 +7,13 @@ mod scene;
 
 use std::path::Path;
 
-use trigon_io::{
-    Export, ExportOptions, Format, LoadError, LoadOptions, Loaded, NativeDocument, NativeFile, Warning,
-    WriteError,
-};
+use trigon_io::{Export, ExportOptions, Format, LoadError, LoadOptions, Loaded, NativeDocument, Warning};
 use trigon_mesh::math::DAffine3;
 use trigon_modelling::EditMesh;
 use trigon_scene::{MeshId, Scene};
 
 use crate::command::{Command, ImportFile, Outcome};
+use crate::document_file::{DocumentFile, ExportError};
 use crate::error::EditError;
 use crate::revision::next_revision;
 use crate::selection::Selection;
@@ -60,7 +58,7 @@ impl Document {
     /// Opens a scene. Nothing is selected.
     #[must_use]
     pub fn new(scene: Scene) -> Self {
-        Self::from_file(NativeDocument::new(scene))
+        Self::from_file(DocumentFile { native: NativeDocument::new(scene), ..DocumentFile::default() })
     }
 
     /// Opens a file of any readable format, with its warnings.
@@ -68,8 +66,8 @@ impl Document {
     /// # Errors
     /// As [`NativeDocument::load`].
     pub fn open(path: &Path, options: &LoadOptions<'_>) -> Result<(Self, Vec<Warning>), LoadError> {
-        let (file, warnings) = NativeDocument::load(path, options)?;
-        Ok((Self::from_file(file), warnings))
+        let (native, mut warnings) = NativeDocument::load(path, options)?;
+        Ok((Self::from_file(DocumentFile::open(native, path, &mut warnings)), warnings))
     }
 
     /// Opens a file from memory: the base of a recovery file. `name` stands for it in messages.
@@ -81,29 +79,27 @@ impl Document {
         bytes: &[u8],
         options: &LoadOptions<'_>,
     ) -> Result<(Self, Vec<Warning>), LoadError> {
-        let (file, warnings) = NativeDocument::load_from_slice(name, bytes, options)?;
-        Ok((Self::from_file(file), warnings))
+        let (native, mut warnings) = NativeDocument::load_from_slice(name, bytes, options)?;
+        Ok((Self::from_file(DocumentFile::open(native, name, &mut warnings)), warnings))
     }
 
-    fn from_file(file: NativeDocument) -> Self {
+    fn from_file(file: DocumentFile) -> Self {
         let mut state = State { file, ..State::default() };
         state.shown.marks_revision = next_revision();
         Self { state, revision: next_revision(), ..Self::default() }
     }
 
-    /// The document as a native file, not written yet: [`save`](crate::save) writes it once the
-    /// caller accepts what would be lost.
-    ///
-    /// # Errors
-    /// When the file would have 4 GiB or more.
-    pub fn encode(&self) -> Result<NativeFile<'_>, WriteError> {
-        self.state.file.encode()
+    /// The document as trigon's own file holds it. [`NativeDocument::encode`] makes the file, and
+    /// [`save`](crate::save) writes it once the caller accepts what would be lost.
+    #[must_use]
+    pub fn to_native(&self) -> NativeDocument {
+        self.state.file.to_native()
     }
 
     /// The document as it is now, for encoding on another thread while editing continues. Takes the time to
     /// copy the meshes that are or were edited.
     #[must_use]
-    pub fn snapshot(&self) -> NativeDocument {
+    pub fn snapshot(&self) -> DocumentFile {
         self.state.file.clone()
     }
 
@@ -122,23 +118,23 @@ impl Document {
         Ok(outcome)
     }
 
-    /// The document for other programs, not written yet; see [`trigon_io::export()`].
+    /// The document for other programs, not written yet; see [`DocumentFile::export`].
     ///
     /// # Errors
-    /// As [`trigon_io::export()`].
+    /// As [`DocumentFile::export`].
     pub fn export(
         &self,
         name: &str,
         format: Format,
         options: &ExportOptions<'_>,
-    ) -> Result<Export, WriteError> {
+    ) -> Result<Export, ExportError> {
         self.state.file.export(name, format, options)
     }
 
     /// The nodes and materials as they are now, and meshes as of the last call of [`Self::scene`].
     #[must_use]
     pub fn nodes(&self) -> &Scene {
-        &self.state.file.scene
+        &self.state.file.native.scene
     }
 
     /// A mesh with its adjacency, if it is or was edited.
@@ -319,7 +315,7 @@ impl Document {
         }
         entry.meshes.reverse();
         if let Some(parts) = &mut entry.parts {
-            self.state.file.scene.swap_parts(parts);
+            self.state.file.native.scene.swap_parts(parts);
             self.state.shown.note_parts();
         }
         std::mem::swap(&mut self.state.selection, &mut entry.selection);

@@ -13,8 +13,8 @@ impl Document {
     /// the whole mesh. Hidden elements are part of it.
     pub fn scene(&mut self) -> &Scene {
         let State { file, shown, selection, .. } = &mut self.state;
-        shown.update(&mut file.scene, &file.edited, selection);
-        &file.scene
+        shown.update(&mut file.native.scene, &file.edited, selection);
+        &file.native.scene
     }
 
     /// The changes of [`Self::scene`] since the last call, for a displayed copy; apply them in this
@@ -44,11 +44,11 @@ impl Document {
         if is_first {
             // The whole scene includes all other changes.
             let visible = std::mem::take(&mut untold.visible);
-            let known_meshes = file.scene.meshes().index_bound();
+            let known_meshes = file.native.scene.meshes().index_bound();
             *untold = Untold { known_meshes, visible, ..Untold::default() };
         }
         let mut changes: Vec<_> = is_first.then_some(SceneChange::Whole).into_iter().collect();
-        changes.extend(untold.take(&file.scene, &shown.visible));
+        changes.extend(untold.take(&file.native.scene, &shown.visible));
         for (id, visible) in &mut shown.visible {
             changes.extend(file.edited.get(id).and_then(|edited| visible.take(*id, edited)));
         }
@@ -75,7 +75,7 @@ impl Document {
         if let Some(visible) = self.state.shown.visible.get(&id) {
             return (!visible.is_outdated).then_some(&visible.numbers);
         }
-        let mesh = self.state.file.scene.meshes().get(id)?.mesh();
+        let mesh = self.state.file.native.scene.meshes().get(id)?.mesh();
         let shown = self.state.shown.meshes.get(&id)?;
         Some(shown.numbers(self.state.file.edited.get(&id)?, mesh))
     }
@@ -93,7 +93,7 @@ impl Document {
             && !shown.visible.contains_key(&id)
             && shown.meshes.contains_key(&id)
             && !self.marked(id)?.has_hidden;
-        is_whole.then(|| Some(self.state.file.scene.meshes().get(id)?.mesh())).flatten()
+        is_whole.then(|| Some(self.state.file.native.scene.meshes().get(id)?.mesh())).flatten()
     }
 
     /// A number that changes with every change of nodes, elements or their marks (sharp, seam, crease, hidden, …), as

@@ -32,17 +32,17 @@ impl Change<'_> {
     }
 
     pub(crate) fn scene(&self) -> &Scene {
-        &self.state.file.scene
+        &self.state.file.native.scene
     }
 
     /// The scene, for changing nodes and materials. Meshes may be added, but not replaced: use
     /// [`Self::edit`].
     pub(crate) fn scene_mut(&mut self) -> &mut Scene {
         if self.parts.is_none() {
-            self.parts = Some(Box::new(self.state.file.scene.parts()));
+            self.parts = Some(Box::new(self.state.file.native.scene.parts()));
         }
         self.state.shown.note_parts();
-        &mut self.state.file.scene
+        &mut self.state.file.native.scene
     }
 
     /// Refuses a placement that the numbers of a file cannot hold.
@@ -72,7 +72,7 @@ impl Change<'_> {
     /// A mesh with its adjacency, built from the scene's at the first call.
     pub(crate) fn mesh(&mut self, id: MeshId) -> Option<&EditMesh> {
         if !self.state.file.edited.contains_key(&id) {
-            let asset = self.state.file.scene.meshes().get(id)?;
+            let asset = self.state.file.native.scene.meshes().get(id)?;
             let (mesh, left_out) = EditMesh::from_mesh(asset.mesh());
             self.state.untold.extend(left_out.warnings(&asset.name));
             self.state.file.edited.insert(id, mesh);
@@ -108,11 +108,11 @@ impl Change<'_> {
 
     /// A copy of a mesh as it is now, for another object.
     pub(crate) fn copy_mesh(&mut self, id: MeshId) -> Option<MeshId> {
-        let asset = self.state.file.scene.meshes().get(id)?;
+        let asset = self.state.file.native.scene.meshes().get(id)?;
         let (name, mesh) = (asset.name.clone(), asset.mesh().clone());
         let edited = self.state.file.edited.get(&id).cloned();
         // Meshes are only ever added, so this needs no record: an undone copy stays unused.
-        let copy = self.state.file.scene.add_mesh(name, mesh);
+        let copy = self.state.file.native.scene.add_mesh(name, mesh);
         if let Some(edited) = edited {
             self.state.file.edited.insert(copy, edited);
             self.state.shown.note_mesh(copy);
@@ -125,7 +125,7 @@ impl Change<'_> {
         let owner = self.scene().nodes().iter().find(|(_, node)| node.mesh == Some(of));
         let mut node = owner.map(|(_, node)| node.clone()).unwrap_or_default();
         let (mesh, _) = part.to_mesh();
-        let mesh = self.state.file.scene.add_mesh(node.name.clone(), mesh);
+        let mesh = self.state.file.native.scene.add_mesh(node.name.clone(), mesh);
         self.state.file.edited.insert(mesh, part);
         self.state.shown.note_mesh(mesh);
         node.mesh = Some(mesh);
@@ -140,7 +140,7 @@ impl Change<'_> {
     pub(crate) fn meshes_of(&self, objects: impl IntoIterator<Item = NodeId>) -> Vec<MeshId> {
         let mut meshes = Vec::new();
         for object in objects {
-            let mesh = self.state.file.scene.node(object).and_then(|node| node.mesh);
+            let mesh = self.state.file.native.scene.node(object).and_then(|node| node.mesh);
             meshes.extend(mesh.filter(|mesh| !meshes.contains(mesh)));
         }
         meshes

@@ -15,11 +15,11 @@ mod scene_change;
 mod shown;
 mod visible;
 
-use trigon_io::NativeDocument;
 use trigon_mesh::math::DAffine3;
 use trigon_modelling::EditMesh;
 use trigon_scene::{MeshId, NodeId};
 
+use crate::document_file::DocumentFile;
 use crate::selection::Selection;
 
 pub(crate) use change::{AfterEdit, Change};
@@ -32,7 +32,7 @@ pub(crate) use visible::shown_levels;
 #[derive(Debug, Default)]
 pub(crate) struct State {
     /// The scene, its edited meshes, and what is kept of the file.
-    pub(crate) file: NativeDocument,
+    pub(crate) file: DocumentFile,
     pub(crate) selection: Selection,
     /// How the scene follows the edited meshes.
     pub(crate) shown: Shown,
@@ -48,7 +48,7 @@ impl State {
 
     /// The map from a mesh into the world; see [`Document::mesh_transform`](crate::Document::mesh_transform).
     pub(crate) fn mesh_transform(&self, id: MeshId) -> DAffine3 {
-        let scene = &self.file.scene;
+        let scene = &self.file.native.scene;
         let shows = |object: &NodeId| scene.node(*object).is_some_and(|node| node.mesh == Some(id));
         let selected = self.selection.objects.iter().copied().find(shows);
         let object = selected.or_else(|| scene.nodes().iter().map(|(object, _)| object).find(shows));

@@ -8,7 +8,7 @@ use trigon_mesh::Mesh;
 use trigon_modelling::{EditMesh, VertexId};
 
 use crate::gltf::{Doc, push};
-use crate::saving::{doc_of, document, json_of, saved};
+use crate::saving::{doc_of, document, json_of, put, saved};
 use crate::{loaded, meshes, warnings};
 
 const DRACO: &str = "KHR_draco_mesh_compression";
@@ -244,7 +244,7 @@ fn edited_meshes_are_written_uncompressed_and_the_others_stay() {
         let (id, mesh) = &ids[number];
         let (mut editable, _) = EditMesh::from_mesh(mesh);
         editable.set_position(VertexId::new(0), Vec3::new(0.25, -4.0, 1.0));
-        first.edited.insert(*id, editable);
+        put(&mut first, *id, &editable);
         let file = first.encode().expect("it is small");
         let lost: Vec<String> = file.what_would_be_lost().iter().map(ToString::to_string).collect();
         assert_eq!(lost, ["mesh 1, primitive 0: its attribute _HEAT"], "nothing else");
@@ -252,9 +252,10 @@ fn edited_meshes_are_written_uncompressed_and_the_others_stay() {
         assert_eq!(packed(&json_of(&again)), left, "after {number}");
         let (second, warned) = document("a.glb", &again);
         assert_eq!(warned, [], "{number}");
-        let positions = |id| second.edited.get(id).map(|mesh| mesh.to_mesh().0.positions()[0]);
+        let position = |id| second.scene.meshes().get(id).map(|asset| asset.mesh().positions()[0]);
         let all: Vec<_> = second.scene.meshes().iter().map(|(id, _)| id).collect();
-        assert_eq!(positions(&all[number]), Some(Vec3::new(0.25, -4.0, 1.0)), "{number}");
+        assert!(second.edit_data.contains_key(&all[number]), "{number}");
+        assert_eq!(position(all[number]), Some(Vec3::new(0.25, -4.0, 1.0)), "{number}");
         let plain = loaded("a.glb", &again);
         assert_eq!(meshes(&plain).iter().map(|mesh| mesh.face_count()).sum::<usize>(), 152, "all triangles");
     }

@@ -123,7 +123,7 @@ impl Session {
     }
 
     fn bytes(&self) -> Vec<u8> {
-        self.document.encode().expect("it is small").to_bytes().to_vec()
+        self.document.to_native().encode().expect("it is small").to_bytes().to_vec()
     }
 
     /// The vertices all went as told, within the rounding of f32.

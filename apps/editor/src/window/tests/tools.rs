@@ -72,7 +72,7 @@ impl Worked {
     }
 
     fn bytes(&self) -> Vec<u8> {
-        self.editor.document.encode().expect("it is small").to_bytes().to_vec()
+        self.editor.document.to_native().encode().expect("it is small").to_bytes().to_vec()
     }
 }
 

@@ -64,7 +64,7 @@ use mesh::{BuiltMesh, Needs};
 use native::Extras;
 use reader::Reader;
 
-pub(crate) use write::{GlbFile, Input, KeptFile, exported, mime_type, write_scene};
+pub(crate) use write::{GlbFile, Input, KeptFile, mime_type, write_scene};
 pub use write::{encode_glb, write_glb};
 
 use crate::error::{LoadError, LoadErrorKind, Place};
@@ -200,7 +200,7 @@ fn native_mesh(
             return Ok(None);
         }
     };
-    let native::NativeMesh { mut mesh, materials, marks } = native;
+    let native::NativeMesh { mut mesh, materials, edit_data } = native;
     let mut attributes = mesh.attributes().clone();
     for (target, name) in attributes.morph_targets.iter_mut().zip(target_names) {
         target.name.clone_from(name);
@@ -208,7 +208,7 @@ fn native_mesh(
     if !attributes.morph_targets.is_empty() {
         mesh.set_attributes(attributes).expect("only names are others");
     }
-    Ok(Some(BuiltMesh { mesh, materials, primitives: Vec::new(), marks }))
+    Ok(Some(BuiltMesh { mesh, materials, primitives: Vec::new(), edit_data }))
 }
 
 /// Holds what the nodes place to the limit: many copies of one mesh take no

@@ -56,7 +56,7 @@ pub(crate) fn add_nodes<'d>(
             built.map(|built| {
                 let slots = built.materials.iter().map(|material| materials[material]).collect();
                 let id = import.scene.add_mesh(name, built.mesh);
-                import.marks.extend(built.marks.map(|marks| (id, marks)));
+                import.edit_data.extend(built.edit_data.map(|data| (id, data)));
                 (id, slots)
             })
         })

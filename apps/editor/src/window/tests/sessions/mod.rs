@@ -117,7 +117,7 @@ fn saved_and_reopened(script: &str, finished: impl Fn(&Document)) {
 impl User<'_> {
     /// All that a file holds of the document.
     fn bytes(&self) -> Vec<u8> {
-        self.editor.borrow().document.encode().expect("it is small").to_bytes().to_vec()
+        self.editor.borrow().document.to_native().encode().expect("it is small").to_bytes().to_vec()
     }
 
     /// Lets other threads do what they are at until the window is called so.

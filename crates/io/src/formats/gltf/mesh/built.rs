@@ -1,7 +1,6 @@
 //! A converted mesh, and what its materials need to know about it.
 
-use trigon_mesh::Mesh;
-use trigon_modelling::Marks;
+use trigon_mesh::{EditData, Mesh};
 use trigon_scene::MaterialTexture;
 
 use crate::formats::gltf::slots::SlotTexture;
@@ -15,7 +14,7 @@ pub(crate) struct BuiltMesh {
     /// The faces of each primitive.
     pub(crate) primitives: Vec<PrimitiveFaces>,
     /// Of a native file, if the mesh was being edited.
-    pub(crate) marks: Option<Marks>,
+    pub(crate) edit_data: Option<EditData>,
 }
 
 /// What a material needs of the meshes that use it.

@@ -222,7 +222,7 @@ impl Draft {
         self.attributes.vertex_colors = self.vertex_colors;
         (self.attributes.skin, self.attributes.morph_targets) = self.movements.finish();
         mesh.set_attributes(self.attributes).expect("one value per accepted vertex, corner and face");
-        BuiltMesh { mesh, materials: self.materials, primitives: Vec::new(), marks: None }
+        BuiltMesh { mesh, materials: self.materials, primitives: Vec::new(), edit_data: None }
     }
 }
 

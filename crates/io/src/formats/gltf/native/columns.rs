@@ -1,4 +1,4 @@
-//! A mesh and its marks as named runs of little-endian numbers.
+//! A mesh and its edit data as named runs of little-endian numbers.
 //!
 //! Writer and reader visit the columns in the same order, and both hash them, so a file whose views
 //! differ from those written is detected.
@@ -6,8 +6,7 @@
 use std::collections::BTreeSet;
 
 use trigon_math::{Vec2, Vec3, Vec4};
-use trigon_mesh::{Attributes, Deltas, Mesh, MeshColumns, MorphTarget, SkinWeights};
-use trigon_modelling::{EdgeMark, Marks};
+use trigon_mesh::{Attributes, Deltas, EdgeMark, EditData, Mesh, MeshColumns, MorphTarget, SkinWeights};
 
 use super::extras::Header;
 use crate::formats::gltf::hash::xxh64;
@@ -72,10 +71,10 @@ fn hash_column(hashed: &mut Vec<u8>, name: &str, bytes: &[u8]) {
     hashed.extend(xxh64(bytes).to_le_bytes());
 }
 
-/// The columns of a mesh, and of its marks if it was edited, with the corresponding header fields.
+/// The columns of a mesh, and of its edit data if it was edited, with the corresponding header fields.
 pub(in crate::formats::gltf) fn columns_of_mesh(
     mesh: &Mesh,
-    marks: Option<&Marks>,
+    edit_data: Option<&EditData>,
 ) -> (ColumnWriter, Header) {
     let mut writer = ColumnWriter::default();
     let attributes = mesh.attributes();
@@ -115,16 +114,16 @@ pub(in crate::formats::gltf) fn columns_of_mesh(
             writer.floats(format!("target{number}.{kind}"), deltas.iter().map(|(_, value)| value.to_array()));
         }
     }
-    if let Some(marks) = marks {
-        write_marks(&mut writer, marks);
+    if let Some(data) = edit_data {
+        write_edit_data(&mut writer, data);
     }
     let header = Header {
         version: super::VERSION,
         data: writer.hash(),
         joints_per_vertex: attributes.skin.as_ref().map(SkinWeights::per_vertex),
         targets: attributes.morph_targets.len(),
-        edited: marks.is_some(),
-        subdivision: marks.map_or(0, |marks| marks.subdivision),
+        edited: edit_data.is_some(),
+        subdivision: edit_data.map_or(0, |data| data.subdivision),
         empty: if mesh.face_count() == 0 { optional_columns(attributes) } else { BTreeSet::new() },
         ..Header::default()
     };
@@ -148,18 +147,18 @@ fn deltas_of(target: &MorphTarget) -> [(&'static str, &Deltas); 3] {
     [("positions", &target.positions), ("normals", &target.normals), ("tangents", &target.tangents)]
 }
 
-fn write_marks(writer: &mut ColumnWriter, marks: &Marks) {
-    writer.floats("firstPositions", marks.first_positions.iter().map(|position| position.to_array()));
+fn write_edit_data(writer: &mut ColumnWriter, data: &EditData) {
+    writer.floats("firstPositions", data.first_positions.iter().map(|position| position.to_array()));
     let flag = |is_set: bool, flag: u32| if is_set { flag } else { 0 };
     let edge = |mark: &EdgeMark| {
         let flags = flag(mark.is_sharp, SHARP) | flag(mark.is_seam, SEAM) | flag(mark.is_hidden, HIDDEN);
         [mark.vertices[0], mark.vertices[1], flags, mark.crease.to_bits()]
     };
-    let edges: Vec<[u32; 4]> = marks.edges.iter().map(edge).collect();
+    let edges: Vec<[u32; 4]> = data.edges.iter().map(edge).collect();
     writer.words("edgeMarks", edges.as_flattened().iter().copied());
-    writer.words("hiddenVertices", marks.hidden_vertices.iter().copied());
-    writer.words("hiddenFaces", marks.hidden_faces.iter().copied());
-    writer.words("sharpCorners", marks.sharp_corners.iter().copied());
+    writer.words("hiddenVertices", data.hidden_vertices.iter().copied());
+    writer.words("hiddenFaces", data.hidden_faces.iter().copied());
+    writer.words("sharpCorners", data.sharp_corners.iter().copied());
 }
 
 /// Finds the bytes of columns by name, and hashes those requested.
@@ -225,14 +224,14 @@ fn vec3(name: &str, bytes: &[u8]) -> Result<Vec<Vec3>, String> {
     Ok(floats::<3>(name, bytes)?.into_iter().map(Vec3::from_array).collect())
 }
 
-/// The mesh in some columns, and its marks.
+/// The mesh in some columns, and its edit data.
 ///
 /// # Errors
 /// The contradiction, in words.
 pub(in crate::formats::gltf) fn mesh_from_columns(
     reader: &mut ColumnReader<'_>,
     header: &Header,
-) -> Result<(Mesh, Option<Marks>), String> {
+) -> Result<(Mesh, Option<EditData>), String> {
     let positions = reader.column("positions");
     let columns = MeshColumns {
         positions: vec3("positions", positions)?,
@@ -246,10 +245,10 @@ pub(in crate::formats::gltf) fn mesh_from_columns(
         loose_points: reader.words("loosePoints")?,
     };
     let attributes = read_attributes(reader, header)?;
-    let marks = header.edited.then(|| read_marks(reader, header.subdivision)).transpose()?;
+    let edit_data = header.edited.then(|| read_edit_data(reader, header.subdivision)).transpose()?;
     let mut mesh = Mesh::from_columns(columns).map_err(|error| error.to_string())?;
     mesh.set_attributes(attributes).map_err(|error| error.to_string())?;
-    Ok((mesh, marks))
+    Ok((mesh, edit_data))
 }
 
 fn read_attributes(reader: &mut ColumnReader<'_>, header: &Header) -> Result<Attributes, String> {
@@ -310,7 +309,7 @@ fn read_target(reader: &mut ColumnReader<'_>, number: usize) -> Result<MorphTarg
     Ok(MorphTarget { name: String::new(), positions, normals, tangents })
 }
 
-fn read_marks(reader: &mut ColumnReader<'_>, subdivision: u32) -> Result<Marks, String> {
+fn read_edit_data(reader: &mut ColumnReader<'_>, subdivision: u32) -> Result<EditData, String> {
     let first_positions = vec3("firstPositions", reader.column("firstPositions"))?;
     let edges = reader.words("edgeMarks")?;
     let (edges, []) = edges.as_chunks::<4>() else { return Err(uneven("edgeMarks")) };
@@ -321,7 +320,7 @@ fn read_marks(reader: &mut ColumnReader<'_>, subdivision: u32) -> Result<Marks, 
         is_hidden: flags & HIDDEN != 0,
         crease: f32::from_bits(crease),
     };
-    Ok(Marks {
+    Ok(EditData {
         first_positions,
         edges: edges.iter().map(edge).collect(),
         hidden_vertices: reader.words("hiddenVertices")?,

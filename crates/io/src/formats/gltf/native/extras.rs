@@ -65,7 +65,7 @@ pub(in crate::formats::gltf) struct Header {
     /// Columns that exist without values: views have at least one byte.
     #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
     pub(in crate::formats::gltf) empty: BTreeSet<String>,
-    /// Whether the mesh was being edited, and so has marks.
+    /// Whether the mesh was being edited, and so has edit data.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(in crate::formats::gltf) edited: bool,
     /// In how many Catmull-Clark levels the mesh is shown.

@@ -5,8 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use gltf::json::mesh::Primitive;
 use gltf::json::validation::Checked;
-use trigon_mesh::Mesh;
-use trigon_modelling::Marks;
+use trigon_mesh::{EditData, Mesh};
 
 use super::columns::{ColumnReader, mesh_from_columns};
 use super::extras::Header;
@@ -22,7 +21,7 @@ pub(in crate::formats::gltf) struct NativeMesh {
     /// The material of each slot.
     pub(in crate::formats::gltf) materials: Vec<Option<usize>>,
     /// Only if it was being edited.
-    pub(in crate::formats::gltf) marks: Option<Marks>,
+    pub(in crate::formats::gltf) edit_data: Option<EditData>,
 }
 
 /// Reads the mesh that a header describes; an error in words if its triangles must be used instead.
@@ -53,7 +52,7 @@ pub(in crate::formats::gltf) fn read_native_mesh(
         return Ok(Err(CHANGED.to_owned()));
     }
     let materials = slot_materials(header, primitives, root.materials.len());
-    Ok(built.map(|(mesh, marks)| NativeMesh { mesh, materials, marks }))
+    Ok(built.map(|(mesh, edit_data)| NativeMesh { mesh, materials, edit_data }))
 }
 
 const CHANGED: &str = "another program changed its triangles";
@@ -138,7 +137,7 @@ fn fetch_columns(
     Ok(Ok(columns))
 }
 
-fn build(header: &Header, columns: &BTreeMap<String, Bytes>) -> Result<(Mesh, Option<Marks>), String> {
+fn build(header: &Header, columns: &BTreeMap<String, Bytes>) -> Result<(Mesh, Option<EditData>), String> {
     let find = |name: &str| columns.get(name).map(|(buffer, range)| &buffer[range.clone()]);
     let mut reader = ColumnReader::new(header, &find);
     let built = mesh_from_columns(&mut reader, header)?;

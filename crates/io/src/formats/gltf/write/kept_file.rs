@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use trigon_modelling::Marks;
+use trigon_mesh::EditData;
 use trigon_scene::{MeshId, Scene};
 
 use crate::gltf_source::GltfSource;
@@ -12,5 +12,5 @@ use crate::gltf_source::GltfSource;
 pub(crate) struct KeptFile {
     pub(crate) source: GltfSource,
     pub(crate) scene: Scene,
-    pub(crate) marks: BTreeMap<MeshId, Marks>,
+    pub(crate) edit_data: BTreeMap<MeshId, EditData>,
 }

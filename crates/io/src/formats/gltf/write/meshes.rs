@@ -8,9 +8,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use serde_json::value::RawValue;
-use trigon_mesh::{Mesh, RenderMesh};
-use trigon_modelling::{EditMesh, Marks, Refusal};
-use trigon_scene::{MeshAsset, MeshId};
+use trigon_mesh::{EditData, Mesh, RenderMesh};
+use trigon_scene::MeshId;
 
 use super::draft::Draft;
 use super::geometry::{Part, write_geometry};
@@ -24,56 +23,19 @@ use crate::loss::Loss;
 
 /// A mesh in its current state.
 pub(super) struct Shape<'a> {
-    pub(super) mesh: Cow<'a, Mesh>,
+    pub(super) mesh: &'a Mesh,
     /// If it is being edited.
-    pub(super) marks: Option<Marks>,
+    pub(super) edit_data: Option<&'a EditData>,
 }
 
-impl<'a> Shape<'a> {
-    pub(super) fn new(asset: &'a MeshAsset, edited: Option<&EditMesh>) -> Self {
-        let Some(edited) = edited else { return Self { mesh: Cow::Borrowed(asset.mesh()), marks: None } };
-        let (mut mesh, map) = edited.to_mesh();
-        let marks = edited.marks(&map);
-        name_targets(&mut mesh, asset);
-        Self { mesh: Cow::Owned(mesh), marks: Some(marks) }
-    }
-
+impl Shape<'_> {
     /// Whether it equals the file's mesh as it was read.
-    pub(super) fn is_unchanged(&self, id: MeshId, kept: &KeptFile, edited: Option<&EditMesh>) -> bool {
+    pub(super) fn is_unchanged(&self, id: MeshId, kept: &KeptFile) -> bool {
         let Some(asset) = kept.scene.meshes().get(id) else { return false };
-        let Some(edited) = edited else {
-            return std::ptr::eq(&*self.mesh, asset.mesh()) || *self.mesh == *asset.mesh();
-        };
-        // Most changes are found here, and the rest takes as long as saving everything.
-        let (was, now) = (asset.mesh(), &self.mesh);
-        if was.positions() != now.positions() || was.corner_vertices() != now.corner_vertices() {
-            return false;
-        }
-        let none = Marks::default();
-        let marks = kept.marks.get(&id).unwrap_or(&none);
-        EditMesh::from_mesh_and_marks(was, marks).is_ok_and(|(first, _)| first == *edited)
-    }
-}
-
-/// What other programs see of a mesh that is being edited: its subdivision surface, if it is shown as one.
-///
-/// # Errors
-/// The surface is too large.
-pub(crate) fn exported(asset: &MeshAsset, edited: &EditMesh) -> Result<Mesh, Refusal> {
-    let mut mesh = edited.to_subdivided_mesh(edited.subdivision())?;
-    name_targets(&mut mesh, asset);
-    Ok(mesh)
-}
-
-/// Gives morph targets the names that they have in the scene.
-fn name_targets(mesh: &mut Mesh, asset: &MeshAsset) {
-    let names = &asset.mesh().attributes().morph_targets;
-    if !names.is_empty() {
-        let mut attributes = mesh.attributes().clone();
-        for (target, named) in attributes.morph_targets.iter_mut().zip(names) {
-            target.name.clone_from(&named.name);
-        }
-        mesh.set_attributes(attributes).expect("only names are others");
+        let none = EditData::default();
+        let was = kept.edit_data.get(&id).unwrap_or(&none);
+        let is_same_mesh = || std::ptr::eq(self.mesh, asset.mesh()) || *self.mesh == *asset.mesh();
+        self.edit_data.is_none_or(|now| now == was) && is_same_mesh()
     }
 }
 
@@ -129,10 +91,10 @@ impl Written {
         shape: &Shape<'_>,
         is_native: bool,
     ) -> Option<Self> {
-        let render = || RenderMesh::from_mesh(&shape.mesh);
-        let columns = || is_native.then(|| columns_of_mesh(&shape.mesh, shape.marks.as_ref()));
+        let render = || RenderMesh::from_mesh(shape.mesh);
+        let columns = || is_native.then(|| columns_of_mesh(shape.mesh, shape.edit_data));
         let (render, columns) = rayon::join(render, columns);
-        let parts = write_geometry(draft, &shape.mesh, &render);
+        let parts = write_geometry(draft, shape.mesh, &render);
         if parts.is_empty() {
             return None;
         }
@@ -145,7 +107,7 @@ impl Written {
             header
         });
         let mut object = object;
-        write_extras(&mut object, &shape.mesh);
+        write_extras(&mut object, shape.mesh);
         Some(Self { object, form: Form::Parts(parts), header })
     }
 

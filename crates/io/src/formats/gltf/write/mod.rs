@@ -26,7 +26,6 @@ use trigon_scene::Scene;
 
 pub(crate) use glb_file::GlbFile;
 pub(crate) use kept_file::KeptFile;
-pub(crate) use meshes::exported;
 pub(crate) use scene::{Input, write_scene};
 pub(crate) use textures::mime_type;
 
@@ -77,7 +76,7 @@ fn export<'a>(scene: &'a Scene, options: &'a ExportOptions<'a>) -> Result<Input<
     }
     Ok(Input {
         scene,
-        edited: None,
+        edit_data: None,
         kept: None,
         images: options.images,
         nodes: options.nodes.as_deref(),

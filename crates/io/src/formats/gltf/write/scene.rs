@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::json;
 use trigon_math::DAffine3;
-use trigon_modelling::EditMesh;
+use trigon_mesh::EditData;
 use trigon_scene::{Material, MaterialId, MeshAsset, MeshId, Node, NodeId, Scene, Skin, SkinId};
 
 use super::draft::Draft;
@@ -30,8 +30,8 @@ use choice::{Choice, unchanged_copies};
 /// What is to be written.
 pub(crate) struct Input<'a> {
     pub(crate) scene: &'a Scene,
-    /// With it, the file is trigon's own: these meshes are saved in place of the scene's.
-    pub(crate) edited: Option<&'a BTreeMap<MeshId, EditMesh>>,
+    /// With it, the file is trigon's own: these meshes are being edited.
+    pub(crate) edit_data: Option<&'a BTreeMap<MeshId, EditData>>,
     /// The file that the scene came from, if it is to be written back.
     pub(crate) kept: Option<&'a KeptFile>,
     /// Where encoded images are.
@@ -56,7 +56,7 @@ pub(crate) fn write_scene<'a>(input: &Input<'a>) -> Result<WrittenScene<'a>, Wri
     let draft = input.kept.map_or_else(Draft::new, |kept| draft_of(&kept.source));
     let mut writer = SceneWriter {
         scene: input.scene,
-        edited: input.edited,
+        edit_data: input.edit_data,
         kept: input.kept,
         textures: Textures::new(input.scene, input.images, input.kept.is_some()),
         draft,
@@ -86,7 +86,7 @@ type Use = (MeshId, Vec<Option<usize>>);
 
 struct SceneWriter<'a> {
     scene: &'a Scene,
-    edited: Option<&'a BTreeMap<MeshId, EditMesh>>,
+    edit_data: Option<&'a BTreeMap<MeshId, EditData>>,
     kept: Option<&'a KeptFile>,
     textures: Textures<'a>,
     draft: Draft<'a>,
@@ -193,12 +193,11 @@ impl<'a> SceneWriter<'a> {
 
     fn write_mesh(&mut self, id: MeshId, users: &[(NodeId, &'a Node)], found: &mut BTreeMap<NodeId, usize>) {
         let Some(asset) = self.scene.meshes().get(id) else { return };
-        let edited = self.edited.and_then(|edited| edited.get(&id));
-        let shape = Shape::new(asset, edited);
+        let edit_data = self.edit_data.and_then(|all| all.get(&id));
+        let shape = Shape { mesh: asset.mesh(), edit_data };
         let origin = self.kept.and_then(|kept| kept.source.mesh(id));
         let object = self.mesh_object(id, asset, origin);
-        let unchanged =
-            origin.is_some() && self.kept.is_some_and(|kept| shape.is_unchanged(id, kept, edited));
+        let unchanged = origin.is_some() && self.kept.is_some_and(|kept| shape.is_unchanged(id, kept));
         let written = match unchanged {
             true => Some(Written::kept(object.clone())),
             false => self.write_shape(&object, origin, &shape),
@@ -247,9 +246,9 @@ impl<'a> SceneWriter<'a> {
     ) -> Option<Written> {
         if let Some(index) = origin {
             self.replaced.note(object);
-            self.losses.extend(losses(object, index, &shape.mesh));
+            self.losses.extend(losses(object, index, shape.mesh));
         }
-        Written::new(&mut self.draft, object.clone(), shape, self.edited.is_some())
+        Written::new(&mut self.draft, object.clone(), shape, self.edit_data.is_some())
     }
 
     fn lose(&mut self, users: &[(NodeId, &Node)], what: &str) {

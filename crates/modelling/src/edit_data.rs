@@ -1,10 +1,10 @@
-//! The data of an editable mesh that a [`Mesh`] does not have, as plain lists: original positions, marks of
+//! The data of an editable mesh that a [`Mesh`] does not have, as [`EditData`]: original positions, marks of
 //! edges, hidden elements. Together with the mesh of [`EditMesh::to_mesh`] they are complete, so a file that
 //! holds both loses nothing.
 
 use thiserror::Error;
 use trigon_math::Vec3;
-use trigon_mesh::Mesh;
+use trigon_mesh::{EdgeMark, EditData, Mesh};
 
 use super::column::Column;
 use super::edit_mesh::EditMesh;
@@ -14,42 +14,10 @@ use super::layers::LayerKind;
 use super::records::{HIDDEN, SEAM, SHARP};
 use super::to_mesh::ElementMap;
 
-/// Marks on the elements of a [`Mesh`], which they name by its indices.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Marks {
-    /// To where each vertex can be reset, in metres; empty if each is where it was.
-    pub first_positions: Vec<Vec3>,
-    /// Edges with any mark, by their vertices.
-    pub edges: Vec<EdgeMark>,
-    /// Vertices that are hidden from the user.
-    pub hidden_vertices: Vec<u32>,
-    /// Faces that are hidden from the user.
-    pub hidden_faces: Vec<u32>,
-    /// Corners whose normal in the mesh was not given: sharp edges make it, and it follows them.
-    pub sharp_corners: Vec<u32>,
-    /// In how many Catmull-Clark levels the mesh is shown, at most [`EditMesh::MOST_SUBDIVISION`].
-    pub subdivision: u32,
-}
-
-/// The marks of one edge.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct EdgeMark {
-    /// Its two vertices, the smaller one first.
-    pub vertices: [u32; 2],
-    /// It stays sharp in smooth shading.
-    pub is_sharp: bool,
-    /// Texture coordinates are cut there when they are laid out.
-    pub is_seam: bool,
-    /// It is hidden from the user.
-    pub is_hidden: bool,
-    /// How sharp it stays in Catmull-Clark subdivision, 0 to 1.
-    pub crease: f32,
-}
-
-/// Marks that do not belong to the mesh.
+/// Why edit data does not belong to a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
-pub enum MarksError {
+pub enum EditDataError {
     /// There is not one first position for each vertex.
     #[error("there are {found} original positions for {expected} vertices")]
     FirstPositions {
@@ -76,9 +44,9 @@ pub enum MarksError {
 }
 
 impl EditMesh {
-    /// The marks, by the indices of the mesh of [`EditMesh::to_mesh`], which gave `map`.
+    /// The edit data, by the indices of the mesh of [`EditMesh::to_mesh`], which gave `map`.
     #[must_use]
-    pub fn marks(&self, map: &ElementMap) -> Marks {
+    pub fn edit_data(&self, map: &ElementMap) -> EditData {
         let position = |&vertex: &VertexId| self.first_position(vertex);
         let is_moved = |vertex: &VertexId| position(vertex) != self.position(*vertex);
         let first_positions = match map.vertices.iter().any(is_moved) {
@@ -88,7 +56,7 @@ impl EditMesh {
         let hidden_vertices =
             (0u32..).zip(&map.vertices).filter(|(_, vertex)| self.is_vertex_hidden(**vertex));
         let hidden_faces = (0u32..).zip(&map.faces).filter(|(_, face)| self.is_face_hidden(**face));
-        Marks {
+        EditData {
             first_positions,
             edges: self.edge_marks(map),
             hidden_vertices: hidden_vertices.map(|(index, _)| index).collect(),
@@ -108,11 +76,11 @@ impl EditMesh {
     }
 
     /// Takes away normals that were not given, and all of them if none was.
-    fn clear_sharp_corners(&mut self, corners: &[u32]) -> Result<(), MarksError> {
+    fn clear_sharp_corners(&mut self, corners: &[u32]) -> Result<(), EditDataError> {
         for &index in corners {
             let corner = CornerId(index);
             if !self.has_corner(corner) {
-                return Err(MarksError::NoSuchCorner(index));
+                return Err(EditDataError::NoSuchCorner(index));
             }
             self.set_custom_normal(corner, Vec3::ZERO);
         }
@@ -152,7 +120,7 @@ impl EditMesh {
         marks
     }
 
-    /// Makes a mesh editable, with its marks: what [`EditMesh::from_mesh`] makes of it, and
+    /// Makes a mesh editable, with its edit data: what [`EditMesh::from_mesh`] makes of it, and
     /// then each mark set.
     ///
     /// ```
@@ -162,47 +130,47 @@ impl EditMesh {
     /// let (mut cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
     /// cube.set_crease(EdgeId::new(3), 0.5);
     /// let (mesh, map) = cube.to_mesh();
-    /// let (again, _) = EditMesh::from_mesh_and_marks(&mesh, &cube.marks(&map))?;
+    /// let (again, _) = EditMesh::from_mesh_and_data(&mesh, &cube.edit_data(&map))?;
     /// assert!(again == cube);
-    /// # Ok::<(), trigon_modelling::MarksError>(())
+    /// # Ok::<(), trigon_modelling::EditDataError>(())
     /// ```
     ///
     /// # Errors
-    /// The marks name what the mesh has not.
-    pub fn from_mesh_and_marks(mesh: &Mesh, marks: &Marks) -> Result<(Self, LeftOut), MarksError> {
+    /// The data name what the mesh has not, or more levels than [`EditMesh::MOST_SUBDIVISION`].
+    pub fn from_mesh_and_data(mesh: &Mesh, data: &EditData) -> Result<(Self, LeftOut), EditDataError> {
         let (mut editable, left_out) = Self::from_mesh(mesh);
-        let (expected, found) = (editable.vertex_count(), marks.first_positions.len());
+        let (expected, found) = (editable.vertex_count(), data.first_positions.len());
         if found != 0 && found != expected {
-            return Err(MarksError::FirstPositions { expected, found });
+            return Err(EditDataError::FirstPositions { expected, found });
         }
         if found != 0 {
-            editable.first_positions = Column::new(marks.first_positions.clone());
+            editable.first_positions = Column::new(data.first_positions.clone());
         }
-        for mark in &marks.edges {
+        for mark in &data.edges {
             editable.set_edge_mark(mark)?;
         }
-        for &index in &marks.hidden_vertices {
+        for &index in &data.hidden_vertices {
             let vertex = VertexId(index);
-            editable.check_vertex(vertex).map_err(|_| MarksError::NoSuchVertex(index))?;
+            editable.check_vertex(vertex).map_err(|_| EditDataError::NoSuchVertex(index))?;
             editable.set_vertex_hidden(vertex, true);
         }
-        for &index in &marks.hidden_faces {
+        for &index in &data.hidden_faces {
             let face = FaceId(index);
-            editable.check_face(face).map_err(|_| MarksError::NoSuchFace(index))?;
+            editable.check_face(face).map_err(|_| EditDataError::NoSuchFace(index))?;
             editable.set_face_hidden(face, true);
         }
-        editable.clear_sharp_corners(&marks.sharp_corners)?;
+        editable.clear_sharp_corners(&data.sharp_corners)?;
         editable
-            .set_subdivision(marks.subdivision)
-            .map_err(|_| MarksError::Subdivision(marks.subdivision))?;
+            .set_subdivision(data.subdivision)
+            .map_err(|_| EditDataError::Subdivision(data.subdivision))?;
         Ok((editable, left_out))
     }
 
-    fn set_edge_mark(&mut self, mark: &EdgeMark) -> Result<(), MarksError> {
+    fn set_edge_mark(&mut self, mark: &EdgeMark) -> Result<(), EditDataError> {
         let [a, b] = mark.vertices.map(VertexId);
         let exist = self.has_vertex(a) && self.has_vertex(b);
         let edge = exist.then(|| self.find_edge(a, b)).flatten();
-        let edge = edge.ok_or(MarksError::NoSuchEdge(mark.vertices))?;
+        let edge = edge.ok_or(EditDataError::NoSuchEdge(mark.vertices))?;
         self.set_sharp(edge, mark.is_sharp);
         self.set_seam(edge, mark.is_seam);
         self.set_edge_hidden(edge, mark.is_hidden);
@@ -229,7 +197,7 @@ mod tests {
         cube.mark_sharp(&edges[..5]).expect("a cube has edges");
         let (mesh, map) = cube.to_mesh();
         assert!(mesh.attributes().corner_normals.is_some(), "they are shown");
-        let (again, _) = EditMesh::from_mesh_and_marks(&mesh, &cube.marks(&map)).expect("its own");
+        let (again, _) = EditMesh::from_mesh_and_data(&mesh, &cube.edit_data(&map)).expect("its own");
         assert!(again == cube, "and not given");
     }
 
@@ -258,36 +226,40 @@ mod tests {
     proptest! {
         /// Also with holes in the numbering, which the first step closes.
         #[test]
-        fn mesh_and_marks_are_all_there_is(start in meshes(), seed in any::<u32>(), removed in any::<u32>()) {
+        fn mesh_and_edit_data_are_all_there_is(start in meshes(), seed in any::<u32>(), removed in any::<u32>()) {
             let mut first = marked(&start, seed);
             let face = FaceId(removed % first.face_capacity().max(1) as u32);
             drop(first.remove_face(face));
             let (mesh, map) = first.to_mesh();
-            let marks = first.marks(&map);
-            let (second, _) = EditMesh::from_mesh_and_marks(&mesh, &marks).expect("they belong together");
+            let data = first.edit_data(&map);
+            let (second, _) = EditMesh::from_mesh_and_data(&mesh, &data).expect("they belong together");
             prop_assert_eq!(second.check_structure(), Ok(()));
             let (again, map) = second.to_mesh();
             prop_assert_eq!(&again, &mesh);
-            prop_assert_eq!(second.marks(&map), marks);
+            prop_assert_eq!(second.edit_data(&map), data);
         }
     }
 
     #[test]
-    fn marks_of_another_mesh_are_refused() {
+    fn edit_data_of_another_mesh_are_refused() {
         let cube = primitives::cube(2.0);
         let refused =
-            |marks: Marks| EditMesh::from_mesh_and_marks(&cube, &marks).expect_err("not of this mesh");
-        let edge = |vertices| Marks {
+            |data: EditData| EditMesh::from_mesh_and_data(&cube, &data).expect_err("not of this mesh");
+        let edge = |vertices| EditData {
             edges: vec![EdgeMark { vertices, ..EdgeMark::default() }],
-            ..Marks::default()
+            ..EditData::default()
         };
         let (mesh, _) = EditMesh::from_mesh(&cube);
         let [a, _] = mesh.edge_vertices(EdgeId(0)).map(VertexId::index);
-        assert_eq!(refused(edge([a, a])), MarksError::NoSuchEdge([a, a]), "no edge from a vertex to itself");
-        assert_eq!(refused(edge([0, u32::MAX])), MarksError::NoSuchEdge([0, u32::MAX]), "no such vertex");
-        refused(Marks { hidden_vertices: vec![8], ..Marks::default() });
-        refused(Marks { hidden_faces: vec![6], ..Marks::default() });
-        refused(Marks { subdivision: 6, ..Marks::default() });
-        refused(Marks { first_positions: vec![Vec3::ZERO; 7], ..Marks::default() });
+        assert_eq!(
+            refused(edge([a, a])),
+            EditDataError::NoSuchEdge([a, a]),
+            "no edge from a vertex to itself"
+        );
+        assert_eq!(refused(edge([0, u32::MAX])), EditDataError::NoSuchEdge([0, u32::MAX]), "no such vertex");
+        refused(EditData { hidden_vertices: vec![8], ..EditData::default() });
+        refused(EditData { hidden_faces: vec![6], ..EditData::default() });
+        refused(EditData { subdivision: 6, ..EditData::default() });
+        refused(EditData { first_positions: vec![Vec3::ZERO; 7], ..EditData::default() });
     }
 }

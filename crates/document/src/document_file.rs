@@ -1,0 +1,134 @@
+//! What files hold of a document: its scene, and the meshes that are being edited with their edit data.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use thiserror::Error;
+use trigon_io::{Export, ExportOptions, Format, NativeDocument, Place, Warning, WriteError};
+use trigon_mesh::{EditData, Mesh};
+use trigon_modelling::{EditMesh, Refusal};
+use trigon_scene::{MeshAsset, MeshId};
+
+/// What a file holds of a document, with its meshes as they are edited. A clone shares everything but these, and
+/// another thread can save it while editing continues.
+#[derive(Debug, Clone, Default)]
+pub struct DocumentFile {
+    /// The scene, without edit data. A mesh that is being edited may be outdated here.
+    pub(crate) native: NativeDocument,
+    /// The meshes that are being edited: these are saved instead of the scene's.
+    pub(crate) edited: BTreeMap<MeshId, EditMesh>,
+}
+
+/// Why a document was not exported.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// The scene cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// The subdivision surface of a mesh is too large.
+    #[error("mesh \"{name}\": {source}")]
+    Surface {
+        /// The name of the mesh.
+        name: String,
+        /// Why it cannot be made.
+        source: Refusal,
+    },
+}
+
+impl DocumentFile {
+    /// Makes the meshes with edit data editable. Data that do not belong to their mesh are left out with a warning,
+    /// in which `name` stands for the file.
+    pub(crate) fn open(mut native: NativeDocument, name: &Path, warnings: &mut Vec<Warning>) -> Self {
+        let mut edited = BTreeMap::new();
+        for (id, data) in std::mem::take(&mut native.edit_data) {
+            let Some(asset) = native.scene.meshes().get(id) else { continue };
+            match EditMesh::from_mesh_and_data(asset.mesh(), &data) {
+                Ok((mesh, _)) => drop(edited.insert(id, mesh)),
+                Err(error) => {
+                    let place = Place::Named(format!("mesh \"{}\"", asset.name));
+                    let what = format!("marks and original positions are left out: {error}");
+                    let remedy = "open an older copy of the file if you need them";
+                    warnings.push(Warning::new(name, place, &what, remedy));
+                }
+            }
+        }
+        Self { native, edited }
+    }
+
+    /// The document as trigon's own file holds it: [`NativeDocument::encode`] makes the file. Takes the time to
+    /// convert the meshes that are or were edited.
+    #[must_use]
+    pub fn to_native(&self) -> NativeDocument {
+        let nodes = self.native.scene.nodes();
+        let shown: BTreeSet<MeshId> = nodes.iter().filter_map(|(_, node)| node.mesh).collect();
+        // Meshes are shared: a copy of the scene only copies its lists.
+        let mut native = self.native.clone();
+        for (&id, edited) in self.edited.iter().filter(|(id, _)| shown.contains(id)) {
+            if let Some(asset) = self.native.scene.meshes().get(id) {
+                let (mesh, data) = self.saved_mesh(id, asset, edited);
+                native.scene.replace_mesh(id, mesh);
+                native.edit_data.insert(id, data);
+            }
+        }
+        native
+    }
+
+    /// A mesh that is being edited, as it is saved: as it was loaded if nothing has changed, also where converting it
+    /// there and back would change how it is stored.
+    fn saved_mesh(&self, id: MeshId, asset: &MeshAsset, edited: &EditMesh) -> (Mesh, EditData) {
+        let (mut now, map) = edited.to_mesh();
+        if let Some((was, data)) = self.native.loaded_mesh(id) {
+            let data = data.cloned().unwrap_or_default();
+            // Most changes are found here, and the rest takes as long as saving everything.
+            let is_alike =
+                was.positions() == now.positions() && was.corner_vertices() == now.corner_vertices();
+            let is_same = |(first, _): (EditMesh, _)| first == *edited;
+            if is_alike && EditMesh::from_mesh_and_data(was, &data).is_ok_and(is_same) {
+                return (was.clone(), data);
+            }
+        }
+        name_targets(&mut now, asset);
+        (now, edited.edit_data(&map))
+    }
+
+    /// The document for other programs; see [`trigon_io::export()`]. A mesh with a subdivision surface
+    /// ([`EditMesh::subdivision`]) is written as that surface, with all levels. Images are those of the
+    /// loaded file, unless the options name another.
+    ///
+    /// # Errors
+    /// As [`trigon_io::export()`], or a subdivision surface is too large.
+    pub fn export(
+        &self,
+        name: &str,
+        format: Format,
+        options: &ExportOptions<'_>,
+    ) -> Result<Export, ExportError> {
+        let mut native = self.native.clone();
+        for (&id, edited) in &self.edited {
+            if let Some(asset) = self.native.scene.meshes().get(id) {
+                let surface = edited.to_subdivided_mesh(edited.subdivision());
+                let too_large = |source| ExportError::Surface { name: asset.name.clone(), source };
+                let mut mesh = surface.map_err(too_large)?;
+                name_targets(&mut mesh, asset);
+                native.scene.replace_mesh(id, mesh);
+            }
+        }
+        Ok(native.export(name, format, options)?)
+    }
+}
+
+/// Gives morph targets the names that they have in the scene.
+fn name_targets(mesh: &mut Mesh, asset: &MeshAsset) {
+    let names = &asset.mesh().attributes().morph_targets;
+    if !names.is_empty() {
+        let mut attributes = mesh.attributes().clone();
+        for (target, named) in attributes.morph_targets.iter_mut().zip(names) {
+            target.name.clone_from(&named.name);
+        }
+        mesh.set_attributes(attributes).expect("only names are others");
+    }
+}
+
+#[cfg(test)]
+mod tests;
