@@ -184,9 +184,9 @@ mod tests {
     use proptest::prelude::*;
     use trigon_mesh::primitives;
 
-    use super::super::ids::EdgeId;
-    use super::super::tests::meshes;
     use super::*;
+    use crate::ids::EdgeId;
+    use crate::tests::meshes;
 
     #[test]
     fn normals_that_sharp_edges_make_are_not_frozen() {

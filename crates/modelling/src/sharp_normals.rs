@@ -181,8 +181,8 @@ mod tests {
 
     use trigon_mesh::{Mesh, primitives};
 
-    use super::super::ids::FaceId;
     use super::*;
+    use crate::ids::FaceId;
 
     fn smooth(mesh: &Mesh) -> EditMesh {
         let mut flat = mesh.clone();

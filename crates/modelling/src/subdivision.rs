@@ -149,8 +149,8 @@ mod tests {
     use proptest::prelude::*;
     use trigon_mesh::primitives;
 
-    use super::super::tests::meshes;
     use super::*;
+    use crate::tests::meshes;
 
     fn editable(mesh: &Mesh) -> EditMesh {
         EditMesh::from_mesh(mesh).0

@@ -173,8 +173,8 @@ impl EditMesh {
 mod tests {
     use trigon_mesh::primitives;
 
-    use super::super::ids::CornerId;
     use super::*;
+    use crate::ids::CornerId;
 
     #[test]
     fn a_broken_rule_is_found() {

@@ -3,9 +3,9 @@
 use smallvec::SmallVec;
 use trigon_math::Vec3;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, FaceId, NONE, VertexId};
-use super::super::refusal::Refusal;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId, NONE, VertexId};
+use crate::refusal::Refusal;
 
 /// Indices stay below this, so that `NONE` is none of them.
 const MOST: u32 = u32::MAX - 1;
@@ -36,7 +36,7 @@ impl EditMesh {
     }
 
     /// The edge between two different vertices that exist.
-    pub(in super::super) fn join(&mut self, a: VertexId, b: VertexId) -> EdgeId {
+    pub(crate) fn join(&mut self, a: VertexId, b: VertexId) -> EdgeId {
         if let Some(edge) = self.find_edge(a, b) {
             return edge;
         }
@@ -62,7 +62,7 @@ impl EditMesh {
     }
 
     /// The face of an outline that has been checked.
-    pub(in super::super) fn face_of(&mut self, vertices: &[VertexId]) -> FaceId {
+    pub(crate) fn face_of(&mut self, vertices: &[VertexId]) -> FaceId {
         let mut outline = SmallVec::<[(VertexId, EdgeId); 8]>::with_capacity(vertices.len());
         for (i, &vertex) in vertices.iter().enumerate() {
             let next = vertices[(i + 1) % vertices.len()];
@@ -73,7 +73,7 @@ impl EditMesh {
 
     /// The face of an outline that has been checked, whose edges are known: each vertex with the edge
     /// from it to the next.
-    pub(in super::super) fn face_along(&mut self, outline: &[(VertexId, EdgeId)]) -> FaceId {
+    pub(crate) fn face_along(&mut self, outline: &[(VertexId, EdgeId)]) -> FaceId {
         let face = self.new_face();
         let mut first = NONE;
         let mut last = NONE;
@@ -95,7 +95,7 @@ impl EditMesh {
     }
 
     /// Whether there is room for some more elements; an operation that adds many asks for each.
-    pub(in super::super) fn check_room(&self) -> Result<(), Refusal> {
+    pub(crate) fn check_room(&self) -> Result<(), Refusal> {
         /// More than any single element can take: a split edge has a corner in each of its faces,
         /// a face a corner for each of its vertices, and lists of these are limited themselves.
         const MARGIN: usize = 1 << 20;
@@ -103,14 +103,14 @@ impl EditMesh {
     }
 
     /// Whether there is room for so many more elements of each kind.
-    pub(in super::super) fn check_room_for_each(&self, more: usize) -> Result<(), Refusal> {
+    pub(crate) fn check_room_for_each(&self, more: usize) -> Result<(), Refusal> {
         let longest = self.corners.len().max(self.edges.len()).max(self.vertices.len());
         if more < (MOST - longest.min(MOST)) as usize { Ok(()) } else { Err(Refusal::TooMany) }
     }
 }
 
 /// Whether an outline can be that of a face.
-pub(in super::super) fn check_outline(vertices: &[VertexId]) -> Result<(), Refusal> {
+pub(crate) fn check_outline(vertices: &[VertexId]) -> Result<(), Refusal> {
     let refused = |reason| Err(Refusal::NotPossible { operation: "adding a face", reason });
     let next = vertices.iter().cycle().skip(1);
     if vertices.iter().zip(next).any(|(a, b)| a == b) {

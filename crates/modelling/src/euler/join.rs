@@ -2,9 +2,9 @@
 
 use smallvec::SmallVec;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 impl EditMesh {
     /// Removes a vertex between exactly two edges, which become one, in all their faces. Marks
@@ -65,7 +65,7 @@ impl EditMesh {
 
     /// Takes a corner out of its face. The corner before it still leaves along its old edge: the caller
     /// mends that.
-    pub(in super::super) fn drop_corner(&mut self, corner: CornerId) {
+    pub(crate) fn drop_corner(&mut self, corner: CornerId) {
         let record = self.corners[corner.0];
         self.unlink_at_edge(corner.0);
         self.link_in_face(record.previous, record.next);

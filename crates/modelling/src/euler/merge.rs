@@ -2,11 +2,11 @@
 
 use smallvec::SmallVec;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
 use super::add::check_outline;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::numbering::{Numbering, sorted_once};
+use crate::refusal::Refusal;
 
 /// What takes the place of each vertex that goes.
 struct Targets {

@@ -2,11 +2,11 @@
 
 use smallvec::SmallVec;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, FaceId, VertexId};
-use super::super::records::CornerRecord;
-use super::super::refusal::Refusal;
 use super::add::check_outline;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, FaceId, VertexId};
+use crate::records::CornerRecord;
+use crate::refusal::Refusal;
 
 /// A corner of a face that is turned over.
 struct TurnedCorner {
@@ -107,8 +107,8 @@ impl EditMesh {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::super::tests::meshes;
     use super::*;
+    use crate::tests::meshes;
 
     proptest! {
         #[test]

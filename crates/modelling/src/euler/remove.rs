@@ -1,8 +1,8 @@
 //! Removes elements, and with them all elements that cannot exist without them.
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
-use super::super::refusal::Refusal;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
+use crate::refusal::Refusal;
 
 impl EditMesh {
     /// Removes a face; its edges and vertices stay.

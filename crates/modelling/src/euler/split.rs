@@ -2,9 +2,9 @@
 
 use smallvec::SmallVec;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 /// The new elements where an edge was split.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

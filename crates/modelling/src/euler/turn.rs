@@ -2,14 +2,14 @@
 
 use fixedbitset::FixedBitSet;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::NONE;
-use super::super::records::{CornerRecord, EdgeRecord};
+use crate::edit_mesh::EditMesh;
+use crate::ids::NONE;
+use crate::records::{CornerRecord, EdgeRecord};
 
 impl EditMesh {
     /// Turns over all of these faces: the same as [`Self::flip_face`] for each, to the last bit, in one pass over
     /// all corners and edges. Theirs are written to new lists, and the old ones are what undo needs.
-    pub(in super::super) fn flip_together(&mut self, is_turned: &FixedBitSet) {
+    pub(crate) fn flip_together(&mut self, is_turned: &FixedBitSet) {
         let old = self.corners.values();
         // A corner of a face that turns over leaves its place in an edge's ring to the one that follows it.
         let successor = |corner: u32| match old.get(corner as usize) {
@@ -60,7 +60,7 @@ fn turned_over(
     }
 }
 
-/// A list of what becomes of each, with as much room for more as [`super::super::column::Column::with_room`] gives.
+/// A list of what becomes of each, with as much room for more as [`crate::column::Column::with_room`] gives.
 fn listed<T>(old: &[T], become_of: impl Fn(&T) -> T) -> Vec<T> {
     let mut list = Vec::with_capacity(old.len() + old.len() / 8);
     list.extend(old.iter().map(become_of));
@@ -71,9 +71,9 @@ fn listed<T>(old: &[T], become_of: impl Fn(&T) -> T) -> Vec<T> {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::super::ids::FaceId;
-    use super::super::super::tests::meshes;
     use super::*;
+    use crate::ids::FaceId;
+    use crate::tests::meshes;
 
     proptest! {
         #[test]

@@ -6,8 +6,8 @@ use std::collections::hash_map::Entry;
 use smallvec::SmallVec;
 use trigon_math::{DVec3, Vec3};
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{FaceId, VertexId};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{FaceId, VertexId};
 
 /// A vertex at the place of another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

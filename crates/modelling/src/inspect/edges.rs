@@ -3,8 +3,8 @@
 use fixedbitset::FixedBitSet;
 use trigon_mesh::EdgeJoin;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, VertexId};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, VertexId};
 
 /// Edges with one side of a face each, in the order in which they follow each other.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -130,9 +130,9 @@ mod tests {
     use trigon_math::Vec3;
     use trigon_mesh::{MeshBuilder, primitives};
 
-    use super::super::super::tests::meshes;
     use super::*;
     use crate::FaceId;
+    use crate::tests::meshes;
 
     #[test]
     fn each_hole_has_a_rim() {

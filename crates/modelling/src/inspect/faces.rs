@@ -1,7 +1,7 @@
 //! Findings about the shape of faces: without area, not planar.
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::FaceId;
+use crate::edit_mesh::EditMesh;
+use crate::ids::FaceId;
 
 /// A face with corners off its plane.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,9 +3,9 @@
 
 use fixedbitset::FixedBitSet;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, FaceId, VertexId};
-use super::super::records::POINT;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId, VertexId};
+use crate::records::POINT;
 
 impl EditMesh {
     /// The vertices without an edge, but for those that are shown as points.

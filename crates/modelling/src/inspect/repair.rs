@@ -2,9 +2,9 @@
 
 use smallvec::SmallVec;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 impl EditMesh {
     /// Removes all edges without a face; their vertices stay.
@@ -119,9 +119,9 @@ mod tests {
     use trigon_math::Vec3;
     use trigon_mesh::primitives;
 
-    use super::super::super::tests::meshes;
     use super::super::InspectionSettings;
     use super::*;
+    use crate::tests::meshes;
 
     #[test]
     fn loose_ends_and_doubles_are_removed_and_counted() {

@@ -3,10 +3,10 @@
 use trigon_math::{DVec3, Vec3};
 use trigon_mesh::Triangulator;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{FaceId, VertexId};
 use super::triangle_tree::{PairSearch, TriangleTree};
 use super::triangles_touch::triangles_touch;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{FaceId, VertexId};
 
 /// Pairs of faces that touch or cross each other.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -93,9 +93,9 @@ mod tests {
     use proptest::prelude::*;
     use trigon_mesh::primitives;
 
-    use super::super::super::tests::meshes;
     use super::*;
     use crate::Transform;
+    use crate::tests::meshes;
 
     /// Two cubes of 2 m, the second one moved.
     fn two_cubes(offset: DVec3) -> EditMesh {

@@ -5,19 +5,19 @@ use std::collections::BTreeMap;
 use fixedbitset::FixedBitSet;
 use trigon_math::{DVec3, angle, area_vector, unit_or_zero};
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, FaceId, VertexId};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, FaceId, VertexId};
 
 /// Normals of faces that are asked for again and again, once for each of their edges or corners: those
 /// of large faces are kept, so that time stays proportional to the corners.
 #[derive(Debug, Default)]
-pub(in super::super) struct FaceNormals {
+pub(crate) struct FaceNormals {
     large: BTreeMap<FaceId, DVec3>,
 }
 
 impl FaceNormals {
     /// [`EditMesh::face_normal`], computed once for a large face.
-    pub(in super::super) fn of(&mut self, mesh: &EditMesh, face: FaceId) -> DVec3 {
+    pub(crate) fn of(&mut self, mesh: &EditMesh, face: FaceId) -> DVec3 {
         /// Up to here computing a normal costs about as much as looking for it.
         const SMALL: usize = 16;
         if mesh.face_size(face) <= SMALL {
@@ -71,7 +71,7 @@ impl EditMesh {
     /// The normals of many vertices, in the order given, in time proportional to the vertices and
     /// the faces at them: a face with very many corners is measured once. Of a vertex that is
     /// given twice only the last has one.
-    pub(in super::super) fn vertex_normals(&self, vertices: &[VertexId]) -> Vec<DVec3> {
+    pub(crate) fn vertex_normals(&self, vertices: &[VertexId]) -> Vec<DVec3> {
         // By vertex, one more than its place in the list.
         let mut places = vec![0u32; self.vertex_capacity()];
         for (place, vertex) in (1..).zip(vertices) {

@@ -2,9 +2,9 @@
 
 use trigon_math::{DVec3, angle};
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, FaceId};
 use super::FaceNormals;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId};
 
 impl EditMesh {
     /// How long an edge is, in metres.
@@ -24,11 +24,7 @@ impl EditMesh {
 
     /// The normals of the two faces at an edge: `None` unless exactly two with areas meet there that
     /// run in opposite directions.
-    pub(in super::super) fn edge_normals(
-        &self,
-        edge: EdgeId,
-        normals: &mut FaceNormals,
-    ) -> Option<[DVec3; 2]> {
+    pub(crate) fn edge_normals(&self, edge: EdgeId, normals: &mut FaceNormals) -> Option<[DVec3; 2]> {
         let [one, two] = self.edge_pair(edge)?;
         if self.corner_vertex(one) == self.corner_vertex(two) {
             return None;

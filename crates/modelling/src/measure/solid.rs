@@ -3,8 +3,8 @@
 use trigon_math::{Bounds3, DVec3};
 use trigon_mesh::EdgeJoin;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::VertexId;
+use crate::edit_mesh::EditMesh;
+use crate::ids::VertexId;
 
 impl EditMesh {
     /// The box around some vertices; its size are the dimensions. Empty without a vertex.

@@ -2,13 +2,13 @@
 
 use trigon_math::{DVec3, area_vector};
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
 use super::delete::require;
 use super::fill::Filled;
 use super::outlines::Chain;
 use super::parts::fill_strip;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 const BRIDGING: &str = "bridging";
 
@@ -161,8 +161,8 @@ mod tests {
     use trigon_math::{Vec3, elementary::sin_cos};
     use trigon_mesh::primitives;
 
-    use super::super::super::tests::{check_operation, meshes};
     use super::*;
+    use crate::tests::{check_operation, meshes};
 
     fn counts(mesh: &EditMesh) -> [usize; 3] {
         mesh.check_structure().expect("whole");

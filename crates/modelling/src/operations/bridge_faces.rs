@@ -1,9 +1,9 @@
 //! Bridging two regions of faces: a handle, or a hole through a solid.
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, FaceId};
-use super::super::refusal::Refusal;
 use super::fill::Filled;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId};
+use crate::refusal::Refusal;
 
 impl EditMesh {
     /// Removes faces and joins the remaining outlines with a strip of faces, as

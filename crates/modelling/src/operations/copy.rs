@@ -1,11 +1,11 @@
 //! Extracting part of a mesh as a separate mesh, and adding a whole mesh to another: the basis of
 //! duplicating, separating and joining.
 
-use super::super::column::Column;
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::layers::{Layer, LayerValues};
 use super::tables::{IndexSet, IndexTable};
+use crate::column::Column;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::layers::{Layer, LayerValues};
 
 /// Copies of elements, in the order of the originals' ids.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -1,8 +1,8 @@
 //! Deleting elements, in the four common ways.
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 impl EditMesh {
     /// Deletes vertices with all edges and faces at them.

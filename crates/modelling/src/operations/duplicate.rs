@@ -1,9 +1,9 @@
 //! Duplicating: copies that are not joined to anything else.
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
 use super::copy::{CopiedElements, Elements};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 impl EditMesh {
     /// Copies faces with their edges and vertices, edges with their ends, and vertices, all with their values

@@ -2,12 +2,12 @@
 
 use trigon_math::{DVec3, elementary::atan2};
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
 use super::delete::require;
 use super::outlines::Chain;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::numbering::{Numbering, sorted_once};
+use crate::refusal::Refusal;
 
 /// The new elements.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -154,8 +154,8 @@ mod tests {
     use trigon_math::{Vec3, area_vector};
     use trigon_mesh::primitives;
 
-    use super::super::super::tests::{check_operation, keeps_affine_values, meshes, with_affine_values};
     use super::*;
+    use crate::tests::{check_operation, keeps_affine_values, meshes, with_affine_values};
 
     fn editable(mesh: trigon_mesh::Mesh) -> EditMesh {
         EditMesh::from_mesh(&with_affine_values(mesh)).0

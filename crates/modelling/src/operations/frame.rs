@@ -3,8 +3,8 @@
 
 use trigon_math::{DVec2, DVec3, area_vector, unit_or_zero};
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, FaceId};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, FaceId};
 
 /// Up to this number of corners a position is a combination of all; beyond it the work for all
 /// corners of a face would grow with their square.

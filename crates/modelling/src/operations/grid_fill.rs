@@ -2,13 +2,13 @@
 
 use trigon_math::{DVec3, area_vector};
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, VertexId};
-use super::super::refusal::Refusal;
-use super::super::slots::Room;
 use super::delete::require;
 use super::fill::Filled;
 use super::outlines::Chain;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, VertexId};
+use crate::refusal::Refusal;
+use crate::slots::Room;
 
 const FILLING: &str = "filling with a grid";
 
@@ -181,9 +181,9 @@ mod tests {
     use proptest::prelude::*;
     use trigon_mesh::primitives;
 
-    use super::super::super::ids::FaceId;
-    use super::super::super::tests::{check_operation, keeps_affine_values, meshes, with_affine_values};
     use super::*;
+    use crate::ids::FaceId;
+    use crate::tests::{check_operation, keeps_affine_values, meshes, with_affine_values};
 
     fn counts(mesh: &EditMesh) -> [usize; 3] {
         mesh.check_structure().expect("whole");

@@ -5,9 +5,9 @@
 //! leave behind: edges all of whose faces are now hidden, and vertices all of whose edges are.
 //! Hiding vertices leaves the rest of the outlines of their faces visible, as in Blender.
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 /// Elements that were hidden or revealed: those whose state changed.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -124,8 +124,8 @@ mod tests {
     use proptest::prelude::*;
     use trigon_mesh::primitives;
 
-    use super::super::super::tests::meshes;
     use super::*;
+    use crate::tests::meshes;
 
     fn hidden(mesh: &EditMesh) -> [usize; 3] {
         [

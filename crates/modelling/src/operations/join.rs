@@ -2,10 +2,10 @@
 
 use trigon_math::{DAffine3, DMat3, Vec3, cofactors, is_mirroring, transformed_delta, transformed_direction};
 
-use super::super::edit_mesh::EditMesh;
-use super::super::layers::{Layer, LayerKind, LayerValues};
-use super::super::refusal::Refusal;
 use super::copy::CopiedElements;
+use crate::edit_mesh::EditMesh;
+use crate::layers::{Layer, LayerKind, LayerValues};
+use crate::refusal::Refusal;
 
 impl EditMesh {
     /// Adds all elements of another mesh, transformed (from its space to this one's, in metres), with their

@@ -3,10 +3,10 @@
 
 use trigon_math::{DVec3, angle, area_vector, unit_or_zero};
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
 use super::region::{BorderEdge, Region, SplitVertex, SplitVertices};
 use super::tables::IndexTable;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 
 /// A region that was lifted as a whole.
 pub(super) struct Lifted {

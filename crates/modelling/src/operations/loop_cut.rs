@@ -3,10 +3,10 @@
 use fixedbitset::FixedBitSet;
 use smallvec::SmallVec;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::records::HIDDEN;
-use super::super::refusal::Refusal;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::records::HIDDEN;
+use crate::refusal::Refusal;
 
 /// The vertices on an edge: few rings have more cuts.
 pub(super) type Vertices = SmallVec<[VertexId; 8]>;
@@ -285,8 +285,8 @@ mod tests {
     use trigon_math::Vec3;
     use trigon_mesh::primitives;
 
-    use super::super::super::tests::{keeps_affine_values, meshes, with_affine_values};
     use super::*;
+    use crate::tests::{keeps_affine_values, meshes, with_affine_values};
 
     fn counts(mesh: &EditMesh) -> [usize; 3] {
         mesh.check_structure().expect("whole");

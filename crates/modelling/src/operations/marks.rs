@@ -7,11 +7,11 @@ use std::f64::consts::PI;
 
 use trigon_math::elementary;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, FaceId};
-use super::super::measure::FaceNormals;
-use super::super::refusal::Refusal;
 use super::delete::require;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId};
+use crate::measure::FaceNormals;
+use crate::refusal::Refusal;
 
 /// Normals are rounded: faces that meet at exactly the angle are still smooth.
 const COSINE_ROUNDING: f64 = 1e-6;
@@ -175,7 +175,7 @@ impl EditMesh {
 
     pub(super) fn check_vertices(
         &self,
-        vertices: &[super::super::ids::VertexId],
+        vertices: &[crate::ids::VertexId],
         operation: &'static str,
     ) -> Result<(), Refusal> {
         require(vertices, operation, "at least one vertex")?;

@@ -4,10 +4,10 @@ use fixedbitset::FixedBitSet;
 use smallvec::SmallVec;
 use trigon_math::{DMat3, DVec3, Plane, Vec3};
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
 use super::transform::GivenNormals;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 /// A mirrored copy.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -242,8 +242,8 @@ mod tests {
     use proptest::prelude::*;
     use trigon_mesh::primitives;
 
-    use super::super::super::tests::meshes;
     use super::*;
+    use crate::tests::meshes;
 
     fn plane(point: DVec3, normal: DVec3) -> Plane {
         Plane::from_point_and_normal(point, normal).expect("a plane")

@@ -2,10 +2,10 @@
 
 use smallvec::SmallVec;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, VertexId};
-use super::super::refusal::Refusal;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, VertexId};
 use crate::numbering::sorted_once;
+use crate::refusal::Refusal;
 
 /// Connected edges in order.
 #[derive(Debug, Clone, PartialEq, Eq)]

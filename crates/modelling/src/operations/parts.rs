@@ -1,8 +1,8 @@
 //! Dividing a face into parts: shared by subdividing, triangulating and connecting.
 
-use super::super::edit_mesh::EditMesh;
-use super::super::euler::check_outline;
-use super::super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
+use crate::edit_mesh::EditMesh;
+use crate::euler::check_outline;
+use crate::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 
 /// A point that becomes a corner of parts of a face.
 #[derive(Debug, Clone, Copy)]

@@ -3,11 +3,11 @@
 
 use trigon_math::{DVec2, DVec3, Vec2, unit_or_zero};
 
-use super::super::column::Column;
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, FaceId};
-use super::super::layers::{Layer, LayerKind, LayerValues};
-use super::super::refusal::Refusal;
+use crate::column::Column;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, FaceId};
+use crate::layers::{Layer, LayerKind, LayerValues};
+use crate::refusal::Refusal;
 
 /// A projection along a direction, like that of a slide projector.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -181,8 +181,8 @@ mod tests {
     use proptest::prelude::*;
     use trigon_mesh::{Attributes, primitives};
 
-    use super::super::super::tests::meshes;
     use super::*;
+    use crate::tests::meshes;
 
     fn bare_cube() -> (EditMesh, Vec<FaceId>) {
         let mut cube = primitives::cube(2.0);

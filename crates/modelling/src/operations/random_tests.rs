@@ -4,8 +4,8 @@
 use proptest::prelude::*;
 use trigon_math::{DMat3, DVec3, Plane};
 
-use super::super::tests::{check_undo_and_redo, keeps_affine_values, meshes};
 use super::*;
+use crate::tests::{check_undo_and_redo, keeps_affine_values, meshes};
 use crate::{EdgeId, EditMesh, FaceId, Refusal, VertexId};
 
 /// Which operation, what chooses its elements, and two parameters within −1…1.

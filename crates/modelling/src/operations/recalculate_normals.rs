@@ -3,10 +3,10 @@
 use fixedbitset::FixedBitSet;
 use trigon_math::DVec3;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::FaceId;
-use super::super::refusal::Refusal;
+use crate::edit_mesh::EditMesh;
+use crate::ids::FaceId;
 use crate::numbering::is_more_than_one_of;
+use crate::refusal::Refusal;
 
 /// A part whose volume is less than this fraction of its area times its size counts as flat: that
 /// is what rounding to f32 makes of a plane, with some margin.
@@ -228,9 +228,9 @@ mod tests {
     use trigon_math::Vec3;
     use trigon_mesh::{Mesh, primitives};
 
-    use super::super::super::tests::meshes;
     use super::*;
     use crate::VertexId;
+    use crate::tests::meshes;
 
     fn editable(mesh: &Mesh) -> (EditMesh, Vec<FaceId>) {
         let (mesh, _) = EditMesh::from_mesh(mesh);

@@ -6,11 +6,11 @@
 
 use smallvec::SmallVec;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
-use super::super::refusal::Refusal;
 use super::delete::require;
 use super::tables::{IndexSet, IndexTable};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
+use crate::refusal::Refusal;
 
 /// Some faces of a mesh, each once, by index.
 pub(super) struct Region {
@@ -264,7 +264,7 @@ pub(super) mod tests {
 
     /// Runs an operation on a mesh as a transaction: the structure is whole after it, undone it is
     /// the first mesh, redone the other again, and a refusal changes nothing.
-    pub(in super::super) fn check_change<T>(
+    pub(crate) fn check_change<T>(
         start: &Mesh,
         operation: impl FnOnce(&mut EditMesh) -> Result<T, Refusal>,
     ) -> Result<(EditMesh, T), Refusal> {
@@ -288,22 +288,22 @@ pub(super) mod tests {
     }
 
     /// Those faces of a mesh whose bit is set; bits repeat.
-    pub(in super::super) fn chosen_faces(mesh: &Mesh, bits: u64) -> Vec<FaceId> {
+    pub(crate) fn chosen_faces(mesh: &Mesh, bits: u64) -> Vec<FaceId> {
         (0..mesh.face_count() as u32).filter(|face| bits >> (face % 64) & 1 != 0).map(FaceId).collect()
     }
 
     /// The numbers of vertices, edges and faces.
-    pub(in super::super) fn counts(mesh: &EditMesh) -> [usize; 3] {
+    pub(crate) fn counts(mesh: &EditMesh) -> [usize; 3] {
         [mesh.vertex_count(), mesh.edge_count(), mesh.face_count()]
     }
 
     /// How many edges are open borders.
-    pub(in super::super) fn open_edges(mesh: &EditMesh) -> usize {
+    pub(crate) fn open_edges(mesh: &EditMesh) -> usize {
         mesh.edges().filter(|&edge| mesh.is_boundary(edge)).count()
     }
 
     /// Whether neighbours wind alike: each edge between two faces is run along in both directions.
-    pub(in super::super) fn winds_consistently(mesh: &EditMesh) -> bool {
+    pub(crate) fn winds_consistently(mesh: &EditMesh) -> bool {
         let pairs = mesh.edges().filter_map(|edge| mesh.edge_pair(edge));
         pairs.into_iter().all(|[a, b]| mesh.corner_vertex(a) != mesh.corner_vertex(b))
     }

@@ -1,10 +1,10 @@
 //! Separating: faces become a separate mesh.
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::FaceId;
-use super::super::refusal::Refusal;
 use super::copy::Elements;
 use super::region::Region;
+use crate::edit_mesh::EditMesh;
+use crate::ids::FaceId;
+use crate::refusal::Refusal;
 
 impl EditMesh {
     /// Moves faces into a separate mesh with the same layers and subdivision level. Edges and vertices that other

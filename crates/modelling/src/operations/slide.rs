@@ -3,11 +3,11 @@
 use smallvec::{SmallVec, smallvec};
 use trigon_math::DVec3;
 
-use super::super::blends::CornerBlends;
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, VertexId};
-use super::super::refusal::Refusal;
 use super::delete::require;
+use crate::blends::CornerBlends;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, VertexId};
+use crate::refusal::Refusal;
 
 const EDGE_SLIDE: &str = "sliding edges";
 const VERTEX_SLIDE: &str = "sliding vertices";
@@ -304,8 +304,8 @@ mod tests {
     use trigon_math::Vec3;
     use trigon_mesh::primitives;
 
-    use super::super::super::tests::{affine_uv, keeps_affine_values, meshes, with_affine_values};
     use super::*;
+    use crate::tests::{affine_uv, keeps_affine_values, meshes, with_affine_values};
 
     /// A flat grid of 4 by 3 quads with 1 m sides, and the edges of its line x = -1.
     fn grid() -> (EditMesh, Vec<EdgeId>) {
@@ -342,7 +342,7 @@ mod tests {
     #[test]
     fn the_loop_round_a_face_slides_into_its_corners_or_along_the_edges_outside() {
         let (mut mesh, _) = EditMesh::from_mesh(&with_affine_values(primitives::grid(3.0, 3.0, 3, 3)));
-        let middle = super::super::super::ids::FaceId(4);
+        let middle = crate::ids::FaceId(4);
         let edges: Vec<EdgeId> = mesh.face_edges(middle).collect();
         let corners: Vec<VertexId> = mesh.face_vertices(middle).collect();
         let before: Vec<Vec3> = corners.iter().map(|&vertex| mesh.position(vertex)).collect();

@@ -1,9 +1,9 @@
 //! Splitting: faces are detached from the rest and stay in the mesh.
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{FaceId, VertexId};
-use super::super::refusal::Refusal;
 use super::region::{Region, SplitVertices};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{FaceId, VertexId};
+use crate::refusal::Refusal;
 
 impl EditMesh {
     /// Detaches faces from the rest of the mesh, in place: where they shared edges and vertices with other

@@ -4,10 +4,10 @@ use fixedbitset::FixedBitSet;
 use smallvec::SmallVec;
 use trigon_math::{DVec3, Plane};
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
 use super::mirror::{Mirrored, check_merge_distance};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 /// The result of symmetrizing.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -222,8 +222,8 @@ mod tests {
     use trigon_math::Vec3;
     use trigon_mesh::primitives;
 
-    use super::super::super::tests::{affine_uv, meshes, with_affine_values};
     use super::*;
+    use crate::tests::{affine_uv, meshes, with_affine_values};
 
     fn x_plane(at: f64) -> Plane {
         Plane::from_point_and_normal(DVec3::X * at, DVec3::X).expect("a plane")

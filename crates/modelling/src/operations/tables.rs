@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use fixedbitset::FixedBitSet;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::FaceId;
+use crate::edit_mesh::EditMesh;
+use crate::ids::FaceId;
 
 /// A list is used where at least one element of this many is touched. A list costs about a
 /// nanosecond for 4 to 64 elements, a step in a tree some ten.

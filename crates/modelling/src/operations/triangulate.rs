@@ -4,13 +4,13 @@ use smallvec::SmallVec;
 use trigon_math::Vec3;
 use trigon_mesh::Triangulator;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
-use super::super::slots::Room;
 use super::delete::require;
 use super::parts::{Divided, PartPoint, Parts};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::numbering::sorted_once;
+use crate::refusal::Refusal;
+use crate::slots::Room;
 
 /// The result of a triangulation.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -145,9 +145,9 @@ mod tests {
     use trigon_math::area_vector;
     use trigon_mesh::primitives;
 
-    use super::super::super::ids::CornerId;
-    use super::super::super::tests::{check_operation, keeps_affine_values, meshes, with_affine_values};
     use super::*;
+    use crate::ids::CornerId;
+    use crate::tests::{check_operation, keeps_affine_values, meshes, with_affine_values};
 
     fn all(mesh: &EditMesh) -> Vec<FaceId> {
         mesh.faces().collect()

@@ -3,13 +3,13 @@
 use fixedbitset::FixedBitSet;
 use trigon_math::{DVec3, elementary::acos};
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId};
-use super::super::layers::{LayerKind, LayerValues};
-use super::super::records::{SEAM, SHARP};
-use super::super::refusal::Refusal;
 use super::delete::require;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId};
+use crate::layers::{LayerKind, LayerValues};
 use crate::numbering::{Numbering, sorted_once};
+use crate::records::{SEAM, SHARP};
+use crate::refusal::Refusal;
 
 /// Which pairs of triangles may become quads.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -159,9 +159,9 @@ mod tests {
     use trigon_math::{Vec2, Vec3};
     use trigon_mesh::primitives;
 
-    use super::super::super::ids::VertexId;
-    use super::super::super::tests::{check_operation, keeps_affine_values, meshes, with_affine_values};
     use super::*;
+    use crate::ids::VertexId;
+    use crate::tests::{check_operation, keeps_affine_values, meshes, with_affine_values};
 
     fn all(mesh: &EditMesh) -> Vec<FaceId> {
         mesh.faces().collect()

@@ -2,13 +2,13 @@
 
 use smallvec::SmallVec;
 
-use super::super::super::blends::CornerBlends;
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
-use super::super::super::records::SEAM;
 use super::finish::Finish;
 use super::laid::End;
 use super::shape::{Blueprint, NewCorner};
+use crate::blends::CornerBlends;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
+use crate::records::SEAM;
 
 impl EditMesh {
     /// Carries out a plan, and what comes after it; the new faces and vertices.

@@ -1,9 +1,9 @@
 //! Selects which given edges and vertices can be beveled, and finds the fans of faces there.
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, EdgeId, VertexId};
 use super::BevelLeftOut;
 use super::fans::Fans;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, VertexId};
 
 impl EditMesh {
     /// Which of some edges can be beveled, each once; the fans at their ends; and for each edge of the

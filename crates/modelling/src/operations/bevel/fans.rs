@@ -1,7 +1,7 @@
 //! The faces around a vertex, in order.
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, VertexId};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, VertexId};
 
 /// Corners at one vertex, counter-clockwise seen from outside: each leaves along the edge by
 /// which the one before it is entered.

@@ -2,14 +2,14 @@
 
 use trigon_math::Vec3;
 
-use super::super::super::column::Column;
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, EdgeId, FaceId, NONE};
-use super::super::super::layers::{Layer, LayerKind, LayerValues};
-use super::super::super::records::{SEAM, SHARP};
 use super::laid::Laid;
 use super::settings::BevelSettings;
 use super::shape::Blueprint;
+use crate::column::Column;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, NONE};
+use crate::layers::{Layer, LayerKind, LayerValues};
+use crate::records::{SEAM, SHARP};
 
 /// What is to be done, as found before the mesh changes.
 pub(super) struct Finish {

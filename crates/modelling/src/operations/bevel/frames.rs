@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use smallvec::{SmallVec, smallvec};
 use trigon_math::DVec3;
 
-use super::super::super::blends::in_plane;
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, FaceId};
 use super::laid::Part;
+use crate::blends::in_plane;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, FaceId};
 
 /// Three corners of a face that lie far from one line, and its normal.
 #[derive(Debug, Clone, Copy)]

@@ -2,8 +2,8 @@
 
 use trigon_math::DVec3;
 
-use super::super::super::ids::{CornerId, EdgeId, VertexId};
 use super::fans::Fan;
+use crate::ids::{CornerId, EdgeId, VertexId};
 
 /// A part of a sum: the weight of a corner's value is `base + slope * width`.
 #[derive(Debug, Clone, Copy)]

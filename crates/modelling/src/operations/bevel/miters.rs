@@ -3,11 +3,11 @@
 use smallvec::SmallVec;
 use trigon_math::DVec3;
 
-use super::super::super::ids::{CornerId, EdgeId, NONE};
 use super::laid::{Arc, Insertion, Move, Node, Part, Round, Stop};
 use super::nodes::{Layout, Nodes};
 use super::places::STRAIGHT;
 use super::settings::{InnerMiter, OuterMiter};
+use crate::ids::{CornerId, EdgeId, NONE};
 
 /// A place in the plane of a corner's two edges: its offset from the vertex, and the parts of its values.
 type Place = (DVec3, SmallVec<[Part; 4]>);

@@ -30,10 +30,10 @@ mod shape;
 #[cfg(test)]
 mod tests;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
 use super::delete::require;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 use laid::Laid;
 use nodes::Nodes;
 use profile::Profile;

@@ -4,12 +4,12 @@
 use smallvec::{SmallVec, smallvec};
 use trigon_math::DVec3;
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, EdgeId, NONE, VertexId};
 use super::fans::Fan;
 use super::frames::Frames;
 use super::laid::{Arc, End, Insertion, Laid, Move, Node, Part, Round, Stop};
 use super::rims::Rims;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, NONE, VertexId};
 
 /// All nodes, as they are collected fan by fan.
 pub(super) struct Nodes<'m> {

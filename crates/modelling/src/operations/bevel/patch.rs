@@ -10,10 +10,10 @@
 use smallvec::SmallVec;
 use trigon_math::DVec3;
 
-use super::super::super::ids::{CornerId, NONE};
 use super::laid::Round;
 use super::profile::Profile;
 use super::shape::{NewCorner, Plan};
+use crate::ids::{CornerId, NONE};
 
 /// One side of a grid: a node, and the curve from it to the next node.
 #[derive(Debug, Clone, Copy)]

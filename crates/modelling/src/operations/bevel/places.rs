@@ -3,9 +3,9 @@
 use smallvec::{SmallVec, smallvec};
 use trigon_math::DVec3;
 
-use super::super::super::ids::{CornerId, VertexId};
 use super::laid::{Node, Part};
 use super::nodes::Nodes;
+use crate::ids::{CornerId, VertexId};
 
 /// The sine of an angle below which two edges count as one line. An edge beside a beveled one then
 /// leads almost along it, and would reach the distance of the rim far away or never.

@@ -3,12 +3,12 @@
 
 use trigon_math::DVec3;
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, EdgeId};
-use super::super::super::measure::FaceNormals;
 use super::nodes::{Layout, Nodes};
 use super::places::STRAIGHT;
 use super::settings::{BevelSettings, BevelWidth, InnerMiter, OuterMiter};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId};
+use crate::measure::FaceNormals;
 
 /// A percentage as a part of a length.
 const PERCENT: f64 = 0.01;

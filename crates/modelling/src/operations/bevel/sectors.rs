@@ -4,9 +4,9 @@
 use smallvec::SmallVec;
 use trigon_math::DVec3;
 
-use super::super::super::ids::{CornerId, NONE};
 use super::laid::{Arc, End, Insertion, Move, Node, Round, Stop};
 use super::nodes::{Layout, Nodes};
+use crate::ids::{CornerId, NONE};
 
 impl Nodes<'_> {
     /// Between two beveled edges, or an end of the fan and a beveled edge, where each other edge

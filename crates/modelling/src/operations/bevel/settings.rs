@@ -1,6 +1,6 @@
 //! The settings of a bevel.
 
-use super::super::super::refusal::Refusal;
+use crate::refusal::Refusal;
 
 const MOST_SEGMENTS: usize = 100;
 

@@ -3,8 +3,8 @@
 use trigon_math::{DVec3, Vec3};
 use trigon_mesh::primitives;
 
-use super::super::super::tests::{keeps_affine_values, with_affine_values};
 use super::*;
+use crate::tests::{keeps_affine_values, with_affine_values};
 
 fn cube() -> EditMesh {
     EditMesh::from_mesh(&with_affine_values(primitives::cube(2.0))).0

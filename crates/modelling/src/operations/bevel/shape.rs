@@ -3,12 +3,12 @@
 use smallvec::SmallVec;
 use trigon_math::DVec3;
 
-use super::super::super::blends::CornerBlends;
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, FaceId, NONE};
-use super::super::super::refusal::Refusal;
 use super::laid::{End, Laid, Node, Round, Stop};
 use super::profile::Profile;
+use crate::blends::CornerBlends;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, FaceId, NONE};
+use crate::refusal::Refusal;
 
 /// Grids are laid where at most this many bevels meet: each of their points is a sum over all.
 const MOST_IN_GRID: usize = 32;

@@ -6,9 +6,9 @@ use proptest::prelude::*;
 use trigon_math::{DVec3, Vec2, Vec3};
 use trigon_mesh::{Mesh, primitives};
 
-use super::super::super::ids::CornerId;
-use super::super::super::tests::{keeps_affine_values, meshes, with_affine_values};
 use super::*;
+use crate::ids::CornerId;
+use crate::tests::{keeps_affine_values, meshes, with_affine_values};
 
 fn settings(width: f64, segments: usize, profile: f64) -> BevelSettings {
     BevelSettings { width, segments, profile, ..BevelSettings::default() }

@@ -14,9 +14,9 @@ mod values;
 
 use rayon::prelude::*;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::refusal::Refusal;
-use super::super::slots::Room;
+use crate::edit_mesh::EditMesh;
+use crate::refusal::Refusal;
+use crate::slots::Room;
 use numbers::Numbers;
 
 /// The most levels at once: a quad becomes a million.

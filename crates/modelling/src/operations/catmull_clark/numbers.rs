@@ -1,9 +1,9 @@
 //! The slots of new elements.
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::FaceId;
-use super::super::super::records::ALIVE;
+use crate::edit_mesh::EditMesh;
+use crate::ids::FaceId;
 use crate::numbering::sorted_once;
+use crate::records::ALIVE;
 
 /// The elements of one kind that live, numbered without gaps by index.
 pub(super) struct Ranks {
@@ -80,8 +80,7 @@ impl Numbers {
     pub(super) fn of(mesh: &EditMesh) -> Self {
         let flags = mesh.edges.values().iter().map(|record| record.flags & ALIVE != 0);
         let edges = Ranks::new(mesh.slots.edges.alive, flags);
-        let is_alive =
-            mesh.corners.values().iter().map(|record| record.face != super::super::super::ids::NONE);
+        let is_alive = mesh.corners.values().iter().map(|record| record.face != crate::ids::NONE);
         let corners = Ranks::new(mesh.slots.corners.alive, is_alive);
         let flags = mesh.faces.values().iter().map(|record| record.flags & ALIVE != 0);
         let faces = Ranks::new(mesh.slots.faces.alive, flags);

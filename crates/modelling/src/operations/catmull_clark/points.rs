@@ -2,11 +2,11 @@
 
 use trigon_math::{DVec3, Vec3};
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{EdgeId, FaceId, VertexId};
-use super::super::super::records::ALIVE;
 use super::fill;
 use super::numbers::Numbers;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId, VertexId};
+use crate::records::ALIVE;
 
 /// For how many levels an edge stays sharp: Blender's measure.
 pub(super) fn sharpness(crease: f32) -> f64 {

@@ -3,11 +3,11 @@
 //! The part of a face at a corner has four corners: the old one, at its vertex; one on its edge;
 //! one in its face; one on the edge before. Rings keep the order of the old ones.
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::NONE;
-use super::super::super::records::{ALIVE, CornerRecord, EdgeRecord, FaceRecord, HIDDEN, VertexRecord};
 use super::numbers::Numbers;
 use super::points::crease_after;
+use crate::edit_mesh::EditMesh;
+use crate::ids::NONE;
+use crate::records::{ALIVE, CornerRecord, EdgeRecord, FaceRecord, HIDDEN, VertexRecord};
 
 /// New corners of the part at a corner, see [`Numbers::new_corner`].
 const ON_EDGE: u32 = 0;

@@ -5,10 +5,10 @@ use proptest::prelude::*;
 use trigon_math::{DVec3, Vec3};
 use trigon_mesh::primitives;
 
-use super::super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::super::tests::{check_operation, meshes};
 use super::points::sharpness;
 use super::*;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::tests::{check_operation, meshes};
 
 fn editable(mesh: &trigon_mesh::Mesh) -> EditMesh {
     EditMesh::from_mesh(mesh).0

@@ -2,11 +2,11 @@
 
 use smallvec::SmallVec;
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::FaceId;
-use super::super::super::layers::{Blend, Layer, LayerKind, LayerValues};
 use super::fill;
 use super::numbers::Numbers;
+use crate::edit_mesh::EditMesh;
+use crate::ids::FaceId;
+use crate::layers::{Blend, Layer, LayerKind, LayerValues};
 
 impl EditMesh {
     /// Writes positions and all layers anew; records are the old ones still.

@@ -2,8 +2,8 @@
 
 use trigon_math::{AxisProjection, DVec2, DVec3, Orientation, area_vector, orientation};
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::CornerId;
+use crate::edit_mesh::EditMesh;
+use crate::ids::CornerId;
 
 impl EditMesh {
     /// Whether the straight line between two corners of a face runs inside the face and crosses

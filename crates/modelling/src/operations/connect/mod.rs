@@ -5,11 +5,11 @@ mod path;
 #[cfg(test)]
 mod tests;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
 use super::delete::require;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::numbering::{Numbering, sorted_once};
+use crate::refusal::Refusal;
 
 /// What joins vertices.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

@@ -2,10 +2,10 @@
 
 use trigon_math::{DVec3, area_vector};
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::super::refusal::Refusal;
 use super::{CONNECTING, Connected};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 /// So near to an end of an edge, as a share of its length, the path runs through the vertex.
 const SNAP: f64 = 1e-6;

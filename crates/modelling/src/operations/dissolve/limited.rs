@@ -2,14 +2,14 @@
 
 use trigon_math::{DVec3, elementary, unit_or_zero};
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{EdgeId, FaceId, VertexId};
-use super::super::super::records::{SEAM, SHARP};
-use super::super::super::refusal::Refusal;
 use super::super::region::Region;
 use super::super::tables::IndexTable;
 use super::Dissolved;
 use super::merge::OnRefusal;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId, VertexId};
+use crate::records::{SEAM, SHARP};
+use crate::refusal::Refusal;
 
 /// Settings of a limited dissolve.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,9 @@
 //! Merging faces across edges: each connected part becomes the polygon around it.
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, EdgeId, FaceId};
-use super::super::super::refusal::Refusal;
 use super::super::tables::{IndexSet, IndexTable};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId};
+use crate::refusal::Refusal;
 
 /// What becomes of a part that cannot be one polygon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

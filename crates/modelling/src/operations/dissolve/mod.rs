@@ -5,12 +5,12 @@ mod merge;
 #[cfg(test)]
 mod tests;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
 use super::delete::require;
 use super::region::Region;
 use super::tables::IndexSet;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 use merge::OnRefusal;
 
 pub use limited::LimitedDissolve;

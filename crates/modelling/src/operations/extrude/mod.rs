@@ -9,11 +9,11 @@ mod wires;
 
 use trigon_math::DVec3;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{FaceId, VertexId};
-use super::super::refusal::Refusal;
 use super::lift::LiftedFaces;
 use super::region::Region;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{FaceId, VertexId};
+use crate::refusal::Refusal;
 
 pub use wires::{ExtrudedEdges, ExtrudedVertices};
 

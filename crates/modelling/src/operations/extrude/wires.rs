@@ -3,12 +3,12 @@
 use smallvec::SmallVec;
 use trigon_math::DVec3;
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::super::refusal::Refusal;
 use super::super::delete::require;
 use super::super::region::SplitVertices;
 use super::check_finite;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 /// The result of extruding edges.
 #[derive(Debug, Clone, PartialEq, Default)]

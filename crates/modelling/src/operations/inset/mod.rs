@@ -6,12 +6,12 @@ mod tests;
 
 use trigon_math::DVec3;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, FaceId, VertexId};
-use super::super::refusal::Refusal;
 use super::frame::FaceFrame;
 use super::lift::LiftedFaces;
 use super::region::Region;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 /// Settings of an inset.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use smallvec::SmallVec;
 use trigon_math::{DVec3, unit_or_zero};
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::super::layers::Blends;
-use super::super::super::refusal::Refusal;
 use super::super::frame::FaceFrame;
 use super::super::region::{BorderEdge, Region};
 use super::super::tables::{IndexSet, IndexTable};
 use super::{Inset, InsetFaces, Sides};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::layers::Blends;
+use crate::refusal::Refusal;
 
 /// Which side of a border shrinks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

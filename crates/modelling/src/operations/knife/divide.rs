@@ -2,10 +2,10 @@
 
 use trigon_math::{DVec3, Vec3};
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, FaceId, VertexId};
-use super::super::super::refusal::Refusal;
 use super::OPERATION;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, FaceId, VertexId};
+use crate::refusal::Refusal;
 
 /// The largest sum of the sizes of weights that add up to 1. Inside a convex polygon it is 1, inside a
 /// hollow one little more; far outside, or where a polygon crosses itself, weights grow without bound

@@ -5,10 +5,10 @@ mod path;
 
 use std::collections::BTreeMap;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
-use super::super::refusal::Refusal;
 use super::delete::require;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
+use crate::refusal::Refusal;
 use divide::Inside;
 use path::Stretch;
 use trigon_math::Vec3;
@@ -164,8 +164,8 @@ mod tests {
     use proptest::prelude::*;
     use trigon_mesh::primitives;
 
-    use super::super::super::tests::{keeps_affine_values, meshes, with_affine_values};
     use super::*;
+    use crate::tests::{keeps_affine_values, meshes, with_affine_values};
 
     fn edit(mesh: trigon_mesh::Mesh) -> EditMesh {
         EditMesh::from_mesh(&with_affine_values(mesh)).0

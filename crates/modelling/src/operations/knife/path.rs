@@ -2,10 +2,10 @@
 
 use smallvec::SmallVec;
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::FaceId;
-use super::super::super::refusal::Refusal;
 use super::{KnifePoint, OPERATION};
+use crate::edit_mesh::EditMesh;
+use crate::ids::FaceId;
+use crate::refusal::Refusal;
 
 /// A part of a path between two points on edges or at vertices, with points within one face between
 /// them.

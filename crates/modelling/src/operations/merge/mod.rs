@@ -4,11 +4,11 @@ mod near;
 #[cfg(test)]
 mod tests;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{EdgeId, VertexId};
-use super::super::refusal::Refusal;
 use super::delete::require;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{EdgeId, VertexId};
 use crate::numbering::{Numbering, sorted_once};
+use crate::refusal::Refusal;
 use near::NearPoints;
 use trigon_math::DVec3;
 

@@ -4,9 +4,9 @@ use proptest::prelude::*;
 use trigon_math::Vec3;
 use trigon_mesh::primitives;
 
-use super::super::super::ids::FaceId;
-use super::super::super::tests::{check_operation, meshes};
 use super::*;
+use crate::ids::FaceId;
+use crate::tests::{check_operation, meshes};
 
 fn editable(mesh: &trigon_mesh::Mesh) -> EditMesh {
     EditMesh::from_mesh(mesh).0

@@ -10,10 +10,10 @@ use std::collections::BTreeMap;
 
 use smallvec::SmallVec;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::super::refusal::Refusal;
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::numbering::sorted_once;
+use crate::refusal::Refusal;
 use sides::Sides;
 use trigon_math::DVec3;
 

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use trigon_math::DVec3;
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, EdgeId, VertexId};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, VertexId};
 
 /// The corners around the edges, in fans: corners at one vertex that edges of the rip do not part.
 pub(super) struct Sides {

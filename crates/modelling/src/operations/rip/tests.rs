@@ -4,9 +4,9 @@ use proptest::prelude::*;
 use trigon_math::Vec3;
 use trigon_mesh::primitives;
 
-use super::super::super::tests::{keeps_affine_values, meshes, with_affine_values};
 use super::super::region::tests::{check_change, counts, open_edges, winds_consistently};
 use super::*;
+use crate::tests::{keeps_affine_values, meshes, with_affine_values};
 
 /// A grid of 4×4 quads of 1 m around the origin, in the plane y = 0.
 fn grid() -> trigon_mesh::Mesh {

@@ -6,13 +6,13 @@ mod tests;
 
 use fixedbitset::FixedBitSet;
 
-use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
-use super::super::refusal::Refusal;
-use super::super::slots::Room;
 use super::delete::require;
 use super::parts::{Divided, PartPoint, are_faces};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 use crate::numbering::{Numbering, sorted_once};
+use crate::refusal::Refusal;
+use crate::slots::Room;
 use patterns::{Interior, Outline, Pattern};
 use trigon_math::{DVec3, area_vector};
 

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use trigon_math::Vec3;
 use trigon_mesh::primitives;
 
-use super::super::super::tests::{check_operation, keeps_affine_values, meshes, with_affine_values};
 use super::*;
+use crate::tests::{check_operation, keeps_affine_values, meshes, with_affine_values};
 
 fn editable(mesh: trigon_mesh::Mesh) -> EditMesh {
     EditMesh::from_mesh(&with_affine_values(mesh)).0

@@ -5,8 +5,8 @@ use std::collections::BinaryHeap;
 
 use fixedbitset::FixedBitSet;
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::VertexId;
+use crate::edit_mesh::EditMesh;
+use crate::ids::VertexId;
 
 /// By vertex, the length of the shortest path to the nearest of `sources`; infinite where that
 /// is `radius` or more, or where every path leads through a hidden vertex (E. W. Dijkstra, "A

@@ -3,11 +3,11 @@
 use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::VertexId;
-use super::super::super::refusal::Refusal;
 use super::along_edges::distances_along_edges;
 use super::nearest::NearestPoints;
+use crate::edit_mesh::EditMesh;
+use crate::ids::VertexId;
+use crate::refusal::Refusal;
 
 /// How far a movement reaches beyond the moved vertices, and how it fades. Hidden vertices never
 /// follow.

@@ -9,9 +9,9 @@ use fixedbitset::FixedBitSet;
 use smallvec::SmallVec;
 use trigon_math::{DMat3, Vec3, Vec4, cofactors, transformed_direction};
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, FaceId, VertexId};
-use super::super::super::layers::{LayerKind, LayerValues};
+use crate::edit_mesh::EditMesh;
+use crate::ids::{CornerId, FaceId, VertexId};
+use crate::layers::{LayerKind, LayerValues};
 
 /// How far the cosine between a given normal and the face's may be from 1 for the face to count
 /// as flat: half a degree, more than what files round to.

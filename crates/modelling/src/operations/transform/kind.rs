@@ -2,7 +2,7 @@
 
 use trigon_math::{DAffine3, DMat3, DVec3, elementary, unit_or_zero};
 
-use super::super::super::refusal::Refusal;
+use crate::refusal::Refusal;
 
 /// How vertices move. Lengths are metres, angles radians, counter-clockwise seen from the tip
 /// of the axis.

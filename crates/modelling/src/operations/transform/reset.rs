@@ -1,9 +1,9 @@
 //! Moves vertices back to their original positions.
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::VertexId;
-use super::super::super::refusal::Refusal;
 use super::super::delete::require;
+use crate::edit_mesh::EditMesh;
+use crate::ids::VertexId;
+use crate::refusal::Refusal;
 
 impl EditMesh {
     /// Puts vertices back to their first positions: where they were made, or where

@@ -3,15 +3,15 @@
 use rayon::prelude::*;
 use trigon_math::{DVec3, Vec3};
 
-use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::VertexId;
-use super::super::super::refusal::Refusal;
-use super::super::super::transaction::Difference;
 use super::super::delete::require;
 use super::falloff::{Falloff, Weighted};
 use super::given_normals::GivenNormals;
 use super::kind::{Prepared, Transform};
+use crate::edit_mesh::EditMesh;
+use crate::ids::VertexId;
 use crate::numbering::is_more_than_one_of;
+use crate::refusal::Refusal;
+use crate::transaction::Difference;
 
 /// Vertices that move, from where they were at the start.
 ///

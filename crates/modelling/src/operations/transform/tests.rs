@@ -6,9 +6,9 @@ use proptest::prelude::*;
 use trigon_math::{DAffine3, DMat3, DVec3, Vec3};
 use trigon_mesh::{Mesh, primitives};
 
-use super::super::super::tests::meshes;
 use super::kind::Prepared;
 use super::*;
+use crate::tests::meshes;
 use crate::{EditMesh, Refusal, VertexId};
 
 fn editable(mesh: &Mesh) -> EditMesh {
