@@ -63,7 +63,7 @@ pub fn triangulate_polygon(positions: &[Vec3]) -> Vec<[u32; 3]> {
 ///
 /// let mut triangulator = Triangulator::default();
 /// let mut triangles = Vec::new();
-/// let square = [Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y];
+/// let square = [Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y, Vec3::Y];
 /// triangulator.polygon(&square, &mut triangles);
 /// triangulator.polygon(&square[1..], &mut triangles);
 /// assert_eq!(triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 2]]);
