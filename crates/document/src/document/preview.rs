@@ -12,7 +12,7 @@ impl Document {
     /// is no entry in the history and nothing in the recovery file until [`Self::confirm`].
     ///
     /// During a preview the scene, the selection and the meshes are as after its command, and so is the
-    /// output of [`Self::encode`]. Every other method that changes the document confirms the preview first,
+    /// output of [`Self::to_native`]. Every other method that changes the document confirms the preview first,
     /// as if [`Self::confirm`] had been called, so that nothing a user sees is lost. In particular
     /// [`Self::undo`] undoes the previewed command, and [`Self::redo`] redoes it.
     ///
