@@ -54,7 +54,7 @@ fn an_edited_mesh_comes_back_with_everything_that_was_marked() {
 }
 
 #[test]
-fn a_subdivision_surface_is_exported_and_its_cage_is_saved() {
+fn a_subdivision_surface_is_saved_as_its_cage_and_exported_as_a_surface() {
     let (mut first, id) = document(primitives::cube(2.0));
     let (mut cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
     cube.set_subdivision(2).expect("two are few");
