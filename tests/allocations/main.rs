@@ -1,10 +1,11 @@
 //! What the rasterizer takes from the allocator: nothing once it is warm, and
-//! little for a large frame.
+//! little for a large frame. And what a scene of many nodes takes.
 //!
 //! One test alone, without the usual harness: the counts are those of the whole process, and
 //! the harness allocates when it tells that a test takes long.
 
 mod kinds;
+mod nodes;
 #[path = "../src/programs.rs"]
 mod programs;
 
@@ -46,6 +47,7 @@ fn the_rasterizer_keeps_its_memory() {
     assert_threads_allocate_what_their_pool_does(&kinds);
     drop(profiler);
     assert_peak_of_a_million_triangles();
+    nodes::assert_nodes_are_small();
 }
 
 fn profiler() -> Profiler {

@@ -8,7 +8,8 @@ pub(crate) enum Shape<'a> {
     Triangles {
         triangles: &'a [[u32; 3]],
         edge_flags: Option<&'a [EdgeFlags]>,
-        marks: Option<Marks<'a>>,
+        /// Few draws have any.
+        marks: Option<Box<Marks<'a>>>,
         culling: Culling,
     },
     Lines {
@@ -137,7 +138,7 @@ impl Geometry<'_> {
     #[inline]
     pub(crate) fn marks(&self) -> Option<&Marks<'_>> {
         match &self.shape {
-            Shape::Triangles { marks, .. } => marks.as_ref(),
+            Shape::Triangles { marks, .. } => marks.as_deref(),
             Shape::Lines { .. } | Shape::Points { .. } => None,
         }
     }

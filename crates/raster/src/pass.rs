@@ -104,7 +104,7 @@ impl<'a> Pass<'a> {
     /// Records triangles.
     pub fn triangles<P: LanePipeline>(&mut self, draw: Draw<'a, P>) -> &mut Self {
         let Draw { pipeline, triangles, faces, edge_flags, marks, object, culling, blend_mode } = draw;
-        let shape = Shape::Triangles { triangles, edge_flags, marks, culling };
+        let shape = Shape::Triangles { triangles, edge_flags, marks: marks.map(Box::new), culling };
         self.record(pipeline, Geometry { shape, faces, common_face: None, object, blend_mode })
     }
 

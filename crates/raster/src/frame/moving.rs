@@ -145,7 +145,7 @@ impl Moving {
     ) -> bool {
         let is_plain = |draw: &DrawPlan| match pass[draw.draw].geometry.shape {
             Shape::Triangles { .. } => true,
-            Shape::Points { .. } => draw.points.is_some(),
+            Shape::Points { .. } => plan.points(draw).is_some(),
             Shape::Lines { .. } => false,
         };
         let none = MovingChunk::default();

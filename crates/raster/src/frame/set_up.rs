@@ -63,7 +63,7 @@ impl SetUp<'_> {
             let moved = &moved[place as usize..place as usize + range.len()];
             let marks = (moved, &mut *earlier);
             let (token, indices) = (self.token, range.start as usize..range.end as usize);
-            match (&self.pass[draw.draw].geometry.shape, &draw.points) {
+            match (&self.pass[draw.draw].geometry.shape, self.plan.points(draw)) {
                 (&Shape::Triangles { triangles, culling, .. }, _) => {
                     setup.culling = culling;
                     let triangles = (range.start, &triangles[indices]);
@@ -93,7 +93,7 @@ impl SetUp<'_> {
             numbers.clear();
             numbers.extend(places.iter().filter_map(number));
             let (token, mut setup) = (self.token, self.part(draw, listed));
-            match (&self.pass[draw.draw].geometry.shape, &draw.points) {
+            match (&self.pass[draw.draw].geometry.shape, self.plan.points(draw)) {
                 (&Shape::Triangles { triangles, culling, .. }, _) => {
                     setup.culling = culling;
                     at_level!(token, simd => set_up_listed_triangles(simd, &mut setup, (&numbers, triangles)));
@@ -132,7 +132,7 @@ impl SetUp<'_> {
         let Self { axis, token, .. } = *self;
         let multisampled = setup.grid.pattern.count() > 1;
         let indices = range.start as usize..range.end as usize;
-        match (&self.pass[draw.draw].geometry.shape, &draw.points) {
+        match (&self.pass[draw.draw].geometry.shape, self.plan.points(draw)) {
             (&Shape::Triangles { triangles, culling, .. }, _) => {
                 setup.culling = culling;
                 let triangles = &triangles[indices];

@@ -137,7 +137,7 @@ impl<'f> FrameView<'f> {
             geometry: &self.pass[plan.draw].geometry,
             vertices: self.vertices(draw),
             first: plan.ordinals.start,
-            points: plan.points.as_ref(),
+            points: self.plan.points(plan),
             chunks: self.chunks,
         }
     }

@@ -29,8 +29,8 @@ pub(crate) struct DrawPlan {
     pub(crate) places: Range<usize>,
     /// The same for its varyings.
     pub(crate) varyings: usize,
-    /// How its points look, if they are drawn from their vertices.
-    pub(crate) points: Option<PlainPoints>,
+    /// Where the plan says how its points look, if they are drawn from their vertices.
+    points: Option<u32>,
 }
 
 /// The draws of a frame in the order of their ordinals: opaque, masked, translucent; within each, the smaller
@@ -41,6 +41,8 @@ pub(crate) struct Plan {
     pub(crate) draws: Vec<DrawPlan>,
     /// The vertices of those draws that use few of many.
     listed: Vec<u32>,
+    /// The looks of points: few draws have any.
+    points: Vec<PlainPoints>,
     /// How many vertices, places and varyings there are in all.
     pub(crate) vertices: usize,
     pub(crate) places: usize,
@@ -64,11 +66,15 @@ impl Plan {
     ) -> usize {
         self.draws.clear();
         self.listed.clear();
+        self.points.clear();
         (self.vertices, self.places, self.varyings) = (0, 0, 0);
         self.draws.extend((0..recorded.len()).map(|draw| {
             let Recorded { geometry, pipeline } = &recorded[draw];
             let used = UsedVertices::new(geometry.indices(), pipeline.vertex_count(), &mut self.listed);
-            let points = plain_points(&recorded[draw], supersampling);
+            let points = plain_points(&recorded[draw], supersampling).map(|looks| {
+                self.points.push(looks);
+                self.points.len() as u32 - 1
+            });
             DrawPlan { draw, ordinals: 0..0, used, places: 0..0, varyings: 0, points }
         }));
         // Equal keys stay in the order of the pass.
@@ -97,8 +103,11 @@ impl Plan {
     /// Brings the looks of points up to date with a pass for which [`has_points_of`](Self::has_points_of)
     /// holds.
     pub(crate) fn update_points(&mut self, recorded: &[Recorded<'_>], supersampling: u32) {
-        for plan in &mut self.draws {
-            plan.points = plain_points(&recorded[plan.draw], supersampling);
+        for plan in &self.draws {
+            let looks = plain_points(&recorded[plan.draw], supersampling);
+            if let (Some(index), Some(looks)) = (plan.points, looks) {
+                self.points[index as usize] = looks;
+            }
         }
     }
 
@@ -164,6 +173,12 @@ impl Plan {
             let end = ordinals.end.min(plan.ordinals.end) - plan.ordinals.start;
             (plan, start..end)
         })
+    }
+
+    /// How the points of a draw look, if they are drawn from their vertices.
+    #[inline(always)]
+    pub(crate) fn points(&self, draw: &DrawPlan) -> Option<&PlainPoints> {
+        draw.points.map(|index| &self.points[index as usize])
     }
 
     /// How the vertices of a draw are looked up.

@@ -10,6 +10,8 @@ pub(crate) use brdf::Microfacets;
 pub(crate) use lamp::{Arriving, BRIGHTEST, Lamp, Source};
 pub(crate) use points::{Brdf, LitPoints, Reflected};
 
+use std::collections::BTreeMap;
+
 use trigon_math::{DAffine3, Vec3};
 
 use crate::light::LightKind;
@@ -45,16 +47,16 @@ pub(crate) struct IdleLamps {
 }
 
 impl Lights {
-    /// Collects the lights that the settings and the scene require. `transforms` is the scene's table of
-    /// visible nodes.
+    /// Collects the lights that the settings and the scene require. `places` are those of the visible nodes that have
+    /// lights, by their indices.
     pub(crate) fn gather(
         scene: &Scene,
-        transforms: &[Option<DAffine3>],
+        places: &BTreeMap<u32, DAffine3>,
         eye: &Eye,
         settings: &RenderSettings,
     ) -> Self {
         let lighting = settings.lighting();
-        let lights = Self::of_scene(scene, transforms, eye, lighting);
+        let lights = Self::of_scene(scene, places, eye, lighting);
         match lighting {
             Lighting::Studio => Self::studio(),
             // An environment is light, too.
@@ -70,17 +72,18 @@ impl Lights {
         .scaled(settings.light_factor())
     }
 
-    fn of_scene(scene: &Scene, transforms: &[Option<DAffine3>], eye: &Eye, lighting: Lighting) -> Self {
+    fn of_scene(scene: &Scene, places: &BTreeMap<u32, DAffine3>, eye: &Eye, lighting: Lighting) -> Self {
         let mut lights = Self::default();
         if lighting != Lighting::Studio {
-            for (id, node) in scene.nodes().iter() {
-                let (Some(light), Some(world)) = (&node.light, &transforms[id.index()]) else { continue };
+            for (&index, world) in places {
+                let node = scene.nodes().id_at(index as usize).and_then(|id| scene.node(id));
+                let Some(light) = node.and_then(|node| node.light.as_ref()) else { continue };
                 if light.kind == LightKind::Ambient {
                     let radiance = light.radiance();
                     lights.ambient += radiance;
                     lights.own_ambient += usize::from(radiance != Vec3::ZERO);
                 }
-                lights.lamps.extend(Lamp::new(light, id.index() as u32, &eye.to_camera(world)));
+                lights.lamps.extend(Lamp::new(light, index, &eye.to_camera(world)));
             }
         }
         lights

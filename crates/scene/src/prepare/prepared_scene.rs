@@ -1,5 +1,7 @@
 //! The scene as one frame sees it.
 
+use std::collections::BTreeMap;
+
 use trigon_camera::{Camera, UpAxis};
 use trigon_math::{DAffine3, DMat3, DVec3, Mat3};
 
@@ -10,7 +12,7 @@ use crate::environment::Surroundings;
 use crate::light::{Light, LightKind};
 use crate::lighting::{Lamp, Lights, Source};
 use crate::placement::Eye;
-use crate::scene::Scene;
+use crate::scene::{Place, Scene};
 use crate::settings::RenderSettings;
 use crate::shapes::{Onlookers, Shape, Shapes};
 
@@ -18,7 +20,8 @@ use crate::shapes::{Onlookers, Shape, Shapes};
 pub(crate) struct PreparedScene<'s> {
     pub(crate) scene: &'s Scene,
     pub(crate) settings: &'s RenderSettings,
-    transforms: Vec<Option<DAffine3>>,
+    /// Where the visible nodes with lights are, by their indices.
+    light_places: BTreeMap<u32, DAffine3>,
     pub(crate) camera_to_world: DAffine3,
     pub(crate) eye: Eye,
     pub(crate) backdrop: Backdrop,
@@ -29,19 +32,19 @@ pub(crate) struct PreparedScene<'s> {
 impl<'s> PreparedScene<'s> {
     pub(crate) fn new(scene: &'s Scene, camera: &Camera, settings: &'s RenderSettings) -> Self {
         let places = scene.visible_places();
-        let transforms = places.iter().map(|place| Some(place.as_ref()?.world)).collect::<Vec<_>>();
         let eye = Eye::new(camera, settings.aspect());
         let effects = &settings.effects;
         let rays = effects.ambient_occlusion.is_some() || effects.bounces > 0;
         let all = rays || effects.shadows != Shadows::Off;
         let onlookers = if all { Onlookers::All } else { Onlookers::Camera(&eye) };
         let shapes = Shapes::new(scene, &places, onlookers);
-        let lights = Lights::gather(scene, &transforms, &eye, settings);
+        let light_places = light_places(scene, &places);
+        let lights = Lights::gather(scene, &light_places, &eye, settings);
         let turn = DMat3::from_quat(camera.orientation);
         let camera_to_world = DAffine3::from_mat3_translation(turn, camera.position);
         let backdrop = Backdrop::new(camera, settings, scene.up);
         let mut prepared =
-            Self { scene, settings, transforms, camera_to_world, eye, backdrop, shapes, lights };
+            Self { scene, settings, light_places, camera_to_world, eye, backdrop, shapes, lights };
         prepared.leave_out_idle_lamps();
         prepared
     }
@@ -53,7 +56,7 @@ impl<'s> PreparedScene<'s> {
 
     /// The transform of a lamp.
     pub(crate) fn pose(&self, lamp: &Lamp) -> LampPose {
-        let world = lamp.node.and_then(|node| self.transforms[node as usize]);
+        let world = lamp.node.and_then(|node| self.light_places.get(&node));
         let along = world.map_or_else(
             || match lamp.source {
                 Source::Directional(towards) => -self.camera_to_world.transform_vector3(towards.as_dvec3()),
@@ -105,4 +108,10 @@ impl<'s> PreparedScene<'s> {
         let node = self.scene.nodes().id_at(lamp.node? as usize)?;
         self.scene.node(node)?.light.as_ref()
     }
+}
+
+/// Where the nodes with lights are; `places` is the scene's table of visible nodes.
+fn light_places(scene: &Scene, places: &[Option<Place>]) -> BTreeMap<u32, DAffine3> {
+    let holders = scene.nodes().iter().filter(|(_, node)| node.light.is_some());
+    holders.filter_map(|(id, _)| Some((id.index() as u32, places[id.index()]?.world))).collect()
 }

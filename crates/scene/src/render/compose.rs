@@ -10,6 +10,7 @@ use trigon_camera::Camera;
 use trigon_math::{Mat3, Vec3, Vec4};
 use trigon_raster::{BlendMode, Culling, EdgeFlags};
 
+use super::looks::{LookKey, Looks, SharedLook};
 use super::record::{Dots, MarkNumbers, ObjectMarks, PointList, Record, Segments, Triangles};
 use super::vertex_list::{VertexList, VertexLists};
 use super::wire::{ColoredLines, HiddenLine, PointColors, Wire, WireMarks, WirePaint};
@@ -26,7 +27,7 @@ use crate::prepare::{Backdrop, PreparedScene};
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, ShadingModel, Style};
 use crate::shapes::{Shape, Shapes};
-use crate::surface::{BoundMaterial, Drawn, Illumination, MaterialContext, Surface};
+use crate::surface::{BoundMaterial, Illumination, MaterialContext, Surface};
 use crate::unseen::Canvas;
 
 /// The fraction of their distance by which vertex points are drawn nearer, so that faces that slope
@@ -47,6 +48,7 @@ pub(super) struct Composer<'s> {
     to_world: Mat3,
     default_material: Material,
     vertex_lists: &'s VertexLists,
+    looks: Looks<'s>,
     /// Of loose points, once it is asked for.
     point_size: OnceCell<f32>,
     purpose: Purpose,
@@ -73,6 +75,13 @@ struct Object<'s> {
     marks: Option<Arc<MarkNumbers>>,
 }
 
+impl Object<'_> {
+    /// What the look of a run depends on.
+    fn key(&self, run: &Run) -> LookKey {
+        LookKey::new(self.geometry, run, self.node.materials.get(run.slot as usize).copied())
+    }
+}
+
 impl<'s> Composer<'s> {
     /// For a colour pass of a scene, with settings whose style may differ from the scene's.
     pub(super) fn new(
@@ -94,6 +103,7 @@ impl<'s> Composer<'s> {
             to_world: Mat3::from_quat(camera.orientation.as_quat()),
             default_material,
             vertex_lists,
+            looks: Looks::default(),
             point_size: OnceCell::new(),
             purpose: Purpose::Colors,
         }
@@ -107,6 +117,12 @@ impl<'s> Composer<'s> {
     ) -> Self {
         let colors = Self::new(prepared, camera, prepared.settings, (dark, vertex_lists));
         Self { purpose: Purpose::Shapes, ..colors }
+    }
+
+    /// What they share.
+    #[cfg(test)]
+    pub(super) fn looks(&self) -> &Looks<'s> {
+        &self.looks
     }
 
     /// All draws of the frame.
@@ -196,10 +212,10 @@ impl<'s> Composer<'s> {
     }
 
     /// The marks of some triangles.
-    fn marks_of(&self, object: &Object<'s>, triangles: &Range<usize>) -> Option<ObjectMarks<'s>> {
+    fn marks_of(&self, object: &Object<'s>, triangles: &Range<usize>) -> Option<Box<ObjectMarks<'s>>> {
         let numbers = Arc::clone(object.marks.as_ref()?);
         let sides = self.sides(object, &numbers).get(triangles.clone()).unwrap_or_default();
-        Some(ObjectMarks { sides, numbers })
+        Some(Box::new(ObjectMarks { sides, numbers }))
     }
 
     /// The material of a slot; the default if there is none.
@@ -240,7 +256,7 @@ impl<'s> Composer<'s> {
         }
     }
 
-    fn context(&self) -> MaterialContext<'_> {
+    fn context(&self) -> MaterialContext<'s> {
         let RenderSettings { shading, reflection, display, .. } = *self.settings;
         let Self { scene, lighting, rays, to_world, .. } = *self;
         MaterialContext { scene, lighting, rays, shading, reflection, display, to_world }
@@ -251,6 +267,18 @@ impl<'s> Composer<'s> {
     where
         's: 'c,
     {
+        let shared = self.looks.of(object.key(run), || self.shaded(object, run));
+        let masked = matches!(shared.alpha_mode, AlphaMode::Mask { .. });
+        shared.look.count(self.lighting, masked, counts);
+        if shared.is_flat && !self.shows_edges() && !masked {
+            self.placed::<true>(object, run, shared)
+        } else {
+            self.placed::<false>(object, run, shared)
+        }
+    }
+
+    /// The look of the triangles of one slot.
+    fn shaded(&self, object: &Object<'s>, run: &Run) -> SharedLook<'s> {
         let material = &*self.displayed(object, run.slot);
         let bent = material.normal_map.filter(|_| self.shows_normal_map(material));
         let geometry = match &bent {
@@ -262,15 +290,7 @@ impl<'s> Composer<'s> {
             Illumination::AtVertices => geometry.with_vertex_normals(object.asset.mesh()),
             _ => geometry,
         };
-        let draw = Run { slot: run.slot, triangles: run.triangles.clone() };
-        let shows_edges = self.shows_edges();
-        let masked = matches!(material.alpha_mode, AlphaMode::Mask { .. });
-        bound.count(self.lighting, masked, counts);
-        if bound.is_flat() && !shows_edges && !masked {
-            self.bound::<true>(object, geometry, &draw, (material, bound))
-        } else {
-            self.bound::<false>(object, geometry, &draw, (material, bound))
-        }
+        SharedLook::new(geometry, run, (material, bound), &self.context())
     }
 
     /// Whether a normal map can be seen: tangents are made for no other.
@@ -285,8 +305,20 @@ impl<'s> Composer<'s> {
     where
         's: 'c,
     {
+        let is_blended = self.material(object, run.slot).alpha_mode == AlphaMode::Blend;
+        if is_blended && !self.settings.outputs.of_blended {
+            return None;
+        }
+        let shared = self.looks.of(object.key(run), || self.bare(object, run));
+        Some(match shared.alpha_mode {
+            AlphaMode::Opaque => self.placed::<true>(object, run, shared),
+            AlphaMode::Mask { .. } | AlphaMode::Blend => self.placed::<false>(object, run, shared),
+        })
+    }
+
+    /// The look of the triangles of one slot of which only alpha is needed.
+    fn bare(&self, object: &Object<'s>, run: &Run) -> SharedLook<'s> {
         let material = self.material(object, run.slot);
-        // Only alpha is needed from the material.
         let mut bare = Material {
             shading: Shading::Unlit,
             emissive: Vec3::ZERO,
@@ -295,52 +327,37 @@ impl<'s> Composer<'s> {
             ..material.clone()
         };
         if bare.alpha_mode == AlphaMode::Blend {
-            if !self.settings.outputs.of_blended {
-                return None;
-            }
             bare.alpha_mode = AlphaMode::Mask { cutoff: f32::MIN_POSITIVE };
         }
         bare.alpha_mode = self.canvas(object).visible_alpha(&bare);
-        let geometry = object.geometry;
         let context = MaterialContext { display: Display::Shaded, ..self.context() };
-        let mut bound = BoundMaterial::new(&bare, &geometry.columns, &context);
-        let draw = Run { slot: run.slot, triangles: run.triangles.clone() };
-        Some(if bare.alpha_mode == AlphaMode::Opaque {
+        let mut bound = BoundMaterial::new(&bare, &object.geometry.columns, &context);
+        if bare.alpha_mode == AlphaMode::Opaque {
             bound.strip();
-            self.bound::<true>(object, geometry, &draw, (&bare, bound))
-        } else {
-            self.bound::<false>(object, geometry, &draw, (&bare, bound))
-        })
+        }
+        SharedLook::new(object.geometry, run, (&bare, bound), &context)
     }
 
-    fn bound<'c, const FLAT: bool>(
+    /// Triangles at their node.
+    fn placed<'c, const FLAT: bool>(
         &'c self,
         object: &Object<'s>,
-        geometry: &'s Geometry,
         run: &Run,
-        (material, bound): (&Material, BoundMaterial<'c>),
+        shared: SharedLook<'s>,
     ) -> Box<dyn Record + 'c>
     where
         's: 'c,
     {
-        let shows_edges = self.shows_edges();
-        let drawn = Drawn {
-            columns: &geometry.columns,
-            triangles: &geometry.triangles[run.triangles.clone()],
-            faces: geometry.faces_of(run.triangles.clone()),
-        };
-        let pipeline = Surface::<FLAT>::new(drawn, object.place, bound, &self.context());
-        let flags = shows_edges.then(|| &self.edge_flags(object)[run.triangles.clone()]);
+        let flags = self.shows_edges().then(|| &self.edge_flags(object)[run.triangles.clone()]);
         Box::new(Triangles {
-            pipeline,
-            geometry,
+            pipeline: Surface::<FLAT>::new(object.place, shared.look),
+            geometry: shared.geometry,
             range: run.triangles.clone(),
-            place: object.place,
             edge_flags: flags,
             marks: self.marks_of(object, &run.triangles),
             object: object.index,
-            culling: if material.double_sided { Culling::None } else { object.place.cull_back },
-            blend_mode: self.blend_mode(object, run.slot, material.alpha_mode),
+            culling: if shared.double_sided { Culling::None } else { object.place.cull_back },
+            blend_mode: self.blend_mode(object, run.slot, shared.alpha_mode),
         })
     }
 
@@ -362,7 +379,6 @@ impl<'s> Composer<'s> {
             pipeline,
             geometry,
             range: 0..geometry.triangles.len(),
-            place: object.place,
             edge_flags: Some(self.edge_flags(object)),
             marks: self.marks_of(object, &(0..geometry.triangles.len())),
             object: object.index,

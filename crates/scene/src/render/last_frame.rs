@@ -110,14 +110,14 @@ impl LastFrame {
         // What shows through faces is a pass of its own, too.
         let is_coupled = COUPLING.into_iter().any(|effect| plan.is_on(effect))
             || prepared.settings.share_through_faces().is_some();
-        let sources: Vec<Source<'_>> = draws.iter().map(|draw| draw.source()).collect();
-        let was_changed = sources.iter().any(|source| source.geometry.can_follow());
+        let was_changed = draws.iter().any(|draw| draw.source().geometry.can_follow());
         // Marks may change at any time.
         let is_marked = prepared.settings.vertices.is_some() || !prepared.settings.marks.is_plain();
         if !is_plain || is_coupled || !(was_changed || is_marked) {
             *self = Self::default();
             return Step::Apart;
         }
+        let sources: Vec<Source<'_>> = draws.iter().map(|draw| draw.source()).collect();
         let is_whole = std::mem::take(&mut self.is_whole);
         let unlike = if is_marked { Step::Whole } else { Step::Apart };
         let Some(origin) = &mut self.origin else {

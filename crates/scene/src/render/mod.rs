@@ -9,6 +9,7 @@ mod depth_image;
 mod engine;
 mod kept;
 mod last_frame;
+mod looks;
 mod record;
 mod renderer;
 mod shared_frames;

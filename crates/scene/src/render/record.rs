@@ -8,9 +8,10 @@ use trigon_raster::{
     BlendMode, Culling, Draw, EdgeFlags, LanePipeline, Lines, MarkedPoints, Marks, Pass, Points,
 };
 
-use super::wire::{AnyWire, Wire};
+use super::wire::{AnyWire, HiddenLine, Wire};
 use crate::geometry::Geometry;
 use crate::placement::Placement;
+use crate::surface::Surface;
 
 /// A draw that owns its pipeline, whatever its type, and can be recorded.
 pub(super) trait Record {
@@ -54,9 +55,9 @@ pub(super) struct Triangles<'s, P> {
     pub(super) geometry: &'s Geometry,
     /// Those of the geometry's triangles that are drawn.
     pub(super) range: Range<usize>,
-    pub(super) place: Placement,
     pub(super) edge_flags: Option<&'s [EdgeFlags]>,
-    pub(super) marks: Option<ObjectMarks<'s>>,
+    /// Few draws have any.
+    pub(super) marks: Option<Box<ObjectMarks<'s>>>,
     pub(super) object: u32,
     pub(super) culling: Culling,
     pub(super) blend_mode: BlendMode,
@@ -75,7 +76,25 @@ pub(super) struct MarkNumbers {
     pub(super) faces: Vec<u8>,
 }
 
-impl<P: LanePipeline> Record for Triangles<'_, P> {
+/// A pipeline of faces.
+pub(super) trait Faces: LanePipeline {
+    /// Where they are.
+    fn place(&self) -> Placement;
+}
+
+impl<const FLAT: bool> Faces for Surface<'_, FLAT> {
+    fn place(&self) -> Placement {
+        self.place
+    }
+}
+
+impl Faces for HiddenLine<'_> {
+    fn place(&self) -> Placement {
+        self.place
+    }
+}
+
+impl<P: Faces> Record for Triangles<'_, P> {
     fn record<'a>(&'a self, pass: &mut Pass<'a>) {
         pass.triangles(Draw {
             faces: self.geometry.faces_of(self.range.clone()),
@@ -93,8 +112,13 @@ impl<P: LanePipeline> Record for Triangles<'_, P> {
     }
 
     fn source(&self) -> Source<'_> {
-        let marked = Marked::Faces(self.marks.as_ref());
-        Source { geometry: self.geometry, triangles: self.range.clone(), place: self.place, marked }
+        let marked = Marked::Faces(self.marks.as_deref());
+        Source {
+            geometry: self.geometry,
+            triangles: self.range.clone(),
+            place: self.pipeline.place(),
+            marked,
+        }
     }
 }
 

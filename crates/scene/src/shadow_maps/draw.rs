@@ -1,5 +1,7 @@
 //! Draws a shadow map: depth only.
 
+use std::sync::Arc;
+
 use crate::work::{Work, note};
 use trigon_math::Mat3;
 use trigon_raster::{Culling, Draw, Pass, Rasterizer, Target, TargetError};
@@ -10,7 +12,7 @@ use crate::material::{AlphaMode, Material, Shading};
 use crate::placement::{Eye, Rays};
 use crate::scene::Scene;
 use crate::settings::{Reflection, ShadingModel};
-use crate::surface::{BoundMaterial, Drawn, MaterialContext, Surface};
+use crate::surface::{BoundMaterial, Drawn, Look, MaterialContext, Surface};
 use crate::unseen::Canvas;
 
 /// The parameters of a run of triangles.
@@ -80,11 +82,10 @@ fn shape<'a>(
     };
     let place = eye.place(&caster.shadow.place, &caster.geometry.bounds());
     let drawn = Drawn { columns, triangles: &[], faces: None };
-    if masked {
-        Shape::Masked(Surface::new(drawn, place, BoundMaterial::new(&material, columns, &context), &context))
-    } else {
-        let mut bound = BoundMaterial::new(&material, columns, &context);
+    let mut bound = BoundMaterial::new(&material, columns, &context);
+    if !masked {
         bound.strip();
-        Shape::Whole(Surface::new(drawn, place, bound, &context))
     }
+    let look = Arc::new(Look::new(drawn, bound, &context));
+    if masked { Shape::Masked(Surface::new(place, look)) } else { Shape::Whole(Surface::new(place, look)) }
 }

@@ -23,6 +23,9 @@ pub(crate) use layout::{Layout, LightSlots};
 pub(crate) use material_params::{Coverage, Map, Maps, MaterialParams, MicrofacetModel, Model};
 pub(crate) use values::{Values, three};
 
+use std::ops::Deref;
+use std::sync::Arc;
+
 use crate::work::{Work, note};
 use trigon_math::{Mat3, Vec3};
 use trigon_raster::simd::{Each, F32, Mask, Simd, prelude::*};
@@ -45,14 +48,13 @@ pub(crate) struct Drawn<'a> {
     pub(crate) faces: Option<&'a [u32]>,
 }
 
-/// Faces of one mesh in one material.
-pub(crate) struct Surface<'a, const FLAT: bool> {
+/// Faces of one mesh in one material, wherever they are: nodes that draw the same share it.
+pub(crate) struct Look<'a> {
     pub(crate) columns: &'a Columns,
     /// The whole draw, for flat faces.
     pub(crate) triangles: &'a [[u32; 3]],
     /// The polygon of each triangle; `None` if each is the polygon with its number.
     pub(crate) faces: Option<&'a [u32]>,
-    pub(crate) place: Placement,
     pub(crate) layout: Layout,
     pub(crate) params: MaterialParams<'a>,
     pub(crate) illumination: Illumination,
@@ -61,6 +63,21 @@ pub(crate) struct Surface<'a, const FLAT: bool> {
     pub(crate) lighting: &'a LightingEnvironment,
     /// From camera space.
     pub(crate) to_world: Mat3,
+}
+
+/// Faces of one mesh in one material at one node. A scene may have millions: what does not depend on the node is shared.
+pub(crate) struct Surface<'a, const FLAT: bool> {
+    pub(crate) place: Placement,
+    look: Arc<Look<'a>>,
+}
+
+impl<'a, const FLAT: bool> Deref for Surface<'a, FLAT> {
+    type Target = Look<'a>;
+
+    #[inline(always)]
+    fn deref(&self) -> &Look<'a> {
+        &self.look
+    }
 }
 
 impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
@@ -101,22 +118,29 @@ impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
     }
 }
 
-impl<'a, const FLAT: bool> Surface<'a, FLAT> {
-    /// Triangles of a placed mesh in one material.
+impl<'a> Look<'a> {
+    /// Triangles in one material.
     pub(crate) fn new(
         Drawn { columns, triangles, faces }: Drawn<'a>,
-        place: Placement,
         bound: BoundMaterial<'a>,
         context: &MaterialContext<'a>,
     ) -> Self {
         let BoundMaterial { params, layout, illumination } = bound;
         let MaterialContext { rays, lighting, to_world, .. } = *context;
-        Self { columns, triangles, faces, place, layout, params, illumination, rays, lighting, to_world }
+        Self { columns, triangles, faces, layout, params, illumination, rays, lighting, to_world }
+    }
+}
+
+impl<'a, const FLAT: bool> Surface<'a, FLAT> {
+    /// Triangles of a placed mesh.
+    pub(crate) fn new(place: Placement, look: Arc<Look<'a>>) -> Self {
+        Self { place, look }
     }
 
     #[inline(always)]
     fn set_varyings<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>, position: V3<S>) {
-        let Self { layout, columns, place, .. } = self;
+        let Look { layout, columns, .. } = &**self;
+        let place = &self.place;
         for coordinates in &layout.coordinates {
             let [u, v] = load(simd, vertices, &columns.uv_sets[coordinates.uv_set]);
             let (matrix, offset) = (coordinates.transform.matrix2, coordinates.transform.translation);

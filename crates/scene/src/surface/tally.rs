@@ -1,11 +1,11 @@
 //! Counts the varyings and texture look-ups of a draw, for the effects that need them.
 
-use super::{BoundMaterial, Coverage, Illumination, Model};
+use super::{Coverage, Illumination, Look, Model};
 use crate::effect::Effect;
 use crate::effects::{Counts, LightingEnvironment, Optics};
 use crate::material::MaterialTexture;
 
-impl BoundMaterial<'_> {
+impl Look<'_> {
     /// Adds the varyings of each vertex and the look-ups of each pixel.
     pub(crate) fn count(&self, lighting: &LightingEnvironment, masked: bool, counts: &mut Counts) {
         let Self { params, layout, .. } = self;

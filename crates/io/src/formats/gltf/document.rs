@@ -36,17 +36,17 @@ pub(crate) struct Document {
     pub(crate) native_materials: Vec<Extras<MaterialExtras>>,
 }
 
-/// A node's transform as the file has it.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// A node's transform as the file has it. There may be millions: what few nodes have, or is large, is apart.
+#[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub(crate) struct RawTransform {
-    pub(crate) matrix: Option<[f64; 16]>,
+    pub(crate) matrix: Option<Box<[f64; 16]>>,
     pub(crate) translation: Option<[f64; 3]>,
     pub(crate) rotation: Option<[f64; 4]>,
     pub(crate) scale: Option<[f64; 3]>,
     /// What a native file says of it.
     #[serde(rename = "extras")]
-    pub(crate) native: Extras<NodeExtras>,
+    pub(crate) native: Extras<Box<NodeExtras>>,
 }
 
 #[derive(Default, Deserialize)]

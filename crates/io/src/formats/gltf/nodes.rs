@@ -121,8 +121,9 @@ fn convert_node(
     meshes: &[Option<PlacedMesh>],
 ) -> Node {
     let from = &document.root.nodes[index];
-    let raw = document.transforms.get(index).cloned().unwrap_or_default();
-    let transform = convert_transform(&raw, index, &mut import.warnings);
+    let plain = RawTransform::default();
+    let raw = document.transforms.get(index).unwrap_or(&plain);
+    let transform = convert_transform(raw, index, &mut import.warnings);
     let name = from.name.clone().unwrap_or_else(|| format!("node {index}"));
     let mut node = Node::default().with_name(name).with_transform(transform);
     if let Some((mesh, materials)) = from.mesh.and_then(|mesh| meshes[mesh.value()].clone()) {
