@@ -56,6 +56,8 @@ pub(crate) struct Session<'a> {
     /// Of the scene, as it was at this revision.
     bounds: Option<(Revision, Bounds3)>,
     seen: Visibility,
+    /// Whether the list of keys was shown when it was last looked at.
+    listed: Visibility,
     /// What the last requested image shows.
     subject: Option<Subject>,
     /// The nodes that it shows, of the scene at this revision.
@@ -98,6 +100,7 @@ impl<'a> Session<'a> {
             anchor: None,
             bounds: None,
             seen: Visibility::Shown,
+            listed: Visibility::Hidden,
             subject: None,
             nodes: None,
             gallery: Gallery::default(),
@@ -299,6 +302,7 @@ impl<'a> Session<'a> {
     /// The interface may show the effect of any event, and the image is redrawn if its content has
     /// changed.
     fn note(&mut self, now: Duration) {
+        self.follow_list();
         let changed = self.subject.as_ref() != Some(&self.stage.subject());
         self.pacing.changed(if changed { Change::Settled } else { Change::Overlay }, now);
         if changed {
@@ -353,7 +357,19 @@ impl<'a> Session<'a> {
         if std::mem::take(&mut self.stage.wishes().animate) {
             self.animation = AnimationState::Running;
         }
+        self.follow_list();
         self.plan(now);
+    }
+
+    /// The list of keys has the keyboard from the moment it opens, or the letters of a name would be keys; and no longer
+    /// once it is closed.
+    fn follow_list(&mut self) {
+        let before = std::mem::replace(&mut self.listed, self.stage.cheat_sheet);
+        match (before, self.listed) {
+            (Visibility::Hidden, Visibility::Shown) => self.interface.search_keys(),
+            (Visibility::Shown, Visibility::Hidden) => self.interface.end_search(),
+            _ => {}
+        }
     }
 }
 

@@ -108,6 +108,21 @@ impl Interface {
         self.events.push(Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers });
     }
 
+    /// Gives the keyboard to the search of the list of keys, which is shown from the next pass on.
+    pub(crate) fn search_keys(&self) {
+        self.context.memory_mut(|memory| memory.request_focus(sheet::search_id()));
+    }
+
+    /// Whether that search has the keyboard.
+    pub(crate) fn searches_keys(&self) -> bool {
+        self.context.memory(|memory| memory.has_focus(sheet::search_id()))
+    }
+
+    /// Takes the keyboard from it.
+    pub(crate) fn end_search(&self) {
+        self.context.memory_mut(|memory| memory.surrender_focus(sheet::search_id()));
+    }
+
     /// When it needs to change by itself; `None` for never.
     pub(crate) fn due(&self) -> Option<Duration> {
         self.due

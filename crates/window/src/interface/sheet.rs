@@ -1,8 +1,9 @@
-//! The list of keys and commands: typing filters it, and clicking a line runs it. It has as many columns as fit.
+//! The list of keys and commands: typing filters it, and clicking a line runs it. It has as many columns as fit. While it
+//! is searched all keys are letters of the search; Escape closes it.
 
 use std::borrow::Cow;
 
-use egui::{Align2, Context, Grid, Rect, RichText, ScrollArea, TextEdit, Window, vec2};
+use egui::{Align2, Context, Grid, Id, Rect, RichText, ScrollArea, TextEdit, Window, vec2};
 
 use crate::keymap::{Binding, SheetRow, sheet};
 use crate::stage::{Stage, Visibility};
@@ -39,6 +40,11 @@ impl Fit {
     }
 }
 
+/// The widget that is typed into.
+pub(super) fn search_id() -> Id {
+    Id::unique("the search of the list of keys")
+}
+
 /// Shows the list if it is visible, in the area that no panel covers. Returns the selected command.
 pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<Binding> {
     if stage.cheat_sheet == Visibility::Hidden {
@@ -51,8 +57,13 @@ pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<B
     let Fit { size, columns: count, width, cell } = Fit::new(free.size());
     window.auto_sized().constrain_to(free).show(context, |ui| {
         ui.set_max_width(size.x);
-        let search = TextEdit::singleline(&mut stage.command_search).hint_text("search");
+        let is_searched = ui.memory(|memory| memory.has_focus(search_id()));
+        let search = TextEdit::singleline(&mut stage.command_search).id(search_id()).hint_text("search");
         let search = ui.add(search.desired_width(f32::INFINITY));
+        if is_searched && !ui.is_enabled() {
+            // In the first pass, which only finds out the size, no widget keeps the keyboard.
+            search.request_focus();
+        }
         context.accesskit_node_builder(search.id, |node| node.set_label("search keys and commands"));
         let rows: Vec<SheetRow> =
             sheet(&stage.keymap).into_iter().filter(|row| row.matches(&stage.command_search)).collect();

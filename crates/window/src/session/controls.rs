@@ -11,11 +11,13 @@ use trigon_math::{DVec2, DVec3};
 use super::Session;
 use crate::commands;
 use crate::input::{
-    Chord, Gesture, Input, InputEvent, InputOwner, KeyCode, KeyPress, Modifiers, PointerButton, Press, Taken,
+    Chord, Gesture, Input, InputEvent, InputOwner, Key, KeyCode, KeyPress, Modifiers, PointerButton, Press,
+    Taken,
 };
 use crate::keymap::{Action, Binding, ClickAction, DragAction, Motion, STEP};
 use crate::motion;
 use crate::pacing::Change;
+use crate::stage::Visibility;
 
 impl Session<'_> {
     pub(super) fn control(&mut self, input: InputEvent, now: Duration) {
@@ -26,7 +28,7 @@ impl Session<'_> {
             InputEvent::Wheel(_) | InputEvent::Pinch(_) if self.is_on_interface() => {}
             InputEvent::Wheel(lines) => self.wheel(lines, now),
             InputEvent::Pinch(power) => self.pinch(power, now),
-            InputEvent::KeyDown(_) if self.keys_are_the_interfaces() => {}
+            InputEvent::KeyDown(key) if self.keys_are_the_interfaces() => self.leave_search(key, now),
             InputEvent::KeyDown(key) => self.key(key, now),
             InputEvent::KeyUp(code) => self.released(code, now),
             InputEvent::Modifiers(modifiers) => {
@@ -114,6 +116,14 @@ impl Session<'_> {
     /// Whether the pointer belongs to the application, wherever it is.
     fn is_applications(&self) -> bool {
         self.stage.input_owner == InputOwner::Application || self.taken.has_button()
+    }
+
+    /// Escape closes the list of keys while it is searched. Every other key is the search's.
+    fn leave_search(&mut self, key: KeyPress, now: Duration) {
+        if key.logical == Some(Key::Escape) && self.interface.searches_keys() {
+            self.stage.cheat_sheet = Visibility::Hidden;
+            self.note(now);
+        }
     }
 
     /// Whether a widget has the keyboard.

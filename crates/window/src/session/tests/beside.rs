@@ -41,7 +41,9 @@ fn at_rest_the_window_holds_what_an_image_file_would() {
 /// Shows or hides the list of keys; whether other pixels are then in the window, drawn
 /// whenever the session asks for it.
 fn shows_a_key(session: &mut Session<'_>, press: u64, now: Duration) -> bool {
-    session.event(key_down(press, Key::Character('h')), now);
+    // Letters are searched for in the open list.
+    let key = if press % 2 == 0 { Key::Character('h') } else { Key::Escape };
+    session.event(key_down(press, key), now);
     session.event(InputEvent::KeyUp(KeyCode(press)), now);
     session.settle(now);
     let before = session.canvas().pixels().to_vec();

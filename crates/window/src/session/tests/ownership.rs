@@ -105,7 +105,12 @@ fn keys_go_to_a_text_field_that_is_typed_into() {
     let mut session = opened(&mut handler);
     type_letter(&mut session, 'h', ms(1000));
     assert_eq!(session.stage.cheat_sheet, Visibility::Shown, "H is a key of the window");
-    type_letter(&mut session, 'h', ms(1500));
+    type_letter(&mut session, 's', ms(1200));
+    assert_eq!(session.stage.command_search, "s", "a letter of its search from the moment it opens");
+    session.event(key_down(1, Key::Escape), ms(1500));
+    run(&mut session, ms(1500));
+    assert_eq!(session.stage.cheat_sheet, Visibility::Hidden, "Escape closes it");
+    assert!(!session.interface.wants_keyboard(), "and keys are the window's again");
     click(&mut session, FIELD, ms(2000));
     type_letter(&mut session, 'h', ms(3000));
     assert_eq!(session.stage.cheat_sheet, Visibility::Hidden, "and now a letter");
@@ -211,4 +216,20 @@ fn what_another_thread_has_changed_in_the_interface_is_shown_when_it_asks_for_th
     assert_eq!(run(&mut session, ms(1000)), [ms(1000)], "one frame");
     assert!(session.canvas().pixels() != before, "the other text is there");
     assert!(session.shown == image, "over the same image");
+}
+
+/// Letters came before the list was drawn, and were keys.
+#[test]
+fn letters_typed_before_the_list_of_keys_is_drawn_are_searched_for() {
+    let mut handler = Panel::default();
+    let mut session = opened(&mut handler);
+    let settings = session.stage.settings.clone();
+    session.event(key_down(1, Key::Character('h')), ms(1000));
+    for letter in "save".chars() {
+        session.event(InputEvent::Interface(Event::Text(letter.into())), ms(1000));
+        session.event(key_down(u64::from(letter), Key::Character(letter)), ms(1000));
+    }
+    run(&mut session, ms(1000));
+    assert_eq!(session.stage.command_search, "save", "all of them");
+    assert!(session.stage.settings == settings, "no letter was a key");
 }

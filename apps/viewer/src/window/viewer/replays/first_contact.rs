@@ -1,5 +1,9 @@
 //! Opening, finding help, the menu, paths, questions: by mouse and keys alone.
 
+use trigon_scene::ShadingModel;
+use trigon_window::Widget;
+use trigon_window::egui::accesskit::Role;
+
 use super::*;
 
 #[test]
@@ -67,6 +71,39 @@ fn the_list_of_keys_is_searched_and_chosen_from() {
     key(&mut window, "Escape");
     key(&mut window, "H");
     assert!(says(&window, "isometric view"), "not searched any more: {:?}", said(&window));
+}
+
+/// The letters of "save" toggled shadows and more.
+#[test]
+fn what_is_typed_when_the_list_of_keys_opens_is_searched() {
+    let (_folder, mut viewer) = simple();
+    let mut window = open(&mut viewer, SIZE);
+    let (settings, orbit) = (window.stage().settings.clone(), window.stage().orbit);
+    key(&mut window, "H");
+    type_text(&mut window, "save");
+    assert!(!says(&window, "isometric view"), "only what is searched for is listed: {:?}", said(&window));
+    assert!(window.stage().settings == settings, "no letter is a key");
+    key(&mut window, "Down");
+    key(&mut window, "Left");
+    assert_eq!(window.stage().orbit, orbit, "and no arrow turns the camera");
+    key(&mut window, "Escape");
+    assert!(!says(&window, "Keys and commands"), "Escape closes it at once: {:?}", said(&window));
+    key(&mut window, "S");
+    assert!(window.stage().settings != settings, "then letters are keys again");
+}
+
+#[test]
+fn the_list_of_keys_leaves_nothing_behind() {
+    let (_folder, mut viewer) = simple();
+    let mut window = open(&mut viewer, SIZE);
+    // The first key takes away the line about the mouse and keys.
+    key(&mut window, "Escape");
+    let plain = window.pixels();
+    key(&mut window, "H");
+    type_text(&mut window, "save");
+    assert!(window.pixels() != plain, "it is there");
+    key(&mut window, "Escape");
+    assert!(window.pixels() == plain, "and gone without a trace");
 }
 
 #[test]
@@ -187,6 +224,37 @@ fn the_step_of_the_ladder_is_lit_and_arrows_change_a_setting() {
         key(&mut window, "Down");
     }
     assert_ne!(window.stage().settings, before, "an arrow chose another option");
+}
+
+/// Each arrow changed the model while somebody was looking for an entry.
+#[test]
+fn arrows_in_an_open_list_change_nothing_until_an_entry_is_chosen() {
+    let (_folder, mut viewer) = simple();
+    let mut window = open(&mut viewer, SIZE);
+    key(&mut window, "Shift+D");
+    let before = window.stage().settings.clone();
+    let is_list = |widget: &&Widget| widget.role == Role::ComboBox;
+    let at = window.widgets("lighting").iter().find(is_list).expect("a list").center;
+    click(&mut window, PointerButton::Left, at);
+    for chord in ["Down", "Up", "Up", "Down", "Left", "Up"] {
+        key(&mut window, chord);
+        assert!(window.stage().settings == before, "{chord} only leads to another entry");
+    }
+    key(&mut window, "Escape");
+    assert!(window.stage().settings == before, "Escape chooses nothing");
+    click(&mut window, PointerButton::Left, at);
+    let per_pixel = before.shading;
+    for chord in ["Up", "Up", "Up", "Up", "Enter"] {
+        key(&mut window, chord);
+    }
+    assert_eq!(
+        (per_pixel, window.stage().settings.shading),
+        (ShadingModel::Phong, ShadingModel::Flat),
+        "the first one"
+    );
+    let chosen = window.stage().settings.clone();
+    key(&mut window, "Down");
+    assert!(window.stage().settings != chosen, "in the closed list an arrow chooses");
 }
 
 #[test]
