@@ -56,6 +56,26 @@ fn a_shadow_grows_with_the_distance_from_a_point() {
     }
 }
 
+/// Maps began at 10⁻⁴ of the distance of the farthest caster, and what was nearer cast no shadow.
+#[test]
+fn what_is_right_before_a_lamp_casts_its_shadow_in_a_huge_scene() {
+    let spot = Light { kind: LightKind::Spot { inner: 0.7, outer: 0.75 }, ..Light::spot(9.0) };
+    for light in [Light::point(9.0), spot] {
+        for far in [1e5, 1e7, 1e12] {
+            let mut scene = square_over_floor(shining(light, DVec3::Y * 3.0, DVec3::NEG_Y));
+            let mountain = scene.add_object("mountain", primitives::plane(1.0, 1.0), matt(Vec3::ONE));
+            scene.node_mut(mountain).expect("just added").transform =
+                Transform::from_translation(DVec3::new(far, -far, 0.0));
+            let shadows = Shadows::Maps { resolution: 512 };
+            let frame =
+                render(&scene, &from_above(), &settings(EffectSettings { shadows, ..Default::default() }));
+            let [first, last] = dark_span(&frame.expect("drawn"), 0.5);
+            let right = (first - 0.5).abs() < 0.06 && (last - 0.75).abs() < 0.06;
+            assert!(right, "{:?}, a mountain at {far} m: {first} to {last}", light.kind);
+        }
+    }
+}
+
 /// A rotation by any angle about any axis.
 fn rotation() -> impl Strategy<Value = DQuat> {
     [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0, 0.01..1.0].prop_map(|q| DQuat::from_array(q).normalize())
