@@ -74,6 +74,8 @@ fn side(what: &str, text: &str) -> Result<u32, String> {
 
 /// A colour, written in sRGB, as linear RGB.
 pub(crate) fn color(text: &str) -> Result<Vec3, String> {
+    /// What is white in another colour space may be off by so much.
+    const ROUNDING: f32 = 1e-3;
     const FORMS: &str = "write R,G,B with numbers from 0 to 1, #rgb, #rrggbb or a CSS name such as orange";
     if let Some(rgb) = named(text).or_else(|| cmyk(text)) {
         return Ok(to_linear(rgb));
@@ -88,7 +90,12 @@ pub(crate) fn color(text: &str) -> Result<Vec3, String> {
             "the colour is translucent; use --opacity for a model, --no-background for none".to_owned()
         );
     }
-    Ok(to_linear(Vec3::new(parsed.r, parsed.g, parsed.b).clamp(Vec3::ZERO, Vec3::ONE)))
+    let (rgb, within) =
+        (Vec3::new(parsed.r, parsed.g, parsed.b), |rgb: Vec3| rgb.clamp(Vec3::ZERO, Vec3::ONE));
+    if (rgb - within(rgb)).abs().max_element() > ROUNDING {
+        return Err("the colour is outside of sRGB, whose channels go from 0 to 1".to_owned());
+    }
+    Ok(to_linear(within(rgb)))
 }
 
 /// F3D's own colour names, which CSS lacks.
@@ -107,15 +114,19 @@ fn named(text: &str) -> Option<Vec3> {
     Some(Vec3::from(found.1.map(f32::from)) / 255.0)
 }
 
+fn is_share(value: &f32) -> bool {
+    (0.0..=1.0).contains(value)
+}
+
 /// `cmyk(0%, 50%, 100%, 0%)`: the fraction of white that inks leave, in sRGB.
 fn cmyk(text: &str) -> Option<Vec3> {
     let inks = text.trim().to_ascii_lowercase();
     let inks = inks.strip_prefix("cmyk(")?.strip_suffix(')')?;
     let shares: Vec<f32> =
         inks.split(',').map(|ink| ratio(ink).map(|ink| ink as f32)).collect::<Option<_>>()?;
-    let [c, m, y, k] = shares.try_into().ok()?;
+    let [c, m, y, k] = shares.try_into().ok().filter(|shares: &[f32; 4]| shares.iter().all(is_share))?;
     let left = Vec3::ONE - Vec3::new(c, m, y);
-    Some((left * (1.0 - k)).clamp(Vec3::ZERO, Vec3::ONE))
+    Some(left * (1.0 - k))
 }
 
 /// A colour that may be brighter than white, as linear RGB.
@@ -387,6 +398,7 @@ mod tests {
 
     #[test]
     fn colors_come_in_every_form() {
+        assert_eq!(srgb("lab(100% 0 0)"), Some([255; 3]), "white but for rounding");
         for text in ["1,0.5019608,0", "#ff8000", "#FF8000", "rgb(255,128,0)", " #ff8000 "] {
             assert_eq!(srgb(text), Some([255, 128, 0]), "{text}");
         }
@@ -410,6 +422,9 @@ mod tests {
             "orangish",
             "transparent",
             "#ff800080",
+            "color(srgb 1.5 0 0)",
+            "cmyk(150%, 0%, 0%, 0%)",
+            "cmyk(0%, 0%, 0%, -20%)",
         ] {
             assert!(color(text).is_err(), "{text:?} is no opaque colour");
         }

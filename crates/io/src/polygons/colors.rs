@@ -1,8 +1,9 @@
 //! Colours whose range only the whole file tells.
 
-use trigon_math::Vec4;
+use trigon_math::{Vec3, Vec4};
 
 use super::light_from_srgb;
+use crate::warning::counted;
 
 /// Colours as they are in a file: from 0 to 1, or to 255, or to 65535.
 #[derive(Default)]
@@ -38,11 +39,30 @@ impl RawColors {
         full(self.largest)
     }
 
+    /// The alpha of what is opaque. An alpha of 1 beside colours to 255 is opaque, too.
+    fn full_alpha(&self) -> f32 {
+        if self.largest_alpha > 1.0 { full(self.largest_alpha).max(self.full()) } else { 1.0 }
+    }
+
+    /// The message if some are outside of their range, and are clamped.
+    pub(crate) fn fault(&self) -> Option<String> {
+        let (scale, alpha_scale) = (self.full(), self.full_alpha());
+        let is_within = |value: f32, most: f32| (0.0..=most).contains(&value);
+        let is_sound = |(color, &has_alpha): (&Vec4, &bool)| {
+            let is_known = color.truncate() != Vec3::INFINITY;
+            let channels = color.truncate().to_array();
+            !is_known
+                || channels.into_iter().all(|value| is_within(value, scale))
+                    && (!has_alpha || is_within(color.w, alpha_scale))
+        };
+        let count = self.colors.iter().zip(&self.with_alpha).filter(|&color| !is_sound(color)).count();
+        let (colors, are) = (counted(count, "colour"), if count == 1 { "is" } else { "are" });
+        (count > 0).then(|| format!("{colors} {are} not between 0 and {scale}; what is outside is clamped"))
+    }
+
     /// As linear light.
     pub(crate) fn finish(self) -> Vec<Vec4> {
-        // An alpha of 1 beside colours to 255 is opaque.
-        let scale = self.full();
-        let alpha_scale = if self.largest_alpha > 1.0 { full(self.largest_alpha).max(scale) } else { 1.0 };
+        let (scale, alpha_scale) = (self.full(), self.full_alpha());
         let linear = |(color, &has_alpha): (&Vec4, &bool)| {
             let [red, green, blue] = (color.truncate() / scale).to_array();
             light_from_srgb([red, green, blue, if has_alpha { color.w / alpha_scale } else { 1.0 }])
@@ -82,6 +102,29 @@ mod tests {
         assert_eq!(finished(&[&[65535.0; 3], &[0.0; 3]]), (65535.0, vec![white, black]), "16 bits");
         assert_eq!(finished(&[&[1.2; 3], &[0.0; 3]]), (1.0, vec![white, black]), "brighter than white");
         assert_eq!(finished(&[&[f64::INFINITY; 3], &[]]).1[1], white, "what is no colour is white");
+    }
+
+    #[test]
+    fn what_is_clamped_is_told() {
+        let fault = |rows: &[&[f64]]| {
+            let mut colors = RawColors::default();
+            rows.iter().for_each(|row| colors.push(row));
+            colors.fault()
+        };
+        for sound in
+            [&[&[1.0, 0.0, 0.5][..], &[]][..], &[&[255.0, 0.0, 0.0, 1.0], &[0.0; 3]], &[&[65535.0; 3]]]
+        {
+            assert_eq!(fault(sound), None, "{sound:?}");
+        }
+        let told = |rows: &[&[f64]], what: &str| {
+            let fault = fault(rows).expect("it is outside");
+            assert!(fault.contains(what), "{rows:?}: {fault}");
+        };
+        told(&[&[1.2, 0.0, 0.0]], "not between 0 and 1;");
+        told(&[&[-0.5, 0.0, 1.0], &[0.5; 3], &[-1.0; 3]], "2 colours");
+        told(&[&[9.0, -0.5, 0.0]], "not between 0 and 255;");
+        told(&[&[1e9, 0.0, 0.0]], "not between 0 and 255;");
+        told(&[&[0.5, 0.5, 0.5, -1.0]], "not between 0 and 1;");
     }
 
     #[test]

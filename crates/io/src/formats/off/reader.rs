@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::mem::take;
 
-use trigon_math::DVec3;
+use trigon_math::{DVec3, Vec4};
 
 use super::columns::Columns;
 use super::header::{Header, REMEDY};
@@ -74,10 +74,19 @@ impl<'a> Reader<'a> {
         self.faces(import)?;
         let mut polygons = take(&mut self.polygons);
         if self.columns.has_colors {
-            polygons.colors = take(&mut self.colors).finish();
+            polygons.colors = self.finished(|reader| &mut reader.colors);
         }
-        polygons.face_colors = take(&mut self.face_colors).finish();
+        polygons.face_colors = self.finished(|reader| &mut reader.face_colors);
         Ok(Found { polygons, ..take(&mut self.found) })
+    }
+
+    /// Colours as linear light.
+    fn finished(&mut self, colors: impl FnOnce(&mut Self) -> &mut RawColors) -> Vec<Vec4> {
+        let colors = take(colors(self));
+        let fault =
+            colors.fault().map(|what| (Place::Whole, what, "write colours from 0 to 1 or from 0 to 255"));
+        self.found.warnings.extend(fault);
+        colors.finish()
     }
 
     /// Whether reading stopped among vertices: some were read, and there is more text.

@@ -53,6 +53,9 @@ impl Channels {
                 format!("the colours are fractions above 1, and are taken as numbers from 0 to {full}");
             warnings.push(Place::Whole, what, "write them from 0 to 1, or as uchar");
         }
+        if let Some(what) = raw.fault() {
+            warnings.push(Place::Whole, what, "write them from 0 to 1, or as uchar");
+        }
         colors.append(&mut raw.finish());
     }
 }
