@@ -42,7 +42,7 @@ fn at_rest_the_window_holds_what_an_image_file_would() {
 /// whenever the session asks for it.
 fn shows_a_key(session: &mut Session<'_>, press: u64, now: Duration) -> bool {
     // Letters are searched for in the open list.
-    let key = if press % 2 == 0 { Key::Character('h') } else { Key::Escape };
+    let key = if press.is_multiple_of(2) { Key::Character('h') } else { Key::Escape };
     session.event(key_down(press, key), now);
     session.event(InputEvent::KeyUp(KeyCode(press)), now);
     session.settle(now);
