@@ -84,6 +84,52 @@ proptest! {
         prop_assert_eq!(counts, once);
     }
 
+    /// A strip of segments that go on in one direction: it begins at its first end and stops at its last, both within half
+    /// a pixel; between them no step is missed, and no pixel is covered twice, also where two segments meet. Where one of
+    /// them covers a pixel is decided in integers; the corners of its outline are on the grid, which leaves half a step.
+    #[test]
+    fn a_strip_has_no_gap_and_no_pixel_twice_and_ends_where_its_ends_are(
+        start in inside(), parts in prop::collection::vec((2 * 256..20 * 256_i32, -1.0_f64..1.0), 1..20),
+        major in 0..2_usize, backwards in any::<bool>(),
+    ) {
+        let minor = 1 - major;
+        let mut points = vec![start];
+        for (step, slope) in parts {
+            let mut next = points[points.len() - 1];
+            next[major] += step;
+            let shift = (f64::from(step) * slope) as i32;
+            let is_inside = (2 * 256..(SIDE - 2) * 256).contains(&(next[minor] + shift));
+            next[minor] += if is_inside { shift } else { -shift };
+            points.push(next);
+        }
+        let joints: Vec<u32> = (0..points.len() as u32).collect();
+        let segments: Vec<[u32; 2]> = joints.windows(2).map(|pair| if backwards { [pair[1], pair[0]] } else { [pair[0], pair[1]] }).collect();
+        let counts = count(&points, &segments, 1.0);
+        let (first, last) = (points[0][major], points[points.len() - 1][major]);
+        for step in 0..SIDE {
+            let centre = 256 * step + 128;
+            // The segments that cover this step, with half a pixel at either end.
+            let about: Vec<_> = points.windows(2).filter(|ends| (ends[0][major] - 128..ends[1][major] + 128).contains(&centre)).collect();
+            prop_assert_eq!(about.is_empty(), !(first - 128..last + 128).contains(&centre), "step {}", step);
+            let mut found = 0;
+            for across in 0..SIDE {
+                let at = if major == 0 { [step, across] } else { [across, step] };
+                let times = counts[(at[1] * SIDE + at[0]) as usize];
+                prop_assert!(times <= 1, "{} times at {:?}", times, at);
+                found += times;
+                // Half a pixel across the line, times its length along the axis.
+                let is_within = |ends: &&[GridPoint], half: i64| {
+                    let [along, over] = [major, minor].map(|axis| i64::from(ends[1][axis] - ends[0][axis]));
+                    let distance = i64::from(256 * across + 128 - ends[0][minor]) * along - i64::from(centre - ends[0][major]) * over;
+                    (2 * distance).abs() <= half * along
+                };
+                prop_assert!(times == 0 || about.iter().any(|ends| is_within(ends, 257)), "beside the strip at {:?}", at);
+                prop_assert!(times == 1 || !about.iter().any(|ends| is_within(ends, 254)), "a hole at {:?}", at);
+            }
+            prop_assert!(about.is_empty() == (found == 0), "{} pixels in step {}", found, step);
+        }
+    }
+
     /// A line that leaves the view is drawn as if the view were larger.
     #[test]
     fn the_border_of_the_view_moves_no_pixel(ends in crossing(), dx in 0..30_i32) {

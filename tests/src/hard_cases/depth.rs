@@ -126,7 +126,13 @@ fn planes() -> impl Strategy<Value = Planes> {
 
 impl Planes {
     fn of(self, projection: Projection, reach: f64) -> Projection {
-        let around = Bounds3 { min: DVec3::splat(-reach), max: DVec3::splat(reach) };
+        self.between(projection, -reach, reach)
+    }
+
+    /// Around a scene from one distance to another along the line of sight, also behind the eye.
+    fn between(self, projection: Projection, from: f64, to: f64) -> Projection {
+        let reach = (to - from) / 2.0;
+        let around = Bounds3 { min: DVec3::new(-reach, -reach, -to), max: DVec3::new(reach, reach, -from) };
         match self {
             Self::Given => projection,
             Self::Automatic => {
@@ -206,15 +212,19 @@ proptest! {
         range in magnitude(1e-3, 1e6),
         share in 0.001_f64..0.999,
         swapped in any::<bool>(),
+        planes in planes(),
     ) {
         let near = start * range;
-        let projection = Projection::orthographic(2.0, near, near + range).expect("in range");
+        let given = Projection::orthographic(2.0, near, near + range).expect("in range");
+        let projection = planes.between(given, near, near + range);
         let distance = near + range * share;
         let further = distance + range * elementary::exp2(-22.0);
         let order = if swapped { [further, distance] } else { [distance, further] };
         let (seen, depth) = walls(&projection, &order);
         prop_assert_eq!(seen, u32::from(swapped), "at {} of the range", share);
-        let error = f64::from(depth) - (1.0 - share);
+        let (near, far) = (projection.near(), projection.far().expect("parallel"));
+        prop_assert!(near <= distance && far - near <= 1.2 * range, "planes at {near} and {far}");
+        let error = f64::from(depth) - (far - distance) / (far - near);
         prop_assert!(error.abs() <= elementary::exp2(-24.0), "off by {error}");
     }
 }

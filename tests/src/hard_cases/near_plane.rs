@@ -17,7 +17,7 @@ use trigon_study::oracle::ray::Tolerance;
 const TOLERANCE: Tolerance = Tolerance { outline: 1.0 / 120.0, depth: 1.0 / (1 << 22) as f64 };
 
 /// Distances about the near plane, about zero, and on either side.
-fn distance(near: f32) -> impl Strategy<Value = f32> {
+pub(super) fn distance(near: f32) -> impl Strategy<Value = f32> {
     let tiny = (-45..-1_i32, any::<bool>()).prop_map(|(exponent, behind)| {
         let size = elementary::pow(10.0, f64::from(exponent)) as f32;
         if behind { -size } else { size }

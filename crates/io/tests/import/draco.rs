@@ -219,6 +219,32 @@ fn an_accessor_of_two_streams_has_the_values_of_each() {
     assert_eq!((high, mesh.vertex_count()), (8, 81 + 2 * 8), "one of them is ten higher");
 }
 
+/// Attributes that are not in the stream are read from their accessors, in the order of the stream's vertices (each
+/// vertex of the surface has a place of its own); and primitives without a stream stand beside those that have one.
+#[test]
+fn plain_attributes_and_primitives_stand_beside_a_stream() {
+    for name in ["edgebreaker.glb", "sequential.glb"] {
+        let mut doc = doc_of(&file(name));
+        let surface = meshes(&doc.load())[0].positions()[..81].to_vec();
+        let coordinates: Vec<f32> = surface.iter().flat_map(|place| [place.x, place.y]).collect();
+        let beside = doc.floats("VEC2", &coordinates);
+        doc.primitive()["attributes"]["TEXCOORD_1"] = json!(beside);
+        let plain = doc.floats("VEC3", &[7.0, 0.0, 0.0, 9.0, 0.0, 0.0, 7.0, 5.0, 0.0]);
+        push(&mut doc.json["meshes"][0]["primitives"], json!({"attributes": {"POSITION": plain}}));
+        let found = doc.load();
+        assert_eq!(warnings(&found), [""; 0], "{name}");
+        let mesh = meshes(&found)[0];
+        assert_eq!(mesh.face_count(), 128 + 12 + 1, "{name}: the surface, the cube and a plain triangle");
+        let uvs = mesh.attributes().uv_sets.get(1).unwrap_or_else(|| panic!("{name}: a second set"));
+        for (corner, &vertex) in mesh.corner_vertices()[..3 * 128].iter().enumerate() {
+            let place = mesh.positions()[vertex as usize];
+            assert_eq!(uvs[corner], Vec2::new(place.x, place.y), "{name}: corner {corner}");
+        }
+        let high = mesh.positions().iter().filter(|place| place.x == 9.0).count();
+        assert_eq!(high, 1, "{name}: the corner of the plain triangle");
+    }
+}
+
 #[test]
 fn compressed_meshes_that_nobody_touches_stay_compressed() {
     let bytes = file("edgebreaker.glb");

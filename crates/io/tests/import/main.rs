@@ -19,6 +19,7 @@ mod off;
 mod oracle;
 mod ply;
 mod saving;
+mod seen_cases;
 mod source;
 mod statements;
 mod stl;

@@ -105,6 +105,7 @@ impl LightingEnvironment {
                     position: moved(&rays.from_scene, lanes(&|met, _| met.position)),
                     normal,
                     facing: normal,
+                    plane: normal,
                     view: turned(&turn, lanes(&|_, along| -along)),
                 };
                 let reflected = self.reflected(simd, &points, &Brdf::Lambert);

@@ -134,7 +134,7 @@ mod tests {
         let simd = Fallback::new();
         let at = |vector| -> V3<Fallback> { splat(simd, vector) };
         let [position, normal] = [at(Vec3::NEG_Z * 2.0), at(Vec3::Z)];
-        let points = LitPoints { position, normal, facing: normal, view: normal };
+        let points = LitPoints { position, normal, facing: normal, plane: normal, view: normal };
         let lighting = LightingEnvironment { lights: lights.clone(), ..LightingEnvironment::default() };
         let reflected = lighting.reflected(simd, &points, &Brdf::Lambert);
         Vec3::from(reflected.diffuse.map(|channel| channel[0]))

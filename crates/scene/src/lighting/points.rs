@@ -13,6 +13,9 @@ pub(crate) struct LitPoints<S: Simd> {
     pub(crate) normal: V3<S>,
     /// The same without the normal map: the orientation of the surface itself.
     pub(crate) facing: V3<S>,
+    /// Perpendicular to the triangle, of any length and on either side: `facing` may be interpolated. Shadow maps alone
+    /// need it; without them it is `facing`.
+    pub(crate) plane: V3<S>,
     /// Unit vectors towards the eye.
     pub(crate) view: V3<S>,
 }

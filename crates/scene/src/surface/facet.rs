@@ -65,7 +65,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         // The visible side is the one that faces the eye, whatever the winding.
         let seen = dot(normal, view).simd_ge(0.0);
         let normal = select(seen, normal, negated(normal));
-        LitPoints { position, normal, facing: normal, view }
+        LitPoints { position, normal, facing: normal, plane: normal, view }
     }
 
     /// The positions of one corner of eight triangles, in the mesh's space.

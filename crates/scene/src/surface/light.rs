@@ -24,7 +24,8 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         let normal = load(simd, vertices, &self.columns.normals);
         let normal = normalized(turned(&self.place.normal_to_camera, normal));
         let position = self.place.camera(simd, position);
-        let points = LitPoints { position, normal, facing: normal, view: self.view(simd, position) };
+        let points =
+            LitPoints { position, normal, facing: normal, plane: normal, view: self.view(simd, position) };
         self.set_side(simd, vertices, (slots, slots.at), &points);
         if slots.two_sided {
             let back = LitPoints { normal: negated(normal), facing: negated(normal), ..points };

@@ -42,6 +42,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             position,
             normal: select(front, normal, negated(normal)),
             facing: select(front, facing, negated(facing)),
+            plane: self.plane(simd, fragments).unwrap_or(facing),
             view: self.view(simd, position),
         }
     }
@@ -72,6 +73,24 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                 normalized(turned(&self.place.normal_to_camera, normal))
             },
         )
+    }
+
+    /// Perpendicular to the triangles, where shadow maps are looked up on surfaces whose normals are interpolated.
+    #[inline(always)]
+    fn plane<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> Option<V3<S>> {
+        let is_needed = self.layout.normal.is_some() && self.lighting.shadow_maps.is_some();
+        let at = self.layout.position.filter(|_| is_needed)?;
+        Some(simd.vectorize(
+            #[inline(always)]
+            || {
+                let [x, y, z] = [at, at + 1, at + 2].each(
+                    #[inline(always)]
+                    |varying| fragments.gradient(varying),
+                );
+                // Unit vectors, so that the product of the steps of a tiny model does not vanish.
+                cross(normalized([x[0], y[0], z[0]]), normalized([x[1], y[1], z[1]]))
+            },
+        ))
     }
 
     /// Unit vectors towards the eye.

@@ -13,6 +13,9 @@
 //! the ray.) No constant is added to depths. A shadow therefore begins at most 1.7 texels away from its
 //! caster.
 //!
+//! Interpolated normals lean away from the triangle, by more than a quarter of a texel makes up for where a mesh is
+//! coarse (10° and more). There points are moved as far as the triangle itself needs, along its interpolated normal.
+//!
 //! Four depths around a point are compared, and the results mixed bilinearly. [`shadow_maps`](crate::shadow_maps) draws
 //! the maps.
 
@@ -90,10 +93,14 @@ impl PlacedMap {
         &self,
         simd: S,
         points: &LitPoints<S>,
+        leaning: &Leaning<S>,
         towards: V3<S>,
     ) -> (F32<S>, trigon_raster::simd::Mask<S>) {
         const ASIDE: f32 = std::f32::consts::SQRT_2;
         const CURVATURE: f32 = 0.25;
+        /// A point where two maps of a point light meet may lie outside of both by rounding, which is less than this
+        /// for maps of 8192 texels: so each map reaches as far beyond its edge.
+        const SEAM: f32 = 1.0 / 64.0;
         let along = match self.axis {
             Some(axis) => splat(simd, axis),
             None => towards,
@@ -101,14 +108,42 @@ impl PlacedMap {
         let cosine = dot(points.facing, along);
         let sine = positive(1.0 - cosine * cosine).sqrt();
         let w = mapped(&self.to_texels, points.position)[3];
-        let offset = (sine * ASIDE + CURVATURE) * w * self.texel;
+        let texels = greater(leaning.texels(along) * ASIDE, sine * ASIDE + CURVATURE);
+        let offset = texels * w * self.texel;
         let moved = sum(points.position, scaled(points.facing, offset));
         let [x, y, depth, w] = mapped(&self.to_texels, moved);
         let inverse = F32::splat(simd, 1.0) / w;
         let [x, y, depth] = [x * inverse, y * inverse, depth * inverse];
-        let side = self.map.resolution as f32;
-        let known = w.simd_gt(0.0) & x.simd_ge(0.0) & y.simd_ge(0.0) & x.simd_lt(side) & y.simd_lt(side);
+        let end = self.map.resolution as f32 + SEAM;
+        let known = w.simd_gt(0.0) & x.simd_ge(-SEAM) & y.simd_ge(-SEAM) & x.simd_lt(end) & y.simd_lt(end);
         (self.map.compared(simd, [x, y], depth), known)
+    }
+}
+
+/// How normals lean away from their triangles.
+struct Leaning<S: Simd> {
+    /// Perpendicular to the triangles, the square of its length, and its part along the normals.
+    plane: V3<S>,
+    square: F32<S>,
+    upright: F32<S>,
+}
+
+impl<S: Simd> Leaning<S> {
+    #[inline(always)]
+    fn new(points: &LitPoints<S>) -> Self {
+        let plane = points.plane;
+        let square = dot(plane, plane);
+        // A normal that leans by more than 60° says nothing about its triangle.
+        let upright = greater(dot(plane, points.facing).abs(), square.sqrt() * 0.5);
+        Self { plane, square, upright }
+    }
+
+    /// How far to move along the normal to rise by sin θ above the triangle, θ being the angle between its own normal
+    /// and a unit vector; not a number for triangles without area.
+    #[inline(always)]
+    fn texels(&self, along: V3<S>) -> F32<S> {
+        let part = dot(self.plane, along);
+        positive(self.square - part * part).sqrt() / self.upright
     }
 }
 
@@ -117,25 +152,28 @@ impl ShadowMap {
     /// points.
     #[inline(always)]
     fn compared<S: Simd>(&self, simd: S, place: [F32<S>; 2], depth: F32<S>) -> F32<S> {
-        let (zero, last) = (F32::splat(simd, 0.0), F32::splat(simd, self.resolution as f32));
+        let (zero, side) = (F32::splat(simd, 0.0), F32::splat(simd, self.resolution as f32));
+        // The two texels on either side, at the edge of the map the nearest one twice; and the weight of the second.
         let axis = inlined(
             #[inline(always)]
             |value: F32<S>| {
-                let held = lesser(greater(value, zero), last) - 0.5;
+                let held = lesser(greater(value, zero), side) - 0.5;
                 let first = held.floor();
-                (first.to_int::<I32<S>>(), held - first)
+                let [first_texel, second_texel] = [greater(first, zero), lesser(first + 1.0, side - 1.0)];
+                ([first_texel.to_int::<I32<S>>(), second_texel.to_int()], held - first)
             },
         );
-        let ((x, across), (y, down)) = (axis(place[0]), axis(place[1]));
-        let (x, y): ([i32; LANES], [i32; LANES]) = (x.into(), y.into());
+        let ((columns, across), (rows, down)) = (axis(place[0]), axis(place[1]));
+        let rows = [rows[0] * self.resolution as i32, rows[1] * self.resolution as i32];
         let lit = inlined(
             #[inline(always)]
-            |[right, below]: [i32; 2]| {
+            |[right, below]: [usize; 2]| {
+                let texels: [i32; LANES] = (rows[below] + columns[right]).into();
                 let stored = F32::simd_from(
                     simd,
                     lanes_of(
                         #[inline(always)]
-                        |lane| self.depth(x[lane] + right, y[lane] + below),
+                        |lane| self.depths[texels[lane] as usize],
                     ),
                 );
                 (stored.simd_le(depth) | stored.simd_eq(zero)).select(F32::splat(simd, 1.0), zero)
@@ -143,22 +181,6 @@ impl ShadowMap {
         );
         let above = mix(lit([0, 0]), lit([1, 0]), across);
         mix(above, mix(lit([0, 1]), lit([1, 1]), across), down)
-    }
-
-    /// The depth of a texel; beyond the edge that of the nearest texel.
-    #[inline(always)]
-    fn depth(&self, x: i32, y: i32) -> f32 {
-        let last = self.resolution as i32 - 1;
-        let held = |value: i32| {
-            if value < 0 {
-                0
-            } else if value > last {
-                last
-            } else {
-                value
-            }
-        };
-        self.depths[held(y) as usize * self.resolution as usize + held(x) as usize]
     }
 }
 
@@ -177,8 +199,9 @@ impl ShadowMaps {
             #[inline(always)]
             || {
                 let mut share = F32::splat(simd, 1.0);
+                let leaning = Leaning::new(points);
                 for map in maps {
-                    let (found, known) = map.share(simd, points, towards);
+                    let (found, known) = map.share(simd, points, &leaning, towards);
                     share = known.select(found, share);
                 }
                 share
