@@ -54,6 +54,7 @@ pub(crate) fn run(request: &Request, purpose: CheckPurpose, reporter: Reporter) 
 fn faults(source: &Source, request: &Request, purpose: CheckPurpose) -> Result<Vec<Fault>, Failure> {
     let (model, warnings) = loading::load(source, request, &|_| ControlFlow::Continue(()))?;
     let mut faults: Vec<Fault> = warnings.iter().map(Fault::of_reader).collect();
+    faults.extend(Fault::of_variants(&model.variant_names));
     let findings = match purpose {
         CheckPurpose::Show => model.scene.check(),
         CheckPurpose::Print => model.scene.check_for_printing(),
@@ -90,6 +91,21 @@ impl Fault {
             what: format!("{}{more}{tried}", warning.what),
             remedy: warning.remedy.clone(),
         }
+    }
+
+    /// That there is more than is checked.
+    fn of_variants(names: &[String]) -> Option<Self> {
+        let list: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
+        (!names.is_empty()).then(|| Self {
+            severity: Severity::Note,
+            name: "variants",
+            place: "file".to_owned(),
+            what: format!(
+                "its materials have the variants {}, of which one at a time is checked",
+                list.join(", ")
+            ),
+            remedy: "choose one with --variant".to_owned(),
+        })
     }
 
     /// Whether it is no fault.

@@ -25,6 +25,7 @@ pub(crate) struct ModelFacts<'a> {
     size: [f64; 3],
     center: Option<[f64; 3]>,
     scenes: &'a [String],
+    variants: &'a [String],
     light: Option<LightFacts>,
     animations: Vec<AnimationFacts<'a>>,
     node_list: NodeList<'a>,
@@ -95,6 +96,7 @@ impl<'a> ModelFacts<'a> {
             size: summary.size.to_array(),
             center: model.center().map(|center| center.to_array()),
             scenes: &model.scene_names,
+            variants: &model.variant_names,
             light: scene.light_reading().map(LightFacts::new),
             animations: animations
                 .map(|animation| AnimationFacts { name: &animation.name, seconds: animation.duration() })

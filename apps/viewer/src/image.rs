@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use trigon_camera::{Camera, Viewport};
 use trigon_io::{Capture, Limits, RgbaImage, Sequence, compare_images, load_image};
-use trigon_scene::{Frame, RenderSettings, Renderer};
+use trigon_scene::{Absence, Decision, Effect, Frame, RenderSettings, Renderer};
 
 use crate::args::{Destination, Limit, Mode, Reference, Request, Subject, Template};
 use crate::axes;
@@ -253,10 +253,24 @@ fn draw(model: &Model, shot: &Shot, request: &Request, reporter: Reporter) -> Re
             "{title}: the model is not in view; look from another side (--view=back), or show faces that point away (--backface-type=visible)"
         ));
     }
+    warn_of_opaque_glass(&renderer, &title, reporter);
     let (seconds, faces) = (started.elapsed().as_secs_f64(), model.face_count());
     reporter.debug(format_args!("drew {title} ({faces} faces) in {:.1} ms", seconds * 1e3));
     Ok(Drawn { frame, settings: renderer.settings().clone(), seconds, pixels_shaded })
 }
+
+/// Glass that is drawn as if it were opaque looks like china.
+fn warn_of_opaque_glass(renderer: &Renderer, title: &str, reporter: Reporter) {
+    let decision = renderer.plan().map(|plan| plan.decision(Effect::Refraction));
+    if let Some(Decision::Off(absence @ (Absence::GlassNotAsked(_) | Absence::GlassLitOtherwise(_)))) =
+        decision
+    {
+        reporter.warning(format_args!(
+            "{title}: what is behind glass is not drawn, because {absence}; leave out --bounces=0, --shading and --reflection"
+        ));
+    }
+}
+
 /// The most accurate image that fits into a time; says what that gives up.
 fn draw_within(
     limit: &Limit,

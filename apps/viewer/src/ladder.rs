@@ -44,6 +44,7 @@ impl Step {
                 shading: ShadingModel::Phong,
                 shadows: Shadows::Maps { resolution: 2048 },
                 occlusion_rays: 16,
+                glass_bounces: 8,
             },
         }
     }

@@ -28,8 +28,8 @@ pub(crate) fn load(
     request: &Request,
     progress: Progress<'_>,
 ) -> Result<(Model, Vec<Warning>), Failure> {
-    let (mut scene, mut scene_names, mut warnings) = (Scene::new(), Vec::new(), Vec::new());
-    let (mut read, mut odd) = (Vec::new(), Vec::new());
+    let (mut scene, mut scene_names, mut variant_names) = (Scene::new(), Vec::new(), Vec::new());
+    let (mut warnings, mut read, mut odd) = (Vec::new(), Vec::new(), Vec::new());
     match source {
         Source::BuiltIn => scene = trigon_scene::showcase(),
         Source::Files(files) => {
@@ -38,6 +38,7 @@ pub(crate) fn load(
                 let mut loaded = load_file(file, request, &part)?;
                 warnings.extend(loaded.warnings);
                 scene_names.extend(loaded.scene_names);
+                variant_names.extend(loaded.variant_names);
                 read.extend(loaded.files);
                 if before == 0 {
                     scene.up = loaded.scene.up;
@@ -56,7 +57,8 @@ pub(crate) fn load(
     model.place(&request.placed)?;
     let light = model.scene.exposure_warning(&request.settings).map(|warning| warning.to_string());
     let odd = odd.into_iter().chain(light).collect();
-    (model.scene_names, model.files, model.odd) = (scene_names, read, odd);
+    (model.scene_names, model.variant_names) = (scene_names, variant_names);
+    (model.files, model.odd) = (read, odd);
     Ok((model, warnings))
 }
 
@@ -110,6 +112,7 @@ fn load_file(path: &Path, request: &Request, progress: Progress<'_>) -> Result<L
     let options = LoadOptions {
         format: request.format,
         scene: request.scene.clone(),
+        variant: request.variant.clone(),
         threads: request.settings.threads,
         progress: Some(&follow),
         ..LoadOptions::default()

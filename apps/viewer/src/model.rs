@@ -57,6 +57,8 @@ pub(crate) struct Model {
     pub(crate) source: Source,
     /// Of all scenes of its files, also of those that are not shown.
     pub(crate) scene_names: Vec<String>,
+    /// Of all variants of its files' materials.
+    pub(crate) variant_names: Vec<String>,
     /// All that were read for it: what to watch for changes.
     pub(crate) files: Vec<PathBuf>,
     /// What is odd about how its files stand together, about the time at which it is shown, and about its light.
@@ -76,14 +78,26 @@ impl Model {
             )));
         }
         request.scenery.replace(&mut scene)?;
-        Ok(Self { scene, source, scene_names: Vec::new(), files: Vec::new(), odd: Vec::new(), bounds })
+        Ok(Self::within(bounds, scene, source))
     }
 
     /// The model of a scene that is shown already.
     #[cfg(feature = "window")]
     pub(crate) fn shown(scene: Scene, source: Source) -> Self {
         let bounds = scene.tight_bounds();
-        Self { scene, source, scene_names: Vec::new(), files: Vec::new(), odd: Vec::new(), bounds }
+        Self::within(bounds, scene, source)
+    }
+
+    fn within(bounds: Bounds3, scene: Scene, source: Source) -> Self {
+        Self {
+            scene,
+            source,
+            scene_names: Vec::new(),
+            variant_names: Vec::new(),
+            files: Vec::new(),
+            odd: Vec::new(),
+            bounds,
+        }
     }
 
     /// The camera that the flags ask for. The built-in scene is composed for
@@ -135,14 +149,15 @@ impl Model {
         self.visible_meshes().map(Mesh::face_count).sum()
     }
 
-    /// One line for each scene and each animation, with the number that names it.
+    /// One line for each scene, variant and animation, with what names it.
     pub(crate) fn choices(&self) -> Vec<String> {
         let scenes = self.scene_names.iter().enumerate();
         let scenes = scenes.map(|(index, name)| format!("scene {index}   {name:?}"));
         let animations = self.scene.animations.iter().enumerate().map(|(index, animation)| {
             format!("animation {index} {:?}, {} s", animation.name, short(animation.duration()))
         });
-        scenes.chain(animations).collect()
+        let variants = self.variant_names.iter().map(|name| format!("variant   {name:?}"));
+        scenes.chain(variants).chain(animations).collect()
     }
 
     /// Hides nodes by their numbers in the tree, or by their names.

@@ -21,6 +21,8 @@ pub(crate) struct Import<'a> {
     pub(crate) scene: Scene,
     /// Of all scenes in the file.
     pub(crate) scene_names: Vec<String>,
+    /// Of all variants of its materials.
+    pub(crate) variant_names: Vec<String>,
     /// The file itself, if it is kept.
     pub(crate) source: Option<SourceDraft>,
     /// Of the meshes of a native file that were being edited.

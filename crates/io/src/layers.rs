@@ -4,7 +4,7 @@
 use crate::rgba_image::RgbaImage;
 
 /// The part of the texture that an image provides.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Role {
     /// All of it.
     Whole,
@@ -14,6 +14,11 @@ pub(crate) enum Role {
     Roughness,
     /// Its blue, where glTF stores metalness.
     Metallic,
+    /// Its green: 1 − its alpha times a factor.
+    Glossiness {
+        /// The bits of an f32 from 0 to 1.
+        factor: u32,
+    },
     /// All of it, but only if it contains directions and not heights.
     Directions,
 }
@@ -53,6 +58,9 @@ fn lay_over(merged: &mut RgbaImage, role: Role, layer: &RgbaImage) {
             Role::Alpha => texel[3] = if has_alpha { from[3] } else { from[0] },
             Role::Roughness => texel[1] = from[0],
             Role::Metallic => texel[2] = from[0],
+            Role::Glossiness { factor } => {
+                texel[1] = (255.5 - f32::from_bits(factor) * f32::from(from[3])) as u8;
+            }
         }
     }
 }
@@ -88,6 +96,11 @@ mod tests {
         assert_eq!(merge(layers), Ok(image(2, &[[1, 2, 3, 7]; 4])), "its own alpha");
         let layers = vec![(Role::Roughness, image(1, &[[50; 4]])), (Role::Metallic, image(1, &[[60; 4]]))];
         assert_eq!(merge(layers), Ok(image(1, &[[255, 50, 60, 255]])), "as glTF keeps them");
+        for (factor, roughness) in [(1.0_f32, 205), (0.5, 230), (0.0, 255)] {
+            let layers = vec![(Role::Glossiness { factor: factor.to_bits() }, image(1, &[[9, 9, 9, 50]]))];
+            let made = merge(layers).expect("an image").rgba[1];
+            assert_eq!(made, roughness, "1 − 50/255 · {factor}");
+        }
     }
 
     #[test]

@@ -8,7 +8,7 @@ use rayon::ThreadPoolBuilder;
 use trigon_mesh::EditData;
 use trigon_scene::{MeshId, Scene};
 
-use crate::error::{LoadError, LoadErrorKind};
+use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::folder::Folder;
 use crate::format::Format;
 use crate::formats::{detect_format, supported};
@@ -28,6 +28,8 @@ pub struct Loaded {
     /// The names of all scenes in the file, in order; `scene` is one of them. Empty for formats
     /// without scenes.
     pub scene_names: Vec<String>,
+    /// The names of all variants of the file's materials, in order. Empty for formats without variants.
+    pub variant_names: Vec<String>,
     /// What could not be loaded, and why.
     pub warnings: Vec<Warning>,
     /// Every file that was read, the model first: watch these for changes.
@@ -124,13 +126,18 @@ fn import(
         warnings: Warnings::about(path),
         scene,
         scene_names: Vec::new(),
+        variant_names: Vec::new(),
         source: options.keep_source.then(SourceDraft::default),
         edit_data: BTreeMap::new(),
     };
     (format.row().import)(&mut import, bytes)?;
     options.report(path, LoadStage::Textures, 1.0)?;
-    let Import { folder, warnings, scene, scene_names, source, edit_data, .. } = import;
+    if let Some(wanted) = options.variant.as_ref().filter(|_| import.variant_names.is_empty()) {
+        let what = format!("it has no variants of its materials, so there is no {wanted:?}");
+        import.warnings.push(Place::Whole, what, "choose a variant for files that have some");
+    }
+    let Import { folder, warnings, scene, scene_names, variant_names, source, edit_data, .. } = import;
     let (warnings, files) = (warnings.into_list(), folder.into_files());
     let source = source.and_then(SourceDraft::finish);
-    Ok(Loaded { scene, scene_names, warnings, files, format, source, edit_data })
+    Ok(Loaded { scene, scene_names, variant_names, warnings, files, format, source, edit_data })
 }

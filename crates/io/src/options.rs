@@ -55,6 +55,9 @@ pub struct LoadOptions<'a> {
     /// The scene to load from a file with several; by default the one that the file selects.
     /// Ignored for formats without scenes.
     pub scene: Option<SceneChoice>,
+    /// The variant of the materials, by its name; by default the materials that the file gives without
+    /// one. A file that has variants, but none of the name, is an error that lists them.
+    pub variant: Option<String>,
     /// The axis that points up in the file, for [`Scene::up`](trigon_scene::Scene::up); by default that of its
     /// [format](Format::up). No coordinate is changed by it.
     pub up: Option<UpAxis>,
@@ -72,11 +75,12 @@ pub struct LoadOptions<'a> {
 impl fmt::Debug for LoadOptions<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let progress = self.progress.map(|_| "a callback");
-        let Self { limits, format, scene, up, threads, keep_source, .. } = self;
+        let Self { limits, format, scene, variant, up, threads, keep_source, .. } = self;
         f.debug_struct("LoadOptions")
             .field("limits", limits)
             .field("format", format)
             .field("scene", scene)
+            .field("variant", variant)
             .field("up", up)
             .field("threads", threads)
             .field("keep_source", keep_source)

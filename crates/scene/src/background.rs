@@ -29,6 +29,15 @@ impl Default for Background {
 }
 
 impl Background {
+    /// The colours at the top and the bottom edge of the image; black where it has no colour.
+    pub(crate) fn edges(&self) -> [Vec3; 2] {
+        match *self {
+            Self::Color(color) => [color; 2],
+            Self::Gradient { top, bottom } => [top, bottom],
+            Self::Transparent | Self::Environment => [Vec3::ZERO; 2],
+        }
+    }
+
     /// Premultiplied linear colour of row `y` of `height`. Transparent if there are no rows.
     pub(crate) fn row(&self, y: u32, height: u32) -> Vec4 {
         match *self {

@@ -1,5 +1,5 @@
 //! Effects that a frame may have beyond directly lit surfaces. All except the studio that metals
-//! mirror are off by default, and effects that are off cost nothing.
+//! mirror and what glass shows are off by default, and effects that are off cost nothing.
 
 use std::sync::Arc;
 
@@ -20,9 +20,8 @@ pub struct EffectSettings {
     /// What metals mirror if neither an environment nor ambient light in the scene defines their
     /// surroundings.
     pub metal_reflection: MetalReflection,
-    /// The maximum number of reflections at mirrors (metals without roughness) and refractions
-    /// through glass (transmission), 0 (none) to 16.
-    pub bounces: u32,
+    /// The rays that show what is behind glass and in mirrors.
+    pub sight: SightRays,
     /// Fog between the eye and surfaces.
     pub fog: Option<Fog>,
     /// How bright the image is.
@@ -47,6 +46,57 @@ pub enum Shadows {
     },
     /// By a ray from each pixel to each lamp: exact, and sharp.
     Rays,
+}
+
+/// The rays that show what is behind glass (surfaces with [transmission](crate::Material)) and in
+/// mirrors (metals without roughness). A ray that has met the maximum number of surfaces shows what
+/// it would if there were no more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SightRays {
+    /// None: glass is drawn as if it were opaque, and mirrors reflect nothing but light from far away.
+    Off,
+    /// From glass, if some is in view.
+    Glass {
+        /// The maximum number of surfaces that a ray meets, 1 to 16.
+        bounces: u32,
+    },
+    /// From glass and from mirrors, and also for what glass reflects.
+    All {
+        /// The maximum number of surfaces that a ray meets, 1 to 16.
+        bounces: u32,
+    },
+}
+
+impl Default for SightRays {
+    /// From glass: through two hollow bodies and on to what is behind them.
+    fn default() -> Self {
+        Self::Glass { bounces: 8 }
+    }
+}
+
+impl SightRays {
+    /// The largest useful number of surfaces.
+    const MOST: u32 = 16;
+
+    /// From glass and mirrors, or none for a maximum of 0.
+    #[must_use]
+    pub fn all(bounces: u32) -> Self {
+        if bounces == 0 { Self::Off } else { Self::All { bounces } }
+    }
+
+    /// The maximum number of surfaces that a ray meets.
+    #[must_use]
+    pub fn bounces(self) -> u32 {
+        match self {
+            Self::Off => 0,
+            Self::Glass { bounces } | Self::All { bounces } => bounces.min(Self::MOST),
+        }
+    }
+
+    /// Whether mirrors have them.
+    pub(crate) fn start_at_mirrors(self) -> bool {
+        matches!(self, Self::All { .. }) && self.bounces() > 0
+    }
 }
 
 /// What metals mirror if neither an environment nor ambient light in the scene defines their

@@ -72,6 +72,17 @@ pub struct Material {
     pub transmission: f32,
     /// Red multiplies `transmission`; the texture holds data.
     pub transmission_texture: Option<TextureBinding>,
+    /// The thickness of the volume under a transmissive surface, in units of the mesh; with 0
+    /// (default) the surface is thin, and bends no light: KHR_materials_volume. Only a surface with
+    /// open edges needs the number: within a closed one, rays find how far they go.
+    pub thickness: f32,
+    /// Green multiplies `thickness`; the texture holds data.
+    pub thickness_texture: Option<TextureBinding>,
+    /// The distance in metres within the volume after which white light has `attenuation_color`;
+    /// infinite (default) in a volume that absorbs nothing.
+    pub attenuation_distance: f32,
+    /// Linear RGB, 0 to 1.
+    pub attenuation_color: Vec3,
     /// Index of refraction of a dielectric: at least 1, or 0 for a surface that reflects
     /// everything. It bends transmitted rays and determines the head-on reflectance of
     /// metallic-roughness surfaces: ((ior − 1) / (ior + 1))², 4 % with the default of 1.5.
@@ -94,6 +105,10 @@ impl Default for Material {
             double_sided: true,
             transmission: 0.0,
             transmission_texture: None,
+            thickness: 0.0,
+            thickness_texture: None,
+            attenuation_distance: f32::INFINITY,
+            attenuation_color: Vec3::ONE,
             ior: 1.5,
         }
     }
@@ -179,6 +194,16 @@ impl Material {
             "transmissionTexture",
             MaterialTexture::Transmission,
         ),
+        ExtensionParameter::amount("KHR_materials_volume", "thicknessFactor", |material| {
+            Some(&mut material.thickness)
+        }),
+        ExtensionParameter::texture("KHR_materials_volume", "thicknessTexture", MaterialTexture::Thickness),
+        ExtensionParameter::amount("KHR_materials_volume", "attenuationDistance", |material| {
+            Some(&mut material.attenuation_distance)
+        }),
+        ExtensionParameter::color("KHR_materials_volume", "attenuationColor", |material| {
+            Some(&mut material.attenuation_color)
+        }),
     ];
 }
 
@@ -283,6 +308,15 @@ texture_rows! {
         matters: |material| material.transmission != 0.0,
         get: |material| material.transmission_texture,
         set: |material, binding| material.transmission_texture = binding,
+    },
+    /// Green multiplies [`Material::thickness`].
+    Thickness => TextureRow {
+        format: TextureFormat::Linear,
+        effect: Effect::Refraction,
+        drawn_if: DrawnIf::Refracting,
+        matters: |material| material.thickness > 0.0,
+        get: |material| material.thickness_texture,
+        set: |material, binding| material.thickness_texture = binding,
     },
     /// RGB multiplies [`Material::emissive`].
     Emissive => TextureRow {

@@ -84,6 +84,11 @@ impl Eye {
         Self { position: camera.position, turn, projection, frustum }
     }
 
+    /// From camera space to clip space.
+    pub(crate) fn projection(&self) -> &DMat4 {
+        &self.projection
+    }
+
     /// Whether a box at a placement in the world may be in view; `false` is a proof that nothing in
     /// it is.
     pub(crate) fn may_see(&self, bounds: &Bounds3, world: &DAffine3) -> bool {

@@ -7,7 +7,7 @@ use std::time::Duration;
 use trigon_camera::{Camera, DEFAULT_MARGIN, Orbit, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
 use trigon_scene::quality::Preset;
-use trigon_scene::{Hit, NodeId, RenderSettings, Scene, Shadows, Snap, StageTimes};
+use trigon_scene::{Hit, NodeId, RenderSettings, Scene, Shadows, SightRays, Snap, StageTimes};
 
 use crate::drawer::{Drawer, DrawnBy};
 use crate::input::InputOwner;
@@ -528,6 +528,9 @@ impl Stage {
         }
         if let Some(occlusion) = &mut effects.ambient_occlusion {
             occlusion.rays = occlusion.rays.min(most.occlusion_rays);
+        }
+        if let SightRays::Glass { bounces } = &mut effects.sight {
+            *bounces = (*bounces).min(most.glass_bounces);
         }
         self.fitted(settings, shrink)
     }

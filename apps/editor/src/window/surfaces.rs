@@ -39,7 +39,8 @@ fn take_images_off(material: &mut Material) {
     if material.emissive_texture.take().is_some() {
         material.emissive = Vec3::ZERO;
     }
-    (material.base_color_texture, material.transmission_texture) = (None, None);
+    material.base_color_texture = None;
+    (material.transmission_texture, material.thickness_texture) = (None, None);
     (material.normal_map, material.occlusion) = (None, None);
 }
 

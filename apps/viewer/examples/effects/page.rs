@@ -74,6 +74,25 @@ or white would be darker than a tenth of middle grey. Lamps in between keep ever
 `--explain` tells the reading and the exposure, `--check` notes it, and `--json` has it as `light`. `--exposure=0` turns the meter off, as
 does any other exposure. `--light-intensity` makes a metered image brighter or darker. If most of a model is white or black anyway, a
 warning says how much of it, and what to do (`Scene::exposure_warning`).
+
+## What is behind glass
+
+A surface with transmission shows what is behind it, without any flag: for each sample of it that is shaded, a ray goes on to the next
+surface, and the search tree of these rays holds all triangles of the scene. A scene without such a surface in view has neither. The
+ray meets up to 8 surfaces, and 4 in drafts; `--bounces=N` sets another number and traces mirrors, too; `--bounces=0`
+draws glass as if it were opaque, and a warning says so.
+
+- Exact, up to the rounding of f32: refraction by interpolated normals, total reflection, volumes within volumes, absorption along the
+  way of the ray (Beer's law), masks and culled faces behind glass, and the background.
+- Without a volume (KHR_materials_volume with a thickness) a surface is thin, and bends nothing. A volume whose surface has open edges
+  stands for a plate with parallel faces, as thick as the material says: it absorbs, and bends nothing either. So does blended glass.
+- Schlick's approximation of Fresnel's law. What glass reflects comes from lamps, the environment or ambient light; with
+  `--bounces` also from other surfaces, at the first surface.
+- Surfaces behind glass show their diffuse colour in the light of the scene, without highlights and normal maps. Blended surfaces, lines
+  and points behind it are missing. Glass casts the shadow of an opaque surface.
+- Rough glass: each sample follows one of 16 microfacets, chosen by its place in a square of four by four samples. With 4×4 samples per
+  pixel all of them are averaged; with fewer, rough glass is grainy. Only the first surface scatters.
+- A transparent background counts as the default one, unless there is an environment.
 ";
 
 /// What stands below them.

@@ -11,7 +11,7 @@ use trigon_mesh::{Attributes, Deltas, Mesh, MorphTarget};
 use trigon_scene::{
     AlphaMode, AmbientOcclusion, Background, Effect, Environment, Exposure, Fog, Light, Lighting, Material,
     MetallicRoughness, Node, NodeId, NormalMap, Occlusion, Outline, RenderSettings, Scene, Shading, Shadows,
-    Sky, Style, Texture, TextureBinding, TextureFormat, ToneMapping, Transform, showcase,
+    SightRays, Sky, Style, Texture, TextureBinding, TextureFormat, ToneMapping, Transform, showcase,
 };
 
 /// A scene and how it is looked at.
@@ -61,6 +61,7 @@ pub(crate) fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
         Effect::Masks,
         Effect::Transparency,
         Effect::Poses,
+        Effect::Refraction,
     ];
     let of_settings = vec![
         asked(Effect::Environment, &|settings| {
@@ -74,8 +75,7 @@ pub(crate) fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
         asked(Effect::AmbientOcclusion, &|settings| {
             settings.effects.ambient_occlusion = Some(AmbientOcclusion { rays: 16, distance: 1.0 });
         }),
-        asked(Effect::Reflection, &|settings| settings.effects.bounces = 4),
-        asked(Effect::Refraction, &|settings| settings.effects.bounces = 4),
+        asked(Effect::Reflection, &|settings| settings.effects.sight = SightRays::all(4)),
         asked(Effect::Fog, &|settings| {
             settings.effects.fog = Some(Fog { color: Vec3::new(0.5, 0.53, 0.57), density: 0.12 });
         }),

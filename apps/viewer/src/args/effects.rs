@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use trigon_math::Vec3;
 use trigon_scene::{
     AmbientOcclusion, Background, EffectSettings, Environment, Exposure, Fog, MetalReflection, Reflection,
-    RenderSettings, ShadingModel, Shadows, Sky, ToneMapping,
+    RenderSettings, ShadingModel, Shadows, SightRays, Sky, ToneMapping,
 };
 
 use super::quality::Insisted;
@@ -72,10 +72,10 @@ pub(crate) struct EffectArgs {
     #[arg(long, value_name = "WHAT", default_value = "studio", help_heading = "Effects")]
     pub(crate) metal_reflection: MetalReflectionArg,
 
-    /// Maximum number of reflections at mirrors (metals without roughness) and passages through
-    /// glass
-    #[arg(long, value_name = "N", default_value = "0", value_parser = values::count::<0, 16>, allow_negative_numbers = true, help_heading = "Effects")]
-    pub(crate) bounces: u32,
+    /// Trace what mirrors (metals without roughness) reflect and what is behind glass, up to N surfaces deep; 0
+    /// draws glass as if it were opaque [default: behind glass alone, 8 or from --preset]
+    #[arg(long, value_name = "N", value_parser = values::count::<0, 16>, allow_negative_numbers = true, help_heading = "Effects")]
+    pub(crate) bounces: Option<u32>,
 
     /// Fog that leaves exp(-DENSITY × distance) of the colour; per metre
     #[arg(long, value_name = "DENSITY", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Effects")]
@@ -224,7 +224,7 @@ impl EffectArgs {
                 MetalReflectionArg::Studio => MetalReflection::Studio,
                 MetalReflectionArg::Ambient => MetalReflection::Ambient,
             },
-            bounces: self.bounces,
+            sight: self.bounces.map_or_else(SightRays::default, SightRays::all),
             fog: self.fog.map(|density| Fog { color: self.fog_color, density }),
             exposure: self.exposure.map_or(Exposure::Metered, Exposure::Stops),
             tone_mapping: if self.tone_mapping == Some(true) {

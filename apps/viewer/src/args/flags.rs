@@ -1,7 +1,8 @@
 //! From settings back to flags: the words that set what a window shows.
 
 use trigon_scene::{
-    Display, Exposure, MetalReflection, Reflection, RenderSettings, ShadingModel, Shadows, Style, ToneMapping,
+    Display, Exposure, MetalReflection, Reflection, RenderSettings, ShadingModel, Shadows, SightRays, Style,
+    ToneMapping,
 };
 
 /// The flags that [`of_settings`] and a window's camera and overlays decide. All that is typed of them is replaced.
@@ -99,7 +100,11 @@ pub(crate) fn of_settings(settings: &RenderSettings) -> Vec<String> {
         add(true, "ambient-occlusion-distance", &occlusion.distance);
     }
     add(effects.metal_reflection == MetalReflection::Ambient, "metal-reflection", &"ambient");
-    add(effects.bounces != 0, "bounces", &effects.bounces);
+    match effects.sight {
+        SightRays::Off => add(true, "bounces", &0),
+        SightRays::Glass { .. } => {}
+        SightRays::All { bounces } => add(true, "bounces", &bounces),
+    }
     if let Exposure::Stops(stops) = effects.exposure {
         add(true, "exposure", &stops);
     }

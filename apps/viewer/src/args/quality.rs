@@ -53,6 +53,8 @@ impl Insisted {
             shading: self.shading.unwrap_or(quality.shading),
             shadows: self.shadows.unwrap_or(quality.shadows),
             occlusion_rays: self.occlusion_rays.unwrap_or(quality.occlusion_rays),
+            // --bounces asks for mirrors, too, and a quality changes only glass without them.
+            glass_bounces: quality.glass_bounces,
         }
     }
 }

@@ -194,6 +194,10 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "N|NAME", value_parser = values::scene, help_heading = "Files")]
     pub(crate) scene: Option<SceneChoice>,
 
+    /// The variant of the materials to show from a file with several, by name [default: the file's own choice]
+    #[arg(long, value_name = "NAME", help_heading = "Files")]
+    pub(crate) variant: Option<String>,
+
     /// The axis of the model that points up; sky, grid and view follow it [default: +Z for STL, +Y for others]
     ///
     /// So do the environment and what metals mirror; coordinates and the

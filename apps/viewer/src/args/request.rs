@@ -55,6 +55,8 @@ pub(crate) struct Request {
     pub(crate) up: Option<UpAxis>,
     /// The scene of files with several.
     pub(crate) scene: Option<SceneChoice>,
+    /// The variant of the materials.
+    pub(crate) variant: Option<String>,
     /// The moment of an animation to show.
     pub(crate) moment: Option<Moment>,
     /// Image sequences.
@@ -251,6 +253,7 @@ impl Request {
             format: raw.force_reader,
             up: raw.up,
             scene: raw.scene.clone(),
+            variant: raw.variant.clone(),
             moment: moment(&raw),
             sequence: sequence(&raw.animation),
             environment: raw.effects.environment(),

@@ -3,6 +3,7 @@
 
 mod comparing;
 mod facts;
+mod glass;
 mod moments;
 mod outputs;
 mod up;

@@ -26,10 +26,6 @@ impl Stored for Material {
         self.ior.write(to);
     }
 
-    #[expect(
-        clippy::needless_update,
-        reason = "a new parameter of an extension is stored with the others, by name"
-    )]
     fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
         Ok(Self {
             name: Stored::read(from)?,

@@ -32,7 +32,9 @@ impl Value {
     /// What a material has; `None` where its shading model does not have the parameter.
     fn of(field: ParameterField, material: &mut Material) -> Option<Self> {
         match field {
-            ParameterField::Share(field) => field(material).map(|number| Self::Number(*number)),
+            ParameterField::Share(field) | ParameterField::Amount(field) => {
+                field(material).map(|number| Self::Number(*number))
+            }
             ParameterField::Color(field) => field(material).map(|color| Self::Color(*color)),
             ParameterField::Texture(place) => Some(Self::Texture(material.texture(place))),
         }
@@ -40,7 +42,7 @@ impl Value {
 
     fn set(self, field: ParameterField, material: &mut Material) -> Result<(), Damage> {
         match (field, self) {
-            (ParameterField::Share(field), Self::Number(number)) => {
+            (ParameterField::Share(field) | ParameterField::Amount(field), Self::Number(number)) => {
                 field(material).into_iter().for_each(|field| *field = number);
             }
             (ParameterField::Color(field), Self::Color(color)) => {

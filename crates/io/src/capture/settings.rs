@@ -4,8 +4,8 @@ use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Viewport};
 use trigon_math::{DQuat, DVec2, DVec3};
 use trigon_scene::{
     AmbientOcclusion, Background, Display, EffectSettings, Environment, Exposure, Fog, Lighting,
-    MetalReflection, Outline, Outputs, Reflection, RenderSettings, ShadingModel, Shadows, Sky, Style,
-    ToneMapping,
+    MetalReflection, Outline, Outputs, Reflection, RenderSettings, ShadingModel, Shadows, SightRays, Sky,
+    Style, ToneMapping,
 };
 
 use super::stored::{Stored, choice, record};
@@ -16,12 +16,33 @@ record!(EffectSettings {
     ambient_occlusion,
     environment,
     metal_reflection,
-    bounces,
+    sight,
     fog,
     exposure,
     tone_mapping,
     outline,
 });
+
+/// As a number of bounces, of which the largest bit says that glass alone has them.
+impl Stored for SightRays {
+    fn write(&self, to: &mut Writer<'_>) {
+        match *self {
+            Self::Off => 0,
+            Self::Glass { bounces } => bounces | GLASS_ALONE,
+            Self::All { bounces } => bounces & !GLASS_ALONE,
+        }
+        .write(to);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+        let number = u32::read(from)?;
+        let bounces = number & !GLASS_ALONE;
+        Ok(if number == bounces { Self::all(bounces) } else { Self::Glass { bounces } })
+    }
+}
+
+const GLASS_ALONE: u32 = 1 << 31;
+
 choice!(Shadows { 0 => Off, 1 => Maps { resolution }, 2 => Rays });
 record!(AmbientOcclusion { rays, distance });
 choice!(MetalReflection { 0 => Studio, 1 => Ambient });

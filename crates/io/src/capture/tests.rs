@@ -9,7 +9,7 @@ use trigon_mesh::primitives;
 use trigon_scene::math::{DVec3, Vec3};
 use trigon_scene::{
     AmbientOcclusion, Animation, Channel, Curve, EffectSettings, Interpolation, Light, Material, Node,
-    Outline, Property, Shadows, Skin, Texture, TextureFormat, render,
+    Outline, Property, Shadows, SightRays, Skin, Texture, TextureFormat, render,
 };
 
 use super::*;
@@ -31,7 +31,7 @@ fn capture() -> Capture {
     let effects = EffectSettings {
         shadows: Shadows::Maps { resolution: 16 },
         ambient_occlusion: Some(AmbientOcclusion { rays: 1, distance: 1.0 }),
-        bounces: 1,
+        sight: SightRays::all(1),
         outline: Some(Outline { nodes: vec![child], color: Vec3::X, width: 1 }),
         ..EffectSettings::default()
     };

@@ -8,8 +8,8 @@ use trigon_scene::{
     AlphaMode, AmbientOcclusion, Animation, Background, Channel, Curve, EffectSettings, Environment, Filter,
     Fog, Interpolation, Light, Lighting, Material, MetalReflection, MetallicRoughness, MipFilter, Node,
     NormalMap, Occlusion, Outline, ParameterField, Property, Reflection, RenderSettings, Sampler, Scene,
-    Shading, ShadingModel, Shadows, Skin, Sky, Style, Texture, TextureBinding, TextureFormat, ToneMapping,
-    Transform, Wrap, render, showcase,
+    Shading, ShadingModel, Shadows, SightRays, Skin, Sky, Style, Texture, TextureBinding, TextureFormat,
+    ToneMapping, Transform, Wrap, render, showcase,
 };
 
 fn settings() -> RenderSettings {
@@ -44,7 +44,9 @@ fn the_showcase_under_every_effect() {
     for effects in [
         none(),
         EffectSettings { shadows: Shadows::Maps { resolution: 64 }, ..none() },
-        EffectSettings { shadows: Shadows::Rays, bounces: 2, ..none() },
+        EffectSettings { shadows: Shadows::Rays, sight: SightRays::all(2), ..none() },
+        EffectSettings { sight: SightRays::Off, ..none() },
+        EffectSettings { sight: SightRays::Glass { bounces: 3 }, ..none() },
         EffectSettings { metal_reflection: MetalReflection::Ambient, ..none() },
         EffectSettings { ambient_occlusion: Some(AmbientOcclusion { rays: 2, distance: 1.0 }), ..none() },
         EffectSettings { environment: environment(Environment::from_sky(&Sky::default())), ..none() },
@@ -216,7 +218,7 @@ fn every_part_of_a_material() {
         };
         for row in Material::EXTENSION_PARAMETERS {
             match row.field {
-                ParameterField::Share(field) => {
+                ParameterField::Share(field) | ParameterField::Amount(field) => {
                     field(&mut material).into_iter().for_each(|share| *share = 0.5);
                 }
                 ParameterField::Color(field) => {
@@ -232,7 +234,7 @@ fn every_part_of_a_material() {
         scene.add_object("cube", dressed_cube(), material);
         scene.add(Node::from_light(Light::spot(3.0).with_range(9.0)).at(DVec3::Z * 2.0));
         scene.add(Node::from_light(Light::ambient(0.2).with_color(Vec3::new(1.0, 0.9, 0.8))));
-        let effects = EffectSettings { bounces: 2, ..EffectSettings::default() };
+        let effects = EffectSettings { sight: SightRays::all(2), ..EffectSettings::default() };
         check(&format!("{shading:?}"), &scene, &scene.overview(1.5), &with_effects(effects));
     }
 }

@@ -444,7 +444,9 @@ fn translucent_squares_are_laid_over_each_other() {
 fn set_all_parameters(material: &mut Material, colors: TextureBinding, data: TextureBinding) {
     for row in Material::EXTENSION_PARAMETERS {
         match row.field {
-            ParameterField::Share(field) => *field(material).expect("the model has it") = 0.25,
+            ParameterField::Share(field) | ParameterField::Amount(field) => {
+                *field(material).expect("the model has it") = 0.25;
+            }
             ParameterField::Color(field) => *field(material).expect("it has") = Vec3::new(0.5, 0.25, 0.75),
             ParameterField::Texture(place) => {
                 let is_color = place.format() == TextureFormat::Srgb;
@@ -470,7 +472,7 @@ fn parameters_of_extensions_are_written_and_read() {
     let mut read = read.materials.iter().next().map(|(_, read)| read.clone()).expect("one material");
     for row in Material::EXTENSION_PARAMETERS {
         match row.field {
-            ParameterField::Share(field) => {
+            ParameterField::Share(field) | ParameterField::Amount(field) => {
                 assert_eq!(field(&mut read), field(&mut material), "{}", row.name);
             }
             ParameterField::Color(field) => {

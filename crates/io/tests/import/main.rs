@@ -20,6 +20,7 @@ mod oracle;
 mod ply;
 mod saving;
 mod seen_cases;
+mod shading_models;
 mod source;
 mod statements;
 mod stl;

@@ -22,6 +22,8 @@ pub(crate) struct Casters {
 /// One mesh at one node.
 #[derive(Debug)]
 pub(crate) struct Caster {
+    /// The number of its node.
+    pub(crate) node: u32,
     pub(crate) geometry: Arc<Geometry>,
     pub(crate) shadow: ShadowSource,
     bounds: Bounds3,
@@ -35,9 +37,9 @@ pub(crate) struct ShadowSource {
     pub(crate) place: Place,
     /// For each run of the geometry its material, or `None` if light passes.
     pub(crate) materials: Vec<Option<Material>>,
-    /// The current content of the materials' colour and transmission textures: an image can be
-    /// replaced under its id, or removed.
-    textures: Vec<[Option<Arc<Texture>>; 2]>,
+    /// The current content of the materials' textures of colour, transmission and thickness: an
+    /// image can be replaced under its id, or removed.
+    textures: Vec<[Option<Arc<Texture>>; 3]>,
 }
 
 impl PartialEq for ShadowSource {
@@ -72,7 +74,8 @@ impl Casters {
             let textures = materials.iter().flatten().map(|material| textures(scene, material)).collect();
             let shadow =
                 ShadowSource { geometry: geometry.state.clone(), place: *place, materials, textures };
-            casters.list.push(Caster { geometry: Arc::clone(geometry), shadow, bounds });
+            let node = id.index() as u32;
+            casters.list.push(Caster { node, geometry: Arc::clone(geometry), shadow, bounds });
         }
         casters
     }
@@ -90,9 +93,10 @@ impl Casters {
 
 /// The textures of a material that shadows and sight rays look up, each in its own slot, so that
 /// none can be mistaken for another after one is removed.
-fn textures(scene: &Scene, material: &Material) -> [Option<Arc<Texture>>; 2] {
-    [material.base_color_texture, material.transmission_texture].map(|binding| {
-        let asset = scene.textures.get(binding?.texture)?;
+fn textures(scene: &Scene, material: &Material) -> [Option<Arc<Texture>>; 3] {
+    let Material { base_color_texture, transmission_texture, thickness_texture, .. } = material;
+    [base_color_texture, transmission_texture, thickness_texture].map(|binding| {
+        let asset = scene.textures.get(binding.as_ref()?.texture)?;
         Some(Arc::clone(&asset.texture))
     })
 }

@@ -4,13 +4,15 @@
 use trigon_math::{Mat3, Vec3};
 use trigon_raster::simd::{F32, Simd, prelude::*};
 
+use super::backdrop::SeenBackdrop;
 use super::fog::Mist;
 use super::metal_studio::{MetalStudio, StudioOnMetal};
-use super::rays::{AmbientRays, RayScene};
+use super::rays::{AmbientRays, Optics, RayScene};
 use super::shadow::ShadowMaps;
 use crate::environment::Surroundings;
 use crate::lanes::{V3, dot, splat};
 use crate::lighting::{Arriving, Lamp, Lights, LitPoints, Microfacets};
+use crate::material::Material;
 use crate::work::{Work, note};
 
 /// The lighting environment of all surfaces in a frame.
@@ -23,8 +25,12 @@ pub(crate) struct LightingEnvironment {
     /// Whether rays test the visibility of lamps.
     pub(crate) shadow_rays: bool,
     pub(crate) ambient_rays: Option<AmbientRays>,
-    /// The maximum number of reflections and refractions of sight rays; 0 for none.
+    /// The maximum number of surfaces that a sight ray meets; 0 for no such rays.
     pub(crate) bounces: u32,
+    /// Whether mirrors and the reflections in glass have sight rays, and not only what is behind glass.
+    pub(crate) traces_mirrors: bool,
+    /// What they see far behind glass, if it is not the environment.
+    pub(crate) backdrop: Option<SeenBackdrop>,
     pub(crate) surroundings: Option<Surroundings>,
     /// What metals mirror instead of ambient light.
     pub(crate) metal_studio: Option<MetalStudio>,
@@ -34,10 +40,20 @@ pub(crate) struct LightingEnvironment {
 }
 
 impl LightingEnvironment {
+    /// From which surfaces of a material sight rays start.
+    pub(crate) fn traced(&self, material: &Material) -> Option<Optics> {
+        let optics = Optics::of(material)?;
+        let has_rays = match optics {
+            Optics::Mirror => self.traces_mirrors,
+            Optics::Glass(_) => self.bounces > 0,
+        };
+        has_rays.then_some(optics)
+    }
+
     /// Whether light depends on a surface's position, and not only on its orientation.
     pub(crate) fn needs_position(&self) -> bool {
         let shadows = self.shadow_maps.is_some() || self.shadow_rays;
-        shadows || self.bounces > 0 || self.ambient_rays.is_some() || self.lights.need_position()
+        shadows || self.ambient_rays.is_some() || self.lights.need_position()
     }
 
     /// Whether all light is grey, so that a white surface is grey everywhere.

@@ -1,6 +1,7 @@
 //! All effects beyond directly lit surfaces, one folder or file for each effect. Effects that a
 //! scene does not need are neither prepared nor evaluated: [`plan`](crate::plan) decides.
 
+mod backdrop;
 mod casters;
 mod counts;
 mod fog;
@@ -13,6 +14,7 @@ mod sight;
 mod sum;
 mod tone;
 
+pub(crate) use backdrop::SeenBackdrop;
 pub(crate) use casters::{Caster, Casters, ShadowSource};
 pub(crate) use counts::Counts;
 pub use counts::EffectCounts;
@@ -20,8 +22,9 @@ pub(crate) use fog::Mist;
 pub(crate) use lighting_environment::LightingEnvironment;
 pub(crate) use metal_studio::MetalStudio;
 pub(crate) use outline::draw_outline;
-pub(crate) use rays::{AmbientRays, Optics, RayCache};
+pub(crate) use rays::{AmbientRays, Glass, Optics, RayCache, rows};
 pub(crate) use shadow::{LampPose, PlacedMap, ShadowMap, ShadowMaps, View, views};
+pub(crate) use sight::{SightStart, refracted};
 pub(crate) use tone::{lay_on_background, map_tones};
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 //!
 //! Eight rays are traced together. A ray ends at a surface that is neither mirror nor glass and takes its
 //! diffuse colour in the light of the scene, shadows included. At glass it follows the refraction;
-//! reflections there come from the environment alone.
+//! reflections there come from far away alone. Thin glass bends nothing; a volume absorbs light along the
+//! way of the ray through it.
 
 use std::sync::atomic::Ordering;
 
@@ -11,12 +12,68 @@ use trigon_math::{Ray, Vec3};
 use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
 
 use super::LightingEnvironment;
-use super::rays::{Optics, RayScene, SurfaceHit, rows};
+use super::rays::{Glass, Medium, Optics, RayScene, SurfaceHit, left_after, rows};
 use crate::lanes::{V3, moved, normalized, sum, turned};
 use crate::lighting::{Brdf, LitPoints};
 
-/// The maximum number of bounces of a ray.
-const MOST: u32 = 16;
+/// Where sight rays come from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum SightStart {
+    /// A mirror.
+    AtMirror,
+    /// A reflection in glass.
+    AtReflection,
+    /// The eye, through glass: into a volume, or behind what is thin.
+    Through(Option<Medium>),
+}
+
+/// What a ray shows that hits nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum FarLight {
+    /// What surfaces that are no metal reflect.
+    Ambient,
+    /// What metals reflect.
+    MetalStudio,
+    /// What the eye sees where nothing is drawn.
+    Backdrop,
+}
+
+/// The volumes that a ray is in, each within the one before it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Media {
+    nested: [Option<Medium>; 4],
+}
+
+impl Media {
+    fn innermost(&self) -> Option<&Medium> {
+        self.nested.iter().rev().flatten().next()
+    }
+
+    /// Enters another one. Those deeper than there is room for count as the last one.
+    fn enter(&mut self, medium: Medium) {
+        let free = self.nested.iter().position(Option::is_none);
+        self.nested[free.unwrap_or(self.nested.len() - 1)] = Some(medium);
+    }
+
+    /// Leaves the innermost one.
+    fn leave(&mut self) {
+        if let Some(last) = self.nested.iter_mut().rev().find(|medium| medium.is_some()) {
+            *last = None;
+        }
+    }
+
+    /// The index of refraction of the innermost one; 1 is that of air.
+    fn ior(&self) -> f32 {
+        self.innermost().map_or(1.0, |medium| medium.ior)
+    }
+}
+
+/// What sight rays meet, and its light.
+#[derive(Clone, Copy)]
+struct TracedScene<'a> {
+    lighting: &'a LightingEnvironment,
+    rays: &'a RayScene,
+}
 
 /// Eight sight rays in flight.
 struct Walk {
@@ -26,22 +83,21 @@ struct Walk {
     weights: [Vec3; LANES],
     light: [Vec3; LANES],
     alive: [bool; LANES],
-    /// Whether the last surface was a mirror, and not glass.
-    mirrored: [bool; LANES],
+    far: [FarLight; LANES],
+    media: [Media; LANES],
 }
 
 impl LightingEnvironment {
-    /// What is visible from eight points on surfaces of a kind in some directions; both in camera
-    /// space.
+    /// What is visible from eight points on surfaces in some directions; both in camera space.
     pub(crate) fn seen<S: Simd>(
         &self,
         simd: S,
         points: &LitPoints<S>,
-        optics: &Optics,
+        start: &SightStart,
         directions: V3<S>,
         active: u64,
     ) -> V3<S> {
-        let Some(rays) = &self.rays else {
+        let Some(rays) = self.rays.as_ref().filter(|_| active != 0) else {
             return simd.vectorize(
                 #[inline(always)]
                 || [F32::splat(simd, 0.0); 3],
@@ -51,28 +107,42 @@ impl LightingEnvironment {
             #[inline(always)]
             || normalized(directions),
         );
+        let scene = TracedScene { lighting: self, rays };
         let [x, y, z] = rays.turned_rows(simd, directions);
+        let mut media = Media::default();
+        let far = match start {
+            SightStart::AtMirror => FarLight::MetalStudio,
+            SightStart::AtReflection => FarLight::Ambient,
+            SightStart::Through(medium) => {
+                medium.iter().for_each(|&medium| media.enter(medium));
+                FarLight::Backdrop
+            }
+        };
         let mut walk = Walk {
             origins: rays.origins(simd, points),
             directions: lanes_of(|lane| Vec3::new(x[lane], y[lane], z[lane])),
             weights: [Vec3::ONE; LANES],
             light: [Vec3::ZERO; LANES],
             alive: lanes_of(|lane| active >> lane & 1 != 0),
-            mirrored: [*optics == Optics::Mirror; LANES],
+            far: [far; LANES],
+            media: [media; LANES],
         };
-        for _ in 0..self.bounces.min(MOST) {
-            let met = lanes_of(|lane| walk.alive[lane].then(|| rays.met(&walk.ray(lane))).flatten());
+        for _ in 0..self.bounces {
+            let met = lanes_of(|lane| walk.alive[lane].then(|| walk.met(lane, rays)).flatten());
             let cast = walk.alive.iter().filter(|&&alive| alive).count();
+            if cast == 0 {
+                break;
+            }
             rays.cast[2].fetch_add(cast as u64, Ordering::Relaxed);
             let lit = self.lit(simd, rays, &met, &walk);
             for lane in 0..LANES {
                 match &met[lane] {
-                    Some(met) => walk.go_on(lane, (self, rays), met, lit[lane]),
-                    None => walk.end(lane, self),
+                    Some(met) => walk.go_on(lane, scene, met, lit[lane]),
+                    None => walk.end(lane, scene),
                 }
             }
         }
-        (0..LANES).for_each(|lane| walk.end(lane, self));
+        (0..LANES).for_each(|lane| walk.end(lane, scene));
         [0, 1, 2].map(|channel| F32::simd_from(simd, walk.light.map(|light| light[channel])))
     }
 
@@ -84,7 +154,7 @@ impl LightingEnvironment {
         met: &[Option<SurfaceHit>; LANES],
         walk: &Walk,
     ) -> [Vec3; LANES] {
-        if met.iter().all(|met| met.is_none_or(|met| met.optics == Some(Optics::Mirror))) {
+        if met.iter().flatten().all(SurfaceHit::hides_its_color) {
             return [Vec3::ZERO; LANES];
         }
         simd.vectorize(
@@ -114,17 +184,22 @@ impl LightingEnvironment {
             },
         )
     }
+}
 
-    /// What is visible in a world direction where a ray hits nothing: from a mirror, or otherwise
-    /// from glass.
-    fn far(&self, direction: Vec3, from_mirror: bool) -> Vec3 {
-        let direction = self.world_to_sky * direction;
-        match (&self.surroundings, &self.metal_studio) {
-            (Some(surroundings), _) => {
-                surroundings.environment.radiance(direction, 0.0) * surroundings.intensity
+impl TracedScene<'_> {
+    /// What is visible in a direction where a ray hits nothing.
+    fn light_from_afar(&self, ray: &Ray, far: FarLight) -> Vec3 {
+        let Self { lighting, rays } = self;
+        let to_sky = lighting.world_to_sky * ray.direction;
+        match (&lighting.surroundings, &lighting.metal_studio, &lighting.backdrop) {
+            (_, _, Some(backdrop)) if far == FarLight::Backdrop => {
+                backdrop.light(&rays.from_scene, ray.origin, ray.direction)
             }
-            (None, Some(studio)) if from_mirror => studio.radiance(direction),
-            (None, _) => self.lights.ambient,
+            (Some(surroundings), ..) => {
+                surroundings.environment.radiance(to_sky, 0.0) * surroundings.intensity
+            }
+            (None, Some(studio), _) if far == FarLight::MetalStudio => studio.radiance(to_sky),
+            (None, ..) => lighting.lights.ambient,
         }
     }
 }
@@ -134,24 +209,27 @@ impl Walk {
         Ray { origin: self.origins[lane], direction: self.directions[lane] }
     }
 
+    /// The next surface. A ray that comes straight from the eye passes the same gaps as the eye.
+    fn met(&self, lane: usize, rays: &RayScene) -> Option<SurfaceHit> {
+        rays.met(&self.ray(lane), self.far[lane] == FarLight::Backdrop)
+    }
+
     /// A ray that hits nothing more.
-    fn end(&mut self, lane: usize, lighting: &LightingEnvironment) {
+    fn end(&mut self, lane: usize, scene: TracedScene<'_>) {
         if std::mem::take(&mut self.alive[lane]) {
-            self.light[lane] += self.weights[lane] * lighting.far(self.directions[lane], self.mirrored[lane]);
+            let light = scene.light_from_afar(&self.ray(lane), self.far[lane]);
+            self.light[lane] += self.weights[lane] * light;
         }
     }
 
     /// A ray that hit a surface, on which white matt surfaces show `lit`.
-    fn go_on(
-        &mut self,
-        lane: usize,
-        (lighting, rays): (&LightingEnvironment, &RayScene),
-        met: &SurfaceHit,
-        lit: Vec3,
-    ) {
+    fn go_on(&mut self, lane: usize, scene: TracedScene<'_>, met: &SurfaceHit, lit: Vec3) {
+        if let Some(medium) = self.media[lane].innermost() {
+            self.weights[lane] *= left_after(medium.absorption, met.distance);
+        }
         self.light[lane] += self.weights[lane] * met.emissive;
         let along = self.directions[lane];
-        match met.optics {
+        match &met.optics {
             None => {
                 self.light[lane] += self.weights[lane] * met.color * lit;
                 self.alive[lane] = false;
@@ -160,28 +238,76 @@ impl Walk {
                 let normal = if met.normal.dot(along) > 0.0 { -met.normal } else { met.normal };
                 let reflected = met.color + (Vec3::ONE - met.color) * fresnel(-normal.dot(along), 0.0);
                 self.weights[lane] *= reflected;
-                self.mirrored[lane] = true;
-                self.turn(lane, rays, (met.position, normal), mirrored(along, normal));
+                self.far[lane] = FarLight::MetalStudio;
+                self.turn(lane, scene.rays, (met.position, normal), mirrored(along, normal));
             }
-            Some(Optics::Glass { transmission, ior }) => {
-                self.light[lane] += self.weights[lane] * met.color * lit * (1.0 - transmission);
-                self.weights[lane] *= transmission;
-                self.mirrored[lane] = false;
-                let enters = met.normal.dot(along) < 0.0;
-                let normal = if enters { met.normal } else { -met.normal };
-                let ratio = if enters { 1.0 / ior } else { ior };
-                let Some(through) = refracted(along, normal, ratio) else {
-                    return self.turn(lane, rays, (met.position, normal), mirrored(along, normal));
-                };
-                let root = (ior - 1.0) / (ior + 1.0);
-                let cosine = if enters { -normal.dot(along) } else { -normal.dot(through) };
-                let away = fresnel(cosine, root * root);
-                self.light[lane] += self.weights[lane] * lighting.far(mirrored(along, normal), false) * away;
-                let tint = if enters { met.color } else { Vec3::ONE };
-                self.weights[lane] *= tint * (1.0 - away);
-                self.turn(lane, rays, (met.position, -normal), through);
+            Some(Optics::Glass(glass)) => {
+                self.light[lane] += self.weights[lane] * met.color * lit * (1.0 - glass.transmission);
+                self.weights[lane] *= glass.transmission;
+                if self.far[lane] == FarLight::MetalStudio {
+                    self.far[lane] = FarLight::Ambient;
+                }
+                match glass.medium() {
+                    _ if self.weights[lane] == Vec3::ZERO => self.alive[lane] = false,
+                    Some(medium) => self.bend(lane, scene, met, medium),
+                    None => self.pass(lane, scene, met, glass),
+                }
             }
         }
+    }
+
+    /// Straight on through thin glass, or a plate of it.
+    fn pass(&mut self, lane: usize, scene: TracedScene<'_>, met: &SurfaceHit, glass: &Glass) {
+        let along = self.directions[lane];
+        let [normal, side] = met.normals_against(along);
+        let cosine = -normal.dot(along);
+        let reflected = fresnel(cosine, f0(1.0, glass.ior));
+        self.reflect(lane, scene, mirrored(along, normal), reflected, FarLight::Ambient);
+        let left = glass.plate().map_or(Vec3::ONE, |plate| plate.left_behind_plate(glass.ior, cosine, 1.0));
+        self.weights[lane] *= met.color * left;
+        self.turn(lane, scene.rays, (met.position, -side), along);
+    }
+
+    /// Into a volume, or out of it, or back within it (total reflection).
+    fn bend(&mut self, lane: usize, scene: TracedScene<'_>, met: &SurfaceHit, medium: Medium) {
+        let along = self.directions[lane];
+        let enters = met.plane_normal.dot(along) < 0.0;
+        let [normal, side] = met.normals_against(along);
+        let mut behind = self.media[lane];
+        if enters {
+            behind.enter(medium);
+        } else {
+            behind.leave();
+        }
+        let before = if enters { self.media[lane].ior() } else { medium.ior };
+        let after = behind.ior();
+        let Some(through) = refracted(along, normal, before / after) else {
+            return self.turn(lane, scene.rays, (met.position, side), mirrored(along, normal));
+        };
+        // Schlick's approximation takes the angle in the thinner medium.
+        let cosine = if before <= after { -normal.dot(along) } else { -normal.dot(through) };
+        let reflected = fresnel(cosine, f0(before, after));
+        // Within the volume the light that is reflected sees the same as that which leaves it.
+        let far = if enters { FarLight::Ambient } else { self.far[lane] };
+        self.reflect(lane, scene, mirrored(along, normal), reflected, far);
+        let tint = if enters { met.color } else { Vec3::ONE };
+        self.weights[lane] *= tint;
+        self.media[lane] = behind;
+        self.turn(lane, scene.rays, (met.position, -side), through);
+    }
+
+    /// Adds what glass reflects, a fraction of the light, from far away.
+    fn reflect(
+        &mut self,
+        lane: usize,
+        scene: TracedScene<'_>,
+        direction: Vec3,
+        fraction: f32,
+        far: FarLight,
+    ) {
+        let ray = Ray { direction, ..self.ray(lane) };
+        self.light[lane] += self.weights[lane] * scene.light_from_afar(&ray, far) * fraction;
+        self.weights[lane] *= 1.0 - fraction;
     }
 
     /// Continues in another direction, on the side of a surface to which a unit vector points.
@@ -189,6 +315,12 @@ impl Walk {
         self.origins[lane] = rays.off(position, side);
         self.directions[lane] = direction;
     }
+}
+
+/// The reflectance between two media at normal incidence.
+fn f0(before: f32, after: f32) -> f32 {
+    let root = (before - after) / (before + after);
+    root * root
 }
 
 /// Schlick's approximation of Fresnel's law.

@@ -20,6 +20,8 @@ pub struct ExtensionParameter {
 pub enum ParameterField {
     /// A number from 0 to 1.
     Share(fn(&mut Material) -> Option<&mut f32>),
+    /// A number of at least 0; one that is infinite has no member.
+    Amount(fn(&mut Material) -> Option<&mut f32>),
     /// Linear RGB, at least 0.
     Color(fn(&mut Material) -> Option<&mut Vec3>),
     /// A texture.
@@ -33,6 +35,14 @@ impl ExtensionParameter {
         field: fn(&mut Material) -> Option<&mut f32>,
     ) -> Self {
         Self { extension, name, field: ParameterField::Share(field) }
+    }
+
+    pub(super) const fn amount(
+        extension: &'static str,
+        name: &'static str,
+        field: fn(&mut Material) -> Option<&mut f32>,
+    ) -> Self {
+        Self { extension, name, field: ParameterField::Amount(field) }
     }
 
     pub(super) const fn color(

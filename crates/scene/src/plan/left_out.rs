@@ -4,7 +4,7 @@ use trigon_math::Vec3;
 
 use crate::background::Background;
 use crate::effect::Effect;
-use crate::effect_settings::{Exposure, MetalReflection, Shadows, ToneMapping};
+use crate::effect_settings::{Exposure, MetalReflection, Shadows, SightRays, ToneMapping};
 use crate::material::{Material, MaterialTexture};
 use crate::scene::Scene;
 use crate::settings::{Reflection, RenderSettings, Style};
@@ -26,7 +26,13 @@ impl Effect {
             Self::MetalStudio => effects.metal_reflection = MetalReflection::Ambient,
             Self::ShadowMaps | Self::ShadowRays => effects.shadows = Shadows::Off,
             Self::AmbientOcclusion => effects.ambient_occlusion = None,
-            Self::Reflection | Self::Refraction => effects.bounces = 0,
+            Self::Reflection => {
+                effects.sight = match effects.sight {
+                    SightRays::All { bounces } => SightRays::Glass { bounces },
+                    other => other,
+                };
+            }
+            Self::Refraction => each_material(&mut scene, |material| material.transmission = 0.0),
             Self::Fog => effects.fog = None,
             Self::LightMeter => effects.exposure = Exposure::Stops(0.0),
             Self::ToneMapping => {

@@ -20,7 +20,7 @@ use crate::effects::Mist;
 use crate::lighting::{IdleLamps, Lights};
 use crate::prepare::PreparedScene;
 use crate::scene::Scene;
-use crate::settings::{RenderSettings, ShadingModel, Style};
+use crate::settings::{Reflection, RenderSettings, ShadingModel, Style};
 use survey::{Survey, has_ambient};
 
 /// The effects of a frame, and why.
@@ -96,11 +96,10 @@ fn decide(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> Deci
             asked(prepared.settings.effects.outline.as_ref().is_some_and(|outline| !outline.nodes.is_empty()))
         }
         Effect::Edges => asked(prepared.settings.style != Style::Surface),
-        Effect::Reflection | Effect::Refraction if prepared.settings.effects.bounces == 0 => {
-            Err(Absence::NotAsked)
-        }
+        Effect::Reflection if !prepared.settings.effects.sight.start_at_mirrors() => Err(Absence::NotAsked),
+        Effect::Refraction => refraction(prepared, survey),
         Effect::OcclusionMaps => occlusion_maps(prepared, survey),
-        Effect::NormalMaps | Effect::Reflection | Effect::Refraction => of_pixels(effect, prepared, survey),
+        Effect::NormalMaps | Effect::Reflection => of_pixels(effect, prepared, survey),
         Effect::Highlights
         | Effect::Textures
         | Effect::Emission
@@ -276,6 +275,21 @@ fn ambient_occlusion(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
 fn occlusion_maps(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     let cause = of_pixels(Effect::OcclusionMaps, prepared, survey)?;
     if has_ambient(prepared) { Ok(cause) } else { Err(Absence::NoAmbientLight) }
+}
+
+/// What is behind glass. Glass in view that is drawn as if it were opaque always has a reason that
+/// says so.
+fn refraction(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    let [glass, _] = survey.of(Effect::Refraction);
+    let RenderSettings { effects, shading, reflection, .. } = prepared.settings;
+    let lit_otherwise =
+        *shading != ShadingModel::Phong || matches!(reflection, Reflection::Lambert | Reflection::BlinnPhong);
+    of_objects(Effect::Refraction, prepared, survey)?;
+    match effects.sight.bounces() {
+        0 => Err(Absence::GlassNotAsked(glass.clone())),
+        _ if lit_otherwise => Err(Absence::GlassLitOtherwise(glass.clone())),
+        bounces => Ok(Cause::Glass { objects: glass.clone(), bounces }),
+    }
 }
 
 /// Effects of objects that require per-pixel lighting.

@@ -30,6 +30,13 @@ pub enum Cause {
     Objects(Named),
     /// Visible objects are metal, and nothing defines their surroundings.
     Metals(Named),
+    /// Visible objects transmit light.
+    Glass {
+        /// These objects.
+        objects: Named,
+        /// The maximum number of surfaces that a ray meets.
+        bounces: u32,
+    },
     /// The settings request it, and there are lamps and shadow casters.
     Shadows {
         /// The number of lights that shine.
@@ -89,6 +96,11 @@ pub enum Absence {
     NoColor,
     /// Faces show something else than their materials in light.
     Display,
+    /// The settings turn off the rays that show what is behind these visible objects.
+    GlassNotAsked(Named),
+    /// The settings light surfaces otherwise than per pixel by their own materials, which glass
+    /// needs.
+    GlassLitOtherwise(Named),
 }
 
 /// Why nobody could see an effect that objects have.
@@ -160,6 +172,13 @@ impl fmt::Display for Cause {
                     "{count} objects in view are metal, such as `{first}`, and the scene has no environment"
                 )
             }
+            Self::Glass { objects, bounces } => write!(
+                f,
+                "{}: for each sample in front of it a ray that meets up to {bounces} surfaces; what is behind \
+                 shows its matt colour, without highlights, and blended surfaces, lines and points are missing; rough glass \
+                 spreads the rays of neighbouring samples",
+                Self::Objects(objects.clone())
+            ),
             Self::Shadows { lamps, casters } => {
                 let plural = |count: usize| if count == 1 { "" } else { "s" };
                 let (lights, objects) = (plural(*lamps), plural(*casters));
@@ -222,6 +241,30 @@ impl fmt::Display for Absence {
             ),
             Self::NoColor => f.write_str("colour is not an output"),
             Self::Display => f.write_str("the display mode leaves it out"),
+            Self::GlassNotAsked(objects) => {
+                write!(f, "the settings turn it off: {}", Opaque(objects))
+            }
+            Self::GlassLitOtherwise(objects) => {
+                let what = "it needs lighting per pixel and the materials' own reflection";
+                write!(f, "{what}: {}", Opaque(objects))
+            }
+        }
+    }
+}
+
+/// Glass that is drawn as if it were opaque.
+struct Opaque<'a>(&'a Named);
+
+impl fmt::Display for Opaque<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Named { count: 1, first } => write!(f, "`{first}` is glass, and is drawn as if it were opaque"),
+            Named { count, first } => {
+                write!(
+                    f,
+                    "{count} objects are glass, such as `{first}`, and are drawn as if they were opaque"
+                )
+            }
         }
     }
 }

@@ -267,7 +267,9 @@ impl<'a> Look<'a> {
             DrawnIf::Always => true,
             DrawnIf::LightInPixels | DrawnIf::TangentsInPixels => in_pixels,
             DrawnIf::AmbientLightInPixels => in_pixels && has_ambient(prepared),
-            DrawnIf::Refracting => in_pixels && settings.effects.bounces > 0 && is_traced(material, true),
+            DrawnIf::Refracting => {
+                in_pixels && settings.effects.sight.bounces() > 0 && is_traced(material, true)
+            }
         };
         has_what_it_needs && place.matters(material)
     }
@@ -288,6 +290,6 @@ fn is_traced(material: &Material, through: bool) -> bool {
     match Optics::of(material) {
         None => false,
         Some(Optics::Mirror) => !through,
-        Some(Optics::Glass { .. }) => through,
+        Some(Optics::Glass(_)) => through,
     }
 }

@@ -6,12 +6,13 @@
 
 use trigon_math::{Bounds3, DVec3, Vec3, elementary};
 
-use super::PreparedScene;
+use super::{PreparedScene, prepared_scene::has_sight_rays};
 use crate::effects::LampPose;
 use crate::left_in::keeps_unseen;
 use crate::lighting::Lamp;
 use crate::material::Shading;
 use crate::node::Node;
+use crate::scene::Scene;
 use crate::shapes::Shape;
 
 /// By how much of itself a range is widened. The falloff is computed in f32.
@@ -46,27 +47,30 @@ impl PreparedScene<'_> {
         let limited = |(number, lamp)| Some((number, LampReach::new(self, lamp)?));
         let mut waiting: Vec<(usize, LampReach)> =
             self.lights.lamps.iter().enumerate().filter_map(limited).collect();
+        let is_met_by_rays = has_sight_rays(self.scene, self.settings.effects.sight);
         for (id, node) in self.scene.nodes().iter() {
             if waiting.is_empty() {
                 break;
             }
             let shape = self.shapes.get(id.index());
-            let Some(shape) = shape.filter(|shape| self.may_be_lit(node, shape)) else { continue };
+            let is_seen = |shape: &&Shape| is_met_by_rays || self.may_show(shape);
+            let Some(shape) = shape.filter(|shape| is_lit(self.scene, node, shape)).filter(is_seen) else {
+                continue;
+            };
             let bounds = shape.geometry.bounds().transformed(&shape.place.world);
             waiting.retain(|(_, reach)| !reach.may_light(&bounds));
         }
         waiting.into_iter().map(|(number, _)| number).collect()
     }
+}
 
-    /// Whether light on a shape can be seen: in view, or where sight rays hit it.
-    fn may_be_lit(&self, node: &Node, shape: &Shape) -> bool {
-        let is_lit = |slot: u32| {
-            let material = node.materials.get(slot as usize).and_then(|&id| self.scene.materials.get(id));
-            material.is_none_or(|material| material.shading != Shading::Unlit)
-        };
-        let is_met = self.settings.effects.bounces > 0 || self.may_show(shape);
-        is_met && shape.geometry.runs.iter().any(|run| is_lit(run.slot))
-    }
+/// Whether a shape shows light.
+fn is_lit(scene: &Scene, node: &Node, shape: &Shape) -> bool {
+    let is_lit = |slot: u32| {
+        let material = node.materials.get(slot as usize).and_then(|&id| scene.materials.get(id));
+        material.is_none_or(|material| material.shading != Shading::Unlit)
+    };
+    shape.geometry.runs.iter().any(|run| is_lit(run.slot))
 }
 
 /// Where the light of a lamp ends, in the world.

@@ -6,8 +6,8 @@ use trigon_camera::{Camera, UpAxis};
 use trigon_math::{DAffine3, DMat3, DVec3, Mat3};
 
 use super::backdrop::Backdrop;
-use crate::effect_settings::Shadows;
-use crate::effects::{LampPose, MetalStudio};
+use crate::effect_settings::{Shadows, SightRays};
+use crate::effects::{LampPose, MetalStudio, Optics};
 use crate::environment::Surroundings;
 use crate::light::{Light, LightKind};
 use crate::lighting::{Lamp, Lights, Source};
@@ -15,6 +15,16 @@ use crate::placement::Eye;
 use crate::scene::{Place, Scene};
 use crate::settings::RenderSettings;
 use crate::shapes::{Onlookers, Shape, Shapes};
+
+/// Whether sight rays may be needed, which also see what the camera does not.
+pub(super) fn has_sight_rays(scene: &Scene, sight: SightRays) -> bool {
+    let is_glass = |material| matches!(Optics::of(material), Some(Optics::Glass(_)));
+    match sight {
+        SightRays::Off => false,
+        SightRays::Glass { .. } => scene.materials.iter().any(|(_, material)| is_glass(material)),
+        SightRays::All { .. } => sight.bounces() > 0,
+    }
+}
 
 /// The scene as one frame sees it: the camera, the settings, the shapes and the lights.
 pub(crate) struct PreparedScene<'s> {
@@ -34,7 +44,7 @@ impl<'s> PreparedScene<'s> {
         let places = scene.visible_places();
         let eye = Eye::new(camera, settings.aspect());
         let effects = &settings.effects;
-        let rays = effects.ambient_occlusion.is_some() || effects.bounces > 0;
+        let rays = effects.ambient_occlusion.is_some() || has_sight_rays(scene, effects.sight);
         let all = rays || effects.shadows != Shadows::Off;
         let onlookers = if all { Onlookers::All } else { Onlookers::Camera(&eye) };
         let shapes = Shapes::new(scene, &places, onlookers);

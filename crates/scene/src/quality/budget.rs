@@ -56,8 +56,8 @@ impl TimeBudget {
     pub fn new(limit: Duration) -> Self {
         Self {
             limit,
-            candidates: candidates().to_vec(),
-            reference: Preset::Reference.quality(),
+            candidates: candidates().map(of_any_glass).to_vec(),
+            reference: of_any_glass(Preset::Reference.quality()),
             costs: CostModel::default(),
             errors: ErrorModel::default(),
             patience: Patience::default(),
@@ -172,6 +172,12 @@ impl TimeBudget {
         }
         all
     }
+}
+
+/// With as many surfaces for rays through glass as the settings say. Settings cannot tell whether a scene has
+/// glass, and without it two qualities that differ in nothing else are one.
+fn of_any_glass(quality: Quality) -> Quality {
+    Quality { glass_bounces: 0, ..quality }
 }
 
 /// The one with the smaller error; while an error is unknown the second, which comes later in the

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::effect_settings::Shadows;
+use crate::effect_settings::{Shadows, SightRays};
 use crate::settings::{RenderSettings, ShadingModel};
 
 /// The settings that trade accuracy for time.
@@ -18,6 +18,10 @@ pub struct Quality {
     pub shadows: Shadows,
     /// Rays per sample in frames with ambient occlusion, 1 to 256; 0 leaves them unchanged.
     pub occlusion_rays: u32,
+    /// The maximum number of surfaces that a ray through glass meets in frames that trace glass
+    /// alone, 1 to 16; 0 leaves it unchanged. (Its `Display` leaves it out: most scenes have no
+    /// glass.)
+    pub glass_bounces: u32,
 }
 
 impl Quality {
@@ -31,6 +35,10 @@ impl Quality {
             shading: *shading,
             shadows: effects.shadows,
             occlusion_rays: effects.ambient_occlusion.map_or(0, |occlusion| occlusion.rays),
+            glass_bounces: match effects.sight {
+                SightRays::Glass { bounces } => bounces,
+                SightRays::Off | SightRays::All { .. } => 0,
+            },
         }
     }
 
@@ -48,6 +56,11 @@ impl Quality {
             && self.occlusion_rays > 0
         {
             occlusion.rays = self.occlusion_rays;
+        }
+        if let SightRays::Glass { bounces } = &mut effects.sight
+            && self.glass_bounces > 0
+        {
+            *bounces = self.glass_bounces;
         }
     }
 
@@ -67,7 +80,7 @@ impl Quality {
     }
 
     /// More is finer.
-    fn fineness(&self) -> [u32; 5] {
+    fn fineness(&self) -> [u32; 6] {
         let shading = match self.shading {
             ShadingModel::Flat => 0,
             ShadingModel::Gouraud => 1,
@@ -78,7 +91,8 @@ impl Quality {
             Shadows::Maps { resolution } => resolution,
             Shadows::Rays => u32::MAX,
         };
-        [self.shaded_samples(), self.covered_samples(), shading, shadows, self.occlusion_rays]
+        let rays = [self.occlusion_rays, self.glass_bounces];
+        [self.shaded_samples(), self.covered_samples(), shading, shadows, rays[0], rays[1]]
     }
 
     /// Lighting evaluations per pixel.

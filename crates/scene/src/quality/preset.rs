@@ -33,13 +33,23 @@ impl Preset {
     /// faster.
     #[must_use]
     pub const fn quality(self) -> Quality {
-        let (samples_per_axis, samples, shadows, occlusion_rays) = match self {
-            Self::Draft => (1, 1, Shadows::Maps { resolution: 2048 }, 8),
-            Self::Standard => (2, 1, Shadows::Maps { resolution: 2048 }, 16),
-            Self::High => (4, 1, Shadows::Rays, 16),
-            Self::Reference => (4, 16, Shadows::Rays, 64),
-        };
-        Quality { samples_per_axis, samples, shading: ShadingModel::Phong, shadows, occlusion_rays }
+        let shading = ShadingModel::Phong;
+        let maps = Shadows::Maps { resolution: 2048 };
+        match self {
+            Self::Draft => Quality {
+                samples_per_axis: 1,
+                samples: 1,
+                shading,
+                shadows: maps,
+                occlusion_rays: 8,
+                glass_bounces: 4,
+            },
+            Self::Standard => {
+                Quality { samples_per_axis: 2, occlusion_rays: 16, glass_bounces: 8, ..Self::Draft.quality() }
+            }
+            Self::High => Quality { samples_per_axis: 4, shadows: Shadows::Rays, ..Self::Standard.quality() },
+            Self::Reference => Quality { samples: 16, occlusion_rays: 64, ..Self::High.quality() },
+        }
     }
 
     /// Applies its quality to settings, and leaves everything else in them unchanged.

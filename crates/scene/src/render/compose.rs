@@ -16,7 +16,7 @@ use super::vertex_list::{VertexList, VertexLists};
 use super::wire::{ColoredLines, HiddenLine, PointColors, Wire, WireMarks, WirePaint};
 use crate::display::Display;
 use crate::effect::Effect;
-use crate::effects::{Counts, LightingEnvironment};
+use crate::effects::{Counts, LightingEnvironment, Optics};
 use crate::geometry::{Geometry, Run};
 use crate::marks;
 use crate::material::{AlphaMode, Material, MaterialTexture, Shading};
@@ -267,7 +267,8 @@ impl<'s> Composer<'s> {
     where
         's: 'c,
     {
-        let shared = self.looks.of(object.key(run), || self.shaded(object, run));
+        let key = object.key(run).at(self.node_of_glass(object, run.slot));
+        let shared = self.looks.of(key, || self.shaded(object, run));
         let masked = matches!(shared.alpha_mode, AlphaMode::Mask { .. });
         shared.look.count(self.lighting, masked, counts);
         if shared.is_flat && !self.shows_edges() && !masked {
@@ -275,6 +276,12 @@ impl<'s> Composer<'s> {
         } else {
             self.placed::<false>(object, run, shared)
         }
+    }
+
+    /// The node of an object whose slot is glass: a node's scale makes that thicker.
+    fn node_of_glass(&self, object: &Object<'s>, slot: u32) -> Option<u32> {
+        let optics = self.lighting.traced(self.material(object, slot));
+        matches!(optics, Some(Optics::Glass(_))).then_some(object.index)
     }
 
     /// The look of the triangles of one slot.
@@ -285,7 +292,8 @@ impl<'s> Composer<'s> {
             Some(map) => object.geometry.with_tangents(object.asset.mesh(), map.binding.uv_set),
             None => object.geometry,
         };
-        let bound = BoundMaterial::new(material, &geometry.columns, &self.context());
+        let mut bound = BoundMaterial::new(material, &geometry.columns, &self.context());
+        bound.place_glass(self.lighting, object.index, run.slot);
         let geometry = match bound.illumination {
             Illumination::AtVertices => geometry.with_vertex_normals(object.asset.mesh()),
             _ => geometry,

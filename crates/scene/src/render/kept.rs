@@ -6,7 +6,7 @@ use trigon_raster::{Pass, Rasterizer, Stats, Target, TargetError};
 use crate::effect::Effect;
 use crate::effect_settings::Shadows;
 use crate::effects::{
-    AmbientRays, Casters, Counts, LampPose, LightingEnvironment, Mist, RayCache, draw_outline,
+    AmbientRays, Casters, Counts, LampPose, LightingEnvironment, Mist, RayCache, SeenBackdrop, draw_outline,
     lay_on_background, map_tones,
 };
 use crate::frame::{Frame, resize};
@@ -66,7 +66,11 @@ impl Kept {
             ..LightingEnvironment::default()
         };
         let sight = on(Effect::Reflection) || on(Effect::Refraction);
-        lighting.bounces = if sight { effects.bounces } else { 0 };
+        if sight {
+            lighting.bounces = effects.sight.bounces();
+            lighting.traces_mirrors = on(Effect::Reflection) || effects.sight.start_at_mirrors();
+            lighting.backdrop = SeenBackdrop::new(prepared.settings, prepared.eye.projection());
+        }
         let rays = sight || lighting.shadow_rays || lighting.ambient_rays.is_some();
         if !rays && !on(Effect::ShadowMaps) {
             return Ok(lighting);

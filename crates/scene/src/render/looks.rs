@@ -16,6 +16,8 @@ pub(super) struct LookKey {
     geometry: usize,
     first_triangle: usize,
     material: Option<MaterialId>,
+    /// The node, where the look depends on it.
+    node: Option<u32>,
 }
 
 /// A look, and what else all its draws have in common.
@@ -37,7 +39,12 @@ pub(super) struct Looks<'s>(RefCell<HashMap<LookKey, SharedLook<'s>>>);
 impl LookKey {
     pub(super) fn new(geometry: &Geometry, run: &Run, material: Option<MaterialId>) -> Self {
         let geometry = std::ptr::from_ref(geometry).addr();
-        Self { geometry, first_triangle: run.triangles.start, material }
+        Self { geometry, first_triangle: run.triangles.start, material, node: None }
+    }
+
+    /// That of a look which depends on its node, if one is given.
+    pub(super) fn at(self, node: Option<u32>) -> Self {
+        Self { node, ..self }
     }
 }
 

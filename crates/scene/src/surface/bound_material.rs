@@ -40,9 +40,10 @@ impl<'a> BoundMaterial<'a> {
     /// The material's alpha mode is the one that can be seen on the mesh.
     pub(crate) fn new(material: &Material, columns: &Columns, context: &MaterialContext<'a>) -> Self {
         let mut fitting = Fitting { context, columns, layout: Layout::default() };
-        let optics = Optics::of(material);
-        let may_trace = context.lighting.bounces > 0 && context.shading == ShadingModel::Phong;
-        let (shading, illumination) = shown(material, context, optics.is_some() && may_trace);
+        let is_physical = matches!(context.reflection.of(material), Shading::MetallicRoughness(_));
+        let may_trace = is_physical && context.shading == ShadingModel::Phong;
+        let optics = context.lighting.traced(material).filter(|_| may_trace);
+        let (shading, illumination) = shown(material, context, optics.is_some());
         let mut material = Material { shading, ..material.clone() };
         if illumination == Illumination::None && shading != Shading::Unlit {
             // Without any light.
@@ -50,7 +51,7 @@ impl<'a> BoundMaterial<'a> {
         }
         let in_pixels = illumination == Illumination::InPixels;
         let shows = |display| in_pixels || illumination == Illumination::Value(display);
-        let optics = optics.filter(|_| in_pixels && context.lighting.bounces > 0);
+        let optics = optics.filter(|_| in_pixels);
         let is_shown = |texture: MaterialTexture| {
             shown_as(texture).iter().any(|&display| illumination == Illumination::Value(display))
         };
@@ -59,7 +60,7 @@ impl<'a> BoundMaterial<'a> {
             DrawnIf::LightInPixels => in_pixels || is_shown(texture),
             DrawnIf::AmbientLightInPixels => in_pixels && context.lighting.has_ambient() || is_shown(texture),
             DrawnIf::TangentsInPixels => shows(Display::Normal) && columns.tangents.is_some(),
-            DrawnIf::Refracting => matches!(optics, Some(Optics::Glass { .. })),
+            DrawnIf::Refracting => matches!(optics, Some(Optics::Glass(_))),
         };
         let maps = Maps::new(|texture| {
             let binding = material.texture(texture).filter(|_| is_drawn(texture))?;
@@ -77,6 +78,16 @@ impl<'a> BoundMaterial<'a> {
         };
         fitting.add_values(&params, illumination);
         Self { params, layout: fitting.layout, illumination }
+    }
+
+    /// Tells glass what is beneath it, as the rays of the frame know it of a slot of a node. Blended
+    /// glass, which these do not meet, remains without.
+    pub(crate) fn place_glass(&mut self, lighting: &LightingEnvironment, node: u32, slot: u32) {
+        if let Some(Optics::Glass(glass)) = &mut self.params.optics
+            && let Some(placed) = lighting.rays.as_ref().and_then(|rays| rays.glass(node, slot))
+        {
+            *glass = placed;
+        }
     }
 
     /// Whether a triangle has a single colour.
@@ -133,7 +144,7 @@ impl<'a> Fitting<'_, 'a> {
             Illumination::InPixels => {
                 layout.normal = columns.face_normals.is_none().then(|| layout.add(3));
                 let towards_eye = highlights && context.rays == Rays::Meeting;
-                let needed = towards_eye || context.lighting.needs_position();
+                let needed = towards_eye || params.optics.is_some() || context.lighting.needs_position();
                 if needed && layout.position.is_none() {
                     layout.position = Some(layout.add(3));
                 }

@@ -135,8 +135,18 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             (Some(optics), Brdf::Microfacets(facets)) => {
                 let map = self.params.maps.get(MaterialTexture::Transmission);
                 let transmission = map.map(|map| map.look_up_apart(simd, values)[0]);
-                let surface =
-                    TracedSurface { facets, optics, open, albedo, diffuse_share: share, transmission };
+                let map = self.params.maps.get(MaterialTexture::Thickness);
+                let thickness = map.map(|map| map.look_up_apart(simd, values)[1]);
+                let surface = TracedSurface {
+                    facets,
+                    optics,
+                    open,
+                    albedo,
+                    diffuse_share: share,
+                    transmission,
+                    thickness,
+                    place: values.place(),
+                };
                 self.traced(simd, points, &surface, active)
             }
             (None, _) | (Some(_), Brdf::Lambert | Brdf::BlinnPhong { .. }) => {

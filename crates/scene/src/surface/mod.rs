@@ -12,6 +12,7 @@ mod light;
 mod material_params;
 mod points;
 mod reflection;
+mod scatter;
 mod tally;
 mod traced;
 mod value;

@@ -16,7 +16,7 @@ impl Look<'_> {
             Effect::Environment
         } else if lighting.has_ambient() {
             Effect::AmbientLight
-        } else if matches!(params.optics, Some(Optics::Glass { .. })) {
+        } else if matches!(params.optics, Some(Optics::Glass(_))) {
             Effect::Refraction
         } else {
             Effect::Reflection

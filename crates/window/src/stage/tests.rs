@@ -2,7 +2,7 @@
 
 use super::*;
 use trigon_mesh::primitives;
-use trigon_scene::{AmbientOcclusion, Material, Outputs, VertexPoints};
+use trigon_scene::{AmbientOcclusion, Material, Outputs, SightRays, VertexPoints};
 
 fn stage() -> Stage {
     let mut stage = Stage::new("test");
@@ -134,6 +134,15 @@ fn drafts_have_no_more_rays_than_the_draft_preset() {
     }
     stage.settings.effects.shadows = Shadows::Off;
     assert_eq!(stage.draft_settings(1.0).effects.shadows, Shadows::Off, "none stays none");
+    for bounces in [1, most.glass_bounces, most.glass_bounces + 3] {
+        stage.settings.effects.sight = SightRays::Glass { bounces };
+        let bounces = bounces.min(most.glass_bounces);
+        assert_eq!(
+            stage.draft_settings(1.0).effects.sight,
+            SightRays::Glass { bounces },
+            "glass stays glass"
+        );
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The settings that trade accuracy for time, with their choices.
 
-use trigon_scene::{AmbientOcclusion, Reflection, RenderSettings, ShadingModel, Shadows};
+use trigon_scene::{AmbientOcclusion, Reflection, RenderSettings, ShadingModel, Shadows, SightRays};
 
 /// One of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -86,8 +86,8 @@ impl Setting {
             Self::Occlusion => [0, 4, 8, 16, 32, 64, 128]
                 .map(|rays| with(rays_name(rays), &|settings| set_rays(settings, rays)))
                 .into(),
-            Self::Bounces => [0, 1, 2, 4, 8]
-                .map(|bounces| with(bounces_name(bounces), &|settings| settings.effects.bounces = bounces))
+            Self::Bounces => sight_choices(settings.effects.sight)
+                .map(|(name, sight)| with(name, &|settings| settings.effects.sight = sight))
                 .into(),
         }
     }
@@ -101,12 +101,21 @@ fn rays_name(rays: u32) -> String {
     if rays == 0 { "none".to_owned() } else { format!("{rays} rays per sample") }
 }
 
-fn bounces_name(bounces: u32) -> String {
-    match bounces {
-        0 => "not traced".to_owned(),
-        1 => "one bounce".to_owned(),
-        bounces => format!("{bounces} bounces"),
-    }
+/// Those for glass alone keep the number of bounces.
+fn sight_choices(current: SightRays) -> [(String, SightRays); 6] {
+    let glass = match current {
+        SightRays::Glass { .. } => current,
+        SightRays::Off | SightRays::All { .. } => SightRays::default(),
+    };
+    let bounces = |count: u32| (format!("both, {count} bounces"), SightRays::all(count));
+    [
+        ("neither".to_owned(), SightRays::Off),
+        ("glass alone".to_owned(), glass),
+        ("both, one bounce".to_owned(), SightRays::all(1)),
+        bounces(2),
+        bounces(4),
+        bounces(8),
+    ]
 }
 
 fn set_rays(settings: &mut RenderSettings, rays: u32) {

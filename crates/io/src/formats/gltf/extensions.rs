@@ -5,8 +5,8 @@ use std::path::Path;
 
 use gltf::json::Root;
 
-use super::material_extensions;
 use super::packed::DRACO;
+use super::{material_extensions, specular_glossiness, variants};
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::warning::Warnings;
 
@@ -20,6 +20,8 @@ const READ: &[&str] = &[
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_unlit",
+    specular_glossiness::NAME,
+    variants::NAME,
     "KHR_mesh_quantization",
     "KHR_meshopt_compression",
     "KHR_texture_transform",

@@ -24,12 +24,26 @@ use crate::uri::{Reference, parse_reference};
 /// The textures that images of the document became: one for colours, one for
 /// data, as they are used.
 pub(crate) struct Images {
-    ids: BTreeMap<(usize, bool), TextureId>,
+    ids: BTreeMap<ImageUse, TextureId>,
 }
 
-/// An image, and whether its bytes are data.
-fn key(image: usize, format: TextureFormat) -> (usize, bool) {
-    (image, format == TextureFormat::Linear)
+/// An image, and what it is read as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct ImageUse {
+    image: usize,
+    is_data: bool,
+    role: Role,
+}
+
+impl ImageUse {
+    fn of(root: &Root, from: &SlotTexture) -> Option<Self> {
+        let role = match from.glossiness {
+            Some(factor) => Role::Glossiness { factor: factor.to_bits() },
+            None => Role::Whole,
+        };
+        let is_data = from.place.format() == TextureFormat::Linear;
+        Some(Self { image: image_of(root, from.texture)?, is_data, role })
+    }
 }
 
 impl Images {
@@ -45,29 +59,32 @@ impl Images {
         let (mut requests, mut indices) = (Vec::new(), BTreeMap::new());
         // Many images may be one image: it is read, decoded and kept once.
         let mut known = HashMap::new();
-        for ((image, is_data), purpose) in wanted {
+        for (used, purpose) in wanted {
+            let ImageUse { image, is_data, role } = used;
             let from = &root.images[image];
-            let source = (&from.uri, from.buffer_view.map(|view| view.value()), is_data);
+            let source = (&from.uri, from.buffer_view.map(|view| view.value()), is_data, role);
             let index = *known.entry(source).or_insert_with(|| {
                 let bytes = read_image(import, root, buffers, image)?;
                 let (name, place) = (image_name(root, image), Place::Item("image", image));
-                let layers = vec![(Role::Whole, bytes)];
+                let layers = vec![(role, bytes)];
                 requests.push(Request { name, file: import.path.to_owned(), place, layers, purpose });
                 Some(requests.len() - 1)
             });
-            indices.extend(index.map(|index| ((image, is_data), index)));
+            indices.extend(index.map(|index| (used, index)));
         }
         let ids = add_textures(import, &requests)?;
         if let Some(source) = &mut import.source {
-            source.note_images(&requests, &ids, indices.iter().map(|(&(image, _), &index)| (image, index)));
+            // What is made of an image is not the image.
+            let whole = indices.iter().filter(|(used, _)| used.role == Role::Whole);
+            source.note_images(&requests, &ids, whole.map(|(used, &index)| (used.image, index)));
         }
         let ids = indices.into_iter().filter_map(|(key, index)| Some((key, ids[index]?))).collect();
         Ok(Self { ids })
     }
 
-    /// The texture of the scene for a texture of the document.
-    pub(crate) fn get(&self, root: &Root, texture: usize, format: TextureFormat) -> Option<TextureId> {
-        self.ids.get(&key(image_of(root, texture)?, format)).copied()
+    /// The texture of the scene for one of the document.
+    pub(crate) fn get(&self, root: &Root, from: &SlotTexture) -> Option<TextureId> {
+        self.ids.get(&ImageUse::of(root, from)?).copied()
     }
 }
 
@@ -76,16 +93,16 @@ fn wanted_images(
     import: &mut Import<'_>,
     root: &Root,
     textures: &[SlotTexture],
-) -> BTreeMap<(usize, bool), Purpose> {
+) -> BTreeMap<ImageUse, Purpose> {
     let mut wanted = BTreeMap::new();
     for from in textures {
-        let Some(image) = image_of(root, from.texture) else {
+        let Some(used) = ImageUse::of(root, from) else {
             let place = Place::Item("texture", from.texture);
             import.warnings.push(place, "it has no image and is not drawn", "export the model again");
             continue;
         };
         let purpose = purpose_of(from.place);
-        let known = wanted.entry(key(image, purpose.format())).or_insert(purpose);
+        let known = wanted.entry(used).or_insert(purpose);
         if purpose == Purpose::BaseColor {
             *known = purpose;
         }

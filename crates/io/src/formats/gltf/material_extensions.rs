@@ -63,6 +63,11 @@ pub(crate) fn read_factors(extensions: &Extensions, material: &mut Material) {
                         *field = share(*value, *field);
                     }
                 }
+                ParameterField::Amount(field) => {
+                    if let (Some(field), [value]) = (field(material), values.as_slice()) {
+                        *field = amount(*value, *field);
+                    }
+                }
                 ParameterField::Color(field) => {
                     if let (Some(field), &[r, g, b]) = (field(material), values.as_slice()) {
                         *field = [amount(r, field.x), amount(g, field.y), amount(b, field.z)].into();

@@ -18,7 +18,7 @@ use super::images::{Images, convert_sampler};
 use super::material_extensions;
 use super::native::{ExactShading, Extras, MaterialExtras};
 use super::ranges::{amount, share};
-use super::slots::{SlotTexture, purpose_of, slot_textures};
+use super::slots::{SlotTexture, slot_textures};
 use crate::error::LoadError;
 use crate::import::Import;
 
@@ -129,7 +129,7 @@ impl Converter<'_> {
         let from = slot_textures(&self.root.materials[self.index]);
         let from = from.iter().find(|texture| texture.place == place)?;
         Some(TextureBinding {
-            texture: self.images.get(self.root, from.texture, purpose_of(place).format())?,
+            texture: self.images.get(self.root, from)?,
             // Where the mesh lacks the set, the mesh reader filled it in.
             uv_set: from.uv_set as usize,
             transform: from.transform,

@@ -7,7 +7,8 @@
 //!    `contradictions` only warns.
 //! 3. `mesh` reads the meshes, with `accessor` and `buffers`; `compressed` and `packed` lead to the
 //!    decoders `meshopt` and `draco`. `native` reads the meshes of the editor's files.
-//! 4. `materials` reads the materials, with `slots` and `images`.
+//! 4. `materials` reads the materials, with `slots` and `images`; before, `variants` chose them and
+//!    `specular_glossiness` translated them.
 //! 5. `nodes` adds the nodes, with `instances`; then come `skins` and `animations`.
 //!
 //! [`gltf_source`](crate::gltf_source) keeps the file itself on request. Everything is checked before
@@ -46,14 +47,17 @@ mod reader;
 mod references;
 mod skins;
 mod slots;
+mod specular_glossiness;
 mod stream;
 mod triangle_hash;
+mod variants;
 mod write;
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use gltf::json::Root;
 use trigon_mesh::Mesh;
 
 use accessor::{Accessors, Doubts};
@@ -87,7 +91,8 @@ pub(crate) fn import_gltf(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), L
 }
 
 fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<Arc<[u8]>>) -> Result<(), LoadError> {
-    let document = document::parse_document(import.path, json)?;
+    let mut document = document::parse_document(import.path, json)?;
+    prepare_materials(import, &mut document.root)?;
     let root = &document.root;
     extensions::check_extensions(import.path, root, &document.extensions, &mut import.warnings)?;
     references::check_references(import.path, root)?;
@@ -98,6 +103,7 @@ fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<Arc<[u8]>>)
         "a number is too large for 32 bits of floating point and is taken as 0",
         "export the model again",
     );
+    variants::warn_of_variants(root, &mut import.warnings);
     contradictions::warn_of_contradictions(&document, &hierarchy, &mut import.warnings);
     import.scene_names = hierarchy::scene_names(root);
     let mut buffers = Buffers::new(root, binary);
@@ -117,6 +123,16 @@ fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<Arc<[u8]>>)
     animations::add_animations(import, &mut reader, &placed)?;
     keep::keep_file(import, json, &placed, &mut reader.buffers);
     Ok(())
+}
+
+/// Puts materials in the terms that all others use, and those of the chosen variant in place.
+fn prepare_materials(import: &mut Import<'_>, root: &mut Root) -> Result<(), LoadError> {
+    specular_glossiness::translate(root);
+    import.variant_names = variants::variant_names(root);
+    match &import.options.variant {
+        Some(wanted) => variants::choose_variant(import.path, root, wanted),
+        None => Ok(()),
+    }
 }
 
 /// The meshes that the nodes use, by their index in the document.
@@ -215,7 +231,7 @@ fn native_mesh(
 /// memory here, but the image needs every one.
 fn check_placed(
     import: &Import<'_>,
-    root: &gltf::json::Root,
+    root: &Root,
     hierarchy: &Hierarchy,
     meshes: &[Option<BuiltMesh>],
 ) -> Result<(), LoadError> {
@@ -245,7 +261,7 @@ fn check_placed(
 }
 
 /// Why there is nothing to draw: the first warning is usually the reason.
-fn nothing(import: &Import<'_>, root: &gltf::json::Root, used: usize) -> LoadError {
+fn nothing(import: &Import<'_>, root: &Root, used: usize) -> LoadError {
     let reason = match (root.meshes.len(), used, import.warnings.first()) {
         (0, ..) => "the file has no meshes".to_owned(),
         (count, 0, _) => format!("no node of its scene places one of its {count} meshes"),

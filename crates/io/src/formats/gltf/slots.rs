@@ -7,7 +7,7 @@ use trigon_math::glam::{Affine2, Mat2};
 use trigon_math::{Vec2, elementary};
 use trigon_scene::{MaterialTexture, TextureFormat};
 
-use super::material_extensions;
+use super::{material_extensions, specular_glossiness};
 use crate::texture_request::Purpose;
 
 /// What the images in a place of a material are for.
@@ -27,6 +27,8 @@ pub(crate) struct SlotTexture {
     pub(crate) texture: usize,
     pub(crate) uv_set: u32,
     pub(crate) transform: Affine2,
+    /// Of a texture of roughness that is made of glossiness: the factor of that.
+    pub(crate) glossiness: Option<f32>,
 }
 
 /// All textures of a material.
@@ -40,6 +42,11 @@ pub(crate) fn slot_textures(material: &Material) -> Vec<SlotTexture> {
     let mut list: Vec<SlotTexture> =
         own.into_iter().filter_map(|(place, info)| Some(from_info(place, info?))).collect();
     let extended = material.extensions.as_ref().map(material_extensions::textures).unwrap_or_default();
+    if let Some(roughness) =
+        list.iter_mut().find(|texture| texture.place == MaterialTexture::MetallicRoughness)
+    {
+        roughness.glossiness = specular_glossiness::glossiness(material);
+    }
     list.extend(extended.iter().map(|(place, info)| from_info(*place, info)));
     // Types of their own, in which gltf::json does not know the extension.
     macro_rules! loose {
@@ -68,7 +75,8 @@ fn in_place(
     transform: Option<&TextureTransform>,
 ) -> SlotTexture {
     let uv_set = transform.and_then(|transform| transform.tex_coord).unwrap_or(tex_coord);
-    SlotTexture { place, texture, uv_set, transform: transform.map_or(Affine2::IDENTITY, to_affine) }
+    let transform = transform.map_or(Affine2::IDENTITY, to_affine);
+    SlotTexture { place, texture, uv_set, transform, glossiness: None }
 }
 
 /// gltf::json knows the extension in some places only.

@@ -220,12 +220,17 @@ fn materials() -> Vec<Row> {
             Silent("the emissive factor is zero, so the strength changes nothing"),
             |doc| extended(doc, "KHR_materials_emissive_strength", json!({"emissiveStrength": 5})),
         ),
-        glb("KHR_MATERIALS_VOLUME_DOUBLE_SIDED", "a double-sided volume", Warned, |doc| {
-            uses(doc, &["KHR_materials_volume", "KHR_materials_transmission"]);
-            let extensions = json!({"KHR_materials_volume": {"thicknessFactor": 1},
+        glb(
+            "KHR_MATERIALS_VOLUME_DOUBLE_SIDED",
+            "a double-sided volume",
+            Silent("light meets both sides of the surface of a volume anyway"),
+            |doc| {
+                uses(doc, &["KHR_materials_volume", "KHR_materials_transmission"]);
+                let extensions = json!({"KHR_materials_volume": {"thicknessFactor": 1},
                 "KHR_materials_transmission": {"transmissionFactor": 1}});
-            material(doc, json!({"doubleSided": true, "extensions": extensions}));
-        }),
+                material(doc, json!({"doubleSided": true, "extensions": extensions}));
+            },
+        ),
         glb("KHR_MATERIALS_VOLUME_NO_TRANSMISSION", "a volume that no light enters", Warned, |doc| {
             extended(doc, "KHR_materials_volume", json!({"thicknessFactor": 1}));
         }),

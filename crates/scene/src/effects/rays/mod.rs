@@ -1,13 +1,16 @@
-//! Rays among the casters of a scene: exact shadows and ambient occlusion. Rays ignore alpha masks:
-//! the whole triangle stops them.
+//! Rays among the casters of a scene: exact shadows, ambient occlusion, mirrors and glass. All but those
+//! that come from the eye through glass alone ignore alpha masks: the whole triangle stops them.
 
 mod cache;
+mod enclosure;
 mod occlusion;
+mod optics;
 mod surface_hit;
 
 pub(crate) use cache::RayCache;
 pub(crate) use occlusion::AmbientRays;
-pub(crate) use surface_hit::{Optics, SurfaceHit};
+pub(crate) use optics::{Glass, Medium, Optics, left_after};
+pub(crate) use surface_hit::SurfaceHit;
 
 use crate::work::{Work, note};
 use std::sync::Arc;
@@ -85,11 +88,28 @@ impl RayScene {
         Self { triangles, to_scene, from_scene, cast: Default::default() }
     }
 
-    /// The first hit of a ray, if appearances are known.
-    pub(super) fn met(&self, ray: &Ray) -> Option<SurfaceHit> {
+    /// The first hit of a ray, if appearances are known. A ray with the eyes of the camera passes
+    /// what these see through.
+    pub(super) fn met(&self, ray: &Ray, passes_gaps: bool) -> Option<SurfaceHit> {
+        /// The maximum number of gaps in a row.
+        const MOST_GAPS: usize = 64;
         note(Work::SightRay);
-        let hit = self.triangles.bvh.nearest(ray, 0.0..f32::INFINITY)?;
-        Some(self.triangles.surfaces.as_ref()?.at(&hit, ray.at(hit.distance)))
+        let surfaces = self.triangles.surfaces.as_ref()?;
+        let mut start = 0.0_f32;
+        for _ in 0..MOST_GAPS {
+            let hit = self.triangles.bvh.nearest(ray, start..f32::INFINITY)?;
+            let found = surfaces.at(&hit, ray);
+            if !(found.is_gap && passes_gaps) {
+                return Some(found);
+            }
+            start = hit.distance.next_up();
+        }
+        None
+    }
+
+    /// The glass of a slot of a node, with what is beneath it.
+    pub(crate) fn glass(&self, node: u32, slot: u32) -> Option<Glass> {
+        self.triangles.surfaces.as_ref()?.glass(node, slot)
     }
 
     /// The number of rays cast to lamps, into the surroundings, and along the line of sight.
@@ -171,7 +191,7 @@ impl RayScene {
 }
 
 #[inline(always)]
-pub(super) fn rows<S: Simd>(vector: V3<S>) -> [[f32; LANES]; 3] {
+pub(crate) fn rows<S: Simd>(vector: V3<S>) -> [[f32; LANES]; 3] {
     vector.each(
         #[inline(always)]
         |axis| axis.into(),

@@ -81,7 +81,7 @@ fn normals_of_polygons_draw_what_normals_of_vertices_draw() {
         shadows: Shadows::Rays,
         ambient_occlusion: Some(AmbientOcclusion { rays: 2, distance: 0.5 }),
         fog: Some(Fog { color: Vec3::ONE, density: 0.1 }),
-        bounces: 2,
+        sight: SightRays::all(2),
         ..EffectSettings::default()
     };
     check("rays", &metal(1.0), false, &RenderSettings { effects, ..small });

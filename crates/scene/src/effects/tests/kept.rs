@@ -273,7 +273,7 @@ impl Changing {
         match *change {
             Change::Shadows(shadows) => settings.effects.shadows = shadows,
             Change::Rays(bounces, rays) => {
-                settings.effects.bounces = bounces;
+                settings.effects.sight = SightRays::all(bounces);
                 settings.effects.ambient_occlusion =
                     rays.map(|rays| AmbientOcclusion { rays, distance: 1.0 });
             }

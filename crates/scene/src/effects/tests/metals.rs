@@ -31,7 +31,7 @@ fn a_white_mirror_shows_the_studio() {
     let scene = ball(metal(1.0));
     for (camera, bounces) in [(from_front(), 0), (from_above(), 0), (from_above(), 2)] {
         let mut settings = in_the_studio(MetalReflection::Studio);
-        settings.effects.bounces = bounces;
+        settings.effects.sight = SightRays::all(bounces);
         let frame = render(&scene, &camera, &settings).expect("drawn");
         let (radiance, normals) = (frame.radiance.expect("asked for"), frame.normals.expect("asked for"));
         let view = -camera.forward().as_vec3();
@@ -124,7 +124,7 @@ fn nothing_but_metal_changes_by_the_studio() {
     {
         let [with, without] = [MetalReflection::Studio, MetalReflection::Ambient].map(|way| {
             let mut settings = RenderSettings { shading, ..in_the_studio(way) };
-            settings.effects.bounces = bounces;
+            settings.effects.sight = SightRays::all(bounces);
             render(&scene, &from_front(), &settings).expect("drawn")
         });
         let ids = with.object_ids.as_ref().expect("asked for");

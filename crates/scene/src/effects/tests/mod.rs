@@ -3,6 +3,7 @@
 mod ambient;
 mod backdrop;
 mod flat_meshes;
+mod glass;
 mod kept;
 mod metals;
 mod outline;
@@ -26,7 +27,7 @@ use super::*;
 use crate::{
     AlphaMode, AmbientOcclusion, Background, Decision, EffectPlan, EffectSettings, Environment, Exposure,
     Fog, Frame, Light, LightKind, Lighting, Material, MetalReflection, MetallicRoughness, Node, NormalMap,
-    Occlusion, Outline, RenderSettings, Renderer, Scene, Shading, ShadingModel, Shadows, Style,
+    Occlusion, Outline, RenderSettings, Renderer, Scene, Shading, ShadingModel, Shadows, SightRays, Style,
     TextureBinding, ToneMapping, Transform, render,
 };
 

@@ -67,7 +67,7 @@ fn with(effect: Effect) -> [(Scene, RenderSettings); 2] {
         Effect::Reflection | Effect::Refraction => {
             let metallic = if effect == Effect::Reflection { 1.0 } else { 0.0 };
             material = Material { transmission: 1.0 - metallic, ..metal(metallic) };
-            (effects.bounces, lights) = (2, vec![Light::ambient(1.0)]);
+            (effects.sight, lights) = (SightRays::all(2), vec![Light::ambient(1.0)]);
         }
         Effect::Fog => effects.fog = Some(Fog { color: Vec3::ONE, density: 0.1 }),
         Effect::ToneMapping => effects.exposure = Exposure::Stops(1.0),
@@ -293,7 +293,7 @@ fn any_scene() -> impl Strategy<Value = (Scene, RenderSettings)> {
                 ambient_occlusion: occlusion.then_some(AmbientOcclusion { rays: 2, distance: 1.0 }),
                 fog: fog.then_some(Fog { color: Vec3::ONE, density: 0.1 }),
                 outline: outline.then(|| Outline { nodes: vec![ball], color: Vec3::X, width: 2 }),
-                bounces,
+                sight: if bounces == 1 { SightRays::default() } else { SightRays::all(bounces) },
                 ..EffectSettings::default()
             };
             let settings = RenderSettings {

@@ -24,7 +24,7 @@ fn pane_and_wall(pane: Material, turn: DQuat, wall: (DVec3, DVec3)) -> Scene {
 }
 
 fn middle(scene: &Scene) -> Vec3 {
-    let effects = EffectSettings { bounces: 3, ..EffectSettings::default() };
+    let effects = EffectSettings { sight: SightRays::all(3), ..EffectSettings::default() };
     let frame = render(scene, &from_front(), &settings(effects)).expect("drawn");
     let [r, g, b, _] = frame.pixel(SIDE / 2, SIDE / 2);
     Vec3::from([r, g, b].map(color::srgb8_to_linear))
@@ -96,7 +96,7 @@ fn a_traced_mirror_shows_the_surroundings_as_bright_as_the_lights_are_set() {
     scene.add_object("ball", primitives::uv_sphere(1.5, 64, 32), metal(1.0));
     for light_intensity in [0.5, 1.0, 3.0] {
         let environment = Some(Arc::new(Environment::uniform(room)));
-        let effects = EffectSettings { bounces: 2, environment, ..EffectSettings::default() };
+        let effects = EffectSettings { sight: SightRays::all(2), environment, ..EffectSettings::default() };
         let settings = RenderSettings { light_intensity, ..settings(effects) };
         let frame = render(&scene, &from_front(), &settings).expect("drawn");
         let [r, g, b, _] = frame.pixel(SIDE / 2, SIDE / 2);

@@ -357,7 +357,7 @@ fn any_settings() -> impl Strategy<Value = RenderSettings> {
     let samples = prop::sample::select(vec![(1, 1), (1, 4), (2, 1), (1, 8)]);
     let style = prop::sample::select(vec![Style::Surface, Style::Surface, Style::SurfaceWithEdges]);
     let model = prop::sample::select(vec![ShadingModel::Flat, ShadingModel::Gouraud, ShadingModel::Phong]);
-    let effects = (0..3_usize, any::<[bool; 3]>(), 0..2_u32);
+    let effects = (0..3_usize, any::<[bool; 3]>(), 0..3_u32);
     let outputs = (any::<[bool; 4]>(), 0..3_usize);
     (samples, style, model, effects, outputs).prop_map(
         |(
@@ -373,7 +373,7 @@ fn any_settings() -> impl Strategy<Value = RenderSettings> {
                 shadows: [Shadows::Off, Shadows::Rays, Shadows::Maps { resolution: 32 }][shadows],
                 environment: environment.then(|| Arc::new(Environment::uniform(Vec3::ONE))),
                 exposure: Exposure::Stops(if tones { 0.5 } else { 0.0 }),
-                bounces,
+                sight: if bounces == 1 { SightRays::default() } else { SightRays::all(bounces) },
                 ..EffectSettings::default()
             };
             let outputs =

@@ -96,7 +96,7 @@ fn the_studio_in_metals_turns_with_the_up_axis() {
 /// most.
 #[test]
 fn what_rays_see_far_away_turns_with_the_up_axis() {
-    let effects = EffectSettings { bounces: 3, ..EffectSettings::default() };
+    let effects = EffectSettings { sight: SightRays::all(3), ..EffectSettings::default() };
     check("studio", &studio(effects.clone()), 1);
     check("environment", &settings(EffectSettings { environment: Some(room()), ..effects }), 1);
 }

@@ -39,6 +39,9 @@ pub(super) fn warn_of_materials(root: &Root, used: &BTreeSet<usize>, warnings: &
         if is_unlit_and_more(material) {
             warn("it is unlit, so its other extensions have no effect".to_owned());
         }
+        if is_closed_volume(material) {
+            warn("it is a volume without transmission, which no light enters".to_owned());
+        }
         for name in malformed_transforms(material) {
             warn(format!("the KHR_texture_transform of its {name} is malformed and ignored"));
         }
@@ -86,7 +89,7 @@ fn factors(material: &json::Material) -> Vec<Factor> {
     for row in Material::EXTENSION_PARAMETERS {
         let range = match row.field {
             ParameterField::Share(_) => SHARE,
-            ParameterField::Color(_) => AMOUNT,
+            ParameterField::Amount(_) | ParameterField::Color(_) => AMOUNT,
             ParameterField::Texture(_) => continue,
         };
         let members = material_extensions::members(extensions, row.extension);
@@ -109,6 +112,13 @@ fn is_unlit_and_more(material: &json::Material) -> bool {
                 .any(|name| material_extensions::members(extensions, name).is_some())
             || extensions.ior.is_some();
         extensions.unlit.is_some() && more
+    })
+}
+
+/// Whether it has a volume under a surface that lets no light through.
+fn is_closed_volume(material: &json::Material) -> bool {
+    material.extensions.as_ref().is_some_and(|extensions| {
+        extensions.others.contains_key("KHR_materials_volume") && extensions.transmission.is_none()
     })
 }
 

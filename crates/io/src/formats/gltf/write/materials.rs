@@ -9,9 +9,9 @@ use trigon_scene::{
 use super::draft::Draft;
 use super::raw::RawObject;
 use super::textures::Textures;
-use crate::formats::gltf::material_extensions;
 use crate::formats::gltf::native::{self, ExactShading, MaterialExtras};
 use crate::formats::gltf::ranges::{amount, share};
+use crate::formats::gltf::{material_extensions, specular_glossiness};
 
 /// The defaults of a material in a file.
 pub(super) fn plain() -> Material {
@@ -32,6 +32,7 @@ pub(super) fn write_material<'a>(
     was: &Material,
     now: &Material,
 ) {
+    let was = &without_specular_glossiness(object, was);
     let mut writer = Writer { draft, textures, object };
     if now.name != was.name {
         writer.object.set("name", &now.name);
@@ -40,6 +41,22 @@ pub(super) fn write_material<'a>(
     writer.surface(was, now);
     writer.extensions(was, now);
     writer.exact_shading(was, now);
+}
+
+/// Removes the extension of an older shading model, which would hide what is written beside it, and the
+/// metallic-roughness that it hid. Returns what the object then says of a material.
+fn without_specular_glossiness(object: &mut RawObject, was: &Material) -> Material {
+    let mut extensions = object.object("extensions");
+    if extensions.get(specular_glossiness::NAME).is_none() {
+        return was.clone();
+    }
+    for name in [specular_glossiness::NAME, "KHR_materials_ior", "KHR_materials_specular"] {
+        extensions.remove(name);
+    }
+    object.set_object("extensions", &extensions);
+    object.remove("pbrMetallicRoughness");
+    let Material { base_color, base_color_texture, shading, ior, .. } = plain();
+    Material { base_color, base_color_texture, shading, ior, ..was.clone() }
 }
 
 struct Writer<'w, 'd, 'a> {
@@ -154,6 +171,7 @@ impl Writer<'_, '_, '_> {
 
     fn parameter(&mut self, object: &mut RawObject, name: &str, was: &Value, now: &Value) {
         match (was, now) {
+            (_, Value::Number(number)) if !number.is_finite() => object.remove(name),
             (_, Value::Number(number)) => object.set(name, &number),
             (_, Value::Color(color)) => object.set(name, &color),
             (Value::Texture(old), Value::Texture(new)) => self.texture(object, name, old, new),
@@ -244,6 +262,9 @@ impl Value {
             ParameterField::Share(field) => {
                 field(material).map_or(Self::Missing, |value| Self::Number(share(*value, 1.0)))
             }
+            ParameterField::Amount(field) => field(material).map_or(Self::Missing, |value| {
+                Self::Number(if value.is_finite() { amount(*value, 0.0) } else { f32::INFINITY })
+            }),
             ParameterField::Color(field) => field(material).map_or(Self::Missing, |color| {
                 Self::Color(color.to_array().map(|channel| amount(channel, 1.0)))
             }),
