@@ -53,6 +53,28 @@ pub(crate) fn slot_textures_of(root: &Root, material: Option<usize>) -> Vec<Slot
     material.map_or_else(Vec::new, |material| slot_textures(&root.materials[material]))
 }
 
+/// The base colour of a material and what it emits, which is all that lines and points show of it.
+pub(crate) fn unlit_colors(root: &Root, material: Option<usize>) -> (Vec4, Vec3) {
+    let Some(from) = material.map(|material| &root.materials[material]) else {
+        return (Vec4::ONE, Vec3::ZERO);
+    };
+    let none = Extensions::default();
+    let extensions = from.extensions.as_ref().unwrap_or(&none);
+    let is_unlit = extensions.unlit.is_some();
+    let emissive = if is_unlit { Vec3::ZERO } else { emissive(from.emissive_factor.0, extensions) };
+    (base_color(from), emissive)
+}
+
+/// Whether nothing is seen through a material.
+pub(crate) fn is_opaque(root: &Root, material: Option<usize>) -> bool {
+    let mode = material.and_then(|material| valid(&root.materials[material].alpha_mode));
+    !matches!(mode, Some(JsonAlphaMode::Mask | JsonAlphaMode::Blend))
+}
+
+fn base_color(from: &gltf::json::Material) -> Vec4 {
+    Vec4::from(from.pbr_metallic_roughness.base_color_factor.0.map(|channel| share(channel, 1.0)))
+}
+
 /// A white, rough metal, seen from one side: what the specification gives a
 /// primitive without a material.
 fn default_material() -> Material {
@@ -78,7 +100,7 @@ impl Converter<'_> {
         let strength = from.occlusion_texture.as_ref().map_or(1.0, |occlusion| occlusion.strength.0);
         let material = Material {
             name: from.name.clone().unwrap_or_else(|| format!("material {}", self.index)),
-            base_color: Vec4::from(from.pbr_metallic_roughness.base_color_factor.0.map(|v| share(v, 1.0))),
+            base_color: base_color(from),
             base_color_texture: self.bind(MaterialTexture::BaseColor),
             alpha_mode: match valid(&from.alpha_mode) {
                 Some(JsonAlphaMode::Mask) => {

@@ -130,6 +130,13 @@ impl Cutter<'_> {
     ) -> Result<Part, LoadError> {
         let faces = spans.iter().map(|span| span.elements.1 - span.elements.0).sum();
         let mut draft = Draft::with_capacity(faces);
+        // Lines and points are drawn in the material of the first slot.
+        let has_wires = |span: &&Span| {
+            self.content.arities[span.elements.0..span.elements.1].iter().any(|&arity| arity < 3)
+        };
+        if let Some(span) = spans.iter().find(has_wires) {
+            draft.slot(span.material);
+        }
         for span in spans {
             self.span(span, &mut draft, local, passed)?;
         }

@@ -13,7 +13,7 @@ pub(super) struct Passed {
     pub(super) elements: usize,
     pub(super) non_finite: usize,
     pub(super) flat: usize,
-    /// Edges and points in another material than the first of their part.
+    /// Edges and points in another material than the first edge or point of their part.
     plain: usize,
     /// The material of the first of those.
     plain_material: Option<u32>,
@@ -22,7 +22,7 @@ pub(super) struct Passed {
 }
 
 impl Passed {
-    /// Notes an edge or a point: it is drawn in the first material of its part.
+    /// Notes an edge or a point: it is drawn in the material of the first of its part.
     pub(super) fn note_wire(&mut self, slot: u32, material: Option<u32>) {
         if slot != 0 {
             self.plain += 1;
@@ -56,7 +56,7 @@ impl Passed {
         warn(
             self.plain,
             self.plain_material.map(|material| parsed.record.material_lines[material as usize]),
-            "a line or a point has another material than what its group starts with, whose colour it gets",
+            "a line or a point has another material than the first of its group, whose colour it gets",
             "start a group for each material, with g",
         );
         warn(

@@ -55,7 +55,8 @@ impl Draft {
             builder: MeshBuilder::with_capacity(vertices, faces, 3 * faces),
             welded: VertexTable::with_capacity(vertices),
             movements: Movements::new(parts, target_names),
-            vertex_colors: any(|part| part.wire_colors().is_some()).then(|| Vec::with_capacity(vertices)),
+            vertex_colors: any(|part| part.wire_colors().is_some() || part.tint.is_some())
+                .then(|| Vec::with_capacity(vertices)),
             attributes,
             face_materials: Vec::new(),
             materials: Vec::new(),
@@ -67,10 +68,7 @@ impl Draft {
     }
 
     pub(super) fn add(&mut self, mut part: Part) {
-        let slot = *self.slots.entry(part.material).or_insert_with(|| {
-            self.materials.push(part.material);
-            self.materials.len() as u32 - 1
-        });
+        let slot = if part.tint.is_some() { 0 } else { self.slot(part.material) };
         let first_corner = self.builder.corner_count();
         let has_slots = self.materials.len() > 1;
         if has_slots {
@@ -86,6 +84,14 @@ impl Draft {
         self.add_corners(&part);
         self.corners.push(first_corner..self.builder.corner_count());
         self.add_loose(&part.elements, &vertices);
+    }
+
+    /// The slot of a material, a new one for a new material.
+    pub(super) fn slot(&mut self, material: Option<usize>) -> u32 {
+        *self.slots.entry(material).or_insert_with(|| {
+            self.materials.push(material);
+            self.materials.len() as u32 - 1
+        })
     }
 
     /// Adds the triangles of a part, and removes from it those that are none. `vertices` are those at its vertices.
@@ -279,7 +285,8 @@ impl VertexKey for ColoredKey {
 /// The colour that lines or points of a part show at a vertex: white without one, and of faces, which have theirs at
 /// corners.
 fn wire_color(part: &Part, vertex: usize) -> Vec4 {
-    part.wire_colors().map_or(Vec4::ONE, |colors| sound_color(colors[vertex].into()))
+    let color = part.wire_colors().map_or(Vec4::ONE, |colors| sound_color(colors[vertex].into()));
+    part.tint.map_or(color, |tint| tint.shown(color))
 }
 
 /// Stands for a vertex that has no place.

@@ -15,6 +15,7 @@ mod optional;
 mod part;
 mod soundness;
 mod tangents;
+mod wires;
 
 use std::ops::Range;
 
@@ -28,6 +29,8 @@ use crate::warning::Warnings;
 pub(super) use built::{BuiltMesh, Needs};
 use draft::Draft;
 use part::{Part, read_primitive};
+pub(super) use wires::WireMaterials;
+use wires::WireTint;
 
 /// Reads a mesh. `needs` returns what a material needs of it.
 pub(crate) fn build_mesh(
@@ -46,7 +49,14 @@ pub(crate) fn build_mesh(
         }
     }
     let lacking: Vec<Option<u32>> = parts.iter().map(Part::lacks_tangents_of).collect();
+    let wires = WireMaterials::of(parts.iter().filter(|part| part.is_wire).map(|part| part.material));
+    if wires == WireMaterials::Several {
+        tint_wires(accessors.root, &mut parts, index, warnings);
+    }
     let mut draft = Draft::new(&parts, target_names);
+    if let Some(material) = wires.first_slot() {
+        draft.slot(material);
+    }
     for part in parts {
         draft.add(part);
     }
@@ -70,6 +80,20 @@ pub(crate) fn build_mesh(
         |(primitive, corners): (usize, &Range<usize>)| PrimitiveFaces { primitive, end: corners.end / 3 };
     built.primitives = numbers.into_iter().zip(&corners).map(faces).collect();
     Ok(built)
+}
+
+/// Lets lines and points of several materials show these in the colours of their vertices.
+fn tint_wires(root: &Root, parts: &mut [Part], mesh: usize, warnings: &mut Warnings) {
+    for part in parts.iter_mut().filter(|part| part.is_wire) {
+        part.tint = Some(WireTint::of(root, part.material));
+    }
+    let seen_through = parts.iter().filter_map(|part| part.tint).filter(|tint| !tint.is_opaque).count();
+    warnings.push_counted(
+        seen_through,
+        Place::Item("mesh", mesh),
+        "lines or points beside those of other materials are masked or translucent, and are drawn opaque",
+        "give them a mesh of their own",
+    );
 }
 
 /// The weights of a mesh's morph targets, for nodes without their own.

@@ -7,6 +7,7 @@ use super::built::Needs;
 use super::movement::{PartSkin, PartTarget, read_skin, read_targets};
 use super::optional::{Optional, find};
 use super::soundness;
+use super::wires::WireTint;
 use crate::error::{LoadErrorKind, Place};
 use crate::formats::gltf::accessor::{Accessors, valid};
 use crate::formats::gltf::buffers::{Unplaced, Unread};
@@ -27,6 +28,10 @@ pub(super) struct Part {
     pub(super) elements: Elements,
     pub(super) material: Option<usize>,
     pub(super) needs: Needs,
+    /// Whether it is lines or points.
+    pub(super) is_wire: bool,
+    /// What its material makes of the colours of lines and points, if they cannot have its slot.
+    pub(super) tint: Option<WireTint>,
     /// Strips repeat vertices on purpose, to jump.
     pub(super) is_strip: bool,
 }
@@ -34,8 +39,7 @@ pub(super) struct Part {
 impl Part {
     /// The colours of vertices of lines and points.
     pub(super) fn wire_colors(&self) -> Option<&[[f32; 4]]> {
-        let Elements { edges, points, .. } = &self.elements;
-        self.colors.as_deref().filter(|_| !edges.is_empty() || !points.is_empty())
+        self.colors.as_deref().filter(|_| self.is_wire)
     }
 
     /// Whether it has triangles whose vertices have colours.
@@ -100,6 +104,8 @@ pub(super) fn read_primitive(
         elements,
         material,
         needs,
+        is_wire: matches!(mode, Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip),
+        tint: None,
         is_strip: matches!(mode, Mode::TriangleStrip) && accessors.unpacked.is_none(),
     }))
 }

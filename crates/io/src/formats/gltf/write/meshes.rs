@@ -16,6 +16,7 @@ use super::geometry::{Part, write_geometry};
 use super::kept_file::KeptFile;
 use super::raw::{RawObject, raw};
 use crate::error::Place;
+use crate::formats::gltf::mesh::WireMaterials;
 use crate::formats::gltf::native::{self, Header, columns_of_mesh};
 use crate::formats::gltf::packed::DRACO;
 use crate::formats::gltf::triangle_hash::TriangleHash;
@@ -191,20 +192,35 @@ fn native_header(mesh: &RawObject) -> Option<Header> {
 /// The last kind of primitive: triangle fans.
 const LAST_MODE: usize = 6;
 
-/// The slots of primitives as assigned by the reader: a new one for each material, `None` for
-/// primitives that are not read.
+/// The greatest `mode` of lines and points.
+const LAST_WIRE_MODE: usize = 3;
+
+/// The slots of primitives as assigned by the reader: a new one for each material, that of lines and points first.
+/// `None` for primitives that are not read, and for lines and points of several materials, which have no slot.
 fn slots_of(primitives: &[Box<RawValue>]) -> Vec<Option<u32>> {
-    let mut known: BTreeMap<Option<usize>, u32> = BTreeMap::new();
-    let mut slot = |text: &RawValue| {
-        let primitive = RawObject::parse(text.get());
-        primitive.object("attributes").get("POSITION")?;
-        if primitive.index("mode").is_some_and(|mode| mode > LAST_MODE) {
+    // The material of those that are read, and whether they are lines or points.
+    let read: Vec<Option<(Option<usize>, bool)>> = primitives
+        .iter()
+        .map(|text| {
+            let primitive = RawObject::parse(text.get());
+            primitive.object("attributes").get("POSITION")?;
+            let mode = primitive.index("mode");
+            let is_wire = mode.is_some_and(|mode| mode <= LAST_WIRE_MODE);
+            mode.is_none_or(|mode| mode <= LAST_MODE).then_some((primitive.index("material"), is_wire))
+        })
+        .collect();
+    let of_wires = read.iter().flatten().filter(|(_, is_wire)| *is_wire);
+    let wires = WireMaterials::of(of_wires.map(|(material, _)| *material));
+    let mut known: BTreeMap<Option<usize>, u32> =
+        wires.first_slot().map(|first| (first, 0)).into_iter().collect();
+    let mut slot = |(material, is_wire): (Option<usize>, bool)| {
+        if is_wire && wires == WireMaterials::Several {
             return None;
         }
         let next = known.len() as u32;
-        Some(*known.entry(primitive.index("material")).or_insert(next))
+        Some(*known.entry(material).or_insert(next))
     };
-    primitives.iter().map(|text| slot(text)).collect()
+    read.into_iter().map(|primitive| slot(primitive?)).collect()
 }
 
 /// The names of morph targets, if the file has others.
