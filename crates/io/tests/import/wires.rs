@@ -123,3 +123,71 @@ fn colours_without_lines_and_points_are_those_of_faces_alone() {
     let attributes = meshes(&read)[0].attributes();
     assert!(attributes.vertex_colors.is_none() && attributes.corner_colors.is_some(), "of corners");
 }
+
+/// Faces in blue, and lines or points of the materials of `wires` beside them.
+fn beside_faces(wires: &[(u32, usize)]) -> Doc {
+    let mut doc = Doc::square();
+    let materials = [[0., 0., 1., 1.], [1., 0., 0., 1.], [0., 0.5, 0., 1.]];
+    let material = |color| json!({"pbrMetallicRoughness": {"baseColorFactor": color}});
+    doc.json["materials"] = materials.map(material).into();
+    doc.json["materials"][2]["emissiveFactor"] = json!([0.25, 0., 0.]);
+    doc.primitive()["material"] = json!(0);
+    for (row, &(mode, material)) in (0..).zip(wires) {
+        let place = row as f32 + 5.0;
+        let position = doc.floats("VEC3", &[place, 0., 0., place, 1., 0.]);
+        let list = doc.json["meshes"][0]["primitives"].as_array_mut().expect("a list");
+        list.push(json!({"mode": mode, "material": material, "attributes": {"POSITION": position}}));
+    }
+    doc
+}
+
+/// The base colours of the only object's slots.
+fn slot_colors(loaded: &Loaded) -> Vec<Vec4> {
+    let (_, node) = loaded.scene.nodes().iter().find(|(_, node)| node.mesh.is_some()).expect("an object");
+    node.materials
+        .iter()
+        .map(|&id| loaded.scene.materials.get(id).expect("its material").base_color)
+        .collect()
+}
+
+/// A drawing of a part as programs for construction export it: black edges came in the colour of the faces.
+#[test]
+fn lines_and_points_beside_faces_have_their_own_material() {
+    let loaded = beside_faces(&[(1, 1), (0, 1)]).load();
+    let [mesh] = meshes(&loaded)[..] else { panic!("one mesh") };
+    assert_eq!(
+        slot_colors(&loaded),
+        [Vec4::new(1., 0., 0., 1.), Vec4::new(0., 0., 1., 1.)],
+        "lines come first"
+    );
+    assert!(
+        mesh.attributes().face_materials.as_deref().is_some_and(|slots| slots.iter().all(|&slot| slot == 1))
+    );
+    assert_eq!(mesh.attributes().vertex_colors, None, "none are needed");
+    assert_eq!(warnings(&loaded), [""; 0], "nothing to warn of");
+}
+
+#[test]
+fn lines_and_points_of_several_materials_have_the_colours_of_these() {
+    let loaded = beside_faces(&[(1, 1), (0, 2), (3, 0)]).load();
+    let [mesh] = meshes(&loaded)[..] else { panic!("one mesh") };
+    assert_eq!(slot_colors(&loaded), [Vec4::ONE, Vec4::new(0., 0., 1., 1.)], "white, and that of the faces");
+    let colors = mesh.attributes().vertex_colors.as_deref().expect("vertices have colours");
+    let found = |vertex: u32| colors[vertex as usize];
+    // Base colour plus emission.
+    let [red, green, blue] = [[1., 0., 0., 1.], [0.25, 0.5, 0., 1.], [0., 0., 1., 1.]].map(Vec4::from_array);
+    assert_eq!(
+        mesh.loose_edges().iter().map(|edge| edge.map(found)).collect::<Vec<_>>(),
+        [[red; 2], [blue; 2]]
+    );
+    assert_eq!(mesh.loose_points().iter().map(|&point| found(point)).collect::<Vec<_>>(), [green; 2]);
+    assert_eq!(warnings(&loaded), [""; 0], "nothing to warn of");
+}
+
+#[test]
+fn translucent_lines_beside_others_are_opaque_with_a_warning() {
+    let mut doc = beside_faces(&[(1, 1), (1, 2)]);
+    doc.json["materials"][1]["alphaMode"] = json!("BLEND");
+    let [said] = &warnings(&doc.load())[..] else { panic!("one warning") };
+    assert!(said.contains("drawn opaque") && said.contains("a mesh of their own"), "{said}");
+}

@@ -19,6 +19,13 @@ fn mesh(loaded: &Loaded) -> &Mesh {
     meshes(loaded)[0]
 }
 
+/// The names of the materials of the first object's slots.
+fn slot_names(loaded: &Loaded) -> Vec<&str> {
+    let (_, node) = loaded.scene.nodes().iter().find(|(_, node)| node.mesh.is_some()).expect("an object");
+    let name = |&id| loaded.scene.materials.get(id).expect("its material").name.as_str();
+    node.materials.iter().map(name).collect()
+}
+
 fn has_face(loaded: &Loaded, vertices: &[u32]) -> bool {
     mesh(loaded).face_vertices(0) == vertices
 }
@@ -172,11 +179,17 @@ fn wires() -> Vec<Row> {
         read(
             "l in another material than the faces before",
             File("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl blue\nf 1 2 3\nusemtl red\nv 2 2 0\nv 3 3 0\n> l 1 4\n> l 4 2\n> l 4 5"),
-            "an edge in the first material of its group",
-            |loaded| mesh(loaded).loose_edges().len() == 3,
+            "an edge in its material",
+            |loaded| mesh(loaded).loose_edges().len() == 3 && slot_names(loaded) == ["red", "blue"],
+        ),
+        read(
+            "l in another material than the lines before",
+            File("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nusemtl blue\nl 1 2\nusemtl red\nv 2 2 0\nv 3 3 0\n> l 1 3\n> l 3 2\n> l 3 4"),
+            "an edge in the material of the first line of its group",
+            |loaded| mesh(loaded).loose_edges().len() == 4,
         )
         .says(
-            "a.obj, line 7: a line or a point has another material than what its group starts with, whose colour it gets … and 2 more; start a group for each material, with g",
+            "a.obj, line 6: a line or a point has another material than the first of its group, whose colour it gets … and 2 more; start a group for each material, with g",
         ),
     ]
 }
