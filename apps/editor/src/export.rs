@@ -1,9 +1,9 @@
 //! Exports the result as a file for other programs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use trigon_document::{Disk, Document, save};
-use trigon_io::{Encoding, ExportOptions, FaceExport, Format, writers};
+use trigon_io::{Encoding, ExportOptions, FaceExport, FileIdentity, Format, writers};
 
 use crate::arguments::Arguments;
 use crate::report;
@@ -63,8 +63,37 @@ pub(crate) fn write_as(
     let export = document.export(&name, format, options).map_err(|error| error.to_string())?;
     let losses = export.what_would_be_lost().iter().map(|loss| format!("not in {name}: {loss}")).collect();
     let folder = output.parent().unwrap_or(Path::new(""));
+    let files = || export.files.iter().map(|file| folder.join(&file.name));
+    refuse_to_replace(document, output, files())?;
     export.files.iter().try_for_each(|file| {
         save(&mut Disk, &folder.join(&file.name), &file.bytes).map_err(|error| error.to_string())
     })?;
     Ok(losses)
+}
+
+/// Refuses to replace a file that the document was read from, such as a texture: its contents would be lost. Only the
+/// model itself may be, with its material library; a backup of it stays.
+pub(crate) fn refuse_to_replace(
+    document: &Document,
+    output: &Path,
+    mut files: impl Iterator<Item = PathBuf>,
+) -> Result<(), String> {
+    let identity = |path: &Path| FileIdentity::of(path).ok();
+    let read: Vec<_> = document.files().iter().map(|path| (path, identity(path))).collect();
+    let target = identity(output);
+    let is_over_model = read.first().is_some_and(|(_, model)| model.is_some() && *model == target);
+    let is_library = |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtl"));
+    let refusal = files.find_map(|file| {
+        let own = identity(&file)?;
+        let (path, _) = read.iter().find(|(_, known)| known.as_ref() == Some(&own))?;
+        let may_be = is_over_model && (Some(&own) == target.as_ref() || is_library(path));
+        (!may_be).then(|| {
+            format!(
+                "{}: the document was read from it ({}), and it would be lost; write under another name or to another folder",
+                file.display(),
+                path.display()
+            )
+        })
+    });
+    refusal.map_or(Ok(()), Err)
 }

@@ -22,6 +22,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     if let Some(format) = export::format_of(arguments, output)? {
         return export::write(&document, format, output, arguments);
     }
+    export::refuse_to_replace(&document, output, std::iter::once(output.clone()))?;
     let native = document.to_native();
     let file = native.encode().map_err(|error| error.to_string())?;
     let losses = file.what_would_be_lost();

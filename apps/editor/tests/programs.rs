@@ -132,3 +132,75 @@ fn full_devices_are_errors() {
         assert!(said.contains("No space left on device"), "{flag}: {said}");
     }
 }
+
+/// The image "b" of a model "m" is exported as "m_b.png", which may be the name of another image.
+#[test]
+fn no_texture_of_the_document_is_replaced_by_an_export() {
+    let folder = folder("textures");
+    let model = write(
+        &folder,
+        "m.obj",
+        "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl one\nf 1/1 2/2 3/3\nusemtl two\nf 3/3 2/2 1/1\n",
+    );
+    write(&folder, "m.mtl", "newmtl one\nmap_Kd b.png\nnewmtl two\nmap_Kd m_b.png\n");
+    for (name, color) in [("b.png", [255, 0, 0]), ("m_b.png", [0, 255, 0])] {
+        trigon_io::write_png(folder.join(name), 1, 1, trigon_io::Pixels::Rgb8(&color)).expect("written");
+    }
+    let script = write(&folder, "nothing.json", r#"{ "version": 1, "commands": [{ "op": "select_all" }] }"#);
+    let export = |output: &Path| run(&["--run".as_ref(), &script, &model, "--output".as_ref(), output]);
+    let bytes = |name: &str| std::fs::read(folder.join(name)).expect("a file");
+    let before = ["m.obj", "m.mtl", "b.png", "m_b.png"].map(bytes);
+    let refused = export(&model);
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(!refused.status.success() && message.contains("m_b.png"), "{message}");
+    let again = ["m.obj", "m.mtl", "b.png", "m_b.png"].map(bytes);
+    assert!(again == before, "nothing is written");
+    let done = export(&folder.join("n.obj"));
+    assert!(done.status.success(), "another name: {}", String::from_utf8_lossy(&done.stderr));
+    let elsewhere = folder.join("elsewhere");
+    std::fs::create_dir_all(&elsewhere).expect("a folder");
+    let done = export(&elsewhere.join("m.obj"));
+    assert!(done.status.success(), "another folder: {}", String::from_utf8_lossy(&done.stderr));
+    std::fs::remove_dir_all(&folder).expect("it was made above");
+}
+
+/// Its own file and that file's materials may be written again: both keep a backup.
+#[test]
+fn a_model_may_be_exported_over_itself() {
+    let folder = folder("itself");
+    let model = write(&folder, "m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl one\nf 1 2 3\n");
+    write(&folder, "m.mtl", "newmtl one\nKd 1 0 0\n");
+    let script = write(&folder, "nothing.json", r#"{ "version": 1, "commands": [{ "op": "select_all" }] }"#);
+    let done = run(&["--run".as_ref(), &script, &model, "--output".as_ref(), &model]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let other = write(&folder, "n.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl one\nf 1 2 3\n");
+    let refused = run(&["--run".as_ref(), &script, &other, "--output".as_ref(), &model]);
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(!refused.status.success() && message.contains("m.mtl"), "the library of two models: {message}");
+    std::fs::remove_dir_all(&folder).expect("it was made above");
+}
+
+/// A link with the ending of a model leads to a texture.
+#[cfg(unix)]
+#[test]
+fn no_texture_is_replaced_through_a_link() {
+    let folder = folder("linked");
+    let model = write(
+        &folder,
+        "m.obj",
+        "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl one\nf 1/1 2/2 3/3\n",
+    );
+    write(&folder, "m.mtl", "newmtl one\nmap_Kd b.png\n");
+    trigon_io::write_png(folder.join("b.png"), 1, 1, trigon_io::Pixels::Rgb8(&[9, 9, 9])).expect("written");
+    let before = std::fs::read(folder.join("b.png")).expect("a file");
+    let script = write(&folder, "nothing.json", r#"{ "version": 1, "commands": [{ "op": "select_all" }] }"#);
+    for link in ["link.glb", "link.stl"] {
+        let link = folder.join(link);
+        std::os::unix::fs::symlink("b.png", &link).expect("a link");
+        let refused = run(&["--run".as_ref(), &script, &model, "--output".as_ref(), &link]);
+        let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(!refused.status.success() && message.contains("b.png"), "{message}");
+    }
+    assert_eq!(std::fs::read(folder.join("b.png")).expect("a file"), before, "as it was");
+    std::fs::remove_dir_all(&folder).expect("it was made above");
+}

@@ -2,7 +2,7 @@
 //! the triangles.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use trigon_camera::UpAxis;
@@ -62,6 +62,9 @@ pub struct NativeDocument {
     /// What is saved with the meshes that are being edited. It is read as it stands in the file: whether it
     /// belongs to the mesh, the caller checks.
     pub edit_data: BTreeMap<MeshId, EditData>,
+    /// Every file that its contents were read from, the model first: none of them but the model is to be replaced by an
+    /// export.
+    pub files: Vec<PathBuf>,
     kept: Option<Arc<KeptFile>>,
 }
 
@@ -70,7 +73,7 @@ impl NativeDocument {
     #[must_use]
     pub fn new(mut scene: Scene) -> Self {
         scene.turn_to(UpAxis::Y);
-        Self { scene, edit_data: BTreeMap::new(), kept: None }
+        Self { scene, ..Self::default() }
     }
 
     /// Loads a file of any readable format. A glTF is kept for writing it back.
@@ -97,11 +100,11 @@ impl NativeDocument {
     }
 
     fn from_loaded(loaded: Loaded) -> (Self, Vec<Warning>) {
-        let Loaded { mut scene, edit_data, source, warnings, .. } = loaded;
+        let Loaded { mut scene, edit_data, source, warnings, files, .. } = loaded;
         let keep = |source| Arc::new(KeptFile { source, scene: scene.clone(), edit_data: edit_data.clone() });
         let kept = source.map(keep);
         scene.turn_to(UpAxis::Y);
-        (Self { scene, edit_data, kept }, warnings)
+        (Self { scene, edit_data, files, kept }, warnings)
     }
 
     /// A mesh as it was read from a glTF, with its edit data if it has any. A document with the same mesh and

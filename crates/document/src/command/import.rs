@@ -50,6 +50,7 @@ impl ImportFile {
         if change.selection().is_editing() {
             return Err(EditError::Editing("importing a file"));
         }
+        change.note_files(&loaded.files);
         // Meshes and textures are shared.
         let mut turned = loaded.scene.clone();
         let scene = change.scene_mut();

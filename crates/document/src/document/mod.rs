@@ -5,7 +5,7 @@ mod history;
 mod preview;
 mod scene;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use trigon_io::{Export, ExportOptions, Format, LoadError, LoadOptions, Loaded, NativeDocument, Warning};
 use trigon_mesh::math::DAffine3;
@@ -129,6 +129,12 @@ impl Document {
         options: &ExportOptions<'_>,
     ) -> Result<Export, ExportError> {
         self.state.file.export(name, format, options)
+    }
+
+    /// Every file that its contents were read from, the opened model first.
+    #[must_use]
+    pub fn files(&self) -> &[PathBuf] {
+        &self.state.file.native.files
     }
 
     /// The nodes and materials as they are now, and meshes as of the last call of [`Self::scene`].

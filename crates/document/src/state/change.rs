@@ -1,6 +1,7 @@
 //! The changes that a running command may make.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use trigon_modelling::{Difference, EdgeId, EditMesh, FaceId, Refusal, VertexId};
 use trigon_scene::{MeshId, NodeId, Scene, SceneError, SceneParts};
@@ -43,6 +44,11 @@ impl Change<'_> {
         }
         self.state.shown.note_parts();
         &mut self.state.file.native.scene
+    }
+
+    /// Notes files that contents were read from. They stay noted if the command is undone: it may be done again.
+    pub(crate) fn note_files(&mut self, files: &[PathBuf]) {
+        self.state.file.native.files.extend_from_slice(files);
     }
 
     /// Refuses a placement that the numbers of a file cannot hold.
