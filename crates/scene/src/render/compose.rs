@@ -298,7 +298,7 @@ impl<'s> Composer<'s> {
             Illumination::AtVertices => geometry.with_vertex_normals(object.asset.mesh()),
             _ => geometry,
         };
-        SharedLook::new(geometry, run, (material, bound), &self.context())
+        SharedLook::new(geometry, run, material, bound, &self.context())
     }
 
     /// Whether a normal map can be seen: tangents are made for no other.
@@ -343,7 +343,7 @@ impl<'s> Composer<'s> {
         if bare.alpha_mode == AlphaMode::Opaque {
             bound.strip();
         }
-        SharedLook::new(object.geometry, run, (&bare, bound), &context)
+        SharedLook::new(object.geometry, run, &bare, bound, &context)
     }
 
     /// Triangles at their node.

@@ -53,7 +53,8 @@ impl<'s> SharedLook<'s> {
     pub(super) fn new(
         geometry: &'s Geometry,
         run: &Run,
-        (material, bound): (&Material, BoundMaterial<'s>),
+        material: &Material,
+        bound: BoundMaterial<'s>,
         context: &MaterialContext<'s>,
     ) -> Self {
         let drawn = Drawn {

@@ -192,33 +192,44 @@ fn native_header(mesh: &RawObject) -> Option<Header> {
 /// The last kind of primitive: triangle fans.
 const LAST_MODE: usize = 6;
 
+/// The `mode` of primitives that have none: triangles.
+const DEFAULT_MODE: usize = 4;
+
 /// The greatest `mode` of lines and points.
 const LAST_WIRE_MODE: usize = 3;
+
+/// What the reader takes of a primitive to find its slot.
+struct ReadPrimitive {
+    material: Option<usize>,
+    /// Whether it is lines or points.
+    is_wire: bool,
+}
+
+impl ReadPrimitive {
+    /// `None` for a primitive that is not read.
+    fn new(text: &RawValue) -> Option<Self> {
+        let primitive = RawObject::parse(text.get());
+        primitive.object("attributes").get("POSITION")?;
+        let mode = primitive.index("mode").unwrap_or(DEFAULT_MODE);
+        let material = primitive.index("material");
+        (mode <= LAST_MODE).then_some(Self { material, is_wire: mode <= LAST_WIRE_MODE })
+    }
+}
 
 /// The slots of primitives as assigned by the reader: a new one for each material, that of lines and points first.
 /// `None` for primitives that are not read, and for lines and points of several materials, which have no slot.
 fn slots_of(primitives: &[Box<RawValue>]) -> Vec<Option<u32>> {
-    // The material of those that are read, and whether they are lines or points.
-    let read: Vec<Option<(Option<usize>, bool)>> = primitives
-        .iter()
-        .map(|text| {
-            let primitive = RawObject::parse(text.get());
-            primitive.object("attributes").get("POSITION")?;
-            let mode = primitive.index("mode");
-            let is_wire = mode.is_some_and(|mode| mode <= LAST_WIRE_MODE);
-            mode.is_none_or(|mode| mode <= LAST_MODE).then_some((primitive.index("material"), is_wire))
-        })
-        .collect();
-    let of_wires = read.iter().flatten().filter(|(_, is_wire)| *is_wire);
-    let wires = WireMaterials::of(of_wires.map(|(material, _)| *material));
+    let read: Vec<_> = primitives.iter().map(|text| ReadPrimitive::new(text)).collect();
+    let of_wires = read.iter().flatten().filter(|primitive| primitive.is_wire);
+    let wires = WireMaterials::of(of_wires.map(|primitive| primitive.material));
     let mut known: BTreeMap<Option<usize>, u32> =
         wires.first_slot().map(|first| (first, 0)).into_iter().collect();
-    let mut slot = |(material, is_wire): (Option<usize>, bool)| {
-        if is_wire && wires == WireMaterials::Several {
+    let mut slot = |primitive: ReadPrimitive| {
+        if primitive.is_wire && wires == WireMaterials::Several {
             return None;
         }
         let next = known.len() as u32;
-        Some(*known.entry(material).or_insert(next))
+        Some(*known.entry(primitive.material).or_insert(next))
     };
     read.into_iter().map(|primitive| slot(primitive?)).collect()
 }
