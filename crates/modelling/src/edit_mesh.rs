@@ -1,4 +1,7 @@
 //! The editable mesh: its columns, and which slots of them are in use.
+//!
+//! The edges at a vertex form a ring, and so do the corners at an edge, for any number of faces (K. Weiler's radial
+//! edges), so non-manifold and open meshes need no special case.
 
 use trigon_math::{DVec3, Vec3};
 

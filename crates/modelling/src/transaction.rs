@@ -1,4 +1,7 @@
 //! Transactions: changes that happen as a whole or not at all, and that can be undone to the same bytes.
+//!
+//! A column saves the old value of an entry when the entry is written for the first time. As soon as a copy of the
+//! whole old column would be smaller, the column keeps such a copy instead.
 
 use trigon_math::Vec3;
 

@@ -1,4 +1,7 @@
 //! The loop over the fragments of one draw, in full vectors: a vector's pixels may show different triangles.
+//!
+//! The weights of the next eight pixels are computed before the current eight are shaded: the longest chain of
+//! dependent instructions begins with them (`docs/performance-notebook.md`, "Dependency stalls in shading").
 
 use crate::LanePipeline;
 use crate::fragments::{

@@ -1,4 +1,7 @@
 //! The thread pool: workers that persist between frames and share each stage.
+//!
+//! A frame is drawn on this pool from beginning to end, while the caller sleeps: if the caller drew too, there would
+//! be more threads than cores. No stage waits for a late thread; the others do its share.
 
 mod standby;
 

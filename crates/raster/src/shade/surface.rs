@@ -1,4 +1,8 @@
 //! Shades a tile: every visible triangle once at every pixel where it is visible.
+//!
+//! Groups of 4×2 pixels are shaded in tile order, whichever triangles of a draw they show. Two kinds of pixels go
+//! into a list instead: pixels of groups that show several draws, and, with multisampling, pixels that show several
+//! triangles. A lane depends on its own triangle and pixel alone, so groups and lists give the same result.
 
 use super::asked::Partly;
 use super::shading::{Run, Shading};

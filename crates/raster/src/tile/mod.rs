@@ -23,21 +23,22 @@
 //! | `eight` | eight small triangles prepared together, and the limits of the kernels |
 //! | `edge_origins` | for the triangles that `eight` prepares: the edge functions of each at its first 4×2 group; for `tiny` and `multisample` |
 //! | `triangle`, `single` | one triangle prepared for the tile, whatever its size |
-//! | `micro` | kernel: up to eight small triangles of at most 4×4 pixels each, one sample per pixel |
+//! | `micro` | kernel: up to eight small triangles of at most 4×4 pixels each, one sample per pixel; a lane is a triangle |
 //! | `tiny` | kernel: one small triangle of at most 24×24 pixels, one sample per pixel |
 //! | `multisample` | the same with several samples per pixel |
-//! | `sliver` | kernel: one small triangle at most two pixels wide along an axis, one sample per pixel |
+//! | `sliver` | kernel: one small triangle at most two pixels wide along an axis, one sample per pixel; a lane is a column of pixels |
 //! | `covered` | the list of pixels that `micro` and `sliver` find, and the test of their depths |
 //! | `rasterizer` | kernel: any other triangle (the *general* kernel); also **the depth test**, of which the other kernels have versions |
-//! | `quad` | kernel: lines and points |
-//! | `points` | kernel: plain points, from their vertices |
+//! | `quad` | kernel: opaque lines and points less than 32 pixels wide, both triangles at once |
+//! | `points` | kernel: plain points, from their vertices, without edge functions |
 //! | `masked`, `depth_query` | masked triangles; where a masked or translucent triangle would be visible |
 //! | `still` | what still triangles show, kept while others move |
 //! | `store` | writing to the visibility buffer |
 //! | `ties`, `key_order` | the tile's budget for equal depths; its triangles sorted by key |
 //!
-//! The sizes in pixels count the part of a triangle's bounding box that lies in the tile.
-//! `docs/architecture.md`, "Coverage kernels", compares the kernels.
+//! The sizes in pixels count the part of a triangle's bounding box that lies in the tile. In the other kernels a lane is
+//! a pixel of a group. All kernels make the same decisions with the same integers and depths, so the choice of a
+//! kernel never changes a byte.
 
 mod blocks;
 mod covered;

@@ -1,5 +1,10 @@
 //! A tile's visibility buffer: depth and visible triangle of each sample, with bounds of
 //! the depths over blocks and over the whole tile. A greater depth is nearer.
+//!
+//! A triangle that covers a whole block updates the block's farthest depth at once. After other writes, all samples of
+//! the block would have to be read. The general kernel reads them before it uses the bound. The kernels of small
+//! triangles do so only after several writes, and only if something in the block is nearer than their triangle. The
+//! other kernels use an outdated bound, which hides less and is never wrong.
 
 use super::area::{BLOCKS, GROUPS, TileArea};
 use crate::simd::{F32, LANES, Simd, lesser, prelude::*};

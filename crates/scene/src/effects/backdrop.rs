@@ -1,4 +1,5 @@
-//! The background as rays through glass see it.
+//! The background as rays through glass see it: the one behind the image, even where an environment lights the scene
+//! without being shown. A clear pane must not be visible.
 
 use trigon_math::{DMat4, Mat4, Vec3, Vec4};
 

@@ -1,4 +1,5 @@
-//! Whether a surface encloses a volume.
+//! Whether a surface encloses a volume. A ray that enters through an open surface would never leave, so an open
+//! surface stands for a plate.
 
 /// Whether triangles enclose a volume: each of their edges is passed as often in one direction as in
 /// the other. Vertices at the same position are the same.

@@ -4,6 +4,9 @@
 //!
 //! `attributes`, `triangles` and `indices` are its three modes, `filters` are optional after the
 //! first. Every read is checked, and memory grows with the decoded data, never with claimed sizes.
+//!
+//! The tests use the crate `meshoptimizer-rs` as an oracle. The product does not use it, although it is 1.5 to 4 times
+//! as fast: it accepts what the specification calls invalid, and its errors do not say what is wrong.
 
 mod attributes;
 mod filters;
