@@ -74,7 +74,7 @@ fn drag_live(name: &str, selected: &[u32], rate: u32) {
         let share = (time.as_secs_f64() % 2.0 - 1.0).abs();
         MIDDLE + DVec2::new(100.0, 27.0) - DVec2::new(60.0, 30.0) * share
     };
-    let frames = window.drag_live((LASTS, Duration::from_secs(1) / rate), place);
+    let frames = window.drag_live(LASTS, Duration::from_secs(1) / rate, place);
     tell_frames(name, &frames);
     window.key(Chord::new(Modifiers::NONE, Key::Escape));
 }

@@ -102,7 +102,11 @@ impl<'a> ModelFacts<'a> {
                 .map(|animation| AnimationFacts { name: &animation.name, seconds: animation.duration() })
                 .collect(),
             node_list: NodeList(scene),
-            material_list: scene.materials.iter().map(MaterialFacts::new).collect(),
+            material_list: scene
+                .materials
+                .iter()
+                .map(|(id, material)| MaterialFacts::new(id, material))
+                .collect(),
         }
     }
 }
@@ -114,7 +118,7 @@ impl LightFacts {
 }
 
 impl<'a> MaterialFacts<'a> {
-    fn new((id, material): (MaterialId, &'a Material)) -> Self {
+    fn new(id: MaterialId, material: &'a Material) -> Self {
         let alpha_mode = match material.alpha_mode {
             AlphaMode::Opaque => "opaque",
             AlphaMode::Mask { .. } => "mask",

@@ -144,13 +144,14 @@ fn deliver(
         };
         return Err(Failure::Mismatch(format!("{name}: there is no image to compare with; {remedy}")));
     }
-    compare(reference, (subject, frame), outlet, reporter).map(Some)
+    compare(reference, subject, frame, outlet, reporter).map(Some)
 }
 
 /// Compares an image; one that differs is written, and where it differs beside it.
 fn compare(
     reference: &Reference,
-    (subject, frame): (Subject<'_>, &Frame),
+    subject: Subject<'_>,
+    frame: &Frame,
     outlet: &mut Outlet<'_>,
     reporter: Reporter,
 ) -> Result<f64, Failure> {
@@ -244,7 +245,7 @@ fn draw(model: &Model, shot: &Shot, request: &Request, reporter: Reporter) -> Re
     renderer.settings_mut().outputs.origin = shot.positions_origin();
     let frame = match &request.limit {
         None => renderer.render(&model.scene, camera).map_err(Failure::work)?,
-        Some(limit) => draw_within(limit, model, camera, (&mut renderer, reporter))?,
+        Some(limit) => draw_within(limit, model, camera, &mut renderer, reporter)?,
     };
     let title = model.source.title();
     let pixels_shaded = renderer.stats().pixels_shaded;
@@ -276,7 +277,8 @@ fn draw_within(
     limit: &Limit,
     model: &Model,
     camera: &Camera,
-    (renderer, reporter): (&mut Renderer, Reporter),
+    renderer: &mut Renderer,
+    reporter: Reporter,
 ) -> Result<Frame, Failure> {
     let (mut budget, started) = (limit.budget(), Instant::now());
     let clock = &mut || started.elapsed();

@@ -57,8 +57,10 @@ impl CameraError {
 
     /// Checks that `low < high` and that their difference can be divided by.
     pub(crate) fn check_ordered(
-        (low_name, low): (&'static str, f64),
-        (high_name, high): (&'static str, f64),
+        low_name: &'static str,
+        low: f64,
+        high_name: &'static str,
+        high: f64,
     ) -> Result<(), Self> {
         Self::check_finite(low_name, low)?;
         Self::check_finite(high_name, high)?;

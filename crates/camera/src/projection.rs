@@ -132,7 +132,7 @@ impl Projection {
     /// may be negative.
     pub fn orthographic(height: f64, near: f64, far: f64) -> Result<Self, CameraError> {
         CameraError::check_positive("the window's height", height)?;
-        CameraError::check_ordered(("near", near), ("far", far))?;
+        CameraError::check_ordered("near", near, "far", far)?;
         Ok(Self::Orthographic { height, near, far })
     }
 
@@ -149,8 +149,8 @@ impl Projection {
         near: f64,
         far: Option<f64>,
     ) -> Result<Self, CameraError> {
-        CameraError::check_ordered(("left", left), ("right", right))?;
-        CameraError::check_ordered(("bottom", bottom), ("top", top))?;
+        CameraError::check_ordered("left", left, "right", right)?;
+        CameraError::check_ordered("bottom", bottom, "top", top)?;
         check_planes(near, far)?;
         Ok(Self::Frustum { left, right, bottom, top, near, far })
     }
@@ -291,7 +291,7 @@ impl Projection {
 pub(crate) fn check_planes(near: f64, far: Option<f64>) -> Result<(), CameraError> {
     CameraError::check_positive("near", near)?;
     let Some(far) = far else { return Ok(()) };
-    CameraError::check_ordered(("near", near), ("far", far))?;
+    CameraError::check_ordered("near", near, "far", far)?;
     // Equal in all but the last bit: no depth could be distinguished between them.
     if near / far < 1.0 {
         return Ok(());

@@ -47,8 +47,8 @@ fn decode(bytes: &[u8], limits: &Limits, warnings: &mut Warnings) -> Result<Envi
         reader.limits(decoder_limits(limits));
         reader
     };
-    let size = reader().into_dimensions().map_err(|error| reason(&error))?;
-    check_claim(size, limits)?;
+    let (width, height) = reader().into_dimensions().map_err(|error| reason(&error))?;
+    check_claim(width, height, limits)?;
     let mut pixels = reader().decode().map_err(|error| reason(&error))?.into_rgb32f().into_raw();
     let mut bright = 0;
     for value in pixels.iter_mut().filter(|value| **value > BRIGHTEST) {
@@ -62,7 +62,7 @@ fn decode(bytes: &[u8], limits: &Limits, warnings: &mut Warnings) -> Result<Envi
         "check the image's scale",
     );
     let (pixels, _) = pixels.as_chunks::<3>();
-    Environment::from_equirectangular(size.0 as usize, size.1 as usize, pixels)
+    Environment::from_equirectangular(width as usize, height as usize, pixels)
         .map_err(|error| error.to_string())
 }
 

@@ -44,8 +44,8 @@ pub(crate) fn find_image(import: &mut Import<'_>, from: Mention<'_>) -> Option<F
             if !beside.as_os_str().is_empty() {
                 tried.extend(import.folder.tried(here, name));
             }
-            let said = (what, refusal.remedy());
-            import.warnings.push_unusable(from.file, Place::Line(from.line), said, tried);
+            let place = Place::Line(from.line);
+            import.warnings.push_unusable(from.file, place, what, refusal.remedy(), tried);
             None
         }
     }

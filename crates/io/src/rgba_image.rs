@@ -42,13 +42,13 @@ pub(crate) fn image_size(bytes: &[u8], limits: &Limits) -> Result<(u32, u32), St
     let format = image_format(bytes)?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(decoder_limits(limits));
-    let size = reader.into_dimensions().map_err(|error| reason(&error))?;
-    check_claim(size, limits)?;
-    Ok(size)
+    let (width, height) = reader.into_dimensions().map_err(|error| reason(&error))?;
+    check_claim(width, height, limits)?;
+    Ok((width, height))
 }
 
 /// Whether an image of that width and height is within the limits, and has pixels.
-pub(crate) fn check_claim((width, height): (u32, u32), limits: &Limits) -> Result<(), String> {
+pub(crate) fn check_claim(width: u32, height: u32, limits: &Limits) -> Result<(), String> {
     let pixels = u64::from(width) * u64::from(height);
     if width == 0 || height == 0 {
         return Err(format!("the image has no pixels ({width}×{height})"));

@@ -104,7 +104,8 @@ impl Warnings {
         &mut self,
         file: &Path,
         place: Place,
-        (what, remedy): (String, &str),
+        what: String,
+        remedy: &str,
         tried: Vec<PathBuf>,
     ) {
         self.add(Warning { tried, ..Warning::new(file, place, &what, remedy) });
@@ -178,9 +179,10 @@ mod tests {
     fn what_was_looked_for_is_kept_and_not_shown() {
         let mut warnings = Warnings::about(Path::new("a.obj"));
         let tried = vec![PathBuf::from("maps/a.png"), PathBuf::from("a.png")];
-        let said = ("no image".to_owned(), "mend it");
-        warnings.push_unusable(Path::new("a.mtl"), Place::Line(2), said.clone(), tried.clone());
-        warnings.push_unusable(Path::new("a.mtl"), Place::Line(3), said, Vec::new());
+        for (line, tried) in [(2, tried.clone()), (3, Vec::new())] {
+            let what = "no image".to_owned();
+            warnings.push_unusable(Path::new("a.mtl"), Place::Line(line), what, "mend it", tried);
+        }
         let list = warnings.into_list();
         assert_eq!(list[0].tried, tried, "of the first");
         assert_eq!(list[0].to_string(), "a.mtl, line 2: no image … and 1 more; mend it", "one line");

@@ -34,7 +34,8 @@ impl Canvas {
     /// frame may differ from the one that was there, only these are compared.
     pub(crate) fn show(
         &mut self,
-        (frame, redrawn): (Option<&Arc<Frame>>, Option<&Redrawn>),
+        frame: Option<&Arc<Frame>>,
+        redrawn: Option<&Redrawn>,
         size: [u32; 2],
         mut changed: impl FnMut(Rect),
     ) {
@@ -54,7 +55,7 @@ impl Canvas {
                 let bands = self.beneath.par_chunks_mut(band).zip(frame.color.as_chunks().0.par_chunks(band));
                 bands
                     .enumerate()
-                    .map(|(band, lists)| show_parts(band * BAND, lists, size[0], parts))
+                    .map(|(band, (shown, frame))| show_parts(band * BAND, shown, frame, size[0], parts))
                     .collect()
             }
             _ => {
@@ -111,7 +112,8 @@ fn show_band(top: usize, shown: &mut [[u8; 4]], mut rows: Rows<'_>) -> Vec<Rect>
 /// The same, of a frame of the window's size, in those parts of its rows alone.
 fn show_parts(
     top: usize,
-    (shown, frame): (&mut [[u8; 4]], &[[u8; 4]]),
+    shown: &mut [[u8; 4]],
+    frame: &[[u8; 4]],
     width: usize,
     parts: &[Rect],
 ) -> Vec<Rect> {
@@ -283,7 +285,7 @@ mod tests {
     fn shown(frame: Option<&Arc<Frame>>, size: [u32; 2]) -> Vec<[u8; 4]> {
         let mut canvas = Canvas::default();
         let mut painter = EguiPainter::new(ChannelOrder::Bgra);
-        canvas.show((frame, None), size, |part| painter.invalidate_part(part));
+        canvas.show(frame, None, size, |part| painter.invalidate_part(part));
         assert!(canvas.paint(&mut painter), "all of it is new");
         assert!(!canvas.paint(&mut painter), "and then nothing");
         canvas.pixels().to_vec()
@@ -355,7 +357,7 @@ mod tests {
         let mut show = |color: &[u8]| {
             let frame = frame(200, 3, color.to_vec());
             let mut parts = Vec::new();
-            canvas.show((Some(&frame), None), size, |part| parts.push(part));
+            canvas.show(Some(&frame), None, size, |part| parts.push(part));
             parts.iter().for_each(|part| painter.invalidate_part(*part));
             canvas.paint(&mut painter);
             (parts, canvas.painted().to_vec(), canvas.pixels().to_vec())
@@ -384,8 +386,8 @@ mod tests {
         };
         let differing = |known: &Redrawn, size: [u32; 2]| {
             let (mut canvas, mut parts) = (Canvas::default(), Vec::new());
-            canvas.show((Some(&first), None), size, |_| {});
-            canvas.show((Some(&second), Some(known)), size, |part| parts.push(part));
+            canvas.show(Some(&first), None, size, |_| {});
+            canvas.show(Some(&second), Some(known), size, |part| parts.push(part));
             (parts, canvas.beneath)
         };
         let (parts, beneath) = differing(&redrawn(&first, &second), [200, 3]);

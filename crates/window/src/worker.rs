@@ -133,7 +133,11 @@ struct UnderWay {
 }
 
 /// A job with its number, and its cancellation.
-type Numbered = (u64, Job, Cancel);
+struct Numbered {
+    number: u64,
+    job: Job,
+    cancel: Cancel,
+}
 
 /// A thread or the caller that does jobs, and the revision that its replica of the scene equals.
 struct Holder {
@@ -219,7 +223,7 @@ impl Worker {
         let (number, cancel) = (self.begun, Cancel::for_drawings(job.drawings()));
         let Job { purpose, ref views, .. } = job;
         self.under_way = Some(UnderWay { number, purpose, views: views.clone(), cancel: cancel.clone() });
-        self.holder(purpose).hands.begin((number, job, cancel));
+        self.holder(purpose).hands.begin(Numbered { number, job, cancel });
     }
 
     /// Another scene replaced the previous one, which the second thread should not keep until it
@@ -228,7 +232,7 @@ impl Worker {
         let Some(second) = self.second.as_mut().filter(|_| !purpose.is_refinement()) else { return };
         if second.held.take().is_some() {
             let forget = Job { purpose, views: Camera::default().into(), task: Task::Forget };
-            second.hands.begin((0, forget, Cancel::default()));
+            second.hands.begin(Numbered { number: 0, job: forget, cancel: Cancel::default() });
         }
     }
 
@@ -301,7 +305,7 @@ impl RenderThread {
         let (jobs, to_do) = channel::<Numbered>();
         let (done, finished) = channel();
         let work = move || {
-            while let Ok((number, job, cancel)) = to_do.recv() {
+            while let Ok(Numbered { number, job, cancel }) = to_do.recv() {
                 let is_silent = matches!(job.task, Task::Forget);
                 if done.send((number, run(job, &cancel))).is_err() {
                     return;
@@ -315,11 +319,13 @@ impl RenderThread {
         Some(Self::Thread { jobs, finished })
     }
 
-    fn begin(&mut self, (number, job, cancel): Numbered) {
+    fn begin(&mut self, numbered: Numbered) {
         match self {
             // The thread lives as long as this does.
-            Self::Thread { jobs, .. } => drop(jobs.send((number, job, cancel))),
-            Self::Caller { drawing, finished } => *finished = Some(Box::new(drawing.run(job, &cancel))),
+            Self::Thread { jobs, .. } => drop(jobs.send(numbered)),
+            Self::Caller { drawing, finished } => {
+                *finished = Some(Box::new(drawing.run(numbered.job, &numbered.cancel)));
+            }
         }
     }
 
@@ -355,22 +361,18 @@ impl Drawing {
                 scene.apply(&mut self.scene);
                 let Self { renderer, scene, .. } = self;
                 let drawn = views.draw(*settings, |camera, settings| {
-                    let seen = (&*scene, camera);
                     match (&drawer, purpose) {
                         (None, Purpose::Window(_)) => {
                             *renderer.settings_mut() = settings;
                             renderer.render_shared(scene, camera, Some(cancel)).map_err(Unfinished::from)
                         }
                         // Whoever asked for it keeps it.
-                        (None, Purpose::Image) => render(seen, settings, (renderer, cancel)).map(Arc::new),
-                        (Some(drawer), _) => {
-                            let frame = draw_otherwise(&**drawer, seen, &settings, cancel)?;
-                            Ok(Arc::new(if drawer.shows_scene() {
-                                with_ids(frame, seen, settings, (renderer, cancel))?
-                            } else {
-                                Frame { depth: None, object_ids: None, face_ids: None, ..frame }
-                            }))
+                        (None, Purpose::Image) => {
+                            ViewRequest { scene, camera, settings, cancel }.render(renderer).map(Arc::new)
                         }
+                        (Some(drawer), _) => ViewRequest { scene, camera, settings, cancel }
+                            .draw_by(&**drawer, renderer)
+                            .map(Arc::new),
                     }
                 });
                 drawn.map(Product::Frame)
@@ -408,58 +410,58 @@ fn time_of_pixels(stages: &StageTimes, threads: Option<NonZeroUsize>) -> Duratio
     (stages.visibility + stages.shading + stages.blending + stages.resolve) / threads
 }
 
-/// Another drawer's image, with ids and depths from the renderer if the settings require them and
-/// the drawer does not provide them.
-fn with_ids(
-    frame: Frame,
-    seen: (&Scene, &Camera),
+/// What to draw for one view.
+struct ViewRequest<'s> {
+    scene: &'s Scene,
+    camera: &'s Camera,
     settings: RenderSettings,
-    (renderer, cancel): (&mut Renderer, &Cancel),
-) -> Result<Frame, Unfinished> {
-    let RenderSettings { outputs, .. } = settings;
-    if !outputs.ids || (frame.object_ids.is_some() && frame.face_ids.is_some() && frame.depth.is_some()) {
-        return Ok(frame);
-    }
-    let outputs = Outputs { color: false, radiance: false, ..outputs };
-    let settings = RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..settings };
-    let Frame { depth, object_ids, face_ids, .. } = render(seen, settings, (renderer, cancel))?;
-    Ok(Frame { depth, object_ids, face_ids, ..frame })
+    cancel: &'s Cancel,
 }
 
-/// Draws a frame that nobody else holds.
-fn render(
-    (scene, camera): (&Scene, &Camera),
-    settings: RenderSettings,
-    (renderer, cancel): (&mut Renderer, &Cancel),
-) -> Result<Frame, Unfinished> {
-    let mut frame = Frame::default();
-    *renderer.settings_mut() = settings;
-    renderer.render_cancellable(scene, camera, cancel, &mut frame)?;
-    Ok(frame)
-}
+impl ViewRequest<'_> {
+    /// A frame that nobody else holds.
+    fn render(self, renderer: &mut Renderer) -> Result<Frame, Unfinished> {
+        let mut frame = Frame::default();
+        *renderer.settings_mut() = self.settings;
+        renderer.render_cancellable(self.scene, self.camera, self.cancel, &mut frame)?;
+        Ok(frame)
+    }
 
-/// An image of another size or without colours is rejected.
-fn draw_otherwise(
-    drawer: &dyn Drawer,
-    (scene, camera): (&Scene, &Camera),
-    settings: &RenderSettings,
-    cancel: &Cancel,
-) -> Result<Frame, Unfinished> {
-    let drawn = drawer.draw(scene, camera, settings, cancel);
-    if cancel.is_cancelled() {
-        return Err(Unfinished::Cancelled);
+    /// Another drawer's image. Where it shows the scene, ids and depths come from the renderer if the settings
+    /// require them and the drawer does not provide them.
+    fn draw_by(self, drawer: &dyn Drawer, renderer: &mut Renderer) -> Result<Frame, Unfinished> {
+        let frame = self.checked_image(drawer)?;
+        if !drawer.shows_scene() {
+            return Ok(Frame { depth: None, object_ids: None, face_ids: None, ..frame });
+        }
+        let RenderSettings { outputs, .. } = self.settings;
+        if !outputs.ids || (frame.object_ids.is_some() && frame.face_ids.is_some() && frame.depth.is_some()) {
+            return Ok(frame);
+        }
+        let outputs = Outputs { color: false, radiance: false, ..outputs };
+        let settings = RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..self.settings };
+        let Frame { depth, object_ids, face_ids, .. } = Self { settings, ..self }.render(renderer)?;
+        Ok(Frame { depth, object_ids, face_ids, ..frame })
     }
-    let frame = drawn.map_err(Unfinished::Impossible)?;
-    let RenderSettings { width, height, .. } = *settings;
-    if [frame.width, frame.height] == [width, height]
-        && frame.color.len() == 4 * width as usize * height as usize
-    {
-        return Ok(frame);
+
+    /// Another drawer's image; one of another size or without colours is rejected.
+    fn checked_image(&self, drawer: &dyn Drawer) -> Result<Frame, Unfinished> {
+        let drawn = drawer.draw(self.scene, self.camera, &self.settings, self.cancel);
+        if self.cancel.is_cancelled() {
+            return Err(Unfinished::Cancelled);
+        }
+        let frame = drawn.map_err(Unfinished::Impossible)?;
+        let RenderSettings { width, height, .. } = self.settings;
+        if [frame.width, frame.height] == [width, height]
+            && frame.color.len() == 4 * width as usize * height as usize
+        {
+            return Ok(frame);
+        }
+        Err(Unfinished::Impossible(format!(
+            "an image of {}x{} was drawn for one of {width}x{height}",
+            frame.width, frame.height
+        )))
     }
-    Err(Unfinished::Impossible(format!(
-        "an image of {}x{} was drawn for one of {width}x{height}",
-        frame.width, frame.height
-    )))
 }
 
 #[cfg(test)]

@@ -29,7 +29,7 @@ pub(crate) fn draw_grid(painter: &Painter, view: &OverlayView, depths: Depths<'_
     let Some(grid) = Grid::of(view) else { return };
     let floor = FloorDepth::of(view);
     for (line, color, width) in grid.lines() {
-        for piece in visible(view, line, (&floor, depths)) {
+        for piece in visible(view, line, &floor, depths) {
             painter.line_segment(piece, Stroke::new(width, color));
         }
     }
@@ -115,11 +115,7 @@ impl Grid {
 }
 
 /// The pieces of a line on the floor that nothing hides.
-fn visible(
-    view: &OverlayView,
-    line: [DVec3; 2],
-    (floor, depths): (&FloorDepth, Depths<'_>),
-) -> Vec<[Pos2; 2]> {
+fn visible(view: &OverlayView, line: [DVec3; 2], floor: &FloorDepth, depths: Depths<'_>) -> Vec<[Pos2; 2]> {
     let Some([from, to]) = view.line(line[0], line[1]) else { return Vec::new() };
     let count = (from.distance(to) / PIECE).ceil().clamp(1.0, 1000.0) as usize;
     let at = |index: usize| from.lerp(to, index as f32 / count as f32);
@@ -286,7 +282,7 @@ mod tests {
         let line = [DVec3::new(-5.0, 0.0, 0.0), DVec3::new(5.0, 0.0, 0.0)];
         let floor = FloorDepth::of(&view);
         let visible = |depth: &dyn Fn(DVec2) -> Option<f64>| {
-            visible(&view, line, (&floor, &|points: &[DVec2]| points.iter().map(|&at| depth(at)).collect()))
+            visible(&view, line, &floor, &|points: &[DVec2]| points.iter().map(|&at| depth(at)).collect())
         };
         let whole = visible(&|_| None);
         assert_eq!(whole.len(), 1, "one piece: {whole:?}");

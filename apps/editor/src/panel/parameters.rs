@@ -57,7 +57,7 @@ impl Parameter<'_> {
             Form::Switch => show_switch(ui, &label, hover, value),
             Form::Text => show_text(ui, &label, hover, value),
             Form::Choice(names) => show_choice(ui, &label, hover, value, names),
-            Form::Vector(count, number) => show_vector(ui, &label, hover, value, (*count, number)),
+            Form::Vector(count, number) => show_vector(ui, &label, hover, value, *count, number),
             Form::Variants(tag, variants) => self.show_variants(ui, &label, value, tag, variants),
             Form::Group(schema) => {
                 hovered(ui.strong(&label), hover);
@@ -220,7 +220,8 @@ fn show_vector(
     label: &str,
     hover: &str,
     value: &mut Value,
-    (count, form): (usize, &NumberForm),
+    count: usize,
+    form: &NumberForm,
 ) -> bool {
     let mut numbers: Vec<f64> = (0..count).map(|index| value[index].as_f64().unwrap_or(0.0)).collect();
     let Some((index, _)) = vector(ui, label, hover, &mut numbers, form) else { return false };

@@ -19,8 +19,8 @@ impl Editor {
     /// The gizmo in a view, while something is selected that it could move.
     pub(crate) fn gizmo(&mut self, stage: &Stage, pane: &Pane) -> Option<Gizmo> {
         let kind = self.tools.gizmo.filter(|_| self.tool.is_none() && self.view.overlays)?;
-        let (around, orientation) = ((self.tools.pivot, self.tools.cursor), self.tools.orientation);
-        let basis = self.gizmo_cache.basis(&self.document, around, orientation)?;
+        let (pivot, orientation) = (self.tools.pivot, self.tools.orientation);
+        let basis = self.gizmo_cache.basis(&self.document, pivot, self.tools.cursor, orientation)?;
         let view = tool_view(stage, pane);
         let axes = Frames::new(orientation, basis.local, basis.normal, &view).chosen;
         Some(Gizmo { kind, center: basis.center, axes })

@@ -35,7 +35,8 @@ impl GizmoCache {
     pub(super) fn basis(
         &mut self,
         document: &Document,
-        (pivot, cursor): (Pivot, DVec3),
+        pivot: Pivot,
+        cursor: DVec3,
         orientation: Orientation,
     ) -> Option<GizmoBasis> {
         let inputs = GizmoInputs { revision: document.revision(), pivot, cursor, orientation };

@@ -170,7 +170,7 @@ impl Editor {
         if !self.press_gizmo(stage, hands) {
             self.click = Click::new(hands);
             if let Some(Click { at, .. }) = self.click {
-                self.pointing.prefetch((stage, &stage.pane_at(at)), Prefetch::Ids);
+                self.pointing.prefetch(stage, &stage.pane_at(at), Prefetch::Ids);
             }
         }
         Taken::Yes

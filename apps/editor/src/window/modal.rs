@@ -26,7 +26,7 @@ impl Editor {
             return self.run(Shear::default().into());
         }
         let pane = hands.pointer.map_or_else(|| pane_of(stage, None), |at| stage.pane_at(at));
-        match self.started((stage, &pane), kind, in_pane(hands, &pane)) {
+        match self.started(stage, &pane, kind, in_pane(hands, &pane)) {
             Some(what) => {
                 let waits = matches!(what, What::Tool(_));
                 let start =
@@ -37,8 +37,7 @@ impl Editor {
         }
     }
 
-    fn started(&mut self, seen: (&Stage, &Pane), kind: ToolKind, hands: Hands) -> Option<What> {
-        let (stage, pane) = seen;
+    fn started(&mut self, stage: &Stage, pane: &Pane, kind: ToolKind, hands: Hands) -> Option<What> {
         let (view, reach) = (tool_view(stage, pane), self.reach());
         let document = &mut self.document;
         if let Some(gesture) = gesture_kind(kind) {
@@ -60,7 +59,7 @@ impl Editor {
             ToolKind::BevelVertices => Box::new(BevelTool::start(true, document, hands, &view)?),
             _ => {
                 let mut tool = LoopCutTool::start(document, hands)?;
-                let face = hands.pointer.and_then(|at| self.pointing.face(document, seen, at));
+                let face = hands.pointer.and_then(|at| self.pointing.face(document, stage, pane, at));
                 tool.hover(document, &view, face);
                 return Some(What::LoopCut(Box::new(tool)));
             }
@@ -149,7 +148,7 @@ impl Editor {
                 let state = tool.input(input, hands, &view, &mut self.document);
                 if tool.wants_face() {
                     let face =
-                        hands.pointer.and_then(|at| self.pointing.face(&self.document, (stage, &pane), at));
+                        hands.pointer.and_then(|at| self.pointing.face(&self.document, stage, &pane, at));
                     tool.hover(&self.document, &view, face);
                 }
                 state
@@ -217,7 +216,7 @@ impl Editor {
             && selection.kinds().contains(ElementKind::Vertex)
             && self.reach() == Reach::Visible;
         let what = if finds_vertices { Prefetch::VisibleVertices } else { Prefetch::Ids };
-        self.pointing.prefetch((stage, &pane_of(stage, side)), what);
+        self.pointing.prefetch(stage, &pane_of(stage, side), what);
     }
 
     fn select_region(
@@ -235,7 +234,7 @@ impl Editor {
         };
         let (reach, pane) = (self.reach(), pane_of(stage, side));
         let asked =
-            self.pointing.ask(&self.document, (stage, &pane), reach, |picks| picks.region(region, action));
+            self.pointing.ask(&self.document, stage, &pane, reach, |picks| picks.region(region, action));
         let command = asked.flatten();
         if let Some(command) = command {
             self.perform(stage, Request::Run(command));

@@ -27,7 +27,7 @@ fn command(editor: &mut Editor, stage: &Stage, at: DVec2, modifiers: Modifiers) 
     let (alt, ctrl) = (has(Modifiers::ALT), has(Modifiers::CTRL));
     let pane = stage.pane_at(at);
     let at = at - pane.area.origin();
-    ask(editor, (stage, &pane), |picks, radius| match (is_editing && alt, is_editing && ctrl) {
+    ask(editor, stage, &pane, |picks, radius| match (is_editing && alt, is_editing && ctrl) {
         (true, true) => picks.edge_ring(at, radius, action),
         (true, false) => picks.edge_loop(at, radius, action),
         (false, true) => picks.path(at, radius),
@@ -38,11 +38,12 @@ fn command(editor: &mut Editor, stage: &Stage, at: DVec2, modifiers: Modifiers) 
 /// Asks the image; the question is given how near is near enough, in physical pixels.
 fn ask<T>(
     editor: &mut Editor,
-    (stage, pane): (&Stage, &Pane),
+    stage: &Stage,
+    pane: &Pane,
     question: impl FnOnce(&Picks<'_>, f64) -> Option<T>,
 ) -> Option<T> {
     let (reach, radius) = (editor.reach(), PICK_RADIUS * stage.scale());
-    editor.pointing.ask(&editor.document, (stage, pane), reach, |picks| question(picks, radius)).flatten()
+    editor.pointing.ask(&editor.document, stage, pane, reach, |picks| question(picks, radius)).flatten()
 }
 
 /// The light or the camera whose lines are at a place.
@@ -67,5 +68,5 @@ impl Editor {
 fn linked(editor: &mut Editor, stage: &Stage, at: DVec2) -> Option<Command> {
     let pane = stage.pane_at(at);
     let at = at - pane.area.origin();
-    ask(editor, (stage, &pane), |picks, radius| picks.linked(at, radius, SelectAction::Add))
+    ask(editor, stage, &pane, |picks, radius| picks.linked(at, radius, SelectAction::Add))
 }

@@ -77,7 +77,7 @@ impl Pointing {
     }
 
     /// Begins to prefetch for a view on another thread. One that already runs does more if it is asked in time.
-    pub(crate) fn prefetch(&mut self, (stage, pane): (&Stage, &Pane), what: Prefetch) {
+    pub(crate) fn prefetch(&mut self, stage: &Stage, pane: &Pane, what: Prefetch) {
         if let Some(Task { thread, finds_vertices }) = &self.task
             && !thread.is_finished()
         {
@@ -93,7 +93,7 @@ impl Pointing {
         let finds_vertices = Arc::new(AtomicBool::new(what == Prefetch::VisibleVertices));
         let asked = Arc::clone(&finds_vertices);
         let work = move || {
-            lookup.prefetch(&scene, (camera, viewport), || asked.load(Ordering::Relaxed));
+            lookup.prefetch(&scene, camera, viewport, || asked.load(Ordering::Relaxed));
             lookup
         };
         // Without a thread the question itself finds out.
@@ -115,7 +115,8 @@ impl Pointing {
     pub(crate) fn ask<T>(
         &mut self,
         document: &Document,
-        (stage, pane): (&Stage, &Pane),
+        stage: &Stage,
+        pane: &Pane,
         reach: Reach,
         question: impl FnOnce(&Picks<'_>) -> T,
     ) -> Option<T> {
@@ -131,7 +132,8 @@ impl Pointing {
     pub(crate) fn face(
         &mut self,
         document: &Document,
-        (stage, pane): (&Stage, &Pane),
+        stage: &Stage,
+        pane: &Pane,
         at: DVec2,
     ) -> Option<(MeshId, FaceId)> {
         let known = self.lookup().known(&stage.scene, stage.camera_of(pane), pane.area.size)?;
@@ -160,7 +162,8 @@ impl Lookup {
     fn prefetch(
         &mut self,
         scene: &Scene,
-        (camera, viewport): (Camera, Viewport),
+        camera: Camera,
+        viewport: Viewport,
         finds_vertices: impl FnOnce() -> bool,
     ) {
         let Some(known) = self.known(scene, camera, viewport) else { return };

@@ -161,7 +161,9 @@ fn block(value: &Value, warnings: &mut Vec<String>) -> Result<Block, String> {
     }
     let bindings = match fields.get("bindings") {
         None => Vec::new(),
-        Some(Value::Object(bindings)) => bindings.iter().map(binding).collect::<Result<_, _>>()?,
+        Some(Value::Object(bindings)) => {
+            bindings.iter().map(|(key, value)| binding(key, value)).collect::<Result<_, _>>()?
+        }
         Some(_) => return Err("bindings is not an object".to_owned()),
     };
     let options = match fields.get("options") {
@@ -173,7 +175,7 @@ fn block(value: &Value, warnings: &mut Vec<String>) -> Result<Block, String> {
 }
 
 /// A key and its line, or its lines.
-fn binding((key, value): (&String, &Value)) -> Result<KeyBinding, String> {
+fn binding(key: &str, value: &Value) -> Result<KeyBinding, String> {
     let wrong = || format!("bindings: {key} is {value}; write a command, or a list of commands");
     let texts = match value {
         Value::Array(list) => list.iter().map(Value::as_str).collect(),
@@ -186,7 +188,7 @@ fn binding((key, value): (&String, &Value)) -> Result<KeyBinding, String> {
             return Err(wrong());
         }
     }
-    Ok(KeyBinding { key: key.clone(), lines })
+    Ok(KeyBinding { key: key.to_owned(), lines })
 }
 
 const KEYS: [&str; 4] = ["match", "match-type", "options", "bindings"];

@@ -15,7 +15,8 @@ use crate::outlet::write_file;
 /// that is not in use, and returns the name.
 pub(super) fn save(
     frame: &Frame,
-    (template, model): (&Template, Option<&Path>),
+    template: &Template,
+    model: Option<&Path>,
     inputs: &Inputs,
 ) -> Result<PathBuf, Failure> {
     let path = template.unused_in(&folder(), Subject { model, frame: 0 });

@@ -401,9 +401,8 @@ impl Handler for Viewer {
         let model = self.shown.as_ref().and_then(|shown| shown.source.first_file());
         let name = self.shots.pop_front().unwrap_or_else(|| self.request.screenshot.clone());
         let inputs = self.inputs();
-        let saved = self
-            .with_overlay(stage, frame)
-            .and_then(|frame| screenshot::save(&frame, (&name, model), &inputs));
+        let saved =
+            self.with_overlay(stage, frame).and_then(|frame| screenshot::save(&frame, &name, model, &inputs));
         match saved {
             Ok(path) => {
                 let path = std::path::absolute(&path).unwrap_or(path);

@@ -27,7 +27,8 @@ impl Action for JoinObjects {
         let Some(active) = change.selection().active else { return Err(refused) };
         let Some(into) = mesh_of(active) else { return Err(refused) };
         let others = change.selection().objects.iter().filter(|&&id| id != active);
-        let others: Vec<_> = others.filter_map(|&id| Some((id, mesh_of(id)?))).collect();
+        let others: Vec<_> =
+            others.filter_map(|&id| Some(Joined { object: id, mesh: mesh_of(id)? })).collect();
         if others.is_empty() {
             return Err(refused);
         }
@@ -37,12 +38,12 @@ impl Action for JoinObjects {
             return Err(Refusal::NotPossible { operation: "joining objects", reason }.into());
         }
         let mut slots = Slots::of_active(change, active, into)?;
-        for &(id, mesh) in &others {
-            let transform = to_active * change.scene().world_transform(id);
-            join(change, into, (id, mesh), &transform, &mut slots)?;
+        for other in &others {
+            let transform = to_active * change.scene().world_transform(other.object);
+            join(change, into, other, &transform, &mut slots)?;
         }
         let scene = change.scene_mut();
-        others.iter().for_each(|&(id, _)| remove_alone(scene, id));
+        others.iter().for_each(|other| remove_alone(scene, other.object));
         if let Some(node) = scene.node_mut(active) {
             node.materials = slots.materials;
         }
@@ -51,11 +52,17 @@ impl Action for JoinObjects {
     }
 }
 
+/// An object that is joined to another, and its mesh.
+struct Joined {
+    object: NodeId,
+    mesh: MeshId,
+}
+
 /// Adds an object's mesh to another mesh.
 fn join(
     change: &mut Change<'_>,
     into: MeshId,
-    (object, mesh): (NodeId, MeshId),
+    &Joined { object, mesh }: &Joined,
     transform: &DAffine3,
     slots: &mut Slots,
 ) -> Result<(), EditError> {

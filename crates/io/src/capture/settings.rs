@@ -167,7 +167,10 @@ impl Stored for Camera {
 }
 
 /// Distances of planes: near, and far if it is not infinitely far.
-type Planes = (f64, Option<f64>);
+struct Planes {
+    near: f64,
+    far: Option<f64>,
+}
 
 impl Stored for Projection {
     fn write(&self, to: &mut Writer<'_>) {
@@ -189,15 +192,15 @@ impl Stored for Projection {
         let kind = u8::read(from)?;
         let made = match kind {
             0 => {
-                let ([vertical_fov], (near, far)) = parts(from)?;
+                let ([vertical_fov], Planes { near, far }) = parts(from)?;
                 Self::perspective(vertical_fov, near, far)
             }
             1 => {
-                let ([height], (near, far)) = parts(from)?;
+                let ([height], Planes { near, far }) = parts(from)?;
                 Self::orthographic(height, near, far.unwrap_or(f64::INFINITY))
             }
             2 => {
-                let ([left, right, bottom, top], (near, far)) = parts(from)?;
+                let ([left, right, bottom, top], Planes { near, far }) = parts(from)?;
                 Self::frustum(left, right, bottom, top, near, far)
             }
             3 => {
@@ -211,10 +214,10 @@ impl Stored for Projection {
 }
 
 fn parts<const N: usize>(from: &mut Reader<'_>) -> Result<([f64; N], Planes), Damage> {
-    Ok((Stored::read(from)?, (Stored::read(from)?, Stored::read(from)?)))
+    Ok((Stored::read(from)?, Planes { near: Stored::read(from)?, far: Stored::read(from)? }))
 }
 
-fn pinhole(shape: [f64; 6], (near, far): Planes) -> Result<Projection, CameraError> {
+fn pinhole(shape: [f64; 6], Planes { near, far }: Planes) -> Result<Projection, CameraError> {
     let [fx, fy, cx, cy, width, height] = shape;
     // A size in pixels is an integer; anything else becomes 0, which is rejected.
     let image = Viewport { width: width as u32, height: height as u32 };

@@ -106,7 +106,7 @@ impl VertexTable {
             if !std::mem::replace(&mut is_known[vertex as usize], true) {
                 self.values[base + vertex as usize] = values;
             }
-            let number = self.number(base, (vertex, values), &mut others);
+            let number = self.number(base, vertex, values, &mut others);
             self.corner_vertices.push(number);
         }
         let colors = object.mesh.attributes().vertex_colors.as_deref().filter(|_| columns.colors);
@@ -119,14 +119,14 @@ impl VertexTable {
             let edge = edge.map(|end| {
                 let values = self.values[base + end as usize];
                 let color = colors.map_or(values.color, |colors| colors[end as usize]);
-                self.number(base, (end, Values { color, ..values }), &mut others)
+                self.number(base, end, Values { color, ..values }, &mut others)
             });
             self.edges.push(edge);
         }
     }
 
     /// The number of a vertex of an object with some values: its own if it has them, else that of a copy.
-    fn number(&mut self, base: usize, (vertex, values): (u32, Values), others: &mut Others) -> u32 {
+    fn number(&mut self, base: usize, vertex: u32, values: Values, others: &mut Others) -> u32 {
         let own = base + vertex as usize;
         if self.values[own].bits() == values.bits() {
             return own as u32;

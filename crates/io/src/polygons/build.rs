@@ -11,18 +11,27 @@ use super::{Polygons, most_corners, too_many_corners};
 use crate::error::{LoadError, Place};
 use crate::import::Import;
 
-/// Faces of one mesh that were left out, with the first of them.
+/// Faces and edges of one mesh that were left out, by reason.
 #[derive(Default)]
 struct LeftOut {
-    non_finite: (usize, usize),
-    flat: (usize, usize),
+    non_finite: Tally,
+    flat: Tally,
 }
 
-fn note((count, first): &mut (usize, usize), index: usize) {
-    if *count == 0 {
-        *first = index;
+/// How often something occurred, and where it did first.
+#[derive(Clone, Copy, Default)]
+struct Tally {
+    count: usize,
+    first: usize,
+}
+
+impl Tally {
+    fn note(&mut self, index: usize) {
+        if self.count == 0 {
+            self.first = index;
+        }
+        self.count += 1;
     }
-    *count += 1;
 }
 
 /// The mesh of a part, with all positions less the offset.
@@ -83,9 +92,9 @@ fn build_of_sound_faces(
         face.clear();
         face.extend(polygons.corner_vertices[corners.clone()].iter().map(|&vertex| local.of(vertex)));
         if face.contains(&NOWHERE) {
-            note(&mut left_out.non_finite, index);
+            left_out.non_finite.note(index);
         } else if builder.push_face(&face).is_err() {
-            note(&mut left_out.flat, index);
+            left_out.flat.note(index);
         } else {
             kept.push(index, corners);
             continue;
@@ -212,9 +221,9 @@ fn push_edges(
     for (index, edge) in polygons.edges.iter().enumerate() {
         let [from, to] = edge.map(|vertex| local.of(vertex));
         if from == NOWHERE || to == NOWHERE {
-            note(&mut left_out.non_finite, index);
+            left_out.non_finite.note(index);
         } else if builder.push_loose_edge(from, to).is_err() {
-            note(&mut left_out.flat, index);
+            left_out.flat.note(index);
         }
     }
     if !polygons.face_sizes.is_empty() || !polygons.edges.is_empty() {
@@ -230,7 +239,7 @@ fn push_edges(
 }
 
 fn warn(import: &mut Import<'_>, left_out: &LeftOut) {
-    let mut warn = |(count, first): (usize, usize), what: &str, remedy: &str| {
+    let mut warn = |Tally { count, first }, what: &str, remedy: &str| {
         import.warnings.push_counted(count, Place::Item("face", first), what, remedy);
     };
     warn(

@@ -62,7 +62,7 @@ impl Bvh {
         let whole = Extent::of(&items);
         if let Some(child) = tree.grow(&mut items, triangles) {
             let mut root = Node::EMPTY;
-            root.set(0, (whole.min, whole.max), child);
+            root.set(0, whole.min, whole.max, child);
             tree.nodes.push(root);
         }
         tree
@@ -79,7 +79,7 @@ impl Bvh {
         let mut node = Node::EMPTY;
         for (place, (Extent { min, max }, part)) in parts(items).into_iter().enumerate() {
             if let Some(child) = self.grow(part, triangles) {
-                node.set(place, (min, max), child);
+                node.set(place, min, max, child);
             }
         }
         self.nodes.push(node);

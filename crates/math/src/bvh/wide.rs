@@ -61,7 +61,7 @@ impl Node {
         children: [Child(0); WIDTH],
     };
 
-    pub(super) fn set(&mut self, place: usize, (min, max): (Vec3, Vec3), child: Child) {
+    pub(super) fn set(&mut self, place: usize, min: Vec3, max: Vec3, child: Child) {
         for axis in 0..3 {
             self.sides[axis][0][place] = min[axis];
             self.sides[axis][1][place] = max[axis];

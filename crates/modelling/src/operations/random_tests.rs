@@ -8,15 +8,13 @@ use super::*;
 use crate::tests::{check_undo_and_redo, keeps_affine_values, meshes};
 use crate::{EdgeId, EditMesh, FaceId, Refusal, VertexId};
 
-/// Which operation, what chooses its elements, and two parameters within −1…1.
-type Step = (u8, u64, f64, f64);
-
 /// About half of some elements, as the bits of a number say, repeated.
 fn some<T: Copy>(all: impl Iterator<Item = T>, bits: u64) -> Vec<T> {
     all.enumerate().filter(|(i, _)| bits >> (i % 64) & 1 != 0).map(|(_, element)| element).collect()
 }
 
-fn step(mesh: &mut EditMesh, (kind, bits, a, b): Step) -> Result<(), Refusal> {
+/// Does an operation of a kind to the elements that some bits choose, with two parameters within −1…1.
+fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), Refusal> {
     let vertices: Vec<VertexId> = some(mesh.vertices(), bits);
     let edges: Vec<EdgeId> = some(mesh.edges(), bits);
     let faces: Vec<FaceId> = some(mesh.faces(), bits);
@@ -75,18 +73,19 @@ proptest! {
         let first = mesh.clone();
         let mut differences = Vec::new();
         for s in steps {
+            let (kind, bits, a, b) = s;
             // What grows with each mirror is enough.
             if mesh.face_count() > 2000 {
                 break;
             }
             let before = mesh.clone();
-            match mesh.transaction(|mesh| step(mesh, s)) {
+            match mesh.transaction(|mesh| step(mesh, kind, bits, a, b)) {
                 Ok(((), difference)) => differences.push(difference),
                 Err(_) => prop_assert!(mesh == before, "a refusal changes nothing: {:?}", s),
             }
             prop_assert_eq!(mesh.check_structure(), Ok(()), "after {:?}", s);
             // Marks and windings move no place, and no value from it.
-            if (5..15).contains(&(s.0 % 21)) {
+            if (5..15).contains(&(kind % 21)) {
                 prop_assert!(keeps_affine_values(&before).is_err() || keeps_affine_values(&mesh).is_ok(), "{:?}", s);
             }
         }

@@ -80,7 +80,7 @@ pub(crate) fn fill(passes: bool) -> Kernel {
             for layer in 0..LAYERS {
                 let depth = 0.1 + layer as f32 * 0.01;
                 if passes {
-                    dispatch!(Level::new(), simd => pass(simd, (&mut depths, &mut codes), depth, layer as u32));
+                    dispatch!(Level::new(), simd => pass(simd, &mut depths, &mut codes, depth, layer as u32));
                 } else {
                     let seen = dispatch!(Level::new(), simd => any_passes(simd, black_box(&depths), depth));
                     black_box(seen);
@@ -93,7 +93,7 @@ pub(crate) fn fill(passes: bool) -> Kernel {
 }
 
 #[inline(always)]
-fn pass<S: Simd>(simd: S, (depths, codes): (&mut [f32], &mut [u32]), depth: f32, code: u32) {
+fn pass<S: Simd>(simd: S, depths: &mut [f32], codes: &mut [u32], depth: f32, code: u32) {
     let (depth, code) = (F32::splat(simd, depth), U32::splat(simd, code));
     let groups = depths.as_chunks_mut::<LANES>().0.iter_mut();
     for (depths, codes) in groups.zip(codes.as_chunks_mut::<LANES>().0) {

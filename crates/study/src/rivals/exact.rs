@@ -140,7 +140,7 @@ impl<'a> Rays<'a> {
                 let line = &mut hits[row * width..][columns.clone()];
                 let y = self.place(grid, row * width).y;
                 for (hit, x) in line.iter_mut().zip(&across[columns.clone()]) {
-                    meet((place, triangle), DVec2::new(*x, y), hit);
+                    meet(place, triangle, DVec2::new(*x, y), hit);
                 }
             }
         }
@@ -185,7 +185,7 @@ impl<'a> Rays<'a> {
                 let uv = |vertex: u32| coordinates(mesh, vertex);
                 let at = mixed(&|vertex| uv(vertex).extend(0.0)).truncate();
                 let texels =
-                    if is_pixel { self.texels(triangle, corners.map(uv), (at, hit.nearness)) } else { 0.0 };
+                    if is_pixel { self.texels(triangle, corners.map(uv), at, hit.nearness) } else { 0.0 };
                 texture.trilinear(at.to_array(), texels) * light()
             }
             _ => lit(light()),
@@ -195,7 +195,7 @@ impl<'a> Rays<'a> {
 
     /// How many texels a pixel is long, in the direction in which it is longer: u and v are quotients of functions that are
     /// linear on the image, so their derivatives are exact.
-    fn texels(&self, triangle: &Triangle, uv: [DVec2; 3], (at, nearness): (DVec2, f64)) -> f64 {
+    fn texels(&self, triangle: &Triangle, uv: [DVec2; 3], at: DVec2, nearness: f64) -> f64 {
         let along = |axis: usize| {
             let slope = triangle.shares.map(|share| share[axis]);
             let above = (0..3).map(|corner| uv[corner] * slope[corner]).sum::<DVec2>();
@@ -221,7 +221,7 @@ impl Triangle {
     }
 }
 
-fn meet((place, triangle): (u32, &Triangle), at: DVec2, hit: &mut Hit) {
+fn meet(place: u32, triangle: &Triangle, at: DVec2, hit: &mut Hit) {
     let shares = triangle.at(at);
     let nearness = shares.element_sum();
     if shares.min_element() >= 0.0 && nearness > hit.nearness {

@@ -20,7 +20,8 @@ impl Gathered {
     /// left out.
     pub(super) fn gather(
         &mut self,
-        (mesh, boxes): (&Mesh, &Boxes),
+        mesh: &Mesh,
+        boxes: &Boxes,
         rect: Rect,
         pixels_per_point: f32,
         order: ChannelOrder,

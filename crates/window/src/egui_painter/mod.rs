@@ -159,20 +159,15 @@ impl EguiPainter {
         bands.try_for_each(|(number, ((pixels, beneath), hand))| {
             let top = number as u32 * rows;
             let rows = top..height.min(top + rows);
-            self.paint_rows((width, rows), (pixels, beneath), &dirty, hand)
+            self.paint_band(Band { width, rows, pixels, beneath }, &dirty, hand)
         })?;
         self.hands = hands;
         Ok(dirty)
     }
 
     /// Brings rows of an image up to date inside rectangles.
-    fn paint_rows(
-        &self,
-        (width, rows): (u32, std::ops::Range<u32>),
-        (pixels, beneath): (&mut [[u8; 4]], &[[u8; 4]]),
-        dirty: &[Rect],
-        hand: &mut Hand,
-    ) -> Result<(), paint2d::SizeError> {
+    fn paint_band(&self, band: Band<'_>, dirty: &[Rect], hand: &mut Hand) -> Result<(), paint2d::SizeError> {
+        let Band { width, rows, pixels, beneath } = band;
         let top = rows.start as i32;
         let bounds = Rect::new([0, top], [width as i32, rows.end as i32]);
         let within = || dirty.iter().map(|rect| rect.intersection(bounds)).filter(|rect| !rect.is_empty());
@@ -194,10 +189,20 @@ impl EguiPainter {
             if scissor.is_empty() {
                 continue;
             }
-            gathered.gather((mesh, boxes), scissor, self.pixels_per_point, self.order);
+            gathered.gather(mesh, boxes, scissor, self.pixels_per_point, self.order);
             painter.paint(canvas, &[gathered.mesh(scissor, image)]);
         }
     }
+}
+
+/// Rows of an image that one thread paints.
+struct Band<'p> {
+    /// Of the image.
+    width: u32,
+    /// Their numbers in the image.
+    rows: std::ops::Range<u32>,
+    pixels: &'p mut [[u8; 4]],
+    beneath: &'p [[u8; 4]],
 }
 
 /// Copies a rectangle from beneath the interface.

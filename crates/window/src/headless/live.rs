@@ -41,7 +41,7 @@ impl<'a> HeadlessWindow<'a> {
         let worker = Worker::of_threads(finished, move || started.elapsed());
         connect(&stage, ring);
         let mut window =
-            Self::with_worker(stage, handler, (worker, rings), Box::new(move || started.elapsed()));
+            Self::with_worker(stage, handler, worker, rings, Box::new(move || started.elapsed()));
         window.is_live = true;
         window.start(size);
         window
@@ -51,7 +51,8 @@ impl<'a> HeadlessWindow<'a> {
     /// that were shown meanwhile.
     pub fn drag_live(
         &mut self,
-        (duration, interval): (Duration, Duration),
+        duration: Duration,
+        interval: Duration,
         place: impl Fn(Duration) -> DVec2,
     ) -> Vec<LiveFrame> {
         let begun = (self.clock)();

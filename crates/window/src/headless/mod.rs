@@ -106,7 +106,7 @@ impl<'a> HeadlessWindow<'a> {
     ) -> Self {
         let (ring, rings) = channel();
         connect(&stage, ring);
-        let mut window = Self::with_worker(stage, handler, (Worker::of_caller(), rings), Box::new(clock));
+        let mut window = Self::with_worker(stage, handler, Worker::of_caller(), rings, Box::new(clock));
         window.start(size);
         window
     }
@@ -115,7 +115,8 @@ impl<'a> HeadlessWindow<'a> {
     fn with_worker(
         stage: Stage,
         handler: &'a mut dyn Handler,
-        (worker, rings): (Worker, Receiver<Ring>),
+        worker: Worker,
+        rings: Receiver<Ring>,
         clock: Clock,
     ) -> Self {
         let mut session = Session::new(stage, handler, worker);

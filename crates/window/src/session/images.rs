@@ -102,8 +102,8 @@ impl Session<'_> {
         }
         let Viewport { width, height } = self.stage.viewport();
         let painter = &mut self.interface.painter;
-        let shown = (self.shown.as_ref(), self.redrawn.as_ref());
-        self.canvas.show(shown, [width, height], |changed| painter.invalidate_part(changed));
+        let (shown, redrawn) = (self.shown.as_ref(), self.redrawn.as_ref());
+        self.canvas.show(shown, redrawn, [width, height], |changed| painter.invalidate_part(changed));
     }
 
     /// Begins an image that was asked for, if the worker has time. It need not wait for

@@ -1,6 +1,6 @@
 //! Parameters of a light.
 
-use trigon_document::scene::{Light, LightKind, NodeId};
+use trigon_document::scene::{Light, LightKind};
 use trigon_document::{Document, LightShape, ObjectName, SetLight};
 use trigon_window::egui::{self, Ui};
 
@@ -8,18 +8,15 @@ use super::super::parameters::check_box;
 use super::super::row::{choice, color, hovered, number, positive, row};
 use super::super::submit::submit;
 use super::super::unit::Unit;
+use super::ShownObject;
 use crate::request::Request;
 
 /// What the range is when a limit is switched on, in metres.
 const USUAL_RANGE: f32 = 10.0;
 
 /// Shows it, and requests changes.
-pub(super) fn light(
-    ui: &mut Ui,
-    document: &Document,
-    (id, light): (NodeId, Light),
-    requests: &mut Vec<Request>,
-) {
+pub(super) fn light(ui: &mut Ui, object: ShownObject<'_>, light: Light, requests: &mut Vec<Request>) {
+    let ShownObject { document, id, .. } = object;
     let unchanged = SetLight { object: Some(ObjectName::of(id)), ..SetLight::default() };
     let Some(mut shape) = shape_of(light.kind) else {
         ui.add(egui::Label::new("Ambient light, the same from all directions").wrap());

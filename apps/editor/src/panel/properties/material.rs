@@ -1,6 +1,6 @@
 //! The materials of an object: its slots, their values, their textures.
 
-use trigon_document::scene::{AlphaMode, Arena, Material, MaterialId, Node, NodeId, Shading};
+use trigon_document::scene::{AlphaMode, Arena, Material, MaterialId, Shading};
 use trigon_document::{
     AddMaterial, AssignTexture, Document, MaterialName, ObjectName, SetMaterial, SetMaterialSlot,
     SurfaceAlpha, SurfaceShading, TextureSlot,
@@ -11,19 +11,15 @@ use super::super::parameters::check_box;
 use super::super::row::{choice, color, number, positive, row, text};
 use super::super::submit::submit;
 use super::super::unit::Unit;
+use super::ShownObject;
 use crate::request::Request;
 
 /// Shows the slots and the material of the chosen one.
-pub(super) fn material(
-    ui: &mut Ui,
-    document: &Document,
-    (id, node): (NodeId, &Node),
-    slot: &mut usize,
-    requests: &mut Vec<Request>,
-) {
+pub(super) fn material(ui: &mut Ui, shown: ShownObject<'_>, slot: &mut usize, requests: &mut Vec<Request>) {
+    let ShownObject { document, id, node } = shown;
     let object = Some(ObjectName::of(id));
     *slot = (*slot).min(node.materials.len().saturating_sub(1));
-    slots(ui, document, (id, node), slot, requests);
+    slots(ui, shown, slot, requests);
     if ui.button("Add material").on_hover_text("Adds a slot with a new material").clicked() {
         requests.push(Request::Run(AddMaterial { object, ..AddMaterial::default() }.into()));
     }
@@ -35,13 +31,8 @@ pub(super) fn material(
 }
 
 /// Which slot is shown, and which material is in it.
-fn slots(
-    ui: &mut Ui,
-    document: &Document,
-    (id, node): (NodeId, &Node),
-    slot: &mut usize,
-    requests: &mut Vec<Request>,
-) {
+fn slots(ui: &mut Ui, shown: ShownObject<'_>, slot: &mut usize, requests: &mut Vec<Request>) {
+    let ShownObject { document, id, node } = shown;
     let materials = &document.nodes().materials;
     if node.materials.len() > 1 {
         let names: Vec<String> = node
@@ -86,6 +77,13 @@ fn choose_material(ui: &mut Ui, materials: &Arena<Material>, current: MaterialId
     chosen
 }
 
+/// A number from 0 to 1, and its label.
+struct ShareRow<'l> {
+    label: &'l str,
+    hover: &'l str,
+    value: f32,
+}
+
 /// The values of a material.
 struct Fields<'f> {
     document: &'f Document,
@@ -103,9 +101,19 @@ impl Fields<'_> {
         self.base_color(ui, requests);
         if let Shading::MetallicRoughness(model) = self.material.shading {
             let given = |metallic| SetMaterial { metallic: Some(metallic), ..self.unchanged() };
-            self.share(ui, "Metallic", "0 is a dielectric, 1 a metal.", (model.metallic, &given), requests);
+            self.share(
+                ui,
+                ShareRow { label: "Metallic", hover: "0 is a dielectric, 1 a metal.", value: model.metallic },
+                &given,
+                requests,
+            );
             let given = |roughness| SetMaterial { roughness: Some(roughness), ..self.unchanged() };
-            self.share(ui, "Roughness", "0 is a mirror, 1 is matt.", (model.roughness, &given), requests);
+            self.share(
+                ui,
+                ShareRow { label: "Roughness", hover: "0 is a mirror, 1 is matt.", value: model.roughness },
+                &given,
+                requests,
+            );
         }
         let mut emissive = self.material.emissive.to_array();
         if let Some(response) = color(ui, "Emission", "The colour of emitted light.", &mut emissive) {
@@ -153,16 +161,20 @@ impl Fields<'_> {
             submit(ui, self.document, &response, command.into(), requests);
         }
         let given = |alpha| SetMaterial { base_color: Some([red, green, blue, alpha]), ..self.unchanged() };
-        self.share(ui, "Alpha", "Opacity, unless alpha is ignored.", (alpha, &given), requests);
+        self.share(
+            ui,
+            ShareRow { label: "Alpha", hover: "Opacity, unless alpha is ignored.", value: alpha },
+            &given,
+            requests,
+        );
     }
 
-    /// A number from 0 to 1.
+    /// Shows a number from 0 to 1.
     fn share(
         &self,
         ui: &mut Ui,
-        label: &str,
-        hover: &str,
-        (value, given): (f32, &dyn Fn(f32) -> SetMaterial),
+        ShareRow { label, hover, value }: ShareRow<'_>,
+        given: &dyn Fn(f32) -> SetMaterial,
         requests: &mut Vec<Request>,
     ) {
         let mut shown = f64::from(value);
@@ -189,7 +201,16 @@ impl Fields<'_> {
         }
         if let AlphaMode::Mask { cutoff } = self.material.alpha_mode {
             let given = |cutoff| SetMaterial { alpha_cutoff: Some(cutoff), ..self.unchanged() };
-            self.share(ui, "Alpha cutoff", "The smallest alpha that is surface.", (cutoff, &given), requests);
+            self.share(
+                ui,
+                ShareRow {
+                    label: "Alpha cutoff",
+                    hover: "The smallest alpha that is surface.",
+                    value: cutoff,
+                },
+                &given,
+                requests,
+            );
         }
     }
 

@@ -7,6 +7,7 @@ mod material;
 mod tests;
 mod transform;
 
+use trigon_document::scene::{Node, NodeId};
 use trigon_document::{Document, ObjectName, RenameObject};
 use trigon_window::egui::{self, CollapsingHeader, Ui};
 
@@ -21,6 +22,14 @@ pub(crate) struct PropertiesState {
     elements: elements::Values,
     /// Which material slot is shown.
     slot: usize,
+}
+
+/// The object whose properties are shown.
+#[derive(Clone, Copy)]
+struct ShownObject<'d> {
+    document: &'d Document,
+    id: NodeId,
+    node: &'d Node,
 }
 
 /// Shows it.
@@ -40,20 +49,21 @@ pub(crate) fn properties(
         ui.add(egui::Label::new("Select an object to see its properties.").wrap());
         return;
     };
+    let object = ShownObject { document, id, node };
     ui.push_id(id, |ui| {
         let mut name = node.name.clone();
         if row(ui, "Name", "", |ui, width| text(ui, width, &mut name)).changed() {
             requests.push(Request::Run(RenameObject { object: ObjectName::of(id), name }.into()));
         }
         section(ui, "Transform", |ui| {
-            transform::transform(ui, document, (id, node), &mut state.transform, requests);
+            transform::transform(ui, object, &mut state.transform, requests);
         });
         if let Some(light) = node.light {
-            section(ui, "Light", |ui| light::light(ui, document, (id, light), requests));
+            section(ui, "Light", |ui| light::light(ui, object, light, requests));
         }
         if node.mesh.is_some() {
             section(ui, "Material", |ui| {
-                material::material(ui, document, (id, node), &mut state.slot, requests);
+                material::material(ui, object, &mut state.slot, requests);
             });
         }
     });

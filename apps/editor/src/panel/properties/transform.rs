@@ -8,6 +8,7 @@ use trigon_window::egui::Ui;
 use super::super::row::{choice, plain, vector};
 use super::super::submit::submit;
 use super::super::unit::Unit;
+use super::ShownObject;
 use crate::request::Request;
 
 /// How transforms are shown.
@@ -33,11 +34,11 @@ const SAME_ROTATION: f64 = 1e-9;
 /// Shows them, and requests changes.
 pub(super) fn transform(
     ui: &mut Ui,
-    document: &Document,
-    (id, node): (NodeId, &Node),
+    object: ShownObject<'_>,
     state: &mut TransformState,
     requests: &mut Vec<Request>,
 ) {
+    let ShownObject { document, id, node } = object;
     choose_space(ui, state);
     let (scale, rotation, location) = parts(document, id, node, state.space);
     let unchanged =

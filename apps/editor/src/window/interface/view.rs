@@ -24,7 +24,7 @@ pub(super) fn show(ui: &Ui, editor: &mut Editor, stage: &Stage) {
     for pane in &panes {
         let view = overlay_view(stage, pane);
         let painter = ui.painter().with_clip_rect(view.rect());
-        show_pane(&painter, editor, (stage, pane), &view);
+        show_pane(&painter, editor, stage, pane, &view);
         if panes.len() > 1 {
             draw_name(&painter, ui.visuals(), &view, pane);
         }
@@ -32,7 +32,7 @@ pub(super) fn show(ui: &Ui, editor: &mut Editor, stage: &Stage) {
 }
 
 /// Draws what lies over one view.
-fn show_pane(painter: &Painter, editor: &mut Editor, (stage, pane): (&Stage, &Pane), view: &OverlayView) {
+fn show_pane(painter: &Painter, editor: &mut Editor, stage: &Stage, pane: &Pane, view: &OverlayView) {
     let origin = pane.area.origin();
     if editor.view.overlays {
         draw_grid(painter, view, &|points| stage.distances_at(points.iter().map(|&at| at + origin)));

@@ -177,7 +177,7 @@ fn a_box_selects_the_vertices_that_are_seen_after_every_change() {
         let Worked { editor, stage } = worked;
         let pane = stage.pane_at(min);
         let region = Region::Rectangle { min, max };
-        let found = Pointing::default().ask(&editor.document, (stage, &pane), editor.reach(), |picks| {
+        let found = Pointing::default().ask(&editor.document, stage, &pane, editor.reach(), |picks| {
             picks.region(&region, SelectAction::Replace)
         });
         let Some(Command::SelectElements(select)) = found.flatten() else { panic!("some are seen") };

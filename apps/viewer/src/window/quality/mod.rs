@@ -107,7 +107,7 @@ impl QualityPanel {
         let width = ui.available_width();
         egui::Grid::new("accuracy").spacing([8.0, 4.0]).show(ui, |ui| {
             for setting in Setting::ALL {
-                self.row(ui, (&mut *stage, width), setting);
+                self.row(ui, stage, width, setting);
                 ui.end_row();
             }
         });
@@ -132,7 +132,7 @@ impl QualityPanel {
     }
 
     /// A setting, its choices, and what the last change of it cost.
-    fn row(&mut self, ui: &mut egui::Ui, (stage, width): (&mut Stage, f32), setting: Setting) {
+    fn row(&mut self, ui: &mut egui::Ui, stage: &mut Stage, width: f32, setting: Setting) {
         let (has_costs, costs) = (width > WITH_COSTS, self.costs.of(setting));
         let label = ui.label(setting.name());
         let choices = setting.choices(&stage.settings);

@@ -149,9 +149,9 @@ fn read_image(
             Some(bytes)
         }
         Err(Unread { what, remedy, .. }) => {
-            let said = (format!("the image is not drawn: {what}"), remedy);
+            let what = format!("the image is not drawn: {what}");
             let tried = tried_for(&mut import.folder, root, image);
-            import.warnings.push_unusable(import.path, place, said, tried);
+            import.warnings.push_unusable(import.path, place, what, remedy, tried);
             None
         }
     }

@@ -105,8 +105,8 @@ fn read_libraries(import: &mut Import<'_>, record: &Record) -> (HashMap<String, 
                         tried.display()
                     );
                     let all = import.folder.tried(Path::new(""), &name);
-                    let said = (what, refusal.remedy());
-                    import.warnings.push_unusable(import.path, Place::Line(*line), said, all);
+                    let place = Place::Line(*line);
+                    import.warnings.push_unusable(import.path, place, what, refusal.remedy(), all);
                     continue;
                 }
             };

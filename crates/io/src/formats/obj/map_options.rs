@@ -35,35 +35,40 @@ pub(crate) fn parse_map(rest: &str, holds_colors: bool) -> MapStatement {
     let mut rest = rest.trim();
     while let Some((option, after)) = split_option(rest) {
         let mut arguments = Vec::new();
-        rest = take_arguments(option, after, &mut arguments);
-        map.apply(option, &arguments, holds_colors);
+        rest = take_arguments(option.arguments, after, &mut arguments);
+        map.apply(option.name, &arguments, holds_colors);
     }
     map.file = rest.trim().to_owned();
     map
 }
 
-/// The options of the format, each with the number of its arguments; three
-/// stands for one to three numbers.
-const OPTIONS: &[(&str, usize)] = &[
-    ("-blendu", 1),
-    ("-blendv", 1),
-    ("-bm", 1),
-    ("-boost", 1),
-    ("-cc", 1),
-    ("-clamp", 1),
-    ("-colorspace", 1),
-    ("-imfchan", 1),
-    ("-mm", 2),
-    ("-o", 3),
-    ("-s", 3),
-    ("-t", 3),
-    ("-texres", 1),
-    ("-type", 1),
+/// An option of the format.
+struct MapOption {
+    name: &'static str,
+    /// The number of its arguments; three stands for one to three numbers.
+    arguments: usize,
+}
+
+const OPTIONS: &[MapOption] = &[
+    MapOption { name: "-blendu", arguments: 1 },
+    MapOption { name: "-blendv", arguments: 1 },
+    MapOption { name: "-bm", arguments: 1 },
+    MapOption { name: "-boost", arguments: 1 },
+    MapOption { name: "-cc", arguments: 1 },
+    MapOption { name: "-clamp", arguments: 1 },
+    MapOption { name: "-colorspace", arguments: 1 },
+    MapOption { name: "-imfchan", arguments: 1 },
+    MapOption { name: "-mm", arguments: 2 },
+    MapOption { name: "-o", arguments: 3 },
+    MapOption { name: "-s", arguments: 3 },
+    MapOption { name: "-t", arguments: 3 },
+    MapOption { name: "-texres", arguments: 1 },
+    MapOption { name: "-type", arguments: 1 },
 ];
 
-fn split_option(rest: &str) -> Option<((&'static str, usize), &str)> {
+fn split_option(rest: &str) -> Option<(&'static MapOption, &str)> {
     let (word, after) = split_word(rest);
-    OPTIONS.iter().find(|(name, _)| *name == word).map(|&option| (option, after))
+    OPTIONS.iter().find(|option| option.name == word).map(|option| (option, after))
 }
 
 fn split_word(rest: &str) -> (&str, &str) {
@@ -71,7 +76,7 @@ fn split_word(rest: &str) -> (&str, &str) {
     rest.split_at(rest.find(char::is_whitespace).unwrap_or(rest.len()))
 }
 
-fn take_arguments<'a>((_, count): (&str, usize), mut rest: &'a str, into: &mut Vec<&'a str>) -> &'a str {
+fn take_arguments<'a>(count: usize, mut rest: &'a str, into: &mut Vec<&'a str>) -> &'a str {
     for _ in 0..count {
         let (word, after) = split_word(rest);
         // Two of the three numbers may be missing.
@@ -90,7 +95,7 @@ impl MapStatement {
         (self.scale, self.offset, self.clamp) == (other.scale, other.offset, other.clamp)
     }
 
-    fn apply(&mut self, (option, _): (&str, usize), arguments: &[&str], holds_colors: bool) {
+    fn apply(&mut self, option: &str, arguments: &[&str], holds_colors: bool) {
         let spelled = format!("{option} {}", arguments.join(" "));
         let numbers: Option<Vec<f32>> = arguments.iter().map(|word| finite(word)).collect();
         let first = arguments.first().copied().unwrap_or_default();

@@ -191,7 +191,7 @@ impl Draft {
         };
         self.welded.number(&key, hash, known).unwrap_or_else(|new| {
             self.builder.push_vertex(part.positions[vertex]);
-            self.movements.push_vertex(part, vertex, (new, key.way()));
+            self.movements.push_vertex(part, vertex, new, key.way());
             if let Some(colors) = &mut self.vertex_colors {
                 colors.push(wire_color(part, vertex));
             }

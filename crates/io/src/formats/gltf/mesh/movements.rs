@@ -65,7 +65,7 @@ impl Movements {
         *self.ways.entry(key).or_insert(next)
     }
 
-    pub(super) fn push_vertex(&mut self, part: &Part, vertex: usize, (new, way): (u32, u32)) {
+    pub(super) fn push_vertex(&mut self, part: &Part, vertex: usize, new: u32, way: u32) {
         if way != 0 {
             self.of_vertices.resize(new as usize, 0);
             self.of_vertices.push(way);
