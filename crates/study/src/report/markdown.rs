@@ -19,8 +19,10 @@ pub(super) fn report(effort: Effort, answers: &[Answer]) -> String {
     let command = effort.pick("trigon-study --quick", "trigon-study");
     let _ = writeln!(
         text,
-        "Made by `{command}`. Errors are the same on every machine (but those of fused operations and estimated reciprocals, which are the processor's, and how well times and errors are foreseen, which follows from measured times) and held by tests; times were measured by that \
-         command on {}: medians of runs in turn, with memory allocated anew up to three times; one thread unless told otherwise. The algorithms and their sources \
+        "Made by `{command}`. Tests hold the errors, which are the same on every machine, with two exceptions: fused operations and \
+         estimated reciprocals are the processor's, and predictions of times and errors follow from measured times. Times were measured by that \
+         command on {}, on one thread unless told otherwise: \
+         medians of runs in turn, with memory allocated anew up to three times. The algorithms and their sources \
          are in `crates/study/src`, a folder for each question.\n",
         processor()
     );

@@ -9,20 +9,21 @@ use super::{Section, tobj};
 const HEAD: &str = "\
 # Every statement of OBJ and MTL
 
-What trigon does with each statement of Wavefront OBJ (version 3.0, appendix B1 of the Advanced Visualizer's manual), of MTL
-(version 4.2, chapter 5 of the File Formats manual), and of the extension for physically-based materials (Exocortex, 2014), and
-with the ways to get them wrong. Nothing that changes the image is left out in silence: a warning names the file, the
-line and the remedy. Warnings of the same wording are one, which says how many more there are.
+What trigon does with each statement, and with the ways to get it wrong. The statements are those of Wavefront OBJ (version 3.0,
+appendix B1 of the Advanced Visualizer's manual), of MTL (version 4.2, chapter 5 of the File Formats manual), and of the
+extension for physically-based materials (Exocortex, 2014). Nothing that changes the image is left out in silence: a warning names
+the file, the line and the remedy. Warnings of the same wording are one, which says how many more there are.
 
 *Read* says what a statement becomes; with a message beside it, it is drawn, but not as it is written. *Not read* says why;
 without a message, because the image is the same without it. *Refused* is a file that does not load.
 
-The cases stand in a small file. Of a model they begin at line 8, after a library, four vertices (`v`), a texture coordinate
-and a normal, and a face with all of them follows; of a library they begin at line 2, after `newmtl m`. Where a case is a
-whole file, the statement's lines are the bold ones. The last column is what
-[tobj](https://crates.io/crates/tobj) makes of the same file, compared by a test: of a model the same faces or others, of a library
-whether it reads the statement, keeps it as text, or refuses the file. Where only some corners of a file have texture
-coordinates or normals, tobj repeats those of the corner before.
+The cases stand in a small file. In a model the case begins at line 8, after a library, four vertices (`v`), a texture coordinate
+and a normal; a face with all of these follows. In a library the case begins at line 2, after `newmtl m`. Where a case is a
+whole file, the statement's lines are the bold ones.
+
+The last column is what [tobj](https://crates.io/crates/tobj) makes of the same file, compared by a test. Of a model it has the same
+faces or others; of a library it reads the statement, keeps it as text, or refuses the file. Where only some corners of a file have
+texture coordinates or normals, tobj repeats those of the corner before.
 
 This page is written by a test from the rows that it checks, in `crates/io/tests/import/statements`:
 

@@ -9,10 +9,9 @@ use super::row::{Outcome, Refused, Row, Silent, Warned};
 const HEAD: &str = "\
 # What trigon does with broken glTF files
 
-For every error and every warning of the Khronos glTF validator, at least one file that it reports so, and what trigon
-does with that file: refuse it with an error, draw it with a warning, or draw it without one, for a reason. The rule is
-that nothing is silently drawn differently from what the file says. A viewer is no validator: what does not change the
-image gets no warning.
+Every error and every warning of the Khronos glTF validator, with at least one file that it reports so. trigon refuses the
+file with an error, draws it with a warning, or draws it without one, for a reason. The rule is that nothing is silently
+drawn differently from what the file says. A viewer is no validator: what does not change the image gets no warning.
 
 Messages are shown as they are printed, without the file's name. A test makes each file, checks it against the
 validator's recorded report, and holds trigon to this table (`crates/io/tests/import/validator`; `docs/testing.md` says

@@ -220,8 +220,8 @@ pub(super) fn findings(rows: &[Row]) -> Vec<String> {
         "`standard` is for images that move, `high` for those that stay; `draft` to find a view, `reference` to measure against."
             .to_owned(),
         format!(
-            "Of the frames of the six flights, {} % keep a budget of 16 ms, {} % take the time that was predicted, within a fifth, and {} % have \
-             the error that was predicted, within a fifth.",
+            "Six flights, with the share of their frames in %, flight by flight. Frames that keep a budget of 16 ms: {}. Frames \
+             that take the predicted time, within a fifth: {}. Frames that have the predicted error, within a fifth: {}.",
             list(IN_TIME),
             list(TIMES),
             list(FORESEEN),

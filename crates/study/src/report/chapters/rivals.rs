@@ -50,7 +50,7 @@ pub(super) fn measure(_: Effort) -> Chapter {
                surface beside them; those that show the wrong one are errors of coverage. All other pixels lie *within surfaces*. A hole there shows the background. \
                In W5, whose faces have one colour each, any other colour is a wrong depth. The RMSE of the rest is interpolation in W2, light from \
                interpolated normals in W3, and texture filtering in W4. The first two rows are the exact image rounded to bytes: no image can be \
-               closer. euc and retrofire have no derivatives, so their W4 reads one level of the texture, which is less work; they have one thread and \
+               closer. euc and retrofire have no derivatives, so their W4 reads one level of the texture, which is less work. Both have one thread and \
                no multisampling. `tests/peers/rivals.sh` repeats the images and the times.",
         findings: findings(&rows),
         plots: plot.into_iter().collect(),

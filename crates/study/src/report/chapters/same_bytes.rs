@@ -29,9 +29,9 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     Chapter {
         name: "same-bytes",
         title: "What do the same bytes everywhere cost?",
-        text: "A kernel of perspective and Blinn-Phong shading, eight pixels at a time with the processor's best vectors: by the \
-               renderer's rules, with products fused with sums, and with estimated reciprocals, too, against the formula in \
-               `f64`. What the last two give, errors included, depends on the processor.",
+        text: "A kernel of perspective and Blinn-Phong shading, eight pixels at a time with the processor's best vectors. It follows the \
+               renderer's rules, or fuses products with sums, or estimates reciprocals, too. All three are compared with the \
+               formula in `f64`. What the last two give, errors included, depends on the processor.",
         findings: Vec::new(),
         plots: Vec::new(),
         images: Vec::new(),

@@ -33,9 +33,9 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     Chapter {
         name: "shadow",
         title: "What does a shadow's edge cost?",
-        text: "A ball of 5,120 triangles over a floor: maps that reach just round it, nearest texel or four of them weighted, and \
-               rays against a tree of the same triangles; then whole images of the floor by the engine, with its own maps and \
-               rays, which it keeps from frame to frame. Errors are against the shadow of these triangles, moved onto the \
+        text: "A ball of 5,120 triangles over a floor. Its shadow comes from maps that reach just round it, by the nearest texel or \
+               four weighted ones, or from rays against a tree of the same triangles. Then follow whole images of the floor by \
+               the engine, with its own maps and rays, which it keeps from frame to frame. Errors are against the shadow of these triangles, moved onto the \
                floor in `f64`, in the pixels within two of its edge.",
         findings: Vec::new(),
         plots: vec![Plot::trade("ball", &rows, CASE, [TIME, RMSE])],
@@ -90,6 +90,6 @@ pub(super) fn headlines() -> Vec<Headline> {
     vec![
         of([Shadow::Rays.name(), map.name()]),
         of([Shadow::Map(1024, MapFilter::Linear).name(), map.name()]),
-        of([engine_rays, engine_map]).meaning("These are whole images."),
+        of([engine_rays, engine_map]).meaning("Both rows are whole images."),
     ]
 }

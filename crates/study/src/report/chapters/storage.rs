@@ -26,7 +26,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     Chapter {
         name: "storage",
         title: "How should a mesh be stored that is edited?",
-        text: "The representations that source D weighs (its section 1.3): memory, and what it takes to find the edge nearest to a \
+        text: "The representations that source D weighs (section 1.3), by memory and by three searches: the edge nearest to a \
                point on a face, the faces whose planes change with a vertex, and a vertex's neighbours. A read is an index looked \
                at, counted where it is read, by a second copy that is not timed. All give the same answers.",
         findings: findings(),

@@ -44,8 +44,9 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     Chapter {
         name: "threads",
         title: "How many threads does an image want?",
-        text: "Source D's table 4.1 again: a square of two faces that fills most of the image, new threads for each face with a \
-               share of its rows, compiled with optimisation; and the engine, whose threads last and take tiles in turn. The \
+        text: "Source D's table 4.1 again, compiled with optimization: a square of two faces that fills most of the image, with new \
+               threads for each face and a share of its rows for each. Beside it is the engine, whose threads last and take \
+               tiles in turn. The \
                square gives the engine so little to compute that writing memory is most of its work. So it also draws W3, a \
                knot with light in each pixel (docs/performance.md has all workloads with one thread and with two).",
         findings: findings(&theirs, &ours),
