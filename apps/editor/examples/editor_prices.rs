@@ -4,10 +4,10 @@
 //! ```text
 //! cargo run --release -p trigon-editor --example editor_prices [-- PART OF A NAME]
 //! ```
-//! The window is one without a display, worked through the same session as behind a real one, but that images
-//! are drawn on the thread that asks and the interface is laid out after them: behind a real window both happen
-//! at once. Prints milliseconds from the event to the image in full size, and where they went. The rows "live drag"
-//! do the same as behind a real window, and tell how many images a second come to the screen.
+//! The window has no display, and works through the same session as behind a real one. There is one difference:
+//! images are drawn on the thread that asks, and the interface is laid out after them. Behind a real window both
+//! happen at once. Prints milliseconds from the event to the image in full size, and where they went. The rows
+//! "live drag" do the same as behind a real window, and tell how many images a second come to the screen.
 
 use std::time::{Duration, Instant};
 

@@ -1,5 +1,5 @@
-//! Cameras in double precision: position, projection, and interactive control. They map a scene in
-//! world coordinates to a rasterizer's clip coordinates.
+//! Cameras in double precision: position, projection, and interactive control. A camera maps a scene in world
+//! coordinates to a rasterizer's clip coordinates.
 //!
 //! Conventions of every function:
 //! - World and camera space are right-handed. The camera looks along −Z, +Y is up.

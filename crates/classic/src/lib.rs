@@ -1,8 +1,9 @@
 //! Classical visible-surface algorithms: painter's, Roberts', Warnock's, the z-buffer, and ray casting with and
-//! without a tree. They are what source D compares (row D5), kept for teaching and for measuring against.
+//! without a tree. Source D compares these algorithms (row D5); they are kept for teaching and for measuring
+//! against.
 //!
-//! All take a [`Scene`] of bodies whose corners lie on a grid of 1/256 pixel, as fine as that of `trigon-raster`.
-//! So they agree on what a face covers ([`Edges`]), and differ only in how they find the nearest one. Nothing is
+//! All methods take a [`Scene`] of bodies whose corners lie on a grid of 1/256 pixel, as in `trigon-raster`. So
+//! they agree on what a face covers ([`Edges`]), and differ only in how they find the nearest one. Nothing is
 //! clipped: coordinates stay within 2¹⁴ pixels, depths within 2¹⁸ steps of the grid.
 //!
 //! ```

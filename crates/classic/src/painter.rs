@@ -1,6 +1,6 @@
 //! The painter's algorithm (M. E. Newell, R. G. Newell and T. L. Sancha, "A solution to the hidden surface
-//! problem", ACM Annual Conference 1972) without splitting faces: they are sorted by the depth of their
-//! centres and painted in that order. For faces that intersect, or overlap in a cycle, no order is correct.
+//! problem", ACM Annual Conference 1972) without splitting faces. Faces are sorted by the depth of their centres
+//! and painted in that order. For faces that intersect, or overlap in a cycle, no order is correct.
 
 use super::{Drawing, Scene, Surface};
 

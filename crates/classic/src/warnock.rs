@@ -1,6 +1,6 @@
 //! Warnock's algorithm (J. E. Warnock, "A hidden surface algorithm for computer generated halftone images",
-//! University of Utah, 1969): a window that shows one face, or that the nearest face fills, is painted; any
-//! other window is divided into four, down to single pixels.
+//! University of Utah, 1969). A window that shows one face, or that the nearest face fills, is painted. Any other
+//! window is divided into four, down to single pixels.
 
 use super::{Drawing, Scene, Surface};
 use std::ops::Range;

@@ -3,7 +3,7 @@
 //! ```text
 //! cargo run --release -p trigon-document --example edit_prices [-- PART OF A NAME]
 //! ```
-//! Prints rows of `program,operation,input,threads,median,shortest,longest`, times in milliseconds. They are
+//! Prints rows of `program,operation,input,threads,median,shortest,longest`, times in milliseconds. The rows are
 //! those of `tests/peers/blender_edit.py`, for the same grid: quads on a wavy sheet with one set of texture
 //! coordinates.
 

@@ -1,9 +1,8 @@
 //! Decimal numbers, correctly rounded, and lines of them.
 //!
-//! Nearly every number in a model has few digits: its digits form an integer that f64 holds
-//! exactly, and so does the power of ten to multiply or divide by, so only one rounding is needed
-//! (W. D. Clinger, "How to Read Floating Point Numbers Accurately", 1990). All others go to the
-//! standard library.
+//! Nearly every number in a model has few digits. f64 holds these digits as an integer exactly, and also the power
+//! of ten to multiply or divide by, so only one rounding is needed (W. D. Clinger, "How to Read Floating Point
+//! Numbers Accurately", 1990). All others go to the standard library.
 
 /// The numbers at the start of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]

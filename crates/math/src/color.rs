@@ -1,9 +1,8 @@
 //! Colour transfer: sRGB bytes to linear light and back.
 //!
-//! Decoding a byte reads a table. Encoding compares with 255 thresholds, each
-//! the smallest `f32` that rounds to the next byte, so the result is the byte
-//! nearest to the exact curve, on every machine, with no power function at run
-//! time. The curve is that of IEC 61966-2-1 (sRGB).
+//! Decoding a byte reads a table. Encoding compares with 255 thresholds, each the smallest `f32` that rounds to
+//! the next byte. So the result is the byte nearest to the exact curve, on every machine, with no power function
+//! at run time. The curve is that of IEC 61966-2-1 (sRGB).
 //!
 //! Colours as vectors hold red, green, blue, alpha. *Straight* colours have
 //! independent alpha; *premultiplied* ones have the colour multiplied by it.

@@ -1,9 +1,9 @@
 //! Orientation of three points, with the exact sign.
 //!
-//! Everything that decides topology (coverage, ears, culling) uses these functions, never a rounded
-//! cross product. Points on the screen's grid have an exact integer area; points in `f64` have an
-//! exact sign by adaptive precision (J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic
-//! and Fast Robust Geometric Predicates", 1997; the `robust` crate).
+//! Everything that decides topology (coverage, ears, culling) uses these functions, never a rounded cross product.
+//! Points on the screen's grid have an exact integer area. Points in `f64` have an exact sign by adaptive
+//! precision (J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates",
+//! 1997; the `robust` crate).
 
 use glam::{DMat3, DVec2, DVec3};
 

@@ -1,9 +1,8 @@
 //! Finding the edges of faces: every undirected pair of vertices once.
 //!
-//! Half-edges are grouped by their smaller vertex and sorted within the group by the larger one.
-//! This takes O(n log n) in the worst case, whatever the input (a fan with a million triangles
-//! around one vertex is one large group), and the numbering follows the faces, so no hash order can
-//! affect it.
+//! Half-edges are grouped by their smaller vertex and sorted within the group by the larger one. This takes O(n
+//! log n) in the worst case, whatever the input: a fan with a million triangles around one vertex is one large
+//! group. The numbering follows the faces, so no hash order can affect it.
 
 use crate::groups::Groups;
 

@@ -1,8 +1,8 @@
 //! One value for each element, with a record of what a change replaced.
 //!
-//! A [`Column`] is a plain list while nothing is recorded. During a transaction, the first write to
-//! an element keeps its old value; once these take more memory than the old list, the whole old
-//! list is kept and writes cost no more than without a record.
+//! A [`Column`] is a plain list while nothing is recorded. During a transaction, the first write to an element
+//! keeps its old value. Once the kept values take more memory than the old list, the whole old list is kept, and
+//! writes cost no more than without a record.
 
 use std::ops::Index;
 

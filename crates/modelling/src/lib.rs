@@ -9,9 +9,9 @@
 //! This crate knows no documents, selections, files or windows, and gives the same bits on every machine.
 //!
 //! # Modules
-//! From low to high: `ids`, `column` (values with a record of changes), `records` and `layers` (the stored
-//! data), `edit_mesh` (all columns), `slots` (adds and removes single elements) and `rings` (links and
-//! unlinks them), `walk` (navigation between elements), `euler` (elementary changes), and the operations.
+//! From low to high: `ids`, `column` (values with a record of changes), `records` and `layers` (the stored data),
+//! `edit_mesh` (all columns). `slots` adds and removes single elements, `rings` links and unlinks them, `walk`
+//! goes from one to its neighbours. `euler` has the elementary changes of which `operations` consist.
 
 mod blends;
 mod column;

@@ -1,7 +1,7 @@
-//! 100,000 lines and as many points against the plainest loops that draw as much: the
-//! algorithm of Bresenham, and squares and discs pixel by pixel, each with a depth test, a
-//! depth, an id and a colour written to each pixel. Anti-aliased lines and points blend two to
-//! three times as many pixels; their times, too, are for each pixel of the plain loops.
+//! 100,000 lines and as many points against the plainest loops that draw as much. These are the algorithm of
+//! Bresenham, and squares and discs pixel by pixel, each with a depth test, a depth, an id and a colour written to
+//! each pixel. Anti-aliased lines and points blend two to three times as many pixels; their times, too, are for
+//! each pixel of the plain loops.
 //!
 //! Both take turns, and the shortest times are compared, so that what else the machine does
 //! matters little. A name on the command line picks the rows that contain it, `--quick` takes

@@ -1,7 +1,6 @@
-//! Looking up a texture of 1024 by 1024 texels for 589,824 samples (768 by
-//! 768), as a surface seen at a changing distance does it: one to three texels
-//! per sample, so mip levels 0.5 to 1.5, in tiles of 64 by 64 samples. The
-//! throughput is in samples.
+//! Looking up a texture of 1024 by 1024 texels for 589,824 samples (768 by 768), as a surface seen at a changing
+//! distance does it. There are one to three texels per sample, so mip levels 0.5 to 1.5, in tiles of 64 by 64
+//! samples. The throughput is in samples.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::{Level, dispatch};

@@ -1,6 +1,5 @@
-//! Which pixels of an image are proven to stay as they are if everything is a
-//! little off: prints a map of a torus, `.` where a pixel may come to see
-//! something else and `o` where one of its bytes may change.
+//! Which pixels of an image are proven to stay as they are if everything is a little off. Prints a map of a torus,
+//! `.` where a pixel may come to see something else and `o` where one of its bytes may change.
 //!
 //! `cargo run --release -p trigon-raster --example certified [COLUMNS ROWS] [STEPS]`
 

@@ -1,8 +1,8 @@
 //! Lines: a segment becomes a parallelogram of two triangles, in one record. The same exact rule as for triangles
 //! decides which samples it covers.
 //!
-//! The parallelogram spans the width across the minor direction and ends with cuts along it, so that a line one
-//! pixel wide has one pixel in each step of its major direction, as in Direct3D and OpenGL.
+//! The parallelogram spans the width across the minor direction and ends with cuts along it. So a line one pixel
+//! wide has one pixel in each step of its major direction, as in Direct3D and OpenGL.
 //!
 //! An anti-aliased line is a rectangle around all pixels that it covers in part. How much it covers of each is
 //! computed sample by sample (see [`Stroke`](crate::primitive::Stroke)).

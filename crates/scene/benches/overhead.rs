@@ -1,6 +1,5 @@
-//! What the scene renderer costs above a pipeline that is written by hand for the
-//! same image: a torus knot of 70,000 triangles, unlit in one colour, or with a
-//! texture and light at the vertices.
+//! What the scene renderer costs above a pipeline written by hand for the same image: a torus knot of 70,000
+//! triangles, unlit in one colour, or with a texture and light at the vertices.
 //!
 //! Times, or instructions of one warm frame (the difference of two counts):
 //!

@@ -1,8 +1,7 @@
 //! A list whose items keep their index for as long as they live.
 //!
-//! The scene refers to its parts by [`Id`]: an index, which id buffers also hold, and a generation,
-//! so that an id kept after its item was removed finds nothing instead of the item that reused the
-//! index.
+//! The scene refers to its parts by [`Id`]: an index, which id buffers also hold, and a generation, so that an old
+//! id finds nothing instead of the item that reused the index.
 
 use std::fmt;
 use std::hash::{Hash, Hasher};

@@ -8,11 +8,12 @@
 //! [`trigon_scene`] draws frames; this crate decides when and in which quality, and presents them on
 //! the screen. It knows no file formats and no editing.
 //!
-//! The path of an event: winit → `input` (translates it) → `session` (passes it to the interface, the
-//! application, or the camera) → `pacing` (decides when to draw, and in which quality) → `worker` (draws the
-//! scene on its own thread) → `interface` (lays out the panels) → `egui_painter` (repaints what changed) →
-//! `canvas` → `present` (softbuffer). Only `shell`, `present` and `input::translate` know the window system;
-//! everything else is tested without a display.
+//! The path of an event: winit → `input` → `session` → `pacing` → `worker` → `interface` → `egui_painter` →
+//! `canvas` → `present`. `input` translates it, and `session` passes it to the interface, the application, or the
+//! camera. `pacing` decides when to draw, and in which quality; `worker` draws the scene on its own thread.
+//! `interface` lays out the panels, `egui_painter` repaints what changed, and `present` shows the result by
+//! softbuffer. Only `shell`, `present` and `input::translate` know the window system; everything else is tested
+//! without a display.
 //!
 //! ```no_run
 //! use trigon_window::scene::{Material, math::DVec3, mesh::primitives};

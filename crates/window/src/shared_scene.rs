@@ -1,8 +1,8 @@
 //! A scene that is changed on the window's thread while a worker draws it.
 //!
-//! Each of the worker's threads has a replica of the scene. They share meshes until one is changed
-//! by [`SharedScene::change_mesh`]; from then on each has its own mesh and receives only the
-//! changed values. So no mesh is copied because another thread draws it.
+//! Each of the worker's threads has a replica of the scene. Replicas share meshes until one is changed by
+//! [`SharedScene::change_mesh`]; from then on each has its own mesh and receives only the changed values. So no
+//! mesh is copied because another thread draws it.
 
 use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};

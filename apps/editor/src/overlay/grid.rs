@@ -1,8 +1,8 @@
 //! The floor: a grid in the plane y = 0, and the axes x and z on it.
 //!
 //! The distance of its lines is a power of ten metres, chosen by the size of a metre on the screen below the
-//! middle of the image; lines in between fade in as the camera approaches. A piece of a line that lies behind
-//! the image's surfaces is not drawn: one depth look-up decides for each piece.
+//! middle of the image. Lines in between fade in as the camera approaches. A piece of a line that lies behind the
+//! image's surfaces is not drawn: one depth look-up decides for each piece.
 
 use trigon_document::scene::math::{DVec2, DVec3, elementary};
 use trigon_window::egui::{Color32, Painter, Pos2, Stroke};

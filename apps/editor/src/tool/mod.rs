@@ -1,10 +1,9 @@
 //! Modal tools: state machines that turn mouse and keys into previews of commands.
 //!
-//! They know no window and draw nothing. A tool is started on the selection, receives each input
-//! together with the view, previews its command on the document, and ends confirmed (one entry in
-//! the history) or cancelled (with all bytes restored). `numeric`, `constraint`, `snap`, `pivot`
-//! and `view` are shared by all tools; `transform` is move, rotate and scale in one; `gesture`
-//! selects by regions.
+//! Tools know no window and draw nothing. A tool is started on the selection, receives each input together with
+//! the view, previews its command on the document, and ends confirmed (one entry in the history) or cancelled
+//! (with all bytes restored). `numeric`, `constraint`, `snap`, `pivot` and `view` are shared by all tools;
+//! `transform` is move, rotate and scale in one; `gesture` selects by regions.
 
 mod bevel;
 mod constraint;

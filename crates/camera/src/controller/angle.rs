@@ -1,8 +1,8 @@
 //! Angles without drift: a fraction of a full turn in 64-bit fixed point.
 //!
-//! Addition is exact and wraps around. A million steps to the left and a million back end at the
-//! very same bits, and a full turn in a million steps is off by less than 10⁻¹² radians, where a
-//! sum in f64 would accumulate the same rounding a million times.
+//! Addition is exact and wraps around. A million steps to the left and a million back end at the very same bits. A
+//! full turn in a million steps is off by less than 10⁻¹² radians; a sum in f64 would accumulate the same rounding
+//! a million times.
 
 use std::f64::consts::TAU;
 

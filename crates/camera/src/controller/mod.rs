@@ -1,5 +1,5 @@
-//! Interactive cameras: plain state machines that take amounts of movement and return a
-//! [`crate::Camera`]. They know no mouse and no clock.
+//! Interactive cameras: plain state machines that take amounts of movement and return a [`crate::Camera`].
+//! Controllers know no mouse and no clock.
 
 mod angle;
 mod axis_view;

@@ -1,8 +1,8 @@
 //! How an image shows the selection: elements in their own colours in edit mode, an outline around
 //! objects in object mode.
 //!
-//! Colours are those of Blender's default theme. They are rebuilt when the selection or the marks
-//! of edges change, never per frame: dragging vertices changes neither.
+//! Colours are those of Blender's default theme. Marks are rebuilt when the selection or the marks of edges
+//! change, never per frame: dragging vertices changes neither.
 
 use std::sync::Arc;
 

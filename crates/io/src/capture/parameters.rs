@@ -1,6 +1,6 @@
-//! The up axis, and parameters of materials beyond the fixed list of a material, by their names in glTF. They
-//! follow at the end of a capture, and only where they are not the default, so that a further parameter is no
-//! new version of the format.
+//! The up axis, and parameters of materials beyond the fixed list of a material, by their names in glTF.
+//! Parameters follow at the end of a capture, and only where they are not the default, so that a further parameter
+//! is no new version of the format.
 
 use trigon_camera::UpAxis;
 use trigon_math::Vec3;

@@ -1,13 +1,12 @@
 //! A bounding volume hierarchy over triangles: the first hit of a ray, and whether it hits
 //! anything.
 //!
-//! Built by the surface area heuristic over bins (I. Wald, "On fast Construction of SAH-based
-//! Bounding Volume Hierarchies", 2007), in one fixed order, so that the same triangles give the
-//! same tree. Rays leak through no edge and no vertex (S. Woop, C. Benthin and I. Wald, "Watertight
-//! Ray/Triangle Intersection", 2013), four boxes or four triangles are tested at once (H. Dammertz,
-//! J. Hanika and A. Keller, "Shallow Bounding Volume Hierarchies for Fast SIMD Ray Tracing", 2008),
-//! and the box test is widened by its own rounding (T. Ize, "Robust BVH Ray Traversal", 2013), so
-//! that the tree gives the same results as testing every triangle.
+//! Built by the surface area heuristic over bins (I. Wald, "On fast Construction of SAH-based Bounding Volume
+//! Hierarchies", 2007), in one fixed order, so that the same triangles give the same tree. Rays leak through no
+//! edge and no vertex (S. Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", 2013). Four boxes
+//! or four triangles are tested at once (H. Dammertz, J. Hanika and A. Keller, "Shallow Bounding Volume
+//! Hierarchies for Fast SIMD Ray Tracing", 2008). The box test is widened by its own rounding (T. Ize, "Robust BVH
+//! Ray Traversal", 2013), so that the tree gives the same results as testing every triangle.
 
 mod build;
 mod ray;

@@ -1,6 +1,5 @@
-//! The tree as rays traverse it: boxes and triangles in groups of four, component by component.
-//! These are plain arrays: the compiler vectorizes them, and the results are the same as one by
-//! one.
+//! The tree as rays traverse it: boxes and triangles in groups of four, component by component. Lanes are plain
+//! arrays: the compiler vectorizes them, and the results are the same as one by one.
 
 use glam::Vec3;
 

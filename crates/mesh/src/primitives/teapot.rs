@@ -1,8 +1,7 @@
 //! The Utah teapot: 32 bicubic patches, cut into quads.
 //!
-//! The patches of a part (body, lid, handle, spout) meet edge to edge and
-//! close once round, so each part is one net of points: every point is
-//! computed once and shared, and there are no cracks.
+//! The patches of a part (body, lid, handle, spout) meet edge to edge and close once round, so each part is one
+//! net of points. Every point is computed once and shared, and there are no cracks.
 
 use trigon_math::DVec3;
 

@@ -15,8 +15,7 @@ use vectors::{Vectors, cross, difference, dot, each, lanes};
 /// The corners of quads side by side, so that the compiler computes several at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quads<const N: usize> {
-    /// By corner and axis. They are widened by whoever computes with them: that takes less time than to read twice as
-    /// much.
+    /// By corner and axis. Each use widens the numbers to f64, which takes less time than to read twice as much.
     places: [[[f32; N]; 3]; 4],
 }
 

@@ -2,8 +2,8 @@
 //! satisfies every rule of [`EditMesh`](super::EditMesh); otherwise the change is refused and nothing
 //! happens.
 //!
-//! They are named after Leonhard Euler, because they preserve his formula (Baumgart, "Winged edge polyhedron
-//! representation", 1972). The set follows Blender's BMesh.
+//! Euler operators are named after Leonhard Euler, because they preserve his formula (Baumgart, "Winged edge
+//! polyhedron representation", 1972). The set follows Blender's BMesh.
 
 mod add;
 mod join;

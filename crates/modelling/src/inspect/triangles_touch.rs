@@ -1,8 +1,8 @@
 //! Whether two triangles in space have a point in common.
 //!
-//! They do if an edge of one intersects the other. The signs of volumes decide this (T. Möller and B.
-//! Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997). Triangles in one plane are compared
-//! in that plane.
+//! Two triangles touch if an edge of one intersects the other. The signs of volumes decide this (T. Möller and B.
+//! Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997). Triangles in one plane are compared in that
+//! plane.
 
 use trigon_math::{DVec2, DVec3, Orientation, orientation};
 

@@ -1,7 +1,7 @@
 //! Marks of edges and faces: sharp, seam, crease, smooth, flat, material.
 //!
-//! Each operation returns how many elements it changed. Corner normals that were given, for example by a
-//! file, would hide the effect on shading. They are cleared there, and computed normals take their place.
+//! Each operation returns how many elements it changed. Corner normals that were given, for example by a file,
+//! would hide the effect on shading. Such normals are cleared there, and computed normals take their place.
 
 use std::f64::consts::PI;
 

@@ -2,11 +2,11 @@
 //! are premultiplied by alpha.
 //!
 //! The order is total, so it depends neither on the order of draws nor on threads. Each sample keeps its farthest
-//! layers, as many as it has room for. They are shaded and blended; then the next layers in front of the last one are
-//! collected, until none is left. This is depth peeling with k layers at a time (L. Bavoil et al., "Multi-Fragment
-//! Effects on the GPU using the k-Buffer", 2007; C. Everitt, "Interactive Order-Independent Transparency", 2001), but
-//! from the back, where a blended layer is final. Any number of layers is therefore exact in bounded memory, and the
-//! result does not depend on the bound.
+//! layers, as many as it has room for. These layers are shaded and blended. Then the next layers in front of the
+//! last one are collected, until none is left. This is depth peeling with k layers at a time, but from the back,
+//! where a blended layer is final (L. Bavoil et al., "Multi-Fragment Effects on the GPU using the k-Buffer", 2007;
+//! C. Everitt, "Interactive Order-Independent Transparency", 2001). Any number of layers is therefore exact in
+//! bounded memory, and the result does not depend on the bound.
 //!
 //! With one sample per pixel the first round covers the whole tile. With more samples it covers as many blocks as have
 //! room for eight layers of each sample. Blocks with more layers get further rounds: as many blocks at a time as their

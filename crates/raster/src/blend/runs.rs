@@ -1,13 +1,12 @@
 //! The farthest remaining layers of each sample, in memory of a fixed size.
 //!
-//! A sample that has more layers than fit keeps the farthest ones. They are blended, and the next
-//! round collects layers in front of the last of them. Layers are therefore blended from back to
-//! front however many fit at a time, and the result does not depend on that number.
+//! A sample that has more layers than fit keeps the farthest ones. These are blended, and the next round collects
+//! layers in front of the last one. Layers are therefore blended from back to front however many fit at a time,
+//! and the result does not depend on that number.
 //!
-//! When a sample's room is full, its layers are sorted and the nearer half is dropped. From then
-//! on the first half is the sorted set of the farthest, any layer in front of its last is dropped
-//! at once, and the other half of the room collects candidates until it is full again. So each
-//! layer takes a constant amount of work on average.
+//! When a sample's room is full, its layers are sorted and the nearer half is dropped. From then on the first half
+//! is the sorted set of the farthest, and any layer in front of its last is dropped at once. The other half of the
+//! room collects candidates until it is full again. So each layer takes a constant amount of work on average.
 
 use std::cmp::Ordering;
 

@@ -1,4 +1,4 @@
-//! Outcodes: which planes a vertex lies beyond. They tell without further arithmetic whether a primitive is
+//! Outcodes: which planes a vertex lies beyond. Outcodes tell without further arithmetic whether a primitive is
 //! dropped, kept whole, or cut.
 
 use trigon_math::{Band, Vec4};

@@ -1,17 +1,16 @@
 //! Perspective-correct barycentric coordinates at eight points, one in each lane, and their
 //! derivatives.
 //!
-//! With `E_i` the edge functions (not negative within the triangle; exact as integers, then rounded
-//! once to f32) and `q_i` the vertices' 1/w (divided by the power of two not above the greatest, and
-//! then at least 2⁻⁶⁰: see `perspective`), the *raw weights* of the corners are
-//! `L_k = Σ_i m_ik q_i E_i`, where `m` says how vertices come from corners (the identity unless the
-//! triangle was cut). Each `L_k` is linear on the screen, the perspective-correct weights are
-//! `L_k / Σ L`, and the quotient rule gives their derivatives. `Σ L` is above 0 in active lanes, where
-//! the triangle covers the point: the `E_i` are not negative and add up to twice the area, each `q_i`
-//! is above 0, and the `m_ik` of a vertex add up to 1 but for rounding.
+//! Let `E_i` be the edge functions: not negative within the triangle, exact as integers, then rounded once to f32.
+//! Let `q_i` be the vertices' 1/w, divided by the power of two not above the greatest, and then at least 2⁻⁶⁰ (see
+//! `perspective`). The *raw weights* of the corners are `L_k = Σ_i m_ik q_i E_i`, where `m` says how vertices come
+//! from corners: it is the identity unless the triangle was cut. Each `L_k` is linear on the screen, the
+//! perspective-correct weights are `L_k / Σ L`, and the quotient rule gives their derivatives. `Σ L` is above 0 in
+//! active lanes, where the triangle covers the point. There the `E_i` are not negative and add up to twice the
+//! area, each `q_i` is above 0, and the `m_ik` of a vertex add up to 1 but for rounding.
 //! [`FragmentLanes::varying`](super::FragmentLanes::varying) interpolates with these weights. (J. Blinn,
-//! "Hyperbolic Interpolation", 1992; P. Heckbert and H. Moreton, "Interpolation
-//! for Polygon Texture Mapping and Shading", 1991.)
+//! "Hyperbolic Interpolation", 1992; P. Heckbert and H. Moreton, "Interpolation for Polygon Texture Mapping and
+//! Shading", 1991.)
 
 use super::layout::cold;
 use super::placed::Placed;

@@ -1,4 +1,4 @@
-//! The weights of eight pixels in their triangles. They are computed before the pixels are shaded.
+//! The weights of eight pixels in their triangles. The weights are computed before the pixels are shaded.
 
 use crate::simd::{I32, Row, Simd, prelude::*};
 

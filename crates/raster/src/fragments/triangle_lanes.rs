@@ -1,8 +1,8 @@
 //! The triangles of eight pixels: their edge functions at any points, and the raw weights of their
 //! corners.
 //!
-//! These edge functions have no bias and are not divided by 256, unlike those of the same name in
-//! `tile`: they are zero on the edge. They are exact as integers, and then rounded once to f32.
+//! These edge functions have no bias and are not divided by 256, unlike those of the same name in `tile`: they are
+//! zero on the edge. The values are exact as integers, and then rounded once to f32.
 
 use super::columns::Columns;
 use super::layout::{CutColumns, cold, hot};

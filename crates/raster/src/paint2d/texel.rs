@@ -1,8 +1,8 @@
 //! From a position in an image to its colour.
 //!
-//! Positions are fixed-point numbers of texels with 32 bits after the point. They are first rounded to 1/4096 texel, so
-//! that a position computed with a small error still counts as the middle of its texel. This changes a linearly
-//! filtered channel by less than 1/16 level.
+//! Positions are fixed-point numbers of texels with 32 bits after the point. A position is first rounded to 1/4096
+//! texel, so that a position computed with a small error still counts as the middle of its texel. This changes a
+//! linearly filtered channel by less than 1/16 level.
 
 use super::Image;
 use super::blend::{Channels, unpack};

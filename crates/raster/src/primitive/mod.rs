@@ -9,8 +9,8 @@
 //! | `edge` | edge functions in i64, and **the top-left rule** (`Edge::bias`, `owns_boundary`) |
 //! | `depth` | the plane of a triangle's depths |
 //!
-//! Vertices of a triangle are sorted by (y, x) before anything is computed from them, so that no result
-//! depends on the order in which corners are listed (`triangle`, and `columns` for eight at a time).
+//! `triangle`, and `columns` for eight at a time, sort the vertices of a triangle by (y, x) before anything is
+//! computed from them. So no result depends on the order in which corners are listed.
 
 mod columns;
 mod depth;

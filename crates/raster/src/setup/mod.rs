@@ -1,13 +1,13 @@
-//! Set-up: primitives become triangles that are ready for the tiles. They are culled and entered in
-//! the bins of the tiles that they touch.
+//! Set-up: primitives become triangles that are ready for the tiles. Triangles are culled and entered in the bins
+//! of the tiles that they touch.
 //!
-//! Vertices come snapped from the vertex stage (`vertex/snap.rs`). A vertex has no point on the grid if
-//! its w is below `W_MIN`, if it lies on the eye's side of the near plane or outside the guard band, or if
-//! it is invalid (a coordinate is NaN or beyond `COORDINATE_MAX`). Triangles with an invalid vertex, and those
-//! that lie beyond one plane as a whole, are dropped. The others that have a vertex without a point are cut here,
-//! and all corners of the result are snapped here (`Setup::snap`): a corner that was a vertex gets the
-//! same point as in the vertex stage, so no gap opens beside a neighbour that is not cut. If the shared
-//! edge itself is cut, one of its vertices has no point on the grid, so the neighbour is cut as well.
+//! Vertices come snapped from the vertex stage (`vertex/snap.rs`). A vertex has no point on the grid if its w is
+//! below `W_MIN`, or if it lies on the eye's side of the near plane or outside the guard band. Nor has an invalid
+//! vertex: a coordinate is NaN or beyond `COORDINATE_MAX`. Triangles with an invalid vertex, and those that lie
+//! beyond one plane as a whole, are dropped. Other triangles that have a vertex without a point are cut here, and
+//! all corners of the result are snapped here (`Setup::snap`). A corner that was a vertex gets the same point as
+//! in the vertex stage, so no gap opens beside a neighbour that is not cut. If the shared edge itself is cut, one
+//! of its vertices has no point on the grid, so the neighbour is cut as well.
 //!
 //! In the order in which a triangle passes through:
 //!

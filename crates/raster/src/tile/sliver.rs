@@ -1,11 +1,12 @@
 //! The sliver kernel: one small triangle that is much longer than wide, one sample per pixel. Its *major* axis is that
 //! along which its box is longer.
 //!
-//! In each column of pixels across the major axis, a triangle covers at most as many pixels as it is wide there. So the
-//! kernel does not visit the triangle's box, but follows its longest edge: a vector holds a pixel in each of eight columns
-//! side by side, the first one inside of that edge, then, if the triangle may be that wide, the second one. Edge
-//! functions decide exactly which are covered; the place of the edge is only estimated. Covered pixels are appended to
-//! a list, and their depths tested at the end of the eight triangles ([`covered`](super::covered)).
+//! In each column of pixels across the major axis, a triangle covers at most as many pixels as it is wide there.
+//! So the kernel does not visit the triangle's box, but follows its longest edge. A vector holds a pixel in each
+//! of eight columns side by side: the first one inside of that edge, then, if the triangle may be that wide, the
+//! second one. Edge functions decide exactly which are covered; the position of the edge is only estimated.
+//! Covered pixels are appended to a list, and their depths tested at the end of the eight triangles
+//! ([`covered`](super::covered)).
 
 use super::covered::{Covered, index_of};
 use super::eight::EightTriangles;

@@ -1,11 +1,11 @@
 //! The budget for ties: samples at which several triangles have the same depth.
 //!
-//! The rule is [`FrameView::compare`]: the triangle with the smaller (object, face) is visible. Most
-//! tiles have few ties, and the keys of two triangles are compared at each of them. With many, that
-//! would take far longer than everything else in the tile. So every tile has a budget for it: about
-//! what it takes to sort its triangles by their keys. Once that is spent, the opaque triangles are
-//! drawn again in the order of their keys, in which a later one is never visible at equal depth
-//! (`visibility`); masked and translucent ones are compared by their ranks in that order.
+//! The rule is [`FrameView::compare`]: the triangle with the smaller (object, face) is visible. Most tiles have
+//! few ties, and the keys of two triangles are compared at each of them. With many, that would take far longer
+//! than everything else in the tile. So every tile has a budget for it: about what it takes to sort its triangles
+//! by their keys. Once that is spent, the opaque triangles are drawn again in the order of their keys, in which a
+//! later one is never visible at equal depth (`visibility`). Masked and translucent ones are compared by their
+//! ranks in that order.
 
 use super::key_order::KeyOrder;
 use crate::bin::TriangleRef;

@@ -1,8 +1,8 @@
 //! Environment light: from a sky, or from an image of all directions.
 //!
-//! Stored in two forms, computed once: the diffuse irradiance for each orientation, as nine coefficients (R.
-//! Ramamoorthi and P. Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001), and the
-//! reflections at five roughnesses (B. Karis, "Real Shading in Unreal Engine 4", 2013).
+//! Two forms are computed once and stored. One is the diffuse irradiance for each orientation, as nine
+//! coefficients (R. Ramamoorthi and P. Hanrahan, "An Efficient Representation for Irradiance Environment Maps",
+//! 2001). The other is the reflections at five roughnesses (B. Karis, "Real Shading in Unreal Engine 4", 2013).
 
 mod harmonics;
 mod octahedral;

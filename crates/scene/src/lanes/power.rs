@@ -1,5 +1,5 @@
-//! Powers in lanes: base-2 logarithm and exponential, by polynomials of the mantissa. They need neither a
-//! table nor the machine's own functions.
+//! Powers in lanes: base-2 logarithm and exponential, by polynomials of the mantissa. Both functions need neither
+//! a table nor the machine's own functions.
 //!
 //! The logarithm is computed from the series of the inverse hyperbolic tangent, whose relative error stays
 //! small near 1, where powers with large exponents have their highlights.

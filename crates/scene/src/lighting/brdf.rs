@@ -1,8 +1,7 @@
-//! The microfacet surface of glTF 2.0, appendix B: the GGX distribution (B.
-//! Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
-//! 2007), the height-correlated shadowing of E. Heitz ("Understanding the
-//! Masking-Shadowing Function in Microfacet-Based BRDFs", 2014) and Fresnel's law
-//! as C. Schlick approximates it (1994).
+//! The microfacet surface of glTF 2.0, appendix B. It has the GGX distribution (B. Walter et al., "Microfacet
+//! Models for Refraction through Rough Surfaces", 2007). Shadowing is height-correlated (E. Heitz, "Understanding
+//! the Masking-Shadowing Function in Microfacet-Based BRDFs", 2014), and Fresnel's law that of C. Schlick's
+//! approximation (1994).
 //!
 //! All terms are multiplied by π, so that a light of radiance 1 shows a white
 //! Lambertian surface as 1; see the head of `light.rs`.

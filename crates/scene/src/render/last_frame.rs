@@ -1,4 +1,4 @@
-//! What the last image was made from, so that the next one can follow from it: if few vertices of a mesh have
+//! What the last image was made from, so that the next one can follow from it. If few vertices of a mesh have
 //! moved since, and everything else is unchanged, most of the image is the same.
 //!
 //! The image itself is a [shared frame](super::shared_frames). Of meshes that were never changed and have no

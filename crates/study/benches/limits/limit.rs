@@ -1,6 +1,6 @@
-//! What a processor allows at most, under the rules of the renderer: the inner loops of
-//! a frame with everything else taken away, in safe code, without fused
-//! multiplication and gathers, with exact quotients and square roots.
+//! What a processor allows at most, under the rules of the renderer: the inner loops of a frame with everything
+//! else taken away. The code is safe, without fused multiplication and gathers, with exact quotients and square
+//! roots.
 //!
 //! How near a frame comes to them says what is left to gain.
 

@@ -1,8 +1,8 @@
 //! Areas of triangles, and of what is left of them after clipping at half-planes, in rational numbers.
 //!
-//! A point of a triangle is given by its barycentric coordinates. A linear function of the position is also
-//! linear in these, so areas need no coordinates: the whole triangle has area 1, whatever its shape and the
-//! space it lies in, even if it is degenerate.
+//! A point of a triangle is given by its barycentric coordinates. A linear function of the position is also linear
+//! in these, so areas need no coordinates. The whole triangle has area 1, whatever its shape and the space it lies
+//! in, even if it is degenerate.
 
 use super::coverage::doubled_area;
 use super::{GridPoint, STEPS};

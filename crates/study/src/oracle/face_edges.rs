@@ -1,9 +1,9 @@
 //! The area of each pixel that the painted edges of faces cover.
 //!
-//! Many points in each pixel are tested. An edge covers a point if a visible part of the edge lies within
-//! half its width. Projection, visibility and distances are computed in f64 and share nothing with the
-//! rasterizer, not even a triangulation: faces are polygons, and a point lies inside one if a ray from it
-//! crosses the outline an odd number of times.
+//! Many points in each pixel are tested. An edge covers a point if a visible part of the edge lies within half its
+//! width. Projection, visibility and distances are computed in f64 and share nothing with the rasterizer, not even
+//! a triangulation. Faces are polygons, and a point lies inside one if a ray from it crosses the outline an odd
+//! number of times.
 //!
 //! An edge is as wide as the rule of `trigon_raster::FaceEdges` says. It covers a point of another face if
 //! the nearest point of the edge is visible, and the other face does not lie in front of it.

@@ -1,6 +1,6 @@
-//! How should a mesh be stored that is picked and edited? The representations of source D, section 1.3 (row
-//! D14), on the tasks of an editor: find the edge nearest to the pointer, find the faces that change when a
-//! vertex moves, and visit the neighbours of a vertex.
+//! How should a mesh be stored that is picked and edited? The representations of source D, section 1.3 (row D14),
+//! on three tasks of an editor: find the edge nearest to the pointer, find the faces that change when a vertex
+//! moves, and visit the neighbours of a vertex.
 
 mod answer;
 mod corner_table;

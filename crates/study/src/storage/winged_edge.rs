@@ -1,6 +1,6 @@
-//! Winged edges (B. G. Baumgart, "Winged edge polyhedron representation", Stanford STAN-CS-320, 1972) as in
-//! source D: vertices and faces store the edges around them, and an edge stores its two vertices, its two
-//! faces and its four neighbouring edges.
+//! Winged edges (B. G. Baumgart, "Winged edge polyhedron representation", Stanford STAN-CS-320, 1972) as in source
+//! D. Vertices and faces store the edges around them, and an edge stores its two vertices, its two faces and its
+//! four neighbouring edges.
 
 use super::Triangles;
 use super::answer::{Storage, byte_count, in_order, nearest};

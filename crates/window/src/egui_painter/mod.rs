@@ -1,10 +1,10 @@
 //! Paints egui's triangles, repainting only what has changed.
 //!
-//! egui produces a list of clipped meshes for each pass. The painter compares it with the last
-//! one ([`changes`]), marks the cells of the screen that differ ([`damage`]), and repaints these:
-//! first what lies beneath the interface, then every triangle that touches them, clipped to them.
-//! [`trigon_raster::paint2d`] guarantees that a scissor does not change anything inside it, so the
-//! result is the same as repainting everything.
+//! egui produces a list of clipped meshes for each pass. The painter compares it with the last one ([`changes`]),
+//! marks the cells of the screen that differ ([`damage`]), and repaints these cells. First comes what lies beneath
+//! the interface, then every triangle that touches a cell, clipped to the cells. [`trigon_raster::paint2d`]
+//! guarantees that a scissor does not change anything inside it, so the result is the same as repainting
+//! everything.
 //!
 //! As egui defines it, colours are premultiplied and multiplied and blended in gamma space,
 //! windings are mixed, and clip rectangles are rounded to whole pixels. Paint callbacks are

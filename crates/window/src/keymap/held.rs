@@ -1,8 +1,8 @@
 //! Keys that act while they are held.
 //!
-//! They move in steps of a fixed time, counted from the first press. So the total movement follows
-//! from the times of presses and releases, and not from when frames were drawn meanwhile: replaying
-//! a session gives the same result.
+//! Held keys move the camera in steps of a fixed time, counted from the first press. So the total movement follows
+//! from the times of presses and releases, and not from when frames were drawn meanwhile: replaying a session
+//! gives the same result.
 
 use std::time::Duration;
 

@@ -1,5 +1,5 @@
-//! The rows of the list of keys. They are made from the tables of bindings, so the list is always complete
-//! and correct.
+//! The rows of the list of keys. Lines are made from the tables of bindings, so the list is always complete and
+//! correct.
 
 use std::borrow::Cow;
 

@@ -1,6 +1,6 @@
-//! What can be said about a document before it is parsed completely: its version, the extensions of its
-//! objects, and whether its indices fit into 32 bits (gltf::json truncates larger ones, which would refer to
-//! another object). It is one pass that stores nothing else.
+//! What can be said about a document before it is parsed completely: its version, the extensions of its objects,
+//! and whether its indices fit into 32 bits. `gltf::json` truncates larger indices, which would refer to another
+//! object. One pass finds all this and stores nothing else.
 
 use std::collections::BTreeSet;
 use std::fmt;

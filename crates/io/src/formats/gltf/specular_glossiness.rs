@@ -1,11 +1,10 @@
-//! KHR_materials_pbrSpecularGlossiness, read as the extensions that took its place: its diffuse colour
-//! is the base colour of a dielectric, and its specular colour that of KHR_materials_specular, with an
-//! index of refraction of 0, which leaves the colour as it is. The roughness is 1 − glossiness; its texture
-//! is made of the alpha of the specular-glossiness texture.
+//! KHR_materials_pbrSpecularGlossiness, read as the extensions that took its place. Its diffuse colour is the base
+//! colour of a dielectric. Its specular colour is that of KHR_materials_specular, with an index of refraction of
+//! 0, which leaves the colour as it is. The roughness is 1 − glossiness; its texture is made of the alpha of the
+//! specular-glossiness texture.
 //!
-//! All of it is exact but for two things: roughness from a texture is rounded to 8 bits, and diffuse light
-//! loses what is reflected at the angle of view, where the extension takes off the largest channel of the
-//! specular colour.
+//! All of it is exact but for two things. Roughness from a texture is rounded to 8 bits. Diffuse light loses what
+//! is reflected at the angle of view; the extension takes off the largest channel of the specular colour.
 
 use gltf::json::extensions::material::{
     IndexOfRefraction, Ior, Specular, SpecularColorFactor, SpecularFactor,

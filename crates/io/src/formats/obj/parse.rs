@@ -1,9 +1,8 @@
 //! Parses OBJ text to flat lists, one piece per task in parallel.
 //!
-//! The text is split at ends of lines. A first pass over all pieces counts lines and vertices, so that the
-//! second pass can read each piece as if it had read everything before: messages name lines of the file, and
-//! every index is checked on the spot. The result depends neither on how the text was split nor on the number
-//! of threads.
+//! The text is split at ends of lines. A first pass over all pieces counts lines and vertices, so that the second
+//! pass can read each piece as if it had read everything before. Messages name lines of the file, and every index
+//! is checked on the spot. The result depends neither on how the text was split nor on the number of threads.
 
 use std::path::Path;
 

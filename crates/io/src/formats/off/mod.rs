@@ -6,8 +6,8 @@
 //! as one list of numbers if these make no sense.
 //!
 //! The crate `off-rs` 2.0 has limits and names lines in errors, but it reads neither normals nor texture
-//! coordinates, reads colours only of a kind that the caller knows beforehand, and no file with a face of two
-//! vertices.
+//! coordinates, and no file with a face of two vertices. It reads colours only of a kind that the caller knows
+//! beforehand.
 
 mod columns;
 mod header;

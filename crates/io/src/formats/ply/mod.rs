@@ -4,9 +4,9 @@
 //! `header` (elements and their properties) → `values` (numbers of either encoding, one by one) → `vertices`,
 //! `faces` (everything that has a meaning; the rest is skipped by its type). `write` is the other direction.
 //!
-//! Of the crates for PLY, `ply-rs-bw` 4.0 is maintained (`ply-rs` 0.1 is not). It rejects a whole file for
-//! one bad row, also if only the last faces are cut off; it counts rows of binary data as lines, so its
-//! errors name no byte; and it delivers each number through a call with the name of its property.
+//! Of the crates for PLY, `ply-rs-bw` 4.0 is maintained (`ply-rs` 0.1 is not). It rejects a whole file for one bad
+//! row, also if only the last faces are cut off. It counts rows of binary data as lines, so its errors name no
+//! byte. It delivers each number through a call with the name of its property.
 
 mod colors;
 mod faces;

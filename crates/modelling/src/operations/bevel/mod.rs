@@ -1,11 +1,11 @@
 //! Bevels: edges and vertices are replaced with flat or round faces.
 //!
-//! In four steps. `chosen` finds what can be beveled, and the `fans` of faces around its vertices; `nodes`
-//! (with `sectors`, `miters`, `places`, `rims` and `frames`) finds the positions of the new rims, which move in
-//! proportion to the width, so that overlaps are found before any width is fixed; `shape` lays out all new vertices, faces
-//! and values (`profile` is the cross-section, `patch` the grid where three or more bevels meet); `build`
-//! changes the mesh. Until then nothing is written, and an error costs nothing. `finish` marks the rims and
-//! hardens normals if that is requested.
+//! In four steps. `chosen` finds what can be beveled, and the `fans` of faces around its vertices. `nodes` (with
+//! `sectors`, `miters`, `places`, `rims` and `frames`) finds the positions of the new rims. The rims move in
+//! proportion to the width, so that overlaps are found before any width is fixed. `shape` lays out all new
+//! vertices, faces and values (`profile` is the cross-section, `patch` the grid where three or more bevels meet).
+//! `build` changes the mesh. Until then nothing is written, and an error costs nothing. `finish` marks the rims
+//! and hardens normals if that is requested.
 //!
 //! Arrangement and names follow Blender's bevel (Howard Trickey); the positions within patches
 //! are our own.

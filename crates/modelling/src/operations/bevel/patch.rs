@@ -1,11 +1,10 @@
 //! The grid that fills the middle where three or more curves meet.
 //!
-//! From each node a square part of the grid goes to the middles of both curves beside it and to the
-//! common centre (for an odd number of segments to a polygon there). Points have one coordinate for
-//! each node, and on a cube's corner they are those of a sphere or superellipsoid: so the ratios
-//! of coordinates on the curves give the ratios within (on a sphere the "equiangular cubed
-//! sphere": Ronchi, Iacono, Paolucci, "The Cubed Sphere", 1996), and the sum of their powers
-//! is 1.
+//! From each node a square part of the grid goes to the middles of both curves beside it and to the common centre
+//! (for an odd number of segments to a polygon there). Points have one coordinate for each node. On a cube's
+//! corner the points are those of a sphere or superellipsoid, so the ratios of coordinates on the curves give the
+//! ratios within (on a sphere the "equiangular cubed sphere": Ronchi, Iacono, Paolucci, "The Cubed Sphere", 1996),
+//! and the sum of their powers is 1.
 
 use smallvec::SmallVec;
 use trigon_math::DVec3;

@@ -1,9 +1,8 @@
 //! Moving vertices: translate, rotate, scale, shear, to sphere, along normals, push and pull,
 //! with proportional falloff.
 //!
-//! Everything starts from the places at which vertices were when a [`MoveSession`] began: each
-//! new place is computed from these in f64 and rounded once, so a drag of a thousand steps
-//! ends where one step would.
+//! Everything starts from the positions of the vertices when a [`MoveSession`] began. Each new position is
+//! computed from these in f64 and rounded once, so a drag of a thousand steps ends where one step would.
 
 mod along_edges;
 mod falloff;

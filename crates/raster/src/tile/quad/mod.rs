@@ -1,14 +1,13 @@
 //! The quad kernel: lines and points, both triangles at once, only in groups that the outline
 //! crosses. A lane is one pixel of a group of 4×2.
 //!
-//! The outline of a line has two ends, parallel to one axis, and two sides that run along the other,
-//! the major axis: for each pixel along it they climb by at most one pixel (see
-//! [`line`](crate::line)). So the groups are visited along the major axis, four columns or two rows at
-//! a time, and across it only from one side to the other: four or five groups for twelve pixels of a
-//! thin line, whatever its length. As for triangles, edge functions decide exactly which samples of a
-//! group the outline contains; for a disc, the outline is its square, and the distances of samples from
-//! the centre are compared as well. The diagonal decides which of the two triangles a sample belongs
-//! to, because that triangle gives its depth and colour.
+//! The outline of a line has two ends, parallel to one axis, and two sides that run along the other, the major
+//! axis. For each pixel along it the sides climb by at most one pixel (see [`line`](crate::line)). So the groups
+//! are visited along the major axis, four columns or two rows at a time, and across it only from one side to the
+//! other. Twelve pixels of a thin line take four or five groups, whatever its length. As for triangles, edge
+//! functions decide exactly which samples of a group the outline contains; for a disc, the outline is its square,
+//! and the distances of samples from the centre are compared as well. The diagonal decides which of the two
+//! triangles a sample belongs to, because that triangle gives its depth and colour.
 
 mod edges;
 mod strip;

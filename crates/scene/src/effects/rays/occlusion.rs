@@ -1,9 +1,9 @@
 //! Ambient occlusion: the fraction of cosine-weighted rays that leave the surroundings of a point
 //! (H. Landis, "Production-Ready Global Illumination", 2002).
 //!
-//! Every pixel uses the same directions, a spiral over the disc below the hemisphere (which gives
-//! the cosine weights), rotated about the normal by one of 16 angles selected by the pixel's
-//! position in a square of four by four: neighbours differ, and the image is reproducible.
+//! Every pixel uses the same directions, a spiral over the disc below the hemisphere (which gives the cosine
+//! weights), rotated about the normal by one of 16 angles. The pixel's position in a square of four by four
+//! selects the angle: neighbours differ, and the image is reproducible.
 
 use crate::work::{Work, note};
 use std::sync::atomic::Ordering;

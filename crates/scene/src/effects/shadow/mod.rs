@@ -5,13 +5,12 @@
 //! light is fitted to the box of the casters, a cone is one view, and a point light six. So a map
 //! is drawn again only if one of the three changes.
 //!
-//! **Bias.** A map holds the depth at the centres of its texels; a point on the same plane lies up to √2
-//! texels away, and would shadow itself. So points are moved along the normal of the surface, by √2 · sin θ
-//! texels where θ is the angle between the normal and the axis of the map, which is exactly what a plane
-//! needs, and by a quarter of a texel for curvature and rounding. (In a perspective map, that of a spot light
-//! or one of the six of a point light, texels of equal depth lie in a plane perpendicular to the axis, not to
-//! the ray.) No constant is added to depths. A shadow therefore begins at most 1.7 texels away from its
-//! caster.
+//! **Bias.** A map holds the depth at the centres of its texels; a point on the same plane lies up to √2 texels
+//! away, and would shadow itself. So points are moved along the normal of the surface. A plane needs √2 · sin θ
+//! texels, where θ is the angle between the normal and the axis of the map. A quarter of a texel is added for
+//! curvature and rounding. (In a perspective map, that of a spot light or one of the six of a point light, texels
+//! of equal depth lie in a plane perpendicular to the axis, not to the ray.) No constant is added to depths. A
+//! shadow therefore begins at most 1.7 texels away from its caster.
 //!
 //! Interpolated normals lean away from the triangle, by more than a quarter of a texel makes up for where a mesh is
 //! coarse (10° and more). There points are moved as far as the triangle itself needs, along its interpolated normal.

@@ -5,9 +5,9 @@
 //! A stream holds the triangles and then the attributes:
 //!
 //! 1. `header` reads the kind of the mesh and passes over metadata.
-//! 2. `sequential` reads triangles that are stored as indices. `edgebreaker` rebuilds those that are
-//!    stored as a walk, with the symbols of `walk`, into a table of `corners`; `seams` splits that
-//!    table for attributes that are discontinuous, and `points` numbers the vertices of the result.
+//! 2. `sequential` reads triangles that are stored as indices. `edgebreaker` rebuilds triangles that are stored as
+//!    a walk, with the symbols of `walk`, into a table of `corners`. `seams` splits that table for attributes that
+//!    are discontinuous, and `points` numbers the vertices of the result.
 //! 3. `attributes` reads the values, in the order given by `order`. `prediction` adds to the stored
 //!    corrections what their neighbours let expect.
 //!
