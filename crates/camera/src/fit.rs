@@ -107,10 +107,10 @@ impl Extent {
 }
 
 impl Camera {
-    /// A camera with this one's projection that looks along `direction` at the centre of `bounds`,
-    /// from the distance at which the whole box is in the image and `margin` of the image's width
-    /// or height stays empty (0.1 is a tenth; clamped to 0 … 0.95). A parallel projection gets the
-    /// corresponding height. The near and far planes are set around the box.
+    /// A camera with this one's projection that looks along `direction` at the centre of `bounds`. At its
+    /// distance the whole box is in the image, and `margin` of the image's width or height stays empty (0.1
+    /// is a tenth; clamped to 0 … 0.95). A parallel projection gets the corresponding height. The near and
+    /// far planes are set around the box.
     ///
     /// Degenerate input also gives a valid camera: see [`Extent::new`] for bounds and
     /// [`orientation_looking`] for `direction` and `up`.
@@ -174,8 +174,8 @@ impl Camera {
         Self { projection: planes.unwrap_or(self.projection), ..*self }
     }
 
-    /// The same camera with its near and far planes moved away from each other where they would cut
-    /// something of these bounds in front of the eye: the bounds of what a fitted camera shows besides.
+    /// The same camera with its near and far planes moved away from each other where they would cut something
+    /// of these bounds in front of the eye. Give it the bounds of what a fitted camera shows besides.
     #[must_use]
     pub fn with_room_for(&self, bounds: &Bounds3) -> Self {
         let (own, wider) = (self.projection, self.with_clip_planes(bounds).projection);

@@ -104,13 +104,13 @@ impl Projection {
         Ok(Self::Perspective { vertical_fov, near, far })
     }
 
-    /// One-point perspective by focal length, as in courses on computer graphics: the image plane
-    /// stands at distance `focal_length` from the eye, the visible window on it is `height` tall,
-    /// and objects on it are drawn in their true size. With `z` measured from the image plane away
-    /// from the eye this is the matrix with `r = 1 / focal_length`: `x' = x / (1 + r·z)`, `y' = y /
-    /// (1 + r·z)` (Rogers and Adams, *Mathematical Elements for Computer Graphics*, one-point
-    /// perspective). The orthographic projection of the same `height` is its limit for an infinite
-    /// focal length; [`Projection::to_orthographic`] switches to it.
+    /// One-point perspective by focal length, as in courses on computer graphics. The image plane stands at
+    /// distance `focal_length` from the eye, and the visible window on it is `height` tall. Objects on it are
+    /// drawn in their true size. With `z` measured from the image plane away from the eye this is the matrix
+    /// with `r = 1 / focal_length`: `x' = x / (1 + r·z)`, `y' = y / (1 + r·z)` (Rogers and Adams,
+    /// *Mathematical Elements for Computer Graphics*, one-point perspective). The orthographic projection of
+    /// the same `height` is its limit for an infinite focal length; [`Projection::to_orthographic`] switches
+    /// to it.
     ///
     /// # Errors
     /// A parameter is not positive and finite, or `near` is not less than `far`.

@@ -60,8 +60,8 @@ impl Projector {
         Some(self.viewport.to_screen(ndc))
     }
 
-    /// The screen positions of the ends of a line from one point to another, of the part of it that lies at
-    /// least `nearest` in front of the eye, along the line of sight; `None` where no part does. An end
+    /// The screen positions of the ends of a line from one point to another. Only the part counts that lies
+    /// at least `nearest` in front of the eye, along the line of sight; `None` where no part does. An end
     /// right in front of the eye is far outside the image.
     #[must_use]
     pub fn line_to_screen(&self, ends: [DVec3; 2], nearest: f64) -> Option<[DVec2; 2]> {

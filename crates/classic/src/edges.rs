@@ -46,9 +46,9 @@ impl Edges {
         (0..3).all(|i| self.value(i, pixel) >= self.biases[i])
     }
 
-    /// The edges in units of one pixel times the grid's, rounded down, which keeps their signs
-    /// with the borders counted: for each the value at `first`, and the steps from column to
-    /// column and from row to row. None if a value between `first` and `last` exceeds 32 bits.
+    /// The edges in units of one pixel times the grid's, rounded down, which keeps their signs with the
+    /// borders counted. For each edge the value at `first`, and the steps from column to column and from row
+    /// to row. None if a value between `first` and `last` exceeds 32 bits.
     #[must_use]
     pub fn planes(&self, first: [i32; 2], last: [i32; 2]) -> Option<[[i32; 3]; 3]> {
         let mut planes = [[0; 3]; 3];

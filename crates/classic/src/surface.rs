@@ -19,9 +19,8 @@ impl Surface {
         Some(Self { edges, depths })
     }
 
-    /// How near the face's plane lies at the centre of a pixel, in 1/256 pixel: within
-    /// 2⁻³³ where the face covers it, as the depths are below 2¹⁸, no weight is negative
-    /// and four roundings take part.
+    /// How near the face's plane lies at the centre of a pixel, in 1/256 pixel. Where the face covers the
+    /// pixel, it is exact to 2⁻³³: depths are below 2¹⁸, no weight is negative, and four roundings take part.
     #[inline]
     #[must_use]
     pub fn depth(&self, pixel: [i32; 2]) -> f64 {

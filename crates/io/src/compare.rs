@@ -39,7 +39,7 @@ pub struct SizeMismatch([u32; 2], [u32; 2]);
 /// Compares two images.
 ///
 /// # Errors
-/// They have different sizes.
+/// The images have different sizes.
 pub fn compare_images(one: &RgbaImage, other: &RgbaImage) -> Result<ImageDifference, SizeMismatch> {
     let sizes = [one, other].map(|image| [image.width, image.height]);
     if sizes[0] != sizes[1] {

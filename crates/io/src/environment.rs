@@ -16,10 +16,10 @@ use crate::warning::{Warning, Warnings};
 /// 10³⁸, whose sums are infinite.
 const BRIGHTEST: f32 = 1e9;
 
-/// Reads an environment image (Radiance, `.hdr`), usually twice as wide as high: the middle looks
-/// along −Z, the right half to +X, the upper edge is +Y. The result for
-/// [`EffectSettings`](trigon_scene::EffectSettings) is light as stored in the file; a line
-/// `EXPOSURE` in it is ignored.
+/// Reads an environment image (Radiance, `.hdr`), usually twice as wide as high. The middle looks along −Z,
+/// the right half to +X, and the upper edge is +Y. The result for
+/// [`EffectSettings`](trigon_scene::EffectSettings) is light as stored in the file; a line `EXPOSURE` in it
+/// is ignored.
 ///
 /// Pixels above 10⁹ are clamped to it, with a warning. The format cannot represent infinity.
 ///

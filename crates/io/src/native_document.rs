@@ -22,11 +22,11 @@ use crate::write::{WriteError, write_atomically};
 
 /// A scene with the edit data of its meshes, and the glTF file that it came from.
 ///
-/// Saving writes one GLB. It contains polygons, edit data and all values of meshes
-/// besides their triangles, restored to the bit on reading; if another program changed the
-/// triangles of a mesh in the meantime, these are used, with a warning. Unchanged parts of a loaded
-/// glTF (including what trigon does not know: extensions, `extras`, other scenes) are written back
-/// as they were read; anything that cannot be is listed before anything is written.
+/// Saving writes one GLB. It contains polygons, edit data and all values of meshes besides their triangles,
+/// restored to the bit on reading. If another program changed the triangles of a mesh in the meantime, the
+/// changed triangles are used, with a warning. Unchanged parts of a loaded glTF (including what trigon does
+/// not know: extensions, `extras`, other scenes) are written back as they were read; anything that cannot be
+/// is listed before anything is written.
 ///
 /// ```
 /// use trigon_io::{LoadOptions, NativeDocument};

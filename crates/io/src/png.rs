@@ -21,8 +21,8 @@ pub enum Pixels<'a> {
     Rgb16(&'a [u16]),
 }
 
-/// Writes a PNG file atomically: the bytes go to a temporary file in the same folder, are synced to
-/// disk, and are then renamed, so the path always refers to the complete old or new file.
+/// Writes a PNG file atomically: the bytes go to a temporary file in the same folder, which is synced to disk
+/// and renamed. So the path always refers to the complete old or new file.
 ///
 /// # Errors
 /// The sizes do not match, or the file cannot be written; an existing file of that name is then

@@ -2,10 +2,10 @@
 
 use std::io;
 
-/// From now on, a program that is interrupted (Ctrl+C), terminated or hung up removes its
-/// [temporary files](crate::create_unfinished) before it ends as it would have ended anyway: a shell sees the exit codes
-/// 130, 143 and 129. Signals that the program was started to ignore stay ignored. For programs, not for libraries; to be
-/// called once, at their start. Does nothing where there are no such signals.
+/// From now on, a program that is interrupted (Ctrl+C), terminated or hung up removes its [temporary
+/// files](crate::create_unfinished) before it ends as it would have ended anyway. A shell sees the exit codes
+/// 130, 143 and 129. Signals that the program was started to ignore stay ignored. For programs, not for
+/// libraries; to be called once, at their start. Does nothing where there are no such signals.
 ///
 /// # Errors
 /// The system refuses to tell of signals, or has no room for a thread.

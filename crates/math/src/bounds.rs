@@ -83,9 +83,9 @@ impl Bounds3 {
 
     /// The box around the transformed box; an empty one stays empty.
     ///
-    /// It contains `transform.transform_point3(p)` for every finite `p` inside, rounding included:
-    /// each coordinate of the image is a sum of products, so its rounded value is monotone in each
-    /// coordinate of `p` and extreme at a corner.
+    /// It contains `transform.transform_point3(p)` for every finite `p` inside, rounding included. Each
+    /// coordinate of the image is a sum of products, so its rounded value is monotone in each coordinate of
+    /// `p` and extreme at a corner.
     #[must_use]
     pub fn transformed(&self, transform: &DAffine3) -> Self {
         if self.is_empty() {

@@ -21,8 +21,8 @@ pub use skin_weights::SkinWeights;
 /// [`Mesh::face_corners`](crate::Mesh::face_corners).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Attributes {
-    /// Shading normals per corner. They need not be of unit length; one that is zero or not finite
-    /// counts as "not given here".
+    /// Shading normals per corner. Normals need not be of unit length; one that is zero or not finite counts
+    /// as "not given here".
     pub corner_normals: Option<Vec<Vec3>>,
     /// Tangents per corner, for normal maps: a unit vector along increasing u, and in `w` the
     /// handedness, 1 or −1, so that the bitangent `normal × tangent · w` points up in the image,

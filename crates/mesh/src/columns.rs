@@ -42,7 +42,7 @@ impl MeshColumns {
     /// Whether [`Mesh::from_columns`] takes them.
     ///
     /// # Errors
-    /// Those of [`Mesh::from_columns`].
+    /// The errors of [`Mesh::from_columns`].
     pub fn check(&self) -> Result<(), MeshError> {
         let Self { positions, face_sizes, corner_vertices, loose_edges, loose_points } = self;
         check_room("corners and loose edges", corner_vertices.len() + loose_edges.len())?;
@@ -85,9 +85,9 @@ impl Mesh {
     /// The mesh with these elements, in this order.
     ///
     /// # Errors
-    /// A face with fewer than three different vertices, a vertex that does not exist, sizes that do
-    /// not add up to the number of corners, a loose edge from a vertex to itself, or more elements
-    /// than indices can count.
+    /// A face has fewer than three different vertices, a vertex does not exist, or sizes do not add up to the
+    /// number of corners. A loose edge leads from a vertex to itself, or there are more elements than indices
+    /// can count.
     pub fn from_columns(mut columns: MeshColumns) -> Result<Self, MeshError> {
         columns.check()?;
         let MeshColumns { positions, loose_points, .. } = &mut columns;

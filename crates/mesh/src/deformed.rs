@@ -31,12 +31,10 @@ impl RenderMesh {
     /// The vertices with each morph target added `weights[i]` times and then
     /// moved by the palette, one map for each joint.
     ///
-    /// A target beyond the weights, or with one that is not finite, adds
-    /// nothing; a joint beyond the palette stays where it is, and without a
-    /// palette the skin is not followed: at rest every bit is the mesh's own.
-    /// Normals turn by the inverse transpose
-    /// of the blended map; those of faces that are shaded flat are found anew from
-    /// their vertices. Where a normal or tangent vanishes, it is as before.
+    /// A target beyond the weights, or with one that is not finite, adds nothing. A joint beyond the palette
+    /// stays where it is, and without a palette the skin is not followed. At rest every bit is the mesh's
+    /// own. Normals turn by the inverse transpose of the blended map; those of faces that are shaded flat are
+    /// found anew from their vertices. Where a normal or tangent vanishes, it is as before.
     pub fn deform(&self, weights: &[f32], palette: &[Affine3], into: &mut Deformed) {
         into.positions.clone_from(&self.positions);
         into.normals.clone_from(&self.normals);

@@ -2,9 +2,9 @@
 
 use trigon_math::Vec3;
 
-/// What an editor knows of a [`Mesh`](crate::Mesh) besides its elements and attributes: original positions, marks of
-/// edges, hidden elements. They name elements by the mesh's indices. Nothing is drawn of them, and files keep them with
-/// the mesh.
+/// What an editor knows of a [`Mesh`](crate::Mesh) besides its elements and attributes: original positions,
+/// marks of edges, hidden elements. Elements are named by the mesh's indices. Nothing is drawn of them, and
+/// files keep them with the mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct EditData {
     /// To where each vertex can be reset, in metres; empty if each is where it was.

@@ -21,9 +21,9 @@ use crate::{Attributes, MeshError};
 /// the edge that leads from it to the face's next corner. Loose edges and points are kept. Any
 /// number of faces may share an edge.
 ///
-/// One type serves both wire objects (points and edges: a mesh without faces) and surface objects
-/// (which add faces): a surface can always be shown as its wires, and those are the solid's own
-/// edges, never the diagonals of a triangulation.
+/// One type serves both wire objects (points and edges: a mesh without faces) and surface objects, which add
+/// faces. A surface can always be shown as its wires: the solid's own edges, never the diagonals of a
+/// triangulation.
 ///
 /// Built by [`MeshBuilder`](crate::MeshBuilder); see there for an example.
 #[derive(Debug, Clone)]
@@ -164,8 +164,8 @@ impl Mesh {
         Some(self.found_edges().corner_edges[corner]).filter(|&edge| edge != NO_EDGE)
     }
 
-    /// Every edge once, its smaller vertex first. They are computed on first use. The faces' edges
-    /// come first, in order of first use, then the loose ones.
+    /// Every edge once, its smaller vertex first. Edges are computed on first use. The faces' edges come
+    /// first, in order of first use, then the loose ones.
     pub fn edges(&self) -> &[[u32; 2]] {
         &self.found_edges().edges
     }

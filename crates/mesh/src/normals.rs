@@ -29,18 +29,17 @@ impl Mesh {
         unit_or_zero(self.face_area_vector(face)).as_vec3()
     }
 
-    /// The unit normal of every vertex: the mean of the normals of all its faces, weighted by the
-    /// angle of each face's corner there, so that it does not depend on the triangulation (Thürmer
-    /// and Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998). Zero if faces cancel
-    /// each other or there are none.
+    /// The unit normal of every vertex: the mean of the normals of all its faces, weighted by the angle of
+    /// each face's corner there. So it does not depend on the triangulation (Thürmer and Wüthrich, "Computing
+    /// Vertex Normals from Polygonal Facets", 1998). Zero if faces cancel each other or there are none.
     pub fn vertex_normals(&self) -> Vec<Vec3> {
         let sums = self.sum_normals(&self.face_normals(), |_| true);
         sums.into_iter().map(|n| unit_or_zero(n).as_vec3()).collect()
     }
 
-    /// The unit normal at every corner, as a renderer uses it: the corner's own if it was given and
-    /// has a direction, otherwise the vertex normal over the smooth faces if the face is smooth,
-    /// otherwise the face's. If even that has no direction, straight up: such a face has no area.
+    /// The unit normal at every corner, as a renderer uses it: the corner's own, if it was given and has a
+    /// direction. Otherwise it is the vertex normal over the smooth faces if the face is smooth, or else the
+    /// face's. If even that has no direction, straight up: such a face has no area.
     pub fn shading_normals(&self) -> Vec<Vec3> {
         let Some(given) = &self.attributes().corner_normals else {
             return self.computed_normals();

@@ -13,9 +13,9 @@ impl Mesh {
         mesh
     }
 
-    /// Bakes a transform into the vertices: positions are computed in f64 and rounded once, corner
-    /// normals are transformed by the cofactor matrix and keep unit length, and a mirroring
-    /// transform flips every face ([`Mesh::flip_faces`]) so that outside stays outside.
+    /// Bakes a transform into the vertices. Positions are computed in f64 and rounded once. Corner normals
+    /// are transformed by the cofactor matrix and keep unit length. A mirroring transform flips every face
+    /// ([`Mesh::flip_faces`]) so that outside stays outside.
     ///
     /// A transform that flattens space to a plane gives the normals of that plane; one that gives a
     /// line or a point makes normals zero, which counts as "not given". Morph targets are

@@ -33,8 +33,9 @@ impl WeldedMesh {
     }
 
     /// The same for a mesh whose polygons are all flat, with the normal of each polygon instead of normals of
-    /// vertices: corners at one vertex are welded unless other values differ, where [`WeldedMesh::of`] needs a vertex for
-    /// each corner. `None` if a corner has a normal of its own, a polygon is smooth, or a pose can deform the mesh.
+    /// vertices. Corners at one vertex are welded unless other values differ, where [`WeldedMesh::of`] needs
+    /// a vertex for each corner. `None` if a corner has a normal of its own, a polygon is smooth, or a pose
+    /// can deform the mesh.
     pub fn of_flat(mesh: &Mesh) -> Option<(WeldedMesh, Vec<Vec3>)> {
         let (normals, welded) = weld_flat(mesh)?;
         Some((Self::new(mesh, Vec::new(), welded), normals))

@@ -14,9 +14,9 @@ use super::refusal::Refusal;
 
 /// What leads from a mesh to its state before or after a change.
 ///
-/// It keeps the values that differ, or whole lists where these take less memory.
-/// [`Difference::apply`] goes to the other state and turns the difference around, so that
-/// one difference serves to undo and to redo, any number of times.
+/// It keeps the values that differ, or whole lists where these take less memory. [`Difference::apply`] goes
+/// to the other state and turns the difference around. So one difference serves to undo and to redo, any
+/// number of times.
 #[derive(Debug, Clone)]
 #[must_use = "without it the change cannot be undone"]
 pub struct Difference {
@@ -50,7 +50,7 @@ impl EditMesh {
     /// taken back when the outer one is refused, too: pass it on.
     ///
     /// # Errors
-    /// Those of the change.
+    /// The errors of the change.
     ///
     /// ```
     /// use trigon_mesh::math::Vec3;

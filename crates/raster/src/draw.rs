@@ -39,9 +39,8 @@ pub enum BlendMode {
     /// opaque and masked draws below. For marks on a surface that must not get in the way of
     /// picking it.
     Overlay,
-    /// Blended over what is behind by alpha. Fragments of all translucent draws are
-    /// sorted by depth at each sample, whatever order they were recorded in. They
-    /// write no depth and no ids.
+    /// Blended over what is behind by alpha. Fragments of all translucent draws are sorted by depth at each
+    /// sample, whatever order they were recorded in. Translucent fragments write no depth and no ids.
     Translucent,
 }
 
@@ -92,10 +91,10 @@ pub enum Smoothing {
     /// Each sample is covered or not.
     #[default]
     Sharp,
-    /// Each sample gets a coverage between 0 and 1, computed for a pixel-sized square
-    /// around it, and the pipeline's colour times the coverage is blended over what is
-    /// behind, as with [`BlendMode::Translucent`], whatever the draw's own mode. No depth
-    /// and no ids are written, and no mask is evaluated.
+    /// Each sample gets a coverage between 0 and 1, computed for a pixel-sized square around it. The
+    /// pipeline's colour times the coverage is blended over what is behind, as with
+    /// [`BlendMode::Translucent`], whatever the draw's own mode. No depth and no ids are written, and no mask
+    /// is evaluated.
     ///
     /// A line is everything within half its width of the segment, so its ends are
     /// round. At a distance of d pixels from the segment its coverage is

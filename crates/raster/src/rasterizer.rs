@@ -116,10 +116,10 @@ impl Rasterizer {
     /// pipelines' results depend on. The target must hold what the last call left in its target.
     /// If any of this is violated, the image is a mixture of both passes; nothing worse happens.
     ///
-    /// While the same vertices change from call to call, as in a drag, only pixels that may look
-    /// different are shaded, if each has one sample and only opaque triangles, sharp points of one
-    /// colour and overlays move. What is kept for that takes up to about 25 bytes for each pixel of
-    /// the tiles, until other vertices change.
+    /// While the same vertices change from call to call, as in a drag, only pixels that may look different
+    /// are shaded. This holds if a pixel has one sample and only opaque triangles, sharp points of one colour
+    /// and overlays move. What is kept for that takes up to about 25 bytes for each pixel of the tiles, until
+    /// other vertices change.
     ///
     /// With `None` the whole pass is drawn. So it is with a target of another size or with other
     /// outputs, with a [`scissor`](Pass::scissor), after a call of any other function, and after

@@ -54,7 +54,7 @@ pub struct Stats {
     pub samples_seen: u64,
     /// Fragments that were shaded.
     pub pixels_shaded: u64,
-    /// Those of them that are translucent.
+    /// Translucent fragments that were shaded.
     pub pixels_blended: u64,
     /// Visible triangles that edges were painted on, counted once per tile.
     pub triangles_edged: u64,

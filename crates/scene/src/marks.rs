@@ -19,8 +19,8 @@ use crate::node::NodeId;
 /// change the marks, pass other sets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks {
-    /// Edges, by their numbers in the mesh: see [`Mesh::edges`](trigon_mesh::Mesh::edges). They
-    /// have the same width as all edges, and are shown in styles with edges.
+    /// Edges, by their numbers in the mesh: see [`Mesh::edges`](trigon_mesh::Mesh::edges). Marked edges have
+    /// the same width as all edges, and are shown in styles with edges.
     pub edges: Vec<Mark>,
     /// Faces; their colours are mixed with the mark's.
     pub faces: Vec<Mark>,

@@ -77,7 +77,7 @@ pub struct Scene {
     /// Movements of nodes, evaluated by [`Scene::pose`].
     pub animations: Vec<Animation>,
     /// The axis that points up; +Y by default. Nothing is turned by it: positions, cameras and lights keep
-    /// their coordinates, and everything that knows a vertical follows it: [`Scene::overview`] and
+    /// their coordinates. Everything that knows a vertical follows it: [`Scene::overview`] and
     /// [`Scene::surround`], [environments](crate::EffectSettings::environment), also behind the model, and
     /// what metals mirror without one. [`Scene::turn_to`] turns the contents instead.
     pub up: UpAxis,
@@ -115,9 +115,9 @@ impl Scene {
     /// draws only the parts that may look different, unless effects reach across the image, such as shadows.
     /// The first change is the exception: after it the next frame takes as long as after
     /// [`replace_mesh`](Self::replace_mesh). An editor can make an empty change in advance, so that dragging
-    /// does not start with that delay. After every change these are rebuilt: the whole mesh if a pose can
-    /// deform it or if a polygon of four corners or more folds or unfolds, tangents generated for a normal
-    /// map, shadow maps, and the BVH.
+    /// does not start with that delay. After every change, tangents generated for a normal map, shadow maps
+    /// and the BVH are rebuilt. So is the whole mesh if a pose can deform it or if a polygon of four corners
+    /// or more folds or unfolds.
     ///
     /// Clones of a scene share its meshes; a shared mesh is copied when it is changed.
     ///

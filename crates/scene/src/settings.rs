@@ -73,9 +73,9 @@ pub enum Reflection {
 /// without `color` and `radiance` nothing is shaded: neither lights nor effects are prepared, and
 /// only masks are evaluated.
 ///
-/// All outputs except these two are taken from one sample of each pixel and never averaged: the
-/// sample in the middle, or with an even number of samples per axis the one to the right and below
-/// of the middle. Requesting them changes no byte of the colour.
+/// All outputs except these two are taken from one sample of each pixel and never averaged. It is the sample
+/// in the middle, or with an even number of samples per axis the one to the right and below of the middle.
+/// Requesting them changes no byte of the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs {
     /// The image.
@@ -106,8 +106,8 @@ pub struct Outputs {
     /// Whether blended surfaces appear in all of these outputs, wherever their alpha is above 0. By
     /// default what lies behind them does, and only the colour shows them.
     pub of_blended: bool,
-    /// The point that positions are relative to. They are rounded to f32 after it is subtracted: in
-    /// a world of millions of metres choose a point near the scene.
+    /// The point that positions are relative to. Positions are rounded to f32 after it is subtracted: in a
+    /// world of millions of metres choose a point near the scene.
     pub origin: DVec3,
 }
 

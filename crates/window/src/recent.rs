@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 /// The number of files that are remembered.
 const MOST: usize = 10;
 
-/// Files that a program opened lately, the last one first. They are remembered in a file of the user, a path in each line.
+/// Files that a program opened lately, the last one first. A file of the user remembers them, a path in each
+/// line.
 #[derive(Debug, Default)]
 pub struct RecentFiles {
     /// `None` remembers nothing beyond this run.

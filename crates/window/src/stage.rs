@@ -35,7 +35,7 @@ pub struct FrameReport {
     pub render: Duration,
     /// Conversion, interface, and handing it to the window system.
     pub present: Duration,
-    /// The stages of `render`. Those in tiles are sums over all threads.
+    /// The stages of `render`. Times of stages in tiles are sums over all threads.
     pub stages: StageTimes,
 }
 
@@ -69,7 +69,7 @@ enum Home {
     Fixed(Orbit),
 }
 
-/// The contents of a window. They may be changed before the window opens and from every method of
+/// The contents of a window. The contents may be changed before the window opens and from every method of
 /// [`crate::Handler`].
 pub struct Stage {
     /// What is drawn.

@@ -107,7 +107,7 @@ impl Document {
     /// reading it again.
     ///
     /// # Errors
-    /// Those of the command, except that the file cannot be read.
+    /// The errors of the command, except that the file cannot be read.
     pub fn import(&mut self, path: String, loaded: &Loaded) -> Result<Outcome, EditError> {
         self.confirm();
         let up = Some(loaded.scene.up).filter(|&up| up != loaded.format.up());

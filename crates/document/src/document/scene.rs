@@ -55,9 +55,9 @@ impl Document {
         changes
     }
 
-    /// Which elements of an edited mesh are visible, by their numbers in the mesh of a copy of the scene that
-    /// follows it, or in the scene if there is none; as of the last [`Self::scene`]. `None` for a mesh that
-    /// was never edited, whose numbers are all the same.
+    /// Which elements of an edited mesh are visible, as of the last [`Self::scene`]. Their numbers are those
+    /// in the mesh of a copy of the scene that follows it, or in the scene if there is none. `None` for a
+    /// mesh that was never edited, whose numbers are all the same.
     #[must_use]
     pub fn shown_elements(&self, id: MeshId) -> Option<&ElementMap> {
         let visible = self.state.shown.visible.get(&id).map(|visible| &visible.map);

@@ -9,8 +9,8 @@ use super::{Band, HalfSpace};
 /// The half-spaces to clip by: always `w` at least a minimum, and optionally the near and far plane
 /// and the four bands.
 ///
-/// They clip in the order `w`, near, far, left, right, bottom, top, whatever the order in which
-/// they were added.
+/// Half-spaces clip in the order `w`, near, far, left, right, bottom, top, whatever the order in which they
+/// were added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClipVolume {
     half_spaces: [Option<HalfSpace>; HalfSpace::COUNT],

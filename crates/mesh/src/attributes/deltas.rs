@@ -13,8 +13,7 @@ pub struct Deltas {
 }
 
 impl Deltas {
-    /// From one vector for each element. Those that are zero or not finite add
-    /// nothing.
+    /// From one vector for each element. Vectors that are zero or not finite add nothing.
     pub fn from_dense(values: impl IntoIterator<Item = Vec3>) -> Self {
         Self::from_pairs((0u32..).zip(values))
     }

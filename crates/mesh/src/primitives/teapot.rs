@@ -26,12 +26,10 @@ const MOST_SUBDIVISIONS: u32 = 64;
 /// Normals are those of the exact surface. The image goes round each of the
 /// four parts once.
 ///
-/// It is faithful, so it is not one closed surface: the edge of the lid
-/// (radius 1.3) does not reach the inner edge of the rim (1.4), both are at
-/// height 2.4; the lower ends of spout and handle are open and stick through
-/// the body, which has no hole there; the mouth of the spout ends inside it.
-/// (The real pot was a third higher: the numbers are those that were handed
-/// on.)
+/// It is faithful, so it is not one closed surface. The edge of the lid (radius 1.3) does not reach the inner
+/// edge of the rim (1.4); both are at height 2.4. The lower ends of spout and handle are open and stick
+/// through the body, which has no hole there. The mouth of the spout ends inside it. (The real pot was a
+/// third higher: the numbers are those that were handed on.)
 #[must_use]
 pub fn teapot(subdivisions: u32) -> Mesh {
     let pieces = subdivisions.clamp(FEWEST_SUBDIVISIONS, MOST_SUBDIVISIONS);

@@ -8,8 +8,8 @@ use super::Quads;
 /// Quads that are computed at a time.
 const LANES: usize = 4;
 
-/// Those of some faces of a mesh that are quads. All are placed before the first of them is computed: a processor waits
-/// when it reads several numbers at once that it has just written one by one.
+/// The quads among some faces of a mesh. All are placed before the first of them is computed: a processor
+/// waits when it reads several numbers at once that it has just written one by one.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct QuadGroup {
     /// The places of the quads in the list of faces, increasing.

@@ -29,8 +29,8 @@ impl EditMesh {
     /// The order and direction of the edges do not matter. The twist is chosen for the shortest edges across:
     /// the sum of their squared lengths is compared for both directions and every start, at up to 64 evenly
     /// spread positions. New faces are wound like the neighbours of both loops; without neighbours they face
-    /// away from the middle of the strip. They have the material of the first neighbour, and its values at
-    /// the corners there. Faces that fill a loop stay; [`bridge_faces`](Self::bridge_faces) removes them.
+    /// away from the middle of the strip. New faces have the material of the first neighbour, and its values
+    /// at the corners there. Faces that fill a loop stay; [`bridge_faces`](Self::bridge_faces) removes them.
     ///
     /// # Errors
     /// No edge is given, one does not exist, or they are not two loops or two chains without a common vertex.

@@ -24,10 +24,9 @@ pub struct Mirrored {
 }
 
 impl EditMesh {
-    /// Mirrors vertices in place. Faces all of whose vertices are among them are flipped, so that
-    /// their outside stays outside, and given normals and tangents of their corners are mirrored;
-    /// at other faces that they move, given normals are cleared. Morph target deltas of the
-    /// vertices are mirrored, too.
+    /// Mirrors vertices in place. Faces all of whose vertices are among them are flipped, so that their
+    /// outside stays outside, and given normals and tangents of their corners are mirrored. At other faces of
+    /// mirrored vertices, given normals are cleared. Morph target deltas of the vertices are mirrored, too.
     ///
     /// # Errors
     /// None is given, or one does not exist.

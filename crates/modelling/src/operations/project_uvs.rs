@@ -92,10 +92,10 @@ impl EditMesh {
         self.write_uvs(faces, uv_set, |mesh, _, corner| projector.uv(mesh.point(mesh.corner_vertex(corner))))
     }
 
-    /// Gives the corners of faces texture coordinates by projecting each face along the axis that
-    /// it mostly faces (the first of several: x, y, z), so that the image is not mirrored when seen
-    /// from outside: upright on the four sides, on the top with −z up, on the bottom with z up.
-    /// Otherwise as [`Self::project_uvs`].
+    /// Gives the corners of faces texture coordinates by projecting each face along the axis that it mostly
+    /// faces (the first of several: x, y, z), so that the image is not mirrored when seen from outside. The
+    /// image is upright on the four sides; up is −z on the top, and z on the bottom. Otherwise as
+    /// [`Self::project_uvs`].
     ///
     /// # Errors
     /// No face is given, one does not exist; there are fewer than `uv_set` sets; or a parameter

@@ -60,9 +60,8 @@ impl EditMesh {
     /// targets) and original positions are unchanged. Returns the moved vertices, by index.
     ///
     /// # Errors
-    /// No edge is given, or one does not exist; more than two of them meet at a vertex; one has
-    /// more than two faces, or faces of opposite winding; the factor is out of range; there is
-    /// nothing to slide along.
+    /// No edge is given, or one does not exist. More than two of them meet at a vertex; one has more than two
+    /// faces, or faces of opposite winding. The factor is out of range, or there is nothing to slide along.
     pub fn slide_edges(&mut self, edges: &[EdgeId], factor: f64) -> Result<Vec<VertexId>, Refusal> {
         require(edges, EDGE_SLIDE, "at least one edge")?;
         check_factor(factor)?;

@@ -25,16 +25,16 @@ impl EditMesh {
     /// Makes faces symmetric about a plane: removes what is behind it, and adds a mirrored copy of what is in
     /// front (the side of its normal). Faces and edges that cross the plane are cut along it, with
     /// interpolated values. Vertices within `merge_distance` (metres, from 0 on) of the plane are moved onto
-    /// it; the halves share the vertices there, so that there are no duplicates, and a face on the plane
+    /// it. The halves share the vertices there, so that there are no duplicates, and a face on the plane
     /// stays as it is.
     ///
     /// Other faces, and edges without faces, are unchanged. A vertex whose position is NaN counts
     /// as in front: nothing is removed for it.
     ///
     /// # Errors
-    /// No face is given, one does not exist, the distance is negative or not finite; none is in
-    /// front of the plane; or a face crosses the plane so that no cuts between its corners divide
-    /// it: triangulate it first. Nothing is changed then.
+    /// No face is given, one does not exist, none is in front of the plane, or the distance is negative or
+    /// not finite. Or a face crosses the plane so that no cuts between its corners divide it: triangulate it
+    /// first. Nothing is changed then.
     pub fn symmetrize(
         &mut self,
         faces: &[FaceId],

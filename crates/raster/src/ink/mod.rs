@@ -26,26 +26,23 @@ use trigon_math::{Vec3, Vec4};
 /// How a pass paints the edges of faces: see [`Pass::edges`](crate::Pass::edges).
 ///
 /// # Widths
-/// A line has the requested width where faces have room for it, and takes no more than a
-/// fraction of a small face, so that a dense mesh keeps the colour of its surface.
-/// With r the inner radius of a face in pixels of the target, twice its area over its
-/// perimeter as they are on the screen, the half of a line that lies on the face is no
-/// wider than
+/// A line has the requested width where faces have room for it, and takes no more than a fraction of a small
+/// face, so that a dense mesh keeps the colour of its surface. Let r be the inner radius of a face in pixels
+/// of the target: twice its area over its perimeter, on the screen. The half of a line that lies on the face
+/// is no wider than
 ///
 /// `min(width / 2, r / 3, r² / 4.5)`
 ///
-/// pixels: a third of the radius, and from r = 1.5 pixels on less and less, so that edges
-/// fade away with the distance. A pixel cannot resolve the edges of a face that is smaller
-/// than itself. From r = 1.5 pixels down to 0.5 (of the finer grid, with supersampling) the
-/// share of the face that its lines cover, `1 - ((r - h) / r)²` for lines of half width h,
-/// takes the place of the distances to single edges.
+/// pixels: a third of the radius, and from r = 1.5 pixels on less and less, so that edges fade away with the
+/// distance. A pixel cannot resolve the edges of a face that is smaller than itself. From r = 1.5 pixels down
+/// to 0.5 (of the finer grid, with supersampling) distances to single edges no longer count. The share of the
+/// face that its lines cover takes their place: `1 - ((r - h) / r)²` for lines of half width h.
 ///
-/// What of a line lies beyond its own face follows from that face's r, and fades out from
-/// r = 2 pixels of the finer grid to 1; on a face that shares a corner with it, it follows
-/// from the smaller of the two. Triangles tell the radius of
-/// their polygon by the edges that are flagged, and by
-/// [`EdgeFlags::with_radius_ratio`](crate::EdgeFlags::with_radius_ratio). A triangle that
-/// is cut by the near plane or far outside of the view counts as large.
+/// The width of a line beyond its own face follows from that face's r, and fades out from r = 2 pixels of the
+/// finer grid to 1. On a face that shares a corner with it, the width follows from the smaller r of the two.
+/// Triangles tell the radius of their polygon by the edges that are flagged, and by
+/// [`EdgeFlags::with_radius_ratio`](crate::EdgeFlags::with_radius_ratio). A triangle that is cut by the near
+/// plane or far outside of the view counts as large.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceEdges {
     /// Pixels of the target, 0 (no edges) to [`MAX_WIDTH`](Self::MAX_WIDTH); with

@@ -22,11 +22,10 @@ pub struct Painter {
 pub struct Painted {
     /// All of them, the refused ones included.
     pub triangles: usize,
-    /// Those with an index that no vertex has or none at all, with a position
-    /// that is no number or beyond ±2²² pixels, or with a place in the image
-    /// that is no number or beyond ±2¹⁸ texels. Nothing of them was painted.
+    /// Triangles of which nothing was painted. They have an index that no vertex has or none at all, a
+    /// position that is no number or beyond ±2²² pixels, or texels that are no numbers or beyond ±2¹⁸.
     pub refused: usize,
-    /// Those painted as halves of upright rectangles.
+    /// Triangles that were painted as halves of upright rectangles.
     pub in_rectangles: usize,
 }
 

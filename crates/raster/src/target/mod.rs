@@ -82,12 +82,11 @@ pub enum TargetError {
 
 /// The images that a pass draws into; created once and used for many frames.
 ///
-/// All are row-major from the top left, `width * height` entries. With several
-/// samples per pixel, colour is their mean in linear light; depth and ids are
-/// never averaged but taken from one sample: the first of the standard pattern,
-/// of the pixel (with supersampling: of the finer grid) in the middle, or when
-/// the number per axis is even of the one next to the middle to the right and
-/// below. Translucent draws leave no depth and no ids.
+/// All are row-major from the top left, `width * height` entries. With several samples per pixel, colour is
+/// their mean in linear light. Depth and ids are never averaged but taken from one sample: the first of the
+/// standard pattern. With supersampling it is taken from the pixel of the finer grid in the middle, or, if
+/// the number per axis is even, from the one to the right and below of the middle. Translucent draws leave no
+/// depth and no ids.
 pub struct Target<'a> {
     width: u32,
     height: u32,

@@ -7,13 +7,11 @@ use trigon_math::Vec2;
 
 /// A value and its two derivatives, for one internal pixel to the right and down.
 ///
-/// A texture look-up needs the gradients of its coordinates. Those of a varying are
-/// given. Coordinates that are computed from varyings get their gradients when the
-/// computation uses this type, by the rules of calculus: no neighbouring sample is
-/// needed, and no seam shows at the end of a triangle. (Dual numbers with two infinitesimal parts:
-/// Clifford, *Preliminary Sketch of Biquaternions*, 1873; as "automatic
-/// differentiation, forward mode": Griewank and Walther, *Evaluating
-/// Derivatives*, 2008, chapter 3.)
+/// A texture look-up needs the gradients of its coordinates. The gradients of a varying are given.
+/// Coordinates that are computed from varyings get their gradients when the computation uses this type, by
+/// the rules of calculus: no neighbouring sample is needed, and no seam shows at the end of a triangle. (Dual
+/// numbers with two infinitesimal parts: Clifford, *Preliminary Sketch of Biquaternions*, 1873; as "automatic
+/// differentiation, forward mode": Griewank and Walther, *Evaluating Derivatives*, 2008, chapter 3.)
 ///
 /// `T` is `f32` for one sample and [`F32`] for eight. A plain `T` on the right
 /// of an operator is a constant. Where a derivative does not exist (the root of

@@ -75,9 +75,8 @@ pub struct Texture {
 impl Texture {
     /// A texture from row-major texels, top row first, with all its mip levels.
     ///
-    /// Each level halves the one before (rounded down, at least 1) by a box
-    /// filter in linear light, exact for any size; colours are weighted by
-    /// their alpha, so that what is transparent does not bleed.
+    /// Each level halves the one before (rounded down, at least 1) by a box filter in linear light, exact for
+    /// any size. Colours are weighted by their alpha, so that what is transparent does not bleed.
     ///
     /// # Errors
     /// [`TextureError`] if a side is out of range or the number of texels wrong.

@@ -12,9 +12,9 @@ use super::{Filter, MipFilter, Sampler, Texture};
 use trigon_math::{Vec2, Vec4};
 
 impl Texture {
-    /// The value at `uv` in linear light, alpha straight, filtered as the
-    /// `sampler` says for a footprint spanned by `ddx` and `ddy`, the change of
-    /// `uv` for one internal pixel (half a pixel with two samples per axis).
+    /// The value at `uv` in linear light, alpha straight, filtered as the `sampler` says. `ddx` and `ddy`
+    /// span the footprint: the change of `uv` for one internal pixel (half a pixel with two samples per
+    /// axis).
     ///
     /// Any coordinate is safe: one that is not finite counts as 0, a gradient
     /// that is not finite selects the last level.

@@ -63,9 +63,9 @@ pub enum EnvironmentError {
 }
 
 impl Environment {
-    /// From an image of all directions, as `.hdr` files hold it: row-major from the top, linear
-    /// RGB; the middle looks along −Z, the right half to +X, the upper edge is +Y. Values that are
-    /// negative or not finite count as 0.
+    /// From an image of all directions, as `.hdr` files hold it: row-major from the top, linear RGB. The
+    /// middle looks along −Z, the right half to +X, and the upper edge is +Y. Values that are negative or not
+    /// finite count as 0.
     ///
     /// # Errors
     /// There are not `width * height` pixels, or none.

@@ -27,10 +27,9 @@ impl TextureBinding {
     }
 }
 
-/// A normal map: red, green and blue, 0 to 1, stand for x, y and z from −1 to 1 along tangent,
-/// bitangent and normal; green points up in the image, against v (as in glTF 2.0, section 3.9.3). A
-/// mesh without tangents gets them from the binding's UV set; beyond the eighth set there are none,
-/// and the map is not drawn.
+/// A normal map: red, green and blue, 0 to 1, stand for x, y and z from −1 to 1 along tangent, bitangent and
+/// normal. Green points up in the image, against v (as in glTF 2.0, section 3.9.3). A mesh without tangents
+/// gets them from the binding's UV set; beyond the eighth set there are none, and the map is not drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalMap {
     /// The directions; the texture holds data.

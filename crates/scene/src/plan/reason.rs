@@ -106,9 +106,9 @@ pub enum Absence {
 /// Why nobody could see an effect that objects have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Invisible {
-    /// They multiply it by 0.
+    /// The objects multiply it by 0.
     Zero,
-    /// They are unlit, and need none.
+    /// The objects are unlit, and need none.
     Unlit,
     /// Neither the light nor the shading model shows anything of it.
     Light,

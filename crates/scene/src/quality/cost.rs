@@ -23,15 +23,15 @@ const MOST_SEEN: usize = 32;
 
 /// Learns from measured frames of a scene how long others will take.
 ///
-/// Time is assumed to be linear in a few units of work, with costs that are not negative. The costs
-/// are fitted to relative errors by non-negative least squares (cyclic coordinate descent; C.
-/// Lawson and R. Hanson, "Solving Least Squares Problems", 1974, chapter 23, has the problem),
-/// regularized towards default proportions where frames give no information. So more work is never
-/// predicted to take less time.
+/// Time is assumed to be linear in a few units of work, with costs that are not negative. The costs are
+/// fitted to relative errors by non-negative least squares (cyclic coordinate descent; C. Lawson and R.
+/// Hanson, "Solving Least Squares Problems", 1974, chapter 23, has the problem). Where frames give no
+/// information, the fit is regularized towards default proportions. So more work is never predicted to take
+/// less time.
 ///
-/// If work that was done before takes longer now, the scene has become more expensive, and all
-/// remembered times are scaled half of the way: this follows a moving camera, and a frame that had
-/// to wait for another program misleads only once.
+/// If work that was done before takes longer now, the scene has become more expensive, and all remembered
+/// times are scaled half of the way. This follows a moving camera, and a frame that had to wait for another
+/// program misleads only once.
 ///
 /// ```
 /// use std::time::Duration;

@@ -15,9 +15,9 @@ use crate::plan::EffectPlan;
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 
-/// Draws frames one after the other, with its settings, and keeps threads, memory and shadow maps
-/// between them. These change no byte of a frame: the function [`render`](crate::render()) draws
-/// the same one, and starts from scratch each time.
+/// Draws frames one after the other, with its settings, and keeps threads, memory and shadow maps between
+/// them. What is kept changes no byte of a frame: the function [`render`](crate::render()) draws the same
+/// one, and starts from scratch each time.
 ///
 /// [`Renderer::builder`] takes the most common settings by name;
 /// [`settings_mut`](Self::settings_mut) gives access to all of them, at any time.
@@ -103,7 +103,7 @@ impl Renderer {
     /// the camera has moved on.
     ///
     /// # Errors
-    /// Those of [`render`](Self::render), and [`RenderError::Cancelled`].
+    /// The errors of [`render`](Self::render), and [`RenderError::Cancelled`].
     pub fn render_cancellable(
         &mut self,
         scene: &Scene,
@@ -135,7 +135,7 @@ impl Renderer {
     /// ```
     ///
     /// # Errors
-    /// Those of [`render`](Self::render), and [`RenderError::Cancelled`].
+    /// The errors of [`render`](Self::render), and [`RenderError::Cancelled`].
     pub fn render_shared(
         &mut self,
         scene: &Scene,
@@ -168,9 +168,8 @@ impl Renderer {
         self.engine.redrawn_between(before, last)
     }
 
-    /// Draws what each of these cameras sees, one after the other, and passes every frame with its
-    /// number from 0 to `visit`. They all use the memory of one frame: `visit` clones or writes
-    /// what it wants to keep.
+    /// Draws what each of these cameras sees, one after the other, and passes every frame with its number
+    /// from 0 to `visit`. All frames use the memory of one: `visit` clones or writes what it wants to keep.
     ///
     /// # Errors
     /// The first error of drawing, as for [`render`](Self::render), or of `visit`; no more frames
@@ -190,7 +189,7 @@ impl Renderer {
     }
 
     /// Explains the pixel in column `x` and row `y` of the image that [`render`](Self::render) draws: all
-    /// triangles that touch it, sample by sample, with exact edge values and depths, which of them is
+    /// triangles that touch it, sample by sample, with exact edge values and depths. Says which of them is
     /// visible, and why. Object ids are indices of nodes. `None` outside the image.
     ///
     /// It costs about as much as all stages before the tiles, and then a test of each triangle.

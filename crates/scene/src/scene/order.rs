@@ -31,8 +31,8 @@ impl Scene {
         tree
     }
 
-    /// Lists these before all other roots, in this order. Those that are no roots now are listed at
-    /// their places once they are.
+    /// Lists these before all other roots, in this order. Nodes that are no roots now are listed at their
+    /// places once they are.
     pub fn order_roots(&mut self, mut roots: Vec<NodeId>) {
         let mut is_known = FixedBitSet::with_capacity(self.nodes.index_bound());
         roots.retain(|id| self.nodes.get(*id).is_some() && !is_known.put(id.index()));

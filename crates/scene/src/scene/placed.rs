@@ -49,8 +49,8 @@ impl Scene {
         Some(PlacedMesh { asset, posed: Some(posed), world: bend.joints.map_or(world, |pose| pose.world) })
     }
 
-    /// The vertices in the world, in their poses, of what is visible at a node and below it, without those that
-    /// no face, edge or point uses: what a camera is fitted to that is to show this node.
+    /// The vertices in the world, in their poses, of what is visible at a node and below it, without those
+    /// that no face, edge or point uses. A camera that shows this node is fitted to them.
     pub fn visible_points_below(&self, id: NodeId) -> impl Iterator<Item = DVec3> {
         let transforms = self.visible_transforms();
         let is_below = move |node: &NodeId| *node == id || self.ancestors(*node).any(|above| above == id);

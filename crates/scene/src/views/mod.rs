@@ -30,10 +30,9 @@ impl Scene {
     /// the box around everything visible towards the eye, for a world with +Y up; they are
     /// turned to [`Scene::up`]. `aspect` is width over height.
     ///
-    /// All stand equally far away, so that nothing grows or shrinks from one image to
-    /// the next: as near as a ball about that middle that holds every vertex allows,
-    /// with a tenth of the image left free. A camera depends on its own viewpoint
-    /// only, not on the others.
+    /// All stand equally far away, so that nothing grows or shrinks from one image to the next. They are as
+    /// near as a ball about that middle that holds every vertex allows, with a tenth of the image left free.
+    /// A camera depends on its own viewpoint only, not on the others.
     ///
     /// ```
     /// use trigon_scene::{showcase, views};

@@ -8,8 +8,8 @@ use trigon_scene::{Frame, RenderError};
 /// The light of each pixel of a case's image: the mean of the four pixels that `reference` draws
 /// in its place at twice the size, 8×8 shaded places with 16 samples each.
 ///
-/// They lie at odd sixteenths of a pixel. The samples of grids with 1, 2, 3 and 4 per row lie at halves,
-/// quarters, sixths and eighths, which are never odd sixteenths.
+/// The samples lie at odd sixteenths of a pixel. The samples of grids with 1, 2, 3 and 4 per row lie at
+/// halves, quarters, sixths and eighths, which are never odd sixteenths.
 pub struct Truth {
     size: [usize; 2],
     light: Vec<[f64; 3]>,

@@ -2,9 +2,8 @@
 
 use trigon_raster::{Texture, TextureFormat};
 
-/// 1024 by 1024 texels of plain data: a checker of two tints, 64 texels a
-/// square, each with a finer pattern (the exclusive or of the coordinates), so
-/// that every mip level has something to show.
+/// 1024 by 1024 texels of plain data: a checker of two tints, 64 texels a square. Each square has a finer
+/// pattern (the exclusive or of the coordinates), so that every mip level has something to show.
 #[must_use]
 pub fn knot_surface() -> Texture {
     const SIZE: u32 = 1024;

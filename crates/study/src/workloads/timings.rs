@@ -12,8 +12,8 @@ impl Timings {
     /// Times `frame`, which returns when the image is complete, `repetitions`
     /// times (at least once), after three frames that fill caches and arenas.
     ///
-    /// A frame of more than 1.5 s is warmed up twice and repeated five times at
-    /// most. These are the rules by which the other renderers were timed.
+    /// A frame of more than 1.5 s is warmed up twice and repeated five times at most. The other renderers
+    /// were timed by the same rules.
     pub fn of_frames<R>(repetitions: usize, frame: impl FnMut() -> R) -> Self {
         Self::of_times(repetitions, timed(frame))
     }

@@ -127,9 +127,9 @@ impl EguiPainter {
         !self.damage.is_empty()
     }
 
-    /// Brings pixels up to date: rows from the top, `size` is width and height. They must contain
-    /// what was last painted, or anything after [`invalidate`](Self::invalidate) and at the first
-    /// call; a different size invalidates. `beneath` is what lies under the interface.
+    /// Brings pixels up to date: rows from the top, `size` is width and height. The pixels must contain what
+    /// was last painted, or anything after [`invalidate`](Self::invalidate) and at the first call; a
+    /// different size invalidates. `beneath` is what lies under the interface.
     ///
     /// Returns the repainted rectangles, which do not overlap.
     ///

@@ -199,8 +199,8 @@ impl<'a> HeadlessWindow<'a> {
         found
     }
 
-    /// Where the floating parts of the interface lie, in physical pixels, each with its left upper and its right
-    /// lower corner: windows, menus and texts. Those of the same order must not cover each other.
+    /// Where the floating parts of the interface lie, in physical pixels, each with its left upper and its
+    /// right lower corner: windows, menus and texts. Parts of the same order must not cover each other.
     #[must_use]
     pub fn layers(&mut self) -> Vec<(egui::LayerId, [DVec2; 2])> {
         let context = self.session.interface().context().clone();

@@ -26,9 +26,9 @@ impl EditMesh {
     /// Subdivides the whole mesh into a smooth surface: in each of `levels` steps a face of n
     /// corners becomes n quads.
     ///
-    /// - A new vertex in a face is the mean of its corners; one on an edge is the mean of the edge's ends and
-    ///   the two adjacent new face vertices; an old vertex with n edges moves to (n − 2)/n of itself, 1/n of
-    ///   the mean of its neighbours and 1/n of that of the new vertices in its faces.
+    /// - A new vertex in a face is the mean of its corners. A new vertex on an edge is the mean of the edge's
+    ///   ends and the two adjacent new face vertices. An old vertex with n edges moves to (n − 2)/n of
+    ///   itself, 1/n of the mean of its neighbours and 1/n of that of the new vertices in its faces.
     /// - A crease c makes an edge sharp for 10·c² levels, as in Blender, and for all levels if it is 1. New
     ///   vertices on a sharp edge are at its midpoint. A vertex with two sharp edges moves to ¾ of itself and
     ///   ⅛ of each of their other ends; with three or more it is a corner, and stays. If sharpness ends
@@ -42,8 +42,8 @@ impl EditMesh {
     /// independent of its neighbours, as are joints and their weights. Morph targets and original positions
     /// follow the rule for positions. Pieces of edges and parts of faces keep their marks.
     ///
-    /// All old ids are kept: a vertex is the same one in its new position, an edge is its first
-    /// half, a face its part at its first corner, a corner is that of the part at its vertex.
+    /// All old ids are kept. A vertex is the same one in its new position, an edge is its first half, and a
+    /// face its part at its first corner. A corner is that of the part at its vertex.
     ///
     /// # Errors
     /// There is no face, there are not 1 to 10 levels, or the mesh would have too many elements.

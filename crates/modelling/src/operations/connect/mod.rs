@@ -28,12 +28,11 @@ const CONNECTING: &str = "connecting vertices";
 impl EditMesh {
     /// Connects vertices by cuts through their faces.
     ///
-    /// In each face that has several of them, each is connected to the next one around the face,
-    /// unless an edge does so already or the cut would leave the face (in a concave one). If there
-    /// are exactly two vertices without a common face, a path is cut from one to the other,
-    /// straight in the plane through both and the mean of their normals; it may cross several
-    /// faces, and adds vertices on the edges that it crosses. Within a millionth of an edge from
-    /// its end, it goes through the vertex there.
+    /// In each face that has several of them, each is connected to the next one around the face, unless an
+    /// edge does so already or the cut would leave the face (in a concave one). If there are exactly two
+    /// vertices without a common face, a path is cut from one to the other, straight in the plane through
+    /// both and the mean of their normals. The path may cross several faces, and adds vertices on the edges
+    /// that it crosses. Within a millionth of an edge from its end, it goes through the vertex there.
     ///
     /// Values are kept at corners and interpolated at new vertices.
     ///

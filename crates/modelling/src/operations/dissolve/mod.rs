@@ -88,8 +88,8 @@ impl EditMesh {
     /// goes with its edges unless it has exactly two.
     ///
     /// # Errors
-    /// No vertex is given, or one does not exist; the faces at one cannot be merged, since more than two meet
-    /// at an edge, their windings are opposite, or the result would have a hole, be closed or have fewer than
+    /// No vertex is given, or one does not exist, or the faces at one cannot be merged: more than two meet at
+    /// an edge, their windings are opposite, or the result would have a hole, be closed or have fewer than
     /// three vertices.
     pub fn dissolve_vertices(&mut self, vertices: &[VertexId]) -> Result<Dissolved, Refusal> {
         require(vertices, "dissolving vertices", "at least one vertex")?;

@@ -51,7 +51,7 @@ impl EditMesh {
     /// border, get new ones in the same positions. Walls are wound like the faces below them, with the
     /// material, texture coordinates and colours found there; they have no given normals.
     ///
-    /// A part of the region that no edge joins to other faces is a sheet: its flipped faces become its
+    /// A part of the region that no edge joins to other faces is a sheet. Its flipped faces become its
     /// bottom, so that a plane becomes a closed box and a closed surface a hollow one. (Blender decides this
     /// for all selected faces together.) A vertex in which parts touch gets one edge to its base, as in
     /// Blender.
@@ -102,10 +102,10 @@ impl EditMesh {
     /// Extrudes each face individually: every one gets its own vertices and a quad on each of its
     /// edges.
     ///
-    /// Faces keep their ids and get new vertices, so neighbours that are both extruded come apart.
-    /// Walls are as those of [`Self::extrude_region`]; there are no bottoms, as in Blender. A face that
-    /// visits a vertex twice, such as one whose hole is joined to its outline by a bridge, gets no
-    /// walls along the bridge; it keeps its vertices, and the rest gets new ones.
+    /// Faces keep their ids and get new vertices, so neighbours that are both extruded come apart. Walls are
+    /// as those of [`Self::extrude_region`]; there are no bottoms, as in Blender. A face that visits a vertex
+    /// twice, such as one whose hole is joined to its outline by a bridge, gets no walls along the bridge. It
+    /// keeps its vertices, and the rest gets new ones.
     ///
     /// # Errors
     /// No face is given, or one does not exist; the offset is not finite; there would be too many
