@@ -13,7 +13,7 @@ pub struct Viewport {
 }
 
 impl Viewport {
-    /// Width over height. An image without area counts as square, so that a minimised window causes
+    /// Width over height. An image without area counts as square, so that a minimized window causes
     /// no division by zero.
     #[must_use]
     pub fn aspect(self) -> f64 {
@@ -29,14 +29,14 @@ impl Viewport {
         DVec2::new(f64::from(self.width), f64::from(self.height))
     }
 
-    /// From normalised device coordinates (x right, y up, the image is `[-1, 1]²`) to the screen.
+    /// From normalized device coordinates (x right, y up, the image is `[-1, 1]²`) to the screen.
     #[must_use]
     pub fn to_screen(self, ndc: DVec2) -> DVec2 {
         let size = self.size();
         DVec2::new((1.0 + ndc.x) * 0.5 * size.x, (1.0 - ndc.y) * 0.5 * size.y)
     }
 
-    /// From the screen to normalised device coordinates. Not finite if the image has no area.
+    /// From the screen to normalized device coordinates. Not finite if the image has no area.
     #[must_use]
     pub fn to_ndc(self, screen: DVec2) -> DVec2 {
         let size = self.size();

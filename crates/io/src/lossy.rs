@@ -113,7 +113,7 @@ mod tests {
         let mut bytes = Vec::new();
         encode_jpeg(&mut bytes, 8, 8, &half_red()).expect("memory takes it");
         let image = decode_image(&bytes, &Limits::default()).expect("a JPEG");
-        // Quality 90 quantises frequencies by up to 24 levels, of which an edge has some.
+        // Quality 90 quantizes frequencies by up to 24 levels, of which an edge has some.
         let near = |pixel: &[u8], wanted: [u8; 3]| (0..3).all(|i| pixel[i].abs_diff(wanted[i]) < 40);
         assert!(near(&image.rgba[..3], [200, 0, 0]), "red: {:?}", &image.rgba[..3]);
         assert!(near(&image.rgba[28..31], [255; 3]), "white: {:?}", &image.rgba[28..31]);

@@ -1,7 +1,7 @@
 //! The placement of a node relative to its parent.
 //!
 //! Everything is f64, because a model ten million metres from the origin must look the same as one at the
-//! origin. The rotation is a unit quaternion, renormalised at every step, so that a million small rotations
+//! origin. The rotation is a unit quaternion, renormalized at every step, so that a million small rotations
 //! do not shear the object.
 
 use trigon_math::{DAffine3, DMat3, DQuat, DVec3, is_mirroring};

@@ -31,7 +31,7 @@ impl Presenter {
         Ok(presenter)
     }
 
-    /// The window's new size. While it is minimised to nothing, the surface keeps its size.
+    /// The window's new size. While it is minimized to nothing, the surface keeps its size.
     pub(crate) fn resize(&mut self, width: u32, height: u32) -> Result<(), WindowError> {
         let (Some(width), Some(height)) = (NonZeroU32::new(width), NonZeroU32::new(height)) else {
             return Ok(());

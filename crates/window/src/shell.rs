@@ -44,7 +44,7 @@ struct Open {
     window: Arc<Window>,
     title: String,
     /// When it was last queried.
-    minimised: bool,
+    minimized: bool,
     /// Whether this program requested the next frame.
     asked: bool,
     /// Whether the pointer is confined to it.
@@ -148,7 +148,7 @@ impl<'a> Shell<'a> {
             egui,
             window,
             title,
-            minimised: false,
+            minimized: false,
             asked: false,
             keeps_pointer: false,
             full_screen: false,
@@ -160,11 +160,11 @@ impl<'a> Shell<'a> {
     fn draw(&mut self) -> Result<(), WindowError> {
         let now = self.now();
         let Some(open) = &mut self.open else { return Ok(()) };
-        // Not every system reports that a window is minimised, but each requests a frame when it is
+        // Not every system reports that a window is minimized, but each requests a frame when it is
         // visible again.
-        let minimised = open.window.is_minimized() == Some(true);
-        if minimised != std::mem::replace(&mut open.minimised, minimised) {
-            let event = if minimised { InputEvent::Hidden } else { InputEvent::Shown };
+        let minimized = open.window.is_minimized() == Some(true);
+        if minimized != std::mem::replace(&mut open.minimized, minimized) {
+            let event = if minimized { InputEvent::Hidden } else { InputEvent::Shown };
             self.session.event(event, now);
         }
         // The window system requests a redraw if the window has lost its content.

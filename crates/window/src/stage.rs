@@ -217,7 +217,7 @@ impl Stage {
         self.title = title.into();
     }
 
-    /// Size of the window in physical pixels; 0 while the window is minimised.
+    /// Size of the window in physical pixels; 0 while the window is minimized.
     #[must_use]
     pub fn viewport(&self) -> Viewport {
         self.viewport

@@ -152,7 +152,7 @@ fn to_linear(srgb: Vec3) -> Vec3 {
 }
 
 /// A direction: signed axes such as `+X` or `-y+z`, or three numbers. Never
-/// zero, always finite; not normalised.
+/// zero, always finite; not normalized.
 pub(crate) fn direction(text: &str) -> Result<DVec3, String> {
     const FORMS: &str = "write axes such as +X or -y+z, or three numbers such as 1,0,-0.5";
     let found = three_numbers(text).or_else(|| signed_axes(text)).ok_or(FORMS)?;

@@ -20,7 +20,7 @@ pub enum OrbitStyle {
 /// The orientation of the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Attitude {
-    /// Angles in fixed point: nothing to renormalise, no drift. Roll is about the line of sight.
+    /// Angles in fixed point: nothing to renormalize, no drift. Roll is about the line of sight.
     Turntable { azimuth: Angle, elevation: Angle, roll: Angle },
     /// Camera to world.
     Trackball(DQuat),

@@ -111,7 +111,7 @@ mod tests {
     fn weights_sum_to_one_whatever_was_given() {
         let weights = vec![1.0, 3.0, f32::NAN, -1.0, 0.0, f32::INFINITY, f32::MAX, f32::MAX];
         let skin = SkinWeights::new(2, vec![0, 1, 2, 3, 4, 5, 6, 7], weights).expect("two for each of four");
-        assert_eq!(skin.weights(), [0.25, 0.75, 1.0, 0.0, 1.0, 0.0, 0.5, 0.5], "normalised");
+        assert_eq!(skin.weights(), [0.25, 0.75, 1.0, 0.0, 1.0, 0.0, 0.5, 0.5], "normalized");
         assert_eq!(skin.influences(3).collect::<Vec<_>>(), [(6, 0.5), (7, 0.5)], "of one vertex");
         let again = SkinWeights::from_normalized(2, skin.joints().to_vec(), skin.weights().to_vec());
         assert_eq!(again, Some(skin), "and stay so");

@@ -51,7 +51,7 @@ impl EditMesh {
     ///
     /// A loop runs from the first to the second vertex of its edge with the lowest index. A positive factor
     /// slides to its left, seen from outside, a negative one to its right. If several edges are on a side,
-    /// the vertex moves toward the middle of the ends of the first and the last. If a loop turns within one
+    /// the vertex moves towards the middle of the ends of the first and the last. If a loop turns within one
     /// face, it moves to the opposite corner of a quad, or parallel to the sides of a larger polygon. A
     /// vertex without any of these on that side stays.
     ///
@@ -88,7 +88,7 @@ impl EditMesh {
         Ok(self.slide_along(&courses, factor.abs()))
     }
 
-    /// Slides vertices, each along one of its edges by `factor` of its length: 0 to 1 toward the
+    /// Slides vertices, each along one of its edges by `factor` of its length: 0 to 1 towards the
     /// other end, or down to −1 in the opposite direction. Values of corners follow as in
     /// [`Self::slide_edges`]. Returns the vertices, by index.
     ///

@@ -34,7 +34,7 @@ impl TextureBinding {
 pub struct NormalMap {
     /// The directions; the texture holds data.
     pub binding: TextureBinding,
-    /// Multiplies x and y before the direction is normalised; 1 leaves them as they are, 0
+    /// Multiplies x and y before the direction is normalized; 1 leaves them as they are, 0
     /// flattens, negative values invert bumps.
     pub scale: f32,
 }

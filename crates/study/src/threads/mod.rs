@@ -15,7 +15,7 @@ use trigon_classic::Field;
 pub const THREADS: [usize; 9] = [0, 1, 2, 4, 8, 16, 32, 64, 128];
 
 /// The source's frame times for [`THREADS`] in microseconds, on four cores with eight
-/// logical ones, without optimisation by the compiler.
+/// logical ones, without optimization by the compiler.
 pub const TIMES_OF_THE_SOURCE: [f64; 9] =
     [254_569.0, 293_457.0, 207_791.0, 128_807.0, 84_151.0, 66_569.0, 61_264.0, 65_488.0, 75_354.0];
 

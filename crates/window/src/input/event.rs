@@ -44,7 +44,7 @@ fn is_first(repeat: &bool) -> bool {
 pub(crate) enum InputEvent {
     PointerMoved(#[serde(with = "place")] DVec2),
     Button(PointerButton, Press),
-    /// Lines away from the user, normalised.
+    /// Lines away from the user, normalized.
     Wheel(f64),
     /// Logarithm of the factor by which fingers spread.
     Pinch(f64),
@@ -65,7 +65,7 @@ pub(crate) enum InputEvent {
     },
     /// Physical pixels per logical one.
     Scaled(f64),
-    /// The window is covered, minimised, or seen again.
+    /// The window is covered, minimized, or seen again.
     Hidden,
     Shown,
     CloseRequested,

@@ -339,7 +339,7 @@ fn keys_change_the_view_and_the_sheet() {
 }
 
 #[test]
-fn a_minimised_window_sleeps_and_comes_back() {
+fn a_minimized_window_sleeps_and_comes_back() {
     let mut handler = Recorder { frames_left: 1_000_000, ..Recorder::default() };
     let mut session = started(&mut handler);
     draw(&mut session, ms(10));
@@ -350,7 +350,7 @@ fn a_minimised_window_sleeps_and_comes_back() {
     session.event(InputEvent::Resized { width: 1, height: 1 }, ms(50));
     assert_eq!(draw(&mut session, ms(60)).map(|pixels| pixels.len()), Some(1), "the smallest window");
     session.event(InputEvent::Hidden, ms(70));
-    assert_eq!(session.next(ms(80)), Wake::Never, "covered is as good as minimised");
+    assert_eq!(session.next(ms(80)), Wake::Never, "covered is as good as minimized");
     session.event(InputEvent::Shown, ms(90));
     assert_ne!(session.next(ms(90)), Wake::Never, "and seen again");
 }

@@ -170,7 +170,7 @@ fn warn_of_values(property: Property, curve: &Curve, broken: usize, place: &Plac
     let what = "a value of its curve is not finite and counts as 0";
     warnings.push_counted(broken, place.clone(), what, REMEDY);
     if property == Property::Rotation {
-        let what = "a rotation of its curve is not a unit quaternion; it is normalised";
+        let what = "a rotation of its curve is not a unit quaternion; it is normalized";
         warnings.push_counted(bent_rotations(curve), place.clone(), what, REMEDY);
     }
 }

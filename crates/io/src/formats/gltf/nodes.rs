@@ -179,7 +179,7 @@ fn convert_transform(raw: &RawTransform, index: usize, warnings: &mut Warnings) 
     } else if (rotation.length() - 1.0).abs() > ROTATION_TOLERANCE {
         warnings.push(
             Place::Item("node", index),
-            "its rotation is not a unit quaternion; it is normalised",
+            "its rotation is not a unit quaternion; it is normalized",
             "export the model again",
         );
     }

@@ -115,7 +115,7 @@ fn floats_of() -> Vec<Row> {
         glb(
             "ACCESSOR_VECTOR3_NON_UNIT",
             "normals of length 2",
-            Silent("normals are normalised; only their direction is used"),
+            Silent("normals are normalized; only their direction is used"),
             |doc| {
                 floats(doc, "NORMAL", "VEC3", &[0., 0., 2.].repeat(4));
             },

@@ -110,7 +110,7 @@ impl Plan<'_> {
         Grid { sides, half, is_even, inner, inner_rows, center }
     }
 
-    /// A point of the part at one node: `a` steps toward the next node, `b` toward the one before.
+    /// A point of the part at one node: `a` steps towards the next node, `b` towards the one before.
     fn grid_point(&self, grid: &Grid, side: usize, a: usize, b: usize) -> u32 {
         let count = grid.sides.len();
         let before = (side + count - 1) % count;

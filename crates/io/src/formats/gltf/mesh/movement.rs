@@ -85,7 +85,7 @@ pub(super) fn read_skin(from: &mut Optional<'_, '_>) -> Result<Option<PartSkin>,
             mended,
             from.place.clone(),
             "a vertex has skin weights that are negative, not finite or not 1 in all; they are corrected",
-            "normalise the weights and export again",
+            "normalize the weights and export again",
         );
     }
     Ok(Some(PartSkin { per_vertex: sets.len() * PER_SET, joints, weights }))

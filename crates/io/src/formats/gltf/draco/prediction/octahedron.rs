@@ -16,7 +16,7 @@ pub(super) struct Octahedron {
 impl Octahedron {
     pub(super) fn read(stream: &mut Stream<'_>) -> Result<Self, Broken> {
         let largest = i32::from_le_bytes(stream.array()?);
-        // The center follows from it.
+        // The centre follows from it.
         let _center: [u8; 4] = stream.array()?;
         // The largest number of some bits.
         let bits = 32 - largest.leading_zeros();
