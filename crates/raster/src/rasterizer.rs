@@ -121,9 +121,8 @@ impl Rasterizer {
     /// and overlays move. What is kept for that takes up to about 25 bytes for each pixel of the tiles, until
     /// other vertices change.
     ///
-    /// With `None` the whole pass is drawn. So it is with a target of another size or with other
-    /// outputs, with a [`scissor`](Pass::scissor), after a call of any other function, and after
-    /// a cancelled drawing.
+    /// The whole pass is drawn with `None`, for a target of another size or with other outputs, with a
+    /// [`scissor`](Pass::scissor), after a call of any other function, and after a cancelled drawing.
     ///
     /// ```
     /// # use trigon_raster::{*, math::Vec4};
