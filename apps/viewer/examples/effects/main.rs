@@ -1,4 +1,4 @@
-//! Writes `docs/effects.md`: what each effect adds to an image, why it was on, and what it costs, on four scenes.
+//! Writes `docs/effects.md`: what each effect adds to an image, why it was on, and what it costs, on five scenes.
 //!
 //! `cargo run --release -p trigon-viewer --no-default-features --example effects -- docs --instructions`
 //!

@@ -69,8 +69,10 @@ keep every byte.
 - The key light is what nine tenths of the lit surface do not exceed. Every object counts the same, however large it is, and every
   area within an object. So neither a wide floor nor the shade of a lamp decides.
 - Exposed, a white surface in the key light has 0.7 of the display's white, and about 0.8 with the ambient light that is added.
-- Ambient light that is added, environments, unlit surfaces and emitted light stay as they are. An environment replaces
+- Ambient light that is added, environments and unlit surfaces stay as they are. An environment replaces
   brightening, but not dimming.
+- Emitted light stays as it is, too. glTF defines it in nits, but programs that export lamps in candela write
+  emission beside them as a plain factor. Dimmed with such lamps, glowing surfaces would be black.
 - The reading is a property of the scene. It does not depend on the camera, the image or the pose of an animation: turntables,
   animations and all other series of a model have one exposure. Shadows and reflections are no part of it.
 

@@ -18,14 +18,21 @@ use trigon_scene::{
 pub(crate) struct Subject {
     pub(crate) scene: Scene,
     pub(crate) camera: Camera,
+    /// The effect that the scene is for; `None` shows all that it has.
+    pub(crate) only: Option<Effect>,
 }
 
 /// Makes a subject.
 pub(crate) type Maker = fn() -> Subject;
 
 /// The names of all subjects, and what makes each.
-pub(crate) const SUBJECTS: [(&str, Maker); 4] =
-    [("Exhibition", exhibition), ("Materials", materials), ("Knot", knot), ("Figures", figures)];
+pub(crate) const SUBJECTS: [(&str, Maker); 5] = [
+    ("Exhibition", exhibition),
+    ("Materials", materials),
+    ("Knot", knot),
+    ("Figures", figures),
+    ("Candela", candela),
+];
 
 /// Every effect with settings that may have it.
 pub(crate) fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
@@ -52,6 +59,7 @@ pub(crate) fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
     let of_scene = [
         Effect::Lamps,
         Effect::AmbientLight,
+        Effect::LightMeter,
         Effect::Highlights,
         Effect::Textures,
         Effect::NormalMaps,
@@ -89,14 +97,15 @@ pub(crate) fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
         }),
         asked(Effect::Edges, &|settings| settings.style = Style::SurfaceWithEdges),
     ];
-    of_scene.map(|effect| (effect, plain.clone())).into_iter().chain(of_settings).collect()
+    let all = of_scene.map(|effect| (effect, plain.clone())).into_iter().chain(of_settings);
+    all.filter(|(effect, _)| subject.only.is_none_or(|only| only == *effect)).collect()
 }
 
 /// The built-in scene.
 fn exhibition() -> Subject {
     let scene = showcase();
     let camera = scene.cameras()[0].1;
-    Subject { scene, camera }
+    Subject { scene, camera, only: None }
 }
 
 /// Balls of several materials on a checked floor.
@@ -133,7 +142,7 @@ fn materials() -> Subject {
     }
     light(&mut scene);
     let camera = Camera::look_at(DVec3::new(0.3, 2.6, 8.2), DVec3::new(0.0, 0.4, 0.0), DVec3::Y);
-    Subject { scene, camera }
+    Subject { scene, camera, only: None }
 }
 
 /// A textured torus knot with a normal map.
@@ -154,7 +163,7 @@ fn knot() -> Subject {
     }
     light(&mut scene);
     let camera = Camera::look_at(DVec3::new(1.0, 2.6, 6.0), DVec3::new(0.0, 1.0, 0.0), DVec3::Y);
-    Subject { scene, camera }
+    Subject { scene, camera, only: None }
 }
 
 /// What a scene has by itself and the others lack: a ball with vertex colours, a fence with holes, a pane, a ball with an
@@ -205,7 +214,24 @@ fn figures() -> Subject {
     }
     light(&mut scene);
     let camera = Camera::look_at(DVec3::new(0.3, 2.2, 7.6), DVec3::new(0.0, 0.5, 0.0), DVec3::Y);
-    Subject { scene, camera }
+    Subject { scene, camera, only: None }
+}
+
+/// What a modelling program exports: a lamp of 1000 W in candela.
+fn candela() -> Subject {
+    let mut scene = Scene::new();
+    scene.add_object("floor", primitives::plane(7.0, 7.0), Material::from_color(Vec3::splat(0.6)));
+    let colors = [Vec3::new(0.7, 0.2, 0.15), Vec3::new(0.25, 0.5, 0.3), Vec3::new(0.2, 0.35, 0.6)];
+    for (i, color) in (-1_i8..).zip(colors) {
+        let ball = scene.add_object("ball", primitives::uv_sphere(0.6, 96, 48), Material::from_color(color));
+        if let Some(node) = scene.node_mut(ball) {
+            node.transform = Transform::from_translation(DVec3::new(f64::from(i) * 1.5, 0.6, 0.0));
+        }
+    }
+    let lamp = Light::point(54_350.0 / std::f32::consts::PI);
+    scene.add(Node::from_light(lamp).at(DVec3::new(4.0, 6.0, 3.0)));
+    let camera = Camera::look_at(DVec3::new(0.3, 2.2, 7.0), DVec3::new(0.0, 0.4, 0.0), DVec3::Y);
+    Subject { scene, camera, only: Some(Effect::LightMeter) }
 }
 
 /// With a colour at each corner, by its direction.

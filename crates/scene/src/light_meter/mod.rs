@@ -15,7 +15,9 @@
 //! The scene's lamps are exposed only if a display could not show a surface in the key light: if even middle
 //! grey would be clipped, or white darker than a tenth of middle grey. Then they are dimmed or brightened so
 //! that white is about as bright as in the studio light. Everything else stays: ambient light that is added to the
-//! scene, an environment, unlit surfaces, and light that surfaces emit.
+//! scene, an environment, unlit surfaces, and light that surfaces emit. glTF defines emission in nits, but programs
+//! that export lamps in candela write emission beside them as a plain factor: dimmed with such lamps, glowing surfaces
+//! would be black.
 
 mod lamps;
 mod surface;
