@@ -43,7 +43,7 @@ impl Shapes {
         for (id, node) in scene.nodes().iter() {
             let (Some(place), Some(mesh)) = (places[id.index()], node.mesh) else { continue };
             let Some(asset) = scene.meshes().get(mesh) else { continue };
-            shapes[id.index()] = shape(scene, (id, node), asset, place, onlookers);
+            shapes[id.index()] = shape(scene, id, node, asset, place, onlookers);
         }
         Self(shapes)
     }
@@ -67,7 +67,8 @@ impl Shapes {
 
 fn shape(
     scene: &Scene,
-    (id, node): (NodeId, &Node),
+    id: NodeId,
+    node: &Node,
     asset: &MeshAsset,
     place: Place,
     onlookers: Onlookers<'_>,

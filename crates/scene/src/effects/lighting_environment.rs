@@ -66,7 +66,8 @@ impl LightingEnvironment {
     pub(crate) fn share<S: Simd>(
         &self,
         simd: S,
-        (number, lamp): (usize, &Lamp),
+        number: usize,
+        lamp: &Lamp,
         points: &LitPoints<S>,
         arriving: &Arriving<S>,
     ) -> Option<F32<S>> {

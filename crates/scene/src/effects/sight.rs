@@ -239,7 +239,7 @@ impl Walk {
                 let reflected = met.color + (Vec3::ONE - met.color) * fresnel(-normal.dot(along), 0.0);
                 self.weights[lane] *= reflected;
                 self.far[lane] = FarLight::MetalStudio;
-                self.turn(lane, scene.rays, (met.position, normal), mirrored(along, normal));
+                self.turn(lane, scene.rays, met.position, normal, mirrored(along, normal));
             }
             Some(Optics::Glass(glass)) => {
                 self.light[lane] += self.weights[lane] * met.color * lit * (1.0 - glass.transmission);
@@ -265,7 +265,7 @@ impl Walk {
         self.reflect(lane, scene, mirrored(along, normal), reflected, FarLight::Ambient);
         let left = glass.plate().map_or(Vec3::ONE, |plate| plate.left_behind_plate(glass.ior, cosine, 1.0));
         self.weights[lane] *= met.color * left;
-        self.turn(lane, scene.rays, (met.position, -side), along);
+        self.turn(lane, scene.rays, met.position, -side, along);
     }
 
     /// Into a volume, or out of it, or back within it (total reflection).
@@ -282,7 +282,7 @@ impl Walk {
         let before = if enters { self.media[lane].ior() } else { medium.ior };
         let after = behind.ior();
         let Some(through) = refracted(along, normal, before / after) else {
-            return self.turn(lane, scene.rays, (met.position, side), mirrored(along, normal));
+            return self.turn(lane, scene.rays, met.position, side, mirrored(along, normal));
         };
         // Schlick's approximation takes the angle in the thinner medium.
         let cosine = if before <= after { -normal.dot(along) } else { -normal.dot(through) };
@@ -293,7 +293,7 @@ impl Walk {
         let tint = if enters { met.color } else { Vec3::ONE };
         self.weights[lane] *= tint;
         self.media[lane] = behind;
-        self.turn(lane, scene.rays, (met.position, -side), through);
+        self.turn(lane, scene.rays, met.position, -side, through);
     }
 
     /// Adds what glass reflects, a fraction of the light, from far away.
@@ -311,7 +311,7 @@ impl Walk {
     }
 
     /// Continues in another direction, on the side of a surface to which a unit vector points.
-    fn turn(&mut self, lane: usize, rays: &RayScene, (position, side): (Vec3, Vec3), direction: Vec3) {
+    fn turn(&mut self, lane: usize, rays: &RayScene, position: Vec3, side: Vec3, direction: Vec3) {
         self.origins[lane] = rays.off(position, side);
         self.directions[lane] = direction;
     }

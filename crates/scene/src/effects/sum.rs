@@ -37,7 +37,7 @@ impl LightingEnvironment {
             if !share.simd_gt(0.0).any_true() {
                 continue;
             }
-            if let Some(visible) = self.share(simd, (number, lamp), points, &arriving) {
+            if let Some(visible) = self.share(simd, number, lamp, points, &arriving) {
                 share *= visible;
             }
             let radiance = tinted(share, lamp.radiance).each(

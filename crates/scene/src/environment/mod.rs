@@ -79,7 +79,7 @@ impl Environment {
         }
         // The horizon of the map is as long as the image is wide.
         let side = (width / 4).clamp(LEAST, MOST).next_power_of_two();
-        Ok(Self::from_sharp(Octahedral::from_equirectangular(side, (width, height), pixels)))
+        Ok(Self::from_sharp(Octahedral::from_equirectangular(side, width, height, pixels)))
     }
 
     /// From a sky.

@@ -29,7 +29,8 @@ impl Octahedral {
     /// small bright sun keeps its light.
     pub(super) fn from_equirectangular(
         size: usize,
-        (width, height): (usize, usize),
+        width: usize,
+        height: usize,
         pixels: &[[f32; 3]],
     ) -> Self {
         let mut sums = vec![(Vec3::ZERO, 0.0_f32); size * size];
@@ -233,7 +234,7 @@ mod tests {
         let (width, height) = (64, 32);
         let mut pixels = vec![[0.0; 3]; width * height];
         pixels[9 * width + 40] = [900.0, 600.0, f32::NAN];
-        let map = Octahedral::from_equirectangular(16, (width, height), &pixels);
+        let map = Octahedral::from_equirectangular(16, width, height, &pixels);
         let light = map.iter().map(|(_, area, light)| light * area).sum::<Vec3>();
         // A pixel's rows are parts of half a turn, and its columns of a whole one.
         let polar = (9.5 / height as f32) * std::f32::consts::PI;
@@ -250,7 +251,7 @@ mod tests {
     fn an_image_of_two_pixels_lights_each_half_in_its_color() {
         let (left, right) = (Vec3::new(3.0, 0.0, 1.0), Vec3::new(0.0, 2.0, 1.0));
         for size in [2, 4, 5, 8] {
-            let map = Octahedral::from_equirectangular(size, (2, 1), &[left.to_array(), right.to_array()]);
+            let map = Octahedral::from_equirectangular(size, 2, 1, &[left.to_array(), right.to_array()]);
             let mut counts = [0, 0];
             for (towards, _, light) in map.iter() {
                 // Where both meet it is either.

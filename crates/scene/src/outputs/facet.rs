@@ -55,7 +55,7 @@ impl Facet {
 
     /// The change of the barycentrics per pixel, whose ray differs by `step`, at the point where
     /// they are `weights`. All 0 if they overflow.
-    pub(super) fn slope(&self, (ray, weights): (DVec3, DVec3), step: DVec3) -> DVec3 {
+    pub(super) fn slope(&self, ray: DVec3, weights: DVec3, step: DVec3) -> DVec3 {
         let (volumes, change) = (self.volumes(ray), self.volumes(step));
         let slope =
             (change - weights * (change.x + change.y + change.z)) / (volumes.x + volumes.y + volumes.z);
@@ -151,7 +151,7 @@ mod tests {
             for step in [DVec3::X, DVec3::Y] {
                 let small = 1e-6;
                 let change = (facet.weights(ray + step * small) - weights) / small;
-                let slope = facet.slope((ray, weights), step);
+                let slope = facet.slope(ray, weights, step);
                 assert!((slope - change).abs().max_element() < 1e-4, "{beam:?}: {slope} and {change}");
             }
         }

@@ -18,16 +18,16 @@ const ROWS: usize = 8;
 pub(crate) fn fill(
     frame: &mut Frame,
     prepared: &PreparedScene<'_>,
-    (camera, sample): (&Camera, [f64; 2]),
+    sample: [f64; 2],
     seen: &Seen,
     rasterizer: &Rasterizer,
 ) {
-    let Some(lens) = Lens::new(prepared, camera, sample) else { return };
+    let Some(lens) = Lens::new(prepared, sample) else { return };
     let width = frame.width as usize;
     let sources: Vec<Option<Source<'_>>> = sources(prepared, &seen.objects);
     let pieces: Vec<Piece<'_>> = Piece::cut(frame, width * ROWS);
     rasterizer.share(pieces.into_iter().enumerate(), |(number, mut piece)| {
-        piece.fill((&lens, &sources), (seen, width), number * width * ROWS);
+        piece.fill(&lens, &sources, seen, width, number * width * ROWS);
     });
 }
 
@@ -61,7 +61,8 @@ struct Lens {
 
 impl Lens {
     /// `None` for an image without pixels.
-    fn new(prepared: &PreparedScene<'_>, camera: &Camera, sample: [f64; 2]) -> Option<Self> {
+    fn new(prepared: &PreparedScene<'_>, sample: [f64; 2]) -> Option<Self> {
+        let camera = prepared.camera;
         let (width, height) = (prepared.settings.width, prepared.settings.height);
         let before = Camera { projection: camera.projection, ..Camera::default() };
         let projector = Projector::new(&before, Viewport { width, height });
@@ -123,12 +124,7 @@ impl<'f> Piece<'f> {
         (0..pixels).step_by(size).map(piece).collect()
     }
 
-    fn fill(
-        &mut self,
-        (lens, sources): (&Lens, &[Option<Source<'_>>]),
-        (seen, width): (&Seen, usize),
-        start: usize,
-    ) {
+    fn fill(&mut self, lens: &Lens, sources: &[Option<Source<'_>>], seen: &Seen, width: usize, start: usize) {
         // Neighbours mostly show the same triangle.
         let mut last: Option<([u32; 3], Option<Triangle<'_>>)> = None;
         for at in 0..self.length {
@@ -150,7 +146,7 @@ impl<'f> Piece<'f> {
         let facet = &triangle.facet;
         let ray = lens.ray(x, y);
         let weights = facet.weights(ray);
-        let slopes = lens.steps.map(|step| facet.slope((ray, weights), step));
+        let slopes = lens.steps.map(|step| facet.slope(ray, weights, step));
         let point = Point { weights, slopes };
         let to_world = |normal: DVec3| (lens.camera.orientation * normal).as_vec3();
         put(self.material_ids, at, || triangle.material());

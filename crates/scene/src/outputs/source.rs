@@ -71,10 +71,8 @@ impl<'s> Source<'s> {
             let id = node.materials.get(run.slot as usize).copied();
             let known = id.and_then(|id| Some((id.index() as u32, scene.materials.get(id)?)));
             match known {
-                Some((index, material)) => {
-                    OutputMaterial::new(scene, index, material, (geometry, mesh), needs)
-                }
-                None => OutputMaterial::new(scene, u32::MAX, &Material::default(), (geometry, mesh), needs),
+                Some((index, material)) => OutputMaterial::new(scene, index, material, geometry, mesh, needs),
+                None => OutputMaterial::new(scene, u32::MAX, &Material::default(), geometry, mesh, needs),
             }
         });
         Self {
@@ -110,7 +108,8 @@ impl<'s> OutputMaterial<'s> {
         scene: &'s Scene,
         index: u32,
         material: &Material,
-        (geometry, mesh): (&'s Geometry, &Mesh),
+        geometry: &'s Geometry,
+        mesh: &Mesh,
         needs: &Outputs,
     ) -> Self {
         let map = |binding: TextureBinding| {

@@ -38,6 +38,16 @@ enum Presence {
     Seen,
 }
 
+/// An object as far as it matters for all effects alike.
+struct SurveyedObject<'a> {
+    name: &'a str,
+    looks: Vec<Look<'a>>,
+    /// Whether faces may be in view.
+    sees_faces: bool,
+    /// Whether lines or points may be in view.
+    sees_wires: bool,
+}
+
 /// A material on a mesh.
 struct Look<'a> {
     shape: &'a Shape,
@@ -54,34 +64,30 @@ impl Survey {
         let default = Material::default();
         for (id, node) in prepared.scene.nodes().iter() {
             let Some(shape) = prepared.shapes.get(id.index()) else { continue };
-            let seen = prepared.may_show(shape);
+            let sees_faces = prepared.may_show(shape);
             let name = if node.name.is_empty() { "an unnamed object" } else { &node.name };
             let runs = shape.geometry.runs.iter();
             let looks: Vec<Look<'_>> = runs
-                .map(|run| Look::new(material_of(prepared, (node, run), &default), shape, prepared))
+                .map(|run| Look::new(material_of(prepared, node, run, &default), shape, prepared))
                 .collect();
             let wires = Wires::of(node, prepared);
             let sees_wires = wires.as_ref().is_some_and(|wires| wires.may_show(shape, prepared));
+            let object = SurveyedObject { name, looks, sees_faces, sees_wires };
             for effect in Effect::ALL {
                 let of_wires = wires.as_ref().is_some_and(|wires| wires.have(effect));
-                survey.add(effect, (&looks, seen), (of_wires, sees_wires), name);
+                survey.add(effect, &object, of_wires);
             }
             let lit = |look: &Look<'_>| look.material.shading != Shading::Unlit;
-            survey.lit += usize::from(seen && looks.iter().any(lit));
+            survey.lit += usize::from(sees_faces && object.looks.iter().any(lit));
             let opaque = |look: &Look<'_>| look.material.alpha_mode != AlphaMode::Blend;
-            survey.casters += usize::from(looks.iter().any(opaque));
+            survey.casters += usize::from(object.looks.iter().any(opaque));
         }
         survey
     }
 
     /// Notes whether an object has an effect: its faces, and its lines and points; and which of both are in view.
-    fn add(
-        &mut self,
-        effect: Effect,
-        (looks, sees_faces): (&[Look<'_>], bool),
-        (of_wires, sees_wires): (bool, bool),
-        name: &str,
-    ) {
+    fn add(&mut self, effect: Effect, object: &SurveyedObject<'_>, of_wires: bool) {
+        let &SurveyedObject { name, ref looks, sees_faces, sees_wires } = object;
         self.of_wires[effect as usize] |= of_wires && sees_wires;
         let mut invisible = None;
         let mut of_faces = false;
@@ -151,7 +157,8 @@ impl<'s> Wires<'s> {
 
 fn material_of<'a>(
     prepared: &'a PreparedScene<'_>,
-    (node, run): (&Node, &Run),
+    node: &Node,
+    run: &Run,
     default: &'a Material,
 ) -> &'a Material {
     let id = node.materials.get(run.slot as usize);

@@ -29,6 +29,7 @@ pub(super) fn has_sight_rays(scene: &Scene, sight: SightRays) -> bool {
 /// The scene as one frame sees it: the camera, the settings, the shapes and the lights.
 pub(crate) struct PreparedScene<'s> {
     pub(crate) scene: &'s Scene,
+    pub(crate) camera: &'s Camera,
     pub(crate) settings: &'s RenderSettings,
     /// Where the visible nodes with lights are, by their indices.
     light_places: BTreeMap<u32, DAffine3>,
@@ -40,7 +41,7 @@ pub(crate) struct PreparedScene<'s> {
 }
 
 impl<'s> PreparedScene<'s> {
-    pub(crate) fn new(scene: &'s Scene, camera: &Camera, settings: &'s RenderSettings) -> Self {
+    pub(crate) fn new(scene: &'s Scene, camera: &'s Camera, settings: &'s RenderSettings) -> Self {
         let places = scene.visible_places();
         let eye = Eye::new(camera, settings.aspect());
         let effects = &settings.effects;
@@ -54,7 +55,7 @@ impl<'s> PreparedScene<'s> {
         let camera_to_world = DAffine3::from_mat3_translation(turn, camera.position);
         let backdrop = Backdrop::new(camera, settings, scene.up);
         let mut prepared =
-            Self { scene, settings, light_places, camera_to_world, eye, backdrop, shapes, lights };
+            Self { scene, camera, settings, light_places, camera_to_world, eye, backdrop, shapes, lights };
         prepared.leave_out_idle_lamps();
         prepared
     }

@@ -135,7 +135,7 @@ impl TimeBudget {
         clock: &mut dyn FnMut() -> Duration,
     ) -> Result<(Frame, Choice), RenderError> {
         let mut frame = Frame::default();
-        let choice = self.render_into(renderer, (scene, camera), clock, &mut frame)?;
+        let choice = self.render_into(renderer, scene, camera, clock, &mut frame)?;
         Ok((frame, choice))
     }
 
@@ -146,7 +146,8 @@ impl TimeBudget {
     pub fn render_into(
         &mut self,
         renderer: &mut Renderer,
-        (scene, camera): (&Scene, &Camera),
+        scene: &Scene,
+        camera: &Camera,
         clock: &mut dyn FnMut() -> Duration,
         frame: &mut Frame,
     ) -> Result<Choice, RenderError> {

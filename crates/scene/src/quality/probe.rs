@@ -6,7 +6,7 @@ use std::time::Duration;
 use trigon_camera::Camera;
 
 use super::budget::of_quality;
-use super::window::Window;
+use super::window::{Window, WindowSize};
 use super::{ErrorModel, Quality, TimeBudget};
 use crate::frame::Frame;
 use crate::render::{RenderError, Renderer};
@@ -17,12 +17,11 @@ use crate::settings::{Outputs, RenderSettings};
 /// everywhere: the middle of an image is not like its rest.
 const FIRST_WINDOWS: u32 = 9;
 
-/// The part of an image's width and height that each of them has, and the most pixels of
-/// its sides.
-const FIRST_WINDOW: (f64, u32) = (1.0 / 6.0, 96);
+/// Their size.
+const FIRST_WINDOW: WindowSize = WindowSize { share: 1.0 / 6.0, most: 96 };
 
 /// The same for looking again.
-const LATER_WINDOW: (f64, u32) = (1.0 / 8.0, 64);
+const LATER_WINDOW: WindowSize = WindowSize { share: 1.0 / 8.0, most: 64 };
 
 /// How often an image is drawn whose time counts: the first may fill caches.
 const MEASURED: u32 = 2;
@@ -49,7 +48,7 @@ impl TimeBudget {
             let window = self.window(&whole, FIRST_WINDOW);
             part = window.settings(&whole);
             let Some(there) = window.camera(camera, &whole) else { continue };
-            self.compare(&part, &there, (&mut studio, &mut times))?;
+            self.compare(&part, &there, &mut studio, &mut times)?;
         }
         for (quality, time) in self.candidates.iter().zip(times).filter(|(_, time)| !time.is_zero()) {
             // Their mean: what lies in one window is not what lies in the image.
@@ -72,7 +71,8 @@ impl TimeBudget {
     pub fn look_again(
         &mut self,
         renderer: &mut Renderer,
-        (scene, camera): (&Scene, &Camera),
+        scene: &Scene,
+        camera: &Camera,
         spare: Duration,
         clock: &mut dyn FnMut() -> Duration,
     ) -> Result<bool, RenderError> {
@@ -93,8 +93,8 @@ impl TimeBudget {
     }
 
     /// The next window.
-    fn window(&mut self, whole: &RenderSettings, (part, most): (f64, u32)) -> Window {
-        let window = Window::nth(self.windows, whole, part, most);
+    fn window(&mut self, whole: &RenderSettings, size: WindowSize) -> Window {
+        let window = Window::nth(self.windows, whole, size);
         self.windows = self.windows.wrapping_add(1);
         window
     }
@@ -105,7 +105,8 @@ impl TimeBudget {
         &mut self,
         part: &RenderSettings,
         camera: &Camera,
-        (studio, times): (&mut Studio<'_>, &mut [Duration]),
+        studio: &mut Studio<'_>,
+        times: &mut [Duration],
     ) -> Result<(), RenderError> {
         let best = of_quality(part, self.reference);
         let (reference, _) = studio.draw(&best, camera, 1)?;

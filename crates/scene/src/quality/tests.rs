@@ -159,7 +159,7 @@ fn there_is_a_second_look_only_when_there_is_time() {
     let mut budget = TimeBudget::new(LIMIT);
     budget.calibrate(&mut renderer, &scene, &camera, &mut clock).expect("drawn");
     budget.render(&mut renderer, &scene, &camera, &mut clock).expect("drawn");
-    let mut look = |spare| budget.look_again(&mut renderer, (&scene, &camera), spare, &mut clock);
+    let mut look = |spare| budget.look_again(&mut renderer, &scene, &camera, spare, &mut clock);
     assert_eq!(look(Duration::from_micros(1)), Ok(false), "no time");
     assert_eq!(look(Duration::from_secs(9)), Ok(true), "enough");
 }

@@ -11,16 +11,28 @@ pub(super) struct Window {
     size: [u32; 2],
 }
 
+/// How large windows are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WindowSize {
+    /// The part of the image's width and height that they have.
+    pub(super) share: f64,
+    /// The most pixels of their sides.
+    pub(super) most: u32,
+}
+
 impl Window {
-    /// One of a sequence that comes about everywhere: a part of the image's width and
-    /// height, neither longer than `most` pixels.
+    /// One of a sequence that comes about everywhere.
     ///
     /// The first lies in the middle, the others at the points of the sequence R2 (M.
     /// Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
-    pub(super) fn nth(number: u32, settings: &RenderSettings, part: f64, most: u32) -> Self {
+    pub(super) fn nth(
+        number: u32,
+        settings: &RenderSettings,
+        WindowSize { share, most }: WindowSize,
+    ) -> Self {
         const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
         let whole = [settings.width, settings.height];
-        let size = whole.map(|side| ((f64::from(side) * part) as u32).clamp(1, most.max(1)));
+        let size = whole.map(|side| ((f64::from(side) * share) as u32).clamp(1, most.max(1)));
         let place = |axis: usize| {
             let free = f64::from(whole[axis].saturating_sub(size[axis]));
             let point = 0.5 + f64::from(number) * STEPS[axis];
@@ -53,15 +65,30 @@ mod tests {
     fn windows_come_about_everywhere() {
         let settings = RenderSettings::new(100, 60);
         let middle = Window { corner: [37, 22], size: [25, 15] };
-        assert_eq!(Window::nth(0, &settings, 0.25, 999), middle, "the first is in the middle");
-        assert_eq!(Window::nth(0, &settings, 0.25, 8).size, [8, 8], "none is too large");
-        assert_eq!(Window::nth(7, &RenderSettings::new(1, 1), 0.1, 9).size, [1, 1], "nor too small");
+        assert_eq!(
+            Window::nth(0, &settings, WindowSize { share: 0.25, most: 999 }),
+            middle,
+            "the first is in the middle"
+        );
+        assert_eq!(
+            Window::nth(0, &settings, WindowSize { share: 0.25, most: 8 }).size,
+            [8, 8],
+            "none is too large"
+        );
+        assert_eq!(
+            Window::nth(7, &RenderSettings::new(1, 1), WindowSize { share: 0.1, most: 9 }).size,
+            [1, 1],
+            "nor too small"
+        );
         for quarter in 0..4 {
             let inside = |window: &Window| {
                 let [x, y] = [0, 1].map(|axis| window.corner[axis] + window.size[axis] / 2);
                 (x / 50 + y / 30 * 2) == quarter
             };
-            let seen = (0..16).map(|number| Window::nth(number, &settings, 0.25, 999)).filter(inside).count();
+            let seen = (0..16)
+                .map(|number| Window::nth(number, &settings, WindowSize { share: 0.25, most: 999 }))
+                .filter(inside)
+                .count();
             assert!((2..=6).contains(&seen), "of 16, the quarter {quarter} has {seen}");
         }
     }
@@ -75,7 +102,7 @@ mod tests {
         let orthographic = overview.projection.to_orthographic(9.0).expect("in range");
         for camera in [overview, scene.cameras()[0].1, overview.with_projection(orthographic)] {
             let whole = render(&scene, &camera, &settings).expect("drawn");
-            let window = Window::nth(1, &settings, 0.5, 999);
+            let window = Window::nth(1, &settings, WindowSize { share: 0.5, most: 999 });
             let there = window.camera(&camera, &settings).expect("in range");
             let part = render(&scene, &there, &window.settings(&settings)).expect("drawn");
             let cut = cut(&whole, &window);

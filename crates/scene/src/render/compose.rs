@@ -6,7 +6,6 @@ use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::Arc;
 
-use trigon_camera::Camera;
 use trigon_math::{Mat3, Vec3, Vec4};
 use trigon_raster::{BlendMode, Culling, EdgeFlags};
 
@@ -86,11 +85,11 @@ impl<'s> Composer<'s> {
     /// For a colour pass of a scene, with settings whose style may differ from the scene's.
     pub(super) fn new(
         prepared: &'s PreparedScene<'_>,
-        camera: &Camera,
         settings: &'s RenderSettings,
-        (lighting, vertex_lists): (&'s LightingEnvironment, &'s VertexLists),
+        lighting: &'s LightingEnvironment,
+        vertex_lists: &'s VertexLists,
     ) -> Self {
-        let rays = if camera.projection.is_orthographic() { Rays::Parallel } else { Rays::Meeting };
+        let rays = if prepared.camera.projection.is_orthographic() { Rays::Parallel } else { Rays::Meeting };
         let default_material = Material::default();
         Self {
             scene: prepared.scene,
@@ -100,7 +99,7 @@ impl<'s> Composer<'s> {
             eye: &prepared.eye,
             backdrop: &prepared.backdrop,
             rays,
-            to_world: Mat3::from_quat(camera.orientation.as_quat()),
+            to_world: Mat3::from_quat(prepared.camera.orientation.as_quat()),
             default_material,
             vertex_lists,
             looks: Looks::default(),
@@ -112,10 +111,10 @@ impl<'s> Composer<'s> {
     /// For a pass of which only depth and ids are kept. The lighting environment must be empty.
     pub(super) fn of_shapes(
         prepared: &'s PreparedScene<'_>,
-        camera: &Camera,
-        (dark, vertex_lists): (&'s LightingEnvironment, &'s VertexLists),
+        dark: &'s LightingEnvironment,
+        vertex_lists: &'s VertexLists,
     ) -> Self {
-        let colors = Self::new(prepared, camera, prepared.settings, (dark, vertex_lists));
+        let colors = Self::new(prepared, prepared.settings, dark, vertex_lists);
         Self { purpose: Purpose::Shapes, ..colors }
     }
 
@@ -142,7 +141,7 @@ impl<'s> Composer<'s> {
             let (index, place) = (id.index() as u32, self.eye.place(&shape.place, &bounds));
             let (geometry, marks) = (&shape.geometry, self.marks(id));
             let object = Object { id, index, node, asset, geometry, place, marks };
-            self.object(&object, (&mut draws, counts));
+            self.object(&object, &mut draws, counts);
         }
         draws
     }
@@ -158,11 +157,7 @@ impl<'s> Composer<'s> {
             || self.eye.may_see(&shape.geometry.bounds(), &shape.place.world)
     }
 
-    fn object<'c>(
-        &'c self,
-        object: &Object<'s>,
-        (draws, counts): (&mut Vec<Box<dyn Record + 'c>>, &mut Counts),
-    ) {
+    fn object<'c>(&'c self, object: &Object<'s>, draws: &mut Vec<Box<dyn Record + 'c>>, counts: &mut Counts) {
         match self.settings.style {
             Style::Surface | Style::SurfaceWithEdges => {
                 let runs = object.geometry.runs.iter();
@@ -179,7 +174,7 @@ impl<'s> Composer<'s> {
                 let edges = &object.asset.mesh().edges()[..object.asset.mesh().face_edge_count()];
                 counts.of(Effect::Edges).bytes += size_of_val(edges) as u64;
                 let paint = WirePaint::of_color(self.settings.edge_color);
-                draws.extend(self.segments(object, EdgeRange { first: 0, edges }, (paint, None)));
+                draws.extend(self.segments(object, EdgeRange { first: 0, edges }, paint, None));
             }
         }
         if self.shows_edges() {
@@ -417,7 +412,7 @@ impl<'s> Composer<'s> {
         // Counting the edges of faces means to find them all.
         let first = if edges.is_empty() { 0 } else { mesh.face_edge_count() };
         let colors = mesh.attributes().vertex_colors.as_deref();
-        draws.extend(self.segments(object, EdgeRange { first, edges }, (paint, colors)));
+        draws.extend(self.segments(object, EdgeRange { first, edges }, paint, colors));
         draws.extend(self.points(object, paint));
     }
 
@@ -426,7 +421,8 @@ impl<'s> Composer<'s> {
         &'c self,
         object: &Object<'s>,
         EdgeRange { first, edges: segments }: EdgeRange<'s>,
-        (paint, colors): (WirePaint, Option<&'s [Vec4]>),
+        paint: WirePaint,
+        colors: Option<&'s [Vec4]>,
     ) -> Option<Box<dyn Record + 'c>> {
         let edges = &self.settings.marks.edges;
         let mut numbers = marks::numbers(edges, object.id);

@@ -13,7 +13,7 @@ use super::RenderError;
 use super::compose::Composer;
 use super::depth_image::paint_depth;
 use super::kept::{Destination, Kept};
-use super::last_frame::{LastFrame, Step};
+use super::last_frame::{LastFrame, Step, redraw};
 use super::record::Record;
 use super::shared_frames::{FreeFrame, SharedFrames};
 use super::vertex_list::VertexLists;
@@ -70,14 +70,10 @@ impl Engine {
         let prepared = PreparedScene::new(scene, camera, settings);
         let plan = EffectPlan::of_prepared(&prepared);
         let lighting = self.kept.lighting(&prepared, &plan, &mut rasterizer)?;
-        let explained = record(
-            &prepared,
-            camera,
-            (&lighting, &self.vertex_lists),
-            settings,
-            &mut Counts::default(),
-            |pass, _, _| rasterizer.explain_pixel(pass, &target, x, y),
-        );
+        let explained =
+            record(&prepared, &lighting, &self.vertex_lists, settings, &mut Counts::default(), |pass, _| {
+                rasterizer.explain_pixel(pass, &target, x, y)
+            });
         // The next image does not follow from what the rasterizer holds now.
         self.last = LastFrame::default();
         self.rasterizer = Some(rasterizer);
@@ -123,7 +119,7 @@ impl Engine {
         let mut rasterizer = self.rasterizer(settings)?;
         rasterizer.set_cancel(cancel.cloned());
         let threads = rasterizer.threads();
-        let draw = || self.draw_on(rasterizer, (request, sample), free);
+        let draw = || self.draw_on(rasterizer, request, sample, free);
         if samples_of(settings) < WORTH_SHARING { draw() } else { threads.install(draw) }
     }
 
@@ -131,7 +127,8 @@ impl Engine {
     fn draw_on(
         &mut self,
         mut rasterizer: Rasterizer,
-        (request, sample): (Request<'_>, [f64; 2]),
+        request: Request<'_>,
+        sample: [f64; 2],
         free: &mut FreeFrame,
     ) -> Result<(), RenderError> {
         let Request { scene, camera, settings, cancel } = request;
@@ -148,16 +145,16 @@ impl Engine {
         self.stats = Stats::default();
         self.vertex_lists.begin();
         if settings.outputs.of_light() {
-            let drawn = self.draw_colors(&prepared, camera, (&plan, free), (&mut rasterizer, &mut counts));
+            let drawn = self.draw_colors(&prepared, &plan, free, &mut rasterizer, &mut counts);
             // It may have been cancelled, too: its shadow maps may be incomplete.
             drawn.inspect_err(|_| self.kept.forget_unfinished())?;
         }
         let FreeFrame { frame, redrawn, .. } = free;
         if apart {
-            self.draw_seen(&prepared, camera, frame, &mut rasterizer)?;
+            self.draw_seen(&prepared, frame, &mut rasterizer)?;
         }
         if settings.outputs.of_triangles() {
-            outputs::fill(frame, &prepared, (camera, sample), &self.kept.seen, &rasterizer);
+            outputs::fill(frame, &prepared, sample, &self.kept.seen, &rasterizer);
         }
         if cancel.is_some_and(Cancel::is_cancelled) {
             self.kept.forget_unfinished();
@@ -191,9 +188,10 @@ impl Engine {
     fn draw_colors(
         &mut self,
         prepared: &PreparedScene<'_>,
-        camera: &Camera,
-        (plan, free): (&EffectPlan, &mut FreeFrame),
-        (rasterizer, counts): (&mut Rasterizer, &mut Counts),
+        plan: &EffectPlan,
+        free: &mut FreeFrame,
+        rasterizer: &mut Rasterizer,
+        counts: &mut Counts,
     ) -> Result<(), RenderError> {
         let lighting = self.kept.lighting(prepared, plan, rasterizer)?;
         let settings = prepared.settings;
@@ -202,11 +200,11 @@ impl Engine {
             let target = blank(settings)?;
             self.stats += record(
                 prepared,
-                camera,
-                (&lighting, &self.vertex_lists),
+                &lighting,
+                &self.vertex_lists,
                 &wires,
                 &mut Counts::default(),
-                |pass, _, _| self.kept.draw_beneath(pass, settings, target, rasterizer),
+                |pass, _| self.kept.draw_beneath(pass, settings, target, rasterizer),
             )?;
         }
         let apart = sees_apart(settings, plan);
@@ -214,27 +212,21 @@ impl Engine {
         // If depth has a pass of its own, it is not written twice.
         let depth = if apart { free.frame.depth.take() } else { None };
         let target = blank(settings)?;
-        let stats = record(
-            prepared,
-            camera,
-            (&lighting, &self.vertex_lists),
-            settings,
-            counts,
-            |pass, draws, counts| {
-                let step = if apart { Step::Apart } else { self.last.step(prepared, camera, plan, draws) };
-                if matches!(step, Step::Apart) {
-                    let into = Destination { target, frame: &mut free.frame, needed };
-                    self.kept.draw(pass, (settings, plan), into, (rasterizer, counts))
-                } else {
-                    step.draw(pass, (settings, camera), (target, free), (&self.frames, rasterizer))
-                }
-            },
-        )?;
+        let stats = record(prepared, &lighting, &self.vertex_lists, settings, counts, |pass, draws| {
+            let step = if apart { Step::Apart } else { self.last.step(prepared, plan, draws) };
+            if matches!(step, Step::Apart) {
+                let into = Destination { target, frame: &mut free.frame, needed };
+                self.kept.draw(pass, settings, plan, into, rasterizer)
+            } else {
+                let changes = step.changes(&self.frames, free, rasterizer);
+                redraw(pass, prepared, target, free, changes.as_deref(), rasterizer)
+            }
+        })?;
         self.stats += stats;
         if apart {
             free.frame.depth = depth;
         }
-        self.kept.count(&lighting, plan, counts);
+        self.kept.count(prepared, &lighting, plan, counts);
         Ok(())
     }
 
@@ -242,12 +234,11 @@ impl Engine {
     fn draw_seen(
         &mut self,
         prepared: &PreparedScene<'_>,
-        camera: &Camera,
         frame: &mut Frame,
         rasterizer: &mut Rasterizer,
     ) -> Result<(), RenderError> {
         let (dark, settings) = (LightingEnvironment::default(), prepared.settings);
-        let composer = Composer::of_shapes(prepared, camera, (&dark, &self.vertex_lists));
+        let composer = Composer::of_shapes(prepared, &dark, &self.vertex_lists);
         // Effects do not matter for it.
         let draws = composer.draws(&mut Counts::default());
         let mut pass = Pass::new();
@@ -290,13 +281,13 @@ impl Engine {
 /// Records the colour pass of a scene with these settings, and passes it to a function.
 fn record<T>(
     prepared: &PreparedScene<'_>,
-    camera: &Camera,
-    shared: (&LightingEnvironment, &VertexLists),
+    lighting: &LightingEnvironment,
+    vertex_lists: &VertexLists,
     settings: &RenderSettings,
     counts: &mut Counts,
-    draw: impl FnOnce(&Pass<'_>, &[Box<dyn Record + '_>], &mut Counts) -> T,
+    draw: impl FnOnce(&Pass<'_>, &[Box<dyn Record + '_>]) -> T,
 ) -> T {
-    let composer = Composer::new(prepared, camera, settings, shared);
+    let composer = Composer::new(prepared, settings, lighting, vertex_lists);
     let draws = composer.draws(counts);
     let behind = |pixel| prepared.backdrop.at(pixel);
     let behind_row = |y| prepared.backdrop.at(UVec2::new(0, y));
@@ -313,7 +304,7 @@ fn record<T>(
         pass.marks(settings.marks.colors());
     }
     draws.iter().for_each(|draw| draw.record(&mut pass));
-    draw(&pass, &draws, counts)
+    draw(&pass, &draws)
 }
 
 /// How many samples a frame has.

@@ -14,7 +14,7 @@ use crate::outputs::{Needed, Seen};
 use crate::plan::{Cause, Decision, EffectPlan};
 use crate::prepare::PreparedScene;
 use crate::settings::RenderSettings;
-use crate::shadow_maps::ShadowCache;
+use crate::shadow_maps::{CastingScene, ShadowCache};
 
 /// What a renderer keeps from frame to frame. It never changes a byte.
 #[derive(Default)]
@@ -78,9 +78,13 @@ impl Kept {
         let casters = Casters::gather(prepared.scene, &prepared.shapes);
         if let (true, Shadows::Maps { resolution }) = (on(Effect::ShadowMaps), effects.shadows) {
             let poses: Vec<LampPose> = prepared.lights.lamps.iter().map(|lamp| prepared.pose(lamp)).collect();
-            let (seen, to_world) = ((prepared.scene, &casters), &prepared.camera_to_world);
+            let casting = CastingScene {
+                scene: prepared.scene,
+                casters: &casters,
+                camera_to_world: &prepared.camera_to_world,
+            };
             let resolution = resolution.clamp(16, 8192);
-            lighting.shadow_maps = Some(self.shadows.maps(&poses, seen, resolution, to_world, rasterizer)?);
+            lighting.shadow_maps = Some(self.shadows.maps(&poses, &casting, resolution, rasterizer)?);
         }
         if rays {
             lighting.rays =
@@ -96,8 +100,23 @@ impl Kept {
         }
     }
 
-    /// Adds the cost of the lighting.
-    pub(super) fn count(&self, lighting: &LightingEnvironment, plan: &EffectPlan, counts: &mut Counts) {
+    /// Adds the cost of the lighting, and of what was laid over the image.
+    pub(super) fn count(
+        &self,
+        prepared: &PreparedScene<'_>,
+        lighting: &LightingEnvironment,
+        plan: &EffectPlan,
+        counts: &mut Counts,
+    ) {
+        if plan.is_on(Effect::ToneMapping) {
+            let pixels = prepared.settings.width as usize * prepared.settings.height as usize;
+            counts.of(Effect::ToneMapping).passes = 1;
+            counts.of(Effect::ToneMapping).bytes = (pixels * size_of::<Vec4>()) as u64;
+        }
+        if plan.is_on(Effect::Outline) {
+            counts.of(Effect::Outline).passes = 1;
+            counts.of(Effect::Outline).bytes = size_of_val(self.seen.objects.as_slice()) as u64;
+        }
         if let Decision::On(Cause::Metered(reading)) = plan.decision(Effect::LightMeter) {
             counts.of(Effect::LightMeter).bytes = size_of_val(reading) as u64;
         }
@@ -133,9 +152,10 @@ impl Kept {
     pub(super) fn draw(
         &mut self,
         pass: &Pass<'_>,
-        (settings, plan): (&RenderSettings, &EffectPlan),
+        settings: &RenderSettings,
+        plan: &EffectPlan,
         Destination { target, frame, needed }: Destination<'_>,
-        (rasterizer, counts): (&mut Rasterizer, &mut Counts),
+        rasterizer: &mut Rasterizer,
     ) -> Result<Stats, TargetError> {
         let Frame { color, radiance, depth, .. } = frame;
         let (colors, pixels) = (color.as_chunks_mut().0, settings.width as usize * settings.height as usize);
@@ -147,18 +167,12 @@ impl Kept {
         let target = seen.with(target, depth.as_mut())?;
         let images = ColorImages { colors, radiance: radiance.as_mut() };
         let is_mapped = plan.is_on(Effect::ToneMapping);
-        if is_mapped {
-            counts.of(Effect::ToneMapping).passes = 1;
-            counts.of(Effect::ToneMapping).bytes = (pixels * size_of::<Vec4>()) as u64;
-        }
         let stats = if is_mapped || settings.share_through_faces().is_some() {
-            self.draw_mapped(pass, settings, (target, images), rasterizer)?
+            self.draw_mapped(pass, settings, target, images, rasterizer)?
         } else {
-            draw_directly(pass, (target, images), rasterizer)?
+            draw_directly(pass, target, images, rasterizer)?
         };
         if let (true, Some(outline)) = (plan.is_on(Effect::Outline), &settings.effects.outline) {
-            counts.of(Effect::Outline).passes = 1;
-            counts.of(Effect::Outline).bytes = size_of_val(seen.objects.as_slice()) as u64;
             draw_outline(outline, &seen.objects, settings.width as usize, color.as_chunks_mut().0);
         }
         self.seen = seen;
@@ -198,7 +212,8 @@ impl Kept {
         &mut self,
         pass: &Pass<'_>,
         settings: &RenderSettings,
-        (target, ColorImages { colors, radiance }): (Target<'_>, ColorImages<'_>),
+        target: Target<'_>,
+        ColorImages { colors, radiance }: ColorImages<'_>,
         rasterizer: &mut Rasterizer,
     ) -> Result<Stats, TargetError> {
         let RenderSettings { width, height, .. } = *settings;
@@ -228,9 +243,10 @@ struct ColorImages<'a> {
 }
 
 /// Draws what is not changed afterwards.
-fn draw_directly(
+fn draw_directly<'a>(
     pass: &Pass<'_>,
-    (mut target, ColorImages { colors, radiance }): (Target<'_>, ColorImages<'_>),
+    mut target: Target<'a>,
+    ColorImages { colors, radiance }: ColorImages<'a>,
     rasterizer: &mut Rasterizer,
 ) -> Result<Stats, TargetError> {
     if let Some(radiance) = radiance {

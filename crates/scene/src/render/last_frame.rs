@@ -101,7 +101,6 @@ impl LastFrame {
     pub(super) fn step(
         &mut self,
         prepared: &PreparedScene<'_>,
-        camera: &Camera,
         plan: &EffectPlan,
         draws: &[Box<dyn Record + '_>],
     ) -> Step {
@@ -121,10 +120,10 @@ impl LastFrame {
         let is_whole = std::mem::take(&mut self.is_whole);
         let unlike = if is_marked { Step::Whole } else { Step::Apart };
         let Some(origin) = &mut self.origin else {
-            self.origin = Some(Box::new(Origin::new(prepared, camera, plan, &sources)));
+            self.origin = Some(Box::new(Origin::new(prepared, plan, &sources)));
             return unlike;
         };
-        let is_same = origin.update(prepared, camera, plan);
+        let is_same = origin.update(prepared, plan);
         let changes = origin.replace_draws(&sources);
         match changes {
             _ if !is_same => unlike,
@@ -140,26 +139,37 @@ impl LastFrame {
 }
 
 impl Step {
-    /// Draws an image that the next one can follow from. The frame has room for it.
-    pub(super) fn draw(
+    /// The changes of each draw, if a free frame shows the last image; `None` if all is to be drawn.
+    pub(super) fn changes(
         &self,
-        pass: &Pass<'_>,
-        (settings, camera): (&RenderSettings, &Camera),
-        (blank, free): (Target<'_>, &mut FreeFrame),
-        (frames, rasterizer): (&SharedFrames, &mut Rasterizer),
-    ) -> Result<Stats, TargetError> {
-        let changes: Option<Vec<DrawChange<'_>>> = match self {
+        frames: &SharedFrames,
+        free: &mut FreeFrame,
+        rasterizer: &Rasterizer,
+    ) -> Option<Vec<DrawChange<'_>>> {
+        match self {
             Self::Changed(draws) if frames.bring_up_to_date(free, rasterizer) => {
                 Some(draws.iter().map(DrawChange::from).collect())
             }
             Self::Apart | Self::Whole | Self::Changed(_) => None,
-        };
-        let mut target = target_of(blank, &mut free.frame)?;
-        let redraw = rasterizer.redraw(pass, &mut target, changes.as_deref());
-        measure_depth(&mut free.frame, (settings, camera), (&redraw.parts, rasterizer));
-        free.redrawn = Some(redraw.parts);
-        Ok(redraw.stats)
+        }
     }
+}
+
+/// Draws an image that the next one can follow from. The frame has room for it, and shows the last image if the
+/// changes since are known.
+pub(super) fn redraw(
+    pass: &Pass<'_>,
+    prepared: &PreparedScene<'_>,
+    blank: Target<'_>,
+    free: &mut FreeFrame,
+    changes: Option<&[DrawChange<'_>]>,
+    rasterizer: &mut Rasterizer,
+) -> Result<Stats, TargetError> {
+    let mut target = target_of(blank, &mut free.frame)?;
+    let redraw = rasterizer.redraw(pass, &mut target, changes);
+    measure_depth(&mut free.frame, prepared, &redraw.parts, rasterizer);
+    free.redrawn = Some(redraw.parts);
+    Ok(redraw.stats)
 }
 
 /// A target that writes a frame's colours, depths and ids.
@@ -178,13 +188,10 @@ fn target_of<'f>(blank: Target<'f>, frame: &'f mut Frame) -> Result<Target<'f>, 
 }
 
 /// From stored depths to metres, in the parts that were drawn.
-fn measure_depth(
-    frame: &mut Frame,
-    (settings, camera): (&RenderSettings, &Camera),
-    (parts, rasterizer): (&[Rect], &Rasterizer),
-) {
+fn measure_depth(frame: &mut Frame, prepared: &PreparedScene<'_>, parts: &[Rect], rasterizer: &Rasterizer) {
     let Some(depths) = &mut frame.depth else { return };
-    let distance = DepthToDistance::new(&camera.projection, settings.aspect());
+    let settings = prepared.settings;
+    let distance = DepthToDistance::new(&prepared.camera.projection, settings.aspect());
     let width = settings.width as usize;
     let bands = depths.chunks_mut(width * ROWS).zip((0..).step_by(ROWS));
     rasterizer.share(bands, |(band, top)| {
@@ -213,13 +220,13 @@ impl<T> Clone for Same<T> {
 }
 
 impl Origin {
-    fn new(prepared: &PreparedScene<'_>, camera: &Camera, plan: &EffectPlan, sources: &[Source<'_>]) -> Self {
+    fn new(prepared: &PreparedScene<'_>, plan: &EffectPlan, sources: &[Source<'_>]) -> Self {
         let scene = prepared.scene;
         Self {
             settings: without_environment_and_marks(prepared.settings),
             palette: MarkPalette::new(&prepared.settings.marks),
             environment: environment_of(prepared),
-            camera: *camera,
+            camera: *prepared.camera,
             up: scene.up,
             nodes: scene.nodes().clone(),
             materials: scene.materials.clone(),
@@ -230,13 +237,13 @@ impl Origin {
     }
 
     /// Takes over everything but the draws of another image; returns whether it was the same.
-    fn update(&mut self, prepared: &PreparedScene<'_>, camera: &Camera, plan: &EffectPlan) -> bool {
+    fn update(&mut self, prepared: &PreparedScene<'_>, plan: &EffectPlan) -> bool {
         // The draws are updated one by one.
         let are_same = [
             keep(&mut self.settings, &without_environment_and_marks(prepared.settings)),
             keep(&mut self.palette, &MarkPalette::new(&prepared.settings.marks)),
             keep(&mut self.environment, &environment_of(prepared)),
-            keep(&mut self.camera, camera),
+            keep(&mut self.camera, prepared.camera),
             keep(&mut self.up, &prepared.scene.up),
             keep(&mut self.nodes, prepared.scene.nodes()),
             keep(&mut self.materials, &prepared.scene.materials),

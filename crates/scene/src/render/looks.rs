@@ -125,7 +125,7 @@ mod tests {
         let camera = scene.overview(1.0);
         let prepared = PreparedScene::new(&scene, &camera, &settings);
         let (lighting, lists) = (LightingEnvironment::default(), VertexLists::default());
-        let composer = Composer::new(&prepared, &camera, &settings, (&lighting, &lists));
+        let composer = Composer::new(&prepared, &settings, &lighting, &lists);
         assert_eq!(composer.draws(&mut Counts::default()).len(), 5, "each is drawn");
         assert_eq!(composer.looks().len(), 3, "two materials on one mesh, and another mesh");
     }

@@ -137,22 +137,24 @@ fn whole(frame: &Frame) -> Rect {
 /// Copies parts of colours, depths and ids to a frame that has the same, in parallel.
 fn copy_parts(from: &Frame, to: &mut Frame, parts: &[Rect], rasterizer: &Rasterizer) {
     let width = from.width as usize;
-    copy_list((&from.color, &mut to.color), (4, width), parts, rasterizer);
+    copy_list(&from.color, &mut to.color, 4, width, parts, rasterizer);
     if let (Some(from), Some(to)) = (&from.depth, &mut to.depth) {
-        copy_list((from, to), (1, width), parts, rasterizer);
+        copy_list(from, to, 1, width, parts, rasterizer);
     }
     let ids = [(&from.object_ids, &mut to.object_ids), (&from.face_ids, &mut to.face_ids)];
     for (from, to) in ids {
         if let (Some(from), Some(to)) = (from, to) {
-            copy_list((from, to), (1, width), parts, rasterizer);
+            copy_list(from, to, 1, width, parts, rasterizer);
         }
     }
 }
 
 /// Copies parts of a list with so many items for each pixel.
 fn copy_list<T: Copy + Send + Sync>(
-    (from, to): (&[T], &mut [T]),
-    (items, width): (usize, usize),
+    from: &[T],
+    to: &mut [T],
+    items: usize,
+    width: usize,
     parts: &[Rect],
     rasterizer: &Rasterizer,
 ) {

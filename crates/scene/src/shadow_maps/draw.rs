@@ -6,8 +6,9 @@ use crate::work::{Work, note};
 use trigon_math::Mat3;
 use trigon_raster::{Culling, Draw, Pass, Rasterizer, Target, TargetError};
 
+use super::CastingScene;
 use crate::display::Display;
-use crate::effects::{Caster, Casters, LightingEnvironment, ShadowMap, View};
+use crate::effects::{Caster, LightingEnvironment, ShadowMap, View};
 use crate::material::{AlphaMode, Material, Shading};
 use crate::placement::{Eye, Rays};
 use crate::scene::Scene;
@@ -26,17 +27,17 @@ enum Shape<'a> {
 pub(super) fn draw(
     view: View,
     resolution: u32,
-    (scene, casters): (&Scene, &Casters),
+    casting: &CastingScene<'_>,
     rasterizer: &mut Rasterizer,
 ) -> Result<ShadowMap, TargetError> {
     note(Work::ShadowMap);
     let dark = LightingEnvironment::default();
     let eye = Eye::new(&view.camera, view.aspect);
     let mut shapes = Vec::new();
-    for caster in &casters.list {
+    for caster in &casting.casters.list {
         for (run, material) in caster.geometry.runs.iter().zip(&caster.shadow.materials) {
             let Some(material) = material else { continue };
-            shapes.push((caster, run.triangles.clone(), shape(scene, &dark, &eye, caster, material)));
+            shapes.push((caster, run.triangles.clone(), shape(casting.scene, &dark, &eye, caster, material)));
         }
     }
     let mut pass = Pass::new();

@@ -11,6 +11,13 @@ use trigon_raster::{Rasterizer, TargetError};
 use crate::effects::{Casters, LampPose, PlacedMap, ShadowMap, ShadowMaps, ShadowSource, views};
 use crate::scene::Scene;
 
+/// What casts shadows in a frame.
+pub(crate) struct CastingScene<'s> {
+    pub(crate) scene: &'s Scene,
+    pub(crate) casters: &'s Casters,
+    pub(crate) camera_to_world: &'s DAffine3,
+}
+
 /// The shadow maps of the last frame.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ShadowCache {
@@ -26,25 +33,24 @@ impl ShadowCache {
     pub(crate) fn maps(
         &mut self,
         poses: &[LampPose],
-        (scene, casters): (&Scene, &Casters),
+        casting: &CastingScene<'_>,
         resolution: u32,
-        camera_to_world: &DAffine3,
         rasterizer: &mut Rasterizer,
     ) -> Result<ShadowMaps, TargetError> {
-        if !casters.shadow_sources().eq(&self.casters) || self.resolution != resolution {
+        if !casting.casters.shadow_sources().eq(&self.casters) || self.resolution != resolution {
             self.maps.clear();
-            self.casters = casters.shadow_sources().cloned().collect();
+            self.casters = casting.casters.shadow_sources().cloned().collect();
             self.resolution = resolution;
         }
         self.maps.retain(|(kept, _)| poses.contains(kept));
         self.drawn = 0;
         let missing = poses.iter().filter(|pose| !self.maps.iter().any(|(kept, _)| kept == *pose));
-        let passes: usize = missing.map(|pose| views(pose, casters).len()).sum();
+        let passes: usize = missing.map(|pose| views(pose, casting.casters).len()).sum();
         rasterizer.expect_passes(u32::try_from(passes).unwrap_or(u32::MAX));
         let mut maps = ShadowMaps::default();
         for pose in poses {
-            let maps_of_lamp = self.of(pose, (scene, casters), rasterizer)?;
-            let placed = maps_of_lamp.into_iter().map(|map| PlacedMap::new(map, camera_to_world));
+            let maps_of_lamp = self.of(pose, casting, rasterizer)?;
+            let placed = maps_of_lamp.into_iter().map(|map| PlacedMap::new(map, casting.camera_to_world));
             maps.lamps.push(placed.collect());
         }
         Ok(maps)
@@ -58,15 +64,15 @@ impl ShadowCache {
     fn of(
         &mut self,
         pose: &LampPose,
-        (scene, casters): (&Scene, &Casters),
+        casting: &CastingScene<'_>,
         rasterizer: &mut Rasterizer,
     ) -> Result<Vec<Arc<ShadowMap>>, TargetError> {
         if let Some((_, maps)) = self.maps.iter().find(|(kept, _)| kept == pose) {
             return Ok(maps.clone());
         }
         let mut maps = Vec::new();
-        for view in views(pose, casters) {
-            let map = draw::draw(view, self.resolution, (scene, casters), rasterizer)?;
+        for view in views(pose, casting.casters) {
+            let map = draw::draw(view, self.resolution, casting, rasterizer)?;
             maps.push(Arc::new(map));
         }
         self.drawn += maps.len();

@@ -4,7 +4,7 @@ use trigon_raster::simd::{F32, Simd, inlined, prelude::*};
 use trigon_raster::{FragmentLanes, VertexLanes};
 
 use super::traced::TracedSurface;
-use super::{LightSlots, Surface, Values, load, shown};
+use super::{LightSlots, Surface, load, shown};
 use crate::lanes::{V3, dot, mixed, negated, normalized, product, scaled, splat, sum, turned};
 use crate::lighting::{Brdf, LitPoints, Reflected};
 use crate::material::MaterialTexture;
@@ -26,10 +26,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         let position = self.place.camera(simd, position);
         let points =
             LitPoints { position, normal, facing: normal, plane: normal, view: self.view(simd, position) };
-        self.set_side(simd, vertices, (slots, slots.at), &points);
+        self.set_side(simd, vertices, slots, slots.at, &points);
         if slots.two_sided {
             let back = LitPoints { normal: negated(normal), facing: negated(normal), ..points };
-            self.set_side(simd, vertices, (slots, slots.at + slots.per_side()), &back);
+            self.set_side(simd, vertices, slots, slots.at + slots.per_side(), &back);
         }
     }
 
@@ -38,7 +38,8 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         &self,
         simd: S,
         vertices: &mut VertexLanes<'_>,
-        (slots, at): (LightSlots, usize),
+        slots: LightSlots,
+        at: usize,
         points: &LitPoints<S>,
     ) {
         let reflected = self.lit_plainly(simd, points);
@@ -60,7 +61,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             || {
                 let base = splat(simd, self.params.material.base_color.truncate());
                 let (brdf, share) = self.params.brdf(simd, base, None::<&FragmentLanes<'_, S>>);
-                let reflected = self.reflected(simd, points, &brdf, (None, None));
+                let reflected = self.reflected(simd, points, &brdf, None, None);
                 Reflected { diffuse: scaled(reflected.diffuse, share), ..reflected }
             },
         )
@@ -107,7 +108,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                     }
                     _ => None,
                 };
-                self.shaded(simd, fragments, (&points, open), (albedo, fragments.active()))
+                self.shaded(simd, fragments, &points, open, albedo)
             },
         )
     }
@@ -117,14 +118,15 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
     pub(super) fn shaded<S: Simd>(
         &self,
         simd: S,
-        values: &impl Values<S>,
-        (points, mut open): (&LitPoints<S>, Option<F32<S>>),
-        (albedo, active): (V3<S>, u64),
+        fragments: &FragmentLanes<'_, S>,
+        points: &LitPoints<S>,
+        mut open: Option<F32<S>>,
+        albedo: V3<S>,
     ) -> V3<S> {
-        let (brdf, share) = self.params.brdf(simd, albedo, Some(values));
+        let (brdf, share) = self.params.brdf(simd, albedo, Some(fragments));
         let strength = self.params.material.occlusion.map_or(0.0, |map| map.strength);
         if let Some(map) = self.params.maps.get(MaterialTexture::Occlusion) {
-            let red = map.look_up_apart(simd, values)[0];
+            let red = map.look_up_apart(simd, fragments)[0];
             let mapped = (red - 1.0) * strength + 1.0;
             open = match open {
                 Some(open) => Some(open * mapped),
@@ -134,9 +136,9 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         match (&self.params.optics, &brdf) {
             (Some(optics), Brdf::Microfacets(facets)) => {
                 let map = self.params.maps.get(MaterialTexture::Transmission);
-                let transmission = map.map(|map| map.look_up_apart(simd, values)[0]);
+                let transmission = map.map(|map| map.look_up_apart(simd, fragments)[0]);
                 let map = self.params.maps.get(MaterialTexture::Thickness);
-                let thickness = map.map(|map| map.look_up_apart(simd, values)[1]);
+                let thickness = map.map(|map| map.look_up_apart(simd, fragments)[1]);
                 let surface = TracedSurface {
                     facets,
                     optics,
@@ -145,12 +147,12 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                     diffuse_share: share,
                     transmission,
                     thickness,
-                    place: values.place(),
+                    place: fragments.position(),
                 };
-                self.traced(simd, points, &surface, active)
+                self.traced(simd, points, &surface, fragments.active())
             }
             (None, _) | (Some(_), Brdf::Lambert | Brdf::BlinnPhong { .. }) => {
-                shown(&self.reflected(simd, points, &brdf, (open, None)), scaled(albedo, share))
+                shown(&self.reflected(simd, points, &brdf, open, None), scaled(albedo, share))
             }
         }
     }
@@ -163,7 +165,8 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         simd: S,
         points: &LitPoints<S>,
         brdf: &Brdf<S>,
-        (open, traced): (Option<F32<S>>, Option<V3<S>>),
+        open: Option<F32<S>>,
+        traced: Option<V3<S>>,
     ) -> Reflected<S> {
         let mut reflected = self.lighting.reflected(simd, points, brdf);
         if !self.lighting.has_ambient() && traced.is_none() {

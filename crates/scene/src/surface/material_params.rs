@@ -158,7 +158,7 @@ impl MaterialParams<'_> {
                 }
                 (Brdf::BlinnPhong { specular, shininess: F32::splat(simd, *shininess) }, one)
             }
-            Model::Microfacets(model) => model.brdf(simd, albedo, (&self.maps, values)),
+            Model::Microfacets(model) => model.brdf(simd, albedo, &self.maps, values),
         }
     }
 }
@@ -169,7 +169,8 @@ impl MicrofacetModel {
         &self,
         simd: S,
         [r, g, b]: V3<S>,
-        (maps, values): (&Maps<'_>, Option<&impl Values<S>>),
+        maps: &Maps<'_>,
+        values: Option<&impl Values<S>>,
     ) -> (Brdf<S>, F32<S>) {
         let [mut roughness, mut metallic, mut specular] = [self.roughness, self.metallic, self.specular]
             .each(

@@ -51,7 +51,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                     self.lighting.seen(simd, points, &start, back, active)
                 });
                 let brdf = Brdf::Microfacets(*facets);
-                let reflected = self.reflected(simd, points, &brdf, (open, mirrored));
+                let reflected = self.reflected(simd, points, &brdf, open, mirrored);
                 let Optics::Glass(glass) = optics else {
                     return shown(&reflected, scaled(albedo, diffuse_share));
                 };

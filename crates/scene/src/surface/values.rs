@@ -7,8 +7,6 @@ use trigon_raster::simd::{F32, Simd};
 pub(crate) trait Values<S: Simd> {
     /// The values.
     fn varying(&self, index: usize) -> F32<S>;
-    /// The positions of the samples in the image.
-    fn place(&self) -> [F32<S>; 2];
     /// Their change per pixel to the right, and per pixel down.
     fn gradient(&self, index: usize) -> [F32<S>; 2];
 }
@@ -17,11 +15,6 @@ impl<S: Simd> Values<S> for FragmentLanes<'_, S> {
     #[inline(always)]
     fn varying(&self, index: usize) -> F32<S> {
         FragmentLanes::varying(self, index)
-    }
-
-    #[inline(always)]
-    fn place(&self) -> [F32<S>; 2] {
-        self.position()
     }
 
     #[inline(always)]

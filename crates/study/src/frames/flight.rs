@@ -39,10 +39,10 @@ pub fn fly(
     let (mut steps, mut image) = (Vec::new(), Frame::default());
     for frame in 0..frames {
         let (camera, start) = (camera(frame), clock());
-        let choice = budget.render_into(&mut renderer, (&scene, &camera), clock, &mut image)?;
+        let choice = budget.render_into(&mut renderer, &scene, &camera, clock, &mut image)?;
         let drawing = clock().saturating_sub(start);
         let spare = limit.saturating_sub(drawing);
-        budget.look_again(&mut renderer, (&scene, &camera), spare, clock)?;
+        budget.look_again(&mut renderer, &scene, &camera, spare, clock)?;
         let time = clock().saturating_sub(start);
         let error = rmse(&image, &best.render(&scene, &camera)?);
         steps.push(Step { choice, drawing, time, error });
