@@ -53,7 +53,8 @@ impl Keys {
         let entries: BTreeMap<String, Value> = serde_json::from_str(text)
             .map_err(|error| KeymapError { line: error.line(), what: error.to_string() })?;
         let mut warnings = Vec::new();
-        let mut chosen = vec![(UNDO, actions::named("edit.undo").expect("it is in the table"))];
+        let undo = actions::named("edit.undo").expect("it is in the table");
+        let mut chosen: Vec<(Chord, &Action)> = vec![(UNDO, undo)];
         let mut replaced = Vec::new();
         for (name, value) in &entries {
             let line = line_of(text, name);
@@ -70,8 +71,9 @@ impl Keys {
                 chosen.push((chord, action));
             }
         }
-        let free = defaults().filter(|(chord, action)| {
-            !replaced.contains(&action.name) && !chosen.iter().any(|taken| overlap(taken, (*chord, action)))
+        let free = defaults().filter(|&(chord, action)| {
+            let is_taken = |&(taken, by): &(Chord, &Action)| taken == chord && share_a_mode(by, action);
+            !replaced.contains(&action.name) && !chosen.iter().any(is_taken)
         });
         let mut bound = chosen.clone();
         bound.extend(free);
@@ -126,10 +128,9 @@ fn chords(value: &Value) -> Result<Vec<Chord>, String> {
     text.split_whitespace().map(|chord| chord.parse().map_err(|error| format!("{error}"))).collect()
 }
 
-/// Whether two actions share a chord in one of the modes.
-fn overlap(one: &(Chord, &Action), other: (Chord, &Action)) -> bool {
-    let both = |is_editing| one.1.fits_mode(is_editing) && other.1.fits_mode(is_editing);
-    one.0 == other.0 && (both(false) || both(true))
+/// Whether two actions fit one of the modes.
+fn share_a_mode(one: &Action, other: &Action) -> bool {
+    [false, true].iter().any(|&is_editing| one.fits_mode(is_editing) && other.fits_mode(is_editing))
 }
 
 /// The line, from 1, in which a name stands.

@@ -33,14 +33,15 @@ pub struct PixelMismatch {
 }
 
 impl Mismatch {
-    /// Compares two images of four bytes per pixel and a width each.
-    pub(super) fn between(captured: (u32, &[u8]), drawn: (u32, &[u8])) -> Option<Self> {
-        if captured == drawn {
+    /// Compares two images of four bytes per pixel, each with its width.
+    pub(super) fn between(widths: [u32; 2], captured: &[u8], drawn: &[u8]) -> Option<Self> {
+        let has_one_width = widths[0] == widths[1];
+        if has_one_width && captured == drawn {
             return None;
         }
-        let same_size = captured.0 == drawn.0 && captured.1.len() == drawn.1.len();
-        let pixels = same_size.then(|| PixelMismatch::between(captured.0, captured.1, drawn.1)).flatten();
-        Some(Self { captured_hash: fnv1a(captured.1), drawn_hash: fnv1a(drawn.1), pixels })
+        let has_one_size = has_one_width && captured.len() == drawn.len();
+        let pixels = has_one_size.then(|| PixelMismatch::between(widths[0], captured, drawn)).flatten();
+        Some(Self { captured_hash: fnv1a(captured), drawn_hash: fnv1a(drawn), pixels })
     }
 }
 

@@ -111,7 +111,7 @@ impl Capture {
     /// How an image differs from the captured one; `None` if every byte is the same.
     #[must_use]
     pub fn mismatch(&self, drawn: &Frame) -> Option<Mismatch> {
-        Mismatch::between((self.settings.width, &self.color), (drawn.width, &drawn.color))
+        Mismatch::between([self.settings.width, drawn.width], &self.color, &drawn.color)
     }
 
     /// The file.

@@ -75,7 +75,7 @@ impl Bvh {
         }
         let sheared = ShearedRay::new(ray);
         let slabs = Slabs::new(ray, &sheared, self.leaving(&sheared) * OUTSIDE);
-        let mut waiting = Waiting::new((start, Child::node(self.nodes.len() - 1)));
+        let mut waiting = Waiting::new(start, Child::node(self.nodes.len() - 1));
         while let Some((near, child)) = waiting.pop() {
             // A hit found meanwhile may be nearer.
             if near > *end * WIDENED + slabs.outside {
@@ -171,8 +171,9 @@ impl Waiting {
     /// A balanced tree over 2³² triangles has 16 levels, each of which leaves 3 boxes.
     const FEW: usize = 64;
 
-    fn new(root: (f32, Child)) -> Self {
-        Self { few: [root; Self::FEW], count: 1, more: Vec::new() }
+    /// For a root, and where it is entered.
+    fn new(start: f32, root: Child) -> Self {
+        Self { few: [(start, root); Self::FEW], count: 1, more: Vec::new() }
     }
 
     #[inline(always)]
