@@ -6,15 +6,17 @@ use std::fs;
 use std::io;
 use std::path::Path;
 use syn::visit::{self, Visit};
-use syn::{Attribute, FnArg, ImplItemFn, ItemFn, ItemImpl, ItemMod, Signature, TraitItemFn, Type};
+use syn::{
+    Attribute, FnArg, ImplItemFn, ItemFn, ItemImpl, ItemMod, Pat, PatType, Signature, TraitItemFn, Type,
+};
 
 /// The most parameters that a function may have, `self` not counted.
 const MOST_PARAMETERS: usize = 6;
-/// The most values that a parameter may be, if it is a tuple.
-const MOST_PACKED: usize = 2;
+/// What the values of a tuple may be named that is a parameter: a point, a size, or a place in a grid.
+const COORDINATES: [&str; 9] = ["x", "y", "z", "u", "v", "row", "column", "width", "height"];
 
-/// The functions of a crate, tests left out, that have more than six parameters or a tuple of three or more
-/// values as a parameter: as `src/file.rs: name`, sorted. A function that expects the lint
+/// The functions of a crate, tests left out, that have more than six parameters or a tuple as a parameter, but
+/// for named coordinates: as `src/file.rs: name`, sorted. A function that expects the lint
 /// `too_many_arguments`, with its reason, may have more parameters.
 ///
 /// # Errors
@@ -48,13 +50,13 @@ struct Signatures {
 
 impl Signatures {
     fn check(&mut self, signature: &Signature, attributes: &[Attribute]) {
-        let types = signature.inputs.iter().filter_map(|input| match input {
-            FnArg::Typed(parameter) => Some(&*parameter.ty),
+        let parameters = signature.inputs.iter().filter_map(|input| match input {
+            FnArg::Typed(parameter) => Some(parameter),
             FnArg::Receiver(_) => None,
         });
-        let types: Vec<&Type> = types.collect();
-        let is_long = types.len() > MOST_PARAMETERS && !attributes.iter().any(expects_many);
-        if is_long || types.iter().any(|ty| packed(ty) > MOST_PACKED) {
+        let parameters: Vec<&PatType> = parameters.collect();
+        let is_long = parameters.len() > MOST_PARAMETERS && !attributes.iter().any(expects_many);
+        if is_long || parameters.iter().any(|&parameter| is_packed(parameter)) {
             self.long.push(signature.ident.to_string());
         }
     }
@@ -66,14 +68,24 @@ fn expects_many(attribute: &Attribute) -> bool {
     attribute.path().is_ident("expect") && attribute.meta.require_list().is_ok_and(text)
 }
 
-/// How many values a parameter of a type is.
-fn packed(ty: &Type) -> usize {
+/// Whether a parameter is a tuple of values that are no coordinates.
+fn is_packed(parameter: &PatType) -> bool {
+    is_tuple(&parameter.ty) && !are_coordinates(&parameter.pat)
+}
+
+fn is_tuple(ty: &Type) -> bool {
     match ty {
-        Type::Tuple(tuple) => tuple.elems.len(),
-        Type::Reference(reference) => packed(&reference.elem),
-        Type::Paren(inner) => packed(&inner.elem),
-        _ => 1,
+        Type::Tuple(tuple) => tuple.elems.len() > 1,
+        Type::Reference(reference) => is_tuple(&reference.elem),
+        Type::Paren(inner) => is_tuple(&inner.elem),
+        _ => false,
     }
+}
+
+fn are_coordinates(pattern: &Pat) -> bool {
+    let is_coordinate =
+        |name: &Pat| matches!(name, Pat::Ident(name) if COORDINATES.iter().any(|known| name.ident == known));
+    matches!(pattern, Pat::Tuple(names) if names.elems.iter().all(is_coordinate))
 }
 
 impl Visit<'_> for Signatures {
@@ -112,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn seven_parameters_and_tuples_of_three_are_found() {
+    fn seven_parameters_and_tuples_are_found() {
         let code = "
             fn six(a: u8, b: u8, c: u8, d: u8, e: u8, f: u8) {}
             fn seven(a: u8, b: u8, c: u8, d: u8, e: u8, f: u8, g: u8) {}
@@ -121,11 +133,14 @@ mod tests {
             fn pair((a, b): (u8, u8)) {}
             fn triple((a, b, c): (u8, u8, u8)) {}
             fn by_reference(triple: &(u8, u8, u8)) {}
+            fn pixel((x, y): (u32, u32), (width, height): (u32, u32)) {}
+            fn nothing(unit: ()) {}
+            fn closure(visit: impl Fn((u8, u8)) -> (u8, u8)) {}
             #[cfg(test)]
             mod tests { fn triple((a, b, c): (u8, u8, u8)) {} }
         ";
         let mut visitor = Signatures { long: Vec::new() };
         visitor.visit_file(&syn::parse_file(code).expect("it parses"));
-        assert_eq!(visitor.long, ["seven", "triple", "by_reference"], "and no others");
+        assert_eq!(visitor.long, ["seven", "pair", "triple", "by_reference"], "and no others");
     }
 }
