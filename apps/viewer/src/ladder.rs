@@ -9,14 +9,14 @@ use trigon_scene::{ShadingModel, Shadows};
 
 /// A step of the ladder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Step {
+pub(crate) enum QualityStep {
     /// A preset of the renderer's.
     Preset(Preset),
     /// What is drawn where no preset is named: 3×3 samples.
     Default,
 }
 
-impl Step {
+impl QualityStep {
     /// From the quickest to the most accurate.
     pub(crate) const ALL: [Self; 5] = [
         Self::Preset(Preset::Draft),
@@ -56,7 +56,7 @@ impl Step {
     }
 }
 
-impl FromStr for Step {
+impl FromStr for QualityStep {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -74,19 +74,21 @@ mod tests {
     #[test]
     fn the_default_is_a_step_and_every_step_is_finer_than_the_one_before() {
         let settings = RenderSettings::new(8, 8);
-        let current: Vec<Step> = Step::ALL.into_iter().filter(|step| step.is_current(&settings)).collect();
-        assert_eq!(current, [Step::Default], "what is drawn without a preset");
-        let finer = Step::ALL.windows(2).all(|pair| pair[1].quality().is_finer_than(&pair[0].quality()));
+        let current: Vec<QualityStep> =
+            QualityStep::ALL.into_iter().filter(|step| step.is_current(&settings)).collect();
+        assert_eq!(current, [QualityStep::Default], "what is drawn without a preset");
+        let finer =
+            QualityStep::ALL.windows(2).all(|pair| pair[1].quality().is_finer_than(&pair[0].quality()));
         assert!(finer, "from the quickest to the most accurate");
     }
 
     #[test]
     fn names_are_read_as_they_are_written() {
-        for step in Step::ALL {
+        for step in QualityStep::ALL {
             assert_eq!(step.name().to_uppercase().parse(), Ok(step), "{}", step.name());
         }
-        let error = "ultra".parse::<Step>().expect_err("there is none");
-        let names = Step::ALL.map(Step::name);
+        let error = "ultra".parse::<QualityStep>().expect_err("there is none");
+        let names = QualityStep::ALL.map(QualityStep::name);
         assert!(names.iter().all(|name| error.contains(name)), "{error}");
     }
 }

@@ -60,7 +60,7 @@ pub(crate) fn explained(
 
 /// A line of an explanation.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Line {
+pub(crate) struct ExplanationLine {
     /// How far it is moved to the right.
     pub(crate) indent: u8,
     /// Whether lines below it belong to it.
@@ -68,7 +68,7 @@ pub(crate) struct Line {
     pub(crate) text: String,
 }
 
-impl Line {
+impl ExplanationLine {
     fn indented(&self) -> String {
         format!("{:1$}{2}", "", 2 * usize::from(self.indent) + 2, self.text)
     }
@@ -76,12 +76,12 @@ impl Line {
 
 impl ExplainedPixel {
     /// For people: the sample that the pixel's depth and ids come from, and then all others.
-    pub(crate) fn lines(&self, scene: &Scene) -> Vec<Line> {
+    pub(crate) fn lines(&self, scene: &Scene) -> Vec<ExplanationLine> {
         let pixel = &self.0;
         let [r, g, b, a] = pixel.color.to_array();
         let [x, y] = pixel.pixel;
         let mut lines = Vec::new();
-        let mut push = |indent, is_heading, text| lines.push(Line { indent, is_heading, text });
+        let mut push = |indent, is_heading, text| lines.push(ExplanationLine { indent, is_heading, text });
         push(0, true, format!("pixel {x}, {y}"));
         push(0, false, format!("linear colour {r:.4} {g:.4} {b:.4}, alpha {a:.4}"));
         let is_one = pixel.samples.len() == 1;

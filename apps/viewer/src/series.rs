@@ -16,11 +16,11 @@ pub(crate) enum Series {
     /// The camera.
     Turntable(Vec<Camera>),
     /// The pose.
-    Animation(Playing),
+    Animation(AnimationFrames),
 }
 
 /// An animation, frame by frame.
-pub(crate) struct Playing {
+pub(crate) struct AnimationFrames {
     camera: Camera,
     clips: Vec<usize>,
     /// Of the first frame.
@@ -57,7 +57,7 @@ impl Series {
         let camera = model.shot(&request.framing, aspect)?.camera;
         // At least the pose at the start.
         let frames = (frames as u32).max(1);
-        Ok(Self::Animation(Playing { camera, clips, start, speed, rate, frames }))
+        Ok(Self::Animation(AnimationFrames { camera, clips, start, speed, rate, frames }))
     }
 
     pub(crate) fn frames(&self) -> u32 {

@@ -24,8 +24,8 @@ pub(crate) fn offset_for(positions: impl Iterator<Item = DVec3>) -> DVec3 {
         return DVec3::ZERO;
     }
     let step = power_of_two_below(if size > 0.0 { size } else { reach });
-    let centre = low + (high - low) * 0.5;
-    (centre / step).round() * step
+    let center = low + (high - low) * 0.5;
+    (center / step).round() * step
 }
 
 /// The largest power of two that is not above a positive normal number.

@@ -29,7 +29,7 @@ impl EditMesh {
         }
         vertices.sort_unstable();
         vertices.dedup();
-        let mut fans = Fans::new(self);
+        let mut fans = VertexFans::new(self);
         let mut normals = vec![Vec3::ZERO; self.corner_capacity()];
         for vertex in vertices {
             fans.add(vertex, |corner, normal| normals[corner.0 as usize] = normal);
@@ -40,7 +40,7 @@ impl EditMesh {
     /// The normals that [`EditMesh::to_mesh`] gives to all corners at some vertices, in time
     /// proportional to these and their neighbours.
     pub(super) fn normals_at(&self, vertices: &[VertexId]) -> Vec<(CornerId, Vec3)> {
-        let mut fans = Fans::new(self);
+        let mut fans = VertexFans::new(self);
         let mut normals = Vec::new();
         for &vertex in vertices {
             let first = normals.len();
@@ -63,7 +63,7 @@ impl EditMesh {
     /// The normals of all corners at some vertices: given ones, the means of fans of smooth faces between
     /// sharp edges, and of other faces their own.
     pub(super) fn fan_normals_at(&self, vertices: &[VertexId]) -> Vec<(CornerId, Vec3)> {
-        let mut fans = Fans::new(self);
+        let mut fans = VertexFans::new(self);
         let mut normals = Vec::new();
         for &vertex in vertices {
             let mut of_fans = SmallVec::<[(CornerId, Vec3); 8]>::new();
@@ -100,7 +100,7 @@ impl EditMesh {
     }
 }
 
-struct Fans<'a> {
+struct VertexFans<'a> {
     mesh: &'a EditMesh,
     face_normals: FaceNormals,
     /// The corners at the vertex in ascending order, and which of them stands for each one's fan.
@@ -109,7 +109,7 @@ struct Fans<'a> {
     sums: Vec<DVec3>,
 }
 
-impl<'a> Fans<'a> {
+impl<'a> VertexFans<'a> {
     fn new(mesh: &'a EditMesh) -> Self {
         Self {
             mesh,

@@ -72,7 +72,7 @@ pub(crate) enum Frames {
 
 /// The state of the image on the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Shown {
+enum ScreenImage {
     /// Up to date, refined to this step.
     Full(usize),
     /// A draft of the current image.
@@ -83,7 +83,7 @@ enum Shown {
 
 /// An image being drawn.
 #[derive(Debug, Clone, Copy)]
-struct UnderWay {
+struct ImageInProgress {
     quality: Quality,
     /// Whether something has changed since it was begun.
     outdated: bool,
@@ -92,8 +92,8 @@ struct UnderWay {
 /// Decides when to draw. All times are measured from the same moment.
 #[derive(Debug)]
 pub(crate) struct Pacing {
-    shown: Shown,
-    under_way: Option<UnderWay>,
+    shown: ScreenImage,
+    under_way: Option<ImageInProgress>,
     /// Since when images have to wait for something else.
     occupied: Option<Duration>,
     /// Whether the interface over the image has changed.
@@ -133,7 +133,7 @@ impl Progress {
 impl Pacing {
     pub(crate) fn new() -> Self {
         Self {
-            shown: Shown::Old,
+            shown: ScreenImage::Old,
             under_way: None,
             occupied: None,
             overlay: true,
@@ -171,7 +171,7 @@ impl Pacing {
 
     /// When the drawing at rest began. An outdated image does not count.
     fn work_begun(&self) -> Option<Duration> {
-        let is_full = |image: &UnderWay| matches!(image.quality, Quality::Full(_)) && !image.outdated;
+        let is_full = |image: &ImageInProgress| matches!(image.quality, Quality::Full(_)) && !image.outdated;
         self.occupied.or_else(|| self.under_way.as_ref().filter(|image| is_full(image)).and(self.begun))
     }
 
@@ -185,7 +185,7 @@ impl Pacing {
     /// Whether the image on screen is the one that the settings define.
     #[cfg(any(test, feature = "kittest"))]
     pub(crate) fn shows_full(&self) -> bool {
-        matches!(self.shown, Shown::Full(_))
+        matches!(self.shown, ScreenImage::Full(_))
     }
 
     /// Whether the image being drawn only improves the one on screen.
@@ -195,7 +195,7 @@ impl Pacing {
 
     /// The first step that is wanted and not done.
     fn next_step(&self) -> Option<usize> {
-        let Shown::Full(done) = self.shown else { return None };
+        let ScreenImage::Full(done) = self.shown else { return None };
         self.wanted.iter().copied().find(|&step| step > done)
     }
 
@@ -205,7 +205,7 @@ impl Pacing {
         if change == Change::Overlay {
             return;
         }
-        self.shown = Shown::Old;
+        self.shown = ScreenImage::Old;
         if let Some(under_way) = &mut self.under_way {
             under_way.outdated = true;
         }
@@ -217,23 +217,23 @@ impl Pacing {
     /// When an image in progress is to be abandoned for a draft, because its time was predicted for
     /// another scene or view.
     fn overdue(&self) -> Option<Duration> {
-        let Some(UnderWay { quality: Quality::Full(0), outdated: false }) = self.under_way else {
+        let Some(ImageInProgress { quality: Quality::Full(0), outdated: false }) = self.under_way else {
             return None;
         };
-        self.begun.filter(|_| self.shown == Shown::Old).map(|begun| begun + OVERDUE)
+        self.begun.filter(|_| self.shown == ScreenImage::Old).map(|begun| begun + OVERDUE)
     }
 
     /// Time has passed: an image that takes too long is useless from now on.
     pub(crate) fn lose_patience(&mut self, now: Duration) {
         if self.overdue().is_some_and(|due| due <= now) {
             self.full = Some(OVERDUE);
-            self.under_way = self.under_way.map(|image| UnderWay { outdated: true, ..image });
+            self.under_way = self.under_way.map(|image| ImageInProgress { outdated: true, ..image });
         }
     }
 
     /// Whether nobody will see the image in progress.
     pub(crate) fn is_useless(&self) -> bool {
-        self.under_way.is_some_and(|UnderWay { quality, outdated }| match quality {
+        self.under_way.is_some_and(|ImageInProgress { quality, outdated }| match quality {
             Quality::Draft { .. } => false,
             Quality::Full(step) => outdated || !self.wanted.contains(&step),
         })
@@ -241,7 +241,7 @@ impl Pacing {
 
     /// Whether a draft is being drawn that was begun a moment ago.
     pub(crate) fn expects_draft(&self, now: Duration) -> bool {
-        let is_draft = |image: UnderWay| matches!(image.quality, Quality::Draft { .. });
+        let is_draft = |image: ImageInProgress| matches!(image.quality, Quality::Draft { .. });
         self.under_way.is_some_and(is_draft) && self.begun.is_some_and(|begun| now < begun + PATIENCE)
     }
 
@@ -258,15 +258,15 @@ impl Pacing {
         let overlay = self.overlay.then_some(frame);
         let image = match (self.under_way, self.shown, animated) {
             // Completion arrives as an event.
-            (Some(UnderWay { quality: Quality::Draft { .. }, .. }), ..) => None,
+            (Some(ImageInProgress { quality: Quality::Draft { .. }, .. }), ..) => None,
             _ if self.occupied.is_some() => None,
             // It is about to be given up, which takes a moment.
             (Some(_), _, Frames::Wanted) => Some(frame),
             (None, _, Frames::Wanted) => Some(paced),
             (Some(_), ..) => self.overdue(),
-            (None, Shown::Old, Frames::None) => Some(paced),
-            (None, Shown::Draft, Frames::None) => Some(self.moved.map_or(now, |moved| moved + REST)),
-            (None, Shown::Full(_), Frames::None) => self.next_step().map(|_| paced),
+            (None, ScreenImage::Old, Frames::None) => Some(paced),
+            (None, ScreenImage::Draft, Frames::None) => Some(self.moved.map_or(now, |moved| moved + REST)),
+            (None, ScreenImage::Full(_), Frames::None) => self.next_step().map(|_| paced),
         };
         let expiry = expiry.map(|due| due.max(frame));
         match [overlay, image, expiry, self.next_second()].into_iter().flatten().min() {
@@ -285,17 +285,18 @@ impl Pacing {
     pub(crate) fn begin(&mut self, now: Duration, animated: Frames) -> Option<Quality> {
         self.drawn = Some(now);
         let moving = self.is_moving(now, animated);
-        let draft = moving || (self.shown == Shown::Old && self.full.is_none_or(|full| full > PATIENCE));
+        let draft =
+            moving || (self.shown == ScreenImage::Old && self.full.is_none_or(|full| full > PATIENCE));
         let quality = match self.shown {
             _ if self.under_way.is_some() || self.occupied.is_some() => return None,
             // It will be refined when it rests.
-            Shown::Full(_) | Shown::Draft if moving => return None,
-            Shown::Full(_) => Quality::Full(self.next_step()?),
+            ScreenImage::Full(_) | ScreenImage::Draft if moving => return None,
+            ScreenImage::Full(_) => Quality::Full(self.next_step()?),
             _ if draft => Quality::Draft { shrink: self.budget.shrink() },
             _ => Quality::Full(0),
         };
         self.begun = Some(now);
-        self.under_way = Some(UnderWay { quality, outdated: false });
+        self.under_way = Some(ImageInProgress { quality, outdated: false });
         Some(quality)
     }
 
@@ -312,12 +313,12 @@ impl Pacing {
     /// The image under way is in the window, and took this long; `pixels` is the part that is proportional to their
     /// number.
     pub(crate) fn finished(&mut self, took: Duration, pixels: Duration) {
-        let Some(UnderWay { quality, outdated }) = self.under_way.take() else { return };
+        let Some(ImageInProgress { quality, outdated }) = self.under_way.take() else { return };
         self.overlay = true;
         self.shown = match quality {
-            _ if outdated => Shown::Old,
-            Quality::Full(step) => Shown::Full(step),
-            Quality::Draft { .. } => Shown::Draft,
+            _ if outdated => ScreenImage::Old,
+            Quality::Full(step) => ScreenImage::Full(step),
+            Quality::Draft { .. } => ScreenImage::Draft,
         };
         match quality {
             Quality::Full(0) => self.full = Some(took),
@@ -329,7 +330,7 @@ impl Pacing {
     /// The image under way was cancelled; if it is still wanted, it is begun again.
     pub(crate) fn cancelled(&mut self) {
         if self.under_way.take().is_some_and(|image| image.outdated) {
-            self.shown = Shown::Old;
+            self.shown = ScreenImage::Old;
         }
         self.overlay = true;
     }
@@ -338,7 +339,7 @@ impl Pacing {
     /// again before something changes.
     pub(crate) fn failed(&mut self) {
         let outdated = self.under_way.take().is_some_and(|image| image.outdated);
-        self.shown = if outdated { Shown::Old } else { Shown::Full(usize::MAX) };
+        self.shown = if outdated { ScreenImage::Old } else { ScreenImage::Full(usize::MAX) };
         self.overlay = true;
     }
 }

@@ -107,9 +107,9 @@ pub(crate) struct Worker {
     /// Jobs that only improve the image on screen. Once cancelled, nobody waits until their last
     /// tiles are abandoned, which may take seconds if rays are cast.
     second: Option<Holder>,
-    under_way: Option<UnderWay>,
+    under_way: Option<JobInProgress>,
     /// Abandoned, and not collected yet.
-    abandoned: Option<UnderWay>,
+    abandoned: Option<JobInProgress>,
     begun: u64,
 }
 
@@ -125,7 +125,7 @@ impl Job {
 }
 
 /// A job that was begun.
-struct UnderWay {
+struct JobInProgress {
     number: u64,
     purpose: Purpose,
     views: Views,
@@ -222,7 +222,8 @@ impl Worker {
         self.begun += 1;
         let (number, cancel) = (self.begun, Cancel::for_drawings(job.drawings()));
         let Job { purpose, ref views, .. } = job;
-        self.under_way = Some(UnderWay { number, purpose, views: views.clone(), cancel: cancel.clone() });
+        self.under_way =
+            Some(JobInProgress { number, purpose, views: views.clone(), cancel: cancel.clone() });
         self.holder(purpose).hands.begin(Numbered { number, job, cancel });
     }
 
@@ -247,7 +248,7 @@ impl Worker {
 
     /// The job that was in progress, if it is finished.
     pub(crate) fn collect(&mut self) -> Option<Finished> {
-        if let Some(UnderWay { purpose, views, .. }) = self.abandoned.take() {
+        if let Some(JobInProgress { purpose, views, .. }) = self.abandoned.take() {
             return Some(Finished {
                 purpose,
                 views,
@@ -258,7 +259,7 @@ impl Worker {
                 redrawn: None,
             });
         }
-        let &UnderWay { number, purpose, .. } = self.under_way.as_ref()?;
+        let &JobInProgress { number, purpose, .. } = self.under_way.as_ref()?;
         let finished = self.holder(purpose).hands.finished(number)?;
         self.under_way = None;
         Some(finished)

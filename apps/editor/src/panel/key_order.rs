@@ -32,13 +32,13 @@ impl KeyOrder {
 
 impl<'de> Deserialize<'de> for KeyOrder {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_any(Keys)
+        from.deserialize_any(KeyOrderVisitor)
     }
 }
 
-struct Keys;
+struct KeyOrderVisitor;
 
-impl<'de> Visitor<'de> for Keys {
+impl<'de> Visitor<'de> for KeyOrderVisitor {
     type Value = KeyOrder;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -27,7 +27,7 @@ pub(crate) struct Config {
 struct Block {
     /// `None` for all files.
     files: Option<Regex>,
-    options: Vec<Setting>,
+    options: Vec<ConfigSetting>,
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
     bindings: Vec<KeyBinding>,
 }
@@ -41,7 +41,7 @@ pub(crate) struct KeyBinding {
 
 /// A flag, its value, and whether it overrides the command line.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Setting {
+pub(crate) struct ConfigSetting {
     pub(crate) flag: String,
     pub(crate) value: String,
     pub(crate) imperative: bool,
@@ -91,8 +91,8 @@ impl Config {
 
     /// The settings for a file (`None` for the built-in scene); those with the highest precedence
     /// come last.
-    pub(crate) fn settings(&self, file: Option<&Path>) -> Vec<Setting> {
-        let mut settings: Vec<Setting> = Vec::new();
+    pub(crate) fn settings(&self, file: Option<&Path>) -> Vec<ConfigSetting> {
+        let mut settings: Vec<ConfigSetting> = Vec::new();
         for setting in self.matching(file).flat_map(|block| &block.options) {
             settings.retain(|other| other.flag != setting.flag);
             settings.push(setting.clone());
@@ -235,7 +235,7 @@ fn glob(wanted: &str) -> String {
     expression + "$"
 }
 
-fn settings(options: &Map<String, Value>, warnings: &mut Vec<String>) -> Result<Vec<Setting>, String> {
+fn settings(options: &Map<String, Value>, warnings: &mut Vec<String>) -> Result<Vec<ConfigSetting>, String> {
     /// These choose the configuration itself, or replace drawing.
     const NOT_HERE: [&str; 8] =
         ["help", "version", "list-readers", "list-bindings", "config", "no-config", "define", "input"];
@@ -248,7 +248,12 @@ fn settings(options: &Map<String, Value>, warnings: &mut Vec<String>) -> Result<
         let value = text(value).ok_or_else(|| format!("{name} is {value}; write text, a number or true"))?;
         match names::flag(name) {
             Ok(flag) => {
-                settings.push(Setting { flag: flag.to_owned(), value, imperative, file: PathBuf::new() });
+                settings.push(ConfigSetting {
+                    flag: flag.to_owned(),
+                    value,
+                    imperative,
+                    file: PathBuf::new(),
+                });
             }
             Err(why) => warnings.push(format!("{why}; it is ignored")),
         }

@@ -12,7 +12,7 @@ use trigon_io::Format;
 
 #[cfg(feature = "window")]
 use super::config::KeyBinding;
-use super::config::{Config, Setting};
+use super::config::{Config, ConfigSetting};
 use super::raw::RawArgs;
 use super::{names, words};
 use crate::state::State;
@@ -197,11 +197,11 @@ impl CommandLine {
         let (imperative, usual): (Vec<_>, Vec<_>) =
             settings.into_iter().partition(|setting| setting.imperative);
         let mut words = vec![OsString::from(PROGRAM)];
-        let mut from_files: Vec<&Setting> = imperative.iter().collect();
+        let mut from_files: Vec<&ConfigSetting> = imperative.iter().collect();
         if !usual.is_empty() {
             let typed = parsed(words_after_name(&self.typed))?;
-            let unset = |setting: &Setting| self.edits.contains(&format!("--unset={}", setting.flag));
-            let counts = |setting: &&Setting| is_free(setting, &typed) && !unset(setting);
+            let unset = |setting: &ConfigSetting| self.edits.contains(&format!("--unset={}", setting.flag));
+            let counts = |setting: &&ConfigSetting| is_free(setting, &typed) && !unset(setting);
             from_files.extend(usual.iter().filter(counts));
             words.extend(from_files[imperative.len()..].iter().copied().map(word));
         }
@@ -223,7 +223,7 @@ fn words_after_name(words: &[OsString]) -> impl Iterator<Item = OsString> {
 }
 
 /// The error; if a setting of a configuration file causes it, with the name of that file.
-fn located(error: clap::Error, settings: &[&Setting]) -> clap::Error {
+fn located(error: clap::Error, settings: &[&ConfigSetting]) -> clap::Error {
     let wrong = settings.iter().find_map(|setting| {
         let alone = parsed(words_after_name(&[word(setting)])).err()?;
         Some(conflict(format!("{}: {}: {}", setting.file.display(), setting.flag, plain(&alone))))
@@ -277,7 +277,7 @@ fn flag_of(word: &str) -> &str {
 }
 
 /// A setting as a word. `true` for a flag that takes no such value becomes the flag alone.
-fn word(setting: &Setting) -> OsString {
+fn word(setting: &ConfigSetting) -> OsString {
     let command = RawArgs::command();
     let argument = command.get_arguments().find(|argument| argument.get_long() == Some(&setting.flag));
     let choices = argument.map(clap::Arg::get_possible_values).unwrap_or_default();
@@ -288,7 +288,7 @@ fn word(setting: &Setting) -> OsString {
 }
 
 /// Whether neither the flag nor a conflicting one was typed.
-fn is_free(setting: &Setting, typed: &ArgMatches) -> bool {
+fn is_free(setting: &ConfigSetting, typed: &ArgMatches) -> bool {
     let is_typed = |id: &str| typed.value_source(id) == Some(ValueSource::CommandLine);
     let unset =
         typed.get_many::<String>("unset").is_some_and(|mut flags| flags.any(|flag| *flag == setting.flag));

@@ -7,7 +7,7 @@ use trigon_scene::quality::{Quality, TimeBudget};
 use trigon_scene::{ShadingModel, Shadows};
 
 use super::values;
-use crate::ladder::Step;
+use crate::ladder::QualityStep;
 
 /// Flags for the quality as a whole.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -22,7 +22,7 @@ pub(crate) struct QualityArgs {
         conflicts_with_all = ["time_budget", "replay"],
         help_heading = "Look"
     )]
-    pub(crate) preset: Option<Step>,
+    pub(crate) preset: Option<QualityStep>,
 
     /// Draw the image as accurately as this time allows, such as 16ms or 0.5s
     ///

@@ -40,7 +40,7 @@ use crate::source::Source;
 
 /// What happens to the view when another model comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum View {
+enum ViewChange {
     /// It is fitted to the model.
     Fit,
     /// It stays.
@@ -75,7 +75,7 @@ impl Shown {
 /// What a load under way is for.
 struct Pending {
     loading: Loading,
-    view: View,
+    view: ViewChange,
 }
 
 /// The viewer's part of the window.
@@ -186,7 +186,7 @@ impl Viewer {
         match answer {
             Answer::CancelLoading => self.cancel_loading(stage),
             Answer::CloseFailure => self.failure = None,
-            Answer::LoadAgain => self.load(stage, View::Keep),
+            Answer::LoadAgain => self.load(stage, ViewChange::Keep),
             Answer::KeepMoved => self.asks_to_load_again = false,
             Answer::Open => self.open.toggle(),
         }
@@ -325,7 +325,7 @@ impl Handler for Viewer {
         stage.columns = if self.comparing.is_some() { 2 } else { 1 };
         let file = self.sources[self.current].first_file().map(Path::to_owned);
         self.bind_keys(stage, file.as_deref());
-        self.load(stage, View::Fit);
+        self.load(stage, ViewChange::Fit);
         if let Some(comparing) = &mut self.comparing {
             comparing.load(stage, &self.request);
         }
@@ -342,7 +342,7 @@ impl Handler for Viewer {
         let taken = match input {
             Input::Key { logical: Some(Key::Escape), .. } => self.close_panel(stage),
             Input::Key { logical: Some(Key::Enter), .. } if self.asks_to_load_again => {
-                self.load(stage, View::Keep);
+                self.load(stage, ViewChange::Keep);
                 Taken::Yes
             }
             _ => Taken::No,
@@ -428,7 +428,7 @@ impl Handler for Viewer {
         }
         let outcome = self.pending.as_ref().and_then(|pending| pending.loading.outcome());
         if let Some(outcome) = outcome {
-            let view = self.pending.take().map_or(View::Fit, |pending| pending.view);
+            let view = self.pending.take().map_or(ViewChange::Fit, |pending| pending.view);
             self.loaded(stage, outcome, view);
         }
         self.write_overlay(stage);
@@ -470,7 +470,11 @@ mod tests {
     #[test]
     fn a_file_that_cannot_be_shown_is_a_message_that_stays() {
         let (mut viewer, mut stage) = (viewer("gone.obj"), Stage::new("test"));
-        viewer.loaded(&mut stage, Err(Failure::work("gone.obj: it is not there; check the name")), View::Fit);
+        viewer.loaded(
+            &mut stage,
+            Err(Failure::work("gone.obj: it is not there; check the name")),
+            ViewChange::Fit,
+        );
         for second in 0..60 {
             let tick = Tick { time: Duration::from_secs(second), delta: Duration::from_secs(1) };
             viewer.frame(&mut stage, tick);
@@ -488,8 +492,8 @@ mod tests {
     #[test]
     fn a_message_keeps_the_name_of_its_file_while_another_one_loads() {
         let (mut viewer, mut stage) = (viewer("a.obj b.obj"), Stage::new("test"));
-        viewer.loaded(&mut stage, Err(Failure::work("a.obj: it is broken; mend it")), View::Fit);
-        viewer.step(&mut stage, 1, View::Fit);
+        viewer.loaded(&mut stage, Err(Failure::work("a.obj: it is broken; mend it")), ViewChange::Fit);
+        viewer.step(&mut stage, 1, ViewChange::Fit);
         assert_eq!(viewer.sources[viewer.current].title(), "b.obj", "the next one is loading");
         assert_eq!(
             viewer.failure.as_ref().map(|unshown| unshown.name.as_str()),
@@ -501,9 +505,9 @@ mod tests {
     #[test]
     fn a_model_that_is_shown_takes_the_message_away() {
         let (mut viewer, mut stage) = (viewer(""), Stage::new("test"));
-        viewer.loaded(&mut stage, Err(Failure::work("broken; mend it")), View::Fit);
+        viewer.loaded(&mut stage, Err(Failure::work("broken; mend it")), ViewChange::Fit);
         let outcome = Ok((model(&viewer), Vec::new()));
-        viewer.loaded(&mut stage, outcome, View::Fit);
+        viewer.loaded(&mut stage, outcome, ViewChange::Fit);
         assert_eq!(viewer.failure, None, "it is put right");
         assert!(viewer.shown.is_some(), "and shown");
     }
@@ -513,7 +517,7 @@ mod tests {
         let (mut viewer, mut stage) = (viewer("--grid --normal-glyphs"), Stage::new("test"));
         let plain = model(&viewer).summary();
         let outcome = Ok((model(&viewer), Vec::new()));
-        viewer.loaded(&mut stage, outcome, View::Fit);
+        viewer.loaded(&mut stage, outcome, ViewChange::Fit);
         let shown = viewer.shown.as_ref().expect("shown");
         assert_eq!(shown.scenery.len(), 2, "grid and normals");
         let counted = shown.model(&stage).summary();

@@ -7,9 +7,9 @@
 
 mod bits;
 mod element;
-mod marks;
 mod pick;
 mod selected;
+mod selection_marks;
 
-pub use marks::{DisplayMarks, X_RAY};
 pub use pick::{PICK_RADIUS, Picks};
+pub use selection_marks::{DisplayMarks, X_RAY};

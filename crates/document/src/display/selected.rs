@@ -13,7 +13,7 @@ use crate::selection::{ElementKind, MeshSelection};
 const MANY: usize = 32;
 
 /// An edited mesh and how it is shown.
-pub(super) struct ShownMesh<'d> {
+pub(super) struct EditedMeshView<'d> {
     mesh: &'d EditMesh,
     pub(super) map: &'d ElementMap,
     pub(super) numbers: &'d ElementNumbers,
@@ -21,7 +21,7 @@ pub(super) struct ShownMesh<'d> {
     whole: Option<&'d Mesh>,
 }
 
-impl<'d> ShownMesh<'d> {
+impl<'d> EditedMeshView<'d> {
     /// `None` if it is not shown.
     pub(super) fn of(document: &'d Document, id: MeshId) -> Option<Self> {
         let (mesh, map) = (document.mesh(id)?, document.shown_elements(id)?);

@@ -54,7 +54,7 @@ impl FailingDisk {
     }
 
     fn files(&self) -> Files {
-        State::after(&self.log).visible()
+        DiskState::after(&self.log).visible()
     }
 
     fn step(&mut self, step: Step) -> io::Result<()> {
@@ -121,7 +121,7 @@ impl Storage for FailingDisk {
 
 /// The contents of a disk: files by number, and the names that refer to them.
 #[derive(Debug, Clone, Default)]
-struct State {
+struct DiskState {
     /// For each file its current and its synced contents.
     files: Vec<(Vec<u8>, Vec<u8>)>,
     names: BTreeMap<PathBuf, usize>,
@@ -138,7 +138,7 @@ enum NameChange {
     Remove(PathBuf),
 }
 
-impl State {
+impl DiskState {
     fn after(log: &[Step]) -> Self {
         let mut state = Self::default();
         log.iter().for_each(|step| state.apply(step));
@@ -206,7 +206,7 @@ impl NameChange {
 /// of the folder, any number of the first ones were done; of unsynced contents there is nothing,
 /// half, all, or something else of the same length.
 pub(crate) fn crashes(log: &[Step]) -> Vec<Files> {
-    let state = State::after(log);
+    let state = DiskState::after(log);
     let mut results = Vec::new();
     for done in 0..=state.unsynced.len() {
         let mut names = state.synced_names.clone();

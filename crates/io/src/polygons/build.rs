@@ -14,18 +14,18 @@ use crate::import::Import;
 /// Faces and edges of one mesh that were left out, by reason.
 #[derive(Default)]
 struct LeftOut {
-    non_finite: Tally,
-    flat: Tally,
+    non_finite: Occurrences,
+    flat: Occurrences,
 }
 
 /// How often something occurred, and where it did first.
 #[derive(Clone, Copy, Default)]
-struct Tally {
+struct Occurrences {
     count: usize,
     first: usize,
 }
 
-impl Tally {
+impl Occurrences {
     fn note(&mut self, index: usize) {
         if self.count == 0 {
             self.first = index;
@@ -239,7 +239,7 @@ fn push_edges(
 }
 
 fn warn(import: &mut Import<'_>, left_out: &LeftOut) {
-    let mut warn = |Tally { count, first }, what: &str, remedy: &str| {
+    let mut warn = |Occurrences { count, first }, what: &str, remedy: &str| {
         import.warnings.push_counted(count, Place::Item("face", first), what, remedy);
     };
     warn(

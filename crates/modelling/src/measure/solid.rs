@@ -76,7 +76,7 @@ mod tests {
     use crate::Transform;
 
     #[test]
-    fn a_solid_has_its_volume_and_its_centre_where_it_is_put() {
+    fn a_solid_has_its_volume_and_its_center_where_it_is_put() {
         let offset = DVec3::new(100.0, -50.0, 25.0);
         for solid in
             [primitives::cube(2.0), primitives::torus(2.0, 0.5, 16, 8), primitives::dodecahedron(1.0)]
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pyramids_centre_is_a_quarter_up() {
+    fn a_pyramids_center_is_a_quarter_up() {
         let (pyramid, _) = EditMesh::from_mesh(&primitives::pyramid(2.0, 4.0));
         let low = pyramid.bounds().center().expect("not empty").y - 2.0;
         let center = pyramid.center_of_mass().expect("it is closed");

@@ -61,7 +61,7 @@ impl EditMesh {
     /// None is given, or one does not exist.
     pub fn recalculate_normals(&mut self, faces: &[FaceId]) -> Result<RecalculatedNormals, Refusal> {
         self.check_faces(faces, "recalculating normals")?;
-        let parts = Parts::find(self, faces);
+        let parts = PartSearch::find(self, faces);
         self.flip_each(&parts.turned)?;
         // Each was found from both of its faces.
         Ok(RecalculatedNormals { turned: parts.turned, conflicts: parts.conflicts / 2 })
@@ -69,7 +69,7 @@ impl EditMesh {
 }
 
 /// The search for parts and their outsides.
-struct Parts {
+struct PartSearch {
     is_given: FixedBitSet,
     is_reached: FixedBitSet,
     /// Faces that run against the first of their part.
@@ -78,7 +78,7 @@ struct Parts {
     conflicts: usize,
 }
 
-impl Parts {
+impl PartSearch {
     fn find(mesh: &EditMesh, faces: &[FaceId]) -> Self {
         let none = || FixedBitSet::with_capacity(mesh.face_capacity());
         let mut parts = Self {
@@ -111,7 +111,7 @@ impl Parts {
         while let Some(&face) = part.get(next) {
             next += 1;
             let is_against = self.is_against.contains(face.0 as usize);
-            let mut fan = Fan::default();
+            let mut fan = TriangleFan::default();
             for corner in mesh.face_corners(face) {
                 let here = &mesh.corners[corner.0];
                 fan.add(mesh.positions[here.vertex].as_dvec3());
@@ -146,14 +146,14 @@ impl Parts {
 
 /// The triangles of a face from its first corner.
 #[derive(Default)]
-struct Fan {
+struct TriangleFan {
     first: Option<DVec3>,
     last: DVec3,
     /// Twice the area vector.
     doubled: DVec3,
 }
 
-impl Fan {
+impl TriangleFan {
     fn add(&mut self, place: DVec3) {
         let Some(first) = self.first else {
             self.first = Some(place);
@@ -195,7 +195,7 @@ impl PartSize {
         }
     }
 
-    fn add(&mut self, fan: &Fan, is_against: bool) {
+    fn add(&mut self, fan: &TriangleFan, is_against: bool) {
         let Some(first) = fan.first.filter(|_| fan.doubled.is_finite()) else { return };
         let first = first - self.origin;
         let area = fan.doubled.length() * 0.5;

@@ -11,7 +11,7 @@ use trigon_window::{Comparison, Difference, QualityReport, Refinement, Stage, ch
 use costs::Costs;
 use settings::Setting;
 
-use crate::ladder::Step;
+use crate::ladder::QualityStep;
 
 /// In points.
 const WIDTH: f32 = 392.0;
@@ -121,7 +121,7 @@ impl QualityPanel {
     /// Whole choices with a name, from the quickest on; the current one is lit.
     fn steps(&mut self, ui: &mut egui::Ui, stage: &mut Stage) {
         ui.horizontal_wrapped(|ui| {
-            for step in Step::ALL {
+            for step in QualityStep::ALL {
                 if ui.selectable_label(step.is_current(&stage.settings), step.name()).clicked() {
                     step.quality().apply(&mut stage.settings);
                     stage.refinement = Refinement::Settings;
@@ -237,7 +237,8 @@ mod tests {
         assert_eq!(stage.comparison, Comparison::Measured, "figures are to be read");
         pass(&context, &mut panel, &mut stage);
         let text = pass(&context, &mut panel, &mut stage);
-        let names = Setting::ALL.map(Setting::name).into_iter().chain(Step::ALL.map(Step::name));
+        let names =
+            Setting::ALL.map(Setting::name).into_iter().chain(QualityStep::ALL.map(QualityStep::name));
         for name in names.chain(["9", "from the material", "per image\n33\n ms"]) {
             assert!(text.contains(name), "{name} is not in\n{text}");
         }

@@ -6,7 +6,7 @@ use trigon_camera::{Orbit, OrbitStyle};
 use trigon_io::Warning;
 use trigon_window::Stage;
 
-use super::{Pending, Shown, Unshown, View, Viewer};
+use super::{Pending, Shown, Unshown, ViewChange, Viewer};
 use crate::args::InteractionStyle;
 use crate::failure::Failure;
 use crate::folders;
@@ -20,7 +20,7 @@ use crate::window::watch::Watch;
 
 impl Viewer {
     /// Starts to load the current source; what is on the screen stays until then.
-    pub(super) fn load(&mut self, stage: &mut Stage, view: View) {
+    pub(super) fn load(&mut self, stage: &mut Stage, view: ViewChange) {
         let source = self.sources[self.current].clone();
         let loading = Loading::start(source, self.request.clone(), stage.waker());
         self.asks_to_load_again = false;
@@ -30,14 +30,14 @@ impl Viewer {
     /// Loads the current source again, or asks first if that would put back what was moved.
     pub(super) fn load_again(&mut self, stage: &mut Stage) {
         if stage.moved_nodes().is_empty() {
-            self.load(stage, View::Keep);
+            self.load(stage, ViewChange::Keep);
         } else {
             self.asks_to_load_again = true;
         }
     }
 
     /// Goes to another source, around the ends.
-    pub(super) fn step(&mut self, stage: &mut Stage, by: isize, view: View) {
+    pub(super) fn step(&mut self, stage: &mut Stage, by: isize, view: ViewChange) {
         if self.sources.len() < 2 {
             stage.overlay.notify("there is no other file; drop some onto the window");
             return;
@@ -47,7 +47,7 @@ impl Viewer {
         self.load(stage, view);
     }
 
-    pub(super) fn loaded(&mut self, stage: &mut Stage, outcome: Outcome, view: View) {
+    pub(super) fn loaded(&mut self, stage: &mut Stage, outcome: Outcome, view: ViewChange) {
         let shown = outcome.and_then(|(model, warnings)| {
             self.tell_warnings(stage, &warnings);
             self.show(stage, model, view)
@@ -57,13 +57,13 @@ impl Viewer {
         }
     }
 
-    pub(super) fn show(&mut self, stage: &mut Stage, model: Model, view: View) -> Result<(), Failure> {
+    pub(super) fn show(&mut self, stage: &mut Stage, model: Model, view: ViewChange) -> Result<(), Failure> {
         if let Some(comparing) = &mut self.comparing {
             comparing.stand_beside(stage, model.scene.up);
         }
         let playback = Playback::new(&model.scene, &self.request);
         let bar = playback.as_ref().map_or(0.0, Playback::height);
-        if view == View::Fit || self.shown.is_none() {
+        if view == ViewChange::Fit || self.shown.is_none() {
             let covered = std::mem::replace(&mut stage.covered_below, bar);
             let home = self.home(stage, &model).inspect_err(|_| stage.covered_below = covered)?;
             self.set_home(stage, home);
@@ -138,7 +138,7 @@ impl Viewer {
         }
         self.sources.splice(place..place, files.into_iter().map(|file| Source::Files(vec![file])));
         self.current = place;
-        self.load(stage, View::Fit);
+        self.load(stage, ViewChange::Fit);
     }
 
     /// Goes through all models of the folder of the one that is shown, beginning with that.
@@ -158,7 +158,7 @@ impl Viewer {
         }
         self.sources = files.into_iter().map(|file| Source::Files(vec![file])).collect();
         self.notify(stage, self.name());
-        self.load(stage, View::Fit);
+        self.load(stage, ViewChange::Fit);
     }
 
     /// Nobody waits for what is being loaded any more.

@@ -3,7 +3,7 @@
 use trigon_scene::{Background, EffectSettings, RenderSettings, Shadows};
 use trigon_window::{Action, Stage};
 
-use super::{View, Viewer};
+use super::{ViewChange, Viewer};
 use crate::args::{Request, Step, Template, plain};
 use crate::failure::Failure;
 use crate::framing::Turn;
@@ -46,7 +46,7 @@ impl Viewer {
             },
             Step::Screenshot { file, background } => self.shoot(stage, file.as_deref(), background)?,
             Step::Go(0) => self.load_again(stage),
-            Step::Go(by) => self.step(stage, by, View::Fit),
+            Step::Go(by) => self.step(stage, by, ViewChange::Fit),
             Step::Add(files) => self.add(stage, files),
             Step::SceneInfo => {
                 let lines = self.shown.as_ref().map(|shown| shown.model(stage).summary().lines());
@@ -184,7 +184,7 @@ impl Viewer {
     /// Loads what flags have changed; asks first if objects would go back.
     fn load_changed(&mut self, stage: &mut Stage, is_framed: bool) {
         if is_framed {
-            self.load(stage, View::Fit);
+            self.load(stage, ViewChange::Fit);
         } else {
             self.load_again(stage);
         }

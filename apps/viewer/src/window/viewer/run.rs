@@ -4,7 +4,7 @@ use trigon_camera::UpAxis;
 use trigon_scene::{Background, Display};
 use trigon_window::{Stage, Visibility};
 
-use super::{View, Viewer};
+use super::{ViewChange, Viewer};
 use crate::args::Step;
 use crate::window::commands::Command;
 use crate::window::comparing::Comparing;
@@ -15,10 +15,10 @@ impl Viewer {
         /// Eight presses of a key double the light.
         const BRIGHTER: f32 = 1.090_507_7;
         match command {
-            Command::PreviousFile => self.step(stage, -1, View::Fit),
-            Command::NextFile => self.step(stage, 1, View::Fit),
-            Command::PreviousFileSameView => self.step(stage, -1, View::Keep),
-            Command::NextFileSameView => self.step(stage, 1, View::Keep),
+            Command::PreviousFile => self.step(stage, -1, ViewChange::Fit),
+            Command::NextFile => self.step(stage, 1, ViewChange::Fit),
+            Command::PreviousFileSameView => self.step(stage, -1, ViewChange::Keep),
+            Command::NextFileSameView => self.step(stage, 1, ViewChange::Keep),
             Command::Reload => self.load_again(stage),
             Command::Open => {
                 stage.cheat_sheet = Visibility::Hidden;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use trigon_scene::RenderSettings;
 use trigon_window::Stage;
 
-use super::{View, Viewer};
+use super::{ViewChange, Viewer};
 use crate::args::{CommandLine, DECIDED, PlacedNode, Request, Subject, of_settings, plain};
 use crate::exact_camera::ExactCamera;
 use crate::failure::Failure;
@@ -144,7 +144,7 @@ impl Viewer {
         (self.show_name, self.show_metadata) = (request.overlay.name, request.overlay.metadata);
         (self.sources, self.current) = (Source::all(&request), 0);
         self.request = request;
-        self.load(stage, View::Fit);
+        self.load(stage, ViewChange::Fit);
         Ok(())
     }
 }

@@ -29,7 +29,7 @@ fn a_whole_mesh_shows_what_follows_from_its_vertices() {
     for left_out in [5, 7, 1000] {
         let document = document(left_out);
         let (id, selected) = document.selection().meshes().next().expect("the grid");
-        let shown = ShownMesh::of(&document, id).expect("it is shown");
+        let shown = EditedMeshView::of(&document, id).expect("it is shown");
         let mesh = shown.whole.expect("all of it is shown");
         let found = shown.of_vertices(mesh, selected);
         assert_eq!(found, shown.of_any(selected, ElementKind::Vertex), "without {left_out}");
@@ -48,7 +48,7 @@ fn few_vertices_show_what_many_would() {
     let corners: Vec<u32> = mesh.face_vertices(face).map(|vertex| vertex.index()).collect();
     run(&mut document, json!({ "op": "select", "elements": corners }));
     let (id, selected) = document.selection().meshes().next().expect("the grid");
-    let shown = ShownMesh::of(&document, id).expect("it is shown");
+    let shown = EditedMeshView::of(&document, id).expect("it is shown");
     assert!(!shown.are_many(selected));
     let found = shown.selected(selected, ElementKind::Vertex);
     assert_eq!(found.each_ref().map(|bits| bits.count_ones(..)), [4, 4, 1]);

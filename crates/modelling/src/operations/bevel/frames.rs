@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use smallvec::{SmallVec, smallvec};
 use trigon_math::DVec3;
 
-use super::laid::Part;
+use super::laid::WeightTerm;
 use crate::blends::in_plane;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, FaceId};
@@ -41,15 +41,15 @@ impl Frames {
         mesh: &EditMesh,
         corner: CornerId,
         direction: DVec3,
-    ) -> (DVec3, SmallVec<[Part; 4]>) {
+    ) -> (DVec3, SmallVec<[WeightTerm; 4]>) {
         let frame = self.frame(mesh, mesh.corner_face(corner));
         let offset = frame.normal.cross(direction).normalize_or_zero();
-        let mut parts = smallvec![Part { corner, base: 1.0, slope: 0.0 }];
+        let mut parts = smallvec![WeightTerm { corner, base: 1.0, slope: 0.0 }];
         let [a, b, c] = frame.corners;
         let point = |corner| mesh.point(mesh.corner_vertex(corner));
         if let Some([beta, gamma]) = in_plane(offset, point(b) - point(a), point(c) - point(a)) {
             for (corner, slope) in [(a, -beta - gamma), (b, beta), (c, gamma)] {
-                parts.push(Part { corner, base: 0.0, slope });
+                parts.push(WeightTerm { corner, base: 0.0, slope });
             }
         }
         (offset, parts)

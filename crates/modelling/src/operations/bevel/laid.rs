@@ -7,7 +7,7 @@ use crate::ids::{CornerId, EdgeId, VertexId};
 
 /// A part of a sum: the weight of a corner's value is `base + slope * width`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
+pub(super) struct WeightTerm {
     pub(super) corner: CornerId,
     pub(super) base: f64,
     pub(super) slope: f64,
@@ -108,7 +108,7 @@ pub(super) struct End {
 
 /// All nodes, as they were laid out.
 pub(super) struct Laid {
-    pub(super) parts: Vec<Part>,
+    pub(super) parts: Vec<WeightTerm>,
     /// Where the parts of each sum end.
     pub(super) sums: Vec<u32>,
     pub(super) nodes: Vec<Node>,

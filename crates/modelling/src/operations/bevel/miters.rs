@@ -3,14 +3,14 @@
 use smallvec::SmallVec;
 use trigon_math::DVec3;
 
-use super::laid::{Arc, Insertion, Move, Node, Part, Round, Stop};
+use super::laid::{Arc, Insertion, Move, Node, Round, Stop, WeightTerm};
 use super::nodes::{Layout, Nodes};
 use super::places::STRAIGHT;
 use super::settings::{InnerMiter, OuterMiter};
 use crate::ids::{CornerId, EdgeId, NONE};
 
 /// A place in the plane of a corner's two edges: its offset from the vertex, and the parts of its values.
-type Place = (DVec3, SmallVec<[Part; 4]>);
+type Place = (DVec3, SmallVec<[WeightTerm; 4]>);
 
 /// Two beveled edges of a corner, in the corner's face.
 struct Meeting {
@@ -119,8 +119,8 @@ impl Nodes<'_> {
         let slopes = [(true, alpha), (false, beta)]
             .map(|(is_out, part)| (self.far_corner(corner, is_out), part / self.way(corner, is_out).1));
         let mut parts = SmallVec::new();
-        parts.push(Part { corner, base: 1.0, slope: -slopes[0].1 - slopes[1].1 });
-        parts.extend(slopes.map(|(corner, slope)| Part { corner, base: 0.0, slope }));
+        parts.push(WeightTerm { corner, base: 1.0, slope: -slopes[0].1 - slopes[1].1 });
+        parts.extend(slopes.map(|(corner, slope)| WeightTerm { corner, base: 0.0, slope }));
         (offset, parts)
     }
 }

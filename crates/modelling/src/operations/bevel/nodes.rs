@@ -6,7 +6,7 @@ use trigon_math::DVec3;
 
 use super::fans::Fan;
 use super::frames::Frames;
-use super::laid::{Arc, End, Insertion, Laid, Move, Node, Part, Round, Stop};
+use super::laid::{Arc, End, Insertion, Laid, Move, Node, Round, Stop, WeightTerm};
 use super::rims::Rims;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, NONE, VertexId};
@@ -16,7 +16,7 @@ pub(super) struct Nodes<'m> {
     pub(super) mesh: &'m EditMesh,
     pub(super) frames: Frames,
     pub(super) rims: Rims,
-    parts: Vec<Part>,
+    parts: Vec<WeightTerm>,
     sums: Vec<u32>,
     pub(super) nodes: Vec<Node>,
     pub(super) arcs: Vec<Arc>,
@@ -177,7 +177,7 @@ impl<'m> Nodes<'m> {
             // Two faces alone round a vertex share one curve.
             let is_shared = fan.is_closed && count == 2 && i == 1;
             if !is_shared {
-                let control_sum = self.sum(&[Part { corner, base: 1.0, slope: 0.0 }]);
+                let control_sum = self.sum(&[WeightTerm { corner, base: 1.0, slope: 0.0 }]);
                 let (control, home) = (DVec3::ZERO, CornerId(NONE));
                 self.arcs.push(Arc { first: here, last: next, control, control_sum, home });
             }
@@ -236,7 +236,7 @@ impl<'m> Nodes<'m> {
     }
 
     /// Adds a sum; its number.
-    pub(super) fn sum(&mut self, parts: &[Part]) -> u32 {
+    pub(super) fn sum(&mut self, parts: &[WeightTerm]) -> u32 {
         self.parts.extend_from_slice(parts);
         self.sums.push(self.parts.len() as u32);
         self.sums.len() as u32 - 1

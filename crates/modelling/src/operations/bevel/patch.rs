@@ -16,7 +16,7 @@ use crate::ids::{CornerId, NONE};
 
 /// One side of a grid: a node, and the curve from it to the next node.
 #[derive(Debug, Clone, Copy)]
-struct Side {
+struct GridSide {
     node: u32,
     home: CornerId,
     arc: u32,
@@ -25,8 +25,8 @@ struct Side {
 }
 
 /// The points of a grid within its border.
-struct Grid {
-    sides: SmallVec<[Side; 8]>,
+struct PatchGrid {
+    sides: SmallVec<[GridSide; 8]>,
     /// How many steps each part has along a curve.
     half: usize,
     is_even: bool,
@@ -67,11 +67,11 @@ impl Plan<'_> {
         }
     }
 
-    fn sides(&self, round: &Round, width: f64) -> SmallVec<[Side; 8]> {
-        let mut sides = SmallVec::<[Side; 8]>::new();
+    fn sides(&self, round: &Round, width: f64) -> SmallVec<[GridSide; 8]> {
+        let mut sides = SmallVec::<[GridSide; 8]>::new();
         for stop in self.stops(round) {
             if stop.arc != NONE {
-                sides.push(Side {
+                sides.push(GridSide {
                     node: stop.right,
                     home: self.out.laid.nodes[stop.right as usize].home,
                     arc: stop.arc,
@@ -83,7 +83,7 @@ impl Plan<'_> {
         sides
     }
 
-    fn add_grid_face(&mut self, round: &Round, grid: &Grid, side: usize, points: &[u32]) {
+    fn add_grid_face(&mut self, round: &Round, grid: &PatchGrid, side: usize, points: &[u32]) {
         let home = grid.sides[side].home;
         let corners: SmallVec<[NewCorner; 8]> =
             points.iter().map(|&point| self.corner_in_middle(round, home, point)).collect();
@@ -92,7 +92,7 @@ impl Plan<'_> {
     }
 
     /// Makes the points within a grid.
-    fn grid_points(&mut self, sides: SmallVec<[Side; 8]>, profile: &Profile) -> Grid {
+    fn grid_points(&mut self, sides: SmallVec<[GridSide; 8]>, profile: &Profile) -> PatchGrid {
         let half = self.out.segments / 2;
         let is_even = self.out.segments.is_multiple_of(2);
         // For an even number the last row belongs to the neighbour, and the last point to all.
@@ -107,11 +107,11 @@ impl Plan<'_> {
             }
         }
         let center = if is_even { self.add_inner(&sides, 0, [1.0, 1.0], profile) } else { NONE };
-        Grid { sides, half, is_even, inner, inner_rows, center }
+        PatchGrid { sides, half, is_even, inner, inner_rows, center }
     }
 
     /// A point of the part at one node: `a` steps towards the next node, `b` towards the one before.
-    fn grid_point(&self, grid: &Grid, side: usize, a: usize, b: usize) -> u32 {
+    fn grid_point(&self, grid: &PatchGrid, side: usize, a: usize, b: usize) -> u32 {
         let count = grid.sides.len();
         let before = (side + count - 1) % count;
         if b == 0 {
@@ -128,7 +128,7 @@ impl Plan<'_> {
     }
 
     /// Adds a point whose coordinates have given ratios to that of its own node.
-    fn add_inner(&mut self, sides: &[Side], side: usize, ratios: [f64; 2], profile: &Profile) -> u32 {
+    fn add_inner(&mut self, sides: &[GridSide], side: usize, ratios: [f64; 2], profile: &Profile) -> u32 {
         let count = sides.len();
         // The others are as large as both ratios allow: none on the curves, all alike in the centre.
         let mut coordinates: SmallVec<[f64; 8]> = SmallVec::from_elem(ratios[0] * ratios[1], count);

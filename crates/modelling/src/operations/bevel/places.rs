@@ -3,7 +3,7 @@
 use smallvec::{SmallVec, smallvec};
 use trigon_math::DVec3;
 
-use super::laid::{Node, Part};
+use super::laid::{Node, WeightTerm};
 use super::nodes::Nodes;
 use crate::ids::{CornerId, VertexId};
 
@@ -42,7 +42,7 @@ impl Nodes<'_> {
     }
 
     /// Where the rims of two beveled edges meet in the one face between them.
-    pub(super) fn meeting(&mut self, corner: CornerId) -> (DVec3, SmallVec<[Part; 4]>) {
+    pub(super) fn meeting(&mut self, corner: CornerId) -> (DVec3, SmallVec<[WeightTerm; 4]>) {
         let (out, out_length) = self.way(corner, true);
         let (into, into_length) = self.way(corner, false);
         let rims = [self.rim(corner, true), self.rim(corner, false)];
@@ -58,7 +58,7 @@ impl Nodes<'_> {
             let parts = smallvec![
                 self.toward(corner, true, slopes[0]),
                 self.toward(corner, false, slopes[1]),
-                Part { corner, base: 1.0, slope: -slopes[0] - slopes[1] },
+                WeightTerm { corner, base: 1.0, slope: -slopes[0] - slopes[1] },
             ];
             return (out * along_out + into * along_into, parts);
         }
@@ -73,12 +73,17 @@ impl Nodes<'_> {
         (out * rim, self.parts_on_edge(corner, true, rim))
     }
 
-    fn toward(&self, corner: CornerId, is_out: bool, slope: f64) -> Part {
-        Part { corner: self.far_corner(corner, is_out), base: 0.0, slope }
+    fn toward(&self, corner: CornerId, is_out: bool, slope: f64) -> WeightTerm {
+        WeightTerm { corner: self.far_corner(corner, is_out), base: 0.0, slope }
     }
 
     /// The parts of a place on an edge of a corner, at a distance times the width.
-    pub(super) fn parts_on_edge(&self, corner: CornerId, is_out: bool, distance: f64) -> SmallVec<[Part; 4]> {
+    pub(super) fn parts_on_edge(
+        &self,
+        corner: CornerId,
+        is_out: bool,
+        distance: f64,
+    ) -> SmallVec<[WeightTerm; 4]> {
         let length = self.way(corner, is_out).1;
         self.parts_toward(corner, is_out, distance, length)
     }
@@ -90,9 +95,9 @@ impl Nodes<'_> {
         is_out: bool,
         distance: f64,
         length: f64,
-    ) -> SmallVec<[Part; 4]> {
+    ) -> SmallVec<[WeightTerm; 4]> {
         let slope = if length > 0.0 { distance / length } else { 0.0 };
-        smallvec![Part { corner, base: 1.0, slope: -slope }, self.toward(corner, is_out, slope)]
+        smallvec![WeightTerm { corner, base: 1.0, slope: -slope }, self.toward(corner, is_out, slope)]
     }
 
     /// Adds the sum for a place on an edge of a corner.

@@ -12,7 +12,7 @@ const SNAP: f64 = 1e-6;
 
 /// Where a path meets the sides of faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Stop {
+enum PathPoint {
     Vertex(VertexId),
     /// On an edge, at a share of the way from its first end.
     Edge(EdgeId, f64),
@@ -37,8 +37,8 @@ impl EditMesh {
         let mut last = from;
         for stop in stops {
             let here = match stop {
-                Stop::Vertex(vertex) => vertex,
-                Stop::Edge(edge, t) => {
+                PathPoint::Vertex(vertex) => vertex,
+                PathPoint::Edge(edge, t) => {
                     let split = self.split_edge(edge, t)?;
                     connected.vertices.push(split.vertex);
                     split.vertex
@@ -71,22 +71,22 @@ impl EditMesh {
     }
 
     /// All stops after the first vertex, the last vertex included.
-    fn find_path(&self, from: VertexId, to: VertexId) -> Result<Vec<Stop>, Refusal> {
+    fn find_path(&self, from: VertexId, to: VertexId) -> Result<Vec<PathPoint>, Refusal> {
         let refused = |reason| Err(Refusal::NotPossible { operation: CONNECTING, reason });
         let Some(plane) = self.path_plane(from, to) else {
             return refused("the two positions and their normals define no plane");
         };
-        let (mut stops, mut here, mut came_through) = (Vec::new(), Stop::Vertex(from), None);
+        let (mut stops, mut here, mut came_through) = (Vec::new(), PathPoint::Vertex(from), None);
         // The path only goes forwards, so it ends; the bound is for places that are not finite.
         for _ in 0..=self.edge_count() {
             let faces: Vec<FaceId> = match here {
-                Stop::Vertex(vertex) => self.vertex_faces(vertex).collect(),
-                Stop::Edge(edge, _) => {
+                PathPoint::Vertex(vertex) => self.vertex_faces(vertex).collect(),
+                PathPoint::Edge(edge, _) => {
                     self.edge_faces(edge).filter(|&face| Some(face) != came_through).collect()
                 }
             };
             if faces.iter().any(|&face| self.face_corner_at(face, to).is_some()) {
-                stops.push(Stop::Vertex(to));
+                stops.push(PathPoint::Vertex(to));
                 return Ok(stops);
             }
             let reached = plane.progress(self.place(here));
@@ -118,10 +118,10 @@ impl EditMesh {
         Some(Plane { origin, normal, direction })
     }
 
-    fn place(&self, stop: Stop) -> DVec3 {
+    fn place(&self, stop: PathPoint) -> DVec3 {
         match stop {
-            Stop::Vertex(vertex) => self.point(vertex),
-            Stop::Edge(edge, t) => {
+            PathPoint::Vertex(vertex) => self.point(vertex),
+            PathPoint::Edge(edge, t) => {
                 let [a, b] = self.edge_vertices(edge).map(|vertex| self.point(vertex));
                 a * (1.0 - t) + b * t
             }
@@ -129,10 +129,15 @@ impl EditMesh {
     }
 
     /// Where the plane meets the sides of a face that do not touch a stop.
-    fn exits<'a>(&'a self, face: FaceId, here: Stop, plane: &'a Plane) -> impl Iterator<Item = Stop> + 'a {
+    fn exits<'a>(
+        &'a self,
+        face: FaceId,
+        here: PathPoint,
+        plane: &'a Plane,
+    ) -> impl Iterator<Item = PathPoint> + 'a {
         let touches = move |edge: EdgeId| match here {
-            Stop::Vertex(vertex) => self.edge_vertices(edge).contains(&vertex),
-            Stop::Edge(other, _) => edge == other,
+            PathPoint::Vertex(vertex) => self.edge_vertices(edge).contains(&vertex),
+            PathPoint::Edge(other, _) => edge == other,
         };
         self.face_corners(face).filter_map(move |corner: CornerId| {
             let edge = self.corner_edge(corner);
@@ -147,11 +152,11 @@ impl EditMesh {
                 return None;
             }
             Some(if t < SNAP {
-                Stop::Vertex(a)
+                PathPoint::Vertex(a)
             } else if t > 1.0 - SNAP {
-                Stop::Vertex(b)
+                PathPoint::Vertex(b)
             } else {
-                Stop::Edge(edge, t)
+                PathPoint::Edge(edge, t)
             })
         })
     }

@@ -62,11 +62,11 @@ fn area(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i64 {
 impl Triangle<'_> {
     /// The corners' shares at the centre of a pixel, if it is covered.
     fn weights(&self, x: i32, y: i32) -> Option<[f64; 3]> {
-        let centre = [i64::from(x) * 256 + 128, i64::from(y) * 256 + 128];
+        let center = [i64::from(x) * 256 + 128, i64::from(y) * 256 + 128];
         let [a, b, c] = self.points;
         let whole = area(a, b, c);
         let shares = [(b, c), (c, a), (a, b)].map(|(from, to)| {
-            let share = area(from, to, centre) * whole.signum();
+            let share = area(from, to, center) * whole.signum();
             // With the inside to the right of the way.
             let way = [(to[0] - from[0]) * whole.signum(), (to[1] - from[1]) * whole.signum()];
             let left_or_top = way[1] < 0 || (way[1] == 0 && way[0] > 0);

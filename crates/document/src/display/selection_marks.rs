@@ -13,7 +13,7 @@ use trigon_scene::{
 };
 
 use super::bits::{all, bits};
-use super::selected::ShownMesh;
+use super::selected::EditedMeshView;
 use crate::document::Document;
 use crate::selection::{ElementKind, MeshSelection, Selection};
 
@@ -140,7 +140,7 @@ fn edit_marks(document: &Document) -> Marks {
 impl Sets {
     /// The elements of an edited object.
     fn add(&mut self, document: &Document, node: NodeId, id: MeshId, selected: &MeshSelection) {
-        let Some(shown) = ShownMesh::of(document, id) else { return };
+        let Some(shown) = EditedMeshView::of(document, id) else { return };
         let (kind, numbers) = (document.selection().kind(), shown.numbers);
         for (sets, bits) in self.selected.iter_mut().zip(shown.selected(selected, kind)) {
             sets.add(node, bits);
