@@ -77,9 +77,9 @@ impl Bvh {
             return (!items.is_empty()).then(|| Child::leaf(self.leaves.len() - 1));
         }
         let mut node = Node::EMPTY;
-        for (place, (Extent { min, max }, part)) in parts(items).into_iter().enumerate() {
+        for (slot, (Extent { min, max }, part)) in parts(items).into_iter().enumerate() {
             if let Some(child) = self.grow(part, triangles) {
-                node.set(place, min, max, child);
+                node.set(slot, min, max, child);
             }
         }
         self.nodes.push(node);
@@ -96,7 +96,7 @@ fn parts(items: &mut [Item]) -> Vec<(Extent, &mut [Item])> {
             if items.len() > WIDTH { extent.half_area() } else { f32::NEG_INFINITY }
         };
         let largest = (1..parts.len())
-            .fold(0, |best, place| if worth(&parts[place]) > worth(&parts[best]) { place } else { best });
+            .fold(0, |best, index| if worth(&parts[index]) > worth(&parts[best]) { index } else { best });
         if parts[largest].1.len() <= WIDTH {
             break;
         }
@@ -135,8 +135,8 @@ fn parted(items: &mut [Item]) -> usize {
         return half;
     }
     let bin = |item: &Item| {
-        let place = (item.middle()[axis] - middles.min[axis]) * scale;
-        if place < BINS as f32 { place as usize } else { BINS - 1 }
+        let bin = (item.middle()[axis] - middles.min[axis]) * scale;
+        if bin < BINS as f32 { bin as usize } else { BINS - 1 }
     };
     let border = border(items, bin);
     // Stable, so that the order is unique.

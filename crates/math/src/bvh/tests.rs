@@ -265,15 +265,15 @@ fn the_same_triangles_many_times_do_not_make_a_deep_tree() {
 fn leaves_hold_what_lies_together() {
     const HEAPS: u32 = 32;
     for axis in 0..3 {
-        let place = |number: u32| {
-            let mut place = Vec3::splat((number / HEAPS) as f32 * 0.1);
+        let offset = |number: u32| {
+            let mut offset = Vec3::splat((number / HEAPS) as f32 * 0.1);
             // Any order: 13 has no divisor in common with the number of heaps.
-            place[axis] += 10.0 * (number * 13 % HEAPS) as f32;
-            place
+            offset[axis] += 10.0 * (number * 13 % HEAPS) as f32;
+            offset
         };
         let triangle = |number: u32| {
             [Vec3::ZERO, Vec3::new(1.0, 0.5, 0.0), Vec3::new(0.0, 1.0, 0.5)]
-                .map(|corner| corner + place(number))
+                .map(|corner| corner + offset(number))
         };
         let triangles: Vec<[Vec3; 3]> = (0..4 * HEAPS).map(triangle).collect();
         let tree = Bvh::new(&triangles);

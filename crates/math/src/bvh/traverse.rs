@@ -89,12 +89,12 @@ impl Bvh {
                 Inside::Leaf(number) => {
                     let leaf = &self.leaves[number];
                     let met = sheared.meet(&leaf.corners);
-                    for place in 0..WIDTH {
-                        let distance = met.distances[place];
+                    for slot in 0..WIDTH {
+                        let distance = met.distances[slot];
                         // False for NaN, which means a miss.
                         if distance >= start && distance <= *end {
-                            let triangle = leaf.numbers[place];
-                            let weights = met.weights.map(|weight| weight[place]);
+                            let triangle = leaf.numbers[slot];
+                            let weights = met.weights.map(|weight| weight[slot]);
                             if found(RayHit { distance, triangle, weights }, end) {
                                 return;
                             }
@@ -146,16 +146,16 @@ impl Slabs {
         for axis in 0..3 {
             let (origin, first) = (self.origin[axis], self.first[axis]);
             let (near, far) = (&node.sides[axis][first], &node.sides[axis][1 - first]);
-            for place in 0..WIDTH {
+            for slot in 0..WIDTH {
                 // A ray within a side of a box gives NaN, and passes the test.
-                let near = (near[place] - origin) * self.inverse[axis];
-                from[place] = if near > from[place] { near } else { from[place] };
-                let far = (far[place] - origin) * self.wider[axis];
-                to[place] = if far < to[place] { far } else { to[place] };
+                let near = (near[slot] - origin) * self.inverse[axis];
+                from[slot] = if near > from[slot] { near } else { from[slot] };
+                let far = (far[slot] - origin) * self.wider[axis];
+                to[slot] = if far < to[slot] { far } else { to[slot] };
             }
         }
         let outside = self.outside;
-        std::array::from_fn(|place| if from[place] <= to[place] + outside { from[place] } else { f32::NAN })
+        std::array::from_fn(|slot| if from[slot] <= to[slot] + outside { from[slot] } else { f32::NAN })
     }
 }
 
@@ -192,16 +192,16 @@ impl Waiting {
             self.make_room();
         }
         let first = self.count;
-        for place in 0..WIDTH {
+        for slot in 0..WIDTH {
             // Without branches: a box that is not entered is overwritten by the next.
-            self.few[self.count % Self::FEW] = (entered[place], children[place]);
-            self.count += usize::from(!entered[place].is_nan());
+            self.few[self.count % Self::FEW] = (entered[slot], children[slot]);
+            self.count += usize::from(!entered[slot].is_nan());
         }
         for end in first + 1..self.count {
-            let mut place = end % Self::FEW;
-            while place > first && self.few[place - 1].0 < self.few[place].0 {
-                self.few.swap(place - 1, place);
-                place -= 1;
+            let mut slot = end % Self::FEW;
+            while slot > first && self.few[slot - 1].0 < self.few[slot].0 {
+                self.few.swap(slot - 1, slot);
+                slot -= 1;
             }
         }
     }

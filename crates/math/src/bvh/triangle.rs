@@ -59,8 +59,8 @@ impl ShearedRay {
     }
 
     /// The distance along the ray to a coordinate on that axis.
-    pub(super) fn distance_along(&self, place: f32) -> f32 {
-        (place - self.origin[self.axes[2]]) * self.shear[2]
+    pub(super) fn distance_along(&self, coordinate: f32) -> f32 {
+        (coordinate - self.origin[self.axes[2]]) * self.shear[2]
     }
 
     /// The hits of the ray on four triangles.
@@ -86,7 +86,7 @@ impl ShearedRay {
     /// signs of their differences are right, and barycentrics are within one f32 rounding even if
     /// the triangle is seen from its edge.
     #[cold]
-    fn meet_exactly(&self, [a, b, c]: [[f32; 3]; 3], place: usize, met: &mut MetFour) {
+    fn meet_exactly(&self, [a, b, c]: [[f32; 3]; 3], slot: usize, met: &mut MetFour) {
         let exact =
             |p: [f32; 3], q: [f32; 3]| f64::from(p[0]) * f64::from(q[1]) - f64::from(p[1]) * f64::from(q[0]);
         let [u, v, w] = [exact(c, b), exact(a, c), exact(b, a)];
@@ -98,9 +98,9 @@ impl ShearedRay {
         let along = u * f64::from(a[2]) + v * f64::from(b[2]) + w * f64::from(c[2]);
         let distance = (along / sum * f64::from(self.shear[2])) as f32;
         if distance.is_finite() {
-            met.distances[place] = distance;
+            met.distances[slot] = distance;
             for (weights, edge) in met.weights.iter_mut().zip([u, v, w]) {
-                weights[place] = (edge / sum) as f32;
+                weights[slot] = (edge / sum) as f32;
             }
         }
     }
@@ -109,7 +109,7 @@ impl ShearedRay {
     fn sheared(&self, corner: &[Four; 3]) -> [Four; 3] {
         let [x, y, z] = self.axes.map(|axis| {
             let origin = self.origin[axis];
-            corner[axis].map(|place| place - origin)
+            corner[axis].map(|coordinate| coordinate - origin)
         });
         let [across, down, _] = self.shear;
         let x = std::array::from_fn(|i| x[i] - across * z[i]);

@@ -60,12 +60,12 @@ impl Node {
         children: [Child(0); WIDTH],
     };
 
-    pub(super) fn set(&mut self, place: usize, min: Vec3, max: Vec3, child: Child) {
+    pub(super) fn set(&mut self, slot: usize, min: Vec3, max: Vec3, child: Child) {
         for axis in 0..3 {
-            self.sides[axis][0][place] = min[axis];
-            self.sides[axis][1][place] = max[axis];
+            self.sides[axis][0][slot] = min[axis];
+            self.sides[axis][1][slot] = max[axis];
         }
-        self.children[place] = child;
+        self.children[slot] = child;
     }
 }
 
@@ -73,11 +73,11 @@ impl Leaf {
     /// Entries beyond the triangles hold NaN, and no ray hits them.
     pub(super) fn new(triangles: impl Iterator<Item = (u32, [Vec3; 3])>) -> Self {
         let mut leaf = Self { corners: [[[f32::NAN; WIDTH]; 3]; 3], numbers: [u32::MAX; WIDTH] };
-        for (place, (number, corners)) in triangles.take(WIDTH).enumerate() {
-            leaf.numbers[place] = number;
+        for (slot, (number, corners)) in triangles.take(WIDTH).enumerate() {
+            leaf.numbers[slot] = number;
             for (of_all, corner) in leaf.corners.iter_mut().zip(corners) {
                 for axis in 0..3 {
-                    of_all[axis][place] = corner[axis];
+                    of_all[axis][slot] = corner[axis];
                 }
             }
         }

@@ -123,8 +123,8 @@ impl Polygon {
     fn rounded(&self) -> ClipPolygon {
         let mut result = ClipPolygon::EMPTY;
         if self.count >= 3 {
-            for (place, vertex) in result.vertices.iter_mut().zip(&self.vertices[..self.count]) {
-                *place = vertex.rounded();
+            for (rounded, vertex) in result.vertices.iter_mut().zip(&self.vertices[..self.count]) {
+                *rounded = vertex.rounded();
             }
             result.count = self.count;
         }

@@ -52,9 +52,9 @@ fn the_mathematical_plane_turns_counter_clockwise() {
 fn no_turn_is_proven_with_a_coordinate_that_is_not_finite() {
     let values = [0.0, 1.0, -3.0, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
     for number in 0..values.len().pow(6) {
-        let value = |place: u32| values[number / values.len().pow(place) % values.len()];
+        let value = |digit: u32| values[number / values.len().pow(digit) % values.len()];
         let [a, b, c] = [0, 2, 4].map(|first| DVec2::new(value(first), value(first + 1)));
-        if (0..6).any(|place| !value(place).is_finite()) {
+        if (0..6).any(|digit| !value(digit).is_finite()) {
             assert_eq!(orientation(a, b, c), Orientation::Collinear, "{a} {b} {c}");
         }
     }
