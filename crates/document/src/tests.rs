@@ -303,8 +303,8 @@ fn placed_document() -> Document {
     let object = scene.add_object("cube", primitives::cube(2.0), Material::default());
     let quarter =
         DQuat::from_xyzw(0.0, std::f64::consts::FRAC_1_SQRT_2, 0.0, std::f64::consts::FRAC_1_SQRT_2);
-    let (scale, place) = (DVec3::new(2.0, 1.0, 1.0), DVec3::X * 10.0);
-    let placement = trigon_scene::Transform::from_scale_rotation_translation(scale, quarter, place);
+    let (scale, offset) = (DVec3::new(2.0, 1.0, 1.0), DVec3::X * 10.0);
+    let placement = trigon_scene::Transform::from_scale_rotation_translation(scale, quarter, offset);
     scene.node_mut(object).expect("it was just added").transform = placement;
     Document::new(scene)
 }
@@ -367,20 +367,20 @@ fn objects_that_hang_on_each_other_are_moved_once_in_the_world() {
             json!({ "op": "select_all" }),
         ],
     );
-    let places = |document: &Document| {
+    let positions = |document: &Document| {
         let scene = document.nodes();
         scene.nodes().iter().map(|(id, _)| scene.world_transform(id).translation).collect::<Vec<_>>()
     };
-    let before = places(&document);
+    let before = positions(&document);
     run_all(&mut document, &[json!({ "op": "translate", "offset": [0, 0, 4], "space": "world" })]);
-    for (from, to) in before.iter().zip(places(&document)) {
+    for (from, to) in before.iter().zip(positions(&document)) {
         assert!(to.distance(*from + DVec3::Z * 4.0) < 1e-12, "{from} goes to {to}");
     }
     run_all(
         &mut document,
         &[json!({ "op": "rotate", "angle": 180, "axis": [0, 1, 0], "center": [0, 0, 0], "space": "world" })],
     );
-    for (from, to) in before.into_iter().zip(places(&document)) {
+    for (from, to) in before.into_iter().zip(positions(&document)) {
         let expected = DVec3::new(-from.x, from.y, -from.z - 4.0);
         assert!(to.distance(expected) < 1e-12, "{from} goes to {to}");
     }
@@ -425,13 +425,13 @@ fn vertices_slide_along_the_edge_in_a_direction() {
         &mut document,
         &[json!({ "op": "edit_objects", "objects": ["grid"] }), json!({ "op": "select", "elements": [6] })],
     );
-    let place = |document: &Document| {
+    let position = |document: &Document| {
         let (id, _) = document.selection().meshes().next().expect("it is edited");
         document.mesh(id).expect("it is edited").position(trigon_modelling::VertexId::new(6))
     };
-    let before = place(&document);
+    let before = position(&document);
     run_all(&mut document, &[json!({ "op": "slide_vertices", "factor": 0.5, "direction": [1, 0, 0.2] })]);
-    let way = place(&document) - before;
+    let way = position(&document) - before;
     assert_eq!((way.x, way.y, way.z), (0.25, 0.0, 0.0), "half of a quad of half a metre");
 }
 

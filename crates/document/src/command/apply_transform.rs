@@ -122,7 +122,7 @@ mod tests {
     use crate::tests::commands::try_run as run;
 
     /// Where all vertices and the child are in the world.
-    fn places(document: &mut Document) -> Vec<DVec3> {
+    fn positions(document: &mut Document) -> Vec<DVec3> {
         let scene = document.scene().clone();
         let ids: Vec<NodeId> = scene.nodes().iter().map(|(id, _)| id).collect();
         let mesh = scene.meshes().iter().next().expect("the cube").1.mesh();
@@ -152,11 +152,11 @@ mod tests {
         for parts in [["location", "rotation", "scale"].as_slice(), &["scale"], &["rotation"], &["location"]]
         {
             let (mut document, cube) = document();
-            let before = places(&mut document);
+            let before = positions(&mut document);
             let mut command = json!({ "op": "apply_transform" });
             parts.iter().for_each(|part| command[*part] = json!(true));
             run(&mut document, command).expect("it can be done");
-            for (was, is) in before.iter().zip(places(&mut document)) {
+            for (was, is) in before.iter().zip(positions(&mut document)) {
                 assert!(was.abs_diff_eq(is, 1e-5), "{parts:?}: {was} is at {is}, but for rounding to f32");
             }
             let placed = document.nodes().node(cube).expect("it stays").transform;
@@ -164,7 +164,7 @@ mod tests {
                 assert_eq!(placed, Transform::IDENTITY, "all of it");
             }
             document.undo().expect("one entry");
-            assert_eq!(places(&mut document), before, "{parts:?} undone");
+            assert_eq!(positions(&mut document), before, "{parts:?} undone");
         }
     }
 

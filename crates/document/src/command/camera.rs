@@ -35,8 +35,8 @@ impl Action for AddCamera {
         if change.selection().is_editing() {
             return Err(EditError::Editing("adding a camera"));
         }
-        let (turn, place) = (self.rotation.to_quaternion(), DVec3::from(self.position));
-        let transform = Transform::from_scale_rotation_translation(DVec3::ONE, turn, place);
+        let (turn, position) = (self.rotation.to_quaternion(), DVec3::from(self.position));
+        let transform = Transform::from_scale_rotation_translation(DVec3::ONE, turn, position);
         let mut node = Node::default().with_name(self.name.clone()).with_transform(transform);
         node.camera = Some(Projection::default());
         let id = change.scene_mut().add(node);

@@ -172,9 +172,9 @@ impl Action for SlideVertices {
 /// The edge of a vertex that is closest to a direction; the first one if there are several.
 #[must_use]
 pub fn edge_towards(mesh: &EditMesh, vertex: VertexId, direction: DVec3) -> Option<EdgeId> {
-    let place = mesh.position(vertex).as_dvec3();
+    let position = mesh.position(vertex).as_dvec3();
     let alike = |edge: EdgeId| {
-        let way = mesh.position(mesh.other_vertex(edge, vertex)).as_dvec3() - place;
+        let way = mesh.position(mesh.other_vertex(edge, vertex)).as_dvec3() - position;
         way.normalize_or_zero().dot(direction)
     };
     let edges = mesh.vertex_edges(vertex).map(|edge| (alike(edge), edge));

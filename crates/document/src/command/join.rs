@@ -127,8 +127,8 @@ impl Slots {
         let known = material.filter(|&id| scene.materials.get(id).is_some());
         let material = known
             .unwrap_or_else(|| *self.default.get_or_insert_with(|| scene.add_material(Material::default())));
-        let place = self.materials.iter().position(|&other| other == material);
-        let slot = place.unwrap_or_else(|| {
+        let index = self.materials.iter().position(|&other| other == material);
+        let slot = index.unwrap_or_else(|| {
             self.materials.push(material);
             self.materials.len() - 1
         });

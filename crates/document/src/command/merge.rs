@@ -52,9 +52,9 @@ impl Action for Merge {
             if kind == ElementKind::Vertex {
                 // In the order of selection, as far as it is known.
                 let order: Vec<VertexId> = selection.order().iter().map(|&v| VertexId::new(v)).collect();
-                let place = |vertex: &VertexId| order.iter().rposition(|other| other == vertex);
+                let rank = |vertex: &VertexId| order.iter().rposition(|other| other == vertex);
                 if !order.is_empty() {
-                    vertices.sort_by_key(place);
+                    vertices.sort_by_key(rank);
                 }
             }
             let merged = match self.at {

@@ -111,18 +111,18 @@ pub(super) fn islands(mesh: &EditMesh, selection: &MeshSelection, kind: ElementK
         }
     }
     let mut groups: Vec<Vec<VertexId>> = vec![Vec::new(); vertices.len()];
-    for (place, &vertex) in vertices.iter().enumerate() {
-        groups[lowest(&mut first, place)].push(vertex);
+    for (index, &vertex) in vertices.iter().enumerate() {
+        groups[lowest(&mut first, index)].push(vertex);
     }
     groups.retain(|group| !group.is_empty());
     groups
 }
 
 /// The lowest entry of a group; paths are shortened along the way.
-fn lowest(first: &mut [usize], mut place: usize) -> usize {
-    while first[place] != place {
-        first[place] = first[first[place]];
-        place = first[place];
+fn lowest(first: &mut [usize], mut index: usize) -> usize {
+    while first[index] != index {
+        first[index] = first[first[index]];
+        index = first[index];
     }
-    place
+    index
 }

@@ -127,10 +127,10 @@ mod tests {
 
     proptest! {
         #[test]
-        fn damage_costs_what_comes_after_it_and_nothing_else(place in any::<prop::sample::Index>(), change in 1u8..) {
+        fn damage_costs_what_comes_after_it_and_nothing_else(index in any::<prop::sample::Index>(), change in 1u8..) {
             let (mut bytes, events) = file();
-            let place = place.index(bytes.len());
-            bytes[place] ^= change;
+            let index = index.index(bytes.len());
+            bytes[index] ^= change;
             if let Ok(log) = RecoveryLog::read(&bytes) {
                 prop_assert_eq!(&log.events[..], &events[..log.events.len()]);
                 prop_assert!(log.is_cut_off, "it is said");

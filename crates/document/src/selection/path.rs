@@ -137,8 +137,8 @@ mod tests {
     fn vertices_at_one_place_do_not_make_a_path_a_circle() {
         let mut mesh = EditMesh::new();
         // The last two are in the same place, and the first of them is connected to both others.
-        let places = [0.0, 3.0, 1.0, 3.0].map(|x| trigon_mesh::math::Vec3::new(x, 0.0, 0.0));
-        let vertices = places.map(|place| mesh.add_vertex(place).expect("room"));
+        let positions = [0.0, 3.0, 1.0, 3.0].map(|x| trigon_mesh::math::Vec3::new(x, 0.0, 0.0));
+        let vertices = positions.map(|position| mesh.add_vertex(position).expect("room"));
         let [start, low, middle, high] = vertices;
         for [a, b] in [[start, middle], [middle, high], [high, low]] {
             mesh.add_edge(a, b).expect("room");

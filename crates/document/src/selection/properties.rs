@@ -77,9 +77,9 @@ pub fn faces_of_material(mesh: &EditMesh, material: u32) -> Elements {
 pub fn similar(mesh: &EditMesh, given: &Elements, what: Similarity, tolerance: f64) -> Elements {
     let near = |values: &[f64], value: f64| {
         // The values are sorted: the nearest ones are next to the insertion point.
-        let place = values.partition_point(|&other| other < value);
+        let index = values.partition_point(|&other| other < value);
         let is_near = |other: &f64| (other - value).abs() <= tolerance * other.abs().max(value.abs());
-        values[..place].last().is_some_and(is_near) || values[place..].first().is_some_and(is_near)
+        values[..index].last().is_some_and(is_near) || values[index..].first().is_some_and(is_near)
     };
     let sorted = |mut values: Vec<f64>| {
         values.sort_by(f64::total_cmp);

@@ -7,12 +7,12 @@ use super::*;
 /// A document with cubes of these names at different places, and their nodes.
 fn cubes<const COUNT: usize>(names: [&str; COUNT]) -> (Scene, [trigon_scene::NodeId; COUNT]) {
     let mut scene = Scene::new();
-    let mut place = 0.0;
+    let mut x = 0.0;
     let nodes = names.map(|name| {
         let node = scene.add_object(name, primitives::cube(1.0), Material::default());
-        place += 3.0;
+        x += 3.0;
         let transform = &mut scene.node_mut(node).expect("just added").transform;
-        transform.set_translation(DVec3::new(place, 0.0, 0.0));
+        transform.set_translation(DVec3::new(x, 0.0, 0.0));
         node
     });
     (scene, nodes)
@@ -83,7 +83,7 @@ fn objects_that_hang_on_joined_ones_stay_where_they_are() {
     scene.node_mut(base).expect("there").transform.rotate(DVec3::Z, 0.5);
     scene.set_parent(active, Some(base)).expect("no circle");
     scene.set_parent(hanging, Some(base)).expect("no circle");
-    let place = scene.world_transform(hanging);
+    let before = scene.world_transform(hanging);
     let mut document = Document::new(scene);
     run_all(
         &mut document,
@@ -91,7 +91,7 @@ fn objects_that_hang_on_joined_ones_stay_where_they_are() {
     );
     let scene = document.scene();
     assert!(scene.node(base).is_none() && scene.node(active).is_some(), "the active one stays");
-    let moved = scene.world_transform(hanging).translation - place.translation;
+    let moved = scene.world_transform(hanging).translation - before.translation;
     assert!(moved.length() < 1e-12, "a few roundings of places of about ten metres");
     let mesh = scene.node(active).and_then(|node| node.mesh).expect("it has one");
     assert_eq!(document.mesh(mesh).expect("joined").face_count(), 12);
@@ -117,8 +117,8 @@ fn joined_faces_keep_their_materials_where_the_active_object_has_none() {
 #[test]
 fn corners_that_are_left_out_are_told() {
     let mut builder = trigon_mesh::MeshBuilder::new();
-    for place in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
-        builder.push_vertex(trigon_mesh::math::Vec3::new(place[0], place[1], 0.0));
+    for corner in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
+        builder.push_vertex(trigon_mesh::math::Vec3::new(corner[0], corner[1], 0.0));
     }
     builder.push_face(&[0, 1, 1, 2]).expect("a face may repeat a vertex");
     let mut scene = Scene::new();

@@ -41,8 +41,8 @@ fn selected(document: &Document) -> Vec<u32> {
 }
 
 /// The number of the vertex at this place.
-fn vertex_at(mesh: &EditMesh, place: Vec3) -> VertexId {
-    mesh.vertices().find(|&vertex| mesh.position(vertex) == place).expect("a vertex")
+fn vertex_at(mesh: &EditMesh, position: Vec3) -> VertexId {
+    mesh.vertices().find(|&vertex| mesh.position(vertex) == position).expect("a vertex")
 }
 
 fn message(document: &mut Document, json: serde_json::Value) -> String {
@@ -125,8 +125,8 @@ fn an_object_turns_in_the_world_within_an_unevenly_scaled_parent() {
     let child = scene.add_object("child", primitives::cube(1.0), Material::default());
     scene.set_parent(child, Some(parent)).expect("no circle");
     scene.node_mut(parent).expect("just added").transform.scale_by(DVec3::new(2.0, 1.0, 3.0));
-    let place = Transform::from_translation(DVec3::new(0.5, 1.0, 0.0));
-    scene.node_mut(child).expect("just added").transform = place;
+    let transform = Transform::from_translation(DVec3::new(0.5, 1.0, 0.0));
+    scene.node_mut(child).expect("just added").transform = transform;
     let before = scene.world_transform(child);
     let mut document = Document::new(scene);
     run_all(
@@ -155,16 +155,16 @@ fn elements_move_in_the_world_as_their_own_object_is_placed() {
         &mut document,
         &[json!({ "op": "edit_objects", "objects": ["cube"] }), json!({ "op": "select_all" })],
     );
-    let places = |document: &Document| -> Vec<DVec3> {
+    let positions = |document: &Document| -> Vec<DVec3> {
         let scene = document.nodes();
         let (node, _) = scene.nodes().iter().next().expect("the only one");
         let world = scene.world_transform(node);
         let mesh = mesh(document);
         mesh.vertices().map(|vertex| world.transform_point3(mesh.position(vertex).as_dvec3())).collect()
     };
-    let before = places(&document);
+    let before = positions(&document);
     run_all(&mut document, &[json!({ "op": "translate", "offset": [1, 2, 3], "space": "world" })]);
-    for (old, new) in before.iter().zip(places(&document)) {
+    for (old, new) in before.iter().zip(positions(&document)) {
         assert!((new - *old).distance(DVec3::new(1.0, 2.0, 3.0)) < 1e-6, "{old} went to {new}");
     }
 }
@@ -198,9 +198,9 @@ fn one_edge_is_no_outline_of_a_face() {
 
 #[test]
 fn vertices_are_merged_at_the_one_that_was_selected_first_or_last() {
-    for (at, place) in [("first", 7), ("last", 2)] {
+    for (at, vertex) in [("first", 7), ("last", 2)] {
         let mut document = edited(primitives::cube(2.0), "vertex");
-        let expected = mesh(&document).position(VertexId::new(place));
+        let expected = mesh(&document).position(VertexId::new(vertex));
         run_all(
             &mut document,
             &[

@@ -57,7 +57,7 @@ impl View {
     fn selected(&self) -> BTreeSet<Vec<[u32; 3]>> {
         let (id, selection) = self.document.selection().meshes().next().expect("one is edited");
         let (mesh, kind) = (self.document.mesh(id).expect("it is edited"), self.document.selection().kind());
-        selection.indices().map(|element| place_of(mesh, kind, element)).collect()
+        selection.indices().map(|element| corners_of(mesh, kind, element)).collect()
     }
 
     /// Where the elements are that the picker finds, of the object that is edited.
@@ -66,33 +66,33 @@ impl View {
         let is_edited = |node: &NodeId| scene.node(*node).and_then(|node| node.mesh) == Some(self.mesh_id());
         let mesh = scene.meshes().get(self.mesh_id()).expect("it stays").mesh();
         let own = set.iter().filter(|(node, _)| is_edited(node));
-        own.map(|(_, element)| shown_place(mesh, kind, element as usize)).collect()
+        own.map(|(_, element)| shown_corners(mesh, kind, element as usize)).collect()
     }
 }
 
 /// The bits of all positions of an element.
-fn place(positions: impl Iterator<Item = Vec3>) -> Vec<[u32; 3]> {
+fn corners(positions: impl Iterator<Item = Vec3>) -> Vec<[u32; 3]> {
     let mut bits: Vec<_> = positions.map(|position| position.to_array().map(f32::to_bits)).collect();
     bits.sort_unstable();
     bits
 }
 
-fn place_of(mesh: &EditMesh, kind: ElementKind, element: u32) -> Vec<[u32; 3]> {
+fn corners_of(mesh: &EditMesh, kind: ElementKind, element: u32) -> Vec<[u32; 3]> {
     let at = |vertex| mesh.position(vertex);
     match kind {
-        ElementKind::Vertex => place([at(VertexId::new(element))].into_iter()),
-        ElementKind::Edge => place(mesh.edge_vertices(EdgeId::new(element)).map(at).into_iter()),
-        ElementKind::Face => place(mesh.face_vertices(FaceId::new(element)).map(at)),
+        ElementKind::Vertex => corners([at(VertexId::new(element))].into_iter()),
+        ElementKind::Edge => corners(mesh.edge_vertices(EdgeId::new(element)).map(at).into_iter()),
+        ElementKind::Face => corners(mesh.face_vertices(FaceId::new(element)).map(at)),
     }
 }
 
-fn shown_place(mesh: &Mesh, kind: ElementKind, element: usize) -> Vec<[u32; 3]> {
+fn shown_corners(mesh: &Mesh, kind: ElementKind, element: usize) -> Vec<[u32; 3]> {
     let at = |vertex: u32| mesh.positions()[vertex as usize];
     match kind {
-        ElementKind::Vertex => place([at(element as u32)].into_iter()),
-        ElementKind::Edge => place(mesh.edges()[element].map(at).into_iter()),
+        ElementKind::Vertex => corners([at(element as u32)].into_iter()),
+        ElementKind::Edge => corners(mesh.edges()[element].map(at).into_iter()),
         ElementKind::Face => {
-            place(mesh.face_corners(element).map(|corner| at(mesh.corner_vertices()[corner])))
+            corners(mesh.face_corners(element).map(|corner| at(mesh.corner_vertices()[corner])))
         }
     }
 }
@@ -248,7 +248,8 @@ fn vertices_are_those_whose_points_lie_in_the_region() {
             let is_used = mesh.vertex_edges(vertex).next().is_some();
             is_used && at.is_some_and(|at| at.cmpge(min).all() && at.cmplt(max).all())
         });
-        let expected: BTreeSet<_> = inside.map(|v| place_of(mesh, ElementKind::Vertex, v.index())).collect();
+        let expected: BTreeSet<_> =
+            inside.map(|v| corners_of(mesh, ElementKind::Vertex, v.index())).collect();
         assert!(!expected.is_empty(), "the region is on the model");
         assert_eq!(view.selected(), expected);
     }
@@ -299,17 +300,17 @@ fn loops_paths_and_linked_parts_are_those_of_the_selected_kind() {
     let point = Projector::new(&view.camera, SIZE)
         .to_screen(world.transform_point3(a.lerp(b, 0.5)))
         .expect("it is seen");
-    let places = |edges: Vec<EdgeId>| -> BTreeSet<_> {
-        edges.into_iter().map(|edge| place_of(&mesh, ElementKind::Edge, edge.index())).collect()
+    let corners = |edges: Vec<EdgeId>| -> BTreeSet<_> {
+        edges.into_iter().map(|edge| corners_of(&mesh, ElementKind::Edge, edge.index())).collect()
     };
     let picked = view.with(Reach::Visible, |picks| picks.nearest(ElementKind::Edge, point, 3.0));
     let edge = EdgeId::new(picked.expect("one is near").element);
     view.select(Reach::Visible, |picks| picks.edge_loop(point, 3.0, SelectAction::Replace));
-    assert_eq!(view.selected(), places(edge_loop(&mesh, edge)), "the loop");
+    assert_eq!(view.selected(), corners(edge_loop(&mesh, edge)), "the loop");
     view.select(Reach::Visible, |picks| picks.edge_ring(point, 3.0, SelectAction::Replace));
-    assert_eq!(view.selected(), places(edge_ring(&mesh, edge)), "the ring");
+    assert_eq!(view.selected(), corners(edge_ring(&mesh, edge)), "the ring");
     view.select(Reach::Visible, |picks| picks.linked(point, 3.0, SelectAction::Replace));
-    assert_eq!(view.selected(), places(mesh.edges().collect()), "all of one piece");
+    assert_eq!(view.selected(), corners(mesh.edges().collect()), "all of one piece");
     run(
         &mut view.document,
         json!({ "op": "select", "elements": [mesh.edges().next().expect("many").index()] }),
@@ -317,13 +318,13 @@ fn loops_paths_and_linked_parts_are_those_of_the_selected_kind() {
     view.select(Reach::Visible, |picks| picks.path(point, 3.0));
     let first = mesh.edges().next().expect("many").index();
     let path = shortest_path(&mesh, ElementKind::Edge, first, edge.index()).expect("one piece");
-    assert_eq!(view.selected(), places(path.into_iter().map(EdgeId::new).collect()), "the path");
+    assert_eq!(view.selected(), corners(path.into_iter().map(EdgeId::new).collect()), "the path");
     let order = view.document.selection().of(target.mesh).expect("it is edited").order();
     assert_eq!(order.last(), Some(&edge.index()), "the end of the path is active");
     set_kind(&mut view, ElementKind::Face);
     view.select(Reach::Visible, |picks| picks.edge_loop(point, 3.0, SelectAction::Replace));
     let faces = face_loop(&mesh, edge).into_iter();
-    let faces: BTreeSet<_> = faces.map(|face| place_of(&mesh, ElementKind::Face, face.index())).collect();
+    let faces: BTreeSet<_> = faces.map(|face| corners_of(&mesh, ElementKind::Face, face.index())).collect();
     assert_eq!(view.selected(), faces, "the loop of faces");
 }
 
@@ -448,7 +449,7 @@ fn a_click_on_a_face_beside_vertices_selects_and_toggles_all_of_its_vertices() {
     for face in mesh.faces() {
         let center = projector.to_screen(mesh.face_center(face)).expect("it is in the image");
         let corners: BTreeSet<_> =
-            mesh.face_vertices(face).map(|v| place([mesh.position(v)].into_iter())).collect();
+            mesh.face_vertices(face).map(|v| corners([mesh.position(v)].into_iter())).collect();
         let mut click = |action| {
             view.select(Reach::Visible, |picks| picks.click(center, 4.0, action));
             view.selected()
