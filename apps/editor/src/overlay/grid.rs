@@ -218,8 +218,24 @@ mod tests {
             assert!((grid.gap - 0.1).abs() < 1e-12, "{} m", grid.gap);
             assert_eq!(grid.middle, [10 * far, -10 * far], "around the target");
             let per_metre = 300.0 / elementary::tan(15f64.to_radians());
-            let mut checked = 0;
+            // Where a pixel's ray meets the floor, and what a thousandth of a pixel is there.
+            let on_floor = |at: Pos2| {
+                let [a, b] =
+                    (view.physical(at) - DVec2::new(400.0, 300.0)).to_array().map(|at| at / per_metre);
+                let reach = 3.0 / (0.6 + 0.8 * b);
+                let point = [a * reach, 4.0 - reach * (0.8 - 0.6 * b)];
+                (point, 1e-3 / per_metre * (reach + 0.3 * (a.abs() + 1.0) * reach * reach))
+            };
+            let mut checked = [0; 2];
             for (line, ..) in grid.lines() {
+                let across = if line[0].x == line[1].x { 0 } else { 2 };
+                let number = ((line[0][across] - target[across]) * 10.0).round() / 10.0;
+                for end in view.line(line[0], line[1]).into_iter().flatten() {
+                    let (point, pixel) = on_floor(end);
+                    let off = (point[across / 2] - number).abs();
+                    assert!(off < pixel, "the line at {number} is drawn {off} m off, {pixel} are allowed");
+                    checked[1] += 1;
+                }
                 for end in line {
                     // Tenths of metres from the target, and the distance along the line of sight (0, −3, −4) / 5.
                     let [x, z] = [end.x - target.x, end.z - target.z].map(|at| (at * 10.0).round() / 10.0);
@@ -231,10 +247,13 @@ mod tests {
                     let off = view.physical(at).distance(expected);
                     // f64 at 10⁷ m is 2⁻²⁹ m apart, and f32 at 10³ pixels 2⁻¹⁴ pixels.
                     assert!(off < 1e-3 * (1.0 + expected.length() / 1e3), "{end} is {off} pixels off");
-                    checked += 1;
+                    checked[0] += 1;
                 }
             }
-            assert!(checked > 100, "{checked} ends are in front of the eye");
+            assert!(
+                checked.iter().all(|&ends| ends > 100),
+                "{checked:?} ends in front of the eye, and drawn"
+            );
         }
     }
 
