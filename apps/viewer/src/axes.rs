@@ -74,8 +74,8 @@ fn scene(colors: [Vec3; 3]) -> Scene {
         let shaft = primitives::cylinder(0.06, 0.7, 16);
         let head = primitives::cone(0.15, 0.3, 16);
         for (part, middle) in [(shaft, 0.35), (head, 0.85)] {
-            let place = DAffine3::from_quat(turn) * DAffine3::from_translation(DVec3::Y * middle);
-            scene.add_object(name, part.transformed(&place), Material::from_color(color));
+            let transform = DAffine3::from_quat(turn) * DAffine3::from_translation(DVec3::Y * middle);
+            scene.add_object(name, part.transformed(&transform), Material::from_color(color));
         }
     }
     scene

@@ -136,26 +136,26 @@ impl Serialize for NodeList<'_> {
             let node = self.0.node(id)?;
             let (to_parent, shown) =
                 path.last().map_or((DAffine3::IDENTITY, true), |parent| (parent.to_world, parent.visible));
-            let place = Ancestor {
+            let ancestor = Ancestor {
                 id,
                 to_world: to_parent * node.transform.to_affine(),
                 visible: shown && node.visible,
             };
-            let facts = self.facts(node, &place, path.last());
-            path.push(place);
+            let facts = self.facts(node, &ancestor, path.last());
+            path.push(ancestor);
             Some(facts)
         }))
     }
 }
 
 impl<'a> NodeList<'a> {
-    fn facts(&self, node: &'a Node, place: &Ancestor, parent: Option<&Ancestor>) -> NodeFacts<'a> {
+    fn facts(&self, node: &'a Node, ancestor: &Ancestor, parent: Option<&Ancestor>) -> NodeFacts<'a> {
         NodeFacts {
-            id: place.id.index(),
+            id: ancestor.id.index(),
             name: &node.name,
             parent: parent.map(|parent| parent.id.index()),
-            visible: place.visible,
-            matrix: DMat4::from(place.to_world).to_cols_array(),
+            visible: ancestor.visible,
+            matrix: DMat4::from(ancestor.to_world).to_cols_array(),
             mesh: node.mesh.and_then(|mesh| self.0.meshes().get(mesh)).map(|mesh| mesh.name.as_str()),
             materials: node.materials.iter().map(|material| material.index()).collect(),
         }

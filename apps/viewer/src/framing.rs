@@ -171,8 +171,8 @@ impl Framing {
         // Around the axis nothing comes nearer than it is on one of the views; a ball holds all.
         let reach = points.iter().map(|point| point.distance(center));
         let radius = reach.fold(0.0, |farthest, reach| if reach > farthest { reach } else { farthest });
-        let keeps_place = matches!(self.eye, Eye::Position(_) | Eye::SceneCamera(_));
-        let first = if keeps_place { first } else { self.around_ball(first, center, radius, aspect) };
+        let keeps_position = matches!(self.eye, Eye::Position(_) | Eye::SceneCamera(_));
+        let first = if keeps_position { first } else { self.around_ball(first, center, radius, aspect) };
         let axis = scene.up.direction();
         let camera = |view: u32| {
             let angle = std::f64::consts::TAU * f64::from(view) / f64::from(views);

@@ -195,7 +195,7 @@ impl Model {
                     tree.len()
                 )));
             };
-            node.transform = placed.place;
+            node.transform = placed.transform;
         }
         Ok(())
     }

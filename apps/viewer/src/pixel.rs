@@ -92,7 +92,7 @@ impl ExplainedPixel {
             push(
                 0,
                 true,
-                format!("sample {} at {}: {}{source}", index + 1, place(sample), seen(sample, scene)),
+                format!("sample {} at {}: {}{source}", index + 1, position_of(sample), seen(sample, scene)),
             );
             for fragment in &sample.fragments {
                 push(1, true, format!("{}: {}", owner(fragment, scene), verdict(fragment)));
@@ -152,7 +152,7 @@ fn fragment_json(fragment: &FragmentExplanation, scene: &Scene) -> Value {
 }
 
 /// "0.5, 0.5"
-fn place(sample: &SampleExplanation) -> String {
+fn position_of(sample: &SampleExplanation) -> String {
     let [x, y] = sample.position.map(|at| f64::from(at) / 256.0);
     format!("{x}, {y}")
 }

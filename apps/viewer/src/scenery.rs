@@ -284,26 +284,26 @@ mod tests {
                 Transform::from_translation(DVec3::splat(far));
             let grid = Grid { subdivisions: 4, ..grid() };
             let id = Scenery { grid, shows_grid: true, ..Scenery::default() }.add_to(&mut scene)[0];
-            let place = scene.world_transform(id).translation;
+            let origin = scene.world_transform(id).translation;
             let mesh = scene.node(id).and_then(|node| node.mesh).expect("it has a mesh");
             let mesh = scene.meshes().get(mesh).expect("it is there").mesh();
             // Between lines there is a quarter of a metre: (8 squares · 4 + 1) lines each way, and ends on whole metres.
             assert_eq!(mesh.edge_count(), 2 * 33, "the model's squares and one on each side");
-            let mut places: Vec<[i64; 3]> = Vec::new();
+            let mut points: Vec<[i64; 3]> = Vec::new();
             for position in mesh.positions() {
-                let quarters = (place + position.as_dvec3()) * 4.0;
+                let quarters = (origin + position.as_dvec3()) * 4.0;
                 let across = if up == DVec3::Y { quarters.y } else { quarters.z };
                 assert!((across - (far - 2.5) * 4.0).abs() < 1e-6, "below the model: {across}");
                 let nearest = quarters.round();
                 // Positions in the world round twice in f64, at up to 4·10⁷ quarters.
                 let off = (quarters - nearest).abs().max_element();
                 assert!(off < 4.0 * 8.0 * f64::EPSILON * 1e7, "{off} quarters off");
-                places.push(nearest.to_array().map(|quarter| quarter as i64));
+                points.push(nearest.to_array().map(|quarter| quarter as i64));
             }
-            places.sort_unstable();
-            places.dedup();
+            points.sort_unstable();
+            points.dedup();
             // Each line has ends of its own, but for the four corners.
-            assert_eq!(places.len(), 4 * 33 - 4, "no two lines fall together");
+            assert_eq!(points.len(), 4 * 33 - 4, "no two lines fall together");
         }
     }
 

@@ -249,8 +249,8 @@ impl Blend {
     fn at(at: usize, to: usize, from: usize) -> Self {
         // From the middle of the first pixel, in half pixels of the image.
         let whole = 2 * to;
-        let place = ((2 * at + 1) * from).saturating_sub(to).min(whole * (from - 1));
-        let (first, rest) = (place / whole, place % whole);
+        let position = ((2 * at + 1) * from).saturating_sub(to).min(whole * (from - 1));
+        let (first, rest) = (position / whole, position % whole);
         Self { pair: [first, (first + 1).min(from - 1)], share: ((256 * rest + to) / whole) as u16 }
     }
 }
@@ -311,9 +311,9 @@ mod tests {
         for size in [[16, 11], [7, 9], [64, 5], [3, 2], [1, 1]] {
             let found = shown(Some(&small), size);
             let at = |pixel: u32, to: u32, from: u32| {
-                let place = (f64::from(pixel) + 0.5) * f64::from(from) / f64::from(to) - 0.5;
-                let place = place.clamp(0.0, f64::from(from - 1));
-                (place.floor() as usize, place.fract())
+                let position = (f64::from(pixel) + 0.5) * f64::from(from) / f64::from(to) - 0.5;
+                let position = position.clamp(0.0, f64::from(from - 1));
+                (position.floor() as usize, position.fract())
             };
             for y in 0..size[1] {
                 for x in 0..size[0] {

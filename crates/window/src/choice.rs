@@ -17,7 +17,7 @@ pub fn choose<T: Clone + PartialEq>(
     let response = shown.response;
     let is_open = shown.inner.is_some();
     walk.pause(ui.ctx(), is_open);
-    let place = match shown.inner {
+    let index = match shown.inner {
         Some(chosen) => {
             hold_keyboard(ui.ctx(), &response);
             chosen
@@ -30,7 +30,7 @@ pub fn choose<T: Clone + PartialEq>(
         }
         None => None,
     };
-    let chosen = place.and_then(|place| options.get(place)).map(|(_, option)| option.clone());
+    let chosen = index.and_then(|index| options.get(index)).map(|(_, option)| option.clone());
     (response, chosen.filter(|chosen| chosen != current))
 }
 
@@ -62,14 +62,14 @@ impl Walk {
             self.at = Some(stepped(self.at, step, options.len()));
         }
         let mut chosen = self.at.filter(|_| self.is_confirmed);
-        for (place, (name, _)) in options.iter().enumerate() {
-            let is_here = self.at == Some(place);
+        for (index, (name, _)) in options.iter().enumerate() {
+            let is_here = self.at == Some(index);
             let entry = ui.selectable_label(is_here, name);
             if is_here && step != 0 {
                 entry.scroll_to_me(None);
             }
             if entry.clicked() {
-                chosen = Some(place);
+                chosen = Some(index);
             }
         }
         if chosen.is_some() {

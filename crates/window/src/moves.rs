@@ -81,9 +81,9 @@ impl Moves {
 }
 
 /// An object that was removed meanwhile has no place.
-fn put(scene: &mut SharedScene, node: NodeId, place: Transform) {
+fn put(scene: &mut SharedScene, node: NodeId, transform: Transform) {
     if let Some(node) = scene.node_mut(node) {
-        node.transform = place;
+        node.transform = transform;
     }
 }
 

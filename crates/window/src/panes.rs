@@ -80,13 +80,13 @@ pub(crate) fn panes(orbit: Orbit, window: Viewport, four: Option<Area>) -> Vec<P
     let size = Viewport { width: width.saturating_sub(GAP) / 2, height: height.saturating_sub(GAP) / 2 };
     let [left, top] = area.min;
     let (right, bottom) = (left + size.width + GAP, top + size.height + GAP);
-    let places = [
+    let corners = [
         (Some(AxisView::Top), [left, top]),
         (None, [right, top]),
         (Some(AxisView::Front), [left, bottom]),
         (Some(AxisView::Right), [right, bottom]),
     ];
-    places
+    corners
         .map(|(side, min)| Pane {
             side,
             orbit: side.map_or(orbit, |side| seen_from(orbit, side)),
@@ -285,9 +285,9 @@ mod tests {
             }))
         });
         let whole = whole.expect("all were drawn");
-        let place =
+        let pixels =
             (0..window.height).flat_map(|y| (0..window.width).map(move |x| DVec2::new(x.into(), y.into())));
-        for (pixel, at) in place.enumerate() {
+        for (pixel, at) in pixels.enumerate() {
             let pane = panes.iter().position(|pane| pane.area.contains(at));
             let (id, depth) =
                 pane.map_or((u32::MAX, f32::INFINITY), |pane| (pane as u32 + 1, pane as f32 + 1.0));

@@ -29,9 +29,9 @@ pub fn popup_menu<T>(
 ) -> PopupEnd<T> {
     let is_new = at.is_none();
     let pointer = || context.pointer_latest_pos().unwrap_or_else(|| context.content_rect().center());
-    let place = *at.get_or_insert_with(pointer);
+    let position = *at.get_or_insert_with(pointer);
     let mut chosen = None;
-    let area = Area::new(Id::unique(("popup", name))).fixed_pos(place).order(Order::Foreground);
+    let area = Area::new(Id::unique(("popup", name))).fixed_pos(position).order(Order::Foreground);
     let shown = area.constrain(true).fade_in(false).show(context, |ui| {
         Frame::menu(ui.style()).show(ui, |ui| {
             menu_style(ui.style_mut());

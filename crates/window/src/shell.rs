@@ -295,8 +295,8 @@ impl ApplicationHandler<UserEvent> for Shell<'_> {
             let grab = if keeps { CursorGrabMode::Confined } else { CursorGrabMode::None };
             let _ = open.window.set_cursor_grab(grab);
         }
-        if let Some(place) = self.session.take_pointer_place()
-            && open.window.set_cursor_position(PhysicalPosition::new(place.x, place.y)).is_err()
+        if let Some(position) = self.session.take_pointer_position()
+            && open.window.set_cursor_position(PhysicalPosition::new(position.x, position.y)).is_err()
         {
             self.session.pointer_stays();
         }

@@ -56,20 +56,20 @@ impl Config {
     /// # Errors
     /// The named file does not exist, or is invalid.
     pub(crate) fn read(named: Option<&Path>) -> Result<Self, String> {
-        let places = match named {
+        let paths = match named {
             Some(path) if path.exists() => vec![path.to_owned()],
             Some(path) => users(path),
             None => users(Path::new("config")),
         };
-        let found: Vec<PathBuf> = places.iter().filter(|place| place.exists()).cloned().collect();
+        let found: Vec<PathBuf> = paths.iter().filter(|path| path.exists()).cloned().collect();
         if let (Some(path), true) = (named, found.is_empty()) {
-            let tried: Vec<String> = places.iter().map(|place| place.display().to_string()).collect();
+            let tried: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
             let path = path.display();
             return Err(format!("--config={path}: there is no such file; looked for {}", tried.join(", ")));
         }
         let mut config = Self::default();
-        for place in found {
-            for file in json_files(&place)? {
+        for path in found {
+            for file in json_files(&path)? {
                 config.add(&file)?;
             }
         }
@@ -132,12 +132,12 @@ fn users(name: &Path) -> Vec<PathBuf> {
 }
 
 /// The file itself, or the files of a folder that end in `.json`, by name.
-fn json_files(place: &Path) -> Result<Vec<PathBuf>, String> {
-    if !place.is_dir() {
-        return Ok(vec![place.to_owned()]);
+fn json_files(path: &Path) -> Result<Vec<PathBuf>, String> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
     }
     let entries =
-        fs::read_dir(place).map_err(|error| format!("{}: cannot be read ({error})", place.display()))?;
+        fs::read_dir(path).map_err(|error| format!("{}: cannot be read ({error})", path.display()))?;
     let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let mut files: Vec<PathBuf> =
         files.filter(|file| file.extension().is_some_and(|end| end == "json")).collect();

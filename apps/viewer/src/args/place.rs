@@ -10,7 +10,7 @@ use trigon_scene::Transform;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlacedNode {
     pub(crate) number: usize,
-    pub(crate) place: Transform,
+    pub(crate) transform: Transform,
 }
 
 /// How it is written.
@@ -24,7 +24,7 @@ impl fmt::Display for PlacedNode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let list = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
         write!(f, "{}/", self.number)?;
-        match self.place {
+        match self.transform {
             Transform::Decomposed { translation, rotation, scale } => {
                 let [translation, scale] = [translation, scale].map(|vector| list(&vector.to_array()));
                 write!(f, "{translation}/{}/{scale}", list(&rotation.to_array()))
@@ -40,7 +40,7 @@ impl FromStr for PlacedNode {
     fn from_str(text: &str) -> Result<Self, String> {
         let parts: Vec<&str> = text.split('/').collect();
         let number = parts[0].parse().map_err(|_| FORM)?;
-        let place = match parts[1..] {
+        let transform = match parts[1..] {
             [translation, rotation, scale] => Transform::Decomposed {
                 translation: DVec3::from_array(numbers(translation)?),
                 rotation: DQuat::from_array(numbers(rotation)?),
@@ -49,11 +49,11 @@ impl FromStr for PlacedNode {
             [matrix] => Transform::Affine(DAffine3::from_cols_array(&numbers(matrix)?)),
             _ => return Err(FORM.to_owned()),
         };
-        match place {
+        match transform {
             Transform::Decomposed { rotation, .. } if (rotation.length() - 1.0).abs() > TOLERANCE => {
                 Err(format!("the length of the rotation is not 1; {FORM}"))
             }
-            _ => Ok(Self { number, place }),
+            _ => Ok(Self { number, transform }),
         }
     }
 }
@@ -74,8 +74,8 @@ mod tests {
         let mut turned = Transform::from_translation(DVec3::new(0.1 + 0.2, -2e-9, 1e8));
         turned.rotate(DVec3::new(1.0, 2.0, 3.0), 0.7);
         let sheared = DAffine3::from_cols_array(&std::array::from_fn(|i| 1.0 / (i as f64 + 3.0)));
-        for place in [Transform::IDENTITY, turned, Transform::Affine(sheared)] {
-            let placed = PlacedNode { number: 7, place };
+        for transform in [Transform::IDENTITY, turned, Transform::Affine(sheared)] {
+            let placed = PlacedNode { number: 7, transform };
             assert_eq!(placed.to_string().parse(), Ok(placed), "{placed}");
         }
     }

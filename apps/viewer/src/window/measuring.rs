@@ -93,15 +93,15 @@ impl Measuring {
         let painter = ui.painter().with_clip_rect(ui.available_rect_before_wrap());
         let on_screen = |at: DVec2| egui::pos2((at.x / scale) as f32, (at.y / scale) as f32);
         let all = points.iter().chain(self.hovered.as_ref().filter(|_| points.len() < MOST));
-        let places: Vec<Option<DVec2>> = all.map(|snap| projector.to_screen(snap.point)).collect();
-        for pair in places.windows(2) {
+        let points: Vec<Option<DVec2>> = all.map(|snap| projector.to_screen(snap.point)).collect();
+        for pair in points.windows(2) {
             let [Some(from), Some(to)] = pair else { continue };
             if let Some((from, to)) = clip_line(*from, *to, size) {
                 painter.line_segment([on_screen(from), on_screen(to)], egui::Stroke::new(1.5, COLOR));
             }
         }
         let is_inside = |at: &DVec2| at.cmpge(DVec2::ZERO).all() && at.cmplt(size).all();
-        for at in places.into_iter().flatten().filter(is_inside) {
+        for at in points.into_iter().flatten().filter(is_inside) {
             painter.circle_stroke(on_screen(at), 4.0, egui::Stroke::new(1.5, COLOR));
         }
     }

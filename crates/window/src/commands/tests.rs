@@ -90,9 +90,9 @@ fn what_is_switched_on_is_switched_off_again() {
         Action::ToggleFullScreen,
     ];
     let before = is_on(&stage);
-    for (place, action) in actions.into_iter().enumerate() {
+    for (index, action) in actions.into_iter().enumerate() {
         let mut expected = before;
-        expected[place] = !before[place];
+        expected[index] = !before[index];
         stage.act(action);
         assert_eq!(is_on(&stage), expected, "{action:?}: that alone");
         stage.act(action);
@@ -157,7 +157,7 @@ fn escape_leaves_one_thing_after_the_other() {
 #[test]
 fn moves_are_undone_and_done_again() {
     let (mut stage, [first, ..]) = stage();
-    let place = |stage: &Stage| stage.scene.world_transform(first).translation;
+    let position = |stage: &Stage| stage.scene.world_transform(first).translation;
     act(&mut stage, Action::UndoMove);
     act(&mut stage, Action::RedoMove);
     assert_eq!(messages(&mut stage), ["no object was moved", "nothing was undone"]);
@@ -166,12 +166,12 @@ fn moves_are_undone_and_done_again() {
     stage.scene.node_mut(first).expect("it is there").transform.translate(DVec3::X);
     stage.end_move();
     stage.selection = None;
-    assert_eq!((stage.moved_nodes(), place(&stage)), (vec![first], DVec3::X));
+    assert_eq!((stage.moved_nodes(), position(&stage)), (vec![first], DVec3::X));
     act(&mut stage, Action::UndoMove);
-    assert_eq!((stage.selection, place(&stage)), (Some(first), DVec3::ZERO), "back, and selected");
+    assert_eq!((stage.selection, position(&stage)), (Some(first), DVec3::ZERO), "back, and selected");
     stage.selection = None;
     act(&mut stage, Action::RedoMove);
-    assert_eq!((stage.selection, place(&stage)), (Some(first), DVec3::X), "and there again");
+    assert_eq!((stage.selection, position(&stage)), (Some(first), DVec3::X), "and there again");
     assert_eq!(messages(&mut stage).len(), 2, "there is nothing else to say");
     stage.forget_moves();
     assert!(stage.moved_nodes().is_empty() && !stage.undo_move(), "of another scene");

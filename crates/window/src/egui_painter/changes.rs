@@ -130,6 +130,6 @@ fn triangles(mesh: &Mesh) -> impl DoubleEndedIterator<Item = Triangle<'_>> + Exa
 }
 
 /// The box around three positions.
-fn around(places: [egui::Pos2; 3]) -> egui::Rect {
-    egui::Rect::from_points(&places)
+fn around(corners: [egui::Pos2; 3]) -> egui::Rect {
+    egui::Rect::from_points(&corners)
 }

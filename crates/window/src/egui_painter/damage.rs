@@ -94,12 +94,12 @@ impl Damage {
 
 /// A pixel boundary before a place, and one after it. Positions are rounded to 1/256 pixel: anything within a pixel
 /// may be touched.
-fn before(place: f64) -> i32 {
-    (place - 1.0).round() as i32
+fn before(coordinate: f64) -> i32 {
+    (coordinate - 1.0).round() as i32
 }
 
-fn after(place: f64) -> i32 {
-    (place + 1.0).round() as i32
+fn after(coordinate: f64) -> i32 {
+    (coordinate + 1.0).round() as i32
 }
 
 /// Marked neighbours in a row as one rectangle, in cells.
@@ -179,9 +179,9 @@ mod tests {
             damage.mark_triangle(corners, clip);
             let marked = damage.take(BOUNDS);
             let corners = corners.map(|corner| corner.map(f64::from));
-            let is_in = |rect: &Rect, at: [i32; 2]| rect.contains(Rect::new(at, at.map(|place| place + 1)));
+            let is_in = |rect: &Rect, at: [i32; 2]| rect.contains(Rect::new(at, at.map(|coordinate| coordinate + 1)));
             for at in (0..70).flat_map(|y| (0..100).map(move |x| [x, y])).filter(|&at| is_in(&clip, at)) {
-                let is_covered = covers(corners, at.map(|place| f64::from(place) + 0.5));
+                let is_covered = covers(corners, at.map(|coordinate| f64::from(coordinate) + 0.5));
                 prop_assert!(!is_covered || marked.iter().any(|rect| is_in(rect, at)), "{at:?}, {marked:?}");
             }
         }
@@ -192,7 +192,7 @@ mod tests {
         let mut damage = damage();
         damage.mark_triangle([[0.0, 0.0], [100.0, 70.0], [100.0, 71.0]], BOUNDS);
         let marked = damage.take(BOUNDS);
-        let corners = [[5, 60], [90, 5]].map(|at| Rect::new(at, at.map(|place| place + 1)));
+        let corners = [[5, 60], [90, 5]].map(|at| Rect::new(at, at.map(|coordinate| coordinate + 1)));
         for corner in corners {
             assert!(!marked.iter().any(|rect| rect.contains(corner)), "{corner:?} in {marked:?}");
         }

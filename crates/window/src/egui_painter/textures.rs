@@ -63,7 +63,7 @@ impl Textures {
                 self.changed.insert(id, egui::Rect::EVERYTHING);
             }
             (Some(min), Some(whole)) => {
-                let min = min.map(|place| i32::try_from(place).unwrap_or(i32::MAX));
+                let min = min.map(|coordinate| i32::try_from(coordinate).unwrap_or(i32::MAX));
                 let end = |axis: usize, side: u32| min[axis].saturating_add_unsigned(side);
                 let area = Rect::new(min, [end(0, width), end(1, height)]);
                 if whole.update(area, &texels).is_ok() {
@@ -82,7 +82,7 @@ fn uv_of(area: Rect, image: &Image) -> egui::Rect {
         return egui::Rect::EVERYTHING;
     }
     let size = image.size();
-    let uv = |place: i32, axis: usize| place as f32 / size[axis] as f32;
+    let uv = |coordinate: i32, axis: usize| coordinate as f32 / size[axis] as f32;
     // Linear filters extend half a texel further; a whole one leaves room for rounding.
     egui::Rect::from_min_max(
         egui::pos2(uv(area.min[0] - 1, 0), uv(area.min[1] - 1, 1)),

@@ -32,15 +32,15 @@ fn pairs<T: PartialEq, K: Hash + Eq>([before, after]: [&[T]; 2], key: impl Fn(&T
     // The first place of each key, and after each place the next one of the same key.
     let mut first = HashMap::with_capacity_and_hasher(before.len(), FixedState::default());
     let mut next = vec![NONE; before.len()];
-    for (place, element) in before.iter().enumerate().rev() {
-        next[place] = first.insert(key(element), place as u32).unwrap_or(NONE);
+    for (index, element) in before.iter().enumerate().rev() {
+        next[index] = first.insert(key(element), index as u32).unwrap_or(NONE);
     }
     let mut pairs = Vec::with_capacity(before.len().min(after.len()));
-    for (place, element) in (0..).zip(after) {
+    for (index, element) in (0..).zip(after) {
         let Some(other) = first.get_mut(&key(element)).filter(|other| **other != NONE) else { continue };
         let found = std::mem::replace(other, next[*other as usize]);
         if before[found as usize] == *element {
-            pairs.push([found, place]);
+            pairs.push([found, index]);
         }
     }
     pairs

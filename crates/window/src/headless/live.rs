@@ -53,14 +53,14 @@ impl<'a> HeadlessWindow<'a> {
         &mut self,
         duration: Duration,
         interval: Duration,
-        place: impl Fn(Duration) -> DVec2,
+        position: impl Fn(Duration) -> DVec2,
     ) -> Vec<LiveFrame> {
         let begun = (self.clock)();
         let (mut due, mut shown) = (begun, Vec::new());
         while due < begun + duration {
             self.now = (self.clock)();
             while due <= self.now && due < begun + duration {
-                self.pointer = place(due - begun);
+                self.pointer = position(due - begun);
                 let at = self.in_points();
                 self.interface(Event::PointerMoved(at));
                 self.event(InputEvent::PointerMoved(self.pointer));

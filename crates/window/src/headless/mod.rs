@@ -290,11 +290,11 @@ fn connect(stage: &Stage, ring: Sender<Ring>) {
 
 fn collect(node: AccessKitNode<'_>, found: &mut Vec<Widget>) {
     let label = node.label().or_else(|| (node.role() == Role::Label).then(|| node.value()).flatten());
-    if let (Some(label), Some(place)) = (label, node.bounding_box()) {
+    if let (Some(label), Some(bounds)) = (label, node.bounding_box()) {
         found.push(Widget {
             label,
             value: node.value(),
-            center: DVec2::new((place.x0 + place.x1) / 2.0, (place.y0 + place.y1) / 2.0),
+            center: DVec2::new((bounds.x0 + bounds.x1) / 2.0, (bounds.y0 + bounds.y1) / 2.0),
             is_disabled: node.is_disabled(),
             is_on: node.toggled().map(|toggled| toggled == Toggled::True),
             role: node.role(),

@@ -42,7 +42,7 @@ fn is_first(repeat: &bool) -> bool {
 /// are physical pixels from the top-left corner.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) enum InputEvent {
-    PointerMoved(#[serde(with = "place")] DVec2),
+    PointerMoved(#[serde(with = "position")] DVec2),
     Button(PointerButton, Press),
     /// Lines away from the user, normalized.
     Wheel(f64),
@@ -86,13 +86,13 @@ impl InputEvent {
     }
 }
 
-/// A place as two numbers.
-mod place {
+/// A position as two numbers.
+mod position {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
     use trigon_math::DVec2;
 
-    pub(super) fn serialize<S: Serializer>(place: &DVec2, serializer: S) -> Result<S::Ok, S::Error> {
-        place.to_array().serialize(serializer)
+    pub(super) fn serialize<S: Serializer>(position: &DVec2, serializer: S) -> Result<S::Ok, S::Error> {
+        position.to_array().serialize(serializer)
     }
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<DVec2, D::Error> {

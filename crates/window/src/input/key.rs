@@ -254,11 +254,11 @@ mod tests {
     fn modifiers_are_sets() {
         let single = [Modifiers::CTRL, Modifiers::ALT, Modifiers::SHIFT];
         for bits in 0..8_usize {
-            let held = (0..3).filter(|place| bits >> place & 1 != 0);
-            let all = held.clone().fold(Modifiers::NONE, |all, place| all | single[place]);
+            let held = (0..3).filter(|bit| bits >> bit & 1 != 0);
+            let all = held.clone().fold(Modifiers::NONE, |all, bit| all | single[bit]);
             assert_eq!(all.count() as usize, held.clone().count(), "{all}");
-            for (place, one) in single.into_iter().enumerate() {
-                assert_eq!(all.contains(one), bits >> place & 1 != 0, "{one} in {all}");
+            for (bit, one) in single.into_iter().enumerate() {
+                assert_eq!(all.contains(one), bits >> bit & 1 != 0, "{one} in {all}");
                 assert!((all | one).contains(all) && (all | one).contains(one), "{one} or {all}");
             }
             assert!(all.contains(Modifiers::NONE) && all.contains(all) && all | all == all, "{all}");

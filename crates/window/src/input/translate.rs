@@ -121,7 +121,7 @@ fn pad_key(key: PhysicalKey) -> Option<Key> {
         (Code::NumpadDivide, '/'),
     ];
     let PhysicalKey::Code(code) = key else { return None };
-    KEYS.into_iter().find(|&(place, _)| place == code).map(|(_, typed)| Key::Numpad(typed))
+    KEYS.into_iter().find(|&(pressed, _)| pressed == code).map(|(_, typed)| Key::Numpad(typed))
 }
 
 fn physical_letter(key: PhysicalKey) -> Option<Key> {
@@ -131,7 +131,7 @@ fn physical_letter(key: PhysicalKey) -> Option<Key> {
         KeyR, KeyS, KeyT, KeyU, KeyV, KeyW, KeyX, KeyY, KeyZ,
     ];
     let PhysicalKey::Code(code) = key else { return None };
-    let letter = ('a'..='z').zip(LETTERS).find(|&(_, place)| place == code);
+    let letter = ('a'..='z').zip(LETTERS).find(|&(_, pressed)| pressed == code);
     letter.map(|(letter, _)| Key::Character(letter))
 }
 
@@ -219,8 +219,8 @@ mod tests {
 
     #[test]
     fn letters_are_found_by_place_where_the_layout_is_not_latin() {
-        let place = PhysicalKey::Code(keyboard::KeyCode::KeyQ);
-        let typed = |text: &str| physical_key(place, &keyboard::Key::Character(text.into()));
+        let physical = PhysicalKey::Code(keyboard::KeyCode::KeyQ);
+        let typed = |text: &str| physical_key(physical, &keyboard::Key::Character(text.into()));
         assert_eq!(typed("\u{439}"), Some(Key::Character('q')), "Cyrillic short i is on the key of Q");
         assert_eq!(typed("a"), None, "on a French keyboard A is there, and means A");
     }
@@ -234,11 +234,15 @@ mod tests {
 
     #[test]
     fn the_pad_is_told_from_the_row_and_stands_for_it() {
-        let place = |code| PhysicalKey::Code(code);
-        assert_eq!(pad_key(place(keyboard::KeyCode::Numpad1)), Some(Key::Numpad('1')), "a place of its own");
-        assert_eq!(pad_key(place(keyboard::KeyCode::Digit1)), None, "which the row is not");
+        let physical = |code| PhysicalKey::Code(code);
+        assert_eq!(
+            pad_key(physical(keyboard::KeyCode::Numpad1)),
+            Some(Key::Numpad('1')),
+            "a place of its own"
+        );
+        assert_eq!(pad_key(physical(keyboard::KeyCode::Digit1)), None, "which the row is not");
         let locked = keyboard::Key::Named(NamedKey::Delete);
-        let point = physical_key(place(keyboard::KeyCode::NumpadDecimal), &locked);
+        let point = physical_key(physical(keyboard::KeyCode::NumpadDecimal), &locked);
         assert_eq!(point, Some(Key::Character('.')), "whether its lock is on or not");
     }
 
@@ -269,7 +273,7 @@ mod tests {
             (ModifiersState::SHIFT, Modifiers::SHIFT),
         ];
         for bits in 0..8 {
-            let down = pairs.iter().enumerate().filter(|(place, _)| bits >> place & 1 != 0);
+            let down = pairs.iter().enumerate().filter(|(bit, _)| bits >> bit & 1 != 0);
             let (mut theirs, mut ours) = (ModifiersState::empty(), Modifiers::NONE);
             for (_, &(one, other)) in down {
                 theirs |= one;
@@ -327,11 +331,11 @@ mod tests {
     fn places_are_those_of_a_keyboard_of_the_us() {
         use keyboard::KeyCode as Code;
         let foreign = keyboard::Key::Character("\u{439}".into());
-        let place = |code| physical_key(PhysicalKey::Code(code), &foreign);
+        let pressed = |code| physical_key(PhysicalKey::Code(code), &foreign);
         for (code, letter) in [(Code::KeyA, 'a'), (Code::KeyM, 'm'), (Code::KeyZ, 'z'), (Code::Digit0, '0')] {
-            assert_eq!(place(code), Some(Key::Character(letter)));
+            assert_eq!(pressed(code), Some(Key::Character(letter)));
         }
-        assert_eq!(place(Code::Semicolon), None, "it is no letter");
+        assert_eq!(pressed(Code::Semicolon), None, "it is no letter");
         for (code, typed) in [
             (Code::Numpad0, '0'),
             (Code::Numpad9, '9'),
@@ -341,7 +345,7 @@ mod tests {
             (Code::NumpadDivide, '/'),
         ] {
             assert_eq!(pad_key(PhysicalKey::Code(code)), Some(Key::Numpad(typed)));
-            assert_eq!(place(code), Some(Key::Character(typed)), "{typed} stands for the row's");
+            assert_eq!(pressed(code), Some(Key::Character(typed)), "{typed} stands for the row's");
         }
     }
 

@@ -45,9 +45,9 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &Stage) {
 
 fn swatches(ui: &mut egui::Ui, classes: &[Class]) {
     for class in classes {
-        let (place, _) = ui.allocate_exact_size(SWATCH, egui::Sense::hover());
+        let (rect, _) = ui.allocate_exact_size(SWATCH, egui::Sense::hover());
         let [r, g, b] = class.color;
-        ui.painter().rect_filled(place, 2, Color32::from_rgb(r, g, b));
+        ui.painter().rect_filled(rect, 2, Color32::from_rgb(r, g, b));
         ui.label(RichText::new(class.label).monospace().color(INK));
     }
 }

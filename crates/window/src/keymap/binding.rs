@@ -109,8 +109,8 @@ impl Keymap {
     pub fn add(&mut self, binding: Binding) {
         self.unbind(binding.chord);
         let section = |other: &Binding| other.section == binding.section;
-        let place = self.bindings.iter().rposition(section).map_or(self.bindings.len(), |last| last + 1);
-        self.bindings.insert(place, binding);
+        let index = self.bindings.iter().rposition(section).map_or(self.bindings.len(), |last| last + 1);
+        self.bindings.insert(index, binding);
     }
 
     /// What the menu offers.

@@ -91,8 +91,8 @@ impl Session<'_> {
     }
 
     pub(super) fn offer_key_release(&mut self, code: KeyCode, now: Duration) {
-        let Some(place) = self.taken.keys.iter().position(|key| key.code == code) else { return };
-        let KeyPress { logical, physical, .. } = self.taken.keys.remove(place);
+        let Some(index) = self.taken.keys.iter().position(|key| key.code == code) else { return };
+        let KeyPress { logical, physical, .. } = self.taken.keys.remove(index);
         self.offer(Input::KeyReleased { logical, physical }, now);
     }
 }

@@ -262,12 +262,12 @@ fn object_keys_move_the_selected_object_only() {
     let mut session = begun(&mut handler);
     session.event(key_down(1, Key::Tab), ms(1));
     let id = session.stage.selection.expect("Tab selects the first object");
-    let place = |session: &Session<'_>| session.stage.scene.world_transform(id).translation;
-    let before = place(&session);
+    let position = |session: &Session<'_>| session.stage.scene.world_transform(id).translation;
+    let before = position(&session);
     session.event(InputEvent::Modifiers(Modifiers::ALT), ms(2));
     session.event(key_down(2, Key::Right), ms(2));
     (0..10).for_each(|i| drop(draw(&mut session, ms(20 + 17 * i))));
-    let moved = place(&session) - before;
+    let moved = position(&session) - before;
     assert!(moved.x > 0.0 && moved.y.abs() < 1e-12, "to the right: {moved}");
     let other = session.stage.scene.nodes().iter().find(|&(other, _)| other != id).expect("two cubes");
     assert_eq!(other.1.transform.translation(), DVec3::X * 2.0, "the other one stays");
@@ -373,7 +373,7 @@ fn a_new_size_and_scale_are_followed() {
 }
 
 fn any_event() -> impl Strategy<Value = InputEvent> {
-    let place = (-10.0..110.0, -10.0..80.0).prop_map(|(x, y)| DVec2::new(x, y));
+    let point = (-10.0..110.0, -10.0..80.0).prop_map(|(x, y)| DVec2::new(x, y));
     let button = prop::sample::select(vec![PointerButton::Left, PointerButton::Middle, PointerButton::Right]);
     let modifiers = prop::sample::select(vec![
         Modifiers::NONE,
@@ -385,7 +385,7 @@ fn any_event() -> impl Strategy<Value = InputEvent> {
     let keys = Keymap::default().bindings().to_vec();
     let sizes = prop::sample::select(vec![(0, 0), (1, 1), (40, 0), (SIZE.width, SIZE.height)]);
     prop_oneof![
-        4 => place.prop_map(InputEvent::PointerMoved),
+        4 => point.prop_map(InputEvent::PointerMoved),
         4 => (button, any::<bool>())
             .prop_map(|(button, down)| InputEvent::Button(button, if down { Press::Down } else { Press::Up })),
         1 => (-10.0..10.0).prop_map(InputEvent::Wheel),

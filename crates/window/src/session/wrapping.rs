@@ -28,7 +28,7 @@ pub(super) struct Wrapping {
 
 impl Session<'_> {
     /// Where in the window the pointer is to be put, in physical pixels.
-    pub(crate) fn take_pointer_place(&mut self) -> Option<DVec2> {
+    pub(crate) fn take_pointer_position(&mut self) -> Option<DVec2> {
         self.wrapping.asked.take()
     }
 
@@ -42,29 +42,29 @@ impl Session<'_> {
         self.stage.wraps_pointer && !self.wrapping.is_refused
     }
 
-    /// The pointer is about to move to a place.
+    /// The pointer is about to move to a position.
     pub(super) fn wrap(&mut self, to: DVec2, now: Duration) {
         if !self.keeps_pointer() || self.pointer.is_held() {
             (self.wrapping.asked, self.wrapping.expected) = (None, None);
             return;
         }
-        if let (Some(place), Some(from)) = (self.wrapping.expected, self.pointer.position()) {
-            if to.distance(place) < to.distance(from) {
+        if let (Some(position), Some(from)) = (self.wrapping.expected, self.pointer.position()) {
+            if to.distance(position) < to.distance(from) {
                 self.wrapping.expected = None;
                 // Those before the jump.
                 self.offer_moves(now);
-                self.handler.pointer_jumped(&mut self.stage, place);
+                self.handler.pointer_jumped(&mut self.stage, position);
             }
             return;
         }
-        let place = other_side(to, self.stage.viewport().size());
-        if place != to {
-            (self.wrapping.asked, self.wrapping.expected) = (Some(place), Some(place));
+        let position = other_side(to, self.stage.viewport().size());
+        if position != to {
+            (self.wrapping.asked, self.wrapping.expected) = (Some(position), Some(position));
         }
     }
 }
 
-/// The place across a window from a border; the same place elsewhere.
+/// The position across a window from a border; the same position elsewhere.
 fn other_side(at: DVec2, size: DVec2) -> DVec2 {
     let across = |at: f64, size: f64| match size {
         _ if size < LEAST => at,
@@ -86,8 +86,8 @@ mod tests {
         assert_eq!(other_side(DVec2::new(199.0, 50.0), size), DVec2::new(4.0, 50.0));
         assert_eq!(other_side(DVec2::new(0.0, 99.0), size), DVec2::new(195.0, 4.0), "a corner");
         for at in [0.0, 1.0, 198.0, 199.0] {
-            let place = other_side(DVec2::new(at, 50.0), size);
-            assert_eq!(other_side(place, size), place, "it does not go back at once");
+            let position = other_side(DVec2::new(at, 50.0), size);
+            assert_eq!(other_side(position, size), position, "it does not go back at once");
         }
         assert_eq!(other_side(DVec2::ZERO, DVec2::splat(10.0)), DVec2::ZERO, "no room");
     }
@@ -96,12 +96,12 @@ mod tests {
     fn borders_are_as_wide_at_the_right_and_below_as_at_the_left_and_above() {
         for side in [32.0, 33.0, 200.0] {
             let (size, last) = (DVec2::splat(side), DVec2::splat(side - 1.0));
-            let places = (0..side as u32).map(|at| DVec2::new(at.into(), 5.0));
+            let positions = (0..side as u32).map(|at| DVec2::new(at.into(), 5.0));
             let (mut moved, mut kept) = (Vec::new(), 0);
-            for at in places {
-                let place = other_side(at, size);
-                assert_eq!(other_side(last - at, size), last - place, "{at} of {side}");
-                if place == at { kept += 1 } else { moved.push(at.x) }
+            for at in positions {
+                let position = other_side(at, size);
+                assert_eq!(other_side(last - at, size), last - position, "{at} of {side}");
+                if position == at { kept += 1 } else { moved.push(at.x) }
             }
             assert_eq!(moved, [0.0, 1.0, side - 2.0, side - 1.0], "two at each end, not the other {kept}");
         }

@@ -69,19 +69,19 @@ fn each_holder_copies_a_mesh_once() {
     for holder in &mut holders {
         assert!(!holder.update(&mut scene), "all of it at first");
     }
-    let places = |scene: &SharedScene, holders: &[Elsewhere; 2]| {
+    let addresses = |scene: &SharedScene, holders: &[Elsewhere; 2]| {
         let scenes = [&**scene, &holders[0].scene, &holders[1].scene];
         scenes.map(|scene| positions(scene)[0].as_ptr())
     };
-    let shared = places(&scene, &holders);
-    assert!(shared.iter().all(|&place| place == shared[0]), "one mesh for all");
+    let shared = addresses(&scene, &holders);
+    assert!(shared.iter().all(|&address| address == shared[0]), "one mesh for all");
     let mut owned = None;
     for step in 1..5 {
         scene.change_mesh(id, &moved(3, step as f32)).expect("a vertex of the cube");
         for holder in &mut holders {
             assert!(holder.update(&mut scene), "values alone");
         }
-        let now = places(&scene, &holders);
+        let now = addresses(&scene, &holders);
         assert!(now[0] != now[1] && now[1] != now[2] && now[0] != now[2], "each has its own");
         assert_eq!(*owned.get_or_insert(now), now, "which it keeps");
     }

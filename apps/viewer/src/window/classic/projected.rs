@@ -30,7 +30,7 @@ pub(super) struct Projected {
 }
 
 /// A point on the screen: pixels, and the depth of the depth buffer.
-type Place = (DVec2, f64);
+type ProjectedVertex = (DVec2, f64);
 
 impl Projected {
     /// What the camera sees. Bodies are the parts of meshes that share no point with
@@ -60,18 +60,18 @@ impl Projected {
     }
 
     fn of_parts(parts: Vec<Part>, viewport: Viewport) -> Self {
-        let depths = || parts.iter().flat_map(|part| part.places.iter().map(|(_, depth)| *depth));
+        let depths = || parts.iter().flat_map(|part| part.vertices.iter().map(|(_, depth)| *depth));
         // Depths of the depth buffer are plane on the screen, and remain so.
         let (least, most) =
             depths().fold((f64::INFINITY, 0.0_f64), |(low, high), z| (low.min(z), high.max(z)));
         let scale = DEEPEST / (most - least).max(f64::MIN_POSITIVE);
-        let corner = |(place, depth): &Place| -> Corner {
+        let corner = |(point, depth): &ProjectedVertex| -> Corner {
             let depth = ((depth - least) * scale).clamp(0.0, DEEPEST);
-            [place.x * STEPS, place.y * STEPS, depth].map(|part| part.round() as i32)
+            [point.x * STEPS, point.y * STEPS, depth].map(|part| part.round() as i32)
         };
         let colors = parts.iter().flat_map(|part| part.colors.iter().copied()).collect();
         let bodies = parts.into_iter().map(|part| Body {
-            corners: part.places.iter().map(corner).collect(),
+            corners: part.vertices.iter().map(corner).collect(),
             triangles: part.triangles,
         });
         let size = [viewport.width as usize, viewport.height as usize];
@@ -82,24 +82,24 @@ impl Projected {
 /// One body on its way to the grid.
 #[derive(Default)]
 struct Part {
-    places: Vec<Place>,
+    vertices: Vec<ProjectedVertex>,
     triangles: Vec<[usize; 3]>,
     colors: Vec<[u8; 4]>,
 }
 
 /// Where the vertices are on the screen.
-fn placed(mesh: &Mesh, transform: &DAffine3, projector: &Projector) -> Result<Vec<Place>, String> {
-    let place = |position: &trigon_scene::math::Vec3| {
-        let place = projector.to_screen_and_depth(transform.transform_point3(position.as_dvec3()));
-        place.filter(|(place, depth)| place.abs().max_element() < FARTHEST && *depth <= 1.0)
+fn placed(mesh: &Mesh, transform: &DAffine3, projector: &Projector) -> Result<Vec<ProjectedVertex>, String> {
+    let project = |position: &trigon_scene::math::Vec3| {
+        let point = projector.to_screen_and_depth(transform.transform_point3(position.as_dvec3()));
+        point.filter(|(point, depth)| point.abs().max_element() < FARTHEST && *depth <= 1.0)
     };
-    let places: Option<Vec<Place>> = mesh.positions().iter().map(place).collect();
-    places.ok_or_else(|| "parts of the model lie behind the eye or far outside the image, and this algorithm does not clip; move the camera back".to_owned())
+    let vertices: Option<Vec<ProjectedVertex>> = mesh.positions().iter().map(project).collect();
+    vertices.ok_or_else(|| "parts of the model lie behind the eye or far outside the image, and this algorithm does not clip; move the camera back".to_owned())
 }
 
 /// Divides a mesh into the parts that hang together, vertices at the same place being
 /// one. The colours are those of triangles, by their vertices.
-fn cut(mesh: &Mesh, places: &[Place], color: impl Fn([usize; 3]) -> [u8; 4]) -> Vec<Part> {
+fn cut(mesh: &Mesh, projected: &[ProjectedVertex], color: impl Fn([usize; 3]) -> [u8; 4]) -> Vec<Part> {
     let mut joined = Joined::new(mesh);
     let vertices = mesh.corner_vertices();
     let triangles: Vec<[usize; 3]> = mesh
@@ -122,8 +122,8 @@ fn cut(mesh: &Mesh, places: &[Place], color: impl Fn([usize; 3]) -> [u8; 4]) -> 
         let part = &mut parts[number];
         let corners = triangle.map(|vertex| {
             *known.entry(joined.same(vertex)).or_insert_with(|| {
-                part.places.push(places[vertex]);
-                part.places.len() - 1
+                part.vertices.push(projected[vertex]);
+                part.vertices.len() - 1
             })
         });
         part.triangles.push(corners);

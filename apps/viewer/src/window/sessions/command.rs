@@ -114,9 +114,9 @@ fn states_are_saved_and_loaded() {
         window.key(Key::Tab.into());
         window.key(Chord::new(Modifiers::ALT, Key::Right));
         let moved = window.stage().selection.expect("selected");
-        let place =
+        let position_of =
             |window: &HeadlessWindow<'_>, id| window.stage().scene.node(id).map(|node| node.transform);
-        let (number, placed) = (number_of(window, moved), place(window, moved));
+        let (number, placed) = (number_of(window, moved), position_of(window, moved));
         let (orbit, display) = (window.stage().orbit, window.stage().settings.display);
         ctrl(window, 's');
         let state = State::read(&path).expect("saved");
@@ -129,7 +129,7 @@ fn states_are_saved_and_loaded() {
         let again = window.stage().orbit;
         assert_eq!(window.stage().settings.display, display, "as it was");
         let again_moved = window.stage().scene.tree()[number].0;
-        assert_eq!(place(window, again_moved), placed, "what was moved is where it was");
+        assert_eq!(position_of(window, again_moved), placed, "what was moved is where it was");
         assert!(copied(window).contains("--place-node="), "and stays in the command line");
         assert!(again.target().distance(orbit.target()) < 1e-9, "there");
         assert!(again.orientation().dot(orbit.orientation()).abs() > 1.0 - 1e-12, "turned as it was");

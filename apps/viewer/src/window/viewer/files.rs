@@ -132,12 +132,12 @@ impl Viewer {
             Ok(files) => files,
             Err(reason) => return self.tell_unshown(&Source::Files(files), &Failure::work(reason)),
         };
-        let place = self.current + 1;
-        if let Some(shown) = self.shown.as_mut().filter(|shown| shown.index >= place) {
+        let index = self.current + 1;
+        if let Some(shown) = self.shown.as_mut().filter(|shown| shown.index >= index) {
             shown.index += files.len();
         }
-        self.sources.splice(place..place, files.into_iter().map(|file| Source::Files(vec![file])));
-        self.current = place;
+        self.sources.splice(index..index, files.into_iter().map(|file| Source::Files(vec![file])));
+        self.current = index;
         self.load(stage, ViewChange::Fit);
     }
 

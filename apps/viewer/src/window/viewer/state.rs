@@ -77,7 +77,7 @@ impl Viewer {
                 hidden.push(number.to_string());
             }
             if moved.contains(&id) || self.request.placed.iter().any(|placed| placed.number == number) {
-                flags.push(format!("--place-node={}", PlacedNode { number, place: node.transform }));
+                flags.push(format!("--place-node={}", PlacedNode { number, transform: node.transform }));
             }
         }
         if !hidden.is_empty() {

@@ -88,11 +88,11 @@ impl Triangle<'_> {
 
 fn sample(image: &ColorImage, uv: [f64; 2], options: TextureOptions) -> [f64; 4] {
     let texel = |x: f64, y: f64| {
-        let [x, y] = [x, y].map(|place| place.clamp(0.0, image.size[0] as f64 - 1.0) as usize);
+        let [x, y] = [x, y].map(|coordinate| coordinate.clamp(0.0, image.size[0] as f64 - 1.0) as usize);
         image.pixels[y * image.size[0] + x].to_array().map(f64::from)
     };
-    let place = |at: f64, side: usize| (at * side as f64 * 4096.0).round() / 4096.0;
-    let [u, v] = [place(uv[0], image.size[0]), place(uv[1], image.size[1])];
+    let rounded = |at: f64, side: usize| (at * side as f64 * 4096.0).round() / 4096.0;
+    let [u, v] = [rounded(uv[0], image.size[0]), rounded(uv[1], image.size[1])];
     if options == TextureOptions::NEAREST {
         return texel(u.floor(), v.floor());
     }

@@ -35,7 +35,7 @@ pub(super) fn any_scale() -> impl Strategy<Value = f32> {
 }
 
 /// Places on and off pixels' centres and borders, also outside.
-fn place() -> impl Strategy<Value = Pos2> {
+fn position() -> impl Strategy<Value = Pos2> {
     let coordinate = || prop_oneof![-10.0..110.0f32, (-20..220i32).prop_map(|half| half as f32 * 0.5)];
     (coordinate(), coordinate()).prop_map(|(x, y)| pos2(x, y * 0.75))
 }
@@ -62,19 +62,19 @@ fn quad(rect: Rect, uv: Rect, color: Color32) -> Mesh {
 /// A shape in a mesh of its own.
 fn shape() -> impl Strategy<Value = Mesh> {
     let white = Rect::from_min_max(egui::epaint::WHITE_UV, egui::epaint::WHITE_UV);
-    let triangle = prop::array::uniform3((place(), color())).prop_map(|corners| Mesh {
+    let triangle = prop::array::uniform3((position(), color())).prop_map(|corners| Mesh {
         indices: vec![0, 1, 2],
         vertices: corners.map(|(pos, color)| Vertex { pos, uv: egui::epaint::WHITE_UV, color }).to_vec(),
         texture_id: FONT,
     });
-    let panel = (place(), place(), color())
+    let panel = (position(), position(), color())
         .prop_map(move |(a, b, color)| quad(Rect::from_two_pos(a, b), white, color));
     let glyph = (0..90i32, 0..60i32, 1..14usize, color()).prop_map(|(x, y, side, color)| {
         let texels = |texel: usize| texel as f32 / SIDE as f32;
         let uv = Rect::from_min_max(pos2(texels(1), texels(1)), pos2(texels(1 + side), texels(1 + side)));
         quad(Rect::from_min_size(pos2(x as f32, y as f32), vec2(side as f32, side as f32)), uv, color)
     });
-    let textured = (place(), place(), dense_color()).prop_map(|(a, b, color)| Mesh {
+    let textured = (position(), position(), dense_color()).prop_map(|(a, b, color)| Mesh {
         texture_id: IMAGE,
         ..quad(Rect::from_two_pos(a, b), Rect::from_min_max(pos2(0.1, -0.2), pos2(0.9, 1.3)), color)
     });
@@ -84,8 +84,8 @@ fn shape() -> impl Strategy<Value = Mesh> {
 fn clip() -> impl Strategy<Value = Rect> {
     prop_oneof![
         Just(Rect::EVERYTHING),
-        (place(), place()).prop_map(|(a, b)| Rect::from_two_pos(a, b)),
-        (place(), place()).prop_map(|(min, max)| Rect { min, max }),
+        (position(), position()).prop_map(|(a, b)| Rect::from_two_pos(a, b)),
+        (position(), position()).prop_map(|(min, max)| Rect { min, max }),
     ]
 }
 
@@ -108,7 +108,7 @@ pub(super) fn any_scene() -> impl Strategy<Value = Vec<ClippedPrimitive>> {
 /// What may happen to an interface between two passes.
 #[derive(Clone, Debug)]
 pub(super) enum Change {
-    /// One primitive more at this place.
+    /// One primitive more at this position.
     Insert(usize, ClippedPrimitive),
     /// One less.
     Remove(usize),
@@ -122,7 +122,7 @@ pub(super) enum Change {
     Clip(usize, Rect),
     /// Another shape before a triangle of a mesh.
     InsertShape(usize, usize, Mesh),
-    /// A triangle goes to another place in the order.
+    /// A triangle goes to another position in the order.
     Reorder(usize, usize, usize),
     /// A triangle occurs twice.
     Repeat(usize, usize, usize),
@@ -134,7 +134,7 @@ pub(super) fn changed() -> impl Strategy<Value = Change> {
         (index(), primitive()).prop_map(|(at, primitive)| Change::Insert(at, primitive)),
         index().prop_map(Change::Remove),
         (index(), shape()).prop_map(|(at, shape)| Change::Grow(at, shape)),
-        (index(), index(), place(), dense_color())
+        (index(), index(), position(), dense_color())
             .prop_map(|(at, i, to, color)| Change::Edit(at, i, to, color)),
         index().prop_map(Change::Shrink),
         (index(), clip()).prop_map(|(at, clip)| Change::Clip(at, clip)),

@@ -129,8 +129,8 @@ fn textures_change_in_part_and_go() {
     let mut texture = Some(screen.context.load_texture("t", color(egui::Color32::RED), Default::default()));
     let image = |ui: &mut egui::Ui, texture: &egui::TextureHandle| {
         let uv = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
-        let place = egui::Rect::from_min_size(egui::pos2(100.0, 100.0), egui::vec2(80.0, 80.0));
-        ui.painter().image(texture.id(), place, uv, egui::Color32::WHITE);
+        let rect = egui::Rect::from_min_size(egui::pos2(100.0, 100.0), egui::vec2(80.0, 80.0));
+        ui.painter().image(texture.id(), rect, uv, egui::Color32::WHITE);
     };
     let at = |screen: &Screen, x: usize, y: usize| screen.pixels[y * SCREEN[0] as usize + x];
     screen.pass(|ui| image(ui, texture.as_ref().expect("still there")));

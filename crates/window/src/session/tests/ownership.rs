@@ -161,8 +161,8 @@ fn commands_are_chosen_from_the_list() {
     run(&mut session, ms(1000));
     let before = session.stage.orbit;
     // The only row of the window in the middle: its button is found by trying.
-    let places = (60..140).step_by(6).map(|y| (200.0, f64::from(y)));
-    places.for_each(|at| {
+    let points = (60..140).step_by(6).map(|y| (200.0, f64::from(y)));
+    points.for_each(|at| {
         if session.stage.orbit == before {
             click(&mut session, at, ms(2000));
         }

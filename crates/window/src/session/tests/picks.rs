@@ -185,8 +185,8 @@ fn what_is_added_before_or_behind_all_else_is_seen() {
         assert_eq!(session.stage.pick(between), None, "between the cubes is nothing");
         let side = if depth > 0.0 { 0.2 } else { 200.0 };
         let added = session.stage.scene.add_object("added", primitives::cube(side), Material::default());
-        let place = DVec3::new(1.0, 0.0, depth - side as f64 * 0.5);
-        session.stage.scene.node_mut(added).expect("just added").transform.translate(place);
+        let position = DVec3::new(1.0, 0.0, depth - side as f64 * 0.5);
+        session.stage.scene.node_mut(added).expect("just added").transform.translate(position);
         session.note(ms(2000));
         run(&mut session, ms(2000));
         let (name, point) = picked(&session, between).expect("it is seen");

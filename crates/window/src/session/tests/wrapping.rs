@@ -47,14 +47,14 @@ fn move_to(session: &mut Session<'_>, x: f64) {
 fn a_drag_goes_on_from_the_other_side() {
     let handler = dragged(|session| {
         move_to(session, 150.0);
-        assert_eq!(session.take_pointer_place(), None, "far from all borders");
+        assert_eq!(session.take_pointer_position(), None, "far from all borders");
         session.settle(ms(1));
         move_to(session, 199.0);
-        assert_eq!(session.take_pointer_place(), Some(DVec2::new(4.0, 50.0)), "to the left");
+        assert_eq!(session.take_pointer_position(), Some(DVec2::new(4.0, 50.0)), "to the left");
         // One more was under way before the pointer was put there.
         move_to(session, 198.0);
         move_to(session, 6.0);
-        assert_eq!(session.take_pointer_place(), None, "once");
+        assert_eq!(session.take_pointer_position(), None, "once");
         move_to(session, 16.0);
         session.settle(ms(2));
     });
@@ -71,7 +71,7 @@ fn where_the_system_refuses_the_pointer_stays() {
         assert!(!session.keeps_pointer(), "and may leave the window");
         move_to(session, 100.0);
         move_to(session, 199.0);
-        assert_eq!(session.take_pointer_place(), None, "it is not asked again");
+        assert_eq!(session.take_pointer_position(), None, "it is not asked again");
         move_to(session, 4.0);
         session.settle(ms(2));
     });
