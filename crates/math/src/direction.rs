@@ -46,34 +46,17 @@ const ARC_COSINE: [f64; 8] = [
 #[must_use]
 #[inline]
 pub fn angle(a: DVec3, b: DVec3) -> f64 {
-    let [angle] = angles([a.dot(b)], [a.length_squared() * b.length_squared()]);
-    angle
-}
-
-/// Angles between vectors, from their dot products and the products of their squared
-/// lengths: each as [`angle`] gives it. Step by step for all of them, so that the compiler
-/// takes several at a time.
-#[must_use]
-#[inline(always)]
-pub fn angles<const N: usize>(dots: [f64; N], squares: [f64; N]) -> [f64; N] {
-    let (mut cosines, mut x, mut series, mut angles) = ([0.0; N], [0.0_f64; N], [0.0; N], [0.0; N]);
-    for i in 0..N {
-        cosines[i] = dots[i] / squares[i].sqrt();
-        let size = cosines[i].abs();
-        // No number counts as 1, too.
-        x[i] = if size < 1.0 { size } else { 1.0 };
+    let squares = a.length_squared() * b.length_squared();
+    if squares <= 0.0 {
+        return 0.0;
     }
-    for factor in ARC_COSINE.iter().rev() {
-        for i in 0..N {
-            series[i] = series[i] * x[i] + factor;
-        }
-    }
-    for i in 0..N {
-        let acute = (1.0 - x[i]).sqrt() * series[i];
-        let angle = if cosines[i] < 0.0 { PI - acute } else { acute };
-        angles[i] = if squares[i] <= 0.0 { 0.0 } else { angle };
-    }
-    angles
+    let cosine = a.dot(b) / squares.sqrt();
+    let size = cosine.abs();
+    // No number counts as 1, too.
+    let x = if size < 1.0 { size } else { 1.0 };
+    let series = ARC_COSINE.iter().rev().fold(0.0, |series, factor| series * x + factor);
+    let acute = (1.0 - x).sqrt() * series;
+    if cosine < 0.0 { PI - acute } else { acute }
 }
 
 /// The matrix of cofactors: determinant times inverse transpose, but defined

@@ -55,9 +55,7 @@ pub use bounds::Bounds3;
 pub use bvh::{Bvh, Ray, RayHit};
 pub use clip::{Band, ClipPolygon, ClipVertex, ClipVolume, HalfSpace, Outcode, clip_segment, clip_triangle};
 
-pub use direction::{
-    angle, angles, cofactors, or_if_zero, transformed_delta, transformed_direction, unit_or_zero,
-};
+pub use direction::{angle, cofactors, or_if_zero, transformed_delta, transformed_direction, unit_or_zero};
 pub use frustum::{Frustum, FrustumSide};
 pub use plane::Plane;
 pub use polygon::{AxisProjection, area_vector};

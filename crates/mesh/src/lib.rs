@@ -59,7 +59,6 @@ mod mesh;
 mod normals;
 mod prefetch;
 pub mod primitives;
-mod quads;
 mod render_mesh;
 mod smooth;
 mod surface;
@@ -73,19 +72,16 @@ mod welded_mesh;
 
 pub use attributes::{Attributes, Deltas, MorphTarget, SkinWeights};
 pub use builder::MeshBuilder;
-pub use change::{
-    ChangeError, ChangedElements, MeshChange, Outlines, RenderLinks, RenderUpdate, UpdatedVertex,
-};
+pub use change::{ChangeError, ChangedElements, MeshChange, RenderLinks, RenderUpdate, UpdatedVertex};
 pub use columns::MeshColumns;
 pub use deformed::Deformed;
 pub use edit_data::{EdgeMark, EditData};
 pub use error::MeshError;
 pub use flat_faces::FlatFaces;
 pub use mesh::Mesh;
-pub use quads::{Halves, QuadGroup, Quads};
 pub use render_mesh::RenderMesh;
 pub use surface::{EdgeJoin, Surface};
-pub use triangulate::{QuadCut, Triangulator, triangulate_polygon};
+pub use triangulate::{Triangulator, triangulate_polygon};
 pub use triangulation::Triangulation;
 pub use welded_mesh::WeldedMesh;
 

@@ -2,11 +2,12 @@
 //! million triangles, in one place or all over it, 1920×1080 pixels, one sample.
 //!
 //! ```sh
-//! cargo bench -p trigon-scene --bench changes -- [derived|given] [edges] [stages] [KIND …] [ROUNDS] [THREADS]
+//! cargo bench -p trigon-scene --bench changes -- [derived|given|sheet] [edges] [stages] [KIND …] [ROUNDS] [THREADS]
 //! ```
 //!
 //! The torus takes its normals from its faces (`derived`, if nothing else is said), so that
-//! they change with the vertices, or has normals of its own (`given`). In each round the
+//! they change with the vertices, or has normals of its own (`given`). Instead of the torus, `sheet` draws a flat grid of as
+//! many polygons, in which the patch is visible. In each round the
 //! cases take turns: an image without a change, one after each kind of change, and one
 //! after the same change by a new mesh; or only those that are named: `none`, `compact`,
 //! `scattered`, `replaced`. The last image of each is held against one of a new scene, byte
@@ -65,7 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         threads: NonZeroUsize::new(numbers.get(1).copied().unwrap_or(2)),
         ..RenderSettings::new(1920, 1080)
     };
-    let torus = torus(says("given"));
+    let torus = if says("sheet") { sheet() } else { torus(says("given")) };
     let is_named = |kind: &&Kind| says(&format!("{kind:?}").to_lowercase());
     let named: Vec<&Kind> = KINDS.iter().filter(is_named).collect();
     let kinds = if named.is_empty() { KINDS.iter().collect() } else { named };
@@ -126,6 +127,13 @@ fn torus(has_normals: bool) -> Mesh {
         torus.set_attributes(attributes).expect("one less");
     }
     torus
+}
+
+/// Flat polygons.
+fn sheet() -> Mesh {
+    let mut sheet = primitives::grid(10.0, 5.0, QUADS[0], QUADS[1]);
+    sheet.set_attributes(Attributes::default()).expect("none");
+    sheet
 }
 
 impl Case {

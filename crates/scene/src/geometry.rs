@@ -27,7 +27,6 @@ use crate::work::{Work, note};
 pub(crate) use blocks::{BlockBox, Blocks};
 pub(crate) use bounds::{box_around, runs_without};
 use bounds::{box_of_ranges, range, range_without};
-use change::FacePlaces;
 pub(crate) use columns::Columns;
 use edge_flags::flags_of_mesh;
 use mesh_vertices::mesh_vertices;
@@ -78,8 +77,6 @@ pub(crate) struct Geometry {
     pose: Option<Pose>,
     /// The data needed to follow changes of the mesh; `None` until the first one.
     links: Option<RenderLinks>,
-    /// Of the faces of the last change.
-    face_places: FacePlaces,
     still_bounds: StillBounds,
     /// The difference that the last change made.
     pub(crate) change: Option<GeometryChange>,
@@ -210,7 +207,6 @@ impl Geometry {
             split: OnceLock::new(),
             pose: None,
             links: None,
-            face_places: FacePlaces::default(),
             still_bounds: StillBounds::default(),
             change: None,
         }
@@ -251,7 +247,6 @@ impl Geometry {
             columns,
             pose: None,
             links: None,
-            face_places: FacePlaces::default(),
             still_bounds: StillBounds::default(),
             change: None,
         }

@@ -5,25 +5,21 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use trigon_math::Vec3;
 
-use super::ChangedElements;
-use super::corner_faces::CornerFaces;
-use super::face_normals::{FaceNormals, PIECE};
-use super::fans::Fans;
-use super::local_normals::LocalNormals;
-use super::neighborhood::Neighborhood;
-use super::render_update::{RenderUpdate, UpdatedVertex};
-use super::vertex_values::{Shown, SplitOff, VertexValues};
+use super::index_set::IndexSet;
+use super::normals::{CornerFaces, FaceNormals, VertexNormals};
+use super::vertex_values::{ShownVertices, VertexValues};
+use super::{ChangedElements, ELEMENTS_PER_TASK};
 use crate::Mesh;
 use crate::groups::Groups;
 use crate::normals::unit_keeping;
-use crate::weld::Welded;
+use crate::weld::{AttributeComparison, Welded};
 
 /// How the vertices of a [`RenderMesh`](crate::RenderMesh) or a [`WeldedMesh`](crate::WeldedMesh) come from its mesh. Made
 /// by [`RenderMesh::with_links`](crate::RenderMesh::with_links) and
 /// [`WeldedMesh::of_flat_with_links`](crate::WeldedMesh::of_flat_with_links).
 ///
 /// Corners of a vertex that no longer agree get render vertices of their own, at the end
-/// of the list. Those that agree again stay apart, so that no render vertex is without a
+/// of the list. Corners that agree again stay apart, so that no render vertex is without a
 /// corner: triangles show the same values as those of a render mesh made from the changed
 /// mesh, to the bit, but may name them by other numbers.
 #[derive(Debug, Clone)]
@@ -39,12 +35,35 @@ pub struct RenderLinks {
     is_flat: bool,
     /// What lies around the elements of the last change.
     around: Neighborhood,
-    /// Those of its vertices that are fans.
-    fans: Fans,
-    /// What shows the last change. The fans come first.
-    update: RenderUpdate,
-    /// Whether the vertices of the update stay the same as long as the same elements change.
-    is_settled: bool,
+}
+
+/// What of a [`RenderMesh`](crate::RenderMesh) is to be written anew after a change of its
+/// mesh; made by [`RenderLinks::follow`].
+#[derive(Debug, Clone, Default)]
+pub struct RenderUpdate {
+    /// Vertices with other values. New ones come last, in the order of their numbers.
+    pub vertices: Vec<UpdatedVertex>,
+    /// Polygons that may be cut otherwise, or whose corners are other vertices than
+    /// before; increasing. See [`Mesh::triangulation_of`](crate::Mesh::triangulation_of): a polygon may have more
+    /// or fewer triangles than before.
+    pub faces: Vec<u32>,
+    /// Polygons that may show another normal than before, increasing, and these normals, of unit length. None unless
+    /// the links are those of a [`WeldedMesh::of_flat_with_links`](crate::WeldedMesh::of_flat_with_links).
+    pub face_normals: Vec<(u32, Vec3)>,
+}
+
+/// A vertex of a [`RenderMesh`](crate::RenderMesh) with other values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UpdatedVertex {
+    /// Its number in the render mesh.
+    pub vertex: u32,
+    /// The corner of the mesh whose position and attributes it shows.
+    pub corner: u32,
+    /// The shading normal of that corner; of unit length. Zero if vertices have none, because all polygons are flat: see
+    /// [`RenderUpdate::face_normals`].
+    pub normal: Vec3,
+    /// Whether nothing but the normal can have changed.
+    pub is_normal_alone: bool,
 }
 
 impl RenderLinks {
@@ -60,9 +79,6 @@ impl RenderLinks {
             face_normals: follows.then(|| FaceNormals::new(mesh)),
             is_flat,
             around: Neighborhood::default(),
-            fans: Fans::default(),
-            update: RenderUpdate::default(),
-            is_settled: false,
         }
     }
 
@@ -73,40 +89,22 @@ impl RenderLinks {
     }
 
     /// Finds out what is to be written anew when these elements of the mesh were changed, in time
-    /// proportional to what lies around them; see [`RenderLinks::update`]. `mesh` is the one that these links were made
+    /// proportional to what lies around them. `mesh` is the one that these links were made
     /// for, with its new values.
-    pub fn follow(&mut self, mesh: &Mesh, changed: &ChangedElements) {
+    pub fn follow(&mut self, mesh: &Mesh, changed: &ChangedElements) -> RenderUpdate {
         self.find_face_normals(mesh, changed);
-        let has_face_normals = self.face_normals.is_some() && !self.is_flat;
-        let is_other = self.around.update(mesh, &self.corners_at, changed, has_face_normals);
-        let outlines = &mut self.update.outlines;
-        if is_other {
-            outlines.replace(mesh, &self.around.faces, &self.around.moved);
-        } else {
-            outlines.update(mesh);
-        }
+        let has_vertex_normals = self.face_normals.is_some() && !self.is_flat;
+        self.around.update(mesh, &self.corners_at, changed, has_vertex_normals);
+        let faces = &self.around.faces;
+        let mut update = RenderUpdate { faces: self.around.polygons.clone(), ..RenderUpdate::default() };
         if let Some(normals) = &mut self.face_normals {
-            if is_other {
-                normals.replace(mesh, &self.around.faces);
-            }
-            normals.update(mesh, outlines);
+            normals.update(mesh, faces);
             if self.is_flat {
-                self.update.face_normals.clear();
-                self.update.face_normals.extend(normals.shown());
+                update.face_normals = faces.iter().map(|&face| (face, normals.shown(face))).collect();
             }
         }
-        self.update.faces.clone_from(&self.around.polygons);
-        self.update_vertices(mesh, is_other);
-        if !self.update.faces.is_sorted_by(|a, b| a < b) {
-            self.update.faces.sort_unstable();
-            self.update.faces.dedup();
-        }
-    }
-
-    /// What is to be written anew after the change that was followed last.
-    #[must_use]
-    pub fn update(&self) -> &RenderUpdate {
-        &self.update
+        self.update_vertices(mesh, &mut update);
+        update
     }
 
     /// Computes the normals of all faces when a corner has lost its own normal.
@@ -122,45 +120,95 @@ impl RenderLinks {
         }
     }
 
-    /// Updates what the corners at affected vertices show; `are_others` says that they are other vertices than those
-    /// of the last change.
-    fn update_vertices(&mut self, mesh: &Mesh, are_others: bool) {
-        if self.is_settled && !are_others {
-            return;
-        }
-        let Self { around, update, .. } = self;
-        let mut none = FaceNormals::default();
-        let face_normals = self.face_normals.as_mut().unwrap_or(&mut none);
-        update.vertices.truncate(self.fans.count);
-        update.replaced.truncate(self.fans.moved);
-        let are_fans = !are_others && self.fans.update(mesh, face_normals, &mut update.vertices);
-        if !are_fans || !self.fans.others.is_empty() {
-            face_normals.settle(mesh);
-        }
-        let normals = (!self.is_flat).then(|| LocalNormals::new(mesh, face_normals.all()));
-        let values = VertexValues::new(mesh, &self.vertex_of_corner, &self.corners_at, normals, around);
-        if !are_fans {
-            let found = around.vertices.par_chunks(PIECE).map(|piece| values.fans_of(piece)).collect();
-            self.fans = Fans::new(found, update);
-        }
-        let shown: Vec<Shown> = self.fans.others.par_chunks(PIECE).map(|piece| values.at(piece)).collect();
-        for part in &shown {
-            update.add(&part.kept, &part.replaced);
-        }
-        // Without normals nothing but places changes, and what has parted stays apart.
-        let parts = shown.iter().any(|part| !part.split.is_empty());
-        self.is_settled = self.is_flat && around.corners.is_empty() && !parts;
-        let of_corner = CornerFaces::new(mesh);
-        for SplitOff { corners, shown: (corner, normal) } in shown.iter().flat_map(|part| &part.split) {
+    /// Updates what the corners at affected vertices show.
+    fn update_vertices(&mut self, mesh: &Mesh, update: &mut RenderUpdate) {
+        let none = FaceNormals::default();
+        let face_normals = self.face_normals.as_ref().unwrap_or(&none);
+        let normals = (!self.is_flat).then(|| VertexNormals::new(mesh, face_normals));
+        let Neighborhood { vertices, moved, corners, .. } = &self.around;
+        let values = VertexValues {
+            vertex_of_corner: &self.vertex_of_corner,
+            corners_at: &self.corners_at,
+            normals,
+            attributes: AttributeComparison::new(mesh),
+            moved,
+            has_same_attributes: corners.is_empty(),
+        };
+        let shown: Vec<ShownVertices> =
+            vertices.par_chunks(ELEMENTS_PER_TASK).map(|task| values.at(task)).collect();
+        update.vertices.reserve_exact(shown.iter().map(|part| part.kept.len() + part.split.len()).sum());
+        shown.iter().for_each(|part| update.vertices.extend_from_slice(&part.kept));
+        let corner_faces = CornerFaces::new(mesh);
+        let face_count = update.faces.len();
+        for split in shown.into_iter().flat_map(|part| part.split) {
             let vertex = self.vertex_count;
             self.vertex_count += 1;
-            for &corner in corners {
+            for corner in split.corners {
                 self.vertex_of_corner[corner as usize] = vertex;
-                update.faces.push(of_corner.of(corner).0 as u32);
+                update.faces.push(corner_faces.face_of(corner));
             }
-            update.add(&[UpdatedVertex { vertex, corner: *corner, normal: *normal }], &[0]);
+            update.vertices.push(UpdatedVertex { vertex, ..split.shown });
+        }
+        if update.faces.len() > face_count {
+            update.faces.sort_unstable();
+            update.faces.dedup();
         }
     }
+}
+
+/// The elements of a mesh that a change affects. They follow from which elements were changed and not from
+/// their values, so they are found once for a drag that changes the same vertices in each frame.
+#[derive(Debug, Clone, Default)]
+struct Neighborhood {
+    /// The vertices that were moved, increasing.
+    moved: Vec<u32>,
+    /// The corners with other attributes, increasing.
+    corners: Vec<u32>,
+    /// The faces with a vertex that was moved, increasing.
+    faces: Vec<u32>,
+    /// The faces among them that can be cut in more than one way.
+    polygons: Vec<u32>,
+    /// The vertices at which a corner may show other values, increasing.
+    vertices: Vec<u32>,
+    /// Whether normals of vertices depend on faces.
+    has_vertex_normals: bool,
+}
+
+impl Neighborhood {
+    /// Takes the place of the one of an earlier change, if that was of other elements.
+    fn update(
+        &mut self,
+        mesh: &Mesh,
+        corners_at: &Groups<u32>,
+        changed: &ChangedElements,
+        has_vertex_normals: bool,
+    ) {
+        let (moved, corners) = (changed.vertices(), changed.corners());
+        if (&self.moved, &self.corners, self.has_vertex_normals) == (&moved, &corners, has_vertex_normals) {
+            return;
+        }
+        let faces = faces_around(mesh, corners_at, &moved);
+        let mut vertices = IndexSet::new(mesh.vertex_count());
+        moved.iter().for_each(|&vertex| vertices.insert(vertex));
+        corners.iter().for_each(|&corner| vertices.insert(mesh.corner_vertices()[corner as usize]));
+        if has_vertex_normals {
+            let around = faces.iter().flat_map(|&face| mesh.face_vertices(face as usize));
+            around.for_each(|&vertex| vertices.insert(vertex));
+        }
+        let is_polygon = |&face: &u32| mesh.face_corners(face as usize).len() > 3;
+        let polygons = faces.iter().copied().filter(is_polygon).collect();
+        *self =
+            Self { moved, corners, faces, polygons, vertices: vertices.into_sorted(), has_vertex_normals };
+    }
+}
+
+/// The faces that have one of these vertices, increasing.
+fn faces_around(mesh: &Mesh, corners_at: &Groups<u32>, vertices: &[u32]) -> Vec<u32> {
+    let corner_faces = CornerFaces::new(mesh);
+    let mut faces = IndexSet::new(mesh.face_count());
+    let corners = vertices.iter().flat_map(|&vertex| corners_at.get(vertex));
+    corners.for_each(|&corner| faces.insert(corner_faces.face_of(corner)));
+    faces.into_sorted()
 }
 
 /// Whether a normal counts as "none given here".

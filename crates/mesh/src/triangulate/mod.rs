@@ -21,9 +21,6 @@ mod quad;
 
 use trigon_math::{AxisProjection, DVec2, Vec3};
 
-pub(crate) use quad::CLEARLY_SHORTER;
-pub use quad::QuadCut;
-
 use ears::EarCutter;
 
 /// Cuts a polygon into triangles: indices into `positions`, counter-clockwise

@@ -7,11 +7,11 @@ use super::ears::turn;
 /// The second diagonal is taken only if its square is smaller by this factor.
 /// Squares on a curved surface have diagonals that differ by rounding; without
 /// this their triangles would lie this way and that.
-pub(crate) const CLEARLY_SHORTER: f64 = 0.9999;
+const CLEARLY_SHORTER: f64 = 0.9999;
 
 /// How a quad is cut into triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum QuadCut {
+pub(super) enum QuadCut {
     /// From the first corner to the third.
     First,
     /// From the second corner to the last.
@@ -22,8 +22,7 @@ pub enum QuadCut {
 
 impl QuadCut {
     /// The triangles, as indices of corners.
-    #[must_use]
-    pub const fn triangles(self) -> &'static [[u32; 3]] {
+    pub(super) const fn triangles(self) -> &'static [[u32; 3]] {
         match self {
             Self::First => &[[0, 1, 2], [0, 2, 3]],
             Self::Second => &[[0, 1, 3], [1, 2, 3]],
@@ -37,7 +36,7 @@ impl QuadCut {
     /// The cut of a quad that turns left at some corners and right at the others, and whose second diagonal is clearly
     /// shorter or not. Of one that crosses itself, as many do whose vertex is dragged far, this is what the general way
     /// finds, which cuts off the first ear; what is left turns right. `None` if it turns left nowhere.
-    pub(crate) const fn of(left: [bool; 4], is_second_shorter: bool) -> Option<Self> {
+    const fn of(left: [bool; 4], is_second_shorter: bool) -> Option<Self> {
         let [at_a, at_b, at_c, at_d] = left;
         match (at_b && at_d, at_a && at_c) {
             (true, true) if is_second_shorter => Some(Self::Second),

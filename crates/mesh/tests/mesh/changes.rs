@@ -71,8 +71,7 @@ fn follow(mesh: &mut Mesh, changes: &[MeshChange]) -> usize {
         let mut changed = ChangedElements::default();
         mesh.change(change).expect("the mesh has it all");
         changed.add(change);
-        links.follow(mesh, &changed);
-        let update = links.update();
+        let update = links.follow(mesh, &changed);
         for of in &update.vertices {
             let index = of.vertex as usize;
             let position = mesh.positions()[mesh.corner_vertices()[of.corner as usize] as usize];

@@ -6,9 +6,7 @@
 //! two triangles fewer than it has corners. A folded polygon has fewer triangles; degenerate ones, whose
 //! three corners are the same vertex, fill the rest of its slots.
 
-mod cut_quads;
-mod face_places;
-mod triangle_lists;
+mod changed_faces;
 
 use std::mem::take;
 use std::ops::Range;
@@ -20,14 +18,11 @@ use trigon_mesh::{
     ChangedElements, Mesh, RenderLinks, RenderMesh, RenderUpdate, Triangulation, UpdatedVertex, WeldedMesh,
 };
 
-use cut_quads::cut_quads;
-pub(super) use face_places::FacePlaces;
-use face_places::{FacePlace, PIECE};
-use triangle_lists::{Replaced, TriangleLists, fillers_of};
+use changed_faces::{ChangedFace, ChangedFaces, FACES_PER_TASK, Rewritten, TriangleLists, fillers_of};
 
 use super::{
-    Columns, Geometry, GeometryChange, GeometryState, Triangles, box_around, box_of_ranges, large_flat,
-    places_for, range_without,
+    Columns, Geometry, GeometryChange, Triangles, box_around, box_of_ranges, large_flat, places_for,
+    range_without,
 };
 
 impl Geometry {
@@ -36,18 +31,19 @@ impl Geometry {
         if let Some(((mut welded, normals), links)) = large_flat(mesh, WeldedMesh::of_flat_with_links) {
             let triangles = Triangles::of_welded(&mut welded);
             let columns = || Columns::of_flat_faces(mesh, welded, normals);
-            return Self::linked(mesh, (triangles, links), columns);
+            return Self::linked(mesh, triangles, links, columns);
         }
         let (mut render_mesh, links) = RenderMesh::with_links(mesh);
         let Some(links) = links else { return Self::of(render_mesh) };
         let triangles = Triangles::of_render_mesh(&mut render_mesh);
-        Self::linked(mesh, (triangles, links), || Columns::new(render_mesh))
+        Self::linked(mesh, triangles, links, || Columns::new(render_mesh))
     }
 
     /// Of these triangles of a mesh, and its vertices.
     fn linked(
         mesh: &Mesh,
-        (mut triangles, links): (Triangles, RenderLinks),
+        mut triangles: Triangles,
+        links: RenderLinks,
         columns: impl FnOnce() -> Columns,
     ) -> Self {
         let fillers = triangles.fill(mesh, &links);
@@ -62,14 +58,9 @@ impl Geometry {
     /// Updates the geometry of a mesh after these elements have changed. It is copied first if somebody else
     /// holds it.
     pub(crate) fn after_change(before: Arc<Self>, mesh: &Mesh, changed: &ChangedElements) -> Self {
-        let state = before.state.clone();
         let mut geometry = Arc::try_unwrap(before).unwrap_or_else(|shared| shared.copied());
         match geometry.follow(mesh, changed) {
-            Some((vertices, triangles)) => {
-                let mesh_vertices = changed.vertices();
-                geometry.change = Some(GeometryChange { before: state, vertices, mesh_vertices, triangles });
-                geometry
-            }
+            Some(change) => Self { change: Some(change), ..geometry },
             None => Self::that_follows(mesh),
         }
     }
@@ -81,39 +72,33 @@ impl Geometry {
 
     /// Writes the affected vertices and triangles, and returns them. `None` if it cannot follow the change;
     /// it is then of no further use.
-    fn follow(&mut self, mesh: &Mesh, changed: &ChangedElements) -> Option<(Vec<u32>, Vec<u32>)> {
+    fn follow(&mut self, mesh: &Mesh, changed: &ChangedElements) -> Option<GeometryChange> {
         let mut links = self.links.take()?;
-        links.follow(mesh, changed);
-        let update = links.update();
-        self.state = GeometryState::default();
-        let bounds = self.bounds_without(update);
+        let update = links.follow(mesh, changed);
+        let before = take(&mut self.state);
+        let bounds = self.bounds_without(&update);
         self.blocks = OnceLock::new();
         self.mesh_vertices = OnceLock::new();
         (self.tangential, self.split) = (places_for(&self.columns), OnceLock::new());
         let mut columns = take(&mut self.columns);
         let is_flat = columns.face_normals.is_some();
-        // They come last.
-        let is_new = |last: &UpdatedVertex| last.vertex as usize >= columns.vertex_count();
-        if update.vertices.last().is_some_and(is_new) {
-            self.face_places.forget_cuts();
-        }
         let (triangles, vertices) = rayon::join(
-            || self.replace_triangles(mesh, (&links, is_flat)),
+            || self.replace_triangles(mesh, &links, &update.faces, is_flat),
             || {
-                columns.update(mesh, update);
+                columns.update(mesh, &update);
                 update.vertices.iter().map(|updated| updated.vertex).collect()
             },
         );
         self.columns = columns;
-        let bounds = bounds.map(|bounds| self.bounds_with(bounds, update));
+        let bounds = bounds.map(|bounds| self.bounds_with(bounds, &update));
         self.bounds = bounds.map_or_else(OnceLock::new, OnceLock::from);
         self.links = Some(links);
-        Some((vertices, triangles?))
+        Some(GeometryChange { before, vertices, mesh_vertices: changed.vertices(), triangles: triangles? })
     }
 
     /// The box around all vertices but those that are about to move, if it is known.
     fn bounds_without(&mut self, update: &RenderUpdate) -> Option<Bounds3> {
-        let moved = update.replaced().map(|vertex| vertex.vertex);
+        let moved = replaced(update).map(|vertex| vertex.vertex);
         let columns = &self.columns;
         // New vertices have no position yet.
         let place = |vertex| columns.position(vertex);
@@ -124,77 +109,83 @@ impl Geometry {
 
     /// The box extended by vertices that were written.
     fn bounds_with(&self, bounds: Bounds3, update: &RenderUpdate) -> Bounds3 {
-        let places = update.replaced().filter_map(|vertex| self.columns.position(vertex.vertex));
+        let places = replaced(update).filter_map(|vertex| self.columns.position(vertex.vertex));
         bounds.union(box_around(places))
     }
 
-    /// Replaces the triangles of faces, and returns those that may have other corners, edge flags, sides or normals of
-    /// polygons now, increasing. `None` if a face needs more slots than it has.
-    fn replace_triangles(&mut self, mesh: &Mesh, (links, is_flat): (&RenderLinks, bool)) -> Option<Vec<u32>> {
-        let mut face_places = take(&mut self.face_places);
-        let materials = mesh.attributes().face_materials.as_deref();
-        let places = face_places.update(links.update(), |face| {
-            self.place_of(face, materials.map_or(0, |slots| slots[face as usize]), mesh.face_count())
-        });
+    /// Cuts faces into triangles again, and returns the triangles that may have other corners, edge flags, sides or
+    /// normals of polygons now, increasing. `None` if a face needs more slots than it has.
+    fn replace_triangles(
+        &mut self,
+        mesh: &Mesh,
+        links: &RenderLinks,
+        faces: &[u32],
+        is_flat: bool,
+    ) -> Option<Vec<u32>> {
+        let faces = self.changed_faces(mesh, faces);
         let mut lists = TriangleLists {
             triangles: &mut self.triangles,
             flags: self.edge_flags.get_mut().map_or(&mut [], Vec::as_mut_slice),
             sides: self.side_edges.get_mut().map_or(&mut [], |sides| Arc::make_mut(sides).as_mut_slice()),
         };
-        let quads = cut_quads(mesh, &links.update().outlines, !lists.flags.is_empty());
-        let mut first = 0;
-        let mut pieces = Vec::with_capacity(places.len().div_ceil(PIECE));
-        for places in places.chunks_mut(PIECE) {
-            let end = places[places.len() - 1].slots().end;
-            pieces.push((places, first, lists.split_off(end - first)));
-            first = end;
+        let mut first_slot = 0;
+        let mut tasks = Vec::with_capacity(faces.len().div_ceil(FACES_PER_TASK));
+        for faces in faces.chunks(FACES_PER_TASK) {
+            let end = faces[faces.len() - 1].slots().end;
+            let lists = lists.split_off(end - first_slot);
+            tasks.push(ChangedFaces { mesh, links, faces, first_slot, lists });
+            first_slot = end;
         }
-        let replace = |(places, first, lists): (&mut [FacePlace], usize, TriangleLists<'_>)| {
-            lists.replace(mesh, links, (places, &quads), first)
-        };
-        let replaced: Vec<Replaced> = pieces.into_par_iter().map(replace).collect::<Option<_>>()?;
-        self.note_fillers(places, &replaced);
+        let rewritten: Vec<Rewritten> =
+            tasks.into_par_iter().map(ChangedFaces::rewrite).collect::<Option<_>>()?;
+        self.note_fillers(&faces, &rewritten);
         // Each shows the normal of its polygon.
-        let triangles = match is_flat {
-            true => places.iter().flat_map(|place| place.slots()).map(|slot| slot as u32).collect(),
-            false => replaced.into_iter().flat_map(|part| part.triangles).collect(),
-        };
-        self.face_places = face_places;
-        Some(triangles)
+        Some(match is_flat {
+            true => faces.iter().flat_map(|face| face.slots()).map(|slot| slot as u32).collect(),
+            false => rewritten.into_iter().flat_map(|part| part.triangles).collect(),
+        })
     }
 
-    /// Updates the list of fillers after triangles were replaced.
-    fn note_fillers(&mut self, places: &[FacePlace], replaced: &[Replaced]) {
-        let are_all_full = self.fillers.is_empty() && replaced.iter().all(|part| part.counts.is_empty());
-        if are_all_full || !replaced.iter().any(|part| part.may_differ_in_counts) {
+    /// Where the triangles of faces are, if they have any; in the order of their slots.
+    fn changed_faces(&self, mesh: &Mesh, faces: &[u32]) -> Vec<ChangedFace> {
+        let materials = mesh.attributes().face_materials.as_deref();
+        let find = |&face: &u32| {
+            let material = materials.map_or(0, |slots| slots[face as usize]);
+            let slots = self.slots_of(face, material, mesh.face_count());
+            ChangedFace { face, start: slots.start as u32, end: slots.end as u32 }
+        };
+        let found = faces.par_iter().with_min_len(FACES_PER_TASK).map(find);
+        let mut found: Vec<ChangedFace> = found.filter(|face| face.start < face.end).collect();
+        // Out of order where faces of several materials change.
+        found.sort_by_key(|face| face.start);
+        found
+    }
+
+    /// Updates the list of fillers after faces were cut again.
+    fn note_fillers(&mut self, faces: &[ChangedFace], rewritten: &[Rewritten]) {
+        let fillers = rewritten.iter().flat_map(|part| &part.fillers);
+        let fillers: Vec<u32> = fillers.map(|&slot| self.place_in_triangulation(slot as usize)).collect();
+        if self.fillers.is_empty() && fillers.is_empty() {
             return;
         }
         // The slots of a face are consecutive in the triangulation, too.
-        let slots = |place: &FacePlace| {
-            let start = self.place_in_triangulation(place.slots().start);
-            start..start + place.slots().len() as u32
+        let in_triangulation = |face: &ChangedFace| {
+            let start = self.place_in_triangulation(face.start as usize);
+            start..start + face.end - face.start
         };
-        let mut counted = Vec::with_capacity(places.len());
-        for (places, part) in places.chunks(PIECE).zip(replaced) {
-            let count = |number: usize, slots: &Range<u32>| {
-                part.counts.get(number).map_or(slots.len() as u32, |&count| count)
-            };
-            counted.extend(
-                places.iter().map(slots).enumerate().map(|(number, slots)| (count(number, &slots), slots)),
-            );
-        }
-        counted.sort_unstable_by_key(|(_, slots)| slots.start);
+        let mut changed: Vec<Range<u32>> = faces.iter().map(in_triangulation).collect();
+        changed.sort_unstable_by_key(|slots| slots.start);
         self.fillers.retain(|filler| {
-            let next = counted.partition_point(|(_, slots)| slots.end <= *filler);
-            !counted.get(next).is_some_and(|(_, slots)| slots.contains(filler))
+            let next = changed.partition_point(|slots| slots.end <= *filler);
+            !changed.get(next).is_some_and(|slots| slots.contains(filler))
         });
-        self.fillers.extend(counted.into_iter().flat_map(|(count, slots)| slots.start + count..slots.end));
+        self.fillers.extend(fillers);
         self.fillers.sort_unstable();
     }
 
     /// The slots of a face's triangles in a material slot; empty if it has none.
-    fn place_of(&self, face: u32, slot: u32, face_count: usize) -> Range<usize> {
-        let Ok(run) = self.runs.binary_search_by_key(&slot, |run| run.slot) else { return 0..0 };
+    fn slots_of(&self, face: u32, material: u32, face_count: usize) -> Range<usize> {
+        let Ok(run) = self.runs.binary_search_by_key(&material, |run| run.slot) else { return 0..0 };
         let Range { start, end } = self.runs[run].triangles;
         let Some(faces) = self.faces_of(start..end) else {
             return if (face as usize) < end { face as usize..face as usize + 1 } else { 0..0 };
@@ -241,6 +232,11 @@ impl Triangles {
         }
         fillers
     }
+}
+
+/// The vertices that may show more than another normal.
+fn replaced(update: &RenderUpdate) -> impl Iterator<Item = &UpdatedVertex> + Clone {
+    update.vertices.iter().filter(|vertex| !vertex.is_normal_alone)
 }
 
 #[cfg(test)]

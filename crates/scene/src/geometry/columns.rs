@@ -78,23 +78,24 @@ impl Columns {
     pub(crate) fn update(&mut self, mesh: &Mesh, update: &RenderUpdate) {
         let Self { positions, normals, face_normals, tangents, uv_sets, colors, color_traits } = self;
         let attributes = mesh.attributes();
+        let replaced = || update.vertices.iter().filter(|of| !of.is_normal_alone);
         let write_others = || {
-            write(positions, update.replaced(), |of| {
+            write(positions, replaced(), |of| {
                 mesh.positions()[mesh.corner_vertices()[of.corner as usize] as usize].to_array()
             });
             if let (Some(columns), Some(values)) = (tangents, &attributes.corner_tangents) {
-                write(columns, update.replaced(), |of| values[of.corner as usize].to_array());
+                write(columns, replaced(), |of| values[of.corner as usize].to_array());
             }
             for (columns, values) in uv_sets.iter_mut().zip(&attributes.uv_sets) {
-                write(columns, update.replaced(), |of| values[of.corner as usize].to_array());
+                write(columns, replaced(), |of| values[of.corner as usize].to_array());
             }
             if let (Some(columns), Some(values)) = (colors, &attributes.corner_colors) {
                 let color = |of: &UpdatedVertex| values[of.corner as usize].to_array();
                 // Most changes move vertices, and leave their colours.
-                if update.replaced().any(|of| !holds(columns, of.vertex, color(of))) {
+                if replaced().any(|of| !holds(columns, of.vertex, color(of))) {
                     *color_traits = ColorTraits::default();
                 }
-                write(columns, update.replaced(), color);
+                write(columns, replaced(), color);
             }
         };
         let write_normals = || match face_normals {

@@ -21,7 +21,7 @@ impl Few {
         let (mut triangles, mut faces) = (Vec::new(), Vec::new());
         if let Some(drawn) = object.drawn() {
             let blocks = drawn.blocks(mesh);
-            triangles = near_triangles(drawn, blocks, (screen, area));
+            triangles = near_triangles(drawn, blocks, screen, area);
             faces.extend(triangles.iter().map(|&triangle| drawn.face(triangle as usize)));
             faces.extend(&blocks.scant_faces);
         }
@@ -36,7 +36,7 @@ impl Few {
 }
 
 /// The triangles that may lie in an area.
-fn near_triangles(drawn: &Drawn, blocks: &Blocks, (screen, area): (&Screen, &Area<'_>)) -> Vec<u32> {
+fn near_triangles(drawn: &Drawn, blocks: &Blocks, screen: &Screen, area: &Area<'_>) -> Vec<u32> {
     let beyond = Beyond::new(drawn.map(), screen.half_size(), area);
     let corner = drawn.corners(screen);
     let is_near = |triangle: &usize| {

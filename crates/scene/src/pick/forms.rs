@@ -45,7 +45,7 @@ type Factors = [f64; 3];
 impl<S: Simd> Forms<S> {
     /// For points up to `reach` to the right of and below the origin.
     #[inline(always)]
-    pub(super) fn new(simd: S, pieces: &Pieces, (origin, reach): (DVec2, DVec2)) -> Self {
+    pub(super) fn new(simd: S, pieces: &Pieces, origin: DVec2, reach: DVec2) -> Self {
         let depth = pieces.depth[0][0];
         let mut lanes = [[[0.0_f32; LANES]; 3]; 4];
         for lane in 0..LANES {
@@ -151,10 +151,10 @@ mod tests {
             let (piece, all) = (piece(corners), 0..u32::MAX);
             let extent = Extent::new(&piece);
             let pixels = extent.pixels(&all, &all).expect("in the image");
-            group.push((&piece, 0), (extent, pixels));
+            group.push(&piece, 0, extent, pixels);
         }
         dispatch!(Level::new(), simd => {
-            let forms = Forms::new(simd, &group.pieces, (DVec2::ZERO, reach));
+            let forms = Forms::new(simd, &group.pieces, DVec2::ZERO, reach);
             probes.iter().map(|probe| forms.that_may_hide(simd, probe) & group.bits()).collect()
         })
     }

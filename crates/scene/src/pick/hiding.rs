@@ -59,11 +59,7 @@ struct Band {
 impl<'p> Hiding<'p> {
     /// The candidates, in any number of lists, have to lie in the area. There have to be
     /// fewer than `u32::MAX` of them.
-    pub(super) fn new(
-        (screen, frame): (&Screen, &'p Frame),
-        area: &Area<'_>,
-        lists: &[Vec<Candidate>],
-    ) -> Self {
+    pub(super) fn new(screen: &Screen, frame: &'p Frame, area: &Area<'_>, lists: &[Vec<Candidate>]) -> Self {
         let (columns, rows) = (area.columns.clone(), area.rows.clone());
         let band = |candidate: &Candidate| (candidate.spot.at.y as u32 - rows.start) / BAND;
         let band_count = rows.len().div_ceil(BAND as usize);
@@ -93,7 +89,7 @@ impl<'p> Hiding<'p> {
             let starts: Vec<usize> = places.clone().step_by(TRIANGLES).collect();
             starts.into_par_iter().for_each(|start| {
                 let share = start..places.end.min(start + TRIANGLES);
-                dispatch!(level, simd => self.visit_all(simd, (&triangles, facing), share, &hides));
+                dispatch!(level, simd => self.visit_all(simd, &triangles, facing, share, &hides));
             });
         }
     }
@@ -119,7 +115,8 @@ impl<'p> Hiding<'p> {
     fn visit_all<S: Simd>(
         &self,
         simd: S,
-        (triangles, facing): (&NearbyTriangles<'_>, Facing),
+        triangles: &NearbyTriangles<'_>,
+        facing: Facing,
         places: Range<usize>,
         hides: &impl Fn(u32, &Candidate) -> bool,
     ) {
@@ -137,7 +134,7 @@ impl<'p> Hiding<'p> {
                     group.clear();
                 }
                 let face = triangles.drawn.face(triangles.number(place));
-                group.push((piece, face), (extent, pixels));
+                group.push(piece, face, extent, pixels);
             });
         }
         self.visit(simd, &group, hides);
@@ -155,7 +152,8 @@ impl<'p> Hiding<'p> {
                     let numbers = band.points_of(row % BAND, &pixels.columns, self.columns.len());
                     band.probes.for_each_hidden(
                         simd,
-                        (extent, numbers),
+                        extent,
+                        numbers,
                         #[inline(always)]
                         |number| {
                             if band.hidden[number].load(Ordering::Relaxed) {
@@ -163,10 +161,13 @@ impl<'p> Hiding<'p> {
                             }
                             let forms = forms.get_or_insert_with(
                                 #[inline(always)]
-                                || Forms::new(simd, &group.pieces, self.around(pixels)),
+                                || {
+                                    let (origin, reach) = self.around(pixels);
+                                    Forms::new(simd, &group.pieces, origin, reach)
+                                },
                             );
                             let bits = forms.that_may_hide(simd, band.probes.get(number)) & group.bits();
-                            if bits != 0 && band.is_hidden(number, (group, bits), hides) {
+                            if bits != 0 && band.is_hidden(number, group, bits, hides) {
                                 band.hidden[number].store(true, Ordering::Relaxed);
                             }
                         },
@@ -205,7 +206,8 @@ impl Band {
     fn is_hidden(
         &self,
         number: usize,
-        (group, mut bits): (&Group, u64),
+        group: &Group,
+        mut bits: u64,
         hides: &impl Fn(u32, &Candidate) -> bool,
     ) -> bool {
         let Probe { at, hiding_depth } = *self.probes.get(number);

@@ -182,7 +182,7 @@ impl NearbyTriangles<'_> {
                 [at(a), at(b), at(c)]
             }
         };
-        self.drawn.pieces(self.screen, (triangle, spots), visit);
+        self.drawn.pieces(self.screen, triangle, spots, visit);
     }
 }
 

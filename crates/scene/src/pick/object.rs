@@ -248,7 +248,8 @@ impl Drawn {
     pub(super) fn pieces(
         &self,
         screen: &Screen,
-        (triangle, spots): (usize, [Spot; 3]),
+        triangle: usize,
+        spots: [Spot; 3],
         mut visit: impl FnMut(&[Spot; 3]),
     ) {
         if spots.iter().all(Spot::is_somewhere) {

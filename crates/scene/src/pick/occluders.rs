@@ -135,7 +135,7 @@ impl Group {
     }
 
     #[inline]
-    pub(super) fn push(&mut self, (piece, face): (&[Spot; 3], u32), (extent, pixels): (Extent, Pixels)) {
+    pub(super) fn push(&mut self, piece: &[Spot; 3], face: u32, extent: Extent, pixels: Pixels) {
         self.around = Some(match &self.around {
             None => Around { pixels, extent },
             Some(around) => {

@@ -216,8 +216,8 @@ impl<'p> Picker<'p> {
             Some((self.scene.nodes().id_at(object as usize)?, element))
         };
         let nearby = self.nearby(&area);
-        let [vertex, edge] = [Kind::Vertex, Kind::Edge]
-            .map(|kind| element(self.nearest_element((kind, point), &nearby, reach)));
+        let [vertex, edge] =
+            [Kind::Vertex, Kind::Edge].map(|kind| element(self.nearest_element(kind, point, &nearby, reach)));
         Nearest { vertex, edge, face: element(self.nearest_face(point, &area, reach)) }
     }
 

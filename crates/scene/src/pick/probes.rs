@@ -58,7 +58,8 @@ impl Probes {
     pub(super) fn for_each_hidden<S: Simd>(
         &self,
         simd: S,
-        (extent, numbers): (&Extent, Range<usize>),
+        extent: &Extent,
+        numbers: Range<usize>,
         mut visit: impl FnMut(usize),
     ) {
         let mut first = numbers.start;

@@ -87,7 +87,7 @@ impl<'p> Picker<'p> {
         let area = self.area(region);
         let mut sets = Sets::new(self.objects(), move |mesh| kind.count(mesh));
         let names = |point: &Candidate| [point.object, point.element];
-        self.seen((kind, &self.nearby(&area)), names, |[object, element]| sets.insert(object, element));
+        self.seen(kind, &self.nearby(&area), names, |[object, element]| sets.insert(object, element));
         sets.finish()
     }
 
@@ -121,7 +121,8 @@ impl<'p> Picker<'p> {
     /// The element of whose points one is nearest to a point.
     pub(super) fn nearest_element(
         &self,
-        (kind, target): (Kind, DVec2),
+        kind: Kind,
+        target: DVec2,
         nearby: &[Nearby<'_>],
         reach: Reach,
     ) -> Best {
@@ -129,7 +130,7 @@ impl<'p> Picker<'p> {
         let mut offer =
             |point: Candidate| best.offer(point.spot.at, point.spot.depth, point.object, point.element);
         match reach {
-            Reach::Visible => self.seen((kind, nearby), |point| *point, offer),
+            Reach::Visible => self.seen(kind, nearby, |point| *point, offer),
             Reach::Through => {
                 self.candidates(kind, nearby, |lists| lists.iter().flatten().copied().for_each(&mut offer));
             }
@@ -140,13 +141,14 @@ impl<'p> Picker<'p> {
     /// Calls `found` with what is asked of the points of elements that are seen in an area.
     fn seen<T: Send>(
         &self,
-        (kind, nearby): (Kind, &[Nearby<'_>]),
+        kind: Kind,
+        nearby: &[Nearby<'_>],
         ask: impl Fn(&Candidate) -> T + Sync,
         mut found: impl FnMut(T),
     ) {
         self.candidates(kind, nearby, |lists| {
             let [first, ..] = nearby else { return };
-            let hiding = Hiding::new((&self.screen, self.frame), first.area, lists);
+            let hiding = Hiding::new(&self.screen, self.frame, first.area, lists);
             for nearby in nearby {
                 let object = nearby.object;
                 let index = object.node.index() as u32;
