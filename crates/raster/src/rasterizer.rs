@@ -163,7 +163,7 @@ impl Rasterizer {
     ) -> Redraw {
         let Self { execution, arena } = self;
         let options = execution.options(pass, target);
-        options.workers.install(|| redraw(arena, pass, (target, changes), options))
+        options.workers.install(|| redraw(arena, pass, target, changes, options))
     }
 
     /// Processes items of any kind on the rasterizer's threads; each item goes to the first

@@ -1,8 +1,7 @@
 //! A chunk: consecutive primitives of the frame, set up and sorted into tiles.
 
-use super::earlier::primitives_of;
 use super::triangle_ref::{Entry, Listed, TriangleRef};
-use super::{EarlierEntries, Grid, TileRange};
+use super::{Grid, TileRange};
 use crate::primitive::{Corners, CutWeights, DetailIndex, Edge, Quad, QuadDetail, SetupTriangle, Stroke};
 use crate::simd::{Each, LANES, Mask, Simd, U32, append, prelude::*};
 use crate::{BlendMode, Stats};
@@ -259,20 +258,6 @@ impl Chunk {
         }
     }
 
-    /// Gives away what its tiles list, so that some of its primitives can be set up again,
-    /// if it has none but triangles and points that are drawn as they are; else it is left as it
-    /// is.
-    pub(crate) fn set_aside(&mut self, earlier: &mut EarlierEntries) -> bool {
-        if !self.is_plain(self.ordinals.len()) {
-            return false;
-        }
-        earlier.take((&mut self.tiles, &mut self.pushed));
-        self.starts.clear();
-        self.entries.clear();
-        self.stats = Stats::default();
-        true
-    }
-
     /// Whether the primitives that were set up, `count` of them, are triangles and points that are drawn as they
     /// are, and each of them is either culled or listed by a tile.
     pub(super) fn is_plain(&self, count: usize) -> bool {
@@ -306,14 +291,6 @@ impl Chunk {
         self.starts.clear();
         self.entries.clear();
         self.sort();
-    }
-
-    /// Takes back what tiles listed of some primitives, by their places in the chunk. They
-    /// have to come in order.
-    pub(crate) fn take_back(&mut self, earlier: &mut EarlierEntries, places: Range<u32>) {
-        let set_up = earlier.give_back(&places, (&mut self.tiles, &mut self.pushed));
-        self.stats.set_up += set_up;
-        self.stats.culled += places.len() as u64 - set_up;
     }
 
     /// Visits the tiles that list primitives for which a test of their index in the chunk holds; some tiles
@@ -364,4 +341,10 @@ impl Chunk {
     pub(crate) fn is_empty(&self) -> bool {
         self.entries.is_empty() && self.large.is_empty()
     }
+}
+
+/// How many primitives have entries, of a list in their order.
+fn primitives_of(entries: &[Entry]) -> u64 {
+    let again = entries.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    (entries.len() - again) as u64
 }

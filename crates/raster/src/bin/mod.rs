@@ -4,13 +4,11 @@
 //! reads the chunks in order. Primitives that move in every frame can be listed apart ([`MovingChunk`]).
 
 mod chunk;
-mod earlier;
 mod grid;
 mod moving;
 mod triangle_ref;
 
 pub(crate) use chunk::Chunk;
-pub(crate) use earlier::EarlierEntries;
 pub(crate) use grid::{Grid, TileRange};
 pub(crate) use moving::MovingChunk;
 pub(crate) use triangle_ref::{Entry, TriangleRef};

@@ -5,25 +5,25 @@ use super::{Chunk, Grid};
 /// The moving primitives of a chunk.
 #[derive(Default)]
 pub(crate) struct MovingChunk {
-    /// Their places in the chunk, increasing.
-    places: Vec<u32>,
-    /// What tiles list of them. Entries name the same places as those of the chunk itself.
+    /// Their indices in the chunk, increasing.
+    indices: Vec<u32>,
+    /// What tiles list of them. Entries name the same indices as those of the chunk itself.
     pub(crate) listed: Chunk,
 }
 
 impl MovingChunk {
     /// Whether [`take`](Self::take) may take primitives of a chunk.
     pub(crate) fn can_take(&self, chunk: &Chunk) -> bool {
-        chunk.is_plain(chunk.ordinals.len() - self.places.len())
+        chunk.is_plain(chunk.ordinals.len() - self.indices.len())
     }
 
-    /// Takes primitives from a chunk, by their places, those that are here already included. They must be set
+    /// Takes primitives from a chunk, by their indices, those that are here already included. They must be set
     /// up next.
-    pub(crate) fn take(&mut self, chunk: &mut Chunk, places: Vec<u32>) {
-        if !places.is_empty() {
-            chunk.drop_listed(&places);
+    pub(crate) fn take(&mut self, chunk: &mut Chunk, indices: Vec<u32>) {
+        if !indices.is_empty() {
+            chunk.drop_listed(&indices);
         }
-        self.places = places;
+        self.indices = indices;
     }
 
     /// Starts to set them up.
@@ -31,19 +31,19 @@ impl MovingChunk {
         self.listed.reset(chunk.ordinals.clone(), chunk.blend_mode);
     }
 
-    /// The places in the chunk of the primitives, increasing.
-    pub(crate) fn places(&self) -> &[u32] {
-        &self.places
+    /// The indices in the chunk of the primitives, increasing.
+    pub(crate) fn indices(&self) -> &[u32] {
+        &self.indices
     }
 
-    /// Their places, and what tiles list of them.
+    /// Their indices, and what tiles list of them.
     pub(crate) fn parts(&mut self) -> (&[u32], &mut Chunk) {
-        (&self.places, &mut self.listed)
+        (&self.indices, &mut self.listed)
     }
 
     /// Whether all of them were set up as [`take`](Self::take) requires it.
     pub(crate) fn is_plain(&self) -> bool {
-        self.listed.is_plain(self.places.len())
+        self.listed.is_plain(self.indices.len())
     }
 
     /// Visits all tiles that list any of them; some more than once.

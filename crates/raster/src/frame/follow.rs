@@ -1,19 +1,16 @@
 //! Everything up to the tiles of a frame that differs little from the last one, and the tiles that may differ.
 
+use super::affected_primitives::{AffectedPrimitives, AffectedSearch};
 use super::change::{DirtyTiles, DrawChange};
-use super::moving::Moving;
+use super::moving::MovingPrimitives;
 use super::options::FrameOptions;
 use super::set_up::SetUp;
-use super::touched::{Found, Touched};
-use crate::bin::{Chunk, EarlierEntries, Grid, MovingChunk};
-use std::sync::{Mutex, PoisonError};
+use crate::bin::{Chunk, MovingChunk};
 
 /// What is brought up to date.
 pub(super) struct Follow<'a> {
     pub(super) set_up: SetUp<'a>,
-    pub(super) touched: &'a Touched,
-    pub(super) changes: &'a [DrawChange<'a>],
-    pub(super) has_lines: bool,
+    pub(super) search: AffectedSearch<'a>,
     /// Whether primitives that move again and again may be listed apart.
     pub(super) may_part: bool,
     pub(super) options: FrameOptions<'a>,
@@ -21,36 +18,35 @@ pub(super) struct Follow<'a> {
 
 impl Follow<'_> {
     /// Sets primitives up again whose vertices have run, and returns the tiles that may look different.
-    pub(super) fn run(&self, chunks: &mut [Chunk], moving: &mut Moving) -> Vec<u32> {
-        if self.touched.changed().iter().all(|&word| word == 0) && self.changes.iter().all(is_empty) {
+    pub(super) fn run(&self, chunks: &mut [Chunk], moving: &mut MovingPrimitives) -> Vec<u32> {
+        let AffectedSearch { plan, vertices, changes, .. } = self.search;
+        if vertices.changed().iter().all(|&word| word == 0) && changes.iter().all(is_empty) {
             return Vec::new();
         }
         let tiles = DirtyTiles::new(self.set_up.grid);
-        if moving.covers(self.touched, self.set_up.plan, self.changes) {
-            self.set_up_apart((chunks, &mut moving.chunks), &tiles);
-            moving.tiles.iter().for_each(|&tile| tiles.add_tile(tile));
-            self.unite_unless_plain((chunks, moving), &tiles);
+        if moving.covers(vertices, plan, changes) {
+            self.set_up_apart(chunks, moving, &tiles);
             return tiles.listed();
         }
-        let found = self.find(chunks);
-        let places = self.part((chunks, &found), moving);
-        for (number, (chunk, found)) in chunks.iter().zip(&found).enumerate() {
-            add_flagged(&tiles, self.set_up.grid, (chunk, moving.chunks.get(number)), &found.differ);
+        let affected = self.find(chunks);
+        for (number, (chunk, affected)) in chunks.iter().zip(&affected).enumerate() {
+            self.add_different(chunk, affected, &tiles);
+            if let Some(moving) = moving.chunks.get(number) {
+                self.add_different(&moving.listed, affected, &tiles);
+            }
         }
-        match places {
-            Some(places) => {
-                moving.part(self.set_up.grid, chunks, places);
-                self.set_up_apart((chunks, &mut moving.chunks), &tiles);
-                let look = DirtyTiles::new(self.set_up.grid);
-                for (chunk, found) in chunks.iter().zip(&found) {
-                    look.add(self.set_up.grid, chunk, |place| found.differ[place as usize]);
+        match self.part(chunks, &affected, moving) {
+            Some(indices) => {
+                moving.part(self.set_up.grid, chunks, indices);
+                let still = DirtyTiles::new(self.set_up.grid);
+                for (chunk, affected) in chunks.iter().zip(&affected) {
+                    self.add_different(chunk, affected, &still);
                 }
-                moving.tiles = look.listed();
-                moving.tiles.iter().for_each(|&tile| tiles.add_tile(tile));
-                self.unite_unless_plain((chunks, moving), &tiles);
+                moving.tiles = still.listed();
+                self.set_up_apart(chunks, moving, &tiles);
             }
             None => {
-                self.set_up_again((chunks, &found), moving, &tiles);
+                self.set_up_again(chunks, &affected, moving, &tiles);
                 moving.unite();
             }
         }
@@ -58,74 +54,77 @@ impl Follow<'_> {
     }
 
     /// Finds the primitives of each chunk that may look different.
-    fn find(&self, chunks: &[Chunk]) -> Vec<Found> {
-        let SetUp { pass, plan, .. } = self.set_up;
-        let mut found: Vec<Found> = chunks.iter().map(|_| Found::default()).collect();
-        self.for_each(chunks.iter().zip(&mut found), |(chunk, found)| {
-            self.touched.triangles(pass, plan, (self.changes, self.has_lines), chunk, found);
+    fn find(&self, chunks: &[Chunk]) -> Vec<AffectedPrimitives> {
+        let mut affected: Vec<_> = chunks.iter().map(|_| AffectedPrimitives::default()).collect();
+        self.for_each(chunks.iter().zip(&mut affected), |(chunk, affected)| {
+            self.search.find(chunk, affected);
         });
-        found
+        affected
     }
 
-    /// The places in each chunk of the primitives that are to be listed apart, if any are.
-    fn part(&self, (chunks, found): (&[Chunk], &[Found]), moving: &mut Moving) -> Option<Vec<Vec<u32>>> {
-        let SetUp { pass, plan, .. } = self.set_up;
-        if !moving.repeats(self.touched) || !self.may_part {
+    /// The indices in each chunk of the primitives that are to be listed apart, if any are.
+    fn part(
+        &self,
+        chunks: &[Chunk],
+        affected: &[AffectedPrimitives],
+        moving: &mut MovingPrimitives,
+    ) -> Option<Vec<Vec<u32>>> {
+        let AffectedSearch { pass, plan, vertices, .. } = self.search;
+        if !moving.repeats(vertices) || !self.may_part {
             return None;
         }
-        let places = moving.find((pass, plan), self.touched, (chunks, found))?;
-        moving.can_part((pass, plan), chunks, &places).then_some(places)
+        let indices = moving.find(pass, plan, vertices, chunks, affected)?;
+        moving.can_part(pass, plan, chunks, &indices).then_some(indices)
     }
 
-    /// Sets up the primitives that are listed apart. Adds the tiles that listed any of them or do now.
-    fn set_up_apart(&self, (chunks, moving): (&[Chunk], &mut [MovingChunk]), tiles: &DirtyTiles) {
+    /// Sets up the primitives that are listed apart. Adds the tiles that listed any of them or do now, and the tiles in
+    /// which others may look different. If some of the primitives cannot be listed apart any more, because they are cut or
+    /// very large, sets up all of their chunks as a whole.
+    fn set_up_apart(&self, chunks: &mut [Chunk], moving: &mut MovingPrimitives, tiles: &DirtyTiles) {
         let grid = self.set_up.grid;
-        self.for_each(chunks.iter().zip(moving), |(chunk, moving)| {
-            if moving.places().is_empty() {
-                return;
+        self.for_each(chunks.iter().zip(&mut moving.chunks), |(chunk, moving)| {
+            if !moving.indices().is_empty() {
+                moving.for_each_tile(grid, |tile| tiles.add_tile(tile));
+                self.set_up.apart(chunk, moving);
+                moving.for_each_tile(grid, |tile| tiles.add_tile(tile));
             }
-            moving.for_each_tile(grid, |tile| tiles.add_tile(tile));
-            self.set_up.apart(chunk, moving);
-            moving.for_each_tile(grid, |tile| tiles.add_tile(tile));
         });
-    }
-
-    /// If some of the primitives that are listed apart cannot be any more, because they are cut or very large, sets
-    /// up all of their chunks as a whole.
-    fn unite_unless_plain(&self, (chunks, moving): (&mut [Chunk], &mut Moving), tiles: &DirtyTiles) {
+        moving.tiles.iter().for_each(|&tile| tiles.add_tile(tile));
         if moving.chunks.iter().all(MovingChunk::is_plain) {
             return;
         }
         self.for_each(chunks.iter_mut().zip(&moving.chunks), |(chunk, moving)| {
-            if !moving.places().is_empty() {
-                chunk.reset(chunk.ordinals.clone(), chunk.blend_mode);
-                self.set_up.chunk(chunk);
-                tiles.add(self.set_up.grid, chunk, |place| moving.places().binary_search(&place).is_ok());
+            if !moving.indices().is_empty() {
+                self.set_up.again(chunk);
+                tiles.add(grid, chunk, |index| moving.indices().binary_search(&index).is_ok());
             }
         });
         moving.unite();
     }
 
-    /// Sets up the primitives of each chunk that moved, and those that were listed apart. Adds the tiles that list
-    /// primitives which look different.
-    fn set_up_again(&self, (chunks, found): (&mut [Chunk], &[Found]), moving: &Moving, tiles: &DirtyTiles) {
-        let numbered = chunks.iter_mut().zip(found).enumerate();
-        let earlier = Mutex::new(Vec::<EarlierEntries>::new());
-        self.for_each(numbered, |(number, (chunk, found))| {
-            let were_apart = moving.chunks.get(number).is_some_and(|moving| !moving.places().is_empty());
-            if were_apart {
-                chunk.reset(chunk.ordinals.clone(), chunk.blend_mode);
-                self.set_up.chunk(chunk);
-            } else if found.any_moved {
-                let lock = || earlier.lock().unwrap_or_else(PoisonError::into_inner);
-                let mut spare = lock().pop().unwrap_or_default();
-                self.set_up.moved(chunk, &found.moved, &mut spare);
-                lock().push(spare);
-            } else {
-                return;
+    /// Sets up the chunks with primitives that moved or were listed apart. Adds the tiles that list primitives which look
+    /// different.
+    fn set_up_again(
+        &self,
+        chunks: &mut [Chunk],
+        affected: &[AffectedPrimitives],
+        moving: &MovingPrimitives,
+        tiles: &DirtyTiles,
+    ) {
+        self.for_each(chunks.iter_mut().zip(affected).enumerate(), |(number, (chunk, affected))| {
+            let were_apart = moving.chunks.get(number).is_some_and(|moving| !moving.indices().is_empty());
+            if were_apart || affected.any_moved {
+                self.set_up.again(chunk);
+                self.add_different(chunk, affected, tiles);
             }
-            tiles.add(self.set_up.grid, chunk, |place| found.differ[place as usize]);
         });
+    }
+
+    /// Adds the tiles that list primitives of a chunk which look different.
+    fn add_different(&self, chunk: &Chunk, affected: &AffectedPrimitives, tiles: &DirtyTiles) {
+        if affected.any_differs {
+            tiles.add(self.set_up.grid, chunk, |index| affected.differs[index as usize]);
+        }
     }
 
     /// Shares items among the workers.
@@ -137,18 +136,4 @@ impl Follow<'_> {
 /// Whether no primitive may look different by itself.
 fn is_empty(change: &DrawChange<'_>) -> bool {
     change.reshaped.is_empty() && change.recolored.is_empty()
-}
-
-/// Adds the tiles that list flagged primitives of a chunk.
-fn add_flagged(
-    tiles: &DirtyTiles,
-    grid: &Grid,
-    (chunk, moving): (&Chunk, Option<&MovingChunk>),
-    flags: &[bool],
-) {
-    let is_flagged = |place: u32| flags[place as usize];
-    tiles.add(grid, chunk, is_flagged);
-    if let Some(moving) = moving {
-        tiles.add(grid, &moving.listed, is_flagged);
-    }
 }

@@ -1,7 +1,9 @@
 //! Draws a frame: runs all stages, from the plan to the finished tiles.
 
+mod affected_primitives;
 mod bits;
 mod change;
+mod changed_vertices;
 mod follow;
 mod kept_tiles;
 mod layout;
@@ -11,7 +13,6 @@ mod redraw;
 mod set_up;
 mod stages;
 mod tiles;
-mod touched;
 
 pub use change::{DrawChange, Redraw};
 pub(crate) use options::FrameOptions;

@@ -5,9 +5,10 @@
 //! their edges are painted together.
 
 use super::DrawChange;
+use super::affected_primitives::AffectedPrimitives;
 use super::bits::{are_among, is_set, reset, set};
+use super::changed_vertices::ChangedVertices;
 use super::kept_tiles::KeptTiles;
-use super::touched::{Found, Touched};
 use crate::BlendMode;
 use crate::bin::{Chunk, Grid, MovingChunk};
 use crate::geometry::Shape;
@@ -20,10 +21,10 @@ const MANY: usize = 4;
 
 /// What moves from frame to frame.
 #[derive(Default)]
-pub(super) struct Moving {
+pub(super) struct MovingPrimitives {
     /// Whether primitives are listed apart. If not, of all below only `changed` is valid.
     is_apart: bool,
-    /// The vertices that may have other values in frames such as this: [`Touched::changed`].
+    /// The vertices that may have other values in frames such as this: [`ChangedVertices::changed`].
     changed: Vec<u64>,
     /// Those of them that may move.
     moved: Vec<u64>,
@@ -36,7 +37,7 @@ pub(super) struct Moving {
     kept: KeptTiles,
 }
 
-impl Moving {
+impl MovingPrimitives {
     /// What is kept of tiles, if primitives are listed apart.
     pub(super) fn kept(&self) -> Option<&KeptTiles> {
         self.is_apart.then_some(&self.kept)
@@ -56,27 +57,27 @@ impl Moving {
     }
 
     /// Whether primitives are listed apart, and all that moves or looks different in a frame was expected to.
-    pub(super) fn covers(&self, touched: &Touched, plan: &Plan, changes: &[DrawChange<'_>]) -> bool {
+    pub(super) fn covers(&self, vertices: &ChangedVertices, plan: &Plan, changes: &[DrawChange<'_>]) -> bool {
         let are_prepared = |draw: &DrawPlan| {
             let change = changes[draw.draw];
             let moves = |&index: &u32| is_set(&self.primitives, (draw.ordinals.start + index) as usize);
             change.recolored.is_empty() && change.reshaped.iter().all(moves)
         };
         self.is_apart
-            && are_among(touched.changed(), &self.changed)
-            && are_among(touched.moved(), &self.moved)
+            && are_among(vertices.changed(), &self.changed)
+            && are_among(vertices.moved(), &self.moved)
             && plan.draws.iter().all(are_prepared)
     }
 
     /// Takes the vertices that have changed in a frame; returns whether the same have changed in the last one of
     /// which any have.
-    pub(super) fn repeats(&mut self, touched: &Touched) -> bool {
-        let is_same = self.changed == touched.changed();
-        if touched.changed().iter().all(|&word| word == 0) {
+    pub(super) fn repeats(&mut self, vertices: &ChangedVertices) -> bool {
+        let is_same = self.changed == vertices.changed();
+        if vertices.changed().iter().all(|&word| word == 0) {
             return false;
         }
         self.changed.clear();
-        self.changed.extend_from_slice(touched.changed());
+        self.changed.extend_from_slice(vertices.changed());
         is_same
     }
 
@@ -85,28 +86,30 @@ impl Moving {
     /// not worth it.
     pub(super) fn find(
         &mut self,
-        (pass, plan): (&[Recorded<'_>], &Plan),
-        touched: &Touched,
-        (chunks, found): (&[Chunk], &[Found]),
+        pass: &[Recorded<'_>],
+        plan: &Plan,
+        vertices: &ChangedVertices,
+        chunks: &[Chunk],
+        affected: &[AffectedPrimitives],
     ) -> Option<Vec<Vec<u32>>> {
         let count = chunks.last()?.ordinals.end as usize;
         // Those of an earlier frame of the drag count as well: a vertex may rest for a moment.
-        let is_continued = self.is_apart && self.moved.len() == touched.moved().len();
+        let is_continued = self.is_apart && self.moved.len() == vertices.moved().len();
         if !is_continued {
-            reset(&mut self.moved, 64 * touched.moved().len());
+            reset(&mut self.moved, 64 * vertices.moved().len());
             reset(&mut self.primitives, count);
         }
-        self.moved.iter_mut().zip(touched.moved()).for_each(|(all, &moved)| *all |= moved);
+        self.moved.iter_mut().zip(vertices.moved()).for_each(|(all, &moved)| *all |= moved);
         let differ = &mut self.kept.differ;
         reset(differ, count);
-        for (chunk, found) in chunks.iter().zip(found) {
+        for (chunk, affected) in chunks.iter().zip(affected) {
             let start = chunk.ordinals.start as usize;
             let flagged = |flags: &[bool], bits: &mut [u64]| {
                 let places = (start..).zip(flags).filter(|(_, is_flagged)| **is_flagged);
                 places.for_each(|(ordinal, _)| set(bits, ordinal));
             };
-            flagged(&found.differ, differ);
-            flagged(&found.moved, &mut self.primitives);
+            flagged(&affected.differs, differ);
+            flagged(&affected.is_moved, &mut self.primitives);
         }
         self.add_slots(pass, plan);
         self.kept.differ.iter_mut().zip(&self.primitives).for_each(|(differ, &moved)| *differ |= moved);
@@ -139,7 +142,8 @@ impl Moving {
     /// Whether primitives can be listed apart, given their places in each chunk.
     pub(super) fn can_part(
         &self,
-        (pass, plan): (&[Recorded<'_>], &Plan),
+        pass: &[Recorded<'_>],
+        plan: &Plan,
         chunks: &[Chunk],
         places: &[Vec<u32>],
     ) -> bool {

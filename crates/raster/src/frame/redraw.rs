@@ -1,16 +1,16 @@
 //! Redraws a frame after a small change: few vertices run again, and few tiles are drawn.
 
+use super::affected_primitives::AffectedSearch;
 use super::change::{Signature, can_follow};
 use super::follow::Follow;
 use super::layout::Layout;
-use super::moving::Moving;
+use super::moving::MovingPrimitives;
 use super::set_up::SetUp;
-use super::stages::{Arena, SomeTiles, finish, prepare};
+use super::stages::{Arena, SomeTiles, VertexValues, finish, prepare};
 use super::{DrawChange, FrameOptions, Redraw};
 use crate::clock::Clock;
 use crate::ink::Ink;
 use crate::pass::Pass;
-use crate::view::FrameView;
 use crate::{StageTimes, Target};
 
 /// Draws a pass into a target that holds an earlier frame. If `changes` lists how the pass differs
@@ -18,7 +18,8 @@ use crate::{StageTimes, Target};
 pub(crate) fn redraw(
     arena: &mut Arena,
     pass: &Pass<'_>,
-    (target, changes): (&mut Target<'_>, Option<&[DrawChange<'_>]>),
+    target: &mut Target<'_>,
+    changes: Option<&[DrawChange<'_>]>,
     options: FrameOptions<'_>,
 ) -> Redraw {
     let layout = Layout::new(pass, target, options);
@@ -32,8 +33,8 @@ pub(crate) fn redraw(
     let mut moving = std::mem::take(&mut arena.moving);
     let (mut view, tiles) = match changes {
         Some(changes) => {
-            let (view, tiles) = follow((arena, &mut moving), pass, (layout, target), changes, options);
-            (view, Some(tiles))
+            let Followed { tiles, times } = follow(arena, &mut moving, pass, &layout, changes, options);
+            (arena.view(pass, target, layout, options, times), Some(tiles))
         }
         None => {
             moving.clear();
@@ -46,39 +47,54 @@ pub(crate) fn redraw(
         None => vec![view.drawn],
     };
     let some = tiles.as_deref().map(|numbers| SomeTiles { numbers, kept: moving.kept() });
-    let stats = finish(&view, (some, target), options, &mut scratches);
+    let stats = finish(&view, some, target, options, &mut scratches);
     (arena.scratches, arena.moving) = (scratches, moving);
     // What was cancelled may be half done.
     arena.followed = (!options.is_cancelled()).then_some(signature);
     Redraw { stats, parts }
 }
 
-/// The same up to the tiles for a pass that differs little from the last one, and the tiles that may
-/// differ.
-fn follow<'f>(
-    (arena, moving): (&'f mut Arena, &mut Moving),
-    pass: &'f Pass<'_>,
-    (layout, target): (Layout, &Target<'_>),
+/// What is known when all before the tiles is done.
+struct Followed {
+    /// The tiles that may differ.
+    tiles: Vec<u32>,
+    times: StageTimes,
+}
+
+/// The stages up to the tiles for a pass that differs little from the last one.
+fn follow(
+    arena: &mut Arena,
+    moving: &mut MovingPrimitives,
+    pass: &Pass<'_>,
+    layout: &Layout,
     changes: &[DrawChange<'_>],
     options: FrameOptions<'_>,
-) -> (FrameView<'f>, Vec<u32>) {
+) -> Followed {
     let (axis, grid) = (layout.axis, layout.grid);
-    let Arena { plan, places, varyings, chunks, touched, .. } = arena;
-    let used = chunks.len().min(plan.chunks);
+    let Arena { plan, places, varyings, chunks, changed_vertices, .. } = arena;
     plan.update_points(&pass.draws, axis);
     let mut clock = Clock::new(options.timed);
-    touched.mark(plan, changes);
-    touched.run_vertices(&pass.draws, plan, grid.viewport, options, (places, varyings));
+    changed_vertices.mark(plan, changes);
+    changed_vertices.run(
+        &pass.draws,
+        plan,
+        grid.viewport,
+        options,
+        VertexValues { screen_vertices: places, varyings },
+    );
     let vertices = clock.lap();
     let follow = Follow {
         set_up: SetUp { pass: &pass.draws, plan, places, grid: &grid, axis, token: options.token },
-        touched,
-        changes,
-        has_lines: layout.ink.as_ref().is_some_and(Ink::has_lines),
+        search: AffectedSearch {
+            pass: &pass.draws,
+            plan,
+            vertices: changed_vertices,
+            changes,
+            has_edges: layout.ink.as_ref().is_some_and(Ink::has_lines),
+        },
         may_part: layout.wants.bytes.is_some() && grid.pattern.count() == 1,
         options,
     };
-    let tiles = follow.run(&mut chunks[..used], moving);
-    let times = StageTimes { vertices, set_up: clock.lap(), ..StageTimes::default() };
-    (arena.view((pass, target), layout, options, used, times), tiles)
+    let tiles = follow.run(&mut chunks[..plan.chunks], moving);
+    Followed { tiles, times: StageTimes { vertices, set_up: clock.lap(), ..StageTimes::default() } }
 }

@@ -2,7 +2,7 @@
 
 use super::options::FrameOptions;
 use crate::Culling;
-use crate::bin::{Chunk, EarlierEntries, Grid, MovingChunk};
+use crate::bin::{Chunk, Grid, MovingChunk};
 use crate::clip;
 use crate::geometry::{PointSizes, Shape};
 use crate::line::LineStyle;
@@ -50,35 +50,10 @@ impl SetUp<'_> {
         chunk.sort();
     }
 
-    /// Sets up those primitives of a chunk again that were moved, and what is set up with
-    /// them. `earlier` is room to be used again.
-    pub(super) fn moved(&self, chunk: &mut Chunk, moved: &[bool], earlier: &mut EarlierEntries) {
-        if !chunk.set_aside(earlier) {
-            chunk.reset(chunk.ordinals.clone(), chunk.blend_mode);
-            return self.chunk(chunk);
-        }
-        for (draw, range) in self.plan.parts(chunk.ordinals.clone()) {
-            let mut setup = self.part(draw, chunk);
-            let place = setup.index_in_chunk(range.start);
-            let moved = &moved[place as usize..place as usize + range.len()];
-            let marks = (moved, &mut *earlier);
-            let (token, indices) = (self.token, range.start as usize..range.end as usize);
-            match (&self.pass[draw.draw].geometry.shape, self.plan.points(draw)) {
-                (&Shape::Triangles { triangles, culling, .. }, _) => {
-                    setup.culling = culling;
-                    let triangles = (range.start, &triangles[indices]);
-                    at_level!(token, simd => set_up_moved_triangles(simd, &mut setup, triangles, marks));
-                }
-                (&Shape::Points { points, sizes, .. }, Some(plain)) => {
-                    let points = (range.start, &points[indices]);
-                    let looks = (plain, &sizes);
-                    at_level!(token, simd => set_up_moved_points(simd, &mut setup, (points, looks), marks));
-                }
-                // No tile lists any other line or point so far.
-                _ => self.set_up_part(setup, draw, range),
-            }
-        }
-        chunk.sort();
+    /// Sets up the primitives of a chunk that is not empty.
+    pub(super) fn again(&self, chunk: &mut Chunk) {
+        chunk.reset(chunk.ordinals.clone(), chunk.blend_mode);
+        self.chunk(chunk);
     }
 
     /// Sets up the primitives that move, which are listed apart from those of their chunk.
@@ -96,11 +71,10 @@ impl SetUp<'_> {
             match (&self.pass[draw.draw].geometry.shape, self.plan.points(draw)) {
                 (&Shape::Triangles { triangles, culling, .. }, _) => {
                     setup.culling = culling;
-                    at_level!(token, simd => set_up_listed_triangles(simd, &mut setup, (&numbers, triangles)));
+                    at_level!(token, simd => set_up_listed_triangles(simd, &mut setup, &numbers, triangles));
                 }
                 (&Shape::Points { points, sizes, .. }, Some(plain)) => {
-                    let looks = (plain, &sizes);
-                    at_level!(token, simd => set_up_listed_points(simd, &mut setup, (&numbers, points), looks));
+                    at_level!(token, simd => set_up_listed_points(simd, &mut setup, &numbers, points, plain, &sizes));
                 }
                 // None of these is ever listed apart.
                 _ => {}
@@ -145,8 +119,8 @@ impl SetUp<'_> {
                 }
             }
             (&Shape::Points { points, sizes, .. }, Some(plain)) => {
-                let points = (range.start, &points[indices]);
-                at_level!(token, simd => set_up_points(simd, &mut setup, points, (plain, &sizes)));
+                let points = &points[indices];
+                at_level!(token, simd => set_up_points(simd, &mut setup, range.start, points, plain, &sizes));
             }
             (&Shape::Points { points, sizes, shape, smoothing, depth_bias }, None) => {
                 let style_of = sizes.each(|size| PointStyle::new((size, smoothing), shape, depth_bias, axis));
@@ -170,22 +144,20 @@ fn set_up_triangles<S: Simd>(simd: S, setup: &mut Setup<'_>, first: u32, triangl
 fn set_up_points<S: Simd>(
     simd: S,
     setup: &mut Setup<'_>,
-    (first, points): (u32, &[u32]),
-    looks: (&PlainPoints, &PointSizes<'_>),
+    first: u32,
+    points: &[u32],
+    plain: &PlainPoints,
+    sizes: &PointSizes<'_>,
 ) {
     for (group, points) in points.chunks(LANES).enumerate() {
         let first = first + (group * LANES) as u32;
-        setup.eight_points(simd, &EightPrimitives::consecutive(first, points), looks);
+        setup.eight_points(simd, &EightPrimitives::consecutive(first, points), (plain, sizes));
     }
 }
 
 /// Sets up triangles of a draw by their numbers.
 #[inline(always)]
-fn set_up_listed_triangles<S: Simd>(
-    simd: S,
-    setup: &mut Setup<'_>,
-    (numbers, triangles): (&[u32], &[[u32; 3]]),
-) {
+fn set_up_listed_triangles<S: Simd>(simd: S, setup: &mut Setup<'_>, numbers: &[u32], triangles: &[[u32; 3]]) {
     for numbers in numbers.chunks(LANES) {
         setup.eight_triangles(simd, &EightPrimitives::listed(numbers, triangles));
     }
@@ -196,70 +168,12 @@ fn set_up_listed_triangles<S: Simd>(
 fn set_up_listed_points<S: Simd>(
     simd: S,
     setup: &mut Setup<'_>,
-    (numbers, points): (&[u32], &[u32]),
-    looks: (&PlainPoints, &PointSizes<'_>),
+    numbers: &[u32],
+    points: &[u32],
+    plain: &PlainPoints,
+    sizes: &PointSizes<'_>,
 ) {
     for numbers in numbers.chunks(LANES) {
-        setup.eight_points(simd, &EightPrimitives::listed(numbers, points), looks);
+        setup.eight_points(simd, &EightPrimitives::listed(numbers, points), (plain, sizes));
     }
-}
-
-/// [`set_up_triangles`] where some were moved.
-#[inline(always)]
-fn set_up_moved_triangles<S: Simd>(
-    simd: S,
-    setup: &mut Setup<'_>,
-    triangles: (u32, &[[u32; 3]]),
-    marks: (&[bool], &mut EarlierEntries),
-) {
-    set_up_moved(
-        setup,
-        triangles,
-        marks,
-        #[inline(always)]
-        |setup, first, triangles| {
-            setup.eight_triangles(simd, &EightPrimitives::consecutive(first, triangles));
-        },
-    );
-}
-
-/// [`set_up_points`] where some were moved.
-#[inline(always)]
-fn set_up_moved_points<S: Simd>(
-    simd: S,
-    setup: &mut Setup<'_>,
-    (points, looks): ((u32, &[u32]), (&PlainPoints, &PointSizes<'_>)),
-    marks: (&[bool], &mut EarlierEntries),
-) {
-    set_up_moved(
-        setup,
-        points,
-        marks,
-        #[inline(always)]
-        |setup, first, points| {
-            setup.eight_points(simd, &EightPrimitives::consecutive(first, points), looks);
-        },
-    );
-}
-
-/// Sets up those groups of eight primitives that have moved ones; what the others are listed by is
-/// kept.
-#[inline(always)]
-fn set_up_moved<T>(
-    setup: &mut Setup<'_>,
-    (first, primitives): (u32, &[T]),
-    (moved, earlier): (&[bool], &mut EarlierEntries),
-    mut set_up: impl FnMut(&mut Setup<'_>, u32, &[T]),
-) {
-    let place = setup.index_in_chunk(first);
-    let mut kept = 0;
-    let groups = primitives.chunks(LANES).zip(moved.chunks(LANES));
-    for ((primitives, moved), at) in groups.zip((0..).step_by(LANES)) {
-        if moved.contains(&true) {
-            setup.chunk.take_back(earlier, place + kept..place + at);
-            set_up(setup, first + at, primitives);
-            kept = at + primitives.len() as u32;
-        }
-    }
-    setup.chunk.take_back(earlier, place + kept..place + primitives.len() as u32);
 }

@@ -3,13 +3,13 @@
 
 use super::FrameOptions;
 use super::change::Signature;
+use super::changed_vertices::ChangedVertices;
 use super::kept_tiles::KeptTiles;
 use super::layout::Layout;
-use super::moving::Moving;
+use super::moving::MovingPrimitives;
 use super::options::VERTICES;
 use super::set_up::SetUp;
 use super::tiles::{Scratch, draw_tile};
-use super::touched::Touched;
 use crate::bin::Chunk;
 use crate::clock::Clock;
 use crate::pass::{Pass, Recorded};
@@ -33,8 +33,8 @@ pub(crate) struct Arena {
     pub(super) scratches: Vec<Scratch>,
     /// What the last frame was, if the next one may follow it.
     pub(super) followed: Option<Signature>,
-    pub(super) touched: Touched,
-    pub(super) moving: Moving,
+    pub(super) changed_vertices: ChangedVertices,
+    pub(super) moving: MovingPrimitives,
 }
 
 /// Draws a pass into a target.
@@ -46,7 +46,7 @@ pub(crate) fn draw(
 ) -> Stats {
     let mut scratches = std::mem::take(&mut arena.scratches);
     let view = prepare(arena, pass, target, options);
-    let stats = finish(&view, (None, target), options, &mut scratches);
+    let stats = finish(&view, None, target, options, &mut scratches);
     arena.scratches = scratches;
     stats
 }
@@ -61,7 +61,8 @@ pub(super) struct SomeTiles<'t> {
 /// Draws the tiles, or some of them, of a frame that is prepared.
 pub(super) fn finish(
     view: &FrameView<'_>,
-    (tiles, target): (Option<SomeTiles<'_>>, &mut Target<'_>),
+    tiles: Option<SomeTiles<'_>>,
+    target: &mut Target<'_>,
     options: FrameOptions<'_>,
     scratches: &mut Vec<Scratch>,
 ) -> Stats {
@@ -92,23 +93,29 @@ pub(crate) fn prepare<'f>(
     places.resize(plan.places, ScreenVertex::MISSING);
     varyings.resize(plan.varyings, 0.0);
     let mut clock = Clock::new(options.timed);
-    run_vertices(&pass.draws, plan, grid.viewport, options, (places, varyings));
+    run_vertices(
+        &pass.draws,
+        plan,
+        grid.viewport,
+        options,
+        VertexValues { screen_vertices: places, varyings },
+    );
     let vertices = clock.lap();
     let set_up =
         SetUp { pass: &pass.draws, plan, places, grid: &grid, axis: layout.axis, token: options.token };
     set_up.all(options, chunks);
     let times = StageTimes { vertices, set_up: clock.lap(), ..StageTimes::default() };
-    arena.view((pass, target), layout, options, used, times)
+    arena.view(pass, target, layout, options, times)
 }
 
 impl Arena {
     /// What tiles read when all before them is done.
     pub(super) fn view<'f>(
         &'f mut self,
-        (pass, target): (&'f Pass<'_>, &Target<'_>),
+        pass: &'f Pass<'_>,
+        target: &Target<'_>,
         Layout { axis, wants, ink, grid }: Layout,
         options: FrameOptions<'_>,
-        used: usize,
         times: StageTimes,
     ) -> FrameView<'f> {
         BackgroundRow::list(pass.background, target.height(), wants.bytes, &mut self.background_rows);
@@ -119,7 +126,7 @@ impl Arena {
             plan: &self.plan,
             places: &self.places,
             varyings: &self.varyings,
-            chunks: &self.chunks[..used],
+            chunks: &self.chunks[..self.plan.chunks],
             moving: &[],
             grid,
             drawn: pass.drawn_pixels(target),
@@ -144,21 +151,28 @@ fn count(view: &FrameView<'_>) -> Stats {
     stats
 }
 
+/// What the vertices of a frame become.
+pub(super) struct VertexValues<'a> {
+    pub(super) screen_vertices: &'a mut [ScreenVertex],
+    pub(super) varyings: &'a mut [f32],
+}
+
 /// The vertex stage: every worker takes some vertices at a time.
 fn run_vertices(
     pass: &[Recorded<'_>],
     plan: &Plan,
     viewport: Viewport,
     options: FrameOptions<'_>,
-    (places, varyings): (&mut [ScreenVertex], &mut [f32]),
+    values: VertexValues<'_>,
 ) {
-    struct Rest<'a> {
+    struct VertexQueue<'a> {
         draw: usize,
         slot: usize,
         places: &'a mut [ScreenVertex],
         varyings: &'a mut [f32],
     }
-    let rest = Mutex::new(Rest { draw: 0, slot: 0, places, varyings });
+    let VertexValues { screen_vertices: places, varyings } = values;
+    let rest = Mutex::new(VertexQueue { draw: 0, slot: 0, places, varyings });
     let next = || {
         let mut rest = rest.lock().unwrap_or_else(PoisonError::into_inner);
         while plan.draws.get(rest.draw).is_some_and(|draw| rest.slot == draw.used.len()) {

@@ -5,7 +5,7 @@ use crate::blend::{Layers, blend_translucent};
 use crate::clock::Clock;
 use crate::outer_ink::OuterInk;
 use crate::resolve::{Strip, TileColors, resolve, store_visibility};
-use crate::shade::{Asked, Shading, list_visible, shade_tile};
+use crate::shade::{PixelsToShade, Shading, list_visible, shade_tile};
 use crate::target::Bands;
 use crate::tile::{Listing, Surfaces, TileState, cover_overlay, resolve_visibility};
 use crate::view::FrameView;
@@ -16,7 +16,7 @@ pub(super) struct Scratch {
     pub(super) state: TileState,
     pub(super) shading: Shading,
     /// Of a tile of which only some pixels are shaded.
-    pub(super) asked: Box<Asked>,
+    pub(super) pixels_to_shade: Box<PixelsToShade>,
     layers: Layers,
     /// Tiles that are not written yet.
     pub(super) strip: Strip,
@@ -28,7 +28,7 @@ impl Scratch {
         Self {
             state: TileState::new(),
             shading: Shading::new(),
-            asked: Box::new(Asked::new()),
+            pixels_to_shade: Box::new(PixelsToShade::new()),
             layers: Layers::default(),
             strip: Strip::default(),
             stats: Stats::default(),
@@ -56,7 +56,7 @@ pub(super) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
     if frame.wants.color {
         cover_overlay(frame, &area, state, &surfaces, stats);
         stats.times.visibility += clock.lap();
-        draw_colors(frame, scratch, surfaces, (bands, index), &mut clock);
+        draw_colors(frame, scratch, surfaces, bands, index, &mut clock);
     }
 }
 
@@ -72,7 +72,8 @@ fn draw_colors(
     frame: &FrameView<'_>,
     scratch: &mut Scratch,
     surfaces: Surfaces,
-    (bands, index): (&Bands<'_>, u32),
+    bands: &Bands<'_>,
+    index: u32,
     clock: &mut Clock,
 ) {
     let area = frame.area(index);

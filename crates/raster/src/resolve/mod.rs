@@ -48,7 +48,7 @@ pub(crate) fn resolve(
         }
         TileColors::PartlyEncoded(encoding, asked) => {
             background::lay_codes(frame, area, shading, encoding);
-            return some::write_some(frame, (area, asked), &shading.codes, bands);
+            return some::write_some(frame, area, asked, &shading.codes, bands);
         }
         TileColors::Shaded => {
             background::lay_colors(frame, area, shading);

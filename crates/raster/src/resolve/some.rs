@@ -24,7 +24,8 @@ const MASKS: [[u32; SIDE]; 1 << SIDE] = {
 /// Writes those of a tile's own pixels for which `asked` has a bit in their row.
 pub(super) fn write_some(
     frame: &FrameView<'_>,
-    (area, asked): (&TileArea, &TileRows),
+    area: &TileArea,
+    asked: &TileRows,
     codes: &[u32],
     bands: &Bands<'_>,
 ) {
@@ -35,16 +36,16 @@ pub(super) fn write_some(
     for (y, asked) in rows.map(|y| (y, asked[top + y])).filter(|(_, asked)| *asked != 0) {
         let start = corner + y * bands.width();
         let row = &mut image[start + columns.start..start + columns.end];
-        write_row(row, (codes, asked), [left + columns.start, top + y]);
+        write_row(row, codes, asked, [left + columns.start, top + y]);
     }
 }
 
 /// Writes to a row of pixels, which begins at a column of the tile.
-fn write_row(row: &mut [[u8; 4]], (codes, asked): (&[u32], u64), [column, y]: [usize; 2]) {
+fn write_row(row: &mut [[u8; 4]], codes: &[u32], asked: u64, [column, y]: [usize; 2]) {
     // Up to a whole group first.
     let head = row.len().min(column.next_multiple_of(SIDE) - column);
     let (head, row) = row.split_at_mut(head);
-    write_each(head, (codes, asked), [column, y]);
+    write_each(head, codes, asked, [column, y]);
     let whole = column + head.len();
     let (groups, tail) = row.as_chunks_mut::<SIDE>();
     let mut rest = asked.checked_shr(whole as u32).unwrap_or(0);
@@ -61,11 +62,11 @@ fn write_row(row: &mut [[u8; 4]], (codes, asked): (&[u32], u64), [column, y]: [u
         });
     }
     let written = whole + SIDE * groups.len();
-    write_each(tail, (codes, asked), [written, y]);
+    write_each(tail, codes, asked, [written, y]);
 }
 
 /// The same, pixel by pixel.
-fn write_each(pixels: &mut [[u8; 4]], (codes, asked): (&[u32], u64), [x, y]: [usize; 2]) {
+fn write_each(pixels: &mut [[u8; 4]], codes: &[u32], asked: u64, [x, y]: [usize; 2]) {
     for (pixel, x) in pixels.iter_mut().zip(x..).filter(|(_, x)| asked >> x & 1 != 0) {
         *pixel = codes[TileArea::index_of([x, y])].to_le_bytes();
     }

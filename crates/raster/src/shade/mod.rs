@@ -6,7 +6,7 @@
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `asked` | the pixels that are shaded, if not all are |
+//! | `pixels_to_shade` | the pixels that are shaded, if not all are |
 //! | `tile_bits` | a bit for each pixel of a tile |
 //! | `visible` | lists the visible triangles of a tile, by draw |
 //! | `edges` | with multisampling, pixels that show several triangles |
@@ -15,10 +15,10 @@
 //! | `list` | fragments listed by triangle: masks, and layers to be blended |
 //! | `shading` | memory kept from tile to tile |
 
-mod asked;
 mod edges;
 mod frame_context;
 mod list;
+mod pixels_to_shade;
 mod shading;
 mod surface;
 mod tile_bits;
@@ -27,9 +27,9 @@ mod visible;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use asked::{Asked, Partly};
 pub(crate) use edges::{BEHIND, EdgeGroup};
 pub(crate) use list::{JobList, mask_jobs, shade_jobs, shade_jobs_with};
+pub(crate) use pixels_to_shade::{Partly, PixelsToShade};
 pub(crate) use shading::{EmptyGroup, Shading};
 pub(crate) use surface::{list_visible, note_faces, shade_tile};
 pub(crate) use tile_bits::{GROUP_COUNT, TileLanes, TileRows, rows_of, rows_of_either};

@@ -4,7 +4,7 @@
 //! into a list instead: pixels of groups that show several draws, and, with multisampling, pixels that show several
 //! triangles. A lane depends on its own triangle and pixel alone, so groups and lists give the same result.
 
-use super::asked::Partly;
+use super::pixels_to_shade::Partly;
 use super::shading::{Run, Shading};
 use super::tile_bits::GROUP_COUNT;
 use super::visible::{SomeLanes, divide, list};
@@ -60,7 +60,7 @@ pub(crate) fn list_visible(
     let mut outer = std::mem::take(&mut shading.outer);
     let ink = frame.ink.as_ref().filter(|ink| ink.has_lines());
     let some = match partly {
-        Some(Partly { asked, .. }) => Some(SomeLanes { shaded: &asked.lanes, seen: &asked.seen }),
+        Some(Partly { pixels, .. }) => Some(SomeLanes { shaded: &pixels.lanes, seen: &pixels.seen }),
         // Lines reach across the borders of tiles.
         None => ink.map(|_| SomeLanes { shaded: outer.own_lanes(frame, area), seen: &[0xff; GROUP_COUNT] }),
     };
@@ -85,7 +85,7 @@ pub(crate) fn list_visible(
             frame,
             (ink, area),
             (buffer, triangles),
-            partly.map(|partly| [&partly.asked.rows, &partly.asked.near]),
+            partly.map(|partly| [&partly.pixels.rows, &partly.pixels.near]),
         );
     } else if !outer.is_empty() {
         outer.begin(0);

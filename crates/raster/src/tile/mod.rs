@@ -32,7 +32,7 @@
 //! | `quad` | kernel: opaque lines and points less than 32 pixels wide, both triangles at once |
 //! | `points` | kernel: plain points, from their vertices, without edge functions |
 //! | `masked`, `depth_query` | masked triangles; where a masked or translucent triangle would be visible |
-//! | `still` | what still triangles show, kept while others move |
+//! | `cached` | what still triangles show, kept while others move |
 //! | `store` | writing to the visibility buffer |
 //! | `ties`, `key_order` | the tile's budget for equal depths; its triangles sorted by key |
 //!
@@ -41,6 +41,7 @@
 //! kernel never changes a byte.
 
 mod blocks;
+mod cached;
 mod covered;
 mod depth_query;
 mod edge_origins;
@@ -56,7 +57,6 @@ mod sides;
 mod single;
 mod sliver;
 mod state;
-mod still;
 mod store;
 mod surfaces;
 #[cfg(test)]
@@ -67,10 +67,10 @@ mod triangle;
 mod visibility;
 
 pub(crate) use blocks::Blocks;
+pub(crate) use cached::{CachedTile, MovingRanges};
 pub(crate) use depth_query::{Candidate, SampleGroup, TileView};
 pub(crate) use single::single;
 pub(crate) use state::TileState;
-pub(crate) use still::{Moving, StillTile};
 pub(crate) use surfaces::{Listing, Surfaces};
 pub(crate) use ties::Ties;
 pub(crate) use triangle::TileTriangle;

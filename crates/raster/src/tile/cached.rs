@@ -19,7 +19,7 @@ use std::ops::Range;
 const NONE: u16 = u16::MAX;
 
 /// What the still triangles of a tile show. It has one sample to a pixel.
-pub(crate) struct StillTile {
+pub(crate) struct CachedTile {
     /// Those that are visible: opaque ones, then overlays.
     triangles: Vec<TriangleRef>,
     /// What opaque triangles show.
@@ -38,20 +38,22 @@ struct Layer {
 }
 
 /// The triangles that are drawn over what is kept: ranges of the tile's list.
-pub(crate) struct Moving {
+pub(crate) struct MovingRanges {
     pub(crate) surfaces: Surfaces,
     /// How many still ones come before them.
     still: usize,
 }
 
-impl StillTile {
+impl CachedTile {
     /// Finds what the still triangles of a tile show; `None` if that cannot be kept, because some
     /// are masked or translucent.
     pub(crate) fn find(
         frame: &FrameView<'_>,
-        (area, tile): (&TileArea, u32),
+        area: &TileArea,
+        tile: u32,
         state: &mut TileState,
-        (shading, stats): (&mut Shading, &mut Stats),
+        shading: &mut Shading,
+        stats: &mut Stats,
     ) -> Option<Self> {
         let surfaces = state.list(frame, tile, Listing::Still);
         if !surfaces.masked.is_empty() || !surfaces.translucent.is_empty() {
@@ -72,7 +74,7 @@ impl StillTile {
     }
 }
 
-impl StillTile {
+impl CachedTile {
     /// The triangles that are kept, in the order of the frame's primitives.
     pub(crate) fn triangles(&self) -> &[TriangleRef] {
         &self.triangles
@@ -93,16 +95,17 @@ impl StillTile {
     pub(crate) fn restore(
         &self,
         frame: &FrameView<'_>,
-        (area, tile): (&TileArea, u32),
+        area: &TileArea,
+        tile: u32,
         state: &mut TileState,
-    ) -> Moving {
+    ) -> MovingRanges {
         let TileState { triangles, buffer, ties, .. } = state;
         triangles.clear();
         triangles.extend_from_slice(&self.triangles);
         let surfaces = Surfaces::list(frame, tile, Listing::Moving, triangles);
         buffer.restore(area, (&self.opaque.depth, self.opaque.places()), &self.bounds);
         ties.reset(triangles.len());
-        Moving { surfaces, still: self.triangles.len() }
+        MovingRanges { surfaces, still: self.triangles.len() }
     }
 
     /// Lays the still overlays over it, where moving triangles have not come to hide them.
@@ -125,13 +128,14 @@ impl StillTile {
     }
 }
 
-impl Moving {
+impl MovingRanges {
     /// Draws moving triangles of one kind, opaque ones or overlays, over what is there; `None` if there are too
     /// many ties.
     pub(crate) fn cover(
         frame: &FrameView<'_>,
         area: &TileArea,
-        (state, part): (&mut TileState, &Range<usize>),
+        state: &mut TileState,
+        part: &Range<usize>,
         stats: &mut Stats,
     ) -> Option<()> {
         let may_give_up = true;
@@ -141,7 +145,7 @@ impl Moving {
     }
 
     /// The lanes of each group of eight pixels that show moving triangles, while the tile's list is as it was
-    /// [restored](StillTile::restore).
+    /// [restored](CachedTile::restore).
     pub(crate) fn lanes(&self, frame: &FrameView<'_>, state: &TileState, lanes: &mut [u8]) {
         let groups = state.buffer.visible().as_chunks::<LANES>().0;
         at_level!(frame.token, simd => {

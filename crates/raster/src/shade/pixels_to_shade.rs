@@ -9,7 +9,7 @@ use crate::tile_buffer::MAX_SIDE;
 use std::ops::Range;
 
 /// Which pixels of a tile are shaded.
-pub(crate) struct Asked {
+pub(crate) struct PixelsToShade {
     pub(crate) lanes: TileLanes,
     pub(crate) rows: TileRows,
     /// Those, and pixels within reach of them.
@@ -21,14 +21,14 @@ pub(crate) struct Asked {
 /// What is known of a tile of which not all pixels are shaded.
 #[derive(Clone, Copy)]
 pub(crate) struct Partly<'p> {
-    pub(crate) asked: &'p Asked,
+    pub(crate) pixels: &'p PixelsToShade,
     /// The still triangles, as the search for outer halves of lines needs them.
     pub(crate) still: &'p VisibleFaces,
     /// Their places in the tile's list.
     pub(crate) places: &'p [u32],
 }
 
-impl Asked {
+impl PixelsToShade {
     pub(crate) fn new() -> Self {
         Self { lanes: [0; GROUP_COUNT], rows: [0; MAX_SIDE], near: [0; MAX_SIDE], seen: [0; GROUP_COUNT] }
     }
@@ -37,7 +37,9 @@ impl Asked {
     /// that lie within `reach` of pixels which show moving triangles now or did in the last frame.
     pub(crate) fn set(
         &mut self,
-        (look, [now, before]): (&TileRows, [&TileLanes; 2]),
+        look: &TileRows,
+        now: &TileLanes,
+        before: &TileLanes,
         [columns, rows]: [Range<usize>; 2],
         reach: usize,
     ) {
@@ -108,8 +110,8 @@ mod tests {
             own in [0..20_usize, 0..20_usize], sides in [1..44_usize, 1..44_usize], reach in 0..17_usize,
         ) {
             let [columns, rows] = [0, 1].map(|axis| own[axis]..own[axis] + sides[axis]);
-            let mut asked = Asked::new();
-            asked.set((&rows_of(&lanes(&look)), [&lanes(&now), &lanes(&before)]), [columns.clone(), rows.clone()], reach);
+            let mut asked = PixelsToShade::new();
+            asked.set(&rows_of(&lanes(&look)), &lanes(&now), &lanes(&before), [columns.clone(), rows.clone()], reach);
             let is_near = |[a, b]: [usize; 2], [x, y]: [usize; 2]| a.abs_diff(x) <= reach && b.abs_diff(y) <= reach;
             let is_asked = |pixel: [usize; 2]| {
                 let is_moved = now.iter().chain(&before).any(|&moved| is_near(moved, pixel));
