@@ -48,7 +48,7 @@ impl<'f> DrawView<'f> {
         let plain = self.points.filter(|_| place.is_point())?;
         let primitive = self.primitive(place);
         let centre = self.vertices.get(points[primitive as usize]);
-        Some(plain.square(sizes, (primitive, place.ordinal), *centre))
+        Some(plain.square(sizes, primitive, place.ordinal, *centre))
     }
 
     /// The vertices of a primitive.

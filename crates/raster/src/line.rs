@@ -42,7 +42,7 @@ pub(crate) fn smooth_size(size: f32) -> f32 {
 /// How far a line or point extends from its middle along an axis of its own, in units of the grid: half its
 /// size, or, if anti-aliased, as far as it covers any part of a pixel; and one unit more, so that snapping
 /// cuts nothing off.
-pub(crate) fn half_size((size, smoothing): (f32, Smoothing), supersampling: u32) -> f64 {
+pub(crate) fn half_size(size: f32, smoothing: Smoothing, supersampling: u32) -> f64 {
     match smoothing {
         Smoothing::Sharp => f64::from(drawable_size(size)) * f64::from(supersampling) * 128.0,
         Smoothing::AntiAliased => {
@@ -65,14 +65,15 @@ pub(crate) struct LineStyle {
 
 impl LineStyle {
     pub(crate) fn new(
-        (width, smoothing): (f32, Smoothing),
+        width: f32,
+        smoothing: Smoothing,
         depth_bias: f32,
         supersampling: u32,
         multisampled: bool,
     ) -> Self {
         let smooth = f64::from(smooth_size(width)) * f64::from(supersampling);
         let smooth = (smoothing == Smoothing::AntiAliased).then_some(smooth);
-        let half_width = half_size((width, smoothing), supersampling);
+        let half_width = half_size(width, smoothing, supersampling);
         let single = drawable_size(width) == 1.0 && supersampling == 1 && !multisampled;
         Self { smooth, half_width, single, depth_bias }
     }

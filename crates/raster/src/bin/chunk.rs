@@ -77,7 +77,8 @@ impl Chunk {
     pub(crate) fn push_some<S: Simd>(
         &mut self,
         mask: Mask<S>,
-        (tiles, places): (U32<S>, U32<S>),
+        tiles: U32<S>,
+        places: U32<S>,
         entry: fn(u32) -> Entry,
     ) {
         let count = mask.to_bitmask().count_ones() as usize;

@@ -130,7 +130,7 @@ impl Beside {
             return 0;
         };
         let own = self.shape.coverage(simd, group);
-        seen.to_bitmask() & where_of(|lane| prevails((own[lane], self.is_later), coverage[lane]))
+        seen.to_bitmask() & where_of(|lane| prevails(own[lane], self.is_later, coverage[lane]))
     }
 }
 

@@ -79,21 +79,23 @@ impl Segment {
 /// Whether a sample is painted by another segment that is joined to this one: the
 /// other covers more of it, or as much and is the later one.
 #[inline(always)]
-pub(super) fn prevails((other, is_later): (f32, bool), own: f32) -> bool {
+pub(super) fn prevails(other: f32, is_later: bool, own: f32) -> bool {
     other > own || (other == own && is_later)
 }
 
-/// Whether a triangle leaves a sample to another one. Of both the share that they
-/// cover is given.
-pub(crate) fn leaves(
-    frame: &FrameView<'_>,
-    (own, coverage): (TriangleRef, f32),
-    other: (TriangleRef, f32),
-) -> bool {
-    let segments = Segment::of(frame, own).zip(Segment::of(frame, other.0));
+/// The share of a sample that a triangle covers.
+#[derive(Clone, Copy)]
+pub(crate) struct SampleShare {
+    pub(crate) triangle: TriangleRef,
+    pub(crate) coverage: f32,
+}
+
+/// Whether a triangle leaves a sample to another one.
+pub(crate) fn leaves(frame: &FrameView<'_>, own: SampleShare, other: SampleShare) -> bool {
+    let segments = Segment::of(frame, own.triangle).zip(Segment::of(frame, other.triangle));
     segments.is_some_and(|(a, b)| {
         let joined = a.draw == b.draw && a.vertices.iter().any(|vertex| b.vertices.contains(vertex));
-        joined && prevails((other.1, b.primitive > a.primitive), coverage)
+        joined && prevails(other.coverage, b.primitive > a.primitive, own.coverage)
     })
 }
 

@@ -22,7 +22,7 @@ mod order;
 mod runs;
 mod samples;
 
-pub(crate) use joints::leaves;
+pub(crate) use joints::{SampleShare, leaves};
 
 use crate::resolve::saturated;
 use crate::shade::{JobList, Shading, shade_jobs};
@@ -93,14 +93,15 @@ pub(crate) fn blend_translucent(
     frame: &FrameView<'_>,
     area: &TileArea,
     state: &TileState,
-    (layers, shading): (&mut Layers, &mut Shading),
+    layers: &mut Layers,
+    shading: &mut Shading,
     triangles: Range<usize>,
 ) -> u64 {
     let buffer = &state.buffer;
     let mut samples = std::mem::take(&mut layers.samples);
-    samples::expand(frame, area, buffer, (shading, &mut samples));
+    samples::expand(frame, area, buffer, shading, &mut samples);
     let shaded = layers.blend(state.view(frame, area), triangles, shading, &mut samples);
-    samples::collapse(frame, buffer, (shading, &samples));
+    samples::collapse(frame, buffer, shading, &samples);
     layers.samples = samples;
     shaded
 }

@@ -12,7 +12,8 @@ pub(super) fn expand(
     frame: &FrameView<'_>,
     area: &TileArea,
     buffer: &VisibilityBuffer,
-    (shading, samples): (&Shading, &mut Vec<Vec4>),
+    shading: &Shading,
+    samples: &mut Vec<Vec4>,
 ) {
     let count = buffer.samples;
     samples.clear();
@@ -46,7 +47,8 @@ pub(super) fn expand(
 pub(super) fn collapse(
     frame: &FrameView<'_>,
     buffer: &VisibilityBuffer,
-    (shading, samples): (&mut Shading, &[Vec4]),
+    shading: &mut Shading,
+    samples: &[Vec4],
 ) {
     let Shading { colors, edges, .. } = shading;
     let count = frame.grid.pattern.count();

@@ -53,15 +53,15 @@ impl Gather<'_> {
                 triangles.iter().for_each(|&indices| self.triangle(indices, culling));
             }
             Shape::Lines { segments, width, smoothing, depth_bias } => {
-                let half_width = half_size((width, smoothing), supersampling);
+                let half_width = half_size(width, smoothing, supersampling);
                 segments.iter().for_each(|&indices| self.segment(indices, half_width, depth_bias));
             }
             Shape::Points { points, sizes, shape, smoothing, depth_bias } => {
-                let half_of = sizes.each(|size| half_size((size, smoothing), supersampling).round() as i32);
+                let half_of = sizes.each(|size| half_size(size, smoothing, supersampling).round() as i32);
                 // What covers a share of a sample is never certain.
                 let form = (smoothing == Smoothing::Sharp).then_some(shape);
                 for (number, &index) in (0..).zip(points) {
-                    self.point(index, (half_of(number), form), depth_bias);
+                    self.point(index, half_of(number), form, depth_bias);
                 }
             }
         }
@@ -126,7 +126,7 @@ impl Gather<'_> {
         }
     }
 
-    fn point(&mut self, index: u32, (half, form): (i32, Option<PointShape>), depth_bias: f32) {
+    fn point(&mut self, index: u32, half: i32, form: Option<PointShape>, depth_bias: f32) {
         let outcode = self.vertices.outcode(index);
         if outcode.is_invalid() || outcode.cuts() {
             return;

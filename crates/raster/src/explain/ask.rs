@@ -45,6 +45,6 @@ pub(super) fn color(frame: &FrameView<'_>, pixel: PixelInTile, place: TriangleRe
     let (job, point) = pixel.alone(frame);
     let mut colors = [[0.0; 4]];
     let list = JobList { triangles: &[place], jobs: &[job], points: &[point] };
-    shade_jobs_with(frame, &pixel.area, &mut Shading::new(), list, (&mut colors, outer.covered()));
+    shade_jobs_with(frame, &pixel.area, &mut Shading::new(), list, &mut colors, outer.covered());
     Vec4::from_array(colors[0])
 }

@@ -91,7 +91,7 @@ impl Rasterizer {
         let count = frame.grid.pattern.count();
         let samples: Vec<_> = cells
             .flat_map(|cell| (0..count).map(move |sample| (cell, sample)))
-            .map(|at| trial.sample(at))
+            .map(|(cell, number)| trial.sample(cell, number))
             .collect();
         let cells = samples.chunks(count);
         let colors = cells.map(|samples| mean(samples.iter().map(|sample| sample.color), count));

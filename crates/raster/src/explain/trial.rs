@@ -3,7 +3,7 @@
 use super::ask::{self, PixelInTile};
 use super::{EdgeExplanation, FragmentExplanation, PrimitiveKind, SampleExplanation, Verdict};
 use crate::bin::TriangleRef;
-use crate::blend::leaves;
+use crate::blend::{SampleShare, leaves};
 use crate::frame::outer_ink;
 use crate::outer_ink::OuterInk;
 use crate::primitive::{Corners, Edge, Form, Kind, SetupTriangle, Stroke};
@@ -51,7 +51,7 @@ impl<'f> Trial<'f> {
     }
 
     /// What happened at a sample of a pixel of the finer grid.
-    pub(super) fn sample(&self, (cell, number): ([u32; 2], usize)) -> SampleExplanation {
+    pub(super) fn sample(&self, cell: [u32; 2], number: usize) -> SampleExplanation {
         let frame = self.frame;
         let tile = cell.map(|v| frame.grid.tile_of(v));
         let tile = tile[1] * frame.grid.columns + tile[0];
@@ -60,8 +60,10 @@ impl<'f> Trial<'f> {
         let pixel = PixelInTile { area, at };
         let offset = frame.grid.pattern.offsets()[number];
         let position = [0, 1].map(|axis| cell[axis] as i32 * 256 + offset[axis]);
-        let mut entrants: Vec<Entrant> =
-            self.triangles.iter().filter_map(|entry| self.enter(pixel, number, position, entry)).collect();
+        let entries = self.triangles.iter();
+        let mut entrants: Vec<Entrant> = entries
+            .filter_map(|(place, triangle)| self.enter(pixel, number, position, *place, triangle))
+            .collect();
         self.judge(&mut entrants);
         self.number_layers(&mut entrants);
         for entrant in &mut entrants {
@@ -84,7 +86,8 @@ impl<'f> Trial<'f> {
         pixel: PixelInTile,
         number: usize,
         point: [i32; 2],
-        (place, triangle): &(TriangleRef, SetupTriangle),
+        place: TriangleRef,
+        triangle: &SetupTriangle,
     ) -> Option<Entrant> {
         let within = |axis: usize| {
             let [low, high] = triangle.extent(axis);
@@ -93,10 +96,10 @@ impl<'f> Trial<'f> {
         if !(within(0) && within(1)) {
             return None;
         }
-        let mut fragment = self.describe(*place, triangle, point);
+        let mut fragment = self.describe(place, triangle, point);
         let covering = TileTriangle::new(triangle, &self.frame.grid, &pixel.area);
         let at = pixel.at.map(|v| v as i32);
-        let stroke = self.frame.chunk_of(*place).stroke_of(*place);
+        let stroke = self.frame.chunk_of(place).stroke_of(place);
         let coverage = stroke.map_or(1.0, |stroke| stroke.coverage_at(point) as f32);
         let covers = |covering: &TileTriangle| coverage > 0.0 && covering.covers(at, number, point);
         if let Some(covering) = covering.filter(covers) {
@@ -104,12 +107,12 @@ impl<'f> Trial<'f> {
             fragment.depth = Some(covering.depth.at(point));
             let is_there = match fragment.blend_mode {
                 BlendMode::Opaque | BlendMode::Overlay | BlendMode::Translucent => true,
-                BlendMode::Masked => ask::mask(self.frame, pixel, None, *place),
-                BlendMode::MaskedPerSample => ask::mask(self.frame, pixel, Some(number), *place),
+                BlendMode::Masked => ask::mask(self.frame, pixel, None, place),
+                BlendMode::MaskedPerSample => ask::mask(self.frame, pixel, Some(number), place),
             };
             fragment.verdict = if is_there { Verdict::Hidden } else { Verdict::MaskedAway };
         }
-        Some(Entrant { place: *place, coverage, fragment })
+        Some(Entrant { place, coverage, fragment })
     }
 
     /// A triangle that misses the sample, until it is known to cover it.
@@ -222,7 +225,10 @@ impl<'f> Trial<'f> {
         let mut layers: Vec<&mut Entrant> =
             entrants.iter_mut().filter(|entrant| entrant.is(Verdict::Layer(0))).collect();
         layers.sort_by(|a, b| self.back_to_front(a, b));
-        let shares: Vec<_> = layers.iter().map(|layer| (layer.place, layer.coverage)).collect();
+        let shares: Vec<_> = layers
+            .iter()
+            .map(|layer| SampleShare { triangle: layer.place, coverage: layer.coverage })
+            .collect();
         let mut number = 0;
         for (layer, own) in layers.into_iter().zip(&shares) {
             if shares.iter().any(|other| leaves(self.frame, *own, *other)) {

@@ -31,9 +31,11 @@ impl Lines {
     #[inline(always)]
     pub(crate) fn new<S: Simd>(
         simd: S,
-        (context, ink): (&ShadeContext<'_>, &Ink),
+        context: &ShadeContext<'_>,
+        ink: &Ink,
         sorted: &Sorted<S>,
-        (triangles, primitives): ([TriangleRef; LANES], [u32; LANES]),
+        triangles: [TriangleRef; LANES],
+        primitives: [u32; LANES],
     ) -> Self {
         let geometry = context.geometry();
         let shows_edges = geometry.shows_edges();
@@ -43,7 +45,7 @@ impl Lines {
         );
         let is_edge = edges_of(simd, sorted, flags);
         let lengths = lengths_of(sorted);
-        let mut radius = radius_of(simd, sorted, (lengths, is_edge), flags);
+        let mut radius = radius_of(simd, sorted, lengths, is_edge, flags);
         let is_cut = triangles.each(|place| corners_of(context, place).is_some());
         if is_cut.contains(&true) {
             let cut = Mask::from_bitmask(simd, bits(is_cut));
@@ -51,7 +53,7 @@ impl Lines {
         }
         let line = LineColumns::new(simd, ink, radius);
         let inverse = inverses(simd, sorted, lengths);
-        let columns = Self::columns(simd, (inverse, is_edge), &line);
+        let columns = Self::columns(simd, inverse, is_edge, &line);
         let mut lines = Self {
             columns,
             half: line.half.into(),
@@ -68,7 +70,8 @@ impl Lines {
     #[inline(always)]
     fn columns<S: Simd>(
         simd: S,
-        (inverse, is_edge): ([F32<S>; 3], [Mask<S>; 3]),
+        inverse: [F32<S>; 3],
+        is_edge: [Mask<S>; 3],
         line: &LineColumns<S>,
     ) -> [Row; LANES] {
         let LineColumns { half, weight, floor, .. } = *line;
@@ -125,7 +128,7 @@ impl Lines {
 
     /// Writes the columns to the records of the first `count` triangles.
     #[inline(always)]
-    pub(crate) fn store<S: Simd>(&self, simd: S, (rows, shape): (&mut [Row], RecordShape), count: usize) {
+    pub(crate) fn store<S: Simd>(&self, simd: S, rows: &mut [Row], shape: RecordShape, count: usize) {
         let Some(first) = shape.lines else { return };
         let mut turned = [[0; LANES]; LANES];
         transpose(simd, self.columns.each_ref(), &mut turned);
@@ -195,7 +198,8 @@ fn lengths_of<S: Simd>(sorted: &Sorted<S>) -> [F32<S>; 3] {
 fn radius_of<S: Simd>(
     simd: S,
     sorted: &Sorted<S>,
-    (lengths, is_edge): ([F32<S>; 3], [Mask<S>; 3]),
+    lengths: [F32<S>; 3],
+    is_edge: [Mask<S>; 3],
     flags: [EdgeFlags; LANES],
 ) -> F32<S> {
     let zero = F32::splat(simd, 0.0);

@@ -82,7 +82,7 @@ impl Records {
             let rows = self.rows[row..used[0]].chunks_mut(LANES * shape.size);
             let tags = self.tags[record..used[1]].chunks_mut(LANES);
             for ((seen, rows), tags) in seen.chunks(LANES).zip(rows).zip(tags) {
-                eight(simd, context, seen, (rows, shape), (tags, outer.as_deref_mut()));
+                eight(simd, context, seen, EightRecords { rows, shape, tags }, outer.as_deref_mut());
             }
         });
         shape
@@ -207,15 +207,23 @@ fn triangle_refs(context: &ShadeContext<'_>, seen: [u32; LANES]) -> [TriangleRef
     )
 }
 
+/// Where the records of up to eight triangles are written.
+struct EightRecords<'r> {
+    rows: &'r mut [Row],
+    shape: RecordShape,
+    tags: &'r mut [Tag],
+}
+
 /// Makes the records of up to eight triangles. Unused lanes repeat the first.
 #[inline(always)]
 fn eight<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
     seen: &[u32],
-    (rows, shape): (&mut [Row], RecordShape),
-    (tags, outer): (&mut [Tag], Option<&mut VisibleFaces>),
+    out: EightRecords<'_>,
+    outer: Option<&mut VisibleFaces>,
 ) {
+    let EightRecords { rows, shape, tags } = out;
     let numbers = lanes_of(
         #[inline(always)]
         |lane| *seen.get(lane).unwrap_or(&seen[0]),
@@ -255,8 +263,8 @@ fn eight<S: Simd>(
         simd.vectorize(
             #[inline(always)]
             || {
-                let lines = Lines::new(simd, (context, ink), &sorted, (triangles, primitives));
-                lines.store(simd, (rows, shape), seen.len());
+                let lines = Lines::new(simd, context, ink, &sorted, triangles, primitives);
+                lines.store(simd, rows, shape, seen.len());
                 if let Some(outer) = outer {
                     lines.note(simd, &sorted, seen, outer);
                 }
@@ -264,7 +272,7 @@ fn eight<S: Simd>(
         );
     }
     if let Some(marks) = context.marks() {
-        store_marks(context, marks, (&mut *rows, shape), (&primitives, &sorted.corners));
+        store_marks(context, marks, rows, shape, &primitives, &sorted.corners);
     }
     let corners = lanes_of(
         #[inline(always)]
@@ -294,8 +302,10 @@ fn eight<S: Simd>(
 fn store_marks(
     context: &ShadeContext<'_>,
     marks: &Marks<'_>,
-    (rows, shape): (&mut [Row], RecordShape),
-    (primitives, corners): (&[u32; LANES], &[Row; 3]),
+    rows: &mut [Row],
+    shape: RecordShape,
+    primitives: &[u32; LANES],
+    corners: &[Row; 3],
 ) {
     let Some(column) = shape.marks else { return };
     for (lane, (record, &primitive)) in rows.chunks_exact_mut(shape.size).zip(primitives).enumerate() {

@@ -17,14 +17,22 @@ pub(crate) struct Group {
     pub(crate) edges: u32,
 }
 
+/// The triangles that the pixels of groups show.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct SeenGroups<'t> {
+    /// One for each sample.
+    pub(crate) triangles: &'t [u32],
+    /// From group to group.
+    pub(crate) step: usize,
+}
+
 /// What is to be shaded of one draw in a tile.
 pub(crate) struct Task<'t> {
     pub(crate) records: &'t Records,
     /// The number of the first record.
     pub(crate) base: u32,
     pub(crate) groups: &'t [Group],
-    /// The triangles that the pixels of groups show, and the distance from group to group.
-    pub(crate) visible: (&'t [u32], usize),
+    pub(crate) visible: SeenGroups<'t>,
     /// The records of the tile's triangles.
     pub(crate) slots: &'t [u32],
     pub(crate) fragments: FragmentSlice<'t>,
@@ -94,7 +102,7 @@ impl<'t, S: Simd> FragmentBatch<'t, S> {
 impl<'t> Task<'t> {
     /// A list of fragments.
     pub(crate) fn of_fragments(records: &'t Records, base: u32, fragments: FragmentSlice<'t>) -> Self {
-        Self { records, base, groups: &[], visible: (&[], 0), slots: &[], fragments }
+        Self { records, base, groups: &[], visible: SeenGroups::default(), slots: &[], fragments }
     }
 
     /// How many vectors there are.
@@ -114,9 +122,9 @@ impl<'t> Task<'t> {
 
     #[inline(always)]
     fn group<S: Simd>(&self, simd: S, group: &Group) -> FragmentBatch<'t, S> {
-        let (visible, step) = self.visible;
+        let SeenGroups { triangles, step } = self.visible;
         let visible =
-            visible[group.number as usize * step..].first_chunk().expect("a group has eight pixels");
+            triangles[group.number as usize * step..].first_chunk().expect("a group has eight pixels");
         let active = u64::from(group.lanes);
         let spare = U32::splat(simd, visible[group.lanes.trailing_zeros() as usize % LANES]);
         let names = Mask::from_bitmask(simd, active).select(U32::simd_from(simd, *visible), spare);

@@ -5,7 +5,7 @@ use super::options::{FrameOptions, VERTICES};
 use super::stages::VertexValues;
 use crate::pass::Recorded;
 use crate::simd::Token;
-use crate::vertex::{ScreenVertex, Slots};
+use crate::vertex::{ScreenVertex, Slots, VertexOutput};
 use crate::view::Plan;
 use crate::viewport::Viewport;
 use std::hint::black_box;
@@ -165,7 +165,7 @@ impl RunTask<'_> {
                 before[..vertices.len()].copy_from_slice(vertices);
                 let slots = self.slots.start + first..self.slots.start + end;
                 let varyings = &mut self.varyings[first * stride..end * stride];
-                pipeline.run_vertices(token, self.used, slots, viewport, (vertices, varyings));
+                pipeline.run_vertices(token, self.used, slots, viewport, VertexOutput { vertices, varyings });
                 for ((bit, after), before) in (first % 64..).zip(&*vertices).zip(&before) {
                     // The position of a vertex without a snapped one is computed by the pipeline once more.
                     let differs = after.0 != before.0 || !after.has_place();

@@ -103,7 +103,7 @@ impl KeptTile {
         if frame.wants.depth || frame.wants.ids {
             moving.lanes(frame, state, &mut now[0]);
             let moved = rows_of_either(&now[0], &self.shown[0]);
-            store_visibility(frame, (area, Some(&moved)), state, bands);
+            store_visibility(frame, area, Some(&moved), state, bands);
             stats.times.resolve += clock.lap();
         }
         still.lay_overlays(frame, state);
@@ -116,14 +116,14 @@ impl KeptTile {
         self.shown = now;
         stats.times.visibility += clock.lap();
         if pixels_to_shade.any() {
-            let visible = (&state.buffer, state.triangles.as_slice());
+            let visible = state.visible(area);
             let partly =
                 Partly { pixels: pixels_to_shade, still: &self.faces, places: moving.still_places(state) };
-            stats.pixels_shaded += shade_tile(frame, (area, Some(partly)), visible, shading, Some(encoding));
+            stats.pixels_shaded += shade_tile(frame, visible, Some(partly), shading, Some(encoding));
             stats.triangles_edged += shading.edged;
             stats.times.shading += clock.lap();
             let colors = TileColors::PartlyEncoded(encoding, &pixels_to_shade.rows);
-            resolve(frame, area, colors, (shading, strip), bands);
+            resolve(frame, area, colors, shading, strip, bands);
             stats.times.resolve += clock.lap();
         }
         Some(())

@@ -113,7 +113,7 @@ impl SetUp<'_> {
                 at_level!(token, simd => set_up_triangles(simd, &mut setup, range.start, triangles));
             }
             (&Shape::Lines { segments, width, smoothing, depth_bias }, _) => {
-                let style = LineStyle::new((width, smoothing), depth_bias, axis, multisampled);
+                let style = LineStyle::new(width, smoothing, depth_bias, axis, multisampled);
                 for index in range {
                     setup.segment(index, segments[index as usize], style);
                 }
@@ -123,7 +123,7 @@ impl SetUp<'_> {
                 at_level!(token, simd => set_up_points(simd, &mut setup, range.start, points, plain, &sizes));
             }
             (&Shape::Points { points, sizes, shape, smoothing, depth_bias }, None) => {
-                let style_of = sizes.each(|size| PointStyle::new((size, smoothing), shape, depth_bias, axis));
+                let style_of = sizes.each(|size| PointStyle::new(size, smoothing, shape, depth_bias, axis));
                 for index in range {
                     setup.point(index, points[index as usize], style_of(index));
                 }
@@ -151,7 +151,7 @@ fn set_up_points<S: Simd>(
 ) {
     for (group, points) in points.chunks(LANES).enumerate() {
         let first = first + (group * LANES) as u32;
-        setup.eight_points(simd, &EightPrimitives::consecutive(first, points), (plain, sizes));
+        setup.eight_points(simd, &EightPrimitives::consecutive(first, points), plain, sizes);
     }
 }
 
@@ -174,6 +174,6 @@ fn set_up_listed_points<S: Simd>(
     sizes: &PointSizes<'_>,
 ) {
     for numbers in numbers.chunks(LANES) {
-        setup.eight_points(simd, &EightPrimitives::listed(numbers, points), (plain, sizes));
+        setup.eight_points(simd, &EightPrimitives::listed(numbers, points), plain, sizes);
     }
 }

@@ -15,7 +15,7 @@ use crate::clock::Clock;
 use crate::pass::{Pass, Recorded};
 use crate::resolve::Strip;
 use crate::target::Bands;
-use crate::vertex::ScreenVertex;
+use crate::vertex::{ScreenVertex, VertexOutput};
 use crate::view::{BackgroundRow, FrameView, Plan};
 use crate::viewport::Viewport;
 use crate::{StageTimes, Stats, Target};
@@ -88,7 +88,7 @@ pub(crate) fn prepare<'f>(
     let grid = layout.grid;
     arena.followed = None;
     let Arena { plan, places, varyings, chunks, .. } = arena;
-    let used = plan.make(&pass.draws, chunks, (options.workers.count(), layout.axis));
+    let used = plan.make(&pass.draws, chunks, options.workers.count(), layout.axis);
     let chunks = &mut chunks[..used];
     places.resize(plan.places, ScreenVertex::MISSING);
     varyings.resize(plan.varyings, 0.0);
@@ -196,7 +196,13 @@ fn run_vertices(
             && !options.is_cancelled()
         {
             let pipeline = pass[draw.draw].pipeline;
-            pipeline.run_vertices(options.token, plan.slots(draw), slots, viewport, (places, varyings));
+            pipeline.run_vertices(
+                options.token,
+                plan.slots(draw),
+                slots,
+                viewport,
+                VertexOutput { vertices: places, varyings },
+            );
         }
     });
 }

@@ -47,11 +47,11 @@ pub(super) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
     stats.tiles += 1;
     let mut clock = Clock::new(frame.timed);
     state.begin(frame, index);
-    resolve_visibility(frame, &area, state, &surfaces, (shading, stats));
+    resolve_visibility(frame, &area, state, &surfaces, shading, stats);
     count_seen(frame, state, stats);
     stats.times.visibility += clock.lap();
     // Depth and ids know nothing of what is shown over the surfaces.
-    store_visibility(frame, (&area, None), state, bands);
+    store_visibility(frame, &area, None, state, bands);
     stats.times.resolve += clock.lap();
     if frame.wants.color {
         cover_overlay(frame, &area, state, &surfaces, stats);
@@ -80,8 +80,7 @@ fn draw_colors(
     let Scratch { state, shading, layers, strip, stats, .. } = scratch;
     let is_blended = !surfaces.translucent.is_empty();
     let encoding = if is_blended { None } else { frame.wants.bytes };
-    stats.pixels_shaded +=
-        shade_tile(frame, (&area, None), (&state.buffer, &state.triangles), shading, encoding);
+    stats.pixels_shaded += shade_tile(frame, state.visible(&area), None, shading, encoding);
     stats.triangles_edged += shading.edged;
     stats.times.shading += clock.lap();
     let colors = match encoding {
@@ -91,12 +90,12 @@ fn draw_colors(
     };
     if is_blended {
         let triangles = surfaces.translucent;
-        let blended = blend_translucent(frame, &area, state, (layers, shading), triangles);
+        let blended = blend_translucent(frame, &area, state, layers, shading, triangles);
         stats.pixels_shaded += blended;
         stats.pixels_blended += blended;
         stats.times.blending += clock.lap();
     }
-    resolve(frame, &area, colors, (shading, strip), bands);
+    resolve(frame, &area, colors, shading, strip, bands);
     stats.times.resolve += clock.lap();
 }
 
@@ -107,9 +106,9 @@ pub(crate) fn outer_ink(frame: &FrameView<'_>, index: u32) -> OuterInk {
         let area = frame.area(index);
         let surfaces = state.list(frame, index, Listing::All);
         state.begin(frame, index);
-        resolve_visibility(frame, &area, &mut state, &surfaces, (&mut shading, &mut stats));
+        resolve_visibility(frame, &area, &mut state, &surfaces, &mut shading, &mut stats);
         cover_overlay(frame, &area, &mut state, &surfaces, &mut stats);
-        list_visible(frame, (&area, None), (&state.buffer, &state.triangles), &mut shading);
+        list_visible(frame, state.visible(&area), None, &mut shading);
     }
     shading.outer
 }

@@ -25,7 +25,7 @@ use crate::ink::{Ink, LARGE, VisibleFaces};
 use crate::marks::Overlap;
 use crate::simd::{Each, F32, LANES, Simd, U32, at_level, inlined, prelude::*, unzipped};
 use crate::tile_buffer::{MAX_SIDE, NO_TRIANGLE, PIXELS, TileArea, VisibilityBuffer};
-use crate::view::FrameView;
+use crate::view::{FrameView, VisibleTile};
 use edged_face::EdgedFace;
 use std::ops::Range;
 use visible_rows::{VisibleRows, beside_large, in_front};
@@ -113,21 +113,21 @@ impl OuterInk {
     pub(crate) fn find(
         &mut self,
         frame: &FrameView<'_>,
-        (ink, area): (&Ink, &TileArea),
-        (buffer, triangles): (&VisibilityBuffer, &[TriangleRef]),
+        ink: &Ink,
+        tile: VisibleTile<'_>,
         asked: Option<[&Rows; 2]>,
     ) {
         if !self.faces.has_lines {
             return;
         }
-        self.own_lanes(frame, area);
+        self.own_lanes(frame, tile.area);
         let reach = ink.reach() as usize;
         let mut rows = self.rows.take().unwrap_or_else(VisibleRows::new);
         const ALL: Rows = [u64::MAX; MAX_SIDE];
         let [asked, near] = asked.unwrap_or([&ALL; 2]);
         let found = at_level!(frame.token, simd => {
-            self.spread(simd, area, (buffer, triangles.len()), (near, &mut rows));
-            self.candidates(simd, area, (&rows, asked), reach)
+            self.spread(simd, tile, near, &mut rows);
+            self.candidates(simd, tile.area, &rows, asked, reach)
         });
         self.ready.iter_mut().for_each(Ready::clear);
         for y in self.own_part[1].clone() {
@@ -135,7 +135,7 @@ impl OuterInk {
             while rest != 0 {
                 let x = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
-                self.cover(frame, area, (triangles, &rows), ([x, y], reach));
+                self.cover(frame, tile, &rows, [x, y], reach);
             }
         }
         self.rows = Some(rows);
@@ -147,7 +147,8 @@ impl OuterInk {
         &self,
         simd: S,
         area: &TileArea,
-        (visible, asked): (&VisibleRows, &Rows),
+        visible: &VisibleRows,
+        asked: &Rows,
         reach: usize,
     ) -> Rows {
         let [columns, rows] = self.own_part.clone();
@@ -155,9 +156,9 @@ impl OuterInk {
         let mut found = [0; MAX_SIDE];
         for y in rows.filter(|&y| asked[y] != 0) {
             let around = y.saturating_sub(reach)..(y + reach + 1).min(area.size[1]);
-            let mut bits = in_front(simd, visible, (y, around.clone()), reach);
+            let mut bits = in_front(simd, visible, y, around.clone(), reach);
             if self.faces.has_large {
-                bits |= beside_large(simd, visible, (y, around), reach);
+                bits |= beside_large(simd, visible, y, around, reach);
             }
             found[y] = bits & own & asked[y];
         }
@@ -166,13 +167,8 @@ impl OuterInk {
 
     /// Lays what pixels see out in rows. Where no column of a group is `near` what is asked for, anything may stay.
     #[inline(always)]
-    fn spread<S: Simd>(
-        &self,
-        simd: S,
-        area: &TileArea,
-        (buffer, triangle_count): (&VisibilityBuffer, usize),
-        (near, rows): (&Rows, &mut VisibleRows),
-    ) {
+    fn spread<S: Simd>(&self, simd: S, tile: VisibleTile<'_>, near: &Rows, rows: &mut VisibleRows) {
+        let area = tile.area;
         if area.padded() != [MAX_SIDE; 2] {
             rows.least.fill([f32::NEG_INFINITY; MAX_SIDE]);
             rows.large.fill([0.0; MAX_SIDE]);
@@ -183,7 +179,7 @@ impl OuterInk {
             if (near[y] | near[y + 1]) >> x & 0xf == 0 {
                 continue;
             }
-            self.spread_group(simd, (buffer, triangle_count), rows, [x, y]);
+            self.spread_group(simd, tile, rows, [x, y]);
         }
     }
 
@@ -192,7 +188,7 @@ impl OuterInk {
     fn spread_group<S: Simd>(
         &self,
         simd: S,
-        (buffer, triangle_count): (&VisibilityBuffer, usize),
+        VisibleTile { buffer, triangles, .. }: VisibleTile<'_>,
         rows: &mut VisibleRows,
         [x, y]: [usize; 2],
     ) {
@@ -201,7 +197,7 @@ impl OuterInk {
         let indices = inlined(
             #[inline(always)]
             |visible: [u32; LANES]| {
-                <[u32; LANES]>::from(U32::simd_from(simd, visible).min(triangle_count as u32))
+                <[u32; LANES]>::from(U32::simd_from(simd, visible).min(triangles.len() as u32))
             },
         );
         let depths = inlined(
@@ -236,9 +232,10 @@ impl OuterInk {
     fn cover(
         &mut self,
         frame: &FrameView<'_>,
-        area: &TileArea,
-        (triangles, rows): (&[TriangleRef], &VisibleRows),
-        ([x, y], reach): ([usize; 2], usize),
+        VisibleTile { area, triangles, .. }: VisibleTile<'_>,
+        rows: &VisibleRows,
+        [x, y]: [usize; 2],
+        reach: usize,
     ) {
         let own = rows.farthest[y][x];
         let point = area.point([x as i32, y as i32], [128, 128]);

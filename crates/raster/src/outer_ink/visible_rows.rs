@@ -40,7 +40,8 @@ impl VisibleRows {
 pub(super) fn in_front<S: Simd>(
     simd: S,
     rows: &VisibleRows,
-    (y, around): (usize, Range<usize>),
+    y: usize,
+    around: Range<usize>,
     reach: usize,
 ) -> u64 {
     let mut wide: Wide<f32> = [f32::NEG_INFINITY; MAX_SIDE + 2 * MOST_REACH];
@@ -68,7 +69,8 @@ pub(super) fn in_front<S: Simd>(
 pub(super) fn beside_large<S: Simd>(
     simd: S,
     rows: &VisibleRows,
-    (y, around): (usize, Range<usize>),
+    y: usize,
+    around: Range<usize>,
     reach: usize,
 ) -> u64 {
     let mut large: Wide<f32> = [0.0; MAX_SIDE + 2 * MOST_REACH];

@@ -12,7 +12,8 @@ pub(super) fn blit<S: Simd>(
     simd: S,
     canvas: &mut Canvas<'_>,
     pixels: Rect,
-    (image, offset): (&Image, [i32; 2]),
+    image: &Image,
+    offset: [i32; 2],
     color: [u8; 4],
 ) {
     let white = color == [255; 4];

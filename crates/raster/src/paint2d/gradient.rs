@@ -46,7 +46,8 @@ impl<'a> Gradient<'a> {
         simd: S,
         canvas: &mut Canvas<'_>,
         clip: Rect,
-        (y, span): (i32, Range<i32>),
+        y: i32,
+        span: Range<i32>,
     ) {
         let weights = self.weights.at(span.start, y);
         let color = self.color.at(weights);

@@ -65,7 +65,7 @@ impl Painter {
             points.clear();
             at_level!(self.token, simd => {
                 points.extend(mesh.vertices.iter().map(snap));
-                paint_mesh(simd, canvas, (mesh, points), clip, &mut painted);
+                paint_mesh(simd, canvas, mesh, points, clip, &mut painted);
             });
         }
         painted
@@ -77,7 +77,8 @@ impl Painter {
 fn paint_mesh<S: Simd>(
     simd: S,
     canvas: &mut Canvas<'_>,
-    (mesh, points): (&Mesh<'_>, &[Option<FixedPoint>]),
+    mesh: &Mesh<'_>,
+    points: &[Option<FixedPoint>],
     clip: Rect,
     painted: &mut Painted,
 ) {
@@ -129,7 +130,7 @@ fn paint_rectangle<S: Simd>(
     }
     let Some(image) = texels.image() else { return false };
     let Some(offset) = rectangle.texel_offset(halves, image, pixels) else { return false };
-    blit(simd, canvas, pixels, (image, offset), rectangle.color);
+    blit(simd, canvas, pixels, image, offset, rectangle.color);
     true
 }
 
@@ -159,7 +160,7 @@ fn paint_triangle<S: Simd>(
             triangle.spans(
                 clip,
                 #[inline(always)]
-                |y, span| gradient.paint(simd, canvas, clip, (y, span)),
+                |y, span| gradient.paint(simd, canvas, clip, y, span),
             );
         }
     }

@@ -20,7 +20,8 @@ pub(crate) trait AnyPipeline: VertexProgram {
         &self,
         token: Token,
         context: &ShadeContext<'_>,
-        list: (&Task<'_>, &mut [Columns; 2]),
+        task: &Task<'_>,
+        columns: &mut [Columns; 2],
         output: &mut ShadeOutput<'_>,
     );
 
@@ -29,7 +30,8 @@ pub(crate) trait AnyPipeline: VertexProgram {
         &self,
         token: Token,
         context: &ShadeContext<'_>,
-        list: (&Task<'_>, &mut [Columns; 2]),
+        task: &Task<'_>,
+        columns: &mut [Columns; 2],
         kept: &mut [u8],
     );
 }
@@ -47,14 +49,15 @@ impl<P: LanePipeline> AnyPipeline for P {
         &self,
         token: Token,
         context: &ShadeContext<'_>,
-        list: (&Task<'_>, &mut [Columns; 2]),
+        task: &Task<'_>,
+        columns: &mut [Columns; 2],
         output: &mut ShadeOutput<'_>,
     ) {
         if P::SCALAR {
             let pipeline = self.as_scalar().expect("a scalar pipeline");
-            scalar::shade(token, pipeline, context, list, output);
+            scalar::shade(token, pipeline, context, task, columns, output);
         } else {
-            at_level!(token, simd => run::shade(simd, self, context, list, output));
+            at_level!(token, simd => run::shade(simd, self, context, task, columns, output));
         }
     }
 
@@ -62,14 +65,15 @@ impl<P: LanePipeline> AnyPipeline for P {
         &self,
         token: Token,
         context: &ShadeContext<'_>,
-        list: (&Task<'_>, &mut [Columns; 2]),
+        task: &Task<'_>,
+        columns: &mut [Columns; 2],
         kept: &mut [u8],
     ) {
         if P::SCALAR {
             let pipeline = self.as_scalar().expect("a scalar pipeline");
-            scalar::mask(token, pipeline, context, list, kept);
+            scalar::mask(token, pipeline, context, task, columns, kept);
         } else if P::MASKED {
-            at_level!(token, simd => run::mask(simd, self, context, list, kept));
+            at_level!(token, simd => run::mask(simd, self, context, task, columns, kept));
         } else {
             kept.fill(1);
         }

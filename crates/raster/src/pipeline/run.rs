@@ -16,13 +16,15 @@ pub(super) fn shade<S: Simd, P: LanePipeline>(
     simd: S,
     pipeline: &P,
     context: &ShadeContext<'_>,
-    (task, columns): (&Task<'_>, &mut [Columns; 2]),
+    task: &Task<'_>,
+    columns: &mut [Columns; 2],
     output: &mut ShadeOutput<'_>,
 ) {
     for_each_vector(
         simd,
         context,
-        (task, columns),
+        task,
+        columns,
         #[inline(always)]
         |fragments, _| output.write(fragments, finite(simd, pipeline.fragments(simd, fragments))),
     );
@@ -34,13 +36,15 @@ pub(super) fn mask<S: Simd, P: LanePipeline>(
     simd: S,
     pipeline: &P,
     context: &ShadeContext<'_>,
-    (task, columns): (&Task<'_>, &mut [Columns; 2]),
+    task: &Task<'_>,
+    columns: &mut [Columns; 2],
     kept: &mut [u8],
 ) {
     for_each_vector(
         simd,
         context,
-        (task, columns),
+        task,
+        columns,
         #[inline(always)]
         |fragments, vector| {
             let mask = pipeline.masks(simd, fragments).to_bitmask();
@@ -56,7 +60,8 @@ pub(super) fn mask<S: Simd, P: LanePipeline>(
 pub(super) fn for_each_vector<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
-    (task, columns): (&Task<'_>, &mut [Columns; 2]),
+    task: &Task<'_>,
+    columns: &mut [Columns; 2],
     mut visit: impl FnMut(&FragmentLanes<'_, S>, &FragmentBatch<'_, S>),
 ) {
     let [mut next, mut now] = columns.each_mut();
@@ -68,12 +73,12 @@ pub(super) fn for_each_vector<S: Simd>(
             // A separate function, so that it is compiled once for all pipelines.
             simd.vectorize(
                 #[inline(always)]
-                || prepare(simd, context, (task, &mut *next), number),
+                || prepare(simd, context, task, &mut *next, number),
             );
         }
         if number > 0 {
             let vector = task.vector(simd, number - 1);
-            visit(&fragments(simd, context, (task.records, now), &vector), &vector);
+            visit(&fragments(simd, context, task.records, now, &vector), &vector);
         }
         std::mem::swap(&mut next, &mut now);
     }
@@ -84,7 +89,8 @@ pub(super) fn for_each_vector<S: Simd>(
 fn prepare<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
-    (task, columns): (&Task<'_>, &mut Columns),
+    task: &Task<'_>,
+    columns: &mut Columns,
     number: usize,
 ) {
     let vector = task.vector(simd, number);
@@ -98,7 +104,8 @@ fn prepare<S: Simd>(
 fn fragments<'v, S: Simd>(
     simd: S,
     context: &'v ShadeContext<'v>,
-    (records, columns): (&'v Records, &'v Columns),
+    records: &'v Records,
+    columns: &'v Columns,
     vector: &'v FragmentBatch<'_, S>,
 ) -> FragmentLanes<'v, S> {
     FragmentLanes {
@@ -129,7 +136,7 @@ fn points<S: Simd>(simd: S, context: &ShadeContext<'_>, columns: &Columns, spots
     // even where pixels have one sample.
     let [x, y] = simd.vectorize(
         #[inline(always)]
-        move || sample_points(simd, context, &TriangleLanes::load(simd, columns), (corners, &spots)),
+        move || sample_points(simd, context, &TriangleLanes::load(simd, columns), corners, &spots),
     );
     [x, y]
 }
@@ -140,7 +147,8 @@ fn sample_points<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
     triangle: &TriangleLanes<'_, S>,
-    (corners, spots): ([I32<S>; 2], &Spots<S>),
+    corners: [I32<S>; 2],
+    spots: &Spots<S>,
 ) -> [I32<S>; 2] {
     let Spots { partly, samples } = *spots;
     let mut points = corners.each(

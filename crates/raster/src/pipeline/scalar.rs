@@ -11,10 +11,11 @@ pub(super) fn shade(
     token: Token,
     pipeline: &dyn ScalarPipeline,
     context: &ShadeContext<'_>,
-    list: (&Task<'_>, &mut [Columns; 2]),
+    task: &Task<'_>,
+    columns: &mut [Columns; 2],
     output: &mut ShadeOutput<'_>,
 ) {
-    at_level!(token, simd => shade_lanes(simd, pipeline, context, list, output));
+    at_level!(token, simd => shade_lanes(simd, pipeline, context, task, columns, output));
 }
 
 #[inline(always)]
@@ -22,13 +23,15 @@ fn shade_lanes<S: Simd>(
     simd: S,
     pipeline: &dyn ScalarPipeline,
     context: &ShadeContext<'_>,
-    list: (&Task<'_>, &mut [Columns; 2]),
+    task: &Task<'_>,
+    columns: &mut [Columns; 2],
     output: &mut ShadeOutput<'_>,
 ) {
     for_each_vector(
         simd,
         context,
-        list,
+        task,
+        columns,
         #[inline(always)]
         |fragments, _| {
             let mut colors = [[0.0; LANES]; 4];
@@ -51,10 +54,11 @@ pub(super) fn mask(
     token: Token,
     pipeline: &dyn ScalarPipeline,
     context: &ShadeContext<'_>,
-    list: (&Task<'_>, &mut [Columns; 2]),
+    task: &Task<'_>,
+    columns: &mut [Columns; 2],
     kept: &mut [u8],
 ) {
-    at_level!(token, simd => for_each_vector(simd, context, list, #[inline(always)] |fragments, vector| {
+    at_level!(token, simd => for_each_vector(simd, context, task, columns, #[inline(always)] |fragments, vector| {
         fragments.for_each(|lane, fragment| {
             kept[vector.outputs()[lane] as usize] = u8::from(pipeline.run_mask(&fragment));
         });

@@ -4,7 +4,7 @@
 use super::traits::{LanePipeline, ScalarPipeline};
 use crate::MAX_VARYINGS;
 use crate::simd::{Each, F32, LANES, Simd, Token, at_level, prelude::*};
-use crate::vertex::{ScreenVertex, Slots, VertexLanes, VertexProgram, to_screen};
+use crate::vertex::{Slots, VertexLanes, VertexOutput, VertexProgram, to_screen};
 use crate::viewport::Viewport;
 use std::ops::Range;
 use trigon_math::Vec4;
@@ -35,14 +35,15 @@ impl<P: LanePipeline> VertexProgram for P {
         used: Slots<'_>,
         slots: Range<usize>,
         viewport: Viewport,
-        out: (&mut [ScreenVertex], &mut [f32]),
+        out: VertexOutput<'_>,
     ) {
+        let run = VertexRun { used, slots, viewport, out };
         // The other branch is not compiled.
         if P::SCALAR {
             let pipeline = self.as_scalar().expect("a scalar pipeline");
-            run_scalar(token, (pipeline, stride(P::VARYINGS)), (used, slots), viewport, out);
+            run_scalar(token, pipeline, stride(P::VARYINGS), run);
         } else {
-            at_level!(token, simd => run(simd, self, (used, slots), viewport, out));
+            at_level!(token, simd => run_lanes(simd, self, run));
         }
     }
 
@@ -57,15 +58,18 @@ impl<P: LanePipeline> VertexProgram for P {
     }
 }
 
-/// Runs some of the vertices that a draw uses: computes their screen vertices and varyings.
-#[inline(always)]
-fn run<S: Simd, P: LanePipeline>(
-    simd: S,
-    pipeline: &P,
-    (used, slots): (Slots<'_>, Range<usize>),
+/// Some of the vertices that a draw uses.
+struct VertexRun<'r> {
+    used: Slots<'r>,
+    slots: Range<usize>,
     viewport: Viewport,
-    (vertices, mut varyings): (&mut [ScreenVertex], &mut [f32]),
-) {
+    out: VertexOutput<'r>,
+}
+
+/// Computes screen vertices and varyings.
+#[inline(always)]
+fn run_lanes<S: Simd, P: LanePipeline>(simd: S, pipeline: &P, run: VertexRun<'_>) {
+    let VertexRun { used, slots, viewport, out: VertexOutput { vertices, mut varyings } } = run;
     let (guard, stride) = (viewport.guard(), stride(pipeline.varyings()));
     // Listed vertices do not lie side by side.
     let together = if used.are_consecutive() { LANES } else { 1 };
@@ -79,14 +83,9 @@ fn run<S: Simd, P: LanePipeline>(
     }
 }
 
-/// As [`run`], one vertex after the other; compiled once for all pipelines.
-fn run_scalar(
-    token: Token,
-    (pipeline, stride): (&dyn ScalarPipeline, usize),
-    (used, slots): (Slots<'_>, Range<usize>),
-    viewport: Viewport,
-    (vertices, mut varyings): (&mut [ScreenVertex], &mut [f32]),
-) {
+/// As [`run_lanes`], one vertex after the other; compiled once for all pipelines.
+fn run_scalar(token: Token, pipeline: &dyn ScalarPipeline, stride: usize, run: VertexRun<'_>) {
+    let VertexRun { used, slots, viewport, out: VertexOutput { vertices, mut varyings } } = run;
     let guard = viewport.guard();
     for (group, vertices) in vertices.chunks_mut(LANES).enumerate() {
         let mut columns = [[0.0; LANES]; 4];

@@ -25,14 +25,15 @@ pub(crate) struct PointStyle {
 
 impl PointStyle {
     pub(crate) fn new(
-        (size, smoothing): (f32, Smoothing),
+        size: f32,
+        smoothing: Smoothing,
         shape: PointShape,
         depth_bias: f32,
         supersampling: u32,
     ) -> Self {
         let smooth = f64::from(smooth_size(size)) * f64::from(supersampling);
         let smooth = (smoothing == Smoothing::AntiAliased).then_some(smooth);
-        let half = half_size((size, smoothing), supersampling);
+        let half = half_size(size, smoothing, supersampling);
         let kind = match shape {
             PointShape::Round => Kind::RoundPoint,
             PointShape::Square => Kind::SquarePoint,

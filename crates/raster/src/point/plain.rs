@@ -30,7 +30,7 @@ impl PlainPoints {
         let is_opaque = matches!(geometry.blend_mode, BlendMode::Opaque | BlendMode::Overlay);
         let marked = sizes.marked.map_or(sizes.size, |marked| marked.size);
         let styles = [sizes.size, marked]
-            .map(|size| PointStyle::new((size, smoothing), shape, depth_bias, supersampling));
+            .map(|size| PointStyle::new(size, smoothing, shape, depth_bias, supersampling));
         let are_small = styles.iter().all(|style| 2 * style.half < WIDE);
         let are_plain = smoothing == Smoothing::Sharp && is_opaque && is_flat;
         (are_plain && are_small).then_some(Self { styles })
@@ -72,7 +72,8 @@ impl PlainPoints {
     pub(crate) fn square(
         &self,
         sizes: &PointSizes<'_>,
-        (primitive, ordinal): (u32, u32),
+        primitive: u32,
+        ordinal: u32,
         centre: ScreenVertex,
     ) -> Quad {
         let [usual, marked] = self.styles;
@@ -101,7 +102,8 @@ impl Setup<'_> {
         &mut self,
         simd: S,
         points: &EightPrimitives<'_, u32>,
-        (plain, sizes): (&PlainPoints, &PointSizes<'_>),
+        plain: &PlainPoints,
+        sizes: &PointSizes<'_>,
     ) {
         let vertices = points.indices.each(
             #[inline(always)]
@@ -116,7 +118,7 @@ impl Setup<'_> {
             *(if is_invalid { &mut stats.invalid } else { &mut stats.outside }) += 1;
         }
         let half = plain.half_sizes(simd, sizes, points.numbers);
-        let (seen, pixels) = self.pixels_of_squares(simd, ([centres.x, centres.y], half), placed);
+        let (seen, pixels) = self.pixels_of_squares(simd, [centres.x, centres.y], half, placed);
         self.chunk.stats.culled += u64::from((placed & !seen).count_ones());
         self.chunk.stats.set_up += u64::from(seen.count_ones());
         self.push_points(simd, points.numbers, seen, pixels);
@@ -128,7 +130,8 @@ impl Setup<'_> {
     fn pixels_of_squares<S: Simd>(
         &self,
         simd: S,
-        (centres, half): ([I32<S>; 2], I32<S>),
+        centres: [I32<S>; 2],
+        half: I32<S>,
         placed: u64,
     ) -> (u64, [[I32<S>; 2]; 2]) {
         let grid = self.grid;
@@ -173,7 +176,7 @@ impl Setup<'_> {
         if !(lanes & !alone).any_true() {
             let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
             let places = self.indices_in_chunk(simd, primitives);
-            return self.chunk.push_some(lanes, (tiles, places), Entry::point);
+            return self.chunk.push_some(lanes, tiles, places, Entry::point);
         }
         let [columns, rows] = [columns, rows].each(
             #[inline(always)]

@@ -55,7 +55,7 @@ fn for_each_group<S: Simd>(
                 let at = TileArea::pixel_at(first + lane);
                 colors[BEHIND] = frame.lined_background_at(area, at, outer).to_array();
             }
-            means[lane] = mean_of(simd, (names, lane), colors);
+            means[lane] = mean_of(simd, names, lane, colors);
         }
         visit(group, &means, &mut codes[first..], &mut colors[first..]);
     }
@@ -63,7 +63,7 @@ fn for_each_group<S: Simd>(
 
 /// The mean of the colours that a lane's names refer to, computed as in [`mean`].
 #[inline(always)]
-fn mean_of<S: Simd>(simd: S, (names, lane): (&[[u32; LANES]], usize), colors: &[[f32; 4]]) -> [f32; 4] {
+fn mean_of<S: Simd>(simd: S, names: &[[u32; LANES]], lane: usize, colors: &[[f32; 4]]) -> [f32; 4] {
     let color = inlined(
         #[inline(always)]
         |names: &[u32; LANES]| f32x4::simd_from(simd, colors[names[lane] as usize]),
@@ -82,12 +82,12 @@ fn mean_of<S: Simd>(simd: S, (names, lane): (&[[u32; LANES]], usize), colors: &[
     if (sum * 0.0).simd_eq(0.0).all_true() {
         return (sum * (1.0 / names.len() as f32)).into();
     }
-    large_mean((names, lane), colors)
+    large_mean(names, lane, colors)
 }
 
 /// Where sums overflow.
 #[cold]
-fn large_mean((names, lane): (&[[u32; LANES]], usize), colors: &[[f32; 4]]) -> [f32; 4] {
+fn large_mean(names: &[[u32; LANES]], lane: usize, colors: &[[f32; 4]]) -> [f32; 4] {
     let of_samples = names.iter().map(|names| Vec4::from_array(colors[names[lane] as usize]));
     mean(of_samples, names.len()).to_array()
 }

@@ -37,7 +37,8 @@ pub(crate) fn resolve(
     frame: &FrameView<'_>,
     area: &TileArea,
     colors: TileColors<'_>,
-    (shading, strip): (&mut Shading, &mut Strip),
+    shading: &mut Shading,
+    strip: &mut Strip,
     bands: &Bands<'_>,
 ) {
     match colors {
@@ -93,7 +94,8 @@ fn store_colors(frame: &FrameView<'_>, area: &TileArea, colors: &[[f32; 4]], ban
 /// longer, only those are written for which `asked` has a bit in their row, if it is given: the target holds all others.
 pub(crate) fn store_visibility(
     frame: &FrameView<'_>,
-    (area, asked): (&TileArea, Option<&TileRows>),
+    area: &TileArea,
+    asked: Option<&TileRows>,
     state: &TileState,
     bands: &Bands<'_>,
 ) {

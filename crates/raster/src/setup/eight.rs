@@ -205,7 +205,7 @@ impl Setup<'_> {
         }
         let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
         let places = self.indices_in_chunk(simd, primitives);
-        self.chunk.push_some(drawn, (tiles, places), Entry::primitive);
+        self.chunk.push_some(drawn, tiles, places, Entry::primitive);
         true
     }
 

@@ -87,7 +87,8 @@ impl Edges {
     pub(super) fn push<S: Simd>(
         &mut self,
         simd: S,
-        (group, rows): (usize, &[[u32; LANES]]),
+        group: usize,
+        rows: &[[u32; LANES]],
         lanes: u64,
         parts: &mut FragmentList,
     ) {

@@ -29,7 +29,7 @@ pub(crate) fn shade_jobs(
     colors: &mut [[f32; 4]],
 ) {
     // Edges of other faces are not painted over translucent ones.
-    shade_jobs_with(frame, area, shading, list, (colors, None));
+    shade_jobs_with(frame, area, shading, list, colors, None);
 }
 
 /// [`shade_jobs`], with what edges of other faces cover.
@@ -38,14 +38,15 @@ pub(crate) fn shade_jobs_with(
     area: &TileArea,
     shading: &mut Shading,
     list: JobList<'_>,
-    (colors, outer): (&mut [[f32; 4]], Option<&[Overlap]>),
+    colors: &mut [[f32; 4]],
+    outer: Option<&[Overlap]>,
 ) {
     for_each_part(frame, area, shading, list, |draw, context, shading| {
         let context = &ShadeContext { outer, ..*context };
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
         let mut output = ShadeOutput::colors(colors).with_ink(context.ink_over());
-        frame.pipeline(draw).shade(frame.token, context, (&task, columns), &mut output);
+        frame.pipeline(draw).shade(frame.token, context, &task, columns, &mut output);
     });
 }
 
@@ -60,7 +61,7 @@ pub(crate) fn mask_jobs(
     for_each_part(frame, area, shading, list, |draw, context, shading| {
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
-        frame.pipeline(draw).mask(frame.token, context, (&task, columns), kept);
+        frame.pipeline(draw).mask(frame.token, context, &task, columns, kept);
     });
 }
 

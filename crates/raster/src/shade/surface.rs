@@ -10,39 +10,41 @@ use super::tile_bits::GROUP_COUNT;
 use super::visible::{SomeLanes, divide, list};
 use crate::bin::TriangleRef;
 use crate::fragments::{
-    Codes, Encoding, FragmentSlice, Records, ShadeContext, ShadeOutput, ShadePoint, Task,
+    Codes, Encoding, FragmentSlice, Records, SeenGroups, ShadeContext, ShadeOutput, ShadePoint, Task,
 };
 use crate::ink::VisibleFaces;
 use crate::simd::{LANES, at_level};
-use crate::tile_buffer::{TileArea, VisibilityBuffer};
-use crate::view::FrameView;
+use crate::tile_buffer::TileArea;
+use crate::view::{FrameView, VisibleTile};
 
 /// Shades the pixels of a tile, or those that are asked for: to bytes if an encoding is given, else in linear
 /// light. What covers a part of its pixel is left in linear light in any case. Tells how
 /// many fragments were shaded.
 pub(crate) fn shade_tile(
     frame: &FrameView<'_>,
-    (area, partly): (&TileArea, Option<Partly<'_>>),
-    (buffer, triangles): (&VisibilityBuffer, &[TriangleRef]),
+    tile: VisibleTile<'_>,
+    partly: Option<Partly<'_>>,
     shading: &mut Shading,
     encoding: Option<Encoding>,
 ) -> u64 {
-    let count = list_visible(frame, (area, partly), (buffer, triangles), shading);
+    let count = list_visible(frame, tile, partly, shading);
     let runs = std::mem::take(&mut shading.runs);
     let outer = std::mem::take(&mut shading.outer);
     for run in &runs {
-        let context =
-            ShadeContext { outer: outer.covered(), ..frame.shade_context(area, triangles, run.draw) };
+        let context = ShadeContext {
+            outer: outer.covered(),
+            ..frame.shade_context(tile.area, tile.triangles, run.draw)
+        };
         match run.records {
             Some(shape) => shading.records.select(shape),
             None => shading.records.fill(frame.token, &context, &shading.seen[run.slots.clone()]),
         }
-        let visible = (buffer.visible(), LANES * buffer.samples);
+        let visible = SeenGroups { triangles: tile.buffer.visible(), step: LANES * tile.buffer.samples };
         // With lines on it no triangle is flat.
         if context.is_flat && (frame.ink.is_none() || context.is_of_plain_marks()) {
-            shade_flat(frame, &context, shading, (run, visible), encoding);
+            shade_flat(frame, &context, shading, run, visible, encoding);
         } else {
-            shade_run(frame, &context, shading, (run, visible), encoding);
+            shade_run(frame, &context, shading, run, visible, encoding);
         }
     }
     (shading.runs, shading.outer) = (runs, outer);
@@ -53,10 +55,11 @@ pub(crate) fn shade_tile(
 /// the number of fragments to shade.
 pub(crate) fn list_visible(
     frame: &FrameView<'_>,
-    (area, partly): (&TileArea, Option<Partly<'_>>),
-    (buffer, triangles): (&VisibilityBuffer, &[TriangleRef]),
+    tile: VisibleTile<'_>,
+    partly: Option<Partly<'_>>,
     shading: &mut Shading,
 ) -> usize {
+    let VisibleTile { area, buffer, triangles } = tile;
     let mut outer = std::mem::take(&mut shading.outer);
     let ink = frame.ink.as_ref().filter(|ink| ink.has_lines());
     let some = match partly {
@@ -65,7 +68,7 @@ pub(crate) fn list_visible(
         None => ink.map(|_| SomeLanes { shaded: outer.own_lanes(frame, area), seen: &[0xff; GROUP_COUNT] }),
     };
     shading.edged = 0;
-    let count = at_level!(frame.token, simd => list(simd, buffer, (triangles.len(), some), shading));
+    let count = at_level!(frame.token, simd => list(simd, buffer, triangles.len(), some, shading));
     divide(frame, buffer, triangles, shading);
     if let Some(ink) = ink {
         outer.begin(triangles.len());
@@ -81,12 +84,7 @@ pub(crate) fn list_visible(
             *edged += if shape.lines.is_some() { seen.len() as u64 } else { 0 };
             run.records = Some(shape);
         }
-        outer.find(
-            frame,
-            (ink, area),
-            (buffer, triangles),
-            partly.map(|partly| [&partly.pixels.rows, &partly.pixels.near]),
-        );
+        outer.find(frame, ink, tile, partly.map(|partly| [&partly.pixels.rows, &partly.pixels.near]));
     } else if !outer.is_empty() {
         outer.begin(0);
     }
@@ -113,14 +111,12 @@ pub(crate) fn note_faces(
     faces
 }
 
-/// What groups see, and from group to group how many samples there are.
-type Visible<'w> = (&'w [u32], usize);
-
 fn shade_run(
     frame: &FrameView<'_>,
     context: &ShadeContext<'_>,
     shading: &mut Shading,
-    (run, visible): (&Run, Visible<'_>),
+    run: &Run,
+    visible: SeenGroups<'_>,
     encoding: Option<Encoding>,
 ) {
     let Shading { records, columns, slots, groups, fragments, parts, codes, colors, .. } = shading;
@@ -139,11 +135,11 @@ fn shade_run(
         None => ShadeOutput::colors(colors),
     };
     let mut output = output.with_ink(context.ink_over());
-    pipeline.shade(frame.token, context, (&task, columns), &mut output);
+    pipeline.shade(frame.token, context, &task, columns, &mut output);
     if !run.parts.is_empty() {
         let task = Task::of_fragments(records, base, parts.part(run.parts.clone()));
         let mut output = ShadeOutput::colors(colors).with_ink(context.ink_over());
-        pipeline.shade(frame.token, context, (&task, columns), &mut output);
+        pipeline.shade(frame.token, context, &task, columns, &mut output);
     }
 }
 
@@ -152,16 +148,17 @@ fn shade_flat(
     frame: &FrameView<'_>,
     context: &ShadeContext<'_>,
     shading: &mut Shading,
-    (run, (visible, step)): (&Run, Visible<'_>),
+    run: &Run,
+    visible: SeenGroups<'_>,
     encoding: Option<Encoding>,
 ) {
-    shade_triangles(frame, context, shading, (run.draw, run.slots.len()), encoding);
+    shade_triangles(frame, context, shading, run.draw, run.slots.len(), encoding);
     let Shading { slots, groups, fragments, parts, codes, colors, flat_codes, flat_colors, .. } = shading;
     let base = run.slots.start as u32;
     for group in &groups[run.groups.clone()] {
         let number = group.number as usize;
         let pixels = number * LANES..(number + 1) * LANES;
-        let seen = &visible[number * step..][..LANES];
+        let seen = &visible.triangles[number * visible.step..][..LANES];
         if seen.iter().all(|&visible| visible == seen[0]) {
             let slot = (group.slot - base) as usize;
             if encoding.is_some() {
@@ -206,7 +203,8 @@ fn shade_triangles(
     frame: &FrameView<'_>,
     context: &ShadeContext<'_>,
     shading: &mut Shading,
-    (draw, count): (usize, usize),
+    draw: usize,
+    count: usize,
     encoding: Option<Encoding>,
 ) {
     let Shading { records, columns, flat, flat_codes, flat_colors, .. } = shading;
@@ -221,7 +219,7 @@ fn shade_triangles(
     }
     let task = Task::of_fragments(records, 0, flat.all());
     let mut output = ShadeOutput::colors(flat_colors);
-    frame.pipeline(draw).shade(frame.token, context, (&task, columns), &mut output);
+    frame.pipeline(draw).shade(frame.token, context, &task, columns, &mut output);
     if let Some(encoding) = encoding {
         at_level!(frame.token, simd => encoding.encode_all(simd, &flat_colors[..whole], flat_codes));
     }

@@ -25,15 +25,16 @@ pub(super) struct SomeLanes<'l> {
 pub(super) fn list<S: Simd>(
     simd: S,
     buffer: &VisibilityBuffer,
-    (triangle_count, some): (usize, Option<SomeLanes<'_>>),
+    triangle_count: usize,
+    some: Option<SomeLanes<'_>>,
     shading: &mut Shading,
 ) -> usize {
     const NONE: SomeLanes<'_> = SomeLanes { shaded: &[], seen: &[] };
     match (buffer.samples, some) {
-        (1, None) => list_samples::<S, 1, true>(simd, buffer, (triangle_count, NONE), shading),
-        (1, Some(some)) => list_samples::<S, 1, false>(simd, buffer, (triangle_count, some), shading),
-        (_, None) => list_samples::<S, 0, true>(simd, buffer, (triangle_count, NONE), shading),
-        (_, Some(some)) => list_samples::<S, 0, false>(simd, buffer, (triangle_count, some), shading),
+        (1, None) => list_samples::<S, 1, true>(simd, buffer, triangle_count, NONE, shading),
+        (1, Some(some)) => list_samples::<S, 1, false>(simd, buffer, triangle_count, some, shading),
+        (_, None) => list_samples::<S, 0, true>(simd, buffer, triangle_count, NONE, shading),
+        (_, Some(some)) => list_samples::<S, 0, false>(simd, buffer, triangle_count, some, shading),
     }
 }
 
@@ -42,7 +43,8 @@ pub(super) fn list<S: Simd>(
 fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
     simd: S,
     buffer: &VisibilityBuffer,
-    (triangle_count, some): (usize, SomeLanes<'_>),
+    triangle_count: usize,
+    some: SomeLanes<'_>,
     shading: &mut Shading,
 ) -> usize {
     let samples = if SAMPLES > 0 { SAMPLES } else { buffer.samples };
@@ -88,14 +90,14 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
         let seen = !empty & shaded;
         pixels += seen.count_ones();
         if partly != 0 {
-            edges.push(simd, (group, rows), partly, parts);
+            edges.push(simd, group, rows, partly, parts);
         }
         if seen.count_ones() >= FULL {
             let slot = first[seen.trailing_zeros() as usize % LANES];
             let edges = (seen & partly) as u32;
             groups.push(Group { slot, number: group as u32, lanes: seen as u32, edges });
         } else {
-            push_lanes([fragments, parts], (group, first), [seen & !partly, seen & partly]);
+            push_lanes([fragments, parts], group, first, [seen & !partly, seen & partly]);
         }
     }
     number(triangle_count, shading);
@@ -143,7 +145,7 @@ fn number(triangle_count: usize, shading: &mut Shading) {
 /// see: those that see one triangle, and edge pixels with what their first samples see,
 /// each kind in its list.
 #[inline(always)]
-fn push_lanes(lists: [&mut FragmentList; 2], (group, seen): (usize, &[u32; LANES]), lanes: [u64; 2]) {
+fn push_lanes(lists: [&mut FragmentList; 2], group: usize, seen: &[u32; LANES], lanes: [u64; 2]) {
     for ((list, mut lanes), partly) in lists.into_iter().zip(lanes).zip([false, true]) {
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize % LANES;
@@ -210,7 +212,7 @@ fn part_groups(buffer: &VisibilityBuffer, shading: &mut Shading) {
         let stays = (0..LANES).filter(|lane| group.lanes >> lane & 1 != 0).all(belongs);
         if !stays {
             let lanes = [group.lanes & !group.edges, group.edges].map(u64::from);
-            push_lanes([&mut shading.fragments, &mut shading.parts], (number, &seen), lanes);
+            push_lanes([&mut shading.fragments, &mut shading.parts], number, &seen, lanes);
         }
         stays
     });

@@ -60,7 +60,7 @@ impl CachedTile {
             return None;
         }
         state.begin(frame, tile);
-        resolve_visibility(frame, area, state, &surfaces, (shading, stats));
+        resolve_visibility(frame, area, state, &surfaces, shading, stats);
         let mut names = Names::new(state.triangles.len());
         let mut opaque = Layer::of(state, &mut names, |_| true);
         let bounds = state.buffer.blocks;
@@ -103,7 +103,7 @@ impl CachedTile {
         triangles.clear();
         triangles.extend_from_slice(&self.triangles);
         let surfaces = Surfaces::list(frame, tile, Listing::Moving, triangles);
-        buffer.restore(area, (&self.opaque.depth, self.opaque.places()), &self.bounds);
+        buffer.restore(area, &self.opaque.depth, self.opaque.places(), &self.bounds);
         ties.reset(triangles.len());
         MovingRanges { surfaces, still: self.triangles.len() }
     }
@@ -139,7 +139,7 @@ impl MovingRanges {
         stats: &mut Stats,
     ) -> Option<()> {
         let may_give_up = true;
-        let is_drawn = cover_more(frame, area, (state, part.clone()), may_give_up, stats);
+        let is_drawn = cover_more(frame, area, state, part.clone(), may_give_up, stats);
         state.buffer.blank_outside(area);
         is_drawn.then_some(())
     }

@@ -68,7 +68,6 @@ impl TileRasterizer<'_> {
     pub(super) fn scatter(
         &self,
         eight: &EightTriangles,
-        first: u32,
         pixels: &mut Covered,
         buffer: &mut VisibilityBuffer,
     ) {
@@ -77,7 +76,7 @@ impl TileRasterizer<'_> {
             // The list packs a pixel's index and its lane into one value. With one sample per
             // pixel the index is also that of the sample in the buffer.
             let (at, lane) = (place as usize / LANES, place as usize % LANES);
-            let (there, place) = (buffer.depth[at], first + lane as u32);
+            let (there, place) = (buffer.depth[at], eight.index + lane as u32);
             if depth > there || (depth == there && self.precedes_at_tie(place, buffer.visible[at])) {
                 buffer.depth[at] = depth;
                 buffer.visible[at] = place;

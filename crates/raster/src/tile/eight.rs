@@ -40,6 +40,20 @@ pub(super) struct EightTriangles {
     /// Whether all triangles are small, and those that are live have at most [`MICRO`] pixels each
     /// way in the tile.
     pub(super) micro: bool,
+    /// The lanes whose triangles are slivers, once they are looked for.
+    pub(super) slivers: Slivers,
+    /// The index of the first among the tile's triangles.
+    pub(super) index: u32,
+}
+
+/// Which of eight triangles are slivers.
+#[derive(Default)]
+pub(super) struct Slivers {
+    pub(super) lanes: u64,
+    /// Those that may cover two pixels of a column.
+    pub(super) wide: u64,
+    /// Those of which the major axis is the vertical one.
+    pub(super) steep: u64,
 }
 
 /// In 1/256 pixel; more than [`primitive::SMALL`](crate::primitive::SMALL), for numbers of 16 bits. The sides of a small triangle are less than 1.5 · 2^14 on each axis, and its vertices less than a tile
@@ -61,7 +75,9 @@ impl EightTriangles {
         simd: S,
         area: &TileArea,
         pattern: SamplePattern,
-        (vertices, count): ([[&ScreenVertex; LANES]; 3], usize),
+        vertices: [[&ScreenVertex; LANES]; 3],
+        count: usize,
+        index: u32,
     ) -> Self {
         let [a, b, c] = vertices;
         let columns = [(a, 0), (b, 1), (c, 2)].each(
@@ -123,6 +139,8 @@ impl EightTriangles {
             live,
             tiny: tiny.to_bitmask(),
             micro: small.count_ones() as usize == count && live & !micro.to_bitmask() == 0,
+            slivers: Slivers::default(),
+            index,
         }
     }
 
@@ -318,7 +336,7 @@ mod tests {
             });
             for token in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
                 let columns = [0, 1, 2].map(|corner| std::array::from_fn(|lane| &vertices[lane][corner]));
-                let eight = at_level!(token, simd => EightTriangles::new(simd, &area, pattern, (columns, 8)));
+                let eight = at_level!(token, simd => EightTriangles::new(simd, &area, pattern, columns, 8, 0));
                 for (lane, &vertices) in vertices.iter().enumerate() {
                     let triangle = SetupTriangle::whole(vertices, 0);
                     if eight.small >> lane & 1 == 0 || triangle.doubled_area() == 0 {

@@ -42,7 +42,8 @@ pub(super) fn cover_masked(
     area: &TileArea,
     state: &mut TileState,
     range: Range<usize>,
-    (shading, stats): (&mut Shading, &mut Stats),
+    shading: &mut Shading,
+    stats: &mut Stats,
 ) {
     let mut queue = std::mem::take(&mut state.mask_queue);
     for place in range.clone() {

@@ -26,13 +26,13 @@ struct Depths<S: Simd> {
 }
 
 impl TileRasterizer<'_> {
-    /// Draws triangles with one sample per pixel; `first` is the index of the first of them.
+    /// Draws triangles with one sample per pixel.
     #[inline(always)]
     pub(super) fn micro<S: Simd>(
         &self,
         simd: S,
-        (eight, pixels): (&EightTriangles, &mut Covered),
-        first: u32,
+        eight: &EightTriangles,
+        pixels: &mut Covered,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) {
@@ -82,7 +82,7 @@ impl TileRasterizer<'_> {
                 *edge += step;
             }
         }
-        self.scatter(eight, first, pixels, buffer);
+        self.scatter(eight, pixels, buffer);
     }
 
     /// The lanes whose triangles the tile does not hide.
@@ -109,7 +109,7 @@ impl TileRasterizer<'_> {
     /// [`DepthPlane`](crate::primitive::DepthPlane).
     #[inline(always)]
     fn depths<S: Simd>(&self, simd: S, eight: &EightTriangles, y: I32<S>) -> Depths<S> {
-        let dy = self.steps(simd, (y, 1), &eight.anchor);
+        let dy = self.steps(simd, y, 1, &eight.anchor);
         let value = widened(F32::simd_from(simd, eight.value));
         let slopes = eight.slopes.each_ref().each(
             #[inline(always)]
@@ -126,7 +126,7 @@ impl TileRasterizer<'_> {
 
     #[inline(always)]
     fn depths_at<S: Simd>(&self, simd: S, eight: &EightTriangles, depths: &Depths<S>, x: I32<S>) -> F32<S> {
-        let dx = self.steps(simd, (x, 0), &eight.anchor);
+        let dx = self.steps(simd, x, 0, &eight.anchor);
         let [low, high] = [0, 1].each(
             #[inline(always)]
             |half| depths.row[half] + depths.right[half] * dx[half],
@@ -141,7 +141,8 @@ impl TileRasterizer<'_> {
     fn steps<S: Simd>(
         &self,
         simd: S,
-        (pixel, axis): (I32<S>, usize),
+        pixel: I32<S>,
+        axis: usize,
         anchor: &[[i32; LANES]; 2],
     ) -> [f64x4<S>; 2] {
         let place = ((pixel + self.area.origin[axis]) << 8) + self.offsets[0][axis];

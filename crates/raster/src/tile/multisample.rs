@@ -55,7 +55,8 @@ struct RowStart<S: Simd> {
 pub(super) fn rows<S: Simd, const TIES: bool>(
     simd: S,
     tiny: &Tiny<S>,
-    (starts, lane): (&mut EdgeOrigins, usize),
+    starts: &mut EdgeOrigins,
+    lane: usize,
     buffer: &mut VisibilityBuffer,
 ) -> Mask<S> {
     let samples = buffer.samples;

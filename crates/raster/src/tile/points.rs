@@ -4,7 +4,7 @@
 //! A square is the pixels from one column and row to another, and a disc those whose samples are
 //! near enough to its centre, so no edge functions are needed.
 
-use super::rasterizer::TileRasterizer;
+use super::rasterizer::{GroupSamples, TileRasterizer};
 use super::store::store_where;
 use crate::bin::TriangleRef;
 use crate::counts::Counts;
@@ -52,7 +52,8 @@ impl EightPoints {
     pub(super) fn new<S: Simd>(
         simd: S,
         frame: &FrameView<'_>,
-        (area, pattern): (&TileArea, SamplePattern),
+        area: &TileArea,
+        pattern: SamplePattern,
         points: &[TriangleRef],
     ) -> Option<Self> {
         let draw = frame.draw_view(frame.draw_of(points[0]));
@@ -70,14 +71,15 @@ impl EightPoints {
         );
         let half = plain.half_sizes(simd, sizes, primitives);
         let squares = Squares { vertices: Column::new(simd, vertices, 0), half, count: points.len() };
-        Some(Self::at(simd, (area, pattern), plain, &squares))
+        Some(Self::at(simd, area, pattern, plain, &squares))
     }
 
     /// Of the squares that are drawn.
     #[inline(always)]
     fn at<S: Simd>(
         simd: S,
-        (area, pattern): (&TileArea, SamplePattern),
+        area: &TileArea,
+        pattern: SamplePattern,
         plain: &PlainPoints,
         &Squares { ref vertices, half, count }: &Squares<S>,
     ) -> Self {
@@ -119,7 +121,8 @@ impl TileRasterizer<'_> {
     pub(super) fn points<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        (eight, first): (&EightPoints, u32),
+        eight: &EightPoints,
+        first: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) {
@@ -175,9 +178,10 @@ impl TileRasterizer<'_> {
         for (sample, offset) in self.offsets[..samples].iter().enumerate() {
             let covered = walk.covers(simd, [column * 4, row * 2], *offset);
             let at = (group * samples + sample) * LANES;
-            let visible = self.visible_lanes(simd, walk.place, (covered, depth), buffer, at);
+            let visible =
+                self.visible_lanes(simd, GroupSamples { place: walk.place, covered, depth }, buffer, at);
             if visible.any_true() {
-                store_where(simd, visible, (walk.place, depth), buffer, at);
+                store_where(simd, visible, walk.place, depth, buffer, at);
                 wrote = true;
             }
         }

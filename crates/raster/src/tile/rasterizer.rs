@@ -45,6 +45,15 @@ pub(crate) struct TileRasterizer<'f> {
     pub(crate) precedes: &'f dyn Fn(u32, u32) -> bool,
 }
 
+/// A triangle at a sample of each pixel of a group.
+#[derive(Clone, Copy)]
+pub(super) struct GroupSamples<S: Simd> {
+    pub(super) place: u32,
+    /// The lanes whose samples the triangle covers.
+    pub(super) covered: Mask<S>,
+    pub(super) depth: F32<S>,
+}
+
 /// A triangle that is being drawn, with what its blocks and groups have in common.
 struct Walk<'c, S: Simd> {
     covering: &'c TileTriangle,
@@ -196,9 +205,12 @@ impl TileRasterizer<'_> {
                 rest &= rest - 1;
                 let [left, top] = [block_x * 8, block_y * 8];
                 let block = (block_y as usize) * BLOCKS + block_x as usize;
-                if self.hierarchical
-                    && self.block_hides(simd, (covering, is_small), buffer, block, [left, top])
-                {
+                let is_hidden = self.hierarchical
+                    && match is_small {
+                        true => self.hides(buffer.blocks[block].farthest, covering.depth.high),
+                        false => self.block_hides(simd, covering, buffer, block, [left, top]),
+                    };
+                if is_hidden {
                     counts.blocks_rejected += 1;
                 } else if inside >> block_x & 1 != 0 {
                     counts.blocks_accepted += 1;
@@ -231,14 +243,11 @@ impl TileRasterizer<'_> {
     fn block_hides<S: Simd>(
         &self,
         simd: S,
-        (covering, is_small): (&TileTriangle, bool),
+        covering: &TileTriangle,
         buffer: &mut VisibilityBuffer,
         block: usize,
         corner: [i32; 2],
     ) -> bool {
-        if is_small {
-            return self.hides(buffer.blocks[block].farthest, covering.depth.high);
-        }
         let farthest = buffer.farthest_in(simd, block);
         if self.hides(farthest, covering.depth.high) {
             return true;
@@ -290,7 +299,9 @@ impl TileRasterizer<'_> {
                 if overwrites {
                     store(simd, walk.place, depth, buffer, at);
                 } else {
-                    self.test_and_store(simd, walk.place, (Mask::splat(simd, true), depth), buffer, at);
+                    let covered = Mask::splat(simd, true);
+                    let tested = GroupSamples { place: walk.place, covered, depth };
+                    self.test_and_store(simd, tested, buffer, at);
                 }
             }
         }
@@ -338,13 +349,14 @@ impl TileRasterizer<'_> {
             }
             let group = block * 8 + number;
             for sample in 0..samples {
-                let covered = self.covered::<S, MULTI>(simd, walk, (edges, first), sample);
+                let covered = self.covered::<S, MULTI>(simd, walk, edges, first, sample);
                 if !covered.any_true() {
                     continue;
                 }
                 let depth = self.depth(simd, walk, first, sample);
                 let at = (group * samples + sample) * LANES;
-                wrote |= self.test_and_store(simd, walk.place, (covered, depth), buffer, at);
+                let tested = GroupSamples { place: walk.place, covered, depth };
+                wrote |= self.test_and_store(simd, tested, buffer, at);
             }
         }
         if wrote {
@@ -359,7 +371,8 @@ impl TileRasterizer<'_> {
         &self,
         simd: S,
         walk: &Walk<'_, S>,
-        (edges, first): ([I32<S>; 3], [i32; 2]),
+        edges: [I32<S>; 3],
+        first: [i32; 2],
         sample: usize,
     ) -> Mask<S> {
         let starts = if MULTI { walk.covering.starts[sample] } else { [0; 3] };
@@ -385,15 +398,14 @@ impl TileRasterizer<'_> {
     fn test_and_store<S: Simd>(
         &self,
         simd: S,
-        place: u32,
-        (covered, depth): (Mask<S>, F32<S>),
+        samples: GroupSamples<S>,
         buffer: &mut VisibilityBuffer,
         at: usize,
     ) -> bool {
-        let seen = self.visible_lanes(simd, place, (covered, depth), buffer, at);
+        let seen = self.visible_lanes(simd, samples, buffer, at);
         let any = seen.any_true();
         if any {
-            store_where(simd, seen, (place, depth), buffer, at);
+            store_where(simd, seen, samples.place, samples.depth, buffer, at);
         }
         any
     }
@@ -405,8 +417,7 @@ impl TileRasterizer<'_> {
     pub(super) fn visible_lanes<S: Simd>(
         &self,
         simd: S,
-        place: u32,
-        (covered, depth): (Mask<S>, F32<S>),
+        GroupSamples { place, covered, depth }: GroupSamples<S>,
         buffer: &VisibilityBuffer,
         at: usize,
     ) -> Mask<S> {

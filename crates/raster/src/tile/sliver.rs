@@ -9,7 +9,7 @@
 //! ([`covered`](super::covered)).
 
 use super::covered::{Covered, index_of};
-use super::eight::EightTriangles;
+use super::eight::{EightTriangles, Slivers};
 use super::rasterizer::TileRasterizer;
 use crate::counts::Counts;
 use crate::simd::{Each, F32, I32, LANES, Simd, greater, lane_numbers, lesser, prelude::*, widened};
@@ -32,16 +32,6 @@ const WIDTHS: [i32; 2] = [256 - 2 * SLACK, 512 - 2 * SLACK];
 
 /// Visiting a vector of columns takes as long as visiting so many groups of a triangle's box.
 const PRICE: i32 = 1;
-
-/// Which of eight triangles are slivers.
-#[derive(Default)]
-pub(super) struct Slivers {
-    lanes: u64,
-    /// Those that may cover two pixels of a column.
-    wide: u64,
-    /// Those of which the major axis is the vertical one.
-    steep: u64,
-}
 
 impl Slivers {
     /// Those that are thin enough, and of which following the longest edge takes less than visiting the box.
@@ -134,13 +124,13 @@ impl Line {
 }
 
 impl TileRasterizer<'_> {
-    /// Draws those of eight triangles that are slivers, after all others of them; `first` is the index of the first.
+    /// Draws those of eight triangles that are slivers, after all others of them.
     #[inline(always)]
     pub(super) fn slivers<S: Simd>(
         &self,
         simd: S,
-        (eight, slivers): (&EightTriangles, &Slivers),
-        (first, pixels): (u32, &mut Covered),
+        eight: &EightTriangles,
+        pixels: &mut Covered,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) {
@@ -149,6 +139,7 @@ impl TileRasterizer<'_> {
             #[inline(always)]
             || {
                 buffer.settle();
+                let slivers = &eight.slivers;
                 let mut rest = slivers.lanes;
                 while rest != 0 {
                     let lane = rest.trailing_zeros() as usize % LANES;
@@ -161,20 +152,14 @@ impl TileRasterizer<'_> {
                     }
                     let wide = slivers.wide >> lane & 1 != 0;
                     counts.groups += match (slivers.steep >> lane & 1 != 0, wide) {
-                        (false, false) => {
-                            self.sliver::<S, false, 1>(simd, eight, (first, lane), pixels, buffer)
-                        }
-                        (false, true) => {
-                            self.sliver::<S, false, 2>(simd, eight, (first, lane), pixels, buffer)
-                        }
-                        (true, false) => {
-                            self.sliver::<S, true, 1>(simd, eight, (first, lane), pixels, buffer)
-                        }
-                        (true, true) => self.sliver::<S, true, 2>(simd, eight, (first, lane), pixels, buffer),
+                        (false, false) => self.sliver::<S, false, 1>(simd, eight, lane, pixels, buffer),
+                        (false, true) => self.sliver::<S, false, 2>(simd, eight, lane, pixels, buffer),
+                        (true, false) => self.sliver::<S, true, 1>(simd, eight, lane, pixels, buffer),
+                        (true, true) => self.sliver::<S, true, 2>(simd, eight, lane, pixels, buffer),
                     };
                 }
                 pixels.drop_hidden(buffer);
-                self.scatter(eight, first, pixels, buffer);
+                self.scatter(eight, pixels, buffer);
             },
         );
     }
@@ -186,7 +171,7 @@ impl TileRasterizer<'_> {
         &self,
         simd: S,
         eight: &EightTriangles,
-        (first, lane): (u32, usize),
+        lane: usize,
         pixels: &mut Covered,
         buffer: &mut VisibilityBuffer,
     ) -> u64 {
@@ -220,7 +205,7 @@ impl TileRasterizer<'_> {
         for _ in start..end + 1 {
             if pixels.is_full() {
                 pixels.drop_hidden(buffer);
-                self.scatter(eight, first, pixels, buffer);
+                self.scatter(eight, pixels, buffer);
             }
             let along = plane.term(column * 256.0 + offset[major], major);
             let mut numbers = I32::truncate_from(column * line.slope + line.place) - OFFSET as i32;

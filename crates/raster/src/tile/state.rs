@@ -7,7 +7,7 @@ use super::surfaces::{Listing, Surfaces};
 use super::ties::Ties;
 use crate::bin::TriangleRef;
 use crate::tile_buffer::{TileArea, VisibilityBuffer};
-use crate::view::FrameView;
+use crate::view::{FrameView, VisibleTile};
 
 /// The triangles of a tile, and which of them is visible at each sample.
 pub(crate) struct TileState {
@@ -46,6 +46,11 @@ impl TileState {
     pub(crate) fn begin(&mut self, frame: &FrameView<'_>, tile: u32) {
         self.buffer.clear(&frame.area(tile), frame.grid.pattern.count());
         self.ties.reset(self.triangles.len());
+    }
+
+    /// What the tile shows.
+    pub(crate) fn visible<'t>(&'t self, area: &'t TileArea) -> VisibleTile<'t> {
+        VisibleTile { area, buffer: &self.buffer, triangles: &self.triangles }
     }
 
     /// The tile for queries of masked and translucent triangles.

@@ -15,11 +15,12 @@ pub(super) fn store<S: Simd>(simd: S, place: u32, depth: F32<S>, buffer: &mut Vi
 pub(super) fn store_where<S: Simd>(
     simd: S,
     mask: Mask<S>,
-    (place, depth): (u32, F32<S>),
+    place: u32,
+    depth: F32<S>,
     buffer: &mut VisibilityBuffer,
     at: usize,
 ) {
-    store_places_where(simd, mask, (U32::splat(simd, place), depth), buffer, at);
+    store_places_where(simd, mask, U32::splat(simd, place), depth, buffer, at);
 }
 
 /// Writes some lanes, each with its own triangle.
@@ -27,7 +28,8 @@ pub(super) fn store_where<S: Simd>(
 pub(super) fn store_places_where<S: Simd>(
     simd: S,
     mask: Mask<S>,
-    (places, depth): (U32<S>, F32<S>),
+    places: U32<S>,
+    depth: F32<S>,
     buffer: &mut VisibilityBuffer,
     at: usize,
 ) {

@@ -70,7 +70,7 @@ struct Start<S: Simd> {
 
 impl<S: Simd> Start<S> {
     #[inline(always)]
-    fn new(simd: S, tiny: &Tiny<S>, (origins, lane): (&EdgeOrigins, usize), offset: [i32; 2]) -> Self {
+    fn new(simd: S, tiny: &Tiny<S>, origins: &EdgeOrigins, lane: usize, offset: [i32; 2]) -> Self {
         let [dx, dy] = origins.vertex_offset(simd, lane, offset);
         let edges = origins.edges(simd, 0, lane);
         Self {
@@ -113,19 +113,19 @@ impl TileRasterizer<'_> {
         let PreparedTriangle { eight, origins, lane } = of;
         let lane = lane % LANES;
         buffer.settle();
-        if self.hierarchical && self.hides_tiny(simd, (eight, lane), buffer) {
+        if self.hierarchical && self.hides_tiny(simd, eight, lane, buffer) {
             counts.tiles_rejected += 1;
             return;
         }
-        let tiny = eight.tiny(simd, (origins, lane), place);
+        let tiny = eight.tiny(simd, origins, lane, place);
         counts.groups += tiny.groups();
         let ties = if MULTI {
             match self.in_order {
-                true => multisample::rows::<S, false>(simd, &tiny, (origins, lane), buffer),
-                false => multisample::rows::<S, true>(simd, &tiny, (origins, lane), buffer),
+                true => multisample::rows::<S, false>(simd, &tiny, origins, lane, buffer),
+                false => multisample::rows::<S, true>(simd, &tiny, origins, lane, buffer),
             }
         } else {
-            let start = Start::new(simd, &tiny, (origins, lane), self.offsets[0]);
+            let start = Start::new(simd, &tiny, origins, lane, self.offsets[0]);
             // The usual numbers of columns need no loop. Only without ties: other combinations are rare.
             match (self.in_order, tiny.columns[1] - tiny.columns[0]) {
                 (true, 0) => rows::<S, 1, false>(simd, &tiny, &start, buffer),
@@ -136,19 +136,14 @@ impl TileRasterizer<'_> {
             }
         };
         if !self.in_order && ties.any_true() {
-            self.resolve_ties((eight, lane), place, buffer);
+            self.resolve_ties(eight, lane, place, buffer);
         }
     }
 
     /// Makes the triangle visible at its samples where the visible triangle has the same depth and a
     /// larger key.
     #[cold]
-    fn resolve_ties(
-        &self,
-        (eight, lane): (&EightTriangles, usize),
-        place: u32,
-        buffer: &mut VisibilityBuffer,
-    ) {
+    fn resolve_ties(&self, eight: &EightTriangles, lane: usize, place: u32, buffer: &mut VisibilityBuffer) {
         let Some(covering) = eight.covering(lane, self.offsets) else { return };
         let [columns, rows] = [covering.columns, covering.rows];
         let pixels = (columns[1] + 1 - columns[0]) * (rows[1] + 1 - rows[0]);
@@ -178,7 +173,8 @@ impl TileRasterizer<'_> {
     fn hides_tiny<S: Simd>(
         &self,
         simd: S,
-        (eight, lane): (&EightTriangles, usize),
+        eight: &EightTriangles,
+        lane: usize,
         buffer: &mut VisibilityBuffer,
     ) -> bool {
         let high = eight.high[lane];
@@ -277,7 +273,7 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
 
 impl EightTriangles {
     #[inline(always)]
-    fn tiny<S: Simd>(&self, simd: S, (origins, lane): (&EdgeOrigins, usize), place: u32) -> Tiny<S> {
+    fn tiny<S: Simd>(&self, simd: S, origins: &EdgeOrigins, lane: usize, place: u32) -> Tiny<S> {
         let (x, y) = (lane_numbers(simd) & 3, lane_numbers(simd) >> 2);
         let [right, down] = [&self.right, &self.down].each(
             #[inline(always)]

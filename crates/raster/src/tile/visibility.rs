@@ -6,12 +6,11 @@
 
 use super::covered::Covered;
 use super::edge_origins::EdgeOrigins;
-use super::eight::EightTriangles;
+use super::eight::{EightTriangles, Slivers};
 use super::points::EightPoints;
-use super::quad::QuadEdges;
+use super::quad::{IndexedQuad, QuadEdges};
 use super::rasterizer::TileRasterizer;
 use super::single::covering_apart;
-use super::sliver::Slivers;
 use super::ties::COMPARISON;
 use super::tiny::PreparedTriangle;
 use super::{Surfaces, TileState, masked};
@@ -32,14 +31,15 @@ pub(crate) fn resolve_visibility(
     area: &TileArea,
     state: &mut TileState,
     surfaces: &Surfaces,
-    (shading, stats): (&mut Shading, &mut Stats),
+    shading: &mut Shading,
+    stats: &mut Stats,
 ) {
     let mut counts = Counts::default();
     if !surfaces.opaque.is_empty() {
         counts = cover_opaque(frame, area, state, surfaces.opaque.len());
     }
     state.buffer.settle();
-    masked::cover_masked(frame, area, state, surfaces.masked.clone(), (shading, stats));
+    masked::cover_masked(frame, area, state, surfaces.masked.clone(), shading, stats);
     state.buffer.blank_outside(area);
     stats.add_counts(&counts);
 }
@@ -68,7 +68,7 @@ pub(crate) fn cover_overlay(
         at_level!(frame.token, simd => buffer.refresh_all(simd, area));
     }
     let may_give_up = false;
-    cover_more(frame, area, (state, surfaces.overlay.clone()), may_give_up, stats);
+    cover_more(frame, area, state, surfaces.overlay.clone(), may_give_up, stats);
     state.buffer.blank_outside(area);
 }
 
@@ -77,7 +77,8 @@ pub(crate) fn cover_overlay(
 pub(super) fn cover_more(
     frame: &FrameView<'_>,
     area: &TileArea,
-    (state, part): (&mut TileState, Range<usize>),
+    state: &mut TileState,
+    part: Range<usize>,
     may_give_up: bool,
     stats: &mut Stats,
 ) -> bool {
@@ -91,7 +92,9 @@ pub(super) fn cover_more(
     };
     let rasterizer = TileRasterizer { may_give_up, ..TileRasterizer::new(frame, area, ties, &precedes) };
     let mut counts = Counts::default();
-    let is_drawn = cover_all(frame, &rasterizer, (&triangles[..part.end], part.start), (buffer, &mut counts));
+    let triangles = &triangles[..part.end];
+    let pass = TilePass { frame, rasterizer, triangles, buffer, counts: &mut counts };
+    let is_drawn = pass.cover_all(part.start);
     buffer.settle();
     stats.add_counts(&counts);
     is_drawn
@@ -117,7 +120,7 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
     let in_order = frame.plan.ordinals_are_keys;
     let rasterizer = TileRasterizer { in_order, ..TileRasterizer::new(frame, area, ties, &precedes) };
     let mut counts = Counts::default();
-    if cover_all(frame, &rasterizer, (triangles, 0), (buffer, &mut counts)) {
+    if (TilePass { frame, rasterizer, triangles, buffer, counts: &mut counts }).cover_all(0) {
         return counts;
     }
     key_order.sort(frame, triangles);
@@ -126,35 +129,36 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
     buffer.clear(area, rasterizer.offsets.len());
     counts = Counts { tiles_reordered: 1, ..Counts::default() };
     let rasterizer = TileRasterizer { in_order: true, by_draws: false, ..rasterizer };
-    cover_all(frame, &rasterizer, (reordered, 0), (buffer, &mut counts));
+    TilePass { frame, rasterizer, triangles: reordered, buffer, counts: &mut counts }.cover_all(0);
     buffer.settle();
     key_order.name_visible(buffer);
     counts
 }
 
-/// Draws triangles from index `first` on. Returns false if there are too many ties.
-fn cover_all(
-    frame: &FrameView<'_>,
-    rasterizer: &TileRasterizer<'_>,
-    (triangles, first): (&[TriangleRef], usize),
-    (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
-) -> bool {
-    at_level!(frame.token, simd => match frame.grid.pattern.count() {
-        1 => cover_triangles::<_, false>(simd, frame, rasterizer, (triangles, first), (buffer, counts)),
-        _ => cover_triangles::<_, true>(simd, frame, rasterizer, (triangles, first), (buffer, counts)),
-    })
+/// Triangles that are drawn into a tile, without masks.
+struct TilePass<'p> {
+    frame: &'p FrameView<'p>,
+    rasterizer: TileRasterizer<'p>,
+    triangles: &'p [TriangleRef],
+    buffer: &'p mut VisibilityBuffer,
+    counts: &'p mut Counts,
+}
+
+impl TilePass<'_> {
+    /// Draws triangles from index `first` on. Returns false if there are too many ties.
+    fn cover_all(self, first: usize) -> bool {
+        at_level!(self.frame.token, simd => match self.frame.grid.pattern.count() {
+            1 => cover_triangles::<_, false>(simd, self, first),
+            _ => cover_triangles::<_, true>(simd, self, first),
+        })
+    }
 }
 
 #[inline(always)]
-fn cover_triangles<S: Simd, const MULTI: bool>(
-    simd: S,
-    frame: &FrameView<'_>,
-    rasterizer: &TileRasterizer<'_>,
-    (triangles, first): (&[TriangleRef], usize),
-    (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
-) -> bool {
+fn cover_triangles<S: Simd, const MULTI: bool>(simd: S, mut pass: TilePass<'_>, first: usize) -> bool {
+    let TilePass { frame, triangles, .. } = pass;
     // A local copy, which may stay in registers.
-    let rasterizer = &{ *rasterizer };
+    let rasterizer = &{ pass.rasterizer };
     let mut origins = EdgeOrigins::new(rasterizer.offsets);
     let mut covered = Covered::new();
     let mut edges = QuadEdges::new(frame.grid.pattern);
@@ -162,57 +166,38 @@ fn cover_triangles<S: Simd, const MULTI: bool>(
     while start < triangles.len() {
         let points = points_side_by_side(frame, &triangles[start..]);
         if points > 0 {
-            let points = &triangles[start..start + points];
-            cover_points::<S, MULTI>(simd, frame, rasterizer, (points, start), (buffer, counts));
-            start += points.len();
+            cover_points::<S, MULTI>(simd, &mut pass, start..start + points);
+            start += points;
             if !rasterizer.in_order && rasterizer.may_give_up && rasterizer.ties.are_many() {
                 return false;
             }
             continue;
         }
         let together = side_by_side(frame, rasterizer, &triangles[start..]);
-        let eight =
-            (together > 0).then(|| eight(simd, frame, rasterizer, &triangles[start..start + together]));
+        let mut eight = (together > 0).then(|| eight(simd, &pass, start..start + together));
         let mut end = start + together.max(1);
-        if eight.is_none()
-            && cover_quad::<S, MULTI>(
-                simd,
-                frame,
-                rasterizer,
-                &mut edges,
-                (triangles[start], start),
-                (buffer, counts),
-            )
-        {
+        if eight.is_none() && cover_quad::<S, MULTI>(simd, &mut pass, &mut edges, start) {
             // Both of its triangles.
             end += 1;
         } else if !MULTI && let Some(eight) = eight.as_ref().filter(|eight| eight.micro) {
-            rasterizer.micro(simd, (eight, &mut covered), start as u32, buffer, counts);
+            rasterizer.micro(simd, eight, &mut covered, pass.buffer, pass.counts);
         } else {
-            let mut slivers = Slivers::default();
-            if let Some(eight) = &eight {
+            if let Some(eight) = &mut eight {
                 origins.find::<S, MULTI>(simd, rasterizer, eight);
                 if !MULTI {
-                    slivers = Slivers::find(simd, eight);
+                    eight.slivers = Slivers::find(simd, eight);
                 }
             }
-            for (lane, &place) in triangles[start..end].iter().enumerate() {
-                if slivers.contain(lane) {
+            for lane in 0..end - start {
+                if eight.as_ref().is_some_and(|eight| eight.slivers.contain(lane)) {
                     continue;
                 }
                 let ready =
                     eight.as_ref().map(|eight| PreparedTriangle { eight, origins: &mut origins, lane });
-                cover_one::<S, MULTI>(
-                    simd,
-                    frame,
-                    rasterizer,
-                    ready,
-                    (place, start + lane),
-                    (buffer, counts),
-                );
+                cover_one::<S, MULTI>(simd, &mut pass, ready, start + lane);
             }
-            if let Some(eight) = eight.as_ref().filter(|_| !slivers.is_empty()) {
-                rasterizer.slivers(simd, (eight, &slivers), (start as u32, &mut covered), buffer, counts);
+            if let Some(eight) = eight.as_ref().filter(|eight| !eight.slivers.is_empty()) {
+                rasterizer.slivers(simd, eight, &mut covered, pass.buffer, pass.counts);
             }
         }
         if !rasterizer.in_order && rasterizer.may_give_up && rasterizer.ties.are_many() {
@@ -235,23 +220,17 @@ fn points_side_by_side(frame: &FrameView<'_>, triangles: &[TriangleRef]) -> usiz
     triangles.iter().take(LANES).take_while(|place| belongs(place)).count()
 }
 
-/// Draws up to eight points of one draw from their vertices, the first of which has the number
-/// `first`.
+/// Draws up to eight points of one draw from their vertices.
 #[inline(always)]
-fn cover_points<S: Simd, const MULTI: bool>(
-    simd: S,
-    frame: &FrameView<'_>,
-    rasterizer: &TileRasterizer<'_>,
-    (points, first): (&[TriangleRef], usize),
-    (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
-) {
+fn cover_points<S: Simd, const MULTI: bool>(simd: S, pass: &mut TilePass<'_>, range: Range<usize>) {
+    let TilePass { frame, rasterizer, triangles, buffer, counts } = pass;
     // A separate function, so that it takes no registers from the kernels of triangles.
     simd.vectorize(
         #[inline(always)]
         || {
-            let surroundings = (&rasterizer.area, frame.grid.pattern);
-            if let Some(eight) = EightPoints::new(simd, frame, surroundings, points) {
-                rasterizer.points::<S, MULTI>(simd, (&eight, first as u32), buffer, counts);
+            let (pattern, points) = (frame.grid.pattern, &triangles[range.clone()]);
+            if let Some(eight) = EightPoints::new(simd, frame, &rasterizer.area, pattern, points) {
+                rasterizer.points::<S, MULTI>(simd, &eight, range.start as u32, buffer, counts);
             }
         },
     );
@@ -262,15 +241,15 @@ fn cover_points<S: Simd, const MULTI: bool>(
 #[inline(always)]
 fn cover_quad<S: Simd, const MULTI: bool>(
     simd: S,
-    frame: &FrameView<'_>,
-    rasterizer: &TileRasterizer<'_>,
+    pass: &mut TilePass<'_>,
     edges: &mut QuadEdges,
-    (place, number): (TriangleRef, usize),
-    (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
+    index: usize,
 ) -> bool {
-    let first = place.is_first_half().then(|| frame.chunk_of(place));
+    let place = pass.triangles[index];
+    let first = place.is_first_half().then(|| pass.frame.chunk_of(place));
     let Some(quad) = first.and_then(|chunk| chunk.quad(place)) else { return false };
-    rasterizer.quad::<S, MULTI>(simd, (quad, edges), number as u32, buffer, counts)
+    let quad = IndexedQuad { quad, index: index as u32 };
+    pass.rasterizer.quad::<S, MULTI>(simd, quad, edges, pass.buffer, pass.counts)
 }
 
 /// Draws one triangle, possibly one of eight that are prepared. A prepared triangle that
@@ -279,31 +258,24 @@ fn cover_quad<S: Simd, const MULTI: bool>(
 #[inline(always)]
 fn cover_one<S: Simd, const MULTI: bool>(
     simd: S,
-    frame: &FrameView<'_>,
-    rasterizer: &TileRasterizer<'_>,
+    pass: &mut TilePass<'_>,
     ready: Option<PreparedTriangle<'_>>,
-    (place, number): (TriangleRef, usize),
-    (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
+    index: usize,
 ) {
+    let TilePass { frame, rasterizer, triangles, buffer, counts } = pass;
     let covering = match ready.filter(|ready| ready.eight.small >> ready.lane & 1 != 0) {
         None => {
-            let triangle = frame.triangle(place);
+            let triangle = frame.triangle(triangles[index]);
             if rasterizer.tile_hides(buffer, triangle.nearest()) {
                 counts.tiles_rejected += 1;
                 return;
             }
             covering_apart(frame, &rasterizer.area, &triangle)
         }
-        Some(PreparedTriangle { eight, origins, lane }) => {
+        Some(prepared) => {
+            let PreparedTriangle { eight, lane, .. } = prepared;
             if eight.is_tiny(lane) {
-                rasterizer.tiny::<S, MULTI>(
-                    simd,
-                    PreparedTriangle { eight, origins, lane },
-                    number as u32,
-                    buffer,
-                    counts,
-                );
-                return;
+                return rasterizer.tiny::<S, MULTI>(simd, prepared, index as u32, buffer, counts);
             }
             if rasterizer.tile_hides(buffer, eight.high[lane]) {
                 counts.tiles_rejected += 1;
@@ -313,7 +285,7 @@ fn cover_one<S: Simd, const MULTI: bool>(
         }
     };
     if let Some(covering) = covering {
-        rasterizer.triangle::<S, MULTI>(simd, &covering, number as u32, buffer, counts);
+        rasterizer.triangle::<S, MULTI>(simd, &covering, index as u32, buffer, counts);
     }
 }
 
@@ -334,29 +306,24 @@ fn side_by_side(frame: &FrameView<'_>, rasterizer: &TileRasterizer<'_>, triangle
 
 /// Prepares up to eight whole primitives; unused lanes repeat the first.
 #[inline(always)]
-fn eight<S: Simd>(
-    simd: S,
-    frame: &FrameView<'_>,
-    rasterizer: &TileRasterizer<'_>,
-    triangles: &[TriangleRef],
-) -> EightTriangles {
+fn eight<S: Simd>(simd: S, pass: &TilePass<'_>, range: Range<usize>) -> EightTriangles {
+    let (frame, area, index) = (pass.frame, &pass.rasterizer.area, range.start as u32);
+    let (pattern, triangles) = (frame.grid.pattern, &pass.triangles[range]);
     // Each branch is a separate function, so that it is compiled once.
-    let (area, pattern) = (&rasterizer.area, frame.grid.pattern);
-    if rasterizer.by_draws {
+    if pass.rasterizer.by_draws {
         simd.vectorize(
             #[inline(always)]
-            || EightTriangles::new(simd, area, pattern, (corners_of_one(frame, triangles), triangles.len())),
+            || {
+                let corners = corners_of_one(frame, triangles);
+                EightTriangles::new(simd, area, pattern, corners, triangles.len(), index)
+            },
         )
     } else {
         simd.vectorize(
             #[inline(always)]
             || {
-                EightTriangles::new(
-                    simd,
-                    area,
-                    pattern,
-                    (corners_of_several(frame, triangles), triangles.len()),
-                )
+                let corners = corners_of_several(frame, triangles);
+                EightTriangles::new(simd, area, pattern, corners, triangles.len(), index)
             },
         )
     }

@@ -83,7 +83,8 @@ impl VisibilityBuffer {
     pub(crate) fn restore(
         &mut self,
         area: &TileArea,
-        (depth, visible): (&[f32], impl Iterator<Item = u32>),
+        depth: &[f32],
+        visible: impl Iterator<Item = u32>,
         bounds: &[BlockBounds; BLOCKS * BLOCKS],
     ) {
         self.clear(area, 1);
@@ -110,13 +111,13 @@ impl VisibilityBuffer {
     #[inline(always)]
     pub(crate) fn settle(&mut self) {
         // Called for each triangle, so this part is inlined.
-        if let Some(fill) = self.fill.take() {
-            self.settle_fill(fill);
+        if let Some((depth, visible)) = self.fill.take() {
+            self.settle_fill(depth, visible);
         }
     }
 
     #[inline(never)]
-    fn settle_fill(&mut self, (depth, visible): (f32, u32)) {
+    fn settle_fill(&mut self, depth: f32, visible: u32) {
         let length = self.span * self.samples;
         self.depth[..length].fill(depth);
         let block = GROUPS * LANES * self.samples;

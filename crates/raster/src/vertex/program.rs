@@ -6,6 +6,12 @@ use crate::viewport::Viewport;
 use std::ops::Range;
 use trigon_math::Vec4;
 
+/// Where the vertex stage writes vertices, and their varyings side by side.
+pub(crate) struct VertexOutput<'o> {
+    pub(crate) vertices: &'o mut [ScreenVertex],
+    pub(crate) varyings: &'o mut [f32],
+}
+
 /// What the stages before shading need of a pipeline. The type is erased once per draw.
 pub(crate) trait VertexProgram: Sync {
     fn vertex_count(&self) -> usize;
@@ -24,7 +30,7 @@ pub(crate) trait VertexProgram: Sync {
         used: Slots<'_>,
         slots: Range<usize>,
         viewport: Viewport,
-        out: (&mut [ScreenVertex], &mut [f32]),
+        out: VertexOutput<'_>,
     );
 
     /// The clip-space position of a vertex.

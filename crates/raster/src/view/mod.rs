@@ -4,8 +4,10 @@ mod background_row;
 mod frame_view;
 mod outputs;
 mod plan;
+mod visible_tile;
 
 pub(crate) use background_row::{BackgroundRow, finite_color};
 pub(crate) use frame_view::FrameView;
 pub(crate) use outputs::RequestedOutputs;
 pub(crate) use plan::{DrawPlan, Plan};
+pub(crate) use visible_tile::VisibleTile;

@@ -62,7 +62,8 @@ impl Plan {
         &mut self,
         recorded: &[Recorded<'_>],
         chunks: &mut Vec<Chunk>,
-        (workers, supersampling): (usize, u32),
+        workers: usize,
+        supersampling: u32,
     ) -> usize {
         self.draws.clear();
         self.listed.clear();

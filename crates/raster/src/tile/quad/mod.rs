@@ -14,7 +14,7 @@ mod strip;
 
 pub(super) use edges::QuadEdges;
 
-use super::rasterizer::TileRasterizer;
+use super::rasterizer::{GroupSamples, TileRasterizer};
 use super::store::store_places_where;
 use crate::counts::Counts;
 use crate::primitive::{DepthPlane, Kind, Quad};
@@ -57,6 +57,13 @@ impl Disc {
     }
 }
 
+/// A line or a point, with the index of its first triangle among the tile's; that of the other comes next.
+#[derive(Clone, Copy)]
+pub(super) struct IndexedQuad<'q> {
+    pub(super) quad: &'q Quad,
+    pub(super) index: u32,
+}
+
 /// A line or a point that is being drawn, with what its groups have in common.
 struct Walk<'q, S: Simd> {
     quad: &'q Quad,
@@ -67,7 +74,7 @@ struct Walk<'q, S: Simd> {
     /// The planes of both triangles, if the ends are not equally deep.
     planes: Option<[DepthPlane; 2]>,
     /// The first triangle among the tile's; the other comes next.
-    place: u32,
+    index: u32,
 }
 
 impl TileRasterizer<'_> {
@@ -76,15 +83,15 @@ impl TileRasterizer<'_> {
     pub(super) fn quad<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        (quad, edges): (&Quad, &mut QuadEdges),
-        place: u32,
+        quad: IndexedQuad<'_>,
+        edges: &mut QuadEdges,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) -> bool {
         // A separate function, so that it takes no registers from the kernels of triangles.
         simd.vectorize(
             #[inline(always)]
-            || self.quad_edge_groups::<S, MULTI>(simd, (quad, edges), place, buffer, counts),
+            || self.quad_edge_groups::<S, MULTI>(simd, quad, edges, buffer, counts),
         )
     }
 
@@ -92,8 +99,8 @@ impl TileRasterizer<'_> {
     fn quad_edge_groups<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        (quad, edges): (&Quad, &mut QuadEdges),
-        place: u32,
+        IndexedQuad { quad, index }: IndexedQuad<'_>,
+        edges: &mut QuadEdges,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) -> bool {
@@ -122,9 +129,9 @@ impl TileRasterizer<'_> {
         );
         let disc = (quad.kind == Kind::RoundPoint).then(|| Disc::new(quad, &self.area));
         let pattern = edges.pattern;
-        let walk = Walk { quad, lanes: edges.lanes(simd), edges, disc, planes, place };
+        let walk = Walk { quad, lanes: edges.lanes(simd), edges, disc, planes, index };
         let (first, last) = (pixels[major][0] >> SHIFT[major], pixels[major][1] >> SHIFT[major]);
-        let mut strip = Strip::new(quad, pattern, &self.area, (major, first));
+        let mut strip = Strip::new(quad, pattern, &self.area, major, first);
         for along in first..last + 1 {
             for across in strip.next(pixels[minor], SHIFT[minor]) {
                 let at = if major == 0 { [along, across] } else { [across, along] };
@@ -176,10 +183,11 @@ impl TileRasterizer<'_> {
             let is_first = (walk.lanes[DIAGONAL] + here[DIAGONAL]).simd_ge(I32::splat(simd, 0));
             let depth = walk.depth(simd, is_first, self.area.point(first, self.offsets[sample]));
             let at = (group * samples + sample) * LANES;
-            let seen = self.visible_lanes(simd, walk.place, (covered, depth), buffer, at);
+            let seen =
+                self.visible_lanes(simd, GroupSamples { place: walk.index, covered, depth }, buffer, at);
             if seen.any_true() {
-                let places = is_first.select(U32::splat(simd, walk.place), U32::splat(simd, walk.place + 1));
-                store_places_where(simd, seen, (places, depth), buffer, at);
+                let places = is_first.select(U32::splat(simd, walk.index), U32::splat(simd, walk.index + 1));
+                store_places_where(simd, seen, places, depth, buffer, at);
                 wrote = true;
             }
         }

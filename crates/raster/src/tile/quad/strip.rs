@@ -20,7 +20,8 @@ impl Strip {
         quad: &Quad,
         pattern: SamplePattern,
         area: &TileArea,
-        (major, group): (usize, i32),
+        major: usize,
+        group: i32,
     ) -> Self {
         const UNIT: f64 = (1 << 16) as f64;
         // In 1/256 pixel: the corners were rounded to this grid, by at most one; all that is rounded below is
