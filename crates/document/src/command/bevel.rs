@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trigon_modelling::BevelSettings;
+use trigon_modelling::{BevelSettings, BevelWidth, InnerMiter, OuterMiter};
 
 use super::{Action, Outcome};
 use crate::error::EditError;
@@ -40,47 +40,6 @@ pub struct Bevel {
     pub harden_normals: bool,
 }
 
-/// What the width of a bevel measures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum BevelWidth {
-    /// The distance of the new edges from the old ones, in metres.
-    #[default]
-    Offset,
-    /// The distance of the new edges from each other, in metres.
-    Width,
-    /// How far the old edge lay above the new faces, in metres.
-    Depth,
-    /// How far new vertices move along the adjacent edges, in percent of their lengths.
-    Percent,
-    /// How far new vertices move along the adjacent edges, in metres.
-    Absolute,
-}
-
-/// The shape of corners of more than 180 degrees between two new edges.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum OuterMiter {
-    /// A point.
-    #[default]
-    Sharp,
-    /// A point and two more vertices beside it.
-    Patch,
-    /// A curve.
-    Arc,
-}
-
-/// The shape of corners of less than 180 degrees between two new edges.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum InnerMiter {
-    /// A point.
-    #[default]
-    Sharp,
-    /// A curve.
-    Arc,
-}
-
 impl Default for Bevel {
     fn default() -> Self {
         let settings = BevelSettings::default();
@@ -104,25 +63,12 @@ impl Bevel {
     fn settings(&self) -> BevelSettings {
         BevelSettings {
             width: self.width,
-            width_type: match self.width_type {
-                BevelWidth::Offset => trigon_modelling::BevelWidth::Offset,
-                BevelWidth::Width => trigon_modelling::BevelWidth::Width,
-                BevelWidth::Depth => trigon_modelling::BevelWidth::Depth,
-                BevelWidth::Percent => trigon_modelling::BevelWidth::Percent,
-                BevelWidth::Absolute => trigon_modelling::BevelWidth::Absolute,
-            },
+            width_type: self.width_type,
             segments: self.segments as usize,
             profile: self.profile,
             clamp_overlap: self.clamp_overlap,
-            outer_miter: match self.outer_miter {
-                OuterMiter::Sharp => trigon_modelling::OuterMiter::Sharp,
-                OuterMiter::Patch => trigon_modelling::OuterMiter::Patch,
-                OuterMiter::Arc => trigon_modelling::OuterMiter::Arc,
-            },
-            inner_miter: match self.inner_miter {
-                InnerMiter::Sharp => trigon_modelling::InnerMiter::Sharp,
-                InnerMiter::Arc => trigon_modelling::InnerMiter::Arc,
-            },
+            outer_miter: self.outer_miter,
+            inner_miter: self.inner_miter,
             mark_sharp: self.mark_sharp,
             mark_seams: self.mark_seams,
             harden_normals: self.harden_normals,

@@ -56,7 +56,7 @@ use serde::{Deserialize, Serialize};
 
 pub(crate) use action::Action;
 pub use apply_transform::ApplyTransform;
-pub use bevel::{Bevel, BevelWidth, InnerMiter, OuterMiter};
+pub use bevel::Bevel;
 pub use camera::AddCamera;
 pub use clear_transform::ClearTransform;
 pub use cut::{LoopCut, SlideEdges, SlideVertices, Subdivide, edge_towards};
@@ -101,6 +101,7 @@ pub use texture_slot::TextureSlot;
 pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
+pub use trigon_modelling::{BevelWidth, InnerMiter, OuterMiter};
 pub use uvs::{ProjectUvs, ProjectUvsOnBox};
 pub use visibility::{HideOthers, RevealObjects};
 

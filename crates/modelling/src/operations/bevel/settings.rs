@@ -51,9 +51,15 @@ impl Default for BevelSettings {
     }
 }
 
-/// What the width of a bevel measures. Of [`Self::Width`] and [`Self::Depth`], no rim is farther from the
-/// old edge than 20 times the width, which almost flat and almost folded edges would exceed.
+/// What the width of a bevel measures. A rim is a new edge beside an old face. If a distance of rims or a height is
+/// measured, no rim is farther from the old edge than 20 times the width, which almost flat and almost folded edges
+/// would exceed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum BevelWidth {
     /// For edges, the distance of each new rim from the old edge, in the face's plane; for vertices the
     /// distance of each new vertex from the old one, along its edge.
@@ -73,11 +79,16 @@ pub enum BevelWidth {
 
 /// The shape of a rim at a reflex angle between two beveled edges of one face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum OuterMiter {
     /// Both rims go on until they meet.
     #[default]
     Sharp,
-    /// As [`Self::Sharp`], with two more vertices where the rims pass the old vertex.
+    /// Like a sharp one, with two more vertices where the rims pass the old vertex.
     Patch,
     /// A curve around the old vertex, in the shape of the profile.
     Arc,
@@ -85,6 +96,11 @@ pub enum OuterMiter {
 
 /// The shape of a rim at another angle between two beveled edges of one face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum InnerMiter {
     /// Both rims go on until they meet.
     #[default]
