@@ -66,7 +66,7 @@ fn window([left, top]: [i32; 2]) -> impl Iterator<Item = ([i32; 2], usize)> {
 }
 
 proptest! {
-    #![proptest_config(cases(64))]
+    #![proptest_config(cases(20))]
 
     #[test]
     fn coverage_is_exact_anywhere(points in corners(), at in place(), tile_size in tile_size()) {

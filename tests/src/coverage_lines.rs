@@ -202,7 +202,7 @@ fn a_segment_without_length_is_the_same_from_either_end() {
 /// minutes.
 #[test]
 fn many_segments_that_cross_in_one_sample_are_all_drawn() {
-    let count_of_segments = 40_000;
+    let count_of_segments = 16_000;
     let mut points = Vec::new();
     for i in 0..count_of_segments {
         let angle = std::f64::consts::PI * f64::from(i) / f64::from(count_of_segments);

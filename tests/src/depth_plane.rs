@@ -78,7 +78,7 @@ fn seen(planes: &[Plane], surface: BlendMode, samples: u32) -> Vec<(usize, f32, 
 const STEP: usize = 7;
 
 proptest! {
-    #![proptest_config(cases(150))]
+    #![proptest_config(cases(50))]
 
     #[test]
     fn depth_is_that_of_the_exact_plane(

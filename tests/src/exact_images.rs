@@ -210,7 +210,7 @@ fn case() -> impl Strategy<Value = Case> {
 }
 
 proptest! {
-    #![proptest_config(cases(64))]
+    #![proptest_config(cases(24))]
 
     #[test]
     fn every_setting_and_order_gives_the_image_that_a_search_finds(case in case()) {

@@ -127,7 +127,7 @@ fn check_pixel(pixel: &PixelExplanation) {
 }
 
 proptest! {
-    #![proptest_config(cases(24))]
+    #![proptest_config(cases(10))]
 
     #[test]
     fn an_explanation_ends_at_what_is_drawn(scene in scene(), samples in Samples::any()) {

@@ -156,7 +156,7 @@ fn arithmetics() -> impl Strategy<Value = ExecuteSettings> {
 }
 
 proptest! {
-    #![proptest_config(cases(64))]
+    #![proptest_config(cases(32))]
 
     #[test]
     fn threads_and_tiles_change_nothing(

@@ -1,8 +1,7 @@
 //! Measures what the trigon renderer costs and how accurate it is.
 //!
 //! - A module for each question: [`fill`], [`visibility`], [`mod@line`], [`shading`], [`interpolation`], [`depth`],
-//!   [`antialiasing`], [`texture`], [`transparency`], [`shadow`], [`color`], [`coordinates`], [`same_bytes`],
-//!   [`storage`], [`threads`]. Each compares classical algorithms with the engine. Every algorithm has a file of its own
+//!   [`texture`], [`transparency`], [`shadow`], [`same_bytes`], [`storage`], [`threads`]. Each compares classical algorithms with the engine. Every algorithm has a file of its own
 //!   that cites its source. [`frames`] compares whole images, [`rivals`] images of other renderers.
 //! - Exact results to compare with: [`oracle`].
 //! - The report: [`report`].
@@ -31,9 +30,6 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "tests may"))]
 
-pub mod antialiasing;
-pub mod color;
-pub mod coordinates;
 pub mod depth;
 pub mod fill;
 pub mod frames;

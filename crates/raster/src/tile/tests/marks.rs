@@ -340,6 +340,8 @@ proptest! {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { cases: ProptestConfig::default().cases / 6, ..ProptestConfig::default() })]
+
     /// Depths, ids and interpolated colours, each from the triangle that covers the sample.
     #[test]
     fn opaque_lines_and_points_are_as_those_that_a_mask_leaves_whole(
@@ -359,6 +361,8 @@ proptest! {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { cases: ProptestConfig::default().cases / 4, ..ProptestConfig::default() })]
+
     /// Whatever lies below: colours are those of opaque draws, depth and ids those of an
     /// image without the overlay.
     #[test]

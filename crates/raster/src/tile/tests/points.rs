@@ -111,6 +111,8 @@ fn still() -> impl Strategy<Value = Still> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { cases: ProptestConfig::default().cases / 4, ..ProptestConfig::default() })]
+
     /// Colours, depths and ids.
     #[test]
     fn points_from_vertices_are_as_points_from_records(

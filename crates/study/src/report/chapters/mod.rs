@@ -1,8 +1,5 @@
 //! The chapters: for each question, the variants and their measurements.
 
-mod antialiasing;
-mod color;
-mod coordinates;
 mod depth;
 mod fill;
 mod frames;
@@ -29,19 +26,16 @@ use crate::measure::{Spread, interleaved, nanoseconds};
 mod tests;
 
 /// The chapters in their order.
-pub(super) const CHAPTERS: [Question; 17] = [
+pub(super) const CHAPTERS: [Question; 14] = [
     Question { name: "fill", measure: fill::measure, headlines: fill::headlines },
     Question { name: "visibility", measure: visibility::measure, headlines: visibility::headlines },
     Question { name: "line", measure: line::measure, headlines: line::headlines },
     Question { name: "shading", measure: shading::measure, headlines: shading::headlines },
     Question { name: "interpolation", measure: interpolation::measure, headlines: interpolation::headlines },
     Question { name: "depth", measure: depth::measure, headlines: depth::headlines },
-    Question { name: "antialiasing", measure: antialiasing::measure, headlines: antialiasing::headlines },
     Question { name: "texture", measure: texture::measure, headlines: texture::headlines },
     Question { name: "transparency", measure: transparency::measure, headlines: transparency::headlines },
     Question { name: "shadow", measure: shadow::measure, headlines: shadow::headlines },
-    Question { name: "color", measure: color::measure, headlines: color::headlines },
-    Question { name: "coordinates", measure: coordinates::measure, headlines: coordinates::headlines },
     Question { name: "same-bytes", measure: same_bytes::measure, headlines: same_bytes::headlines },
     Question { name: "storage", measure: storage::measure, headlines: storage::headlines },
     Question { name: "threads", measure: threads::measure, headlines: threads::headlines },
