@@ -20,7 +20,7 @@ use crate::stdout::{json_line, print_lines};
 struct Fault {
     severity: Severity,
     name: &'static str,
-    place: String,
+    location: String,
     what: String,
     remedy: String,
 }
@@ -71,7 +71,7 @@ impl Fault {
         Self {
             severity: Severity::Error,
             name: if matches!(failure, Failure::Empty(_)) { "nothing-to-draw" } else { "not-loaded" },
-            place: "file".to_owned(),
+            location: "file".to_owned(),
             what: what.to_owned(),
             remedy: remedy.to_owned(),
         }
@@ -87,7 +87,7 @@ impl Fault {
         Self {
             severity: if is_missing { Severity::Error } else { Severity::Warning },
             name: if is_missing { "missing-file" } else { "in-the-file" },
-            place: format!("{}{}", warning.file.display(), warning.place),
+            location: format!("{}{}", warning.file.display(), warning.place),
             what: format!("{}{more}{tried}", warning.what),
             remedy: warning.remedy.clone(),
         }
@@ -99,7 +99,7 @@ impl Fault {
         (!names.is_empty()).then(|| Self {
             severity: Severity::Note,
             name: "variants",
-            place: "file".to_owned(),
+            location: "file".to_owned(),
             what: format!(
                 "its materials have the variants {}, of which one at a time is checked",
                 list.join(", ")
@@ -114,13 +114,13 @@ impl Fault {
     }
 
     fn of_scene(finding: Finding) -> Self {
-        let Finding { severity, fault, place, what, remedy } = finding;
-        Self { severity, name: fault, place, what, remedy: remedy.to_owned() }
+        let Finding { severity, fault, place: location, what, remedy } = finding;
+        Self { severity, name: fault, location, what, remedy: remedy.to_owned() }
     }
 
     fn facts(&self) -> Value {
         json!({
-            "severity": severity(self.severity), "fault": self.name, "place": self.place,
+            "severity": severity(self.severity), "fault": self.name, "place": self.location,
             "what": self.what, "remedy": self.remedy,
         })
     }
@@ -128,8 +128,8 @@ impl Fault {
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { name, place, what, remedy, .. } = self;
-        write!(f, "{}: {place}: {what} ({name}); {remedy}", severity(self.severity))
+        let Self { name, location, what, remedy, .. } = self;
+        write!(f, "{}: {location}: {what} ({name}); {remedy}", severity(self.severity))
     }
 }
 

@@ -61,7 +61,7 @@ fn compared(
     let mut camera = shot.camera;
     for scene in [&mut model.scene, &mut changed.scene] {
         request.scenery.add_to(scene);
-        camera = request.framing.with_room_for(&camera, scene);
+        camera = request.framing.with_wider_clip_planes(&camera, scene);
     }
     let [one, two] = draw_both([&model.scene, &changed.scene], &camera, &request.settings)?;
     let difference = difference(&one, &two);

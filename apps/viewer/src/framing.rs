@@ -128,10 +128,10 @@ impl Framing {
 
     /// A camera of these flags, with planes that cut nothing of a scene that shows more than the one it was placed
     /// for. One that is given exactly stays as it is.
-    pub(crate) fn with_room_for(&self, camera: &Camera, scene: &Scene) -> Camera {
+    pub(crate) fn with_wider_clip_planes(&self, camera: &Camera, scene: &Scene) -> Camera {
         match self.eye {
             Eye::Exact(_) => *camera,
-            _ => camera.with_room_for(&scene.bounds()),
+            _ => camera.with_wider_clip_planes(&scene.bounds()),
         }
     }
 
@@ -475,10 +475,10 @@ mod tests {
         let added = more.add_object("added", primitives::cube(0.5), Material::default());
         more.node_mut(added).expect("just added").transform =
             Transform::from_translation(camera.position + DVec3::NEG_Z * 2.0);
-        let wider = framing.with_room_for(&camera, &more);
+        let wider = framing.with_wider_clip_planes(&camera, &more);
         assert!(camera.projection.near() > 2.0 && wider.projection.near() < 1.75, "{wider:?}");
         let exact = Framing { eye: Eye::Exact(ExactCamera { camera, distance: 9.0 }), ..default() };
-        assert_eq!(exact.with_room_for(&camera, &more), camera, "it is given");
+        assert_eq!(exact.with_wider_clip_planes(&camera, &more), camera, "it is given");
     }
 
     #[test]

@@ -195,7 +195,7 @@ fn draw_series(model: &mut Model, request: &Request, outlet: &mut Outlet<'_>) ->
     let mut draw = |number| -> Result<Frame, Failure> {
         let camera = series.set(&mut model.scene, number);
         // A pose may come nearer than the first one, and lines beside the model may, too.
-        let camera = request.framing.with_room_for(&camera, &model.scene);
+        let camera = request.framing.with_wider_clip_planes(&camera, &model.scene);
         let frame = renderer.render(&model.scene, &camera).map_err(Failure::work)?;
         finished(frame, model, &camera, request)
     };

@@ -54,7 +54,7 @@ pub(crate) fn load(
     scene.up = request.up.unwrap_or(scene.up);
     let mut model = Model::new(scene, source.clone(), request)?;
     model.hide(&request.hidden)?;
-    model.place(&request.placed)?;
+    model.place_nodes(&request.placed)?;
     let light = model.scene.exposure_warning(&request.settings).map(|warning| warning.to_string());
     let odd = odd.into_iter().chain(light).collect();
     (model.scene_names, model.variant_names) = (scene_names, variant_names);

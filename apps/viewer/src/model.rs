@@ -119,7 +119,7 @@ impl Model {
         if request.scenery.add_to(&mut self.scene).is_empty() {
             return Ok(shot);
         }
-        Ok(Shot { camera: request.framing.with_room_for(&shot.camera, &self.scene), ..shot })
+        Ok(Shot { camera: request.framing.with_wider_clip_planes(&shot.camera, &self.scene), ..shot })
     }
 
     /// Views once around it.
@@ -184,7 +184,7 @@ impl Model {
     }
 
     /// Puts nodes where somebody has moved them.
-    pub(crate) fn place(&mut self, placed: &[PlacedNode]) -> Result<(), Failure> {
+    pub(crate) fn place_nodes(&mut self, placed: &[PlacedNode]) -> Result<(), Failure> {
         let tree = self.scene.tree();
         for placed in placed {
             let id = tree.get(placed.number).map(|(id, _)| *id);

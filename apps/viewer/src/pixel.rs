@@ -92,7 +92,12 @@ impl ExplainedPixel {
             push(
                 0,
                 true,
-                format!("sample {} at {}: {}{source}", index + 1, position_of(sample), seen(sample, scene)),
+                format!(
+                    "sample {} at {}: {}{source}",
+                    index + 1,
+                    position_of(sample),
+                    visible_surface(sample, scene)
+                ),
             );
             for fragment in &sample.fragments {
                 push(1, true, format!("{}: {}", owner(fragment, scene), verdict(fragment)));
@@ -157,7 +162,7 @@ fn position_of(sample: &SampleExplanation) -> String {
     format!("{x}, {y}")
 }
 
-fn seen(sample: &SampleExplanation, scene: &Scene) -> String {
+fn visible_surface(sample: &SampleExplanation, scene: &Scene) -> String {
     let below = sample.visible().map_or("the background".to_owned(), |visible| node_name(visible, scene));
     match sample.layers().count() {
         0 => below,

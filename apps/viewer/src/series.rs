@@ -45,8 +45,9 @@ impl Series {
         // Of frames in the animation's own time.
         let own_rate = rate / speed.abs();
         let end = moment::on_frame(moment::duration(&model.scene, &clips), own_rate);
-        let asked = request.moment.as_ref().map(|moment| moment.seconds).filter(|seconds| *seconds != 0.0);
-        let start = asked.unwrap_or(if speed < 0.0 { end } else { 0.0 });
+        let requested =
+            request.moment.as_ref().map(|moment| moment.seconds).filter(|seconds| *seconds != 0.0);
+        let start = requested.unwrap_or(if speed < 0.0 { end } else { 0.0 });
         let left = if speed < 0.0 { start } else { end - start };
         let frames = moment::last_frame(left, own_rate) + 1.0;
         if frames > f64::from(MOST_FRAMES) {

@@ -18,7 +18,7 @@ pub(crate) fn json_line(facts: &impl Serialize, reporter: Reporter) -> u8 {
 pub(crate) fn write_json(facts: &impl Serialize) -> Result<(), Failure> {
     let mut stdout = io::BufWriter::new(io::stdout().lock());
     let written = serde_json::to_writer(&mut stdout, facts).map_err(io::Error::from);
-    told(written.and_then(|()| writeln!(stdout)).and_then(|()| stdout.flush()))
+    report(written.and_then(|()| writeln!(stdout)).and_then(|()| stdout.flush()))
 }
 
 /// Writes lines to standard output; returns the exit code.
@@ -31,11 +31,11 @@ pub(crate) fn write_lines(lines: impl IntoIterator<Item = String>) -> Result<(),
     let mut stdout = io::stdout().lock();
     let written = lines.into_iter().try_for_each(|line| writeln!(stdout, "{line}"));
     // What is left in the buffer would be written at the end of the program, where nobody is told of an error.
-    told(written.and_then(|()| stdout.flush()))
+    report(written.and_then(|()| stdout.flush()))
 }
 
 /// Why standard output was not written; whoever closes it early wanted no more.
-fn told(written: io::Result<()>) -> Result<(), Failure> {
+fn report(written: io::Result<()>) -> Result<(), Failure> {
     match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::work(format!(
             "standard output cannot be written ({error}); check that its destination is writable and has room"

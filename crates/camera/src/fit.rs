@@ -177,7 +177,7 @@ impl Camera {
     /// The same camera with its near and far planes moved away from each other where they would cut something
     /// of these bounds in front of the eye. Give it the bounds of what a fitted camera shows besides.
     #[must_use]
-    pub fn with_room_for(&self, bounds: &Bounds3) -> Self {
+    pub fn with_wider_clip_planes(&self, bounds: &Bounds3) -> Self {
         let (own, wider) = (self.projection, self.with_clip_planes(bounds).projection);
         let near = if wider.near() < own.near() { wider.near() } else { own.near() };
         let far = own.far().zip(wider.far()).map(|(own, wider)| larger(own, wider));

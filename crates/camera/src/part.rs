@@ -23,11 +23,11 @@ impl Camera {
         let [[left, top], [width, height]] = [corner, size].map(|pair| pair.map(f64::from));
         let x = [at(0, left), at(0, left + width)];
         let y = [-at(1, top + height), -at(1, top)];
-        if let Projection::Orthographic { height: seen, near, far, .. } = self.projection {
-            let half = [seen * 0.5 * whole.aspect(), seen * 0.5];
+        if let Projection::Orthographic { height: whole_height, near, far, .. } = self.projection {
+            let half = [whole_height * 0.5 * whole.aspect(), whole_height * 0.5];
             let middle = [(x[0] + x[1]) * 0.5 * half[0], (y[0] + y[1]) * 0.5 * half[1]];
             let position = self.position + self.right() * middle[0] + self.up() * middle[1];
-            let projection = Projection::orthographic(seen * height / sides[1], near, far)?;
+            let projection = Projection::orthographic(whole_height * height / sides[1], near, far)?;
             return Ok(Self { position, projection, ..*self });
         }
         let matrix = self.projection.matrix(whole.aspect());
@@ -59,8 +59,8 @@ mod tests {
                 let window = Viewport { width: size[0], height: size[1] };
                 for point in [DVec3::ZERO, DVec3::new(1.0, -0.5, 0.25), DVec3::new(-2.0, 1.0, 1.0)] {
                     let expected = Projector::new(&camera, whole).to_screen(point).expect("before the eye");
-                    let seen = Projector::new(&part, window).to_screen(point).expect("before the eye");
-                    let back = seen + trigon_math::DVec2::from(corner.map(f64::from));
+                    let shown = Projector::new(&part, window).to_screen(point).expect("before the eye");
+                    let back = shown + trigon_math::DVec2::from(corner.map(f64::from));
                     // A dozen roundings, of coordinates that are magnified up to 640 times.
                     assert!(back.distance(expected) < 1e-9, "{projection:?}, {corner:?}: {back} {expected}");
                 }

@@ -70,10 +70,10 @@ impl Projector {
         let line = match (start >= 0.0, end >= 0.0) {
             (true, true) => [from, to],
             (false, false) => return None,
-            (is_start_seen, _) => {
+            (is_start_visible, _) => {
                 // At this distance exactly: what rounding leaves of it may lie behind the eye.
                 let cut = DVec3 { z: -nearest, ..from + (to - from) * (start / (start - end)) };
-                if is_start_seen { [from, cut] } else { [cut, to] }
+                if is_start_visible { [from, cut] } else { [cut, to] }
             }
         };
         let [from, to] = line.map(|point| self.map.project(point).map(|ndc| self.viewport.to_screen(ndc)));

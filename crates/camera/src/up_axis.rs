@@ -178,7 +178,8 @@ mod tests {
         ] {
             let axis = UpAxis::new(direction);
             let error = axis.frame() * axis.frame().transpose() - DMat3::IDENTITY;
-            let largest = error.to_cols_array().into_iter().fold(0.0, |most: f64, part| most.max(part.abs()));
+            let largest =
+                error.to_cols_array().into_iter().fold(0.0, |most: f64, component| most.max(component.abs()));
             assert!(largest < 1e-15, "{direction}: {largest}");
             assert!(axis.direction().dot(direction) > 0.0, "{direction} is up");
             assert_eq!(UpAxis::new(axis.direction()), axis, "{direction}: the same bits again");

@@ -25,8 +25,8 @@ impl<T: Clone> Field<T> {
 impl<T> Field<T> {
     /// The value of a function for each pixel, in rows from the top.
     pub fn from_fn([width, height]: [usize; 2], value: impl Fn([usize; 2]) -> T) -> Self {
-        let places = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
-        Self { width: width.max(1), values: places.map(value).collect() }
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+        Self { width: width.max(1), values: pixels.map(value).collect() }
     }
 
     /// Width and height in pixels.
@@ -48,17 +48,17 @@ impl<T> Field<T> {
 
     /// The value at a position, if it is in the image.
     #[must_use]
-    pub fn get(&self, place: [i32; 2]) -> Option<&T> {
-        self.index(place).map(|index| &self.values[index])
+    pub fn get(&self, pixel: [i32; 2]) -> Option<&T> {
+        self.index(pixel).map(|index| &self.values[index])
     }
 
     /// The same, to be changed.
     #[inline]
-    pub fn get_mut(&mut self, place: [i32; 2]) -> Option<&mut T> {
-        self.index(place).map(|index| &mut self.values[index])
+    pub fn get_mut(&mut self, pixel: [i32; 2]) -> Option<&mut T> {
+        self.index(pixel).map(|index| &mut self.values[index])
     }
 
-    /// Every pixel with its place.
+    /// Every value with its pixel.
     pub fn pixels(&self) -> impl Iterator<Item = ([usize; 2], &T)> {
         let width = self.width;
         self.values.iter().enumerate().map(move |(index, value)| ([index % width, index / width], value))
@@ -113,7 +113,7 @@ mod tests {
     fn places_outside_hold_nothing() {
         let field = Field::from_fn([3, 2], |[x, y]| 10 * y + x);
         assert_eq!((field.size(), field[[2, 1]]), ([3, 2], 12), "columns, rows, and the last value");
-        let outside = [[-1, 0], [3, 0], [0, 2], [0, -1]].map(|place| field.get(place));
+        let outside = [[-1, 0], [3, 0], [0, 2], [0, -1]].map(|pixel| field.get(pixel));
         assert_eq!(outside, [None; 4], "left, right, below and above");
     }
 
@@ -131,8 +131,8 @@ mod tests {
         assert_eq!(field.get_mut([3, 1]), None, "no pixel of the next row");
         field.row_mut(1)[0] = 10;
         assert_eq!(field, Field::from_fn([3, 2], |[x, y]| 10 * y + x));
-        let places: Vec<_> = field.pixels().map(|([x, y], value)| value - (10 * y + x)).collect();
-        assert_eq!(places, [0; 6], "every pixel with its place");
+        let differences: Vec<_> = field.pixels().map(|([x, y], value)| value - (10 * y + x)).collect();
+        assert_eq!(differences, [0; 6], "every pixel with its place");
         let rows: Vec<Vec<usize>> = field.rows_mut().map(|row| row.to_vec()).collect();
         assert_eq!(rows, [[0, 1, 2], [10, 11, 12]]);
         let doubled = field.map(|value| 2 * value);

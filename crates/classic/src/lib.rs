@@ -156,7 +156,7 @@ impl Method {
 
     /// Whether [`repeated`](Self::repeated) keeps anything.
     #[must_use]
-    pub fn is_kept(self) -> bool {
+    pub fn keeps_state(self) -> bool {
         ![Self::Roberts, Self::Warnock].contains(&self)
     }
 }

@@ -19,12 +19,12 @@ pub struct Body {
 impl Body {
     /// A mesh, turned, scaled and moved; all in pixels, z towards the eye.
     pub fn of_mesh(mesh: &Mesh, pose: Pose) -> Self {
-        let place = |position: &trigon_math::Vec3| {
-            let seen = pose.turn * position.as_dvec3() * pose.scale;
-            let point = DVec3::new(seen.x, -seen.y, seen.z) + pose.middle;
+        let project = |position: &trigon_math::Vec3| {
+            let turned = pose.turn * position.as_dvec3() * pose.scale;
+            let point = DVec3::new(turned.x, -turned.y, turned.z) + pose.middle;
             (point * f64::from(STEPS_PER_PIXEL)).round().as_ivec3().to_array()
         };
-        let corners = mesh.positions().iter().map(place).collect();
+        let corners = mesh.positions().iter().map(project).collect();
         let vertices = mesh.corner_vertices();
         let triangles = mesh.triangulation().triangles.into_iter();
         let triangles = triangles.map(|t| t.map(|corner| vertices[corner as usize] as usize)).collect();

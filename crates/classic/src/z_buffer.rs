@@ -22,11 +22,11 @@ impl Buffers {
         for (number, face) in scene.faces() {
             let Some(surface) = Surface::new(face) else { continue };
             drawing.tests += surface.each_pixel(scene.limits(), |pixel, depth| {
-                let place = pixel.map(|part| part as usize);
+                let index = pixel.map(|part| part as usize);
                 let depth = depth as f32;
-                if depth > depths[place] {
-                    depths[place] = depth;
-                    drawing.faces[place] = number;
+                if depth > depths[index] {
+                    depths[index] = depth;
+                    drawing.faces[index] = number;
                 }
             });
         }

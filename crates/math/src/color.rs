@@ -65,8 +65,8 @@ pub const SRGB8_CELL_BITS: u32 = 16;
 /// 13 octaves from 2⁻¹³ to 1.
 const CELL_COUNT: usize = 13 << (23 - SRGB8_CELL_BITS);
 /// Large enough that a remainder stays inside.
-const CELLS_WITH_ROOM: usize = CELL_COUNT.next_power_of_two();
-static CELLS: [u32; CELLS_WITH_ROOM] = cells();
+const PADDED_CELL_COUNT: usize = CELL_COUNT.next_power_of_two();
+static CELLS: [u32; PADDED_CELL_COUNT] = cells();
 
 /// For encoding several values at once: with `bits` the bits of a value between [`SRGB8_LEAST`] and
 /// [`SRGB8_GREATEST`] minus those of `SRGB8_LEAST`, its byte is `(srgb8_cell(bits >> 16) + bits %
@@ -82,14 +82,14 @@ static CELLS: [u32; CELLS_WITH_ROOM] = cells();
 #[must_use]
 #[inline]
 pub fn srgb8_cell(cell: u32) -> u32 {
-    CELLS[cell as usize % CELLS_WITH_ROOM]
+    CELLS[cell as usize % PADDED_CELL_COUNT]
 }
 
 /// For each cell the byte of its first value in the upper half of a number. The lower half is what
 /// the last bits of a threshold in the cell need for a carry; 0 if there is none.
-const fn cells() -> [u32; CELLS_WITH_ROOM] {
+const fn cells() -> [u32; PADDED_CELL_COUNT] {
     const CARRY: u32 = 1 << SRGB8_CELL_BITS;
-    let mut cells = [0; CELLS_WITH_ROOM];
+    let mut cells = [0; PADDED_CELL_COUNT];
     let mut cell = 0;
     let mut below = 0;
     while cell < CELL_COUNT {

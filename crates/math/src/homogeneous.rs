@@ -89,8 +89,8 @@ impl HomogeneousPoint {
     /// the origin has no direction.
     #[must_use]
     pub fn is_same_direction(&self, other: &Self) -> bool {
-        let seen = |point: &Self| if point.0.w < 0.0 { -point.0 } else { point.0 };
-        let (a, b) = (seen(self).truncate(), seen(other).truncate());
+        let with_positive_w = |point: &Self| if point.0.w < 0.0 { -point.0 } else { point.0 };
+        let (a, b) = (with_positive_w(self).truncate(), with_positive_w(other).truncate());
         // Of collinear vectors all products of coordinates have the same sign.
         let same_side =
             (0..3).any(|axis| (a[axis] > 0.0 && b[axis] > 0.0) || (a[axis] < 0.0 && b[axis] < 0.0));

@@ -16,7 +16,7 @@ use glam::{DVec2, DVec3, Vec3};
 #[inline]
 pub fn area_vector(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
     let mut sum = DVec3::ZERO;
-    for_each_part(corners, |part| sum += part);
+    for_each_cross_product(corners, |product| sum += product);
     sum * 0.5
 }
 
@@ -47,9 +47,9 @@ impl AxisProjection {
     #[must_use]
     pub fn of(positions: &[Vec3]) -> Self {
         let (mut sum, mut magnitude) = (DVec3::ZERO, DVec3::ZERO);
-        for_each_part(positions.iter().map(|p| p.as_dvec3()), |part| {
-            sum += part;
-            magnitude += part.abs();
+        for_each_cross_product(positions.iter().map(|p| p.as_dvec3()), |product| {
+            sum += product;
+            magnitude += product.abs();
         });
         let longest = longest_axis(sum);
         let axis = if sum[longest].abs() > Self::CANCELLED * magnitude.max_element() {
@@ -77,13 +77,13 @@ impl AxisProjection {
 /// Calls back with twice the area vector of each triangle of the fan round
 /// the first corner.
 #[inline]
-fn for_each_part(corners: impl IntoIterator<Item = DVec3>, mut part: impl FnMut(DVec3)) {
+fn for_each_cross_product(corners: impl IntoIterator<Item = DVec3>, mut visit: impl FnMut(DVec3)) {
     let mut corners = corners.into_iter();
     let Some(first) = corners.next() else { return };
     let mut last = DVec3::ZERO;
     for corner in corners {
         let corner = corner - first;
-        part(last.cross(corner));
+        visit(last.cross(corner));
         last = corner;
     }
 }

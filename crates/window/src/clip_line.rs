@@ -15,13 +15,13 @@ pub fn clip_line(from: DVec2, to: DVec2, size: DVec2) -> Option<(DVec2, DVec2)> 
     let way = to - from;
     let (mut enter, mut leave) = (0.0, 1.0);
     for axis in 0..2 {
-        for (speed, room) in [(-way[axis], from[axis]), (way[axis], size[axis] - from[axis])] {
-            let at = room / speed;
+        for (speed, distance) in [(-way[axis], from[axis]), (way[axis], size[axis] - from[axis])] {
+            let at = distance / speed;
             if speed < 0.0 && at > enter {
                 enter = at;
             } else if speed > 0.0 && at < leave {
                 leave = at;
-            } else if speed == 0.0 && room < 0.0 {
+            } else if speed == 0.0 && distance < 0.0 {
                 return None;
             }
         }

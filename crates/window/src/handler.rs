@@ -91,16 +91,16 @@ pub trait Handler {
 }
 
 /// The frame callback.
-type Frames<'a> = Box<dyn FnMut(&mut Stage, Tick) -> AnimationState + 'a>;
+type FrameCallback<'a> = Box<dyn FnMut(&mut Stage, Tick) -> AnimationState + 'a>;
 
 /// The interface callback.
-type Interface<'a> = Box<dyn FnMut(&mut Stage, &mut egui::Ui) + 'a>;
+type InterfaceCallback<'a> = Box<dyn FnMut(&mut Stage, &mut egui::Ui) + 'a>;
 
 /// An application of at most two closures.
 #[derive(Default)]
 pub(crate) struct Closures<'a> {
-    pub(crate) frame: Option<Frames<'a>>,
-    pub(crate) interface: Option<Interface<'a>>,
+    pub(crate) frame: Option<FrameCallback<'a>>,
+    pub(crate) interface: Option<InterfaceCallback<'a>>,
 }
 
 impl Handler for Closures<'_> {

@@ -63,7 +63,7 @@ pub(crate) enum Wake {
 
 /// Whether the program itself requests frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Frames {
+pub(crate) enum AnimationFrames {
     /// An animation runs, or a key is held.
     Wanted,
     /// Nothing moves by itself.
@@ -178,8 +178,8 @@ impl Pacing {
     /// When another whole second of drawing has passed since the last frame: then the badge changes.
     fn next_second(&self) -> Option<Duration> {
         let begun = self.work_begun()?;
-        let told = self.drawn.map_or(0, |drawn| drawn.saturating_sub(begun).as_secs());
-        Some(begun + Duration::from_secs(told + 1))
+        let reported_seconds = self.drawn.map_or(0, |drawn| drawn.saturating_sub(begun).as_secs());
+        Some(begun + Duration::from_secs(reported_seconds + 1))
     }
 
     /// Whether the image on screen is the one that the settings define.
@@ -252,7 +252,7 @@ impl Pacing {
 
     /// When to draw next. `animated`: the program itself requests images; `expiry`: when the
     /// interface changes by itself.
-    pub(crate) fn next(&self, now: Duration, animated: Frames, expiry: Option<Duration>) -> Wake {
+    pub(crate) fn next(&self, now: Duration, animated: AnimationFrames, expiry: Option<Duration>) -> Wake {
         let after = |last: Option<Duration>| last.map_or(now, |last| last + FRAME);
         let (frame, paced) = (after(self.drawn), after(self.begun));
         let overlay = self.overlay.then_some(frame);
@@ -261,12 +261,14 @@ impl Pacing {
             (Some(ImageInProgress { quality: Quality::Draft { .. }, .. }), ..) => None,
             _ if self.occupied.is_some() => None,
             // It is about to be given up, which takes a moment.
-            (Some(_), _, Frames::Wanted) => Some(frame),
-            (None, _, Frames::Wanted) => Some(paced),
+            (Some(_), _, AnimationFrames::Wanted) => Some(frame),
+            (None, _, AnimationFrames::Wanted) => Some(paced),
             (Some(_), ..) => self.overdue(),
-            (None, ScreenImage::Old, Frames::None) => Some(paced),
-            (None, ScreenImage::Draft, Frames::None) => Some(self.moved.map_or(now, |moved| moved + REST)),
-            (None, ScreenImage::Full(_), Frames::None) => self.next_step().map(|_| paced),
+            (None, ScreenImage::Old, AnimationFrames::None) => Some(paced),
+            (None, ScreenImage::Draft, AnimationFrames::None) => {
+                Some(self.moved.map_or(now, |moved| moved + REST))
+            }
+            (None, ScreenImage::Full(_), AnimationFrames::None) => self.next_step().map(|_| paced),
         };
         let expiry = expiry.map(|due| due.max(frame));
         match [overlay, image, expiry, self.next_second()].into_iter().flatten().min() {
@@ -277,12 +279,12 @@ impl Pacing {
     }
 
     /// Whether images follow one another.
-    pub(crate) fn is_moving(&self, now: Duration, animated: Frames) -> bool {
-        animated == Frames::Wanted || self.moved.is_some_and(|moved| now < moved + REST)
+    pub(crate) fn is_moving(&self, now: Duration, animated: AnimationFrames) -> bool {
+        animated == AnimationFrames::Wanted || self.moved.is_some_and(|moved| now < moved + REST)
     }
 
     /// A frame begins: the image to be begun for it, if any.
-    pub(crate) fn begin(&mut self, now: Duration, animated: Frames) -> Option<Quality> {
+    pub(crate) fn begin(&mut self, now: Duration, animated: AnimationFrames) -> Option<Quality> {
         self.drawn = Some(now);
         let moving = self.is_moving(now, animated);
         let draft =

@@ -89,14 +89,14 @@ pub(crate) fn panes(orbit: Orbit, window: Viewport, four: Option<Area>) -> Vec<P
     corners
         .map(|(side, min)| Pane {
             side,
-            orbit: side.map_or(orbit, |side| seen_from(orbit, side)),
+            orbit: side.map_or(orbit, |side| viewed_from(orbit, side)),
             area: Area { min, size },
         })
         .into()
 }
 
 /// The same target in the same size, from a side, in parallel projection.
-fn seen_from(mut orbit: Orbit, side: AxisView) -> Orbit {
+fn viewed_from(mut orbit: Orbit, side: AxisView) -> Orbit {
     orbit.set_view(side);
     if !orbit.is_orthographic() {
         orbit.toggle_orthographic();

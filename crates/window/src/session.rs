@@ -20,7 +20,7 @@ use crate::input::{InputEvent, Modifiers, Pointer};
 use crate::interaction::Interaction;
 use crate::interface::{Interface, Moment};
 use crate::keymap::HeldKeys;
-use crate::pacing::{Change, Frames, Pacing, Wake};
+use crate::pacing::{AnimationFrames, Change, Pacing, Wake};
 use crate::refinement::Gallery;
 use crate::shared_scene::Revision;
 use crate::shown::DrawnNodes;
@@ -55,7 +55,7 @@ pub(crate) struct Session<'a> {
     anchor: Option<(DVec2, Option<DVec3>)>,
     /// Of the scene, as it was at this revision.
     bounds: Option<(Revision, Bounds3)>,
-    seen: Visibility,
+    visibility: Visibility,
     /// Whether the list of keys was shown when it was last looked at.
     listed: Visibility,
     /// What the last requested image shows.
@@ -99,7 +99,7 @@ impl<'a> Session<'a> {
             dropped: Vec::new(),
             anchor: None,
             bounds: None,
-            seen: Visibility::Shown,
+            visibility: Visibility::Shown,
             listed: Visibility::Hidden,
             subject: None,
             nodes: None,
@@ -154,7 +154,7 @@ impl<'a> Session<'a> {
     }
 
     /// Another thread requested a pass of the interface.
-    pub(crate) fn interface_asked(&mut self, now: Duration) {
+    pub(crate) fn interface_requested_redraw(&mut self, now: Duration) {
         self.pacing.changed(Change::Overlay, now);
     }
 
@@ -255,9 +255,9 @@ impl<'a> Session<'a> {
                 self.stage.rescale(scale);
                 self.pacing.changed(Change::Settled, now);
             }
-            InputEvent::Hidden => self.seen = Visibility::Hidden,
+            InputEvent::Hidden => self.visibility = Visibility::Hidden,
             InputEvent::Shown => {
-                self.seen = Visibility::Shown;
+                self.visibility = Visibility::Shown;
                 self.interface.painter.invalidate();
                 self.pacing.changed(Change::Overlay, now);
             }
@@ -271,14 +271,14 @@ impl<'a> Session<'a> {
 
     fn is_hidden(&self) -> bool {
         let Viewport { width, height } = self.stage.viewport();
-        width == 0 || height == 0 || self.seen == Visibility::Hidden
+        width == 0 || height == 0 || self.visibility == Visibility::Hidden
     }
 
-    fn frames(&self) -> Frames {
+    fn frames(&self) -> AnimationFrames {
         if self.animation == AnimationState::Running || !self.held.is_empty() {
-            Frames::Wanted
+            AnimationFrames::Wanted
         } else {
-            Frames::None
+            AnimationFrames::None
         }
     }
 
@@ -315,7 +315,7 @@ impl<'a> Session<'a> {
     fn after_handler(&mut self, now: Duration) {
         self.note(now);
         self.images.append(&mut self.stage.wishes().images);
-        self.begin_asked(now);
+        self.begin_requested(now);
         if std::mem::take(&mut self.stage.wishes().animate) {
             self.animation = AnimationState::Running;
         }
@@ -323,7 +323,7 @@ impl<'a> Session<'a> {
 
     /// Advances the animation and held keys.
     fn step(&mut self, now: Duration) {
-        if self.frames() == Frames::None {
+        if self.frames() == AnimationFrames::None {
             self.stepped = None;
             return;
         }

@@ -46,7 +46,7 @@ struct Open {
     /// When it was last queried.
     minimized: bool,
     /// Whether this program requested the next frame.
-    asked: bool,
+    is_redraw_requested: bool,
     /// Whether the pointer is confined to it.
     keeps_pointer: bool,
     full_screen: bool,
@@ -149,7 +149,7 @@ impl<'a> Shell<'a> {
             window,
             title,
             minimized: false,
-            asked: false,
+            is_redraw_requested: false,
             keeps_pointer: false,
             full_screen: false,
         });
@@ -168,7 +168,7 @@ impl<'a> Shell<'a> {
             self.session.event(event, now);
         }
         // The window system requests a redraw if the window has lost its content.
-        let lost = !std::mem::take(&mut open.asked);
+        let lost = !std::mem::take(&mut open.is_redraw_requested);
         let changed = self.session.draw(now, &|| self.started.elapsed()).is_some();
         if lost {
             open.presenter.forget();
@@ -206,7 +206,7 @@ impl<'a> Shell<'a> {
         }
     }
 
-    /// Replays the input that is due. The window has its own scale and visibility; it is asked for
+    /// Replays the input that is due. The window has its own scale and visibility; it is is_redraw_requested for
     /// the recorded size.
     fn step_play(&mut self, now: Duration) -> Result<(), WindowError> {
         // With its own time: what counts is how long a key was held, not when that was noticed.
@@ -254,7 +254,7 @@ impl ApplicationHandler<UserEvent> for Shell<'_> {
         match ring {
             UserEvent::Application => self.session.woken(now),
             UserEvent::Image => self.session.collect(now),
-            UserEvent::Interface => self.session.interface_asked(now),
+            UserEvent::Interface => self.session.interface_requested_redraw(now),
             #[cfg(feature = "accesskit")]
             UserEvent::Accessibility(event) => self.accessibility(event),
         }
@@ -312,7 +312,7 @@ impl ApplicationHandler<UserEvent> for Shell<'_> {
         let next = self.session.next(now);
         if next == Wake::Now {
             open.window.request_redraw();
-            open.asked = true;
+            open.is_redraw_requested = true;
         }
         let later = if let Wake::At(time) = next { Some(time) } else { None };
         let due = [later, self.played.due()].into_iter().flatten().min();

@@ -65,9 +65,9 @@ impl Shown {
         let depth = self.frame.depth.as_deref().unwrap_or_default();
         // Other cores have just written the depths, so each read waits for memory. In a loop that does nothing else, many
         // reads wait at the same time.
-        let seen: Vec<f32> =
+        let depths: Vec<f32> =
             pixels.iter().map(|&pixel| depth.get(pixel).copied().unwrap_or(f32::INFINITY)).collect();
-        seen.into_iter().map(|seen| seen.is_finite().then_some(f64::from(seen))).collect()
+        depths.into_iter().map(|depth| depth.is_finite().then_some(f64::from(depth))).collect()
     }
 
     fn depth(&self, pixel: usize) -> Option<f64> {

@@ -148,7 +148,7 @@ pub struct Stage {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Menu {
     /// Where it was asked for, in physical pixels.
-    pub(crate) asked: Option<DVec2>,
+    pub(crate) requested_at: Option<DVec2>,
     /// Where it is, in points, once it was shown.
     pub(crate) at: Option<egui::Pos2>,
 }
@@ -313,9 +313,9 @@ impl Stage {
 
     /// Takes points into the part of the image that nothing covers all the time, seen from the same side.
     pub fn fit_points(&mut self, points: &[DVec3]) {
-        let room = self.room();
-        self.orbit.fit_points(points, self.fit_aspect() / room, DEFAULT_MARGIN);
-        self.orbit.zoom(room);
+        let fit_share = self.fit_share();
+        self.orbit.fit_points(points, self.fit_aspect() / fit_share, DEFAULT_MARGIN);
+        self.orbit.zoom(fit_share);
     }
 
     /// The width of the part of the window that views are fitted to, divided by its height.
@@ -327,7 +327,7 @@ impl Stage {
     /// The share of the window's height for fitted views, with the middle of the window in its middle: see
     /// [`Stage::covered_below`].
     #[must_use]
-    pub fn room(&self) -> f64 {
+    pub fn fit_share(&self) -> f64 {
         /// However low the window is.
         const LEAST: f64 = 0.5;
         let covered = f64::from(self.covered_below) * f64::from(self.text_scale) * self.scale;
@@ -381,7 +381,7 @@ impl Stage {
     /// Opens the menu, at a place in physical pixels or at the pointer.
     pub(crate) fn open_menu(&mut self, at: Option<DVec2>) {
         self.cheat_sheet = Visibility::Hidden;
-        self.menu = Some(Menu { asked: at, at: None });
+        self.menu = Some(Menu { requested_at: at, at: None });
     }
 
     /// The objects that were moved by hand and not put back.

@@ -2,11 +2,11 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-type Ring = Box<dyn Fn() + Send>;
+type WakeFunction = Box<dyn Fn() + Send>;
 
 #[derive(Default)]
 struct State {
-    ring: Option<Ring>,
+    ring: Option<WakeFunction>,
     /// Woken before there was a loop to notify.
     early: bool,
 }

@@ -66,9 +66,11 @@ impl Crate {
 pub(crate) fn is_for_tests(attributes: &[Attribute]) -> bool {
     let is_test = |attribute: &Attribute| {
         attribute.path().is_ident("cfg")
-            && attribute
-                .parse_args::<syn::Path>()
-                .is_ok_and(|path| path.is_ident("test") || path.is_ident("doctest"))
+            && attribute.meta.require_list().is_ok_and(|list| {
+                let mut conditions = list.tokens.to_string();
+                conditions.retain(|letter| !letter.is_whitespace());
+                ["test", "doctest"].contains(&conditions.as_str()) || conditions.starts_with("all(test,")
+            })
     };
     attributes.iter().any(is_test)
 }

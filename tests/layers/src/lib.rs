@@ -1,4 +1,4 @@
-//! Checks of the source code: which files of a crate need which, and the circles among them; signatures;
+//! Checks of the source code: which files of a crate need which, and the circles among them; signatures; identifiers;
 //! and whether the patches of `docs/extending` still apply.
 //!
 //! A file needs another if it names one of its items: in a path, or by importing it. Re-exports are followed
@@ -6,6 +6,7 @@
 
 mod circles;
 mod collect;
+mod glossary;
 mod module;
 mod patch;
 mod resolve;
@@ -13,6 +14,7 @@ mod signatures;
 mod workspace;
 
 pub use circles::{Circle, circles, folder_circles};
+pub use glossary::glossary_violations;
 pub use module::Crate;
 pub use patch::{FilePatch, Patch};
 pub use signatures::long_signatures;

@@ -14,7 +14,7 @@ mod line;
 mod material;
 mod names;
 mod output;
-mod place;
+mod placed_node;
 mod quality;
 mod raw;
 mod request;
@@ -37,7 +37,7 @@ pub(crate) use line::{CommandLine, plain};
 #[cfg(feature = "window")]
 pub(crate) use names::flag as flag_named;
 pub(crate) use output::{Destination, Subject, Template};
-pub(crate) use place::PlacedNode;
+pub(crate) use placed_node::PlacedNode;
 pub(crate) use quality::Limit;
 pub(crate) use raw::{CheckPurpose, HelpLength, RawArgs};
 pub(crate) use request::{Mode, Reference, Request, STDIN};

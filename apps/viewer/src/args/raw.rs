@@ -19,7 +19,7 @@ use super::effects::EffectArgs;
 use super::gpu::GpuOnly;
 use super::material::MaterialArgs;
 use super::output::{Destination, Template};
-use super::place::PlacedNode;
+use super::placed_node::PlacedNode;
 use super::quality::QualityArgs;
 use super::scenery::SceneryArgs;
 use super::values;

@@ -21,7 +21,7 @@ use super::effects::Explanation;
 use super::line::{CommandLine, plain};
 use super::material::PointSprites;
 use super::output::{Destination, Template};
-use super::place::PlacedNode;
+use super::placed_node::PlacedNode;
 use super::quality::{Insisted, Limit};
 use super::raw::{AntiAliasing, BackfaceType, CheckPurpose, DrawStyle, MultiFileMode, RawArgs, View};
 use super::scenery::SceneryArgs;

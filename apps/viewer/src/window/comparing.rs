@@ -134,7 +134,7 @@ impl Drawer for PairDrawer {
     ) -> Result<Frame, String> {
         let mut renderers = self.renderers.lock().unwrap_or_else(PoisonError::into_inner);
         let [first, second] = &mut *renderers;
-        let camera = camera.with_room_for(&self.other.bounds());
+        let camera = camera.with_wider_clip_planes(&self.other.bounds());
         let draw = |renderer: &mut Renderer, scene: &Scene, settings: RenderSettings| {
             *renderer.settings_mut() = settings;
             let mut frame = Frame::default();

@@ -61,12 +61,12 @@ impl OpenWindow {
         wake: impl FnOnce() + Send + 'static,
     ) {
         let (sender, receiver) = channel();
-        let asked = thread::Builder::new().name("trigon-dialog".into()).spawn(move || {
+        let spawned = thread::Builder::new().name("trigon-dialog".into()).spawn(move || {
             // Nobody waits for it any more when this fails.
             let _ = sender.send(dialog.pick());
             wake();
         });
-        self.dialog = asked.is_ok().then_some(receiver);
+        self.dialog = spawned.is_ok().then_some(receiver);
     }
 
     /// What a dialog ended with, once.

@@ -213,8 +213,8 @@ impl Playback {
         const PLAY: f32 = 80.0;
         const LEAST: f32 = 100.0;
         let is_advanced = self.progress == AnimationProgress::Advanced;
-        let room = ui.available_width() - if is_advanced { BESIDE } else { PLAY };
-        ui.spacing_mut().slider_width = room.max(LEAST);
+        let free_width = ui.available_width() - if is_advanced { BESIDE } else { PLAY };
+        ui.spacing_mut().slider_width = free_width.max(LEAST);
         let slider = egui::Slider::new(&mut self.seconds, 0.0..=self.duration.max(1e-3));
         let slider = slider.show_value(is_advanced).fixed_decimals(2).suffix(" s");
         if ui.add(slider).changed() {

@@ -225,10 +225,10 @@ fn room_for_more_moves_planes_apart_and_never_together() {
     for projection in [perspective, parallel] {
         let camera = Camera::look_at(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y).with_projection(projection);
         let fitted = camera.with_clip_planes(&cube(0.0));
-        assert_eq!(fitted.with_room_for(&cube(0.0)), fitted, "it has room");
-        let nearer = fitted.with_room_for(&cube(4.0)).projection;
+        assert_eq!(fitted.with_wider_clip_planes(&cube(0.0)), fitted, "it has room");
+        let nearer = fitted.with_wider_clip_planes(&cube(4.0)).projection;
         assert!(nearer.near() < 5.0 && nearer.far() == fitted.projection.far(), "{nearer:?}");
-        let farther = fitted.with_room_for(&cube(-90.0)).projection;
+        let farther = fitted.with_wider_clip_planes(&cube(-90.0)).projection;
         let far = farther.far().expect("it stays finite");
         assert!(far > 101.0 && farther.near() == fitted.projection.near(), "{farther:?}");
     }

@@ -27,18 +27,18 @@ pub struct Lines {
 /// A body that is not convex.
 pub fn visible_lines(scene: &Scene) -> Result<Lines, NotConvex> {
     let bodies = convex_bodies(scene)?;
-    let mut seen = Lines::default();
+    let mut drawing = Lines::default();
     for (number, (body, planes)) in scene.bodies().iter().zip(&bodies).enumerate() {
         for edge in edges_toward_eye(body, planes) {
             let [from, to] = edge.map(|corner| body.corners[corner].map(f64::from));
             let others = bodies.iter().enumerate().filter(|(other, _)| *other != number);
-            let hidden = others.filter_map(|(_, other)| hidden_part([from, to], other, &mut seen.tests));
+            let hidden = others.filter_map(|(_, other)| hidden_part([from, to], other, &mut drawing.tests));
             let visible = visible_parts(hidden.collect());
             let point = |t: f64| [0, 1, 2].map(|i| from[i] + (to[i] - from[i]) * t);
-            seen.lines.extend(visible.into_iter().map(|part| part.map(point)));
+            drawing.lines.extend(visible.into_iter().map(|part| part.map(point)));
         }
     }
-    Ok(seen)
+    Ok(drawing)
 }
 
 /// The edges of triangles that the body does not hide itself, each once.

@@ -77,8 +77,8 @@ impl Bvh {
             return (!items.is_empty()).then(|| Child::leaf(self.leaves.len() - 1));
         }
         let mut node = Node::EMPTY;
-        for (slot, (Extent { min, max }, part)) in parts(items).into_iter().enumerate() {
-            if let Some(child) = self.grow(part, triangles) {
+        for (slot, (Extent { min, max }, group)) in groups(items).into_iter().enumerate() {
+            if let Some(child) = self.grow(group, triangles) {
                 node.set(slot, min, max, child);
             }
         }
@@ -89,23 +89,23 @@ impl Bvh {
 
 /// Splits items in two, then the part with the largest box that is not a leaf, and so on until the
 /// node is full.
-fn parts(items: &mut [Item]) -> Vec<(Extent, &mut [Item])> {
-    let mut parts = vec![boxed(items)];
-    while parts.len() < WIDTH {
+fn groups(items: &mut [Item]) -> Vec<(Extent, &mut [Item])> {
+    let mut groups = vec![boxed(items)];
+    while groups.len() < WIDTH {
         let worth = |(extent, items): &(Extent, &mut [Item])| {
             if items.len() > WIDTH { extent.half_area() } else { f32::NEG_INFINITY }
         };
-        let largest = (1..parts.len())
-            .fold(0, |best, index| if worth(&parts[index]) > worth(&parts[best]) { index } else { best });
-        if parts[largest].1.len() <= WIDTH {
+        let largest = (1..groups.len())
+            .fold(0, |best, index| if worth(&groups[index]) > worth(&groups[best]) { index } else { best });
+        if groups[largest].1.len() <= WIDTH {
             break;
         }
-        let (_, items) = parts.swap_remove(largest);
-        let middle = parted(items);
+        let (_, items) = groups.swap_remove(largest);
+        let middle = split(items);
         let (first, second) = items.split_at_mut(middle);
-        parts.extend([boxed(first), boxed(second)]);
+        groups.extend([boxed(first), boxed(second)]);
     }
-    parts
+    groups
 }
 
 fn boxed(items: &mut [Item]) -> (Extent, &mut [Item]) {
@@ -119,7 +119,7 @@ fn item(number: u32, corners: &[Vec3; 3]) -> Item {
 }
 
 /// Moves the items of one side before those of the other, and returns the number of the first.
-fn parted(items: &mut [Item]) -> usize {
+fn split(items: &mut [Item]) -> usize {
     let mut middles = Extent::EMPTY;
     items.iter().for_each(|item| middles.add(item.middle(), item.middle()));
     let size = middles.max - middles.min;

@@ -189,7 +189,7 @@ impl Waiting {
     #[inline(always)]
     fn push(&mut self, entered: Four, children: &[Child; WIDTH]) {
         if self.count + WIDTH > Self::FEW {
-            self.make_room();
+            self.spill();
         }
         let first = self.count;
         for slot in 0..WIDTH {
@@ -207,7 +207,7 @@ impl Waiting {
     }
 
     #[cold]
-    fn make_room(&mut self) {
+    fn spill(&mut self) {
         self.more.extend_from_slice(&self.few[..self.count]);
         self.count = 0;
     }

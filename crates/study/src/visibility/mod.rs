@@ -86,9 +86,9 @@ impl Visibility {
 
     /// Whether [`repeated`](Self::repeated) keeps anything.
     #[must_use]
-    pub fn is_kept(self) -> bool {
+    pub fn keeps_state(self) -> bool {
         match self {
-            Self::Classic(method) => method.is_kept(),
+            Self::Classic(method) => method.keeps_state(),
             Self::Engine => true,
         }
     }

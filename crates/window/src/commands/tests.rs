@@ -109,7 +109,10 @@ fn a_list_that_is_shown_again_is_not_searched() {
     assert_eq!(stage.command_search, "");
     act(&mut stage, Action::OpenMenu);
     assert_eq!(stage.cheat_sheet, Visibility::Hidden, "the menu takes its place");
-    assert!(stage.menu.is_some_and(|menu| menu.asked.is_none() && menu.at.is_none()), "at the pointer");
+    assert!(
+        stage.menu.is_some_and(|menu| menu.requested_at.is_none() && menu.at.is_none()),
+        "at the pointer"
+    );
 }
 
 #[test]

@@ -8,7 +8,7 @@ use egui::Event;
 use trigon_camera::Viewport;
 use trigon_math::DVec2;
 
-use super::{HeadlessWindow, Ring, connect};
+use super::{HeadlessWindow, Wakeup, connect};
 use crate::input::InputEvent;
 use crate::pacing::Wake;
 use crate::worker::Worker;
@@ -36,7 +36,7 @@ impl<'a> HeadlessWindow<'a> {
         let image = ring.clone();
         let finished = move || {
             // If this fails, nobody is waiting any more.
-            let _ = image.send(Ring::Image);
+            let _ = image.send(Wakeup::Image);
         };
         let worker = Worker::of_threads(finished, move || started.elapsed());
         connect(&stage, ring);

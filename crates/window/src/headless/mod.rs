@@ -36,7 +36,7 @@ pub struct HeadlessWindow<'a> {
     modifiers: Modifiers,
     /// The interface's output for screen readers.
     tree: Option<State>,
-    rings: Receiver<Ring>,
+    rings: Receiver<Wakeup>,
     /// The clock that measures frames.
     clock: Clock,
     frames: Vec<DrawnFrame>,
@@ -49,7 +49,7 @@ type Clock = Box<dyn Fn() -> Duration>;
 
 /// What other threads report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Ring {
+enum Wakeup {
     /// [`crate::Waker::wake`].
     Application,
     /// An image is finished.
@@ -116,7 +116,7 @@ impl<'a> HeadlessWindow<'a> {
         stage: Stage,
         handler: &'a mut dyn Handler,
         worker: Worker,
-        rings: Receiver<Ring>,
+        rings: Receiver<Wakeup>,
         clock: Clock,
     ) -> Self {
         let mut session = Session::new(stage, handler, worker);
@@ -254,10 +254,10 @@ impl<'a> HeadlessWindow<'a> {
         }
     }
 
-    fn ring(&mut self, ring: Ring) {
+    fn ring(&mut self, ring: Wakeup) {
         match ring {
-            Ring::Application => self.session.woken(self.now),
-            Ring::Image => self.session.collect(self.now),
+            Wakeup::Application => self.session.woken(self.now),
+            Wakeup::Image => self.session.collect(self.now),
         }
     }
 
@@ -281,10 +281,10 @@ impl<'a> HeadlessWindow<'a> {
 }
 
 /// Lets the application's threads wake the window.
-fn connect(stage: &Stage, ring: Sender<Ring>) {
+fn connect(stage: &Stage, ring: Sender<Wakeup>) {
     stage.waker().connect(move || {
         // If this fails, nobody is waiting any more.
-        let _ = ring.send(Ring::Application);
+        let _ = ring.send(Wakeup::Application);
     });
 }
 

@@ -37,7 +37,7 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: 
             let is_beside = is_lower(*other) == is_lower(*corner);
             if is_beside { natural_width(context, lines) } else { 0.0 }
         });
-        let written = write(context, place(*corner, free, row), *corner, lines);
+        let written = write(context, corner_layout(*corner, free, row), *corner, lines);
         if is_lower(*corner) {
             left.max.y = left.max.y.min(written.min.y);
         } else {
@@ -48,7 +48,7 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: 
 }
 
 /// Where a corner is written.
-struct Place {
+struct CornerLayout {
     /// The area that no panel covers.
     free: egui::Rect,
     /// The most that it takes of its width.
@@ -67,14 +67,18 @@ fn natural_width(context: &Context, lines: &[String]) -> f32 {
     lines.iter().map(width).fold(0.0, f32::max).ceil()
 }
 
-/// The place of a corner, given the widths of all in its row, by their numbers, if no line is wrapped. Lines are wrapped
+/// The layout of a corner, given the widths of all in its row, by their numbers, if no line is wrapped. Lines are wrapped
 /// only where not all of them fit.
-fn place(corner: Corner, free: egui::Rect, row: [f32; Corner::ALL.len()]) -> Place {
+fn corner_layout(corner: Corner, free: egui::Rect, row: [f32; Corner::ALL.len()]) -> CornerLayout {
     let shown = row.iter().filter(|&&width| width > 0.0).count();
     let gaps = GAP * (shown + 1) as f32;
-    let room = free.width() - 4.0 * GAP;
+    let width = free.width() - 4.0 * GAP;
     if row.iter().sum::<f32>() + gaps > free.width() {
-        return Place { free, width: if shown == 1 { room } else { room * share(corner) }, shift: 0.0 };
+        return CornerLayout {
+            free,
+            width: if shown == 1 { width } else { width * share(corner) },
+            shift: 0.0,
+        };
     }
     let [left, middle, right] = [Corner::TopLeft, Corner::Top, Corner::TopRight].map(|of| row[of as usize]);
     let beside = (free.width() - middle) / 2.0 - GAP;
@@ -82,7 +86,7 @@ fn place(corner: Corner, free: egui::Rect, row: [f32; Corner::ALL.len()]) -> Pla
         Corner::Top => (left + GAP - beside).max(0.0) - (right + GAP - beside).max(0.0),
         _ => 0.0,
     };
-    Place { free, width: free.width(), shift }
+    CornerLayout { free, width: free.width(), shift }
 }
 
 fn is_lower(corner: Corner) -> bool {
@@ -101,8 +105,8 @@ fn share(corner: Corner) -> f32 {
 }
 
 /// Writes one of them. Returns where.
-fn write(context: &Context, place: Place, corner: Corner, lines: &[String]) -> egui::Rect {
-    let Place { free, width, shift } = place;
+fn write(context: &Context, layout: CornerLayout, corner: Corner, lines: &[String]) -> egui::Rect {
+    let CornerLayout { free, width, shift } = layout;
     let (anchor, offset) = match corner {
         Corner::TopLeft => (Align2::LEFT_TOP, vec2(GAP, GAP)),
         Corner::Top => (Align2::CENTER_TOP, vec2(shift, GAP)),
@@ -205,12 +209,12 @@ mod tests {
     fn lines_that_fit_beside_each_other_were_wrapped() {
         let free = egui::Rect::from_min_size(egui::pos2(392.0, 0.0), vec2(408.0, 400.0));
         let row = [160.0, 128.0, 44.0, 0.0, 0.0];
-        let places = Corner::ALL.map(|corner| place(corner, free, row));
-        assert!(places.iter().all(|place| place.width >= 160.0), "all of them fit");
-        let middle = (free.width() - row[1]) / 2.0 + places[Corner::Top as usize].shift;
+        let layouts = Corner::ALL.map(|corner| corner_layout(corner, free, row));
+        assert!(layouts.iter().all(|layout| layout.width >= 160.0), "all of them fit");
+        let middle = (free.width() - row[1]) / 2.0 + layouts[Corner::Top as usize].shift;
         assert!(middle >= row[0] + 2.0 * GAP, "beside the left one: {middle}");
         assert!(middle + row[1] + 2.0 * GAP <= free.width() - row[2], "and the right one: {middle}");
-        let crowded = place(Corner::TopLeft, free, [200.0, 200.0, 44.0, 0.0, 0.0]);
+        let crowded = corner_layout(Corner::TopLeft, free, [200.0, 200.0, 44.0, 0.0, 0.0]);
         assert!(crowded.width < 160.0, "in too narrow a window all of them are wrapped");
     }
 
@@ -236,8 +240,8 @@ mod tests {
                 let input = egui::RawInput { screen_rect: Some(free), ..egui::RawInput::default() };
                 let mut output = context.run_ui(input, |ui| {
                     foreseen = natural_width(ui.ctx(), &lines);
-                    let place = place(Corner::TopLeft, free, [foreseen, 0.0, 0.0, 0.0, 0.0]);
-                    written = write(ui.ctx(), place, Corner::TopLeft, &lines);
+                    let layout = corner_layout(Corner::TopLeft, free, [foreseen, 0.0, 0.0, 0.0, 0.0]);
+                    written = write(ui.ctx(), layout, Corner::TopLeft, &lines);
                 });
                 output.textures_delta.clear();
             }

@@ -10,8 +10,8 @@ use crate::stage::Stage;
 pub(super) fn show(context: &Context, stage: &mut Stage) -> Option<Binding> {
     let menu = stage.menu.as_mut()?;
     let points = context.pixels_per_point();
-    let asked = menu.asked.map(|at| pos2(at.x as f32 / points, at.y as f32 / points));
-    let mut at = menu.at.or(asked);
+    let requested = menu.requested_at.map(|at| pos2(at.x as f32 / points, at.y as f32 / points));
+    let mut at = menu.at.or(requested);
     // At its own place it is as new as at the pointer, to the click that opened it.
     let is_new = menu.at.is_none();
     let end = popup_menu(context, "menu", &mut at, |ui| entries(ui, &stage.keymap));
@@ -57,7 +57,7 @@ mod tests {
     fn a_menu_opens_where_it_was_asked_for_on_any_screen() {
         for points in [1.0, 2.0] {
             let (context, mut stage) = (Context::default(), Stage::new("test"));
-            stage.menu = Some(Menu { asked: Some(DVec2::new(101.0, 60.0)), at: None });
+            stage.menu = Some(Menu { requested_at: Some(DVec2::new(101.0, 60.0)), at: None });
             context.set_pixels_per_point(points);
             let screen_rect = Some(Rect::from_min_size(egui::Pos2::ZERO, Vec2::splat(4000.0)));
             for _ in 0..2 {

@@ -67,9 +67,10 @@ impl Budget {
     pub(super) fn took(&mut self, time: Duration, pixels: Duration) {
         let budget = self.time.as_secs_f64();
         let rest = time.saturating_sub(pixels).as_secs_f64();
-        let room = (AIM * budget - rest).max(rest / 4.0);
+        let available = (AIM * budget - rest).max(rest / 4.0);
         let (time, pixels) = (time.as_secs_f64(), pixels.as_secs_f64());
-        let draft = Draft { share: time / budget, excess: pixels / room, saved: (pixels - room) / time };
+        let draft =
+            Draft { share: time / budget, excess: pixels / available, saved: (pixels - available) / time };
         let [Some(last), Some(before)] = self.last else {
             self.last = [Some(draft), self.last[0]];
             return;

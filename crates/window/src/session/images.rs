@@ -27,7 +27,7 @@ impl Session<'_> {
             Purpose::Image => self.image_finished(finished, now),
         }
         self.offer_moves(now);
-        self.begin_asked(now);
+        self.begin_requested(now);
         self.plan(now);
     }
 
@@ -108,7 +108,7 @@ impl Session<'_> {
 
     /// Begins an image that was asked for, if the worker has time. It need not wait for
     /// one that is only better than what is shown.
-    pub(super) fn begin_asked(&mut self, now: Duration) {
+    pub(super) fn begin_requested(&mut self, now: Duration) {
         if self.images.is_empty() {
             return;
         }

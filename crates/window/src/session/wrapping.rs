@@ -19,7 +19,7 @@ const LEAST: f64 = 16.0 * MARGIN;
 #[derive(Debug, Default)]
 pub(super) struct Wrapping {
     /// Where the pointer is to be put, until the shell does.
-    asked: Option<DVec2>,
+    requested_position: Option<DVec2>,
     /// Where it will come from next.
     expected: Option<DVec2>,
     /// The system does not let it be put anywhere.
@@ -29,10 +29,10 @@ pub(super) struct Wrapping {
 impl Session<'_> {
     /// Where in the window the pointer is to be put, in physical pixels.
     pub(crate) fn take_pointer_position(&mut self) -> Option<DVec2> {
-        self.wrapping.asked.take()
+        self.wrapping.requested_position.take()
     }
 
-    /// The system does not let the pointer be put anywhere: it is not asked again.
+    /// The system does not let the pointer be put anywhere: it is not requested_position again.
     pub(crate) fn pointer_stays(&mut self) {
         self.wrapping = Wrapping { is_refused: true, ..Wrapping::default() };
     }
@@ -45,7 +45,7 @@ impl Session<'_> {
     /// The pointer is about to move to a position.
     pub(super) fn wrap(&mut self, to: DVec2, now: Duration) {
         if !self.keeps_pointer() || self.pointer.is_held() {
-            (self.wrapping.asked, self.wrapping.expected) = (None, None);
+            (self.wrapping.requested_position, self.wrapping.expected) = (None, None);
             return;
         }
         if let (Some(position), Some(from)) = (self.wrapping.expected, self.pointer.position()) {
@@ -59,7 +59,7 @@ impl Session<'_> {
         }
         let position = other_side(to, self.stage.viewport().size());
         if position != to {
-            (self.wrapping.asked, self.wrapping.expected) = (Some(position), Some(position));
+            (self.wrapping.requested_position, self.wrapping.expected) = (Some(position), Some(position));
         }
     }
 }

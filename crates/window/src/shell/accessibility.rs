@@ -18,7 +18,7 @@ impl Shell<'_> {
         match event {
             WindowEvent::InitialTreeRequested => {
                 context.enable_accesskit();
-                self.session.interface_asked(now);
+                self.session.interface_requested_redraw(now);
             }
             WindowEvent::ActionRequested(request) => {
                 let action = egui::Event::AccessKitActionRequest(request);

@@ -35,15 +35,15 @@ fn views_are_fitted_to_one_of_several_columns() {
 #[test]
 fn what_covers_the_lower_edge_is_left_free_above_and_below() {
     let mut stage = stage();
-    assert_eq!(stage.room(), 1.0, "nothing does");
+    assert_eq!(stage.fit_share(), 1.0, "nothing does");
     stage.covered_below = 20.0;
-    assert_eq!(stage.room(), 0.8, "20 of 200 pixels, twice");
+    assert_eq!(stage.fit_share(), 0.8, "20 of 200 pixels, twice");
     stage.text_scale = 0.5;
-    assert_eq!(stage.room(), 0.9, "in smaller text");
+    assert_eq!(stage.fit_share(), 0.9, "in smaller text");
     stage.rescale(2.0);
-    assert_eq!(stage.room(), 0.8, "on a finer screen");
+    assert_eq!(stage.fit_share(), 0.8, "on a finer screen");
     stage.covered_below = 900.0;
-    assert_eq!(stage.room(), 0.5, "half of the window at least");
+    assert_eq!(stage.fit_share(), 0.5, "half of the window at least");
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn fitted_views_show_all_of_the_scene_and_nothing_beside_it() {
     assert!(stage.scene.node(far).is_some(), "and stays");
     stage.covered_below = 25.0;
     stage.fit_view();
-    let expected = distance / stage.room();
+    let expected = distance / stage.fit_share();
     assert!((stage.orbit.distance() / expected - 1.0).abs() < 0.01, "from farther away");
 }
 

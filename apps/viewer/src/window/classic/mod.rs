@@ -21,7 +21,7 @@ const MOST_PAIRS: usize = 2_000_000_000;
 struct Classic {
     method: Method,
     /// What became of it, for the panel.
-    told: Mutex<String>,
+    summary: Mutex<String>,
 }
 
 /// Which algorithm draws.
@@ -49,19 +49,19 @@ impl Classics {
         });
         if let Some(classic) = &self.chosen {
             ui.set_max_width(420.0);
-            ui.label(classic.told().as_str());
+            ui.label(classic.summary().as_str());
         }
     }
 
     fn choose(&mut self, method: Option<Method>, stage: &mut Stage) {
-        self.chosen = method.map(|method| Arc::new(Classic { method, told: Mutex::default() }));
+        self.chosen = method.map(|method| Arc::new(Classic { method, summary: Mutex::default() }));
         stage.drawer = self.chosen.clone().map(|classic| classic as Arc<dyn Drawer>);
     }
 }
 
 impl Classic {
-    fn told(&self) -> std::sync::MutexGuard<'_, String> {
-        self.told.lock().unwrap_or_else(PoisonError::into_inner)
+    fn summary(&self) -> std::sync::MutexGuard<'_, String> {
+        self.summary.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The image, and what there is to say of it.
@@ -89,8 +89,8 @@ impl Classic {
             test => format!(", {} {test}", drawing.tests),
         };
         let frame = colored(&drawing.faces, &projected.colors);
-        let told = format!("{took:.1} ms{work}; {others} pixels show another face than the z-buffer's");
-        Ok((frame, told))
+        let summary = format!("{took:.1} ms{work}; {others} pixels show another face than the z-buffer's");
+        Ok((frame, summary))
     }
 }
 
@@ -102,11 +102,11 @@ impl Drawer for Classic {
         settings: &RenderSettings,
         cancel: &Cancel,
     ) -> Result<Frame, String> {
-        let (frame, told) = match self.attempt(scene, camera, settings, cancel) {
-            Ok((frame, told)) => (Ok(frame), told),
+        let (frame, summary) = match self.attempt(scene, camera, settings, cancel) {
+            Ok((frame, summary)) => (Ok(frame), summary),
             Err(reason) => (Err(format!("{}: {reason}", self.method.name())), reason),
         };
-        *self.told() = told;
+        *self.summary() = summary;
         frame
     }
 }
@@ -141,12 +141,12 @@ mod tests {
     use trigon_scene::Material;
 
     fn drawn(method: Method, scene: &Scene) -> (Result<Frame, String>, String) {
-        let classic = Classic { method, told: Mutex::default() };
+        let classic = Classic { method, summary: Mutex::default() };
         let settings = RenderSettings::new(60, 40);
         let camera = scene.overview(settings.aspect());
         let frame = classic.draw(scene, &camera, &settings, &Cancel::default());
-        let told = classic.told().clone();
-        (frame, told)
+        let summary = classic.summary().clone();
+        (frame, summary)
     }
 
     /// Two balls, one of them behind the other.
@@ -161,12 +161,12 @@ mod tests {
     #[test]
     fn every_algorithm_draws_a_model_and_says_how_well() {
         for method in Method::ALL {
-            let (frame, told) = drawn(method, &balls());
+            let (frame, summary) = drawn(method, &balls());
             let frame = frame.unwrap_or_else(|reason| panic!("{}: {reason}", method.name()));
             let seen = frame.color.as_chunks::<4>().0.iter().filter(|pixel| pixel[0] > 0).count();
             assert!((600..2000).contains(&seen), "{}: {seen} pixels of the balls", method.name());
             let sameness = if method == Method::Painter { "" } else { "; 0 pixels" };
-            assert!(told.contains(" ms") && told.contains(sameness), "{}: {told}", method.name());
+            assert!(summary.contains(" ms") && summary.contains(sameness), "{}: {summary}", method.name());
         }
     }
 
@@ -174,10 +174,10 @@ mod tests {
     fn what_cannot_be_drawn_is_refused_with_the_reason() {
         let mut scene = Scene::new();
         scene.add_object("ring", primitives::torus(1.0, 0.3, 24, 12), Material::default());
-        let (frame, told) = drawn(Method::Roberts, &scene);
+        let (frame, summary) = drawn(Method::Roberts, &scene);
         let reason = frame.expect_err("a ring is not convex");
         assert!(reason.starts_with("Roberts: ") && reason.contains("not convex"), "{reason}");
-        assert!(told.contains("not convex"), "the panel says so, too: {told}");
+        assert!(summary.contains("not convex"), "the panel says so, too: {summary}");
         assert!(drawn(Method::Warnock, &scene).0.is_ok(), "others can");
         let refused = refuse_long_work(Method::AllRays, 1_000_000, [1920, 1080]);
         assert!(refused.is_err_and(|reason| reason.contains("1920×1080")), "nobody waits for hours");

@@ -138,8 +138,8 @@ impl QualityPanel {
         let choices = setting.choices(&stage.settings);
         let current = choices.iter().find(|(_, choice)| *choice == stage.settings);
         let text = current.map_or("another value", |(name, _)| name.as_str());
-        let room = width - LABELS - if has_costs { COSTS } else { 0.0 };
-        let list = egui::ComboBox::from_id_salt(setting.name()).width(room).truncate().selected_text(text);
+        let width = width - LABELS - if has_costs { COSTS } else { 0.0 };
+        let list = egui::ComboBox::from_id_salt(setting.name()).width(width).truncate().selected_text(text);
         let (list, chosen) = choose(ui, list, &choices, &stage.settings);
         let list = list.labelled_by(label.id);
         if !has_costs && !costs.is_empty() {

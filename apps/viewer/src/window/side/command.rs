@@ -17,8 +17,8 @@ impl CommandPanel {
     }
 
     pub(super) fn show(&mut self, ui: &mut egui::Ui) {
-        let is_asked = ui.button("Copy again").clicked();
-        if std::mem::take(&mut self.is_new) || is_asked {
+        let is_requested = ui.button("Copy again").clicked();
+        if std::mem::take(&mut self.is_new) || is_requested {
             ui.ctx().copy_text(self.command.clone());
         }
         let said = match self.differs {

@@ -5,13 +5,13 @@ use trigon_scene::{EffectPlan, RenderSettings};
 use trigon_window::{Revision, Stage, egui};
 
 /// All that a plan depends on.
-type Subject = (Revision, Orbit, RenderSettings, Viewport);
+type EffectPlanKey = (Revision, Orbit, RenderSettings, Viewport);
 
 /// The plan of the image in the window.
 #[derive(Default)]
 pub(super) struct EffectPanel {
-    /// Planning visits the whole scene, so the plan is kept.
-    planned: Option<(Subject, EffectPlan)>,
+    /// Planning visits the whole scene, so the plan is cached.
+    planned: Option<(EffectPlanKey, EffectPlan)>,
 }
 
 impl EffectPanel {
@@ -34,8 +34,8 @@ impl EffectPanel {
 
     fn plan(&mut self, stage: &Stage) -> &EffectPlan {
         let subject = (stage.scene.revision(), stage.orbit, stage.settings.clone(), stage.viewport());
-        let kept = self.planned.take().filter(|(of, _)| *of == subject);
-        let planned = kept.unwrap_or_else(|| {
+        let cached = self.planned.take().filter(|(of, _)| *of == subject);
+        let planned = cached.unwrap_or_else(|| {
             let plan = EffectPlan::new(&stage.scene, &stage.camera(), &stage.image_settings());
             (subject, plan)
         });

@@ -177,7 +177,7 @@ impl Viewer {
         };
         let mut orbit = Orbit::from_camera(&shot.camera, shot.distance, model.scene.up.direction());
         if self.request.framing.is_fitted() {
-            orbit.zoom(stage.room());
+            orbit.zoom(stage.fit_share());
         }
         if self.request.window.interaction_style == Some(InteractionStyle::Trackball) {
             orbit.set_style(OrbitStyle::Trackball);

@@ -65,7 +65,7 @@ fn of_scene(name: &str, scene: &Scene, effort: Effort) -> Vec<Row> {
     let row = |((way, variant), time): ((Visibility, &str), Spread)| {
         let row = |variant: String| {
             let row = Row::new(name, variant).by(way.name()).sized(scene.size());
-            if way.is_kept() && row.variant != ANEW { row } else { row.built_anew() }
+            if way.keeps_state() && row.variant != ANEW { row } else { row.built_anew() }
         };
         let Ok(drawing) = way.draw(scene) else {
             return row(format!("{variant} (refuses: not convex)"));

@@ -157,7 +157,7 @@ fn commands_are_chosen_from_the_list() {
     let mut session = opened(&mut handler);
     session.stage.cheat_sheet = Visibility::Shown;
     session.stage.command_search = "orthographic".into();
-    session.interface_asked(ms(1000));
+    session.interface_requested_redraw(ms(1000));
     run(&mut session, ms(1000));
     let before = session.stage.orbit;
     // The only row of the window in the middle: its button is found by trying.
@@ -212,7 +212,7 @@ fn what_another_thread_has_changed_in_the_interface_is_shown_when_it_asks_for_th
     let (before, image) = (session.canvas().pixels().to_vec(), session.shown.clone());
     text.set("90 %");
     assert_eq!(session.next(ms(1000)), Wake::Never, "nobody knows");
-    session.interface_asked(ms(1000));
+    session.interface_requested_redraw(ms(1000));
     assert_eq!(run(&mut session, ms(1000)), [ms(1000)], "one frame");
     assert!(session.canvas().pixels() != before, "the other text is there");
     assert!(session.shown == image, "over the same image");
