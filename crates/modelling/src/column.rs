@@ -37,7 +37,7 @@ pub(super) enum ColumnDifference<T> {
     Elements {
         values: Vec<(u32, T)>,
         /// The length without `tail`.
-        kept: usize,
+        common_length: usize,
         tail: Vec<T>,
     },
     Whole(Vec<T>),
@@ -50,7 +50,7 @@ impl<T: Copy> Column<T> {
 
     /// A list with an eighth of spare capacity: otherwise the first added elements would move all others,
     /// which takes 30 ms for a million quads. Unused memory costs nothing.
-    pub(super) fn with_room(values: impl ExactSizeIterator<Item = T>) -> Self {
+    pub(super) fn with_spare_capacity(values: impl ExactSizeIterator<Item = T>) -> Self {
         let mut list = Vec::with_capacity(values.len() + values.len() / 8);
         list.extend(values);
         Self::new(list)
@@ -152,7 +152,7 @@ impl<T: Copy> Column<T> {
                 if old.is_empty() && length == self.values.len() {
                     return None;
                 }
-                Some(ColumnDifference::Elements { values: old, kept: length, tail: Vec::new() })
+                Some(ColumnDifference::Elements { values: old, common_length: length, tail: Vec::new() })
             }
         }
     }
@@ -170,11 +170,11 @@ impl<T: Copy> Column<T> {
                 let found = pairs.filter(|(_, (own, other))| differs(own, other)).map(|(index, _)| index);
                 (other.len() == self.values.len()).then(|| found.collect())
             }
-            ColumnDifference::Elements { values, kept, tail } => {
+            ColumnDifference::Elements { values, common_length, tail } => {
                 let of_values = values.iter().filter(|(index, other)| {
                     self.values.get(*index as usize).is_some_and(|own| differs(own, other))
                 });
-                let is_as_long = *kept == self.values.len() && tail.is_empty();
+                let is_as_long = *common_length == self.values.len() && tail.is_empty();
                 is_as_long.then(|| of_values.map(|&(index, _)| index).collect())
             }
         }
@@ -188,20 +188,20 @@ impl<T: Copy> Column<T> {
         is_fault: impl Fn(&T) -> bool,
     ) -> Option<u32> {
         let faulty = |index: &u32| self.values.get(*index as usize).is_some_and(&is_fault);
-        let (changed, kept) = match before {
+        let (changed, common_length) = match before {
             ColumnDifference::Whole(old) => {
                 let pairs = (0_u32..).zip(self.values.iter().zip(old));
                 let mut found = pairs.filter(|(_, (own, old))| is_fault(own) && !is_fault(old));
                 (found.next().map(|(index, _)| index), old.len())
             }
-            ColumnDifference::Elements { values, kept, .. } => {
+            ColumnDifference::Elements { values, common_length, .. } => {
                 let sound = values.iter().filter(|(_, old)| !is_fault(old)).map(|(index, _)| *index);
-                (sound.into_iter().find(faulty), *kept)
+                (sound.into_iter().find(faulty), *common_length)
             }
         };
-        let (old, new) = self.values.split_at(kept.min(self.values.len()));
+        let (old, new) = self.values.split_at(common_length.min(self.values.len()));
         let added = new.iter().position(&is_fault).filter(|_| !old.iter().any(&is_fault));
-        changed.or(added.map(|at| (kept + at) as u32))
+        changed.or(added.map(|at| (common_length + at) as u32))
     }
 
     /// Switches to the other state, and reverses the difference.
@@ -209,12 +209,12 @@ impl<T: Copy> Column<T> {
         debug_assert!(matches!(self.record, Record::Off), "nothing is undone within a transaction");
         match difference {
             ColumnDifference::Whole(whole) => std::mem::swap(&mut self.values, whole),
-            ColumnDifference::Elements { values, kept, tail } => {
+            ColumnDifference::Elements { values, common_length, tail } => {
                 for (index, value) in values {
                     std::mem::swap(&mut self.values[*index as usize], value);
                 }
                 if tail.is_empty() {
-                    *tail = self.values.split_off(*kept);
+                    *tail = self.values.split_off(*common_length);
                 } else {
                     self.values.append(tail);
                 }

@@ -81,8 +81,8 @@ fn inverse(capacity: usize, ids: impl Iterator<Item = u32>) -> Vec<u32> {
     let mut numbers = vec![NONE; capacity];
     for (number, id) in (0u32..).zip(ids) {
         // Of several parts of a face the first counts.
-        if let Some(place) = numbers.get_mut(id as usize).filter(|place| **place == NONE) {
-            *place = number;
+        if let Some(entry) = numbers.get_mut(id as usize).filter(|entry| **entry == NONE) {
+            *entry = number;
         }
     }
     numbers

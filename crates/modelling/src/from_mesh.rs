@@ -61,9 +61,9 @@ impl EditMesh {
             records[point as usize].flags |= POINT;
         }
         self.slots.vertices = Slots { free: NONE, alive: records.len() as u32 };
-        self.vertices = Column::with_room(records.into_iter());
-        self.positions = Column::with_room(mesh.positions().iter().copied());
-        self.first_positions = Column::with_room(mesh.positions().iter().copied());
+        self.vertices = Column::with_spare_capacity(records.into_iter());
+        self.positions = Column::with_spare_capacity(mesh.positions().iter().copied());
+        self.first_positions = Column::with_spare_capacity(mesh.positions().iter().copied());
     }
 
     fn add_edges(&mut self, mesh: &Mesh) {
@@ -76,7 +76,7 @@ impl EditMesh {
             crease: 0.0,
             flags: ALIVE,
         };
-        self.edges = Column::with_room(ends.iter().map(record));
+        self.edges = Column::with_spare_capacity(ends.iter().map(record));
         self.slots.edges = Slots { free: NONE, alive: ends.len() as u32 };
         for edge in 0..ends.len() as u32 {
             self.link_at_vertex(edge, 0);
@@ -137,16 +137,16 @@ fn corner_layers(attributes: &Attributes, corners: usize) -> Vec<Layer> {
     let mut layers = Vec::new();
     let mut add = |kind, values| layers.push(Layer { kind, values });
     for set in &attributes.uv_sets {
-        add(LayerKind::Uv, LayerValues::Vec2(Column::with_room(set.iter().copied())));
+        add(LayerKind::Uv, LayerValues::Vec2(Column::with_spare_capacity(set.iter().copied())));
     }
     if let Some(colors) = &attributes.corner_colors {
-        add(LayerKind::Color, LayerValues::Vec4(Column::with_room(colors.iter().copied())));
+        add(LayerKind::Color, LayerValues::Vec4(Column::with_spare_capacity(colors.iter().copied())));
     }
     if let Some(normals) = &attributes.corner_normals {
-        add(LayerKind::Normal, LayerValues::Vec3(Column::with_room(normals.iter().copied())));
+        add(LayerKind::Normal, LayerValues::Vec3(Column::with_spare_capacity(normals.iter().copied())));
     }
     if let Some(tangents) = &attributes.corner_tangents {
-        add(LayerKind::Tangent, LayerValues::Vec4(Column::with_room(tangents.iter().copied())));
+        add(LayerKind::Tangent, LayerValues::Vec4(Column::with_spare_capacity(tangents.iter().copied())));
     }
     for (number, target) in (0u16..).zip(&attributes.morph_targets) {
         if !target.normals.is_empty() {
@@ -166,7 +166,7 @@ fn vertex_layers(mesh: &Mesh, left_out: &mut LeftOut) -> Vec<Layer> {
         layers.push(Layer { kind: LayerKind::Skin, values: influences(skin, left_out) });
     }
     if let Some(colors) = &attributes.vertex_colors {
-        let values = LayerValues::Vec4(Column::with_room(colors.iter().copied()));
+        let values = LayerValues::Vec4(Column::with_spare_capacity(colors.iter().copied()));
         layers.push(Layer { kind: LayerKind::Color, values });
     }
     for (number, target) in (0u16..).zip(&attributes.morph_targets) {
@@ -181,7 +181,7 @@ fn dense(deltas: &Deltas, count: usize) -> LayerValues {
     for (index, value) in deltas.iter() {
         values[index as usize] = value;
     }
-    LayerValues::Vec3(Column::with_room(values.into_iter()))
+    LayerValues::Vec3(Column::with_spare_capacity(values.into_iter()))
 }
 
 fn influences(skin: &SkinWeights, left_out: &mut LeftOut) -> LayerValues {
@@ -196,7 +196,7 @@ fn influences(skin: &SkinWeights, left_out: &mut LeftOut) -> LayerValues {
         left_out.skinned_vertices += usize::from(all.len() > super::skin::MOST);
         Influences::heaviest(all)
     };
-    LayerValues::Influences(Column::with_room((0..skin.vertex_count()).map(of_vertex)))
+    LayerValues::Influences(Column::with_spare_capacity((0..skin.vertex_count()).map(of_vertex)))
 }
 
 #[cfg(test)]

@@ -20,8 +20,8 @@ impl Numbering {
             return Self::Searched(sorted.to_vec());
         }
         let mut table = vec![u32::MAX; capacity];
-        for (place, &index) in (0..).zip(sorted) {
-            table[index as usize] = place;
+        for (number, &index) in (0..).zip(sorted) {
+            table[index as usize] = number;
         }
         Self::Table(table)
     }
@@ -33,7 +33,7 @@ impl Numbering {
             Self::Searched(sorted) => sorted.binary_search(&index).ok(),
             // An element added later is in no list.
             Self::Table(table) => {
-                table.get(index as usize).filter(|&&place| place != u32::MAX).map(|&place| place as usize)
+                table.get(index as usize).filter(|&&number| number != u32::MAX).map(|&number| number as usize)
             }
         }
     }

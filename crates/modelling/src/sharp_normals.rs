@@ -52,8 +52,8 @@ impl EditMesh {
             let own = &mut normals[first..];
             own.sort_unstable_by_key(|&(corner, _)| corner);
             fans.add(vertex, |corner, of_fan| {
-                if let Ok(place) = own.binary_search_by_key(&corner, |&(corner, _)| corner) {
-                    own[place].1 = or_if_zero(own[place].1, of_fan);
+                if let Ok(index) = own.binary_search_by_key(&corner, |&(corner, _)| corner) {
+                    own[index].1 = or_if_zero(own[index].1, of_fan);
                 }
             });
         }
@@ -71,7 +71,7 @@ impl EditMesh {
             normals.extend(self.vertex_corners(vertex).map(|corner| {
                 // Fans are told in ascending order of corners.
                 let of_fan = of_fans.binary_search_by_key(&corner, |&(corner, _)| corner);
-                let of_fan = of_fan.ok().map(|place| of_fans[place].1);
+                let of_fan = of_fan.ok().map(|index| of_fans[index].1);
                 let own = || self.face_normal(self.corner_face(corner)).as_vec3();
                 (corner, self.custom_normal(corner).or(of_fan).unwrap_or_else(own))
             }));
@@ -130,15 +130,15 @@ impl<'a> VertexFans<'a> {
         self.join(vertex);
         self.sums.clear();
         self.sums.resize(self.corners.len(), DVec3::ZERO);
-        for place in 0..self.corners.len() {
-            let corner = self.corners[place];
+        for index in 0..self.corners.len() {
+            let corner = self.corners[index];
             let normal = self.face_normals.of(mesh, mesh.corner_face(corner)).as_vec3();
-            let fan = self.fan(place as u32);
+            let fan = self.fan(index as u32);
             self.sums[fan as usize] += normal.as_dvec3() * mesh.corner_angle(corner);
         }
-        for place in 0..self.corners.len() {
-            let fan = self.fan(place as u32);
-            let corner = self.corners[place];
+        for index in 0..self.corners.len() {
+            let fan = self.fan(index as u32);
+            let corner = self.corners[index];
             let of_face = self.face_normals.of(mesh, mesh.corner_face(corner)).as_vec3();
             let of_fan = unit_or_zero(self.sums[fan as usize]).as_vec3();
             give(corner, or_if_zero(of_fan, of_face));
@@ -151,12 +151,12 @@ impl<'a> VertexFans<'a> {
         self.fans.extend(0..self.corners.len() as u32);
         for edge in self.mesh.vertex_edges(vertex) {
             let Some(pair) = self.mesh.joined_corners(vertex, edge) else { continue };
-            let places: SmallVec<[u32; 2]> = pair
+            let indices: SmallVec<[u32; 2]> = pair
                 .iter()
                 .filter_map(|corner| self.corners.binary_search(corner).ok())
                 .map(|i| i as u32)
                 .collect();
-            if let [a, b] = places[..] {
+            if let [a, b] = indices[..] {
                 let (a, b) = (self.fan(a), self.fan(b));
                 self.fans[a.max(b) as usize] = a.min(b);
             }
@@ -164,14 +164,14 @@ impl<'a> VertexFans<'a> {
     }
 
     /// What stands for the fan of a corner: the first of them.
-    fn fan(&mut self, mut place: u32) -> u32 {
-        while self.fans[place as usize] != place {
+    fn fan(&mut self, mut index: u32) -> u32 {
+        while self.fans[index as usize] != index {
             // Halves the path for the next search.
-            let above = self.fans[self.fans[place as usize] as usize];
-            self.fans[place as usize] = above;
-            place = above;
+            let above = self.fans[self.fans[index as usize] as usize];
+            self.fans[index as usize] = above;
+            index = above;
         }
-        place
+        index
     }
 }
 

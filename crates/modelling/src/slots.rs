@@ -28,7 +28,7 @@ fn free_corner(next: u32) -> CornerRecord {
 
 /// How many elements of each kind an operation may add.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Room {
+pub(super) struct NewElements {
     pub(super) vertices: u64,
     pub(super) edges: u64,
     pub(super) corners: u64,
@@ -37,12 +37,12 @@ pub(super) struct Room {
 
 impl EditMesh {
     /// Refuses where indices could not name so many more elements.
-    pub(super) fn check_room_for(&self, room: Room) -> Result<(), Refusal> {
+    pub(super) fn check_capacity_for(&self, new: NewElements) -> Result<(), Refusal> {
         let totals = [
-            u64::from(self.vertices.len()) + room.vertices,
-            u64::from(self.edges.len()) + room.edges,
-            u64::from(self.corners.len()) + room.corners,
-            u64::from(self.faces.len()) + room.faces,
+            u64::from(self.vertices.len()) + new.vertices,
+            u64::from(self.edges.len()) + new.edges,
+            u64::from(self.corners.len()) + new.corners,
+            u64::from(self.faces.len()) + new.faces,
         ];
         // `NONE` is no index.
         if totals.into_iter().all(|total| total < u64::from(NONE)) { Ok(()) } else { Err(Refusal::TooMany) }

@@ -144,7 +144,7 @@ impl EditMesh {
     #[must_use]
     pub fn overflow(&self, difference: &Difference) -> Option<VertexId> {
         let before = difference.positions.as_ref()?;
-        self.positions.first_new_fault(before, |place| !place.is_finite()).map(VertexId::new)
+        self.positions.first_new_fault(before, |position| !position.is_finite()).map(VertexId::new)
     }
 }
 

@@ -86,7 +86,7 @@ impl Action for Symmetrize {
         let kind = change.selection().kind();
         change.edit_selected("symmetrizing", "at least one selected face", |mesh, selection| {
             let made = mesh.symmetrize(&selection.faces(mesh, kind), &plane, self.merge_distance)?;
-            let mut faces = made.kept;
+            let mut faces = made.retained;
             faces.extend(made.mirrored.faces);
             Ok(AfterEdit::Select(Elements::Faces(faces)))
         })?;

@@ -16,7 +16,7 @@ impl EditMesh {
     /// # Errors
     /// There are as many as indices can name.
     pub fn add_vertex(&mut self, position: Vec3) -> Result<VertexId, Refusal> {
-        self.check_room()?;
+        self.check_capacity()?;
         Ok(VertexId(self.new_vertex(position)))
     }
 
@@ -27,7 +27,7 @@ impl EditMesh {
     pub fn add_edge(&mut self, a: VertexId, b: VertexId) -> Result<EdgeId, Refusal> {
         self.check_vertex(a)?;
         self.check_vertex(b)?;
-        self.check_room()?;
+        self.check_capacity()?;
         if a == b {
             let reason = "an edge joins two different vertices";
             return Err(Refusal::NotPossible { operation: "adding an edge", reason });
@@ -56,7 +56,7 @@ impl EditMesh {
         for &vertex in vertices {
             self.check_vertex(vertex)?;
         }
-        self.check_room()?;
+        self.check_capacity()?;
         check_outline(vertices)?;
         Ok(self.face_of(vertices))
     }
@@ -95,15 +95,15 @@ impl EditMesh {
     }
 
     /// Whether there is room for some more elements; an operation that adds many asks for each.
-    pub(crate) fn check_room(&self) -> Result<(), Refusal> {
+    pub(crate) fn check_capacity(&self) -> Result<(), Refusal> {
         /// More than any single element can take: a split edge has a corner in each of its faces,
         /// a face a corner for each of its vertices, and lists of these are limited themselves.
         const MARGIN: usize = 1 << 20;
-        self.check_room_for_each(MARGIN)
+        self.check_capacity_for_each(MARGIN)
     }
 
     /// Whether there is room for so many more elements of each kind.
-    pub(crate) fn check_room_for_each(&self, more: usize) -> Result<(), Refusal> {
+    pub(crate) fn check_capacity_for_each(&self, more: usize) -> Result<(), Refusal> {
         let longest = self.corners.len().max(self.edges.len()).max(self.vertices.len());
         if more < (MOST - longest.min(MOST)) as usize { Ok(()) } else { Err(Refusal::TooMany) }
     }

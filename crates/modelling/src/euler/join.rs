@@ -89,8 +89,8 @@ impl EditMesh {
         let Some([one, two]) = self.edge_pair(edge) else {
             return refused("an edge between exactly two faces is needed");
         };
-        let (kept, gone) = (self.corner_face(one), self.corner_face(two));
-        if kept == gone {
+        let (retained, gone) = (self.corner_face(one), self.corner_face(two));
+        if retained == gone {
             return refused("both sides of the edge are the same face");
         }
         if self.corner_vertex(one) == self.corner_vertex(two) {
@@ -98,7 +98,7 @@ impl EditMesh {
         }
         let moved: Vec<CornerId> = self.face_corners(gone).collect();
         for corner in &moved {
-            self.corners.write(corner.0).face = kept.0;
+            self.corners.write(corner.0).face = retained.0;
         }
         let (before_one, after_one) = (self.corners[one.0].previous, self.corners[one.0].next);
         let (before_two, after_two) = (self.corners[two.0].previous, self.corners[two.0].next);
@@ -108,11 +108,11 @@ impl EditMesh {
             self.unlink_at_edge(corner.0);
             self.free_corner(corner.0);
         }
-        let record = self.faces.write(kept.0);
+        let record = self.faces.write(retained.0);
         record.size = record.size + moved.len() as u32 - 2;
         record.corner = after_one;
         self.free_face(gone.0);
         self.remove_edge(edge)?;
-        Ok(kept)
+        Ok(retained)
     }
 }

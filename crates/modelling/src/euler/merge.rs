@@ -19,7 +19,7 @@ impl Targets {
     /// What is in a vertex's place afterwards.
     #[inline]
     fn of(&self, vertex: VertexId) -> VertexId {
-        self.numbering.get(vertex.0).map_or(vertex, |place| self.pairs[place].1)
+        self.numbering.get(vertex.0).map_or(vertex, |index| self.pairs[index].1)
     }
 
     fn gone(&self) -> impl Iterator<Item = VertexId> + Clone + '_ {

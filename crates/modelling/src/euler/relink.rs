@@ -27,7 +27,7 @@ impl EditMesh {
         for &vertex in vertices {
             self.check_vertex(vertex)?;
         }
-        self.check_room()?;
+        self.check_capacity()?;
         if vertices.len() != self.face_size(face) {
             let reason = "a face needs one vertex for each of its corners";
             return Err(Refusal::NotPossible { operation: "giving a face other vertices", reason });

@@ -33,7 +33,7 @@ impl EditMesh {
     /// There is no such edge, or `t` is not within 0…1.
     pub fn split_edge(&mut self, edge: EdgeId, t: f64) -> Result<SplitEdge, Refusal> {
         self.check_edge(edge)?;
-        self.check_room()?;
+        self.check_capacity()?;
         if !(0.0..=1.0).contains(&t) {
             return Err(Refusal::OutOfRange {
                 parameter: "the position on the edge",
@@ -88,7 +88,7 @@ impl EditMesh {
     pub fn split_face(&mut self, from: CornerId, to: CornerId) -> Result<SplitFace, Refusal> {
         self.check_corner(from)?;
         self.check_corner(to)?;
-        self.check_room()?;
+        self.check_capacity()?;
         let refused = |reason| Err(Refusal::NotPossible { operation: "splitting a face", reason });
         if self.corner_face(from) != self.corner_face(to) {
             return refused("both corners must belong to the same face");

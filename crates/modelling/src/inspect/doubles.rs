@@ -34,12 +34,12 @@ impl EditMesh {
     /// id that is no double itself. Places that are not finite are not compared.
     #[must_use]
     pub fn doubled_vertices(&self, within: f64) -> Vec<DoubledVertex> {
-        let mut kept = KeptPlaces::new(within, self.vertex_count());
+        let mut grid = VertexGrid::new(within, self.vertex_count());
         let mut doubles = Vec::new();
         for vertex in self.vertices() {
-            let place = self.position(vertex);
-            if place.is_finite()
-                && let Some(of) = kept.find_or_keep(vertex, place)
+            let position = self.position(vertex);
+            if position.is_finite()
+                && let Some(of) = grid.find_or_insert(vertex, position)
             {
                 doubles.push(DoubledVertex { vertex, of });
             }
@@ -69,21 +69,21 @@ impl EditMesh {
 
 /// The places of vertices that are no doubles, by cells of space. The map is only looked into, never
 /// gone through, so that its order does not matter.
-struct KeptPlaces {
+struct VertexGrid {
     within: f64,
     /// A cell of twice the distance holds few of them, since they are farther from each other; and
     /// what is near a place is in one of eight cells.
     cells: HashMap<[u64; 3], SmallVec<[(VertexId, Vec3); 2]>>,
 }
 
-impl KeptPlaces {
+impl VertexGrid {
     fn new(within: f64, expected: usize) -> Self {
         Self { within: within.max(0.0), cells: HashMap::with_capacity(expected) }
     }
 
     /// The smallest vertex that was kept near a place, else keeps this one.
-    fn find_or_keep(&mut self, vertex: VertexId, place: Vec3) -> Option<VertexId> {
-        let wide = place.as_dvec3();
+    fn find_or_insert(&mut self, vertex: VertexId, position: Vec3) -> Option<VertexId> {
+        let wide = position.as_dvec3();
         let at = self.cell(wide);
         let mut found: Option<VertexId> = None;
         for cell in self.near_cells(wide) {
@@ -94,23 +94,23 @@ impl KeptPlaces {
             }
         }
         if found.is_none() {
-            self.cells.entry(at).or_default().push((vertex, place));
+            self.cells.entry(at).or_default().push((vertex, position));
         }
         found
     }
 
     /// Numbers as bits: no coordinate is too large for them.
-    fn cell(&self, place: DVec3) -> [u64; 3] {
+    fn cell(&self, position: DVec3) -> [u64; 3] {
         let size = 2.0 * self.within;
         // Adding zero makes −0 the same as 0.
         let number = |at: f64| if size > 0.0 { (at / size).floor() + 0.0 } else { at + 0.0 };
-        place.to_array().map(|at| number(at).to_bits())
+        position.to_array().map(|at| number(at).to_bits())
     }
 
     /// The cells that a sphere around a place reaches.
-    fn near_cells(&self, place: DVec3) -> SmallVec<[[u64; 3]; 8]> {
-        let low = self.cell(place - DVec3::splat(self.within));
-        let high = self.cell(place + DVec3::splat(self.within));
+    fn near_cells(&self, position: DVec3) -> SmallVec<[[u64; 3]; 8]> {
+        let low = self.cell(position - DVec3::splat(self.within));
+        let high = self.cell(position + DVec3::splat(self.within));
         let mut cells = SmallVec::new();
         for corner in 0..8u32 {
             let cell = [0, 1, 2].map(|axis| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] });

@@ -52,20 +52,20 @@ impl EditMesh {
     /// surface. Where two rims touch in a vertex each follows its own faces.
     #[must_use]
     pub fn boundary_loops(&self) -> Vec<BoundaryLoop> {
-        let mut seen = FixedBitSet::with_capacity(self.edge_capacity());
+        let mut visited = FixedBitSet::with_capacity(self.edge_capacity());
         let mut loops = Vec::new();
         for edge in self.edges().filter(|&edge| self.is_boundary(edge)) {
-            if seen.contains(edge.0 as usize) {
+            if visited.contains(edge.0 as usize) {
                 continue;
             }
             let [a, b] = self.edge_vertices(edge);
             let mut edges = vec![edge];
-            seen.insert(edge.0 as usize);
-            let is_closed = self.follow_boundary(edge, b, &mut edges, &mut seen);
+            visited.insert(edge.0 as usize);
+            let is_closed = self.follow_boundary(edge, b, &mut edges, &mut visited);
             if !is_closed {
                 // The other way from the first one.
                 edges.reverse();
-                self.follow_boundary(edge, a, &mut edges, &mut seen);
+                self.follow_boundary(edge, a, &mut edges, &mut visited);
             }
             loops.push(BoundaryLoop { edges, is_closed });
         }
@@ -78,14 +78,14 @@ impl EditMesh {
         first: EdgeId,
         end: VertexId,
         edges: &mut Vec<EdgeId>,
-        seen: &mut FixedBitSet,
+        visited: &mut FixedBitSet,
     ) -> bool {
         let (mut edge, mut vertex) = (first, end);
         while let Some(next) = self.next_boundary_edge(edge, vertex) {
             if next == first {
                 return true;
             }
-            if seen.put(next.0 as usize) {
+            if visited.put(next.0 as usize) {
                 // Never, as each step can be taken back; but a chain has to end.
                 return false;
             }

@@ -26,11 +26,11 @@ impl EditMesh {
     /// with the smallest face first.
     #[must_use]
     pub fn parts(&self) -> Vec<Vec<FaceId>> {
-        let mut seen_faces = FixedBitSet::with_capacity(self.face_capacity());
-        let mut seen_vertices = FixedBitSet::with_capacity(self.vertex_capacity());
+        let mut visited_faces = FixedBitSet::with_capacity(self.face_capacity());
+        let mut visited_vertices = FixedBitSet::with_capacity(self.vertex_capacity());
         let mut parts = Vec::new();
         for face in self.faces() {
-            if seen_faces.put(face.0 as usize) {
+            if visited_faces.put(face.0 as usize) {
                 continue;
             }
             let mut part = vec![face];
@@ -38,9 +38,9 @@ impl EditMesh {
             while let Some(&face) = part.get(next) {
                 next += 1;
                 for vertex in self.face_vertices(face) {
-                    if !seen_vertices.put(vertex.0 as usize) {
+                    if !visited_vertices.put(vertex.0 as usize) {
                         part.extend(
-                            self.vertex_faces(vertex).filter(|face| !seen_faces.put(face.0 as usize)),
+                            self.vertex_faces(vertex).filter(|face| !visited_faces.put(face.0 as usize)),
                         );
                     }
                 }

@@ -23,7 +23,7 @@ pub struct TouchingFaces {
 pub(super) struct FaceTriangle {
     pub(super) face: FaceId,
     pub(super) vertices: [VertexId; 3],
-    pub(super) places: [Vec3; 3],
+    pub(super) positions: [Vec3; 3],
 }
 
 impl EditMesh {
@@ -41,7 +41,7 @@ impl EditMesh {
         let is_complete = search.for_each_pair(|a, b| {
             if a.face != b.face
                 && !a.vertices.iter().any(|vertex| b.vertices.contains(vertex))
-                && triangles_touch(a.places.map(Vec3::as_dvec3), b.places.map(Vec3::as_dvec3))
+                && triangles_touch(a.positions.map(Vec3::as_dvec3), b.positions.map(Vec3::as_dvec3))
                 && !self.share_vertex(a.face, b.face)
             {
                 found.push([a.face.min(b.face), a.face.max(b.face)]);
@@ -62,25 +62,25 @@ impl EditMesh {
     /// The triangles of all faces that have an area.
     fn triangles(&self) -> Vec<FaceTriangle> {
         let mut triangulator = Triangulator::default();
-        let (mut vertices, mut places, mut cut) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut vertices, mut positions, mut cut) = (Vec::new(), Vec::new(), Vec::new());
         let mut triangles = Vec::with_capacity(2 * self.face_count());
         for face in self.faces() {
             vertices.clear();
             vertices.extend(self.face_vertices(face));
-            places.clear();
-            places.extend(vertices.iter().map(|&vertex| self.position(vertex)));
-            if !places.iter().all(|place| place.is_finite()) {
+            positions.clear();
+            positions.extend(vertices.iter().map(|&vertex| self.position(vertex)));
+            if !positions.iter().all(|position| position.is_finite()) {
                 continue;
             }
             cut.clear();
-            triangulator.polygon(&places, &mut cut);
+            triangulator.polygon(&positions, &mut cut);
             let triangle = |indices: &[u32; 3]| FaceTriangle {
                 face,
                 vertices: indices.map(|index| vertices[index as usize]),
-                places: indices.map(|index| places[index as usize]),
+                positions: indices.map(|index| positions[index as usize]),
             };
             triangles.extend(cut.iter().map(triangle).filter(|triangle| {
-                let [a, b, c] = triangle.places.map(Vec3::as_dvec3);
+                let [a, b, c] = triangle.positions.map(Vec3::as_dvec3);
                 (b - a).cross(c - a) != DVec3::ZERO
             }));
         }
@@ -148,7 +148,7 @@ mod tests {
                 for b in &triangles {
                     let apart = !mesh.share_vertex(a.face, b.face);
                     if a.face < b.face && apart
-                        && triangles_touch(a.places.map(Vec3::as_dvec3), b.places.map(Vec3::as_dvec3))
+                        && triangles_touch(a.positions.map(Vec3::as_dvec3), b.positions.map(Vec3::as_dvec3))
                     {
                         expected.push([a.face, b.face]);
                     }

@@ -34,9 +34,9 @@ fn build(triangles: &mut [FaceTriangle], boxes: &mut [[Vec3; 2]], node: usize) {
     let axis = (boxes[node][1] - boxes[node][0]).max_position();
     let middle = triangles.len() / 2;
     // The first corner stands for a triangle well enough; ids decide where it is shared.
-    let place = |triangle: &FaceTriangle| triangle.places[0][axis];
+    let coordinate = |triangle: &FaceTriangle| triangle.positions[0][axis];
     triangles.select_nth_unstable_by(middle, |a, b| {
-        place(a).total_cmp(&place(b)).then(a.face.cmp(&b.face)).then(a.vertices.cmp(&b.vertices))
+        coordinate(a).total_cmp(&coordinate(b)).then(a.face.cmp(&b.face)).then(a.vertices.cmp(&b.vertices))
     });
     let (first, second) = triangles.split_at_mut(middle);
     build(first, boxes, 2 * node + 1);
@@ -44,7 +44,7 @@ fn build(triangles: &mut [FaceTriangle], boxes: &mut [[Vec3; 2]], node: usize) {
 }
 
 fn box_of(triangle: &FaceTriangle) -> [Vec3; 2] {
-    let [a, b, c] = triangle.places;
+    let [a, b, c] = triangle.positions;
     [a.min(b).min(c), a.max(b).max(c)]
 }
 

@@ -55,13 +55,13 @@ fn line_meets(from: DVec3, to: DVec3, triangle: Triangle) -> bool {
 }
 
 /// Drops the coordinate along which a triangle is seen largest.
-fn flat(seen: Triangle) -> impl Fn(DVec3) -> DVec2 {
-    let [a, b, c] = seen;
+fn flat(viewed: Triangle) -> impl Fn(DVec3) -> DVec2 {
+    let [a, b, c] = viewed;
     let axis = (b - a).cross(c - a).abs().max_position();
-    move |place| match axis {
-        0 => DVec2::new(place.y, place.z),
-        1 => DVec2::new(place.z, place.x),
-        _ => DVec2::new(place.x, place.y),
+    move |point| match axis {
+        0 => DVec2::new(point.y, point.z),
+        1 => DVec2::new(point.z, point.x),
+        _ => DVec2::new(point.x, point.y),
     }
 }
 

@@ -73,21 +73,21 @@ impl EditMesh {
     /// given twice only the last has one.
     pub(crate) fn vertex_normals(&self, vertices: &[VertexId]) -> Vec<DVec3> {
         // By vertex, one more than its place in the list.
-        let mut places = vec![0u32; self.vertex_capacity()];
-        for (place, vertex) in (1..).zip(vertices) {
-            places[vertex.0 as usize] = place;
+        let mut numbers = vec![0u32; self.vertex_capacity()];
+        for (number, vertex) in (1..).zip(vertices) {
+            numbers[vertex.0 as usize] = number;
         }
         let mut sums = vec![DVec3::ZERO; vertices.len()];
-        let mut seen = FixedBitSet::with_capacity(self.face_capacity());
+        let mut visited = FixedBitSet::with_capacity(self.face_capacity());
         for face in vertices.iter().flat_map(|&vertex| self.vertex_faces(vertex)) {
-            if seen.put(face.0 as usize) {
+            if visited.put(face.0 as usize) {
                 continue;
             }
             let normal = self.face_normal(face);
             for corner in self.face_corners(face) {
-                let place = places[self.corner_vertex(corner).0 as usize];
-                if place != 0 {
-                    sums[place as usize - 1] += normal * self.corner_angle(corner);
+                let number = numbers[self.corner_vertex(corner).0 as usize];
+                if number != 0 {
+                    sums[number as usize - 1] += normal * self.corner_angle(corner);
                 }
             }
         }

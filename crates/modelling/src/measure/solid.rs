@@ -53,15 +53,15 @@ impl EditMesh {
         let origin = self.origin();
         let (mut volume, mut moment) = (0.0, DVec3::ZERO);
         for face in self.faces() {
-            let mut places = self.face_vertices(face).map(|vertex| self.point(vertex) - origin);
-            let (Some(first), Some(mut last)) = (places.next(), places.next()) else { continue };
-            for place in places {
+            let mut positions = self.face_vertices(face).map(|vertex| self.point(vertex) - origin);
+            let (Some(first), Some(mut last)) = (positions.next(), positions.next()) else { continue };
+            for position in positions {
                 // The tetrahedron of the origin and a triangle of the face's fan. Its centre is a quarter of
                 // the sum of its corners.
-                let part = first.dot(last.cross(place)) / 6.0;
+                let part = first.dot(last.cross(position)) / 6.0;
                 volume += part;
-                moment += (first + last + place) * (part / 4.0);
-                last = place;
+                moment += (first + last + position) * (part / 4.0);
+                last = position;
             }
         }
         (volume, moment)

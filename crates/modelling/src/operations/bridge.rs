@@ -114,7 +114,7 @@ impl EditMesh {
         let outwards: f64 = pieces
             .iter()
             .map(|piece| {
-                let points = || piece.iter().map(|&place| self.point(rows.vertices[place as usize]) - middle);
+                let points = || piece.iter().map(|&index| self.point(rows.vertices[index as usize]) - middle);
                 area_vector(points()).dot(points().sum())
             })
             .sum();
@@ -122,14 +122,14 @@ impl EditMesh {
     }
 
     fn add_piece(&mut self, piece: &[u32], rows: &Rows, filled: &mut Filled) -> Result<(), Refusal> {
-        let vertices: Vec<VertexId> = piece.iter().map(|&place| rows.vertices[place as usize]).collect();
+        let vertices: Vec<VertexId> = piece.iter().map(|&index| rows.vertices[index as usize]).collect();
         for (i, &vertex) in vertices.iter().enumerate() {
             self.join_new(vertex, vertices[(i + 1) % vertices.len()], &mut filled.edges);
         }
         let face: FaceId = self.add_face(&vertices)?;
         let corners: Vec<CornerId> = self.face_corners(face).collect();
-        for (&corner, &place) in corners.iter().zip(piece) {
-            if let Some(source) = rows.sources[place as usize] {
+        for (&corner, &index) in corners.iter().zip(piece) {
+            if let Some(source) = rows.sources[index as usize] {
                 self.copy_corner(source, corner);
             }
         }
@@ -143,16 +143,16 @@ impl EditMesh {
 fn cost_across(from: &[DVec3], to: &[DVec3], start: usize, is_closed: bool) -> f64 {
     /// Comparing this many positions aligns a loop of any length in time proportional to it.
     const MOST: usize = 64;
-    let places = from.len().max(to.len()).min(MOST);
-    let place = |count: usize, i: usize| match is_closed {
-        true => i * count / places,
-        false => i * (count - 1) / (places - 1).max(1),
+    let sample_count = from.len().max(to.len()).min(MOST);
+    let sample = |count: usize, i: usize| match is_closed {
+        true => i * count / sample_count,
+        false => i * (count - 1) / (sample_count - 1).max(1),
     };
     let squared = |i: usize| {
-        let other = to[(start + place(to.len(), i)) % to.len()];
-        from[place(from.len(), i)].distance_squared(other)
+        let other = to[(start + sample(to.len(), i)) % to.len()];
+        from[sample(from.len(), i)].distance_squared(other)
     };
-    (0..places).map(squared).sum()
+    (0..sample_count).map(squared).sum()
 }
 
 #[cfg(test)]

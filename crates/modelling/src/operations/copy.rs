@@ -37,17 +37,17 @@ impl Elements {
     ) -> Self {
         let corners: usize = faces.iter().map(|&face| mesh.face_size(face)).sum();
         let expected = corners + 2 * edges.len() + vertices.len();
-        let mut seen_faces = IndexSet::new(mesh.face_capacity(), faces.len());
-        let mut seen_edges = IndexSet::new(mesh.edge_capacity(), expected);
-        let mut seen_vertices = IndexSet::new(mesh.vertex_capacity(), expected);
+        let mut listed_faces = IndexSet::new(mesh.face_capacity(), faces.len());
+        let mut listed_edges = IndexSet::new(mesh.edge_capacity(), expected);
+        let mut listed_vertices = IndexSet::new(mesh.vertex_capacity(), expected);
         let mut elements = Self::default();
-        elements.faces.extend(faces.iter().copied().filter(|face| seen_faces.insert(face.0)));
+        elements.faces.extend(faces.iter().copied().filter(|face| listed_faces.insert(face.0)));
         let of_faces = elements.faces.iter().flat_map(|&face| mesh.face_edges(face));
         let all_edges = of_faces.chain(edges.iter().copied());
-        elements.edges.extend(all_edges.filter(|edge| seen_edges.insert(edge.0)));
+        elements.edges.extend(all_edges.filter(|edge| listed_edges.insert(edge.0)));
         let of_edges = elements.edges.iter().flat_map(|&edge| mesh.edge_vertices(edge));
         let all_vertices = of_edges.chain(vertices.iter().copied());
-        elements.vertices.extend(all_vertices.filter(|vertex| seen_vertices.insert(vertex.0)));
+        elements.vertices.extend(all_vertices.filter(|vertex| listed_vertices.insert(vertex.0)));
         elements.faces.sort_unstable();
         elements.edges.sort_unstable();
         elements.vertices.sort_unstable();
@@ -183,11 +183,11 @@ fn copy_values(to: &mut [Layer], from: &[Layer], pairs: &[Option<usize>], [sourc
 /// corresponds to each own one.
 fn unite_layers(own: &mut Vec<Layer>, other: &[Layer], length: u32) -> Vec<Option<usize>> {
     let mut pairs: Vec<Option<usize>> = vec![None; own.len()];
-    for (place, layer) in other.iter().enumerate() {
+    for (number, layer) in other.iter().enumerate() {
         // Sets of texture coordinates correspond by order.
         let same = |slot: &usize| own[*slot].kind == layer.kind && pairs[*slot].is_none();
         if let Some(slot) = (0..own.len()).find(same) {
-            pairs[slot] = Some(place);
+            pairs[slot] = Some(number);
             continue;
         }
         let mut added = layer.empty_like();
@@ -196,7 +196,7 @@ fn unite_layers(own: &mut Vec<Layer>, other: &[Layer], length: u32) -> Vec<Optio
             added.set_usual(index);
         }
         own.push(added);
-        pairs.push(Some(place));
+        pairs.push(Some(number));
     }
     pairs
 }

@@ -37,7 +37,7 @@ impl EditMesh {
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
         faces.iter().try_for_each(|&face| self.check_face(face))?;
         let part = self.part(&Elements::with_parts(self, vertices, edges, faces));
-        self.check_room_for_each(part.corner_count().max(part.edge_count()).max(part.vertex_count()))?;
+        self.check_capacity_for_each(part.corner_count().max(part.edge_count()).max(part.vertex_count()))?;
         Ok(self.append(&part))
     }
 }
@@ -83,8 +83,8 @@ mod tests {
             prop_assert_eq!(keeps_affine_values(&mesh), Ok(()));
             prop_assert_eq!(copy.faces.len(), faces.len());
             for (&original, &copied) in faces.iter().zip(&copy.faces) {
-                let places = |face| mesh.face_vertices(face).map(|vertex| mesh.position(vertex));
-                prop_assert!(places(original).eq(places(copied)), "the same outline");
+                let positions = |face| mesh.face_vertices(face).map(|vertex| mesh.position(vertex));
+                prop_assert!(positions(original).eq(positions(copied)), "the same outline");
                 let is_new = mesh.face_vertices(copied).all(|vertex| copy.vertices.contains(&vertex));
                 prop_assert!(is_new, "joined to copies alone");
             }

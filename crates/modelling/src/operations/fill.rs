@@ -166,9 +166,12 @@ mod tests {
         [mesh.vertex_count(), mesh.edge_count(), mesh.face_count()]
     }
 
-    fn points(places: &[[f32; 3]]) -> (EditMesh, Vec<VertexId>) {
+    fn points(positions: &[[f32; 3]]) -> (EditMesh, Vec<VertexId>) {
         let mut mesh = EditMesh::new();
-        let v = places.iter().map(|&place| mesh.add_vertex(Vec3::from_array(place)).expect("room")).collect();
+        let v = positions
+            .iter()
+            .map(|&position| mesh.add_vertex(Vec3::from_array(position)).expect("room"))
+            .collect();
         (mesh, v)
     }
 
@@ -205,13 +208,13 @@ mod tests {
 
     #[test]
     fn vertices_become_an_edge_a_triangle_a_quad_and_a_polygon() {
-        let places = [[0.0; 3], [2.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 3.0, 0.0]];
-        let (mut mesh, v) = points(&places);
+        let positions = [[0.0; 3], [2.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 3.0, 0.0]];
+        let (mut mesh, v) = points(&positions);
         assert_eq!(mesh.fill_vertices(&v[..2]).expect("two").edges.len(), 1, "an edge");
         assert!(mesh.fill_vertices(&v[..2]).is_err(), "it is there");
         assert!(mesh.fill_vertices(&v[..1]).is_err(), "too few");
         for (count, area) in [(3, 2.0), (4, 4.0), (5, 5.0)] {
-            let (mut mesh, v) = points(&places);
+            let (mut mesh, v) = points(&positions);
             let filled = mesh.fill_vertices(&v[..count]).expect("a face");
             assert_eq!((filled.faces.len(), filled.edges.len()), (1, count), "{count} vertices");
             let normal = area_vector(mesh.face_vertices(FaceId(0)).map(|vertex| mesh.point(vertex)));

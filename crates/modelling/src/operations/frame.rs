@@ -18,7 +18,7 @@ const HEAVIEST: f64 = 64.0;
 #[derive(Default)]
 pub(super) struct FaceFrame {
     pub(super) corners: Vec<CornerId>,
-    pub(super) places: Vec<DVec3>,
+    pub(super) positions: Vec<DVec3>,
     /// Of unit length; zero where the face has no area or is not finite.
     pub(super) normal: DVec3,
     /// The positions in the plane.
@@ -33,22 +33,22 @@ impl FaceFrame {
     pub(super) fn load(&mut self, mesh: &EditMesh, face: FaceId) {
         self.corners.clear();
         self.corners.extend(mesh.face_corners(face));
-        self.places.clear();
-        self.places.extend(self.corners.iter().map(|&corner| mesh.point(mesh.corner_vertex(corner))));
-        self.normal = unit_or_zero(area_vector(self.places.iter().copied()));
+        self.positions.clear();
+        self.positions.extend(self.corners.iter().map(|&corner| mesh.point(mesh.corner_vertex(corner))));
+        self.normal = unit_or_zero(area_vector(self.positions.iter().copied()));
         self.axes = plane_axes(self.normal);
         self.flat.clear();
-        let Self { places, flat, axes, .. } = self;
-        let origin = places[0];
-        flat.extend(places.iter().map(|&place| flatten(place - origin, axes)));
+        let Self { positions, flat, axes, .. } = self;
+        let origin = positions[0];
+        flat.extend(positions.iter().map(|&position| flatten(position - origin, axes)));
         self.span = None;
     }
 
     /// The unit vector in the plane pointing inwards from an edge, which runs from the corner of this number
     /// to the next; zero if the edge has no direction.
     pub(super) fn inward(&self, index: usize) -> DVec3 {
-        let next = self.places[(index + 1) % self.places.len()];
-        unit_or_zero(self.normal.cross(next - self.places[index]))
+        let next = self.positions[(index + 1) % self.positions.len()];
+        unit_or_zero(self.normal.cross(next - self.positions[index]))
     }
 
     /// Writes the weights of corners, by their numbers, for a position in the plane, which the content of the
@@ -59,8 +59,8 @@ impl FaceFrame {
     /// value coordinates", 2003; Kai Hormann and Floater, "Mean value coordinates for arbitrary planar
     /// polygons", 2006). Elsewhere the value at the corner changes with the slope between three corners of
     /// the face.
-    pub(super) fn weights(&mut self, from: usize, place: DVec3, weights: &mut Vec<(usize, f64)>) {
-        let at = flatten(place - self.places[0], &self.axes);
+    pub(super) fn weights(&mut self, from: usize, position: DVec3, weights: &mut Vec<(usize, f64)>) {
+        let at = flatten(position - self.positions[0], &self.axes);
         if at == self.flat[from] || self.normal == DVec3::ZERO {
             weights.clear();
             weights.push((from, 1.0));
@@ -177,7 +177,7 @@ mod tests {
         #[test]
         fn weights_are_exact_for_affine_functions(
             outline in prop::collection::vec((-8i8..8, -8i8..8), 3..40),
-            place in (-8.0f64..8.0, -8.0f64..8.0),
+            position in (-8.0f64..8.0, -8.0f64..8.0),
             from in any::<prop::sample::Index>(),
         ) {
             let outline: Vec<Vec3> =
@@ -185,14 +185,14 @@ mod tests {
             let mut frame = frame_of(&outline);
             // Figures of eight have areas that cancel out; then nothing moves.
             prop_assume!(frame.normal != DVec3::ZERO);
-            let place = DVec3::new(place.0, place.1, 1.0);
+            let position = DVec3::new(position.0, position.1, 1.0);
             let mut weights = Vec::new();
-            frame.weights(from.index(outline.len()), place, &mut weights);
+            frame.weights(from.index(outline.len()), position, &mut weights);
             let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
-            let mixed = weights.iter().fold(DVec3::ZERO, |sum, &(i, weight)| sum + frame.places[i] * weight);
+            let mixed = weights.iter().fold(DVec3::ZERO, |sum, &(i, weight)| sum + frame.positions[i] * weight);
             // Weights up to 64 of some dozen corners lose three of sixteen digits.
             prop_assert!((sum - 1.0).abs() < 1e-10, "sum {}", sum);
-            prop_assert!(mixed.abs_diff_eq(place, 1e-9), "{} for {}", mixed, place);
+            prop_assert!(mixed.abs_diff_eq(position, 1e-9), "{} for {}", mixed, position);
         }
     }
 

@@ -8,7 +8,7 @@ use super::outlines::Chain;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, VertexId};
 use crate::refusal::Refusal;
-use crate::slots::Room;
+use crate::slots::NewElements;
 
 const FILLING: &str = "filling with a grid";
 
@@ -33,14 +33,14 @@ impl Grid<'_> {
     /// The index in the loop of a border point.
     fn on_border(&self, column: usize, row: usize) -> Option<usize> {
         let (columns, rows) = (self.columns, self.rows);
-        let place = match (column, row) {
+        let index = match (column, row) {
             (column, 0) => column,
             (column, row) if column == columns => columns + row,
             (column, row) if row == rows => 2 * columns + rows - column,
             (0, row) => 2 * columns + 2 * rows - row,
             _ => return None,
         };
-        Some(place % self.border.len())
+        Some(index % self.border.len())
     }
 
     /// Weights of border points for an inner point: the bilinearly blended patch of S. A. Coons
@@ -92,7 +92,12 @@ impl EditMesh {
         }
         let rows = count / 2 - columns;
         let area = columns as u64 * rows as u64;
-        self.check_room_for(Room { vertices: area, edges: 2 * area, corners: 4 * area, faces: area })?;
+        self.check_capacity_for(NewElements {
+            vertices: area,
+            edges: 2 * area,
+            corners: 4 * area,
+            faces: area,
+        })?;
         let mut chain = chain.clone();
         chain.vertices.rotate_left(sides.offset % count);
         let is_reversed = self.is_wound_against(&chain);
@@ -129,11 +134,11 @@ impl EditMesh {
         let at = |column: usize, row: usize| points[row * (grid.columns + 1) + column];
         for row in 0..grid.rows {
             for column in 0..grid.columns {
-                let mut places = [(column, row), (column + 1, row), (column + 1, row + 1), (column, row + 1)];
+                let mut cells = [(column, row), (column + 1, row), (column + 1, row + 1), (column, row + 1)];
                 if is_reversed {
-                    places.reverse();
+                    cells.reverse();
                 }
-                let vertices = places.map(|(column, row)| at(column, row));
+                let vertices = cells.map(|(column, row)| at(column, row));
                 for i in 0..4 {
                     self.join_new(vertices[i], vertices[(i + 1) % 4], &mut filled.edges);
                 }
@@ -141,12 +146,12 @@ impl EditMesh {
                 filled.faces.push(face);
                 let Some(sources) = sources else { continue };
                 let corners: Vec<CornerId> = self.face_corners(face).collect();
-                for (corner, (column, row)) in corners.into_iter().zip(places) {
+                for (corner, (column, row)) in corners.into_iter().zip(cells) {
                     match grid.on_border(column, row) {
-                        Some(place) => self.copy_corner(sources[place], corner),
+                        Some(index) => self.copy_corner(sources[index], corner),
                         None => {
                             let parts = grid.weights(column, row);
-                            self.blend_corner(&parts.map(|(place, weight)| (sources[place], weight)), corner);
+                            self.blend_corner(&parts.map(|(index, weight)| (sources[index], weight)), corner);
                         }
                     }
                 }
@@ -160,11 +165,11 @@ impl EditMesh {
         let mut points = Vec::with_capacity((grid.columns + 1) * (grid.rows + 1));
         for row in 0..=grid.rows {
             for column in 0..=grid.columns {
-                if let Some(place) = grid.on_border(column, row) {
-                    points.push(grid.border[place]);
+                if let Some(index) = grid.on_border(column, row) {
+                    points.push(grid.border[index]);
                     continue;
                 }
-                let parts = grid.weights(column, row).map(|(place, weight)| (grid.border[place], weight));
+                let parts = grid.weights(column, row).map(|(index, weight)| (grid.border[index], weight));
                 let position: DVec3 = parts.iter().map(|&(vertex, weight)| self.point(vertex) * weight).sum();
                 let vertex = self.add_vertex(position.as_vec3())?;
                 self.blend_vertex(&parts, vertex);

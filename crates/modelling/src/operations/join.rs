@@ -20,7 +20,7 @@ impl EditMesh {
     /// # Errors
     /// There would be too many elements.
     pub fn join_mesh(&mut self, other: &Self, transform: &DAffine3) -> Result<CopiedElements, Refusal> {
-        self.check_room_for_each(other.corner_count().max(other.edge_count()).max(other.vertex_count()))?;
+        self.check_capacity_for_each(other.corner_count().max(other.edge_count()).max(other.vertex_count()))?;
         if *transform == DAffine3::IDENTITY {
             return Ok(self.append(other));
         }
@@ -37,8 +37,8 @@ impl EditMesh {
     /// mirroring transform.
     fn bake(&mut self, transform: &DAffine3) {
         for column in [&mut self.positions, &mut self.first_positions] {
-            for place in column.write_all() {
-                *place = transform.transform_point3(place.as_dvec3()).as_vec3();
+            for position in column.write_all() {
+                *position = transform.transform_point3(position.as_dvec3()).as_vec3();
             }
         }
         let matrix = transform.matrix3;

@@ -76,9 +76,9 @@ impl EditMesh {
         let from = border.inner;
         let to = self.next_corner(from);
         let [(a, base_a, hinge_a), (b, base_b, hinge_b)] = [from, to].map(|corner| {
-            let place = splits.place(self.corner_vertex(corner)).expect("the border was split");
-            let SplitVertex { cap, base } = splits.list[place];
-            let hinge = *hinges[place].get_or_insert_with(|| self.fresh_edge(base, cap));
+            let index = splits.index_of(self.corner_vertex(corner)).expect("the border was split");
+            let SplitVertex { cap, base } = splits.list[index];
+            let hinge = *hinges[index].get_or_insert_with(|| self.fresh_edge(base, cap));
             (cap, base, hinge)
         });
         let outline = [(base_a, base_edge), (base_b, hinge_b), (b, border.edge), (a, hinge_a)];
@@ -154,7 +154,7 @@ impl EditMesh {
     /// Lifts one face that visits each of its vertices once: the face gets new vertices at the given
     /// positions, one for each corner, and the rest keeps the old ones. The corners of the walls have no
     /// values yet.
-    pub(super) fn lift_face(&mut self, face: FaceId, places: &[DVec3], lifted: &mut LiftedFaces) {
+    pub(super) fn lift_face(&mut self, face: FaceId, positions: &[DVec3], lifted: &mut LiftedFaces) {
         let LiftedFaces { walls, vertices, corners, old, new_edges, hinges } = lifted;
         corners.clear();
         corners.extend(self.face_corners(face));
@@ -162,9 +162,9 @@ impl EditMesh {
         old.extend(corners.iter().map(|&corner| (self.corner_vertex(corner), self.corner_edge(corner))));
         let count = corners.len();
         let first = vertices.len();
-        for (&(vertex, _), place) in old.iter().zip(places) {
+        for (&(vertex, _), position) in old.iter().zip(positions) {
             let lifted = self.twin_vertex(vertex);
-            *self.positions.write(lifted.0) = place.as_vec3();
+            *self.positions.write(lifted.0) = position.as_vec3();
             vertices.push(lifted);
         }
         let caps = &vertices[first..];
@@ -227,9 +227,9 @@ impl EditMesh {
     /// For each vertex of a region the angle-weighted mean of the region's normals there; zero if
     /// it has no direction.
     pub(super) fn region_normals(&self, region: &Region, vertices: &[VertexId]) -> Vec<DVec3> {
-        let mut places = IndexTable::new(self.vertex_capacity(), vertices.len());
-        for (place, vertex) in (0..).zip(vertices) {
-            places.insert(vertex.0, place);
+        let mut indices = IndexTable::new(self.vertex_capacity(), vertices.len());
+        for (index, vertex) in (0..).zip(vertices) {
+            indices.insert(vertex.0, index);
         }
         let mut sums = vec![DVec3::ZERO; vertices.len()];
         for &face in &region.faces {
@@ -238,8 +238,8 @@ impl EditMesh {
                 let point = |corner| self.point(self.corner_vertex(corner));
                 let here = point(corner);
                 let [back, ahead] = [self.previous_corner(corner), self.next_corner(corner)].map(point);
-                let place = places.get(self.corner_vertex(corner).0);
-                sums[place.expect("all are listed") as usize] += normal * angle(back - here, ahead - here);
+                let index = indices.get(self.corner_vertex(corner).0);
+                sums[index.expect("all are listed") as usize] += normal * angle(back - here, ahead - here);
             }
         }
         sums.into_iter().map(unit_or_zero).collect()

@@ -108,25 +108,34 @@ impl EditMesh {
             return Err(Refusal::OutOfRange { parameter, value: position, range });
         }
         let ring = self.ring_of_quads(edge)?;
-        let places: Vec<f64> = (1..=cuts).map(|k| (k as f64 + position) / (cuts + 1) as f64).collect();
-        let places: Vec<Vec<f64>> =
-            ring.rungs.iter().map(|rung| self.places_on(rung.edge, edge, &places, settings)).collect();
-        self.whole(|mesh| mesh.cut_ring_of_quads(&ring, &places))
+        let parameters: Vec<f64> = (1..=cuts).map(|k| (k as f64 + position) / (cuts + 1) as f64).collect();
+        let parameters: Vec<Vec<f64>> = ring
+            .rungs
+            .iter()
+            .map(|rung| self.parameters_on(rung.edge, edge, &parameters, settings))
+            .collect();
+        self.whole(|mesh| mesh.cut_ring_of_quads(&ring, &parameters))
     }
 
     /// The positions of cuts on an edge of a ring, as fractions of its length, given those on the ring's
     /// first edge.
-    fn places_on(&self, edge: EdgeId, first: EdgeId, places: &[f64], settings: &LoopCutSettings) -> Vec<f64> {
+    fn parameters_on(
+        &self,
+        edge: EdgeId,
+        first: EdgeId,
+        parameters: &[f64],
+        settings: &LoopCutSettings,
+    ) -> Vec<f64> {
         let ratio = self.edge_length(first) / self.edge_length(edge);
         if !settings.even || !ratio.is_finite() {
-            return places.to_vec();
+            return parameters.to_vec();
         }
-        let place = |place: f64| match settings.flipped {
-            false => place * ratio,
-            true => 1.0 - (1.0 - place) * ratio,
+        let from_edge_end = |parameter: f64| match settings.flipped {
+            false => parameter * ratio,
+            true => 1.0 - (1.0 - parameter) * ratio,
         };
         // A shorter edge has no room for the distance.
-        places.iter().map(|&of_first| place(of_first).clamp(0.0, 1.0)).collect()
+        parameters.iter().map(|&of_first| from_edge_end(of_first).clamp(0.0, 1.0)).collect()
     }
 
     /// The ring of an existing edge.
@@ -195,11 +204,11 @@ impl EditMesh {
     }
 
     /// Cuts a ring at positions on each of its edges, the same number on each.
-    fn cut_ring_of_quads(&mut self, ring: &EdgeRing, places: &[Vec<f64>]) -> Result<LoopCut, Refusal> {
-        let cuts = places.first().map_or(0, Vec::len);
+    fn cut_ring_of_quads(&mut self, ring: &EdgeRing, parameters: &[Vec<f64>]) -> Result<LoopCut, Refusal> {
+        let cuts = parameters.first().map_or(0, Vec::len);
         let mut vertices = Vec::with_capacity(ring.rungs.len() * cuts);
-        for (rung, places) in ring.rungs.iter().zip(places) {
-            vertices.extend(self.cut_rung(rung.edge, rung.from, places)?);
+        for (rung, parameters) in ring.rungs.iter().zip(parameters) {
+            vertices.extend(self.cut_rung(rung.edge, rung.from, parameters)?);
         }
         let mut edges = Vec::with_capacity(ring.crossings.len() * cuts);
         for crossing in &ring.crossings {
@@ -213,35 +222,35 @@ impl EditMesh {
         &mut self,
         edge: EdgeId,
         from: VertexId,
-        places: &[f64],
+        parameters: &[f64],
     ) -> Result<Vertices, Refusal> {
         let [first, second] = self.edge_vertices(edge);
-        let mut places: SmallVec<[f64; 8]> = places.into();
+        let mut parameters: SmallVec<[f64; 8]> = parameters.into();
         if from != first {
             // Counted from the other end, the last cut is the first.
-            places.reverse();
-            places.iter_mut().for_each(|place| *place = 1.0 - *place);
+            parameters.reverse();
+            parameters.iter_mut().for_each(|parameter| *parameter = 1.0 - *parameter);
         }
         let sides: SmallVec<[CornerId; 4]> = self.edge_corners(edge).collect();
         let ends: SmallVec<[CornerId; 4]> = sides.iter().map(|&side| self.next_corner(side)).collect();
         let (mut rest, mut before) = (edge, 0.0);
         let mut vertices = Vertices::new();
-        for &place in &places {
-            let t: f64 = if before < 1.0 { (place - before) / (1.0 - before) } else { 0.0 };
+        for &parameter in &parameters {
+            let t: f64 = if before < 1.0 { (parameter - before) / (1.0 - before) } else { 0.0 };
             let split = self.split_edge(rest, t.clamp(0.0, 1.0))?;
-            (rest, before) = (split.edge, place);
+            (rest, before) = (split.edge, parameter);
             vertices.push(split.vertex);
         }
         if vertices.len() > 1 {
             // The splits have rounded one after the other: now each vertex gets its values from the
             // ends.
-            for (&vertex, &t) in vertices.iter().zip(&places) {
+            for (&vertex, &t) in vertices.iter().zip(&parameters) {
                 let position = self.point(first) * (1.0 - t) + self.point(second) * t;
                 self.set_position(vertex, position.as_vec3());
                 self.blend_vertex(&[(first, 1.0 - t), (second, t)], vertex);
             }
             for (&side, &end) in sides.iter().zip(&ends) {
-                self.blend_rung(side, end, &vertices, &places);
+                self.blend_rung(side, end, &vertices, &parameters);
             }
         }
         if from != first {
@@ -252,11 +261,11 @@ impl EditMesh {
 
     /// Gives the corners between two corners of a face values at fractions between the edge's first
     /// and second vertex.
-    fn blend_rung(&mut self, side: CornerId, end: CornerId, vertices: &[VertexId], places: &[f64]) {
+    fn blend_rung(&mut self, side: CornerId, end: CornerId, vertices: &[VertexId], parameters: &[f64]) {
         let mut corner = self.next_corner(side);
         let is_forward = self.corner_vertex(corner) == vertices[0];
-        for i in 0..places.len() {
-            let t = if is_forward { places[i] } else { 1.0 - places[places.len() - 1 - i] };
+        for i in 0..parameters.len() {
+            let t = if is_forward { parameters[i] } else { 1.0 - parameters[parameters.len() - 1 - i] };
             self.blend_corner(&[(side, 1.0 - t), (end, t)], corner);
             corner = self.next_corner(corner);
         }

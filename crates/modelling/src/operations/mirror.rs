@@ -49,11 +49,11 @@ impl EditMesh {
     fn faces_within(&self, vertices: &[VertexId]) -> Vec<FaceId> {
         let mut is_given = FixedBitSet::with_capacity(self.vertex_capacity());
         vertices.iter().for_each(|vertex| is_given.insert(vertex.0 as usize));
-        let mut seen = FixedBitSet::with_capacity(self.face_capacity());
+        let mut visited = FixedBitSet::with_capacity(self.face_capacity());
         let faces = vertices.iter().flat_map(|&vertex| self.vertex_faces(vertex));
         let is_within =
             |face: FaceId| self.face_vertices(face).all(|vertex| is_given.contains(vertex.0 as usize));
-        faces.filter(|face| !seen.put(face.0 as usize)).filter(|&face| is_within(face)).collect()
+        faces.filter(|face| !visited.put(face.0 as usize)).filter(|&face| is_within(face)).collect()
     }
 
     /// Adds a mirrored copy of faces, with their edges and vertices, and of other given edges.
@@ -90,8 +90,8 @@ impl EditMesh {
 
     /// Moves a vertex onto a plane.
     pub(super) fn snap_to_plane(&mut self, vertex: VertexId, plane: &Plane) {
-        let place = self.point(vertex);
-        let onto = place - plane.normal() * plane.signed_distance(place);
+        let point = self.point(vertex);
+        let onto = point - plane.normal() * plane.signed_distance(point);
         self.set_position(vertex, onto.as_vec3());
     }
 
@@ -129,7 +129,7 @@ struct Copy<'a> {
     plane: &'a Plane,
     /// For each old vertex, one more than the index of its copy; 0 without one.
     copies: Vec<u32>,
-    seen_edges: FixedBitSet,
+    visited_edges: FixedBitSet,
     made: Mirrored,
 }
 
@@ -142,14 +142,14 @@ impl<'a> Copy<'a> {
         is_shared: impl Fn(&EditMesh, VertexId) -> bool,
     ) -> Result<Mirrored, Refusal> {
         let copies = vec![0; mesh.vertex_capacity()];
-        let seen_edges = FixedBitSet::with_capacity(mesh.edge_capacity());
-        let mut seen_faces = FixedBitSet::with_capacity(mesh.face_capacity());
-        let mut copy = Self { mesh, plane, copies, seen_edges, made: Mirrored::default() };
+        let visited_edges = FixedBitSet::with_capacity(mesh.edge_capacity());
+        let mut visited_faces = FixedBitSet::with_capacity(mesh.face_capacity());
+        let mut copy = Self { mesh, plane, copies, visited_edges, made: Mirrored::default() };
         for &edge in edges {
             copy.edge(edge, &is_shared)?;
         }
         for &face in faces {
-            if !seen_faces.put(face.0 as usize) {
+            if !visited_faces.put(face.0 as usize) {
                 copy.face(face, &is_shared)?;
             }
         }
@@ -187,7 +187,7 @@ impl<'a> Copy<'a> {
         edge: EdgeId,
         is_shared: &impl Fn(&EditMesh, VertexId) -> bool,
     ) -> Result<(), Refusal> {
-        if self.seen_edges.put(edge.0 as usize) {
+        if self.visited_edges.put(edge.0 as usize) {
             return Ok(());
         }
         let [a, b] = self.mesh.edge_vertices(edge);

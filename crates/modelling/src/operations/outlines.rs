@@ -34,10 +34,10 @@ impl EditMesh {
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
         let edges = sorted_once(edges.to_vec());
         let vertices = sorted_once(edges.iter().flat_map(|&edge| self.edge_vertices(edge)).collect());
-        let place = |vertex: VertexId| vertices.binary_search(&vertex).expect("it is an end");
+        let index_of = |vertex: VertexId| vertices.binary_search(&vertex).expect("it is an end");
         let mut links: Vec<SmallVec<[usize; 2]>> = vec![SmallVec::new(); vertices.len()];
         for &edge in &edges {
-            let [a, b] = self.edge_vertices(edge).map(place);
+            let [a, b] = self.edge_vertices(edge).map(index_of);
             links[a].push(b);
             links[b].push(a);
         }
@@ -62,7 +62,7 @@ impl EditMesh {
                 here = next;
             }
             chains.push(Chain {
-                vertices: walked.into_iter().map(|place| vertices[place]).collect(),
+                vertices: walked.into_iter().map(|index| vertices[index]).collect(),
                 is_closed: links[start].len() == 2,
             });
         }
@@ -92,9 +92,9 @@ impl EditMesh {
                 continue;
             };
             let ends = [corner, self.next_corner(corner)];
-            for (place, vertex) in [(i, from), ((i + 1) % count, to)] {
+            for (index, vertex) in [(i, from), ((i + 1) % count, to)] {
                 let at_vertex = ends.into_iter().find(|&end| self.corner_vertex(end) == vertex);
-                corners[place] = corners[place].or(at_vertex);
+                corners[index] = corners[index].or(at_vertex);
             }
         }
         corners

@@ -17,24 +17,24 @@ pub(super) struct PartPoint {
 /// Outlines of parts, as indices into a list of points.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Parts {
-    places: Vec<u32>,
+    indices: Vec<u32>,
     ends: Vec<usize>,
 }
 
 impl Parts {
     pub(super) fn clear(&mut self) {
-        self.places.clear();
+        self.indices.clear();
         self.ends.clear();
     }
 
     pub(super) fn push(&mut self, outline: impl IntoIterator<Item = u32>) {
-        self.places.extend(outline);
-        self.ends.push(self.places.len());
+        self.indices.extend(outline);
+        self.ends.push(self.indices.len());
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = &[u32]> + Clone {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        starts.zip(&self.ends).map(|(start, &end)| &self.places[start..end])
+        starts.zip(&self.ends).map(|(start, &end)| &self.indices[start..end])
     }
 
     pub(super) fn len(&self) -> usize {
@@ -79,10 +79,10 @@ impl EditMesh {
         divided: &mut Divided,
     ) {
         let (mut first, mut last) = (NONE, NONE);
-        for (i, &place) in outline.iter().enumerate() {
+        for (i, &index) in outline.iter().enumerate() {
             let next = points[outline[if i + 1 == outline.len() { 0 } else { i + 1 }] as usize].vertex;
-            let corner = self.take_corner(&mut points[place as usize], part).0;
-            let edge = self.join_new(points[place as usize].vertex, next, &mut divided.edges).0;
+            let corner = self.take_corner(&mut points[index as usize], part).0;
+            let edge = self.join_new(points[index as usize].vertex, next, &mut divided.edges).0;
             let known = self.corners[corner].edge;
             if known != edge {
                 if known != NONE {
@@ -132,7 +132,7 @@ pub(super) fn are_faces(points: &[PartPoint], parts: &Parts) -> bool {
     let mut vertices = Vec::new();
     parts.iter().all(|outline| {
         vertices.clear();
-        vertices.extend(outline.iter().map(|&place| points[place as usize].vertex));
+        vertices.extend(outline.iter().map(|&index| points[index as usize].vertex));
         check_outline(&vertices).is_ok()
     })
 }
@@ -151,9 +151,9 @@ pub(super) fn fill_strip(row: &[u32], other: &[u32], mut piece: impl FnMut(&[u32
         let other_advances = i == steps || (j < other_steps && other_moment <= moment);
         let mut outline = [0; 4];
         let mut count = 0;
-        let mut add = |place: u32| {
-            if !outline[..count].contains(&place) {
-                outline[count] = place;
+        let mut add = |index: u32| {
+            if !outline[..count].contains(&index) {
+                outline[count] = index;
                 count += 1;
             }
         };

@@ -58,8 +58,8 @@ struct Projector {
 }
 
 impl Projector {
-    fn uv(&self, place: DVec3) -> Vec2 {
-        let from_center = place - self.center;
+    fn uv(&self, point: DVec3) -> Vec2 {
+        let from_center = point - self.center;
         let [x, y] = [self.right, self.up].map(|axis| axis.dot(from_center));
         DVec2::new(0.5 + x / self.size.x, 0.5 - y / self.size.y).as_vec2()
     }
@@ -226,9 +226,9 @@ mod tests {
         };
         cube.project_uvs(&faces, 0, &seen_from_above).expect("a set is added");
         for corner in cube.corners() {
-            let place = cube.point(cube.corner_vertex(corner));
-            let expected = DVec2::new(0.5 + (place.x - 1.0) / 2.0, 0.5 + place.z / 4.0).as_vec2();
-            assert_eq!(cube.uv(0, corner), Some(expected), "at {place}");
+            let point = cube.point(cube.corner_vertex(corner));
+            let expected = DVec2::new(0.5 + (point.x - 1.0) / 2.0, 0.5 + point.z / 4.0).as_vec2();
+            assert_eq!(cube.uv(0, corner), Some(expected), "at {point}");
         }
     }
 

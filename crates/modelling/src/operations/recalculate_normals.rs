@@ -31,9 +31,9 @@ impl EditMesh {
     /// None is given, or one does not exist.
     pub fn flip_faces(&mut self, faces: &[FaceId]) -> Result<(), Refusal> {
         self.check_faces(faces, "flipping faces")?;
-        let mut seen = FixedBitSet::with_capacity(self.face_capacity());
+        let mut listed = FixedBitSet::with_capacity(self.face_capacity());
         let mut faces = faces.to_vec();
-        faces.retain(|face| !seen.put(face.0 as usize));
+        faces.retain(|face| !listed.put(face.0 as usize));
         self.flip_each(&faces)
     }
 
@@ -154,12 +154,12 @@ struct TriangleFan {
 }
 
 impl TriangleFan {
-    fn add(&mut self, place: DVec3) {
+    fn add(&mut self, point: DVec3) {
         let Some(first) = self.first else {
-            self.first = Some(place);
+            self.first = Some(point);
             return;
         };
-        let from_first = place - first;
+        let from_first = point - first;
         self.doubled += self.last.cross(from_first);
         self.last = from_first;
     }
@@ -293,8 +293,8 @@ mod tests {
                 let (lift, inwards) = trigon_math::elementary::sin_cos(turn / 2.0);
                 [-0.3, 0.3].map(|side| {
                     let radius = 1.0 + side * inwards;
-                    let place = DVec3::new(radius * cos, side * lift, radius * sin).as_vec3();
-                    mesh.add_vertex(place).expect("room")
+                    let point = DVec3::new(radius * cos, side * lift, radius * sin).as_vec3();
+                    mesh.add_vertex(point).expect("room")
                 })
             })
             .collect();

@@ -74,10 +74,10 @@ impl Region {
 
     /// Its vertices, each once, in the order of its faces.
     pub(super) fn vertices(&self, mesh: &EditMesh) -> Vec<VertexId> {
-        let mut seen = IndexSet::new(mesh.vertex_capacity(), self.corner_count(mesh));
+        let mut listed = IndexSet::new(mesh.vertex_capacity(), self.corner_count(mesh));
         let mut vertices = Vec::new();
         for &face in &self.faces {
-            vertices.extend(mesh.face_vertices(face).filter(|vertex| seen.insert(vertex.0)));
+            vertices.extend(mesh.face_vertices(face).filter(|vertex| listed.insert(vertex.0)));
         }
         vertices
     }
@@ -152,13 +152,13 @@ impl SplitVertices {
     /// What is outside has this in place of a vertex.
     #[inline]
     pub(super) fn base(&self, vertex: VertexId) -> Option<VertexId> {
-        self.place(vertex).map(|place| self.list[place].base)
+        self.index_of(vertex).map(|index| self.list[index].base)
     }
 
     /// Where a vertex is in the list.
     #[inline]
-    pub(super) fn place(&self, vertex: VertexId) -> Option<usize> {
-        self.table.get(vertex.0).map(|place| place as usize)
+    pub(super) fn index_of(&self, vertex: VertexId) -> Option<usize> {
+        self.table.get(vertex.0).map(|index| index as usize)
     }
 
     /// Makes the new vertex at the same place and with the same values, unless there is one.

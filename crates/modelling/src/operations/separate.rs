@@ -38,11 +38,11 @@ mod tests {
         assert_eq!(counts(&lid), [4, 4, 1], "the lid");
         lid.check_structure().expect("whole");
         keeps_affine_values(&lid).expect("values came along");
-        let places = |mesh: &EditMesh, face| -> Vec<_> {
+        let positions = |mesh: &EditMesh, face| -> Vec<_> {
             mesh.face_vertices(face).map(|vertex| mesh.position(vertex)).collect()
         };
         let before = EditMesh::from_mesh(&start).0;
-        assert_eq!(places(&lid, FaceId(0)), places(&before, FaceId(4)), "where it was");
+        assert_eq!(positions(&lid, FaceId(0)), positions(&before, FaceId(4)), "where it was");
     }
 
     proptest! {

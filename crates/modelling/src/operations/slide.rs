@@ -13,7 +13,7 @@ const EDGE_SLIDE: &str = "sliding edges";
 const VERTEX_SLIDE: &str = "sliding vertices";
 
 /// Corners and their weights.
-type Parts = SmallVec<[(CornerId, f64); 6]>;
+type WeightedCorners = SmallVec<[(CornerId, f64); 6]>;
 
 /// Where a vertex slides at most.
 #[derive(Debug)]
@@ -34,7 +34,7 @@ struct Chart {
     /// Corners at the vertex.
     at: SmallVec<[CornerId; 2]>,
     /// What is added to a value at the end of the way. Weights sum to 0.
-    change: Parts,
+    change: WeightedCorners,
 }
 
 /// An edge that slides, in the direction in which its loop runs.
@@ -189,7 +189,7 @@ impl EditMesh {
             [edge] => Some(self.course_along(vertex, edge)),
             [first, second, ..] if first == second => Some(self.course_along(vertex, first)),
             _ => {
-                let mut change = Parts::new();
+                let mut change = WeightedCorners::new();
                 for (&(corner, _), &edge) in corners.iter().zip(&edges) {
                     change.push((self.corner_at_other_end(corner, edge), 0.5));
                     change.push((corner, -0.5));
@@ -222,7 +222,7 @@ impl EditMesh {
     /// Where a vertex slides at which the loop turns within one face.
     fn course_within(&self, vertex: VertexId, corner: CornerId) -> Option<Course> {
         let (next, previous) = (self.next_corner(corner), self.previous_corner(corner));
-        let change: Parts = match self.face_size(self.corner_face(corner)) {
+        let change: WeightedCorners = match self.face_size(self.corner_face(corner)) {
             3 => return None,
             4 => smallvec![(self.next_corner(next), 1.0), (corner, -1.0)],
             // Parallel to the edges along which its two neighbours go.
@@ -271,7 +271,7 @@ impl EditMesh {
     }
 
     /// The parts of the value that a corner gets when its vertex slides.
-    fn slid_value(&self, course: &Course, corner: CornerId, part: f64) -> Parts {
+    fn slid_value(&self, course: &Course, corner: CornerId, part: f64) -> WeightedCorners {
         if let Some(edge) = course.edge {
             let previous = self.previous_corner(corner);
             if self.corner_edge(corner) == edge {
@@ -379,8 +379,8 @@ mod tests {
         }
         mesh.slide_edges(&line, 0.5).expect("two sides");
         for corner in mesh.corners() {
-            let place = affine_uv(mesh.position(mesh.corner_vertex(corner)));
-            let wanted = if left.contains(&corner) { turned(place) } else { place };
+            let uv = affine_uv(mesh.position(mesh.corner_vertex(corner)));
+            let wanted = if left.contains(&corner) { turned(uv) } else { uv };
             let uv = mesh.uv(0, corner).expect("a set");
             assert!(uv.abs_diff_eq(wanted, 1e-6), "{uv}, not {wanted}: rounded to f32 once");
         }

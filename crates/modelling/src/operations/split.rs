@@ -15,7 +15,7 @@ impl EditMesh {
     /// many elements.
     pub fn split_off(&mut self, faces: &[FaceId]) -> Result<Vec<VertexId>, Refusal> {
         let region = Region::new(self, faces, "splitting off")?;
-        self.check_room_for_each(region.corner_count(self))?;
+        self.check_capacity_for_each(region.corner_count(self))?;
         let mut border = region.border(self);
         border.retain(|edge| edge.outer.is_some());
         let vertices = region.vertices(self);

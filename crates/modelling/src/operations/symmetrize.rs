@@ -16,7 +16,7 @@ pub struct Symmetrized {
     /// The new half, and the vertices of the middle.
     pub mirrored: Mirrored,
     /// The faces of the kept half, including those on the plane.
-    pub kept: Vec<FaceId>,
+    pub retained: Vec<FaceId>,
     /// The number of faces removed on the other side, including parts of cut ones.
     pub removed: usize,
 }
@@ -47,16 +47,16 @@ impl EditMesh {
             let mut halves = Halves::of(mesh, faces, plane, merge_distance);
             let pieces = halves.cut(mesh, faces)?;
             let is_behind = |face: &FaceId| halves.has(mesh, *face, Side::Behind);
-            let (removed, kept): (Vec<FaceId>, Vec<FaceId>) = pieces.iter().copied().partition(is_behind);
-            if !kept.iter().any(|&face| halves.has(mesh, face, Side::InFront)) {
+            let (removed, retained): (Vec<FaceId>, Vec<FaceId>) = pieces.iter().copied().partition(is_behind);
+            if !retained.iter().any(|&face| halves.has(mesh, face, Side::InFront)) {
                 return refused("no face is in front of the plane; turn it around");
             }
             if !removed.is_empty() {
                 mesh.delete_faces(&removed)?;
             }
             let is_middle = |_: &Self, vertex| halves.side(vertex) == Side::Middle;
-            let mirrored = mesh.mirror_faces_sharing(&kept, plane, is_middle)?;
-            Ok(Symmetrized { mirrored, kept, removed: removed.len() })
+            let mirrored = mesh.mirror_faces_sharing(&retained, plane, is_middle)?;
+            Ok(Symmetrized { mirrored, retained, removed: removed.len() })
         })
     }
 }
@@ -112,9 +112,9 @@ impl<'a> Halves<'a> {
 
     /// Cuts all faces along the plane. All of their pieces, each face once.
     fn cut(&mut self, mesh: &mut EditMesh, faces: &[FaceId]) -> Result<Vec<FaceId>, Refusal> {
-        let mut seen = FixedBitSet::with_capacity(mesh.face_capacity());
+        let mut listed = FixedBitSet::with_capacity(mesh.face_capacity());
         let mut pieces: Vec<FaceId> = faces.to_vec();
-        pieces.retain(|face| !seen.put(face.0 as usize));
+        pieces.retain(|face| !listed.put(face.0 as usize));
         let mut edges: Vec<EdgeId> = pieces.iter().flat_map(|&face| mesh.face_edges(face)).collect();
         edges.sort_unstable();
         edges.dedup();
@@ -157,8 +157,9 @@ impl<'a> Halves<'a> {
     fn cut_face(&self, mesh: &mut EditMesh, face: FaceId, pieces: &mut Vec<FaceId>) -> Result<(), Refusal> {
         let along = self.plane.normal().cross(mesh.face_normal(face));
         let mut crossings = self.crossings(mesh, face);
-        let place = |mesh: &EditMesh, corner: CornerId| along.dot(mesh.point(mesh.corner_vertex(corner)));
-        crossings.sort_by(|a, b| place(mesh, a[0]).total_cmp(&place(mesh, b[0])));
+        let distance_along =
+            |mesh: &EditMesh, corner: CornerId| along.dot(mesh.point(mesh.corner_vertex(corner)));
+        crossings.sort_by(|a, b| distance_along(mesh, a[0]).total_cmp(&distance_along(mesh, b[0])));
         if !crossings.len().is_multiple_of(2) {
             return cannot_cut();
         }
@@ -203,11 +204,11 @@ fn cannot_cut<T>() -> Result<T, Refusal> {
 
 /// The two corners, one of each row, that are nearest to each other.
 fn nearest(mesh: &EditMesh, one: [CornerId; 2], two: [CornerId; 2]) -> (CornerId, CornerId) {
-    let place = |corner: CornerId| -> DVec3 { mesh.point(mesh.corner_vertex(corner)) };
+    let position = |corner: CornerId| -> DVec3 { mesh.point(mesh.corner_vertex(corner)) };
     let mut best = (one[0], two[0]);
     for a in one {
         for b in two {
-            let distance = |(a, b)| place(a).distance_squared(place(b));
+            let distance = |(a, b)| position(a).distance_squared(position(b));
             if distance((a, b)) < distance(best) {
                 best = (a, b);
             }
@@ -239,7 +240,7 @@ mod tests {
         let (mut cube, _) = EditMesh::from_mesh(&with_affine_values(primitives::cube(2.0)));
         let made = symmetrize(&mut cube, &x_plane(0.5)).expect("it is possible");
         cube.check_structure().expect("whole");
-        assert_eq!((made.kept.len(), made.removed, made.mirrored.faces.len()), (5, 5, 5), "five of each");
+        assert_eq!((made.retained.len(), made.removed, made.mirrored.faces.len()), (5, 5, 5), "five of each");
         assert_eq!(
             (cube.vertex_count(), cube.edge_count(), cube.face_count()),
             (12, 20, 10),
@@ -248,14 +249,18 @@ mod tests {
         let (solid, _) = cube.to_mesh();
         assert!(solid.is_closed(), "no gap");
         assert_eq!(solid.volume(), 4.0, "from 0 to 1, two by two");
-        for &face in &made.kept {
+        for &face in &made.retained {
             for corner in cube.face_corners(face) {
-                let place = cube.position(cube.corner_vertex(corner));
-                assert_eq!(cube.uv(0, corner), Some(affine_uv(place)), "interpolated at the cut");
+                let position = cube.position(cube.corner_vertex(corner));
+                assert_eq!(cube.uv(0, corner), Some(affine_uv(position)), "interpolated at the cut");
             }
         }
         let again = symmetrize(&mut cube, &x_plane(0.5)).expect("it is possible");
-        assert_eq!((again.kept.len(), again.removed, cube.vertex_count()), (5, 5, 12), "nothing is doubled");
+        assert_eq!(
+            (again.retained.len(), again.removed, cube.vertex_count()),
+            (5, 5, 12),
+            "nothing is doubled"
+        );
     }
 
     #[test]
@@ -273,9 +278,9 @@ mod tests {
         assert_eq!(area(&mesh), 7.0, "nine less two");
         let made = mesh.symmetrize(&[face], &x_plane(0.0), 0.0).expect("two cuts");
         mesh.check_structure().expect("whole");
-        assert_eq!((made.kept.len(), made.removed), (1, 2), "two teeth are cut off");
+        assert_eq!((made.retained.len(), made.removed), (1, 2), "two teeth are cut off");
         assert_eq!(area(&mesh), 10.0, "five on each side");
-        let normal = mesh.face_normal(made.kept[0]);
+        let normal = mesh.face_normal(made.retained[0]);
         assert!(mesh.faces().all(|face| mesh.face_normal(face) == normal), "all look one way");
     }
 
@@ -283,7 +288,7 @@ mod tests {
     fn edges_on_the_plane_are_the_middle() {
         let (mut grid, _) = EditMesh::from_mesh(&primitives::grid(4.0, 1.0, 4, 1));
         let made = symmetrize(&mut grid, &x_plane(0.0)).expect("it is possible");
-        assert_eq!((made.kept.len(), made.removed, made.mirrored.shared.len()), (2, 2, 2), "halves");
+        assert_eq!((made.retained.len(), made.removed, made.mirrored.shared.len()), (2, 2, 2), "halves");
         assert_eq!((grid.vertex_count(), grid.edge_count(), grid.face_count()), (10, 13, 4), "as before");
         let before = grid.clone();
         let refusal = symmetrize(&mut grid, &x_plane(3.0)).expect_err("all is behind");
@@ -322,12 +327,12 @@ mod tests {
             // Mirrored places are rounded to f32.
             prop_assert!((front - behind).abs() <= 1e-4 * (1.0 + front), "{} and {}", front, behind);
             let is_wall = |&face: &FaceId| mesh.face_vertices(face).all(|vertex| distance(&mesh, vertex).abs() <= 1e-6);
-            if start.is_closed() && !made.kept.iter().any(is_wall) {
+            if start.is_closed() && !made.retained.iter().any(is_wall) {
                 // Four sides meet where the kept half only touches the plane with an edge.
                 let fits = |edge| mesh.edge_corners(edge).count() % 2 == 0;
                 prop_assert!(mesh.edges().all(fits), "the middle fits");
             }
-            prop_assert!(!made.kept.is_empty());
+            prop_assert!(!made.retained.is_empty());
             difference.apply(&mut mesh);
             prop_assert!(mesh == before, "undone");
         }

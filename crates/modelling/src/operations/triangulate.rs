@@ -10,7 +10,7 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::numbering::sorted_once;
 use crate::refusal::Refusal;
-use crate::slots::Room;
+use crate::slots::NewElements;
 
 /// The result of a triangulation.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -28,7 +28,7 @@ pub struct Triangulated {
 
 /// Memory that is used for one face after another.
 #[derive(Default)]
-struct Scratch {
+struct TriangulationScratch {
     points: Vec<PartPoint>,
     positions: Vec<Vec3>,
     triangulator: Triangulator,
@@ -52,13 +52,13 @@ impl EditMesh {
         faces.iter().try_for_each(|&face| self.check_face(face))?;
         let faces = sorted_once(faces.to_vec());
         let corners: u64 = faces.iter().map(|&face| self.face_size(face) as u64).sum();
-        self.check_room_for(Room {
+        self.check_capacity_for(NewElements {
             edges: corners,
             corners: 2 * corners,
             faces: corners,
-            ..Room::default()
+            ..NewElements::default()
         })?;
-        let (mut scratch, mut divided) = (Scratch::default(), Divided::default());
+        let (mut scratch, mut divided) = (TriangulationScratch::default(), Divided::default());
         let mut left = Vec::new();
         for face in faces {
             if self.face_size(face) == 3 {
@@ -73,8 +73,8 @@ impl EditMesh {
         Ok(Triangulated { faces: divided.faces, edges: divided.edges, left })
     }
 
-    fn triangulate_face(&mut self, face: FaceId, scratch: &mut Scratch, divided: &mut Divided) {
-        let Scratch { points, positions, triangulator, triangles, parts } = scratch;
+    fn triangulate_face(&mut self, face: FaceId, scratch: &mut TriangulationScratch, divided: &mut Divided) {
+        let TriangulationScratch { points, positions, triangulator, triangles, parts } = scratch;
         points.clear();
         points.extend(self.face_corners(face).map(|corner| PartPoint {
             vertex: self.corner_vertex(corner),
@@ -86,7 +86,7 @@ impl EditMesh {
         triangles.clear();
         triangulator.polygon(positions, triangles);
         let are_triangles = |triangle: &[u32; 3]| {
-            let [a, b, c] = triangle.map(|place| points[place as usize].vertex);
+            let [a, b, c] = triangle.map(|index| points[index as usize].vertex);
             a != b && b != c && c != a
         };
         parts.clear();
@@ -103,21 +103,21 @@ impl EditMesh {
 /// vertices and the rest has. What is left when none can be cut off is the last part.
 fn clip_any(points: &[PartPoint], parts: &mut Parts) {
     let vertices = sorted_once(points.iter().map(|point| point.vertex).collect());
-    let number = |place: u32| {
-        let vertex: VertexId = points[place as usize].vertex;
+    let number = |index: u32| {
+        let vertex: VertexId = points[index as usize].vertex;
         vertices.binary_search(&vertex).expect("it is one of them")
     };
     // How often each vertex is visited by what is left, and how many are.
     let mut visits = vec![0u32; vertices.len()];
-    (0..points.len() as u32).for_each(|place| visits[number(place)] += 1);
+    (0..points.len() as u32).for_each(|index| visits[number(index)] += 1);
     let mut different = vertices.len();
     // The outline as a stack that the rest of the polygon is moved to, round after round.
     let mut rest: Vec<u32> = (0..points.len() as u32).collect();
     loop {
         let before = rest.len();
         let mut outline: Vec<u32> = Vec::with_capacity(before);
-        for (i, &place) in rest.iter().enumerate() {
-            outline.push(place);
+        for (i, &index) in rest.iter().enumerate() {
+            outline.push(index);
             let left = outline.len() + before - i - 1;
             let [.., a, b, c] = outline[..] else { continue };
             let needed = visits[number(b)] == 1;

@@ -72,9 +72,9 @@ impl EditMesh {
         let mut is_joined = FixedBitSet::with_capacity(faces.len());
         let mut quads = Vec::new();
         for candidate in candidates {
-            let places = candidate.faces.map(|face| numbering.get(face.0).expect("it is a candidate"));
-            if places.iter().all(|&place| !is_joined.contains(place)) {
-                places.iter().for_each(|&place| is_joined.insert(place));
+            let indices = candidate.faces.map(|face| numbering.get(face.0).expect("it is a candidate"));
+            if indices.iter().all(|&index| !is_joined.contains(index)) {
+                indices.iter().for_each(|&index| is_joined.insert(index));
                 quads.push(self.join_faces(candidate.edge)?);
             }
         }

@@ -93,15 +93,15 @@ impl EditMesh {
             let (corners, known) = (fans.corners.len(), fans.fans.len());
             let mut all: Vec<CornerId> = self.vertex_corners(vertex).collect();
             all.sort_unstable();
-            let mut seen: Vec<bool> = vec![false; all.len()];
+            let mut visited: Vec<bool> = vec![false; all.len()];
             for i in 0..all.len() {
-                if seen[i] {
+                if visited[i] {
                     continue;
                 }
                 let fan = fans.walk(self, all[i]);
                 for corner in &fans.corners[fan.start..fan.end] {
                     if let Ok(index) = all.binary_search(corner) {
-                        seen[index] = true;
+                        visited[index] = true;
                     }
                 }
             }

@@ -64,8 +64,8 @@ impl EditMesh {
         self.add_normals();
         faces.iter().for_each(|&face| self.set_smooth(face, true));
         let of = |corner: CornerId| {
-            let place = normals.binary_search_by_key(&corner, |&(corner, _)| corner);
-            place.map_or(Vec3::ZERO, |place| normals[place].1)
+            let index = normals.binary_search_by_key(&corner, |&(corner, _)| corner);
+            index.map_or(Vec3::ZERO, |index| normals[index].1)
         };
         for moved in &plan.laid.moves {
             self.set_custom_normal(moved.corner, of(moved.corner));

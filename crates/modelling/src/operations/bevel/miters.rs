@@ -4,13 +4,13 @@ use smallvec::SmallVec;
 use trigon_math::DVec3;
 
 use super::laid::{Arc, Insertion, Move, Node, Round, Stop, WeightTerm};
+use super::node_positions::STRAIGHT;
 use super::nodes::{Layout, Nodes};
-use super::places::STRAIGHT;
 use super::settings::{InnerMiter, OuterMiter};
 use crate::ids::{CornerId, EdgeId, NONE};
 
 /// A place in the plane of a corner's two edges: its offset from the vertex, and the parts of its values.
-type Place = (DVec3, SmallVec<[WeightTerm; 4]>);
+type WeightedOffset = (DVec3, SmallVec<[WeightTerm; 4]>);
 
 /// Two beveled edges of a corner, in the corner's face.
 struct Meeting {
@@ -31,7 +31,7 @@ impl Nodes<'_> {
         let Some(meeting) = self.beveled_corner(corner) else { return false };
         let is_reflex = meeting.rims[0] < 0.0;
         let at_meeting = meeting.along([0.0, 0.0]);
-        let places: SmallVec<[DVec3; 3]> = match (is_reflex, self.rims.outer_miter, self.rims.inner_miter) {
+        let offsets: SmallVec<[DVec3; 3]> = match (is_reflex, self.rims.outer_miter, self.rims.inner_miter) {
             // As far as the foot of the vertex on each rim.
             (true, OuterMiter::Arc, _) => SmallVec::from_slice(&meeting.feet()),
             (true, OuterMiter::Patch, _) => {
@@ -44,16 +44,16 @@ impl Nodes<'_> {
             }
             _ => return false,
         };
-        let places: SmallVec<[Place; 3]> =
-            places.into_iter().map(|offset| self.place_in_corner(corner, &meeting, offset)).collect();
-        let controls: SmallVec<[DVec3; 2]> = match places.len() {
+        let offsets: SmallVec<[WeightedOffset; 3]> =
+            offsets.into_iter().map(|offset| self.offset_in_corner(corner, &meeting, offset)).collect();
+        let controls: SmallVec<[DVec3; 2]> = match offsets.len() {
             2 => SmallVec::from_slice(&[at_meeting]),
             // A straight curve has its control point in the middle.
-            _ => places.windows(2).map(|pair| 0.5 * (pair[0].0 + pair[1].0)).collect(),
+            _ => offsets.windows(2).map(|pair| 0.5 * (pair[0].0 + pair[1].0)).collect(),
         };
-        let controls: SmallVec<[Place; 2]> =
-            controls.into_iter().map(|offset| self.place_in_corner(corner, &meeting, offset)).collect();
-        self.add_miter(round, layout, from, [&places, &controls]);
+        let controls: SmallVec<[WeightedOffset; 2]> =
+            controls.into_iter().map(|offset| self.offset_in_corner(corner, &meeting, offset)).collect();
+        self.add_miter(round, layout, from, [&offsets, &controls]);
         true
     }
 
@@ -63,11 +63,11 @@ impl Nodes<'_> {
         round: &Round,
         layout: &mut Layout,
         from: usize,
-        [places, controls]: [&[Place]; 2],
+        [offsets, controls]: [&[WeightedOffset]; 2],
     ) {
         let (vertex, corner) = (layout.vertex, layout.corners[from]);
         let first = self.nodes.len() as u32;
-        for (offset, parts) in places {
+        for (offset, parts) in offsets {
             let sum = self.sum(parts);
             self.nodes.push(Node { vertex, offset: *offset, sum, home: corner });
         }
@@ -110,7 +110,7 @@ impl Nodes<'_> {
     }
 
     /// The values of a place in the plane of a corner's edges.
-    fn place_in_corner(&self, corner: CornerId, meeting: &Meeting, offset: DVec3) -> Place {
+    fn offset_in_corner(&self, corner: CornerId, meeting: &Meeting, offset: DVec3) -> WeightedOffset {
         let Meeting { out, into, sine, .. } = *meeting;
         // The offset is alpha out + beta into.
         let cosine = out.dot(into);

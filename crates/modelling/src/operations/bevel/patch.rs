@@ -43,8 +43,8 @@ impl Plan<'_> {
         for side in 0..grid.sides.len() {
             for b in 0..grid.half {
                 for a in 0..grid.half {
-                    let places = [(a, b), (a + 1, b), (a + 1, b + 1), (a, b + 1)];
-                    let points = places.map(|(a, b)| self.grid_point(&grid, side, a, b));
+                    let cells = [(a, b), (a + 1, b), (a + 1, b + 1), (a, b + 1)];
+                    let points = cells.map(|(a, b)| self.grid_point(&grid, side, a, b));
                     self.add_grid_face(round, &grid, side, &points);
                 }
                 if !grid.is_even {

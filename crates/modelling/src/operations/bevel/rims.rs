@@ -3,8 +3,8 @@
 
 use trigon_math::DVec3;
 
+use super::node_positions::STRAIGHT;
 use super::nodes::{Layout, Nodes};
-use super::places::STRAIGHT;
 use super::settings::{BevelSettings, BevelWidth, InnerMiter, OuterMiter};
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId};

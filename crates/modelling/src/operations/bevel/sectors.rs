@@ -91,7 +91,7 @@ impl Nodes<'_> {
 
     /// Between two beveled edges, where all faces get one node.
     pub(super) fn fill_between(&mut self, layout: &mut Layout, from: usize, to: usize) {
-        let (offset, sums) = self.place_between(layout, from, to);
+        let (offset, sums) = self.offset_between(layout, from, to);
         let node = self.nodes.len() as u32;
         self.nodes.push(Node { vertex: layout.vertex, offset, sum: sums[0], home: layout.corners[from] });
         layout.stops[from].left = node;
@@ -108,7 +108,7 @@ impl Nodes<'_> {
 
     /// Where the node between two beveled edges is, and what it is worth in the first face there and in
     /// the others.
-    fn place_between(&mut self, layout: &Layout, from: usize, to: usize) -> (DVec3, [u32; 2]) {
+    fn offset_between(&mut self, layout: &Layout, from: usize, to: usize) -> (DVec3, [u32; 2]) {
         let (first, last) = (layout.corners[from], layout.corners[to - 1]);
         match to - from {
             1 => {

@@ -16,8 +16,8 @@ fn settings(width: f64, width_type: BevelWidth) -> BevelSettings {
 
 /// The edge of a mesh between two positions.
 fn edge_between(mesh: &EditMesh, ends: [[f32; 3]; 2]) -> EdgeId {
-    let at = |place: [f32; 3]| {
-        mesh.vertices().find(|&vertex| mesh.position(vertex).abs_diff_eq(Vec3::from(place), 1e-6))
+    let at = |position: [f32; 3]| {
+        mesh.vertices().find(|&vertex| mesh.position(vertex).abs_diff_eq(Vec3::from(position), 1e-6))
     };
     let [a, b] = ends.map(|end| at(end).expect("a vertex is there"));
     mesh.find_edge(a, b).expect("they are joined")
@@ -46,11 +46,11 @@ const TRIANGLE: [[f32; 2]; 3] = [[0.0, 0.0], [0.5, -0.866_025_4], [-0.5, -0.866_
 const L: [[f32; 2]; 6] = [[0.0, 0.0], [0.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 0.0]];
 
 /// The positions of new vertices, with 1e-6 for rounded f32.
-fn check_places(mesh: &EditMesh, made: &Beveled, expected: &[[f64; 3]]) {
-    for &place in expected {
-        let is_there = |&vertex: &VertexId| mesh.point(vertex).distance(DVec3::from(place)) < 1e-6;
-        let places: Vec<DVec3> = made.vertices.iter().map(|&vertex| mesh.point(vertex)).collect();
-        assert!(made.vertices.iter().any(is_there), "{place:?} is not among {places:?}");
+fn check_positions(mesh: &EditMesh, made: &Beveled, expected: &[[f64; 3]]) {
+    for &position in expected {
+        let is_there = |&vertex: &VertexId| mesh.point(vertex).distance(DVec3::from(position)) < 1e-6;
+        let positions: Vec<DVec3> = made.vertices.iter().map(|&vertex| mesh.point(vertex)).collect();
+        assert!(made.vertices.iter().any(is_there), "{position:?} is not among {positions:?}");
     }
 }
 
@@ -72,7 +72,7 @@ fn a_width_measures_what_its_type_says_at_a_right_angle() {
         let made = mesh.bevel_edges(&[edge], &settings(width, width_type)).expect("an edge");
         assert_eq!(made.width, width, "{width_type:?}: nothing is in the way");
         for z in [-1.0, 1.0] {
-            check_places(&mesh, &made, &[[1.0 - moved, 1.0, z], [1.0, 1.0 - moved, z]]);
+            check_positions(&mesh, &made, &[[1.0 - moved, 1.0, z], [1.0, 1.0 - moved, z]]);
         }
         keeps_affine_values(&mesh).expect("interpolated");
     }
@@ -89,7 +89,7 @@ fn a_width_measures_what_its_type_says_at_sixty_degrees() {
         let edge = edge_between(&mesh, [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
         let made = mesh.bevel_edges(&[edge], &settings(0.1, width_type)).expect("an edge");
         for y in [0.0, 1.0] {
-            check_places(&mesh, &made, &[[rim * sin, y, -rim * cos], [-rim * sin, y, -rim * cos]]);
+            check_positions(&mesh, &made, &[[rim * sin, y, -rim * cos], [-rim * sin, y, -rim * cos]]);
         }
     }
     // An edge of the lid: the lid's other edges leave it at 60°, those of the sides at 90°.
@@ -104,7 +104,7 @@ fn a_width_measures_what_its_type_says_at_sixty_degrees() {
         for side in [-1.0, 1.0] {
             let x = side * (0.5 - on_lid * sin);
             let z = -0.866_025_4;
-            check_places(&mesh, &made, &[[x, 1.0, z + on_lid * cos], [side * 0.5, 1.0 - on_side, z]]);
+            check_positions(&mesh, &made, &[[x, 1.0, z + on_lid * cos], [side * 0.5, 1.0 - on_side, z]]);
         }
     }
 }
@@ -124,7 +124,7 @@ fn a_width_measures_what_its_type_says_at_a_vertex() {
         let corner = mesh.vertices().find(|&vertex| mesh.position(vertex) == Vec3::ONE).expect("a corner");
         let made = mesh.bevel_vertices(&[corner], &settings(width, width_type)).expect("a vertex");
         let at = 1.0 - moved;
-        check_places(&mesh, &made, &[[at, 1.0, 1.0], [1.0, at, 1.0], [1.0, 1.0, at]]);
+        check_positions(&mesh, &made, &[[at, 1.0, 1.0], [1.0, at, 1.0], [1.0, 1.0, at]]);
         keeps_affine_values(&mesh).expect("interpolated");
     }
 }
@@ -166,10 +166,10 @@ fn an_inner_arc_rounds_the_corners_of_a_face() {
         let rim: Vec<DVec3> =
             mesh.face_vertices(lid.expect("a cube has one")).map(|v| mesh.point(v)).collect();
         assert_eq!(rim.len(), 4 * (segments + 1), "a curve at each corner");
-        for place in rim {
+        for position in rim {
             // Rims are at 0.75; the curve begins 0.25 from where they meet.
-            let center = DVec3::new(0.5 * place.x.signum(), 1.0, 0.5 * place.z.signum());
-            assert!((place.distance(center) - 0.25).abs() < 1e-6, "{place} is on a circle");
+            let center = DVec3::new(0.5 * position.x.signum(), 1.0, 0.5 * position.z.signum());
+            assert!((position.distance(center) - 0.25).abs() < 1e-6, "{position} is on a circle");
         }
     }
 }
@@ -202,7 +202,7 @@ fn outer_miters_keep_rims_near_a_reflex_corner() {
             assert_eq!(has(-0.125, -0.125), outer_miter != OuterMiter::Arc, "where the rims meet");
             assert_eq!(feet, outer_miter != OuterMiter::Sharp, "the feet of the corner: {rim:?}");
             if outer_miter == OuterMiter::Arc {
-                let near = rim.iter().filter(|place| place.distance(DVec3::Y) < 0.2);
+                let near = rim.iter().filter(|position| position.distance(DVec3::Y) < 0.2);
                 assert!(near.clone().count() == segments + 1, "a curve around the corner");
                 assert!(near.clone().all(|p| (p.distance(DVec3::Y) - 0.125).abs() < 1e-6), "a circle");
             }
@@ -255,11 +255,11 @@ fn hardened_normals_let_old_faces_look_flat() {
         }
         // A corner of a new face that touches an old one continues its shading.
         for (normal, corner) in made.faces.iter().flat_map(|&face| of_face(face)) {
-            let place = mesh.position(mesh.corner_vertex(corner));
-            let sides = place.to_array().map(|x| x.abs() > 1.0 - 1e-6);
+            let position = mesh.position(mesh.corner_vertex(corner));
+            let sides = position.to_array().map(|x| x.abs() > 1.0 - 1e-6);
             if sides.iter().filter(|is_outside| **is_outside).count() == 1 {
                 let axis = Vec3::from_array(sides.map(|is_outside| f32::from(u8::from(is_outside))));
-                assert!(normal.abs_diff_eq(axis * place.signum(), 1e-6), "{normal} at {place}");
+                assert!(normal.abs_diff_eq(axis * position.signum(), 1e-6), "{normal} at {position}");
             }
         }
     }
@@ -278,9 +278,9 @@ fn hardened_normals_keep_a_smooth_side_round() {
     let (shown, map) = mesh.to_mesh();
     for (normal, &corner) in shown.shading_normals().iter().zip(&map.corners) {
         if sides.contains(&mesh.corner_face(corner)) {
-            let place = mesh.position(mesh.corner_vertex(corner));
-            let away = Vec3::new(place.x, 0.0, place.z).normalize();
-            assert!(normal.abs_diff_eq(away, 1e-5), "{normal} at {place}: away from the axis");
+            let position = mesh.position(mesh.corner_vertex(corner));
+            let away = Vec3::new(position.x, 0.0, position.z).normalize();
+            assert!(normal.abs_diff_eq(away, 1e-5), "{normal} at {position}: away from the axis");
         }
     }
 }

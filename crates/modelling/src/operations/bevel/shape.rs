@@ -88,11 +88,11 @@ impl<'m> Plan<'m> {
             blends.sum(parts.iter().map(|part| (part.corner, part.base + part.slope * width)));
             start = end;
         }
-        let place = |node: &Node| mesh.point(node.vertex) + node.offset * width;
+        let position = |node: &Node| mesh.point(node.vertex) + node.offset * width;
         let mut plan = Self {
             mesh,
             out: Blueprint {
-                positions: laid.nodes.iter().map(place).collect(),
+                positions: laid.nodes.iter().map(position).collect(),
                 point_sums: laid.nodes.iter().map(|node| node.sum).collect(),
                 point_homes: laid.nodes.iter().map(|node| node.home).collect(),
                 inner: Vec::with_capacity(laid.arcs.len()),

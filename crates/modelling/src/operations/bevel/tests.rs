@@ -90,17 +90,17 @@ fn a_round_bevel_of_a_cube_is_symmetric_and_its_corners_are_parts_of_spheres() {
     for segments in [2, 3, 4, 5, 8] {
         let mut mesh = edit(primitives::cube(2.0));
         mesh.bevel_edges(&all_edges(&mesh), &settings(0.25, segments, 0.5)).expect("twelve edges");
-        let bits = |place: Vec3| place.to_array().map(|x| (x * 1e6).round() as i64);
-        let mut places: Vec<_> = mesh.vertices().map(|vertex| bits(mesh.position(vertex))).collect();
-        places.sort_unstable();
+        let bits = |position: Vec3| position.to_array().map(|x| (x * 1e6).round() as i64);
+        let mut positions: Vec<_> = mesh.vertices().map(|vertex| bits(mesh.position(vertex))).collect();
+        positions.sort_unstable();
         // Mirrored, turned about a diagonal, and with two axes exchanged.
         let changes: [fn([i64; 3]) -> [i64; 3]; 3] =
             [|[x, y, z]| [-x, y, z], |[x, y, z]| [y, z, x], |[x, y, z]| [y, x, z]];
         for change in changes {
-            let mut changed: Vec<_> = places.iter().map(|&place| change(place)).collect();
+            let mut changed: Vec<_> = positions.iter().map(|&position| change(position)).collect();
             changed.sort_unstable();
             // One unit of rounding either way.
-            for (a, b) in places.iter().zip(&changed) {
+            for (a, b) in positions.iter().zip(&changed) {
                 assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1), "{a:?} and {b:?}");
             }
         }
@@ -485,10 +485,10 @@ proptest! {
     #[test]
     fn places_that_are_not_numbers_do_no_harm(
         chosen in some(),
-        places in prop::collection::vec((any::<u32>(), prop_oneof![Just(f32::NAN), Just(f32::INFINITY), Just(f32::MAX), Just(0.0)]), 1..4),
+        positions in prop::collection::vec((any::<u32>(), prop_oneof![Just(f32::NAN), Just(f32::INFINITY), Just(f32::MAX), Just(0.0)]), 1..4),
     ) {
         let mut mesh = edit(primitives::torus(2.0, 0.5, 6, 5));
-        for (vertex, value) in places {
+        for (vertex, value) in positions {
             mesh.set_position(VertexId(vertex % 30), Vec3::splat(value));
         }
         let edges: Vec<EdgeId> = chosen.iter().map(|&edge| EdgeId(edge % 60)).collect();
@@ -551,11 +551,11 @@ proptest! {
 fn two_bevels_at_a_corner_meet_on_its_third_edge() {
     for width in [0.25, 0.5] {
         let mut cube = EditMesh::from_mesh(&primitives::cube(2.0)).0;
-        let at = |mesh: &EditMesh, place: Vec3| {
-            mesh.vertices().find(|&vertex| mesh.position(vertex) == place).expect("a corner")
+        let at = |mesh: &EditMesh, position: Vec3| {
+            mesh.vertices().find(|&vertex| mesh.position(vertex) == position).expect("a corner")
         };
         let corner = at(&cube, Vec3::ONE);
-        let ends = [Vec3::new(-1.0, 1.0, 1.0), Vec3::new(1.0, -1.0, 1.0)].map(|place| at(&cube, place));
+        let ends = [Vec3::new(-1.0, 1.0, 1.0), Vec3::new(1.0, -1.0, 1.0)].map(|position| at(&cube, position));
         let edges = ends.map(|end| cube.find_edge(corner, end).expect("an edge of the cube"));
         cube.bevel_edges(&edges, &settings(width, 1, 0.5)).expect("it is possible");
         let expected = Vec3::new(1.0, 1.0, 1.0 - width as f32);

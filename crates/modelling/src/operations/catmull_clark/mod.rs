@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use crate::edit_mesh::EditMesh;
 use crate::refusal::Refusal;
-use crate::slots::Room;
+use crate::slots::NewElements;
 use numbers::Numbers;
 
 /// The most levels at once: a quad becomes a million.
@@ -55,14 +55,14 @@ impl EditMesh {
             let (parameter, range) = ("the number of levels", "1 to 10");
             return Err(Refusal::OutOfRange { parameter, value: f64::from(levels), range });
         }
-        self.check_room_for_levels(levels)?;
+        self.check_capacity_for_levels(levels)?;
         for _ in 0..levels {
             self.subdivide_once();
         }
         Ok(())
     }
 
-    fn check_room_for_levels(&self, levels: u32) -> Result<(), Refusal> {
+    fn check_capacity_for_levels(&self, levels: u32) -> Result<(), Refusal> {
         let [mut vertices, mut edges, mut corners, mut faces] =
             [self.vertex_count(), self.edge_count(), self.corner_count(), self.face_count()]
                 .map(|count| count as u64);
@@ -72,7 +72,7 @@ impl EditMesh {
             faces = corners;
             corners *= 4;
         }
-        self.check_room_for(Room { vertices, edges, corners, faces })
+        self.check_capacity_for(NewElements { vertices, edges, corners, faces })
     }
 
     /// Of each face that there will be after the next level, what the old face of which it is a part stood for.

@@ -172,8 +172,8 @@ impl SharedSpokes {
         if self.corners.is_empty() {
             return None;
         }
-        let place = self.corners.binary_search_by_key(&corner, |entry| entry[0]).ok()?;
-        Some(&self.corners[place])
+        let index = self.corners.binary_search_by_key(&corner, |entry| entry[0]).ok()?;
+        Some(&self.corners[index])
     }
 
     fn of(mesh: &EditMesh, ranks: &Ranks) -> Self {
@@ -192,7 +192,7 @@ impl SharedSpokes {
         shared.corners.sort_unstable();
         let others = shared.corners.iter().filter(|entry| entry[0] != entry[1]);
         shared.without = sorted_once(others.map(|entry| ranks.rank(entry[0])).collect());
-        shared.spokes_before = (0..).zip(&shared.without).map(|(place, rank)| rank - place).collect();
+        shared.spokes_before = (0..).zip(&shared.without).map(|(before, rank)| rank - before).collect();
         shared
     }
 

@@ -123,7 +123,7 @@ impl EditMesh {
         }
         // A single edge that has not two faces, or to which a face runs and back, holds its end.
         let is_smooth = is_whole && count > 1;
-        let place = |edges: SharpEdges| match edges.rule() {
+        let point_by_rule = |edges: SharpEdges| match edges.rule() {
             Rule::Smooth if is_smooth => {
                 let n = count as f64;
                 here * ((n - 2.0) / n) + (neighbors + faces) / (n * n)
@@ -138,9 +138,9 @@ impl EditMesh {
                 Rule::Corner => true,
             };
             // Its bytes, too, also where the place is not finite.
-            return (!stays).then(|| place(sharp));
+            return (!stays).then(|| point_by_rule(sharp));
         }
         let share = ending / f64::from(endings);
-        Some(place(sharp) * share + place(stays_sharp) * (1.0 - share))
+        Some(point_by_rule(sharp) * share + point_by_rule(stays_sharp) * (1.0 - share))
     }
 }

@@ -130,14 +130,14 @@ fn a_ring_of_half_sharp_edges_is_half_way_between_the_rules() {
     let mut cube = editable(&primitives::cube(2.0));
     let top: Vec<EdgeId> = cube.face_edges(FaceId(0)).collect();
     let corner = cube.face_vertices(FaceId(0)).next().expect("four");
-    let place = |mesh: &EditMesh| subdivided(mesh, 1).point(corner);
-    let smooth = place(&cube);
+    let position = |mesh: &EditMesh| subdivided(mesh, 1).point(corner);
+    let smooth = position(&cube);
     top.iter().for_each(|&edge| cube.set_crease(edge, 1.0));
-    let sharp = place(&cube);
+    let sharp = position(&cube);
     // Half a level.
     let crease = 0.05f32.sqrt();
     top.iter().for_each(|&edge| cube.set_crease(edge, crease));
-    assert!(place(&cube).abs_diff_eq((smooth + sharp) * 0.5, ROUNDING), "half of each");
+    assert!(position(&cube).abs_diff_eq((smooth + sharp) * 0.5, ROUNDING), "half of each");
 }
 
 #[test]
@@ -172,8 +172,9 @@ fn values_of_corners_are_interpolated_in_each_face() {
 #[test]
 fn a_face_that_runs_along_an_edge_and_back_shares_a_spoke() {
     let mut mesh = EditMesh::new();
-    let places = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE];
-    let v: Vec<VertexId> = places.iter().map(|&place| mesh.add_vertex(place).expect("room")).collect();
+    let positions = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE];
+    let v: Vec<VertexId> =
+        positions.iter().map(|&position| mesh.add_vertex(position).expect("room")).collect();
     // To vertex 3 and back, which another face does, too; and one that runs along it once.
     mesh.add_face(&[v[0], v[1], v[2], v[0], v[3]]).expect("four different");
     mesh.add_face(&[v[3], v[0], v[4], v[0]]).expect("three different");

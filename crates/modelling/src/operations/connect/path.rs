@@ -89,11 +89,11 @@ impl EditMesh {
                 stops.push(PathPoint::Vertex(to));
                 return Ok(stops);
             }
-            let reached = plane.progress(self.place(here));
+            let reached = plane.progress(self.stop_point(here));
             let exits =
                 faces.iter().flat_map(|&face| self.exits(face, here, &plane).map(move |exit| (face, exit)));
             let ahead = exits
-                .map(|(face, stop)| (plane.progress(self.place(stop)), face, stop))
+                .map(|(face, stop)| (plane.progress(self.stop_point(stop)), face, stop))
                 .filter(|&(progress, ..)| progress > reached && progress <= plane.direction.length_squared());
             let Some((_, face, stop)) = ahead.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))) else {
                 return refused("the straight path between them runs into a border or off the surface");
@@ -118,7 +118,7 @@ impl EditMesh {
         Some(Plane { origin, normal, direction })
     }
 
-    fn place(&self, stop: PathPoint) -> DVec3 {
+    fn stop_point(&self, stop: PathPoint) -> DVec3 {
         match stop {
             PathPoint::Vertex(vertex) => self.point(vertex),
             PathPoint::Edge(edge, t) => {
@@ -164,7 +164,7 @@ impl EditMesh {
 
 impl Plane {
     /// How far a place is on the way, in units that only compare.
-    fn progress(&self, place: DVec3) -> f64 {
-        (place - self.origin).dot(self.direction)
+    fn progress(&self, point: DVec3) -> f64 {
+        (point - self.origin).dot(self.direction)
     }
 }

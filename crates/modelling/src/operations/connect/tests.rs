@@ -17,10 +17,10 @@ fn counts(mesh: &EditMesh) -> [usize; 3] {
     [mesh.vertex_count(), mesh.edge_count(), mesh.face_count()]
 }
 
-fn polygon(places: &[[f32; 2]]) -> (EditMesh, Vec<VertexId>) {
+fn polygon(positions: &[[f32; 2]]) -> (EditMesh, Vec<VertexId>) {
     let mut mesh = EditMesh::new();
     let add = |&[x, y]: &[f32; 2]| mesh.add_vertex(Vec3::new(x, y, 0.0)).expect("room");
-    let vertices: Vec<VertexId> = places.iter().map(add).collect();
+    let vertices: Vec<VertexId> = positions.iter().map(add).collect();
     mesh.add_face(&vertices).expect("a polygon");
     (editable(mesh.to_mesh().0), vertices)
 }
@@ -38,11 +38,11 @@ fn two_corners_of_a_quad_are_joined_by_its_diagonal() {
 
 #[test]
 fn every_second_vertex_of_a_hexagon_makes_a_triangle_in_it() {
-    let places = [[2.0, 0.0], [1.0, 2.0], [-1.0, 2.0], [-2.0, 0.0], [-1.0, -2.0], [1.0, -2.0]];
-    let (mut mesh, v) = polygon(&places);
+    let positions = [[2.0, 0.0], [1.0, 2.0], [-1.0, 2.0], [-2.0, 0.0], [-1.0, -2.0], [1.0, -2.0]];
+    let (mut mesh, v) = polygon(&positions);
     let connected = mesh.connect_vertices(&[v[0], v[2], v[4]]).expect("three cuts");
     assert_eq!((counts(&mesh), connected.edges.len()), ([6, 9, 4], 3), "four triangles");
-    let (mut mesh, v) = polygon(&places);
+    let (mut mesh, v) = polygon(&positions);
     mesh.connect_vertices(&v[..4]).expect("one cut: the others are neighbours");
     assert_eq!(counts(&mesh), [6, 7, 2], "two quads");
 }
@@ -50,9 +50,9 @@ fn every_second_vertex_of_a_hexagon_makes_a_triangle_in_it() {
 #[test]
 fn a_cut_does_not_leave_a_concave_face() {
     // A U: between its tips is nothing.
-    let places =
+    let positions =
         [[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [2.0, 2.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
-    let (mut mesh, v) = polygon(&places);
+    let (mut mesh, v) = polygon(&positions);
     let before = mesh.clone();
     assert!(mesh.connect_vertices(&[v[3], v[6]]).is_err(), "across the gap");
     assert!(mesh.connect_vertices(&[v[2], v[7]]).is_err(), "through both tips");
@@ -73,9 +73,9 @@ fn a_path_runs_straight_over_several_faces() {
     assert_eq!((connected.vertices.len(), connected.edges.len()), (2, 3), "cut at two edges");
     assert_eq!(counts(&mesh), [25 + 2, 40 + 2 + 3, 16 + 3], "each face in two");
     for vertex in connected.vertices {
-        let place = mesh.position(vertex);
+        let position = mesh.position(vertex);
         // z = (x + 2) / 3, rounded once.
-        assert!((place.z - (place.x + 2.0) / 3.0).abs() < 1e-6, "{place} is on the line");
+        assert!((position.z - (position.x + 2.0) / 3.0).abs() < 1e-6, "{position} is on the line");
     }
     // Through vertices: four diagonals, no new vertex.
     let mut mesh = start.clone();
@@ -92,8 +92,8 @@ fn a_path_over_the_edge_of_a_cube_is_found() {
     let mut mesh = editable(primitives::cube(2.0));
     let all: Vec<EdgeId> = mesh.edges().collect();
     mesh.subdivide(&all, 1).expect("edges");
-    let middle = |mesh: &EditMesh, place: Vec3| {
-        mesh.vertices().find(|&vertex| mesh.position(vertex) == place).expect("a face's middle")
+    let middle = |mesh: &EditMesh, position: Vec3| {
+        mesh.vertices().find(|&vertex| mesh.position(vertex) == position).expect("a face's middle")
     };
     let ends = [middle(&mesh, Vec3::X), middle(&mesh, Vec3::Y)];
     let connected = mesh.connect_vertices(&ends).expect("a path");
@@ -124,8 +124,8 @@ proptest! {
 /// A side far from a cut, whose line the cut crosses without crossing the side itself.
 #[test]
 fn a_cut_that_crosses_only_the_line_of_a_side_is_made() {
-    let places = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
-    let (mut mesh, vertices) = polygon(&places);
+    let positions = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let (mut mesh, vertices) = polygon(&positions);
     let connected = mesh.connect_vertices(&[vertices[0], vertices[2]]).expect("within the L");
     assert_eq!((counts(&mesh), connected.edges.len()), ([6, 7, 2], 1), "cut in two");
 }
@@ -136,8 +136,8 @@ fn a_path_through_vertices_makes_no_others() {
     for [x, z] in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
         let mut mesh = editable(primitives::grid(3.0, 3.0, 3, 3));
         let at = |mesh: &EditMesh, scale: f32| {
-            let place = Vec3::new(1.5 * x * scale, 0.0, 1.5 * z * scale);
-            mesh.vertices().find(|&vertex| mesh.position(vertex) == place).expect("a corner")
+            let position = Vec3::new(1.5 * x * scale, 0.0, 1.5 * z * scale);
+            mesh.vertices().find(|&vertex| mesh.position(vertex) == position).expect("a corner")
         };
         let ends = [at(&mesh, 1.0), at(&mesh, -1.0)];
         let connected = mesh.connect_vertices(&ends).expect("a straight path");

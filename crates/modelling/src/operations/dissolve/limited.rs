@@ -70,7 +70,7 @@ impl EditMesh {
         let mut seeds = IndexTable::new(self.face_capacity(), region.faces.len());
         let normals: Vec<DVec3> = region.faces.iter().map(|&face| self.unit_normal(face)).collect();
         let normal =
-            |face: FaceId| region.faces.binary_search(&face).map_or(DVec3::ZERO, |place| normals[place]);
+            |face: FaceId| region.faces.binary_search(&face).map_or(DVec3::ZERO, |index| normals[index]);
         let mut edges = Vec::new();
         let mut waiting = Vec::new();
         for &seed in &region.faces {

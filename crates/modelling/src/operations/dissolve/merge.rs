@@ -25,7 +25,7 @@ struct Part {
 struct Merging {
     edges: IndexSet,
     /// From faces to their numbers in `faces`.
-    places: IndexTable,
+    indices: IndexTable,
     /// All faces at the edges, in ascending order.
     faces: Vec<FaceId>,
 }
@@ -61,7 +61,7 @@ impl EditMesh {
 
     /// Makes one face of a part.
     fn unite(&mut self, merging: &Merging, part: &Part) -> FaceId {
-        let kept = part.faces[0];
+        let retained = part.faces[0];
         let mut inside: Vec<CornerId> = Vec::new();
         for &face in &part.faces {
             inside
@@ -78,14 +78,14 @@ impl EditMesh {
             self.free_face(face.0);
         }
         for (i, &corner) in part.outline.iter().enumerate() {
-            self.corners.write(corner.0).face = kept.0;
+            self.corners.write(corner.0).face = retained.0;
             self.link_in_face(corner.0, part.outline[(i + 1) % part.outline.len()].0);
         }
-        let record = self.faces.write(kept.0);
+        let record = self.faces.write(retained.0);
         record.corner = part.outline[0].0;
         record.size = part.outline.len() as u32;
         self.remove_loose(&edges);
-        kept
+        retained
     }
 }
 
@@ -102,11 +102,11 @@ impl Merging {
         }
         faces.sort_unstable();
         faces.dedup();
-        let mut places = IndexTable::new(mesh.face_capacity(), faces.len());
-        for (place, face) in (0..).zip(&faces) {
-            places.insert(face.0, place);
+        let mut indices = IndexTable::new(mesh.face_capacity(), faces.len());
+        for (index, face) in (0..).zip(&faces) {
+            indices.insert(face.0, index);
         }
-        Self { edges: set, places, faces }
+        Self { edges: set, indices, faces }
     }
 
     fn has_edge(&self, edge: EdgeId) -> bool {
@@ -115,10 +115,10 @@ impl Merging {
 
     /// The connected parts, each in ascending order.
     fn parts(&self, mesh: &EditMesh) -> Vec<Vec<FaceId>> {
-        let mut is_seen = vec![false; self.faces.len()];
+        let mut is_visited = vec![false; self.faces.len()];
         let mut parts = Vec::new();
         for seed in 0..self.faces.len() {
-            if std::mem::replace(&mut is_seen[seed], true) {
+            if std::mem::replace(&mut is_visited[seed], true) {
                 continue;
             }
             let mut part = vec![self.faces[seed]];
@@ -129,8 +129,8 @@ impl Merging {
                         continue;
                     }
                     let face = mesh.corner_face(mesh.radial_next(corner));
-                    let place = self.places.get(face.0).expect("faces at the edges are listed") as usize;
-                    if !std::mem::replace(&mut is_seen[place], true) {
+                    let index = self.indices.get(face.0).expect("faces at the edges are listed") as usize;
+                    if !std::mem::replace(&mut is_visited[index], true) {
                         part.push(face);
                     }
                 }

@@ -94,8 +94,9 @@ impl EditMesh {
     pub fn dissolve_vertices(&mut self, vertices: &[VertexId]) -> Result<Dissolved, Refusal> {
         require(vertices, "dissolving vertices", "at least one vertex")?;
         vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
-        let mut seen = IndexSet::new(self.vertex_capacity(), vertices.len());
-        let given: Vec<VertexId> = vertices.iter().copied().filter(|vertex| seen.insert(vertex.0)).collect();
+        let mut listed = IndexSet::new(self.vertex_capacity(), vertices.len());
+        let given: Vec<VertexId> =
+            vertices.iter().copied().filter(|vertex| listed.insert(vertex.0)).collect();
         let mut edges: Vec<EdgeId> = Vec::new();
         // Between two edges there is nothing to unite.
         for &vertex in given.iter().filter(|&&vertex| self.vertex_edges(vertex).nth(2).is_some()) {
@@ -104,7 +105,7 @@ impl EditMesh {
         let before = self.vertex_count();
         self.whole(|mesh| {
             let mut faces = mesh.merge_across(&edges, OnRefusal::Refuse)?;
-            for &vertex in given.iter().filter(|&&vertex| seen.contains(vertex.0)) {
+            for &vertex in given.iter().filter(|&&vertex| listed.contains(vertex.0)) {
                 if mesh.has_vertex(vertex) {
                     mesh.dissolve_left_over(vertex)?;
                 }

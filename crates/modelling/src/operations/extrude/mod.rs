@@ -78,7 +78,7 @@ impl EditMesh {
         let region = Region::new(self, faces, "extruding")?;
         offset.check()?;
         // Each corner of the region has at most one in a bottom and four in a wall.
-        self.check_room_for_each(5 * region.corner_count(self))?;
+        self.check_capacity_for_each(5 * region.corner_count(self))?;
         let border = region.border(self);
         let sheets = region.sheets(self, &border);
         let vertices = region.vertices(self);
@@ -117,9 +117,9 @@ impl EditMesh {
     ) -> Result<ExtrudedFaces, Refusal> {
         let region = Region::new(self, faces, "extruding")?;
         offset.check()?;
-        self.check_room_for_each(4 * region.corner_count(self))?;
+        self.check_capacity_for_each(4 * region.corner_count(self))?;
         let mut lifted = LiftedFaces::default();
-        let mut places = Vec::new();
+        let mut positions = Vec::new();
         for &face in &region.faces {
             let by = match offset {
                 ExtrudeOffset::Zero => DVec3::ZERO,
@@ -127,9 +127,9 @@ impl EditMesh {
                 ExtrudeOffset::By(by) => by,
             };
             if self.is_simple(face) {
-                places.clear();
-                places.extend(self.face_vertices(face).map(|vertex| self.point(vertex) + by));
-                self.lift_face(face, &places, &mut lifted);
+                positions.clear();
+                positions.extend(self.face_vertices(face).map(|vertex| self.point(vertex) + by));
+                self.lift_face(face, &positions, &mut lifted);
                 self.dress_walls(&lifted);
             } else {
                 let alone = Region::new(self, &[face], "extruding")?;

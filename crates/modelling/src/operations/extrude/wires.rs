@@ -48,7 +48,7 @@ impl EditMesh {
         require(edges, "extruding edges", "at least one edge")?;
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
         check_finite(&offset.to_array())?;
-        self.check_room_for_each(4 * edges.len())?;
+        self.check_capacity_for_each(4 * edges.len())?;
         let mut edges = edges.to_vec();
         edges.sort_unstable();
         edges.dedup();
@@ -64,7 +64,7 @@ impl EditMesh {
                     hinges.push(self.fresh_edge(vertex, new));
                     self.set_position(new, (self.point(vertex) + offset).as_vec3());
                 }
-                (new, hinges[splits.place(vertex).expect("it was split")])
+                (new, hinges[splits.index_of(vertex).expect("it was split")])
             });
             let new_edge = self.fresh_edge(new_from, new_to);
             self.copy_edge(edge, new_edge);
@@ -98,17 +98,17 @@ impl EditMesh {
     fn wall_starts(&self, edges: &[EdgeId]) -> Vec<VertexId> {
         // Which edges meet where: pairs of a vertex and the place of an edge in the list.
         let mut ends: Vec<(VertexId, usize)> = Vec::with_capacity(2 * edges.len());
-        for (place, &edge) in edges.iter().enumerate() {
-            ends.extend(self.edge_vertices(edge).map(|vertex| (vertex, place)));
+        for (index, &edge) in edges.iter().enumerate() {
+            ends.extend(self.edge_vertices(edge).map(|vertex| (vertex, index)));
         }
         ends.sort_unstable();
         let mut starts: Vec<Option<VertexId>> = vec![None; edges.len()];
         let mut waiting = Vec::new();
-        for (place, &edge) in edges.iter().enumerate() {
+        for (index, &edge) in edges.iter().enumerate() {
             // The face runs from the side's vertex, so the wall runs towards it.
             if let Some(side) = self.edge_corners(edge).next().filter(|_| self.is_boundary(edge)) {
-                starts[place] = Some(self.other_vertex(edge, self.corner_vertex(side)));
-                waiting.push(place);
+                starts[index] = Some(self.other_vertex(edge, self.corner_vertex(side)));
+                waiting.push(index);
             }
         }
         let walls = Walls { edges, ends: &ends };
@@ -137,7 +137,7 @@ impl EditMesh {
         require(vertices, "extruding vertices", "at least one vertex")?;
         vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
         check_finite(&offset.to_array())?;
-        self.check_room_for_each(vertices.len())?;
+        self.check_capacity_for_each(vertices.len())?;
         let mut vertices = vertices.to_vec();
         vertices.sort_unstable();
         vertices.dedup();
@@ -162,11 +162,11 @@ struct Walls<'a> {
 impl Walls<'_> {
     /// From walls that are wound already to those that continue them.
     fn follow(&self, mesh: &EditMesh, waiting: &mut Vec<usize>, starts: &mut [Option<VertexId>]) {
-        while let Some(place) = waiting.pop() {
-            let start = starts[place].expect("only such wait");
-            let end = mesh.other_vertex(self.edges[place], start);
+        while let Some(index) = waiting.pop() {
+            let start = starts[index].expect("only such wait");
+            let end = mesh.other_vertex(self.edges[index], start);
             for (vertex, is_start) in [(start, true), (end, false)] {
-                let Some(other) = self.only_other(vertex, place) else { continue };
+                let Some(other) = self.only_other(vertex, index) else { continue };
                 if starts[other].is_none() {
                     let far = mesh.other_vertex(self.edges[other], vertex);
                     starts[other] = Some(if is_start { far } else { vertex });
@@ -177,11 +177,11 @@ impl Walls<'_> {
     }
 
     /// The other edge at a vertex where exactly two meet: where more do, there is no one continuation.
-    fn only_other(&self, vertex: VertexId, place: usize) -> Option<usize> {
+    fn only_other(&self, vertex: VertexId, index: usize) -> Option<usize> {
         let first = self.ends.partition_point(|&(other, _)| other < vertex);
         let mut meeting = self.ends[first..].iter().take_while(|&&(other, _)| other == vertex);
         let (a, b) = (meeting.next()?.1, meeting.next()?.1);
         let is_pair = meeting.next().is_none();
-        is_pair.then_some(if a == place { b } else { a })
+        is_pair.then_some(if a == index { b } else { a })
     }
 }

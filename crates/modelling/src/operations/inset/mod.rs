@@ -64,12 +64,12 @@ impl EditMesh {
     pub fn inset_individual(&mut self, faces: &[FaceId], inset: Inset) -> Result<InsetFaces, Refusal> {
         let region = Region::new(self, faces, "insetting")?;
         inset.check()?;
-        self.check_room_for_each(4 * region.corner_count(self))?;
+        self.check_capacity_for_each(4 * region.corner_count(self))?;
         let mut lifted = LiftedFaces::default();
         let mut shape = Shape::default();
         for &face in &region.faces {
             shape.compute(self, face, inset);
-            self.lift_face(face, &shape.places, &mut lifted);
+            self.lift_face(face, &shape.positions, &mut lifted);
             self.interpolate_face(&shape, &lifted);
         }
         Ok(InsetFaces { rim: lifted.walls, vertices: lifted.vertices })
@@ -115,7 +115,7 @@ impl EditMesh {
 #[derive(Default)]
 struct Shape {
     frame: FaceFrame,
-    places: Vec<DVec3>,
+    positions: Vec<DVec3>,
     /// Numbers of corners and weights, for one corner after the other; a corner that stays has one part.
     weights: Vec<(usize, f64)>,
     /// Where the weights of each corner start, and the end of all.
@@ -125,10 +125,10 @@ struct Shape {
 
 impl Shape {
     fn compute(&mut self, mesh: &EditMesh, face: FaceId, inset: Inset) {
-        let Self { frame, places, weights, starts, of_one } = self;
+        let Self { frame, positions, weights, starts, of_one } = self;
         frame.load(mesh, face);
-        let count = frame.places.len();
-        places.clear();
+        let count = frame.positions.len();
+        positions.clear();
         weights.clear();
         starts.clear();
         let mut before = frame.inward(count - 1);
@@ -138,11 +138,11 @@ impl Shape {
             sides.add(before);
             sides.add(after);
             before = after;
-            frame.weights(i, frame.places[i] + sides.step(inset.thickness), of_one);
+            frame.weights(i, frame.positions[i] + sides.step(inset.thickness), of_one);
             // The mixture of the places lies on the face even where that is not planar.
-            let place =
-                of_one.iter().fold(DVec3::ZERO, |sum, &(part, weight)| sum + frame.places[part] * weight);
-            places.push(place + frame.normal * inset.depth);
+            let position =
+                of_one.iter().fold(DVec3::ZERO, |sum, &(part, weight)| sum + frame.positions[part] * weight);
+            positions.push(position + frame.normal * inset.depth);
             starts.push(weights.len());
             weights.append(of_one);
         }

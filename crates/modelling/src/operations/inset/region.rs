@@ -66,7 +66,7 @@ impl EditMesh {
     ) -> Result<InsetFaces, Refusal> {
         let region = Region::new(self, faces, "insetting")?;
         inset.check()?;
-        self.check_room_for_each(5 * region.corner_count(self))?;
+        self.check_capacity_for_each(5 * region.corner_count(self))?;
         let mut border = region.border(self);
         border.retain(|edge| inset.open_borders || edge.outer.is_some());
         if border.is_empty() {
@@ -183,9 +183,9 @@ impl EditMesh {
     /// their share of the values of their faces.
     fn slide_border(&mut self, slides: &Slides, distance: f64, is_surface: impl Fn(FaceId) -> bool) {
         let mut jobs: Vec<(FaceId, CornerId, usize)> = Vec::new();
-        for (place, slide) in slides.list.iter().enumerate() {
+        for (index, slide) in slides.list.iter().enumerate() {
             let corners = self.vertex_corners(slide.vertex);
-            let corners = corners.map(|corner| (self.corner_face(corner), corner, place));
+            let corners = corners.map(|corner| (self.corner_face(corner), corner, index));
             jobs.extend(corners.filter(|&(face, ..)| is_surface(face)));
         }
         jobs.sort_unstable();
@@ -199,26 +199,26 @@ impl EditMesh {
                 let Ok(job) = of_face.binary_search_by_key(&corner, |&(_, corner, _)| corner) else {
                     continue;
                 };
-                let place = of_face[job].2;
-                let step = slides.list[place].sides.step(distance);
-                frame.weights(number, frame.places[number] + step, &mut weights);
+                let index = of_face[job].2;
+                let step = slides.list[index].sides.step(distance);
+                frame.weights(number, frame.positions[number] + step, &mut weights);
                 if weights.len() == 1 {
                     continue;
                 }
                 let corners = &frame.corners;
                 of_corners.push(weights.iter().map(|&(part, weight)| (corners[part].0, weight)), corner.0);
-                if !std::mem::replace(&mut has_values[place], true) {
+                if !std::mem::replace(&mut has_values[index], true) {
                     let vertex = |part: usize| self.corner_vertex(corners[part]).0;
                     let parts = weights.iter().map(|&(part, weight)| (vertex(part), weight));
-                    of_vertices.push(parts, slides.list[place].vertex.0);
+                    of_vertices.push(parts, slides.list[index].vertex.0);
                 }
             }
         }
         self.corner_layers.iter_mut().for_each(|layer| layer.blend_all(&of_corners));
         self.vertex_layers.iter_mut().for_each(|layer| layer.blend_all(&of_vertices));
         for slide in &slides.list {
-            let place = self.point(slide.vertex) + slide.sides.step(distance);
-            self.set_position(slide.vertex, place.as_vec3());
+            let position = self.point(slide.vertex) + slide.sides.step(distance);
+            self.set_position(slide.vertex, position.as_vec3());
         }
     }
 
@@ -232,13 +232,13 @@ impl EditMesh {
         let fans = self.fans(vertex, hinge, &edges);
         let of_edge = |edge: EdgeId| fans[edges.binary_search(&edge).expect("it is at the vertex")];
         // The first fan with faces keeps the vertex, and so do wires.
-        let Some(kept) = edges.iter().position(|&edge| self.edge_corners(edge).next().is_some()) else {
+        let Some(retained) = edges.iter().position(|&edge| self.edge_corners(edge).next().is_some()) else {
             return;
         };
-        let kept = fans[kept];
+        let retained = fans[retained];
         let is_wire = |edge: EdgeId| self.edge_corners(edge).next().is_none();
         let leaving: SmallVec<[EdgeId; 8]> =
-            edges.iter().copied().filter(|&edge| of_edge(edge) != kept && !is_wire(edge)).collect();
+            edges.iter().copied().filter(|&edge| of_edge(edge) != retained && !is_wire(edge)).collect();
         if leaving.is_empty() {
             return;
         }
@@ -255,18 +255,18 @@ impl EditMesh {
         for edge in leaving {
             let fan = of_edge(edge);
             let known = parted.binary_search_by_key(&fan, |&(fan, ..)| fan);
-            let place = known.unwrap_or_else(|place| {
+            let index = known.unwrap_or_else(|index| {
                 let twin = self.twin_vertex(vertex);
                 let twin_hinge = self.fresh_edge(foot, twin);
                 self.copy_edge(hinge, twin_hinge);
-                parted.insert(place, (fan, twin, twin_hinge));
-                place
+                parted.insert(index, (fan, twin, twin_hinge));
+                index
             });
-            self.move_edge_end(edge, vertex, parted[place].1);
+            self.move_edge_end(edge, vertex, parted[index].1);
         }
         for (corner, fan) in upright {
-            if let Ok(place) = parted.binary_search_by_key(&fan, |&(fan, ..)| fan) {
-                let (_, twin, twin_hinge) = parted[place];
+            if let Ok(index) = parted.binary_search_by_key(&fan, |&(fan, ..)| fan) {
+                let (_, twin, twin_hinge) = parted[index];
                 self.unlink_at_edge(corner.0);
                 if self.corner_vertex(corner) == vertex {
                     self.corners.write(corner.0).vertex = twin.0;
@@ -279,12 +279,12 @@ impl EditMesh {
     /// For each of the edges at a vertex but one, in ascending order, the number of its fan: edges are
     /// in the same fan if a face joins them.
     fn fans(&self, vertex: VertexId, hinge: EdgeId, edges: &[EdgeId]) -> SmallVec<[usize; 8]> {
-        fn root(parents: &mut [usize], mut place: usize) -> usize {
-            while parents[place] != place {
-                parents[place] = parents[parents[place]];
-                place = parents[place];
+        fn root(parents: &mut [usize], mut index: usize) -> usize {
+            while parents[index] != index {
+                parents[index] = parents[parents[index]];
+                index = parents[index];
             }
-            place
+            index
         }
         let mut parents: SmallVec<[usize; 8]> = (0..edges.len()).collect();
         for corner in self.vertex_corners(vertex) {
@@ -297,18 +297,18 @@ impl EditMesh {
             let (low, high) = (a.min(b), a.max(b));
             parents[high] = low;
         }
-        (0..edges.len()).map(|place| root(&mut parents, place)).collect()
+        (0..edges.len()).map(|index| root(&mut parents, index)).collect()
     }
 }
 
 impl Slides {
     fn add(&mut self, vertex: VertexId, inward: DVec3) {
-        let place = self.table.get(vertex.0).unwrap_or_else(|| {
-            let place = self.list.len() as u32;
+        let index = self.table.get(vertex.0).unwrap_or_else(|| {
+            let index = self.list.len() as u32;
             self.list.push(Slide { vertex, sides: Sides::default() });
-            self.table.insert(vertex.0, place);
-            place
+            self.table.insert(vertex.0, index);
+            index
         });
-        self.list[place as usize].sides.add(inward);
+        self.list[index as usize].sides.add(inward);
     }
 }

@@ -29,8 +29,8 @@ impl Inside {
 
 impl EditMesh {
     /// A new vertex on a face.
-    pub(super) fn vertex_within(&mut self, face: FaceId, place: Vec3) -> Result<Inside, Refusal> {
-        let corners = self.mean_value_parts(face, place.as_dvec3())?;
+    pub(super) fn vertex_within(&mut self, face: FaceId, position: Vec3) -> Result<Inside, Refusal> {
+        let corners = self.mean_value_parts(face, position.as_dvec3())?;
         let parts: Vec<(VertexId, f64)> =
             corners.iter().map(|&(corner, weight)| (self.corner_vertex(corner), weight)).collect();
         let position: DVec3 = parts.iter().map(|&(vertex, weight)| self.point(vertex) * weight).sum();
@@ -40,9 +40,9 @@ impl EditMesh {
     }
 
     /// The mean value coordinates of a place in a face, as seen along its normal.
-    fn mean_value_parts(&self, face: FaceId, place: DVec3) -> Result<Vec<(CornerId, f64)>, Refusal> {
+    fn mean_value_parts(&self, face: FaceId, position: DVec3) -> Result<Vec<(CornerId, f64)>, Refusal> {
         let corners: Vec<CornerId> = self.face_corners(face).collect();
-        let arm = |&corner: &CornerId| self.point(self.corner_vertex(corner)) - place;
+        let arm = |&corner: &CornerId| self.point(self.corner_vertex(corner)) - position;
         let mut arms: Vec<DVec3> = corners.iter().map(arm).collect();
         let count = arms.len();
         let turn = |arms: &[DVec3], i: usize| arms[i].cross(arms[(i + 1) % count]);
@@ -77,7 +77,7 @@ impl EditMesh {
         if inside.is_empty() {
             return Ok(self.split_face(from, to)?.face);
         }
-        self.check_room()?;
+        self.check_capacity()?;
         let (old, first, last) = (self.corner_face(from), self.corner_vertex(from), self.corner_vertex(to));
         let new = FaceId(self.new_face());
         self.copy_face(old, new);

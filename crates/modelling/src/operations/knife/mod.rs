@@ -90,11 +90,11 @@ impl EditMesh {
         on_edges.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         for on_edge in on_edges.chunk_by(|a, b| a.0 == b.0) {
             let edge = on_edge[0].0;
-            let mut places: Vec<f64> = on_edge.iter().map(|&(_, t, _)| t).collect();
-            places.dedup();
-            let made = self.cut_rung(edge, self.edge_vertices(edge)[0], &places)?;
+            let mut parameters: Vec<f64> = on_edge.iter().map(|&(_, t, _)| t).collect();
+            parameters.dedup();
+            let made = self.cut_rung(edge, self.edge_vertices(edge)[0], &parameters)?;
             for &(_, t, i) in on_edge {
-                vertices[i] = made[places.partition_point(|&place| place < t)];
+                vertices[i] = made[parameters.partition_point(|&parameter| parameter < t)];
             }
         }
         Ok(vertices)
@@ -109,7 +109,7 @@ impl EditMesh {
         let mut insides = Vec::with_capacity(path.len());
         for (point, vertex) in path.iter().zip(vertices) {
             let inside = match *point {
-                KnifePoint::Face(face, place) => self.vertex_within(face, place)?,
+                KnifePoint::Face(face, position) => self.vertex_within(face, position)?,
                 _ => Inside::at(*vertex),
             };
             *vertex = inside.vertex;
@@ -195,8 +195,8 @@ mod tests {
             "one cut with a corner"
         );
         assert_eq!(counts(&cube), [8 + 3, 12 + 2 + 2, 7], "genus 0");
-        let place = center(&edit(primitives::cube(2.0)), FaceId(0));
-        assert!(cube.position(cut.vertices[1]).abs_diff_eq(place, 1e-6), "as given, but for rounding");
+        let position = center(&edit(primitives::cube(2.0)), FaceId(0));
+        assert!(cube.position(cut.vertices[1]).abs_diff_eq(position, 1e-6), "as given, but for rounding");
         keeps_affine_values(&cube).expect("interpolated");
     }
 

@@ -49,7 +49,7 @@ impl EditMesh {
         let vertices = sorted_once(vertices.to_vec());
         let mut pairs = Vec::new();
         NearPoints::new(vertices.iter().map(|&vertex| (self.position(vertex), vertex.0)))
-            .for_each_cluster(distance, |kept, gone| pairs.push((VertexId(gone), VertexId(kept))));
+            .for_each_cluster(distance, |target, gone| pairs.push((VertexId(gone), VertexId(target))));
         self.merge_pairs(&pairs)
     }
 
@@ -115,11 +115,11 @@ impl EditMesh {
         let mut parents: Vec<u32> = (0..vertices.len() as u32).collect();
         for &edge in edges {
             let ends = self.edge_vertices(edge).map(|vertex| numbering.get(vertex.0).expect("it is an end"));
-            let [a, b] = ends.map(|place| root(&mut parents, place as u32));
+            let [a, b] = ends.map(|index| root(&mut parents, index as u32));
             // The lower number stays: it does not depend on the order of edges.
             parents[a.max(b) as usize] = a.min(b);
         }
-        let parts = (0..vertices.len() as u32).map(|place| root(&mut parents, place));
+        let parts = (0..vertices.len() as u32).map(|index| root(&mut parents, index));
         parts.zip(vertices.iter().copied()).collect()
     }
 
@@ -136,14 +136,14 @@ impl EditMesh {
     fn merge_pairs(&mut self, pairs: &[(VertexId, VertexId)]) -> Result<MergedVertices, Refusal> {
         let before = self.vertex_count();
         self.merge_vertices(pairs)?;
-        let kept = pairs.iter().filter(|(gone, kept)| gone != kept).map(|&(_, kept)| kept);
-        Ok(MergedVertices { vertices: sorted_once(kept.collect()), removed: before - self.vertex_count() })
+        let targets = pairs.iter().filter(|(gone, target)| gone != target).map(|&(_, target)| target);
+        Ok(MergedVertices { vertices: sorted_once(targets.collect()), removed: before - self.vertex_count() })
     }
 }
 
 /// The pairs of a merge into one vertex.
-fn all_into(vertices: &[VertexId], kept: VertexId) -> Vec<(VertexId, VertexId)> {
-    vertices.iter().map(|&vertex| (vertex, kept)).collect()
+fn all_into(vertices: &[VertexId], target: VertexId) -> Vec<(VertexId, VertexId)> {
+    vertices.iter().map(|&vertex| (vertex, target)).collect()
 }
 
 /// The lowest number of a part; paths are halved on the way.

@@ -30,12 +30,12 @@ impl NearPoints {
     /// yet: calls back with both numbers.
     pub(super) fn for_each_cluster(&self, distance: f64, mut take: impl FnMut(u32, u32)) {
         let mut order: Vec<u32> = (0..self.points.len() as u32).collect();
-        order.sort_unstable_by_key(|&place| self.points[place as usize].1);
+        order.sort_unstable_by_key(|&index| self.points[index as usize].1);
         let mut is_taken = vec![false; self.points.len()];
         let (limit, mut found) = (distance * distance, Vec::new());
-        for place in order {
-            let (point, number) = self.points[place as usize];
-            if is_taken[place as usize] {
+        for index in order {
+            let (point, number) = self.points[index as usize];
+            if is_taken[index as usize] {
                 continue;
             }
             let center = point.as_dvec3();
@@ -56,9 +56,9 @@ impl NearPoints {
         let mut ranges = [(0, 0); DEEPEST];
         ranges[0] = (0, self.points.len());
         let mut waiting = 1;
-        let mut test = |place: usize| {
-            if self.points[place].0.as_dvec3().distance_squared(center) <= limit {
-                found(place);
+        let mut test = |index: usize| {
+            if self.points[index].0.as_dvec3().distance_squared(center) <= limit {
+                found(index);
             }
         };
         while waiting > 0 {

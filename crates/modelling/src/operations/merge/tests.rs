@@ -66,17 +66,17 @@ fn four_corners_of_a_face_meet_where_they_are_told_to() {
     let cube = editable(&primitives::cube(2.0));
     let face: Vec<VertexId> = cube.face_vertices(FaceId(0)).collect();
     let center = face.iter().map(|&vertex| cube.position(vertex)).sum::<Vec3>() / 4.0;
-    let place_after = |merge: &dyn Fn(&mut EditMesh) -> Result<MergedVertices, Refusal>| {
+    let position_after = |merge: &dyn Fn(&mut EditMesh) -> Result<MergedVertices, Refusal>| {
         let mut mesh = cube.clone();
         let merged = merge(&mut mesh).expect("four vertices");
         assert_eq!((merged.removed, counts(&mesh)), (3, [5, 8, 5]), "a pyramid");
         mesh.position(merged.vertices[0])
     };
-    assert_eq!(place_after(&|mesh| mesh.merge_at_center(&face)), center, "the middle of the face");
-    assert_eq!(place_after(&|mesh| mesh.merge_at_first(&face)), cube.position(face[0]), "the first");
-    assert_eq!(place_after(&|mesh| mesh.merge_at_last(&face)), cube.position(face[3]), "the last");
+    assert_eq!(position_after(&|mesh| mesh.merge_at_center(&face)), center, "the middle of the face");
+    assert_eq!(position_after(&|mesh| mesh.merge_at_first(&face)), cube.position(face[0]), "the first");
+    assert_eq!(position_after(&|mesh| mesh.merge_at_last(&face)), cube.position(face[3]), "the last");
     let edges: Vec<EdgeId> = cube.face_edges(FaceId(0)).collect();
-    assert_eq!(place_after(&|mesh| mesh.collapse_edges(&edges)), center, "one part");
+    assert_eq!(position_after(&|mesh| mesh.collapse_edges(&edges)), center, "one part");
 }
 
 #[test]
@@ -140,11 +140,11 @@ fn expected_pairs(mesh: &EditMesh, vertices: &[VertexId], distance: f64) -> Vec<
 proptest! {
     #[test]
     fn the_tree_finds_what_comparing_every_pair_finds(
-        places in prop::collection::vec(prop::array::uniform3(-8i8..8), 1..200),
+        positions in prop::collection::vec(prop::array::uniform3(-8i8..8), 1..200),
         distance in 0u8..40,
     ) {
         let mut mesh = EditMesh::new();
-        for [x, y, z] in places {
+        for [x, y, z] in positions {
             // The rule has to hold where many distances are exactly the limit, too.
             mesh.add_vertex(Vec3::new(f32::from(x), f32::from(y), f32::from(z) / 4.0)).expect("room");
         }

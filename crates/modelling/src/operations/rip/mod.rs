@@ -14,7 +14,7 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::numbering::sorted_once;
 use crate::refusal::Refusal;
-use sides::Sides;
+use sides::RipSides;
 use trigon_math::DVec3;
 
 const RIPPING: &str = "ripping";
@@ -33,7 +33,7 @@ struct SplitSide {
     /// The corner that leaves along the new edge.
     corner: CornerId,
     /// Corners of a face that kept the old edge: opposite that corner, and opposite the one after it.
-    kept: [CornerId; 2],
+    retained: [CornerId; 2],
 }
 
 impl EditMesh {
@@ -61,7 +61,7 @@ impl EditMesh {
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
         vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
         let edges = edges.iter().copied().filter(|&edge| self.edge_pair(edge).is_some()).collect();
-        let sides = Sides::new(self, sorted_once(edges), direction);
+        let sides = RipSides::new(self, sorted_once(edges), direction);
         let mut loose = sides.loose_corners(self);
         for vertex in sorted_once(vertices.to_vec()) {
             if !sides.is_at_edge(vertex) {
@@ -73,7 +73,7 @@ impl EditMesh {
             return Err(Refusal::NotPossible { operation: RIPPING, reason });
         }
         let corners: usize = loose.iter().map(|&corner| self.face_size(self.corner_face(corner))).sum();
-        self.check_room_for_each(corners)?;
+        self.check_capacity_for_each(corners)?;
         self.whole(|mesh| mesh.loosen(&sorted_once(loose), fill))
     }
 
@@ -126,7 +126,7 @@ impl EditMesh {
             // All of its faces came loose at an end.
             self.move_edge(edge, ends(self, corners[0]), corners[0]);
         }
-        let (kept, split): (SmallVec<[CornerId; 4]>, SmallVec<[CornerId; 4]>) =
+        let (retained, split): (SmallVec<[CornerId; 4]>, SmallVec<[CornerId; 4]>) =
             corners.iter().copied().partition(|&corner| has_edge(self, corner));
         for corner in split {
             let [start, end] = ends(self, corner);
@@ -134,11 +134,11 @@ impl EditMesh {
             self.copy_edge(edge, new);
             self.unlink_at_edge(corner.0);
             self.link_at_edge(corner.0, new.0);
-            let mut kept = [kept[0], self.next_corner(kept[0])];
-            if self.corner_vertex(kept[0]) != self.corner_vertex(corner) {
-                kept.swap(0, 1);
+            let mut retained = [retained[0], self.next_corner(retained[0])];
+            if self.corner_vertex(retained[0]) != self.corner_vertex(corner) {
+                retained.swap(0, 1);
             }
-            sides.push(SplitSide { corner, kept });
+            sides.push(SplitSide { corner, retained });
         }
     }
 
@@ -174,7 +174,7 @@ impl EditMesh {
             // The face that came loose runs along the edge the other way, the one that stayed as the new one.
             let next = self.next_corner(side.corner);
             let mut outline = SmallVec::<[(VertexId, CornerId); 4]>::new();
-            for corner in [next, side.corner, side.kept[0], side.kept[1]] {
+            for corner in [next, side.corner, side.retained[0], side.retained[1]] {
                 let vertex = self.corner_vertex(corner);
                 if outline.iter().all(|&(other, _)| other != vertex) {
                     outline.push((vertex, corner));

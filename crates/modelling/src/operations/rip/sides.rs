@@ -8,7 +8,7 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, VertexId};
 
 /// The corners around the edges, in fans: corners at one vertex that edges of the rip do not part.
-pub(super) struct Sides {
+pub(super) struct RipSides {
     /// For each corner at an end of an edge, the number of its fan.
     fans: BTreeMap<CornerId, usize>,
     /// Which fans lie on one side of the edges.
@@ -27,7 +27,7 @@ pub(super) struct Sides {
     far: Vec<f64>,
 }
 
-impl Sides {
+impl RipSides {
     /// For edges in ascending order, each between two faces.
     pub(super) fn new(mesh: &EditMesh, edges: Vec<EdgeId>, direction: DVec3) -> Self {
         let ends: BTreeSet<VertexId> = edges.iter().flat_map(|&edge| mesh.edge_vertices(edge)).collect();

@@ -14,8 +14,8 @@ fn grid() -> trigon_mesh::Mesh {
 }
 
 fn vertex_at(mesh: &EditMesh, x: f32, z: f32) -> VertexId {
-    let place = Vec3::new(x, 0.0, z);
-    mesh.vertices().find(|&vertex| mesh.position(vertex) == place).expect("a vertex is there")
+    let position = Vec3::new(x, 0.0, z);
+    mesh.vertices().find(|&vertex| mesh.position(vertex) == position).expect("a vertex is there")
 }
 
 /// The edges along x = 0, from one z to another.
@@ -33,8 +33,8 @@ fn check_loose(mesh: &mut EditMesh, ripped: &Ripped, is_loose: impl Fn(f64) -> b
         for face in mesh.vertex_faces(vertex).filter(|face| !ripped.faces.contains(face)) {
             assert!(is_loose(mesh.face_center(face).x), "{face} is on the side of the direction");
         }
-        let place = mesh.position(vertex);
-        mesh.set_position(vertex, place + Vec3::Y);
+        let position = mesh.position(vertex);
+        mesh.set_position(vertex, position + Vec3::Y);
     }
 }
 

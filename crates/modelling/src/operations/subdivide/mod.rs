@@ -12,7 +12,7 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 use crate::numbering::{Numbering, sorted_once};
 use crate::refusal::Refusal;
-use crate::slots::Room;
+use crate::slots::NewElements;
 use patterns::{Interior, Outline, Pattern};
 use trigon_math::{DVec3, area_vector};
 
@@ -41,7 +41,7 @@ struct CutEdges {
 
 /// Memory that is used for one face after another.
 #[derive(Default)]
-struct Scratch {
+struct SubdivisionScratch {
     corners: Vec<CornerId>,
     is_cut: Vec<bool>,
     starts: Vec<u32>,
@@ -85,11 +85,11 @@ impl EditMesh {
         }
         let edges = sorted_once(edges.to_vec());
         let faces = self.faces_at(&edges);
-        self.check_room_for_cuts(edges.len(), &faces, cuts)?;
+        self.check_capacity_for_cuts(edges.len(), &faces, cuts)?;
         let mut made = Subdivided { edges: edges.clone(), ..Subdivided::default() };
         let cut = self.cut_edges(&edges, cuts as usize, &mut made.edges);
         made.vertices.extend_from_slice(&cut.vertices);
-        let (mut scratch, mut divided) = (Scratch::default(), Divided::default());
+        let (mut scratch, mut divided) = (SubdivisionScratch::default(), Divided::default());
         for face in faces {
             self.cut_face_at(face, &cut, &mut scratch, &mut divided);
         }
@@ -111,7 +111,7 @@ impl EditMesh {
     }
 
     /// Whether there is room for what a subdivision may add.
-    fn check_room_for_cuts(&self, edges: usize, faces: &[FaceId], cuts: u32) -> Result<(), Refusal> {
+    fn check_capacity_for_cuts(&self, edges: usize, faces: &[FaceId], cuts: u32) -> Result<(), Refusal> {
         let (edges, cuts) = (edges as u64, u64::from(cuts));
         let (mut sides, mut small) = (0, 0);
         for &face in faces {
@@ -121,7 +121,7 @@ impl EditMesh {
         // A quad of all whose sides are cut has the most parts. In others, each point on a side is
         // in at most four parts.
         let parts = small * (cuts + 1) * (cuts + 1);
-        self.check_room_for(Room {
+        self.check_capacity_for(NewElements {
             vertices: edges * cuts + small * cuts * cuts,
             edges: edges * cuts + small * 2 * cuts * (cuts + 1) + sides * 2 * cuts,
             corners: parts * 4 + sides * 4 * (cuts + 1),
@@ -158,9 +158,15 @@ impl EditMesh {
     }
 
     /// Divides a face at edges that were cut.
-    fn cut_face_at(&mut self, face: FaceId, cut: &CutEdges, scratch: &mut Scratch, divided: &mut Divided) {
+    fn cut_face_at(
+        &mut self,
+        face: FaceId,
+        cut: &CutEdges,
+        scratch: &mut SubdivisionScratch,
+        divided: &mut Divided,
+    ) {
         self.gather_points(face, cut, scratch);
-        let Scratch { corners, is_cut, starts, points, pattern, vertices } = scratch;
+        let SubdivisionScratch { corners, is_cut, starts, points, pattern, vertices } = scratch;
         let outline = Outline { is_cut, starts, cuts: cut.cuts, count: points.len() as u32 };
         pattern.choose(&outline, |corner| self.is_convex_at(corners, corner));
         let repeats = corners.len() > 3 && self.repeats_a_vertex(corners);
@@ -183,8 +189,8 @@ impl EditMesh {
     }
 
     /// The points on the outline of a face: its corners and the new vertices on its sides.
-    fn gather_points(&mut self, face: FaceId, cut: &CutEdges, scratch: &mut Scratch) {
-        let Scratch { corners, is_cut, starts, points, .. } = scratch;
+    fn gather_points(&mut self, face: FaceId, cut: &CutEdges, scratch: &mut SubdivisionScratch) {
+        let SubdivisionScratch { corners, is_cut, starts, points, .. } = scratch;
         corners.clear();
         corners.extend(self.face_corners(face));
         is_cut.clear();
@@ -195,10 +201,10 @@ impl EditMesh {
             starts.push(points.len() as u32);
             points.push(PartPoint { vertex, corner, is_taken: false });
             let edge = self.corner_edge(corner).0;
-            let place = cut.numbering.get(edge);
-            is_cut.push(place.is_some());
-            let Some(place) = place else { continue };
-            let on_edge = &cut.vertices[place * cut.cuts..][..cut.cuts];
+            let index = cut.numbering.get(edge);
+            is_cut.push(index.is_some());
+            let Some(index) = index else { continue };
+            let on_edge = &cut.vertices[index * cut.cuts..][..cut.cuts];
             let is_forward = self.edges[edge].vertices[0] == vertex.0;
             let next = corners[if i + 1 == corners.len() { 0 } else { i + 1 }];
             for number in 0..cut.cuts {

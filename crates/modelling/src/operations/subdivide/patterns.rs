@@ -222,7 +222,7 @@ impl Pattern {
             |&corner: &usize| outline.is_cut[corner] && outline.is_cut[before(corner)] && is_convex(corner);
         let corners: Vec<usize> = (0..sides).filter(is_cut_off).collect();
         let gone: Vec<u32> = corners.iter().map(|&corner| outline.corner(corner)).collect();
-        self.parts.push((0..outline.count).filter(|place| gone.binary_search(place).is_err()));
+        self.parts.push((0..outline.count).filter(|index| gone.binary_search(index).is_err()));
         for corner in corners {
             let last = outline.at(before(corner), outline.cuts);
             self.parts.push([outline.corner(corner), outline.at(corner, 1), last]);

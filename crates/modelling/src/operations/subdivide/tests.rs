@@ -127,8 +127,8 @@ fn marks_and_materials_are_inherited() {
 fn a_reflex_corner_is_not_cut_off() {
     // An L, whose corner 3 turns right.
     let mut mesh = EditMesh::new();
-    let places = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
-    let vertices: Vec<VertexId> = places
+    let positions = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
+    let vertices: Vec<VertexId> = positions
         .iter()
         .map(|&(x, y)| mesh.add_vertex(Vec3::new(x as f32, y as f32, 0.0)).expect("room"))
         .collect();

@@ -54,12 +54,12 @@ impl GivenNormals {
             return given;
         }
         let mut whole = FixedBitSet::with_capacity(mesh.vertex_capacity());
-        for (place, vertex) in vertices.iter().enumerate() {
-            whole.set(vertex.0 as usize, is_whole(place));
+        for (index, vertex) in vertices.iter().enumerate() {
+            whole.set(vertex.0 as usize, is_whole(index));
         }
-        let mut seen = FixedBitSet::with_capacity(mesh.face_capacity());
+        let mut listed = FixedBitSet::with_capacity(mesh.face_capacity());
         for face in vertices.iter().flat_map(|&vertex| mesh.vertex_faces(vertex)) {
-            if !seen.put(face.0 as usize) {
+            if !listed.put(face.0 as usize) {
                 let is_whole = mesh.face_vertices(face).all(|vertex| whole.contains(vertex.0 as usize));
                 given.add(mesh, face, is_whole);
             }

@@ -17,7 +17,7 @@ impl EditMesh {
         vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
         let is_away = |vertex: &VertexId| {
             // By bits: also a place that is not a number is left or returned to.
-            let bits = |place: trigon_math::Vec3| place.to_array().map(f32::to_bits);
+            let bits = |position: trigon_math::Vec3| position.to_array().map(f32::to_bits);
             bits(self.position(*vertex)) != bits(self.first_position(*vertex))
         };
         let mut moved: Vec<VertexId> = vertices.iter().copied().filter(is_away).collect();

@@ -51,7 +51,7 @@ pub struct MoveSession {
     normals: Vec<DVec3>,
     given: GivenNormals,
     /// Where vertices go: kept for its memory.
-    places: Vec<Vec3>,
+    positions: Vec<Vec3>,
     last: Option<Transform>,
 }
 
@@ -63,10 +63,10 @@ enum Weights {
 
 impl Weights {
     #[inline]
-    fn of(&self, place: usize) -> f64 {
+    fn of(&self, index: usize) -> f64 {
         match self {
             Self::All => 1.0,
-            Self::Each(weights) => weights[place],
+            Self::Each(weights) => weights[index],
         }
     }
 }
@@ -95,8 +95,8 @@ impl MoveSession {
 
     fn begin(mesh: &EditMesh, vertices: Vec<VertexId>, weights: Weights) -> Self {
         let starts: Vec<Vec3> = vertices.iter().map(|&vertex| mesh.position(vertex)).collect();
-        let given = GivenNormals::at(mesh, &vertices, |place| weights.of(place) == 1.0);
-        Self { places: starts.clone(), vertices, starts, weights, normals: Vec::new(), given, last: None }
+        let given = GivenNormals::at(mesh, &vertices, |index| weights.of(index) == 1.0);
+        Self { positions: starts.clone(), vertices, starts, weights, normals: Vec::new(), given, last: None }
     }
 
     /// The vertices that move, wholly or in part, in ascending order.
@@ -110,8 +110,8 @@ impl MoveSession {
     /// # Panics
     /// When there is no such place.
     #[must_use]
-    pub fn weight(&self, place: usize) -> f64 {
-        self.weights.of(place)
+    pub fn weight(&self, index: usize) -> f64 {
+        self.weights.of(index)
     }
 
     /// Moves the vertices from the start; what was applied before does not count.
@@ -127,35 +127,35 @@ impl MoveSession {
             self.cancel(mesh);
             self.normals = mesh.vertex_normals(&self.vertices);
         }
-        self.find_places(&prepared);
+        self.move_positions(&prepared);
         self.last = Some(*transform);
-        if self.places == self.starts {
+        if self.positions == self.starts {
             self.restore(mesh);
             return Ok(());
         }
-        self.write(mesh, &self.places);
+        self.write(mesh, &self.positions);
         self.given.apply(mesh, prepared.linear().as_ref());
         Ok(())
     }
 
-    fn write(&self, mesh: &mut EditMesh, places: &[Vec3]) {
-        let moved = self.vertices.iter().zip(places);
+    fn write(&self, mesh: &mut EditMesh, moved: &[Vec3]) {
+        let moved = self.vertices.iter().zip(moved);
         if is_more_than_one_of(2, self.vertices.len(), mesh.vertex_capacity()) {
             // One copy of the old list takes less time and memory than a note for each.
             let positions = mesh.positions.write_all();
-            moved.for_each(|(vertex, &place)| positions[vertex.0 as usize] = place);
+            moved.for_each(|(vertex, &position)| positions[vertex.0 as usize] = position);
         } else {
-            moved.for_each(|(vertex, &place)| *mesh.positions.write(vertex.0) = place);
+            moved.for_each(|(vertex, &position)| *mesh.positions.write(vertex.0) = position);
         }
     }
 
-    fn find_places(&mut self, prepared: &Prepared) {
+    fn move_positions(&mut self, prepared: &Prepared) {
         let (starts, weights, normals) = (&self.starts, &self.weights, &self.normals);
-        let pieces = self.places.par_chunks_mut(PIECE).enumerate();
-        pieces.for_each(|(piece, places)| {
-            for (place, index) in places.iter_mut().zip(piece * PIECE..) {
+        let pieces = self.positions.par_chunks_mut(PIECE).enumerate();
+        pieces.for_each(|(piece, moved)| {
+            for (position, index) in moved.iter_mut().zip(piece * PIECE..) {
                 let normal = normals.get(index).copied().unwrap_or(DVec3::ZERO);
-                *place = prepared.moved(starts[index].as_dvec3(), weights.of(index), normal).as_vec3();
+                *position = prepared.moved(starts[index].as_dvec3(), weights.of(index), normal).as_vec3();
             }
         });
     }
