@@ -7,7 +7,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use regex::Regex;
+use regex_lite::Regex;
 use serde_json::{Map, Value};
 
 use super::{names, script};
@@ -200,7 +200,7 @@ fn pattern(fields: &Map<String, Value>) -> Result<Option<Regex>, String> {
     let expression = match text("match-type").unwrap_or("regex") {
         "regex" => format!("^(?:{wanted})$"),
         "glob" => glob(wanted),
-        "exact" => format!("^{}$", regex::escape(wanted)),
+        "exact" => format!("^{}$", regex_lite::escape(wanted)),
         other => return Err(format!("match-type is {other:?}; write regex, glob or exact")),
     };
     Regex::new(&expression).map(Some).map_err(|error| format!("match: {error}"))
@@ -229,7 +229,7 @@ fn glob(wanted: &str) -> String {
                 expression.push(')');
             }
             ',' if depth > 0 => expression.push('|'),
-            other => expression.push_str(&regex::escape(other.encode_utf8(&mut [0; 4]))),
+            other => expression.push_str(&regex_lite::escape(other.encode_utf8(&mut [0; 4]))),
         }
     }
     expression + "$"

@@ -7,7 +7,7 @@
 use std::path::PathBuf;
 
 use clap::{ArgAction, Parser, ValueEnum};
-use regex::Regex;
+use regex_lite::Regex;
 use trigon_camera::{UpAxis, Viewport};
 use trigon_io::{Format, SceneChoice};
 use trigon_math::{DVec3, Vec3};

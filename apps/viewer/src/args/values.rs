@@ -322,8 +322,8 @@ pub(crate) fn text_scale(text: &str) -> Result<f32, String> {
 }
 
 /// A regular expression.
-pub(crate) fn regex(text: &str) -> Result<regex::Regex, String> {
-    regex::Regex::new(text).map_err(|error| error.to_string())
+pub(crate) fn regex(text: &str) -> Result<regex_lite::Regex, String> {
+    regex_lite::Regex::new(text).map_err(|error| error.to_string())
 }
 
 /// A texture transform: `scale:2;angle:45;translation:0.5,0` in any order, scaled first and
