@@ -87,7 +87,7 @@ impl Fault {
         Self {
             severity: if is_missing { Severity::Error } else { Severity::Warning },
             name: if is_missing { "missing-file" } else { "in-the-file" },
-            location: format!("{}{}", warning.file.display(), warning.place),
+            location: format!("{}{}", warning.file.display(), warning.location),
             what: format!("{}{more}{tried}", warning.what),
             remedy: warning.remedy.clone(),
         }

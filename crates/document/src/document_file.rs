@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use thiserror::Error;
-use trigon_io::{Export, ExportOptions, Format, NativeDocument, Place, Warning, WriteError};
+use trigon_io::{Export, ExportOptions, Format, Location, NativeDocument, Warning, WriteError};
 use trigon_mesh::{EditData, Mesh};
 use trigon_modelling::{EditMesh, Refusal};
 use trigon_scene::{MeshAsset, MeshId};
@@ -46,10 +46,10 @@ impl DocumentFile {
             match EditMesh::from_mesh_and_data(asset.mesh(), &data) {
                 Ok((mesh, _)) => drop(edited.insert(id, mesh)),
                 Err(error) => {
-                    let place = Place::Named(format!("mesh \"{}\"", asset.name));
+                    let location = Location::Named(format!("mesh \"{}\"", asset.name));
                     let what = format!("marks and original positions are left out: {error}");
                     let remedy = "open an older copy of the file if you need them";
-                    warnings.push(Warning::new(name, place, &what, remedy));
+                    warnings.push(Warning::new(name, location, &what, remedy));
                 }
             }
         }

@@ -6,7 +6,7 @@ use std::path::Path;
 use image::{ImageFormat, ImageReader};
 use trigon_scene::Environment;
 
-use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::folder::{Folder, to_the_end};
 use crate::limits::Limits;
 use crate::rgba_image::{check_claim, decoder_limits, reason};
@@ -57,7 +57,7 @@ fn decode(bytes: &[u8], limits: &Limits, warnings: &mut Warnings) -> Result<Envi
     }
     warnings.push_counted(
         bright,
-        Place::Whole,
+        Location::Whole,
         "a pixel is brighter than 1e9 and is held to that",
         "check the image's scale",
     );

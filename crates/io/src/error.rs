@@ -12,7 +12,7 @@ use thiserror::Error;
 
 /// A location in a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Place {
+pub enum Location {
     /// The file as a whole.
     #[default]
     Whole,
@@ -26,7 +26,7 @@ pub enum Place {
     Named(String),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Whole => Ok(()),
@@ -61,7 +61,7 @@ pub enum LoadErrorKind {
 /// Why a file could not be loaded. Its `Display` is one line: the file, the location in it, what is
 /// wrong, and the remedy.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{}{place}: {what}; {remedy}", printable(&file.display().to_string()))]
+#[error("{}{location}: {what}; {remedy}", printable(&file.display().to_string()))]
 #[non_exhaustive]
 pub struct LoadError {
     /// The kind of failure.
@@ -69,7 +69,7 @@ pub struct LoadError {
     /// The faulty file, as the caller or the model named it.
     pub file: PathBuf,
     /// The location in that file.
-    pub place: Place,
+    pub location: Location,
     /// What is wrong.
     pub what: String,
     /// A remedy for people.
@@ -84,7 +84,7 @@ impl LoadError {
         remedy: impl Into<String>,
     ) -> Self {
         let (what, remedy) = (printable(&what.into()), printable(&remedy.into()));
-        Self { kind, file: file.to_owned(), place: Place::Whole, what, remedy }
+        Self { kind, file: file.to_owned(), location: Location::Whole, what, remedy }
     }
 
     pub(crate) fn malformed(file: &Path, what: impl Into<String>, remedy: impl Into<String>) -> Self {
@@ -108,8 +108,8 @@ impl LoadError {
         Self::new(LoadErrorKind::Cancelled, file, "loading was cancelled", "load it again when you want it")
     }
 
-    pub(crate) fn at(self, place: Place) -> Self {
-        Self { place, ..self }
+    pub(crate) fn at(self, location: Location) -> Self {
+        Self { location, ..self }
     }
 }
 
@@ -138,8 +138,8 @@ mod tests {
 
     #[test]
     fn a_message_is_one_line_with_file_place_and_remedy() {
-        let error =
-            LoadError::malformed(Path::new("a\nb.obj"), "bad\u{1b}[31m name", "mend it").at(Place::Line(3));
+        let error = LoadError::malformed(Path::new("a\nb.obj"), "bad\u{1b}[31m name", "mend it")
+            .at(Location::Line(3));
         assert_eq!(
             error.to_string(),
             "a\u{fffd}b.obj, line 3: bad\u{fffd}[31m name; mend it",

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::error::Place;
+use crate::error::Location;
 use crate::folder::{Found, Lookup};
 use crate::import::Import;
 use crate::refusal::Refusal;
@@ -21,7 +21,7 @@ pub(crate) struct Mention<'a> {
 pub(crate) fn note_respelled(import: &mut Import<'_>, what: &str, found: &Found, from: Mention<'_>) {
     if found.respelled {
         let what = format!("{what} was not found; \"{}\" is used instead", found.path.display());
-        import.warnings.push_about(from.file, Place::Line(from.line), what, "correct the name there");
+        import.warnings.push_about(from.file, Location::Line(from.line), what, "correct the name there");
     }
 }
 
@@ -44,8 +44,8 @@ pub(crate) fn find_image(import: &mut Import<'_>, from: Mention<'_>) -> Option<F
             if !beside.as_os_str().is_empty() {
                 tried.extend(import.folder.tried(here, name));
             }
-            let place = Place::Line(from.line);
-            import.warnings.push_unusable(from.file, place, what, refusal.remedy(), tried);
+            let location = Location::Line(from.line);
+            import.warnings.push_unusable(from.file, location, what, refusal.remedy(), tried);
             None
         }
     }

@@ -79,7 +79,7 @@ mod write;
 pub use capture::{Capture, Mismatch, PixelMismatch};
 pub use compare::{ImageDifference, SizeMismatch, compare_images};
 pub use environment::load_environment;
-pub use error::{LoadError, LoadErrorKind, Place};
+pub use error::{LoadError, LoadErrorKind, Location};
 pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport};
 pub use file_identity::FileIdentity;
 pub use format::{Format, Reader, Writer};

@@ -8,7 +8,7 @@ use rayon::ThreadPoolBuilder;
 use trigon_mesh::EditData;
 use trigon_scene::{MeshId, Scene};
 
-use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::folder::Folder;
 use crate::format::Format;
 use crate::formats::{detect_format, supported};
@@ -134,7 +134,7 @@ fn import(
     options.report(path, LoadStage::Textures, 1.0)?;
     if let Some(wanted) = options.variant.as_ref().filter(|_| import.variant_names.is_empty()) {
         let what = format!("it has no variants of its materials, so there is no {wanted:?}");
-        import.warnings.push(Place::Whole, what, "choose a variant for files that have some");
+        import.warnings.push(Location::Whole, what, "choose a variant for files that have some");
     }
     let Import { folder, warnings, scene, scene_names, variant_names, source, edit_data, .. } = import;
     let (warnings, files) = (warnings.into_list(), folder.into_files());

@@ -13,7 +13,7 @@ use crate::error::LoadError;
 use crate::export::{Export, ExportOptions};
 use crate::format::Format;
 use crate::formats::export;
-use crate::formats::gltf::{GlbFile, Input, KeptFile, write_scene};
+use crate::formats::gltf::{GlbFile, Input, RetainedFile, write_scene};
 use crate::load::{Loaded, load, load_from_slice};
 use crate::loss::Loss;
 use crate::options::LoadOptions;
@@ -65,7 +65,7 @@ pub struct NativeDocument {
     /// Every file that its contents were read from, the model first: none of them but the model is to be replaced by an
     /// export.
     pub files: Vec<PathBuf>,
-    kept: Option<Arc<KeptFile>>,
+    retained: Option<Arc<RetainedFile>>,
 }
 
 impl NativeDocument {
@@ -101,18 +101,19 @@ impl NativeDocument {
 
     fn from_loaded(loaded: Loaded) -> (Self, Vec<Warning>) {
         let Loaded { mut scene, edit_data, source, warnings, files, .. } = loaded;
-        let keep = |source| Arc::new(KeptFile { source, scene: scene.clone(), edit_data: edit_data.clone() });
-        let kept = source.map(keep);
+        let keep =
+            |source| Arc::new(RetainedFile { source, scene: scene.clone(), edit_data: edit_data.clone() });
+        let retained = source.map(keep);
         scene.turn_to(UpAxis::Y);
-        (Self { scene, edit_data, files, kept }, warnings)
+        (Self { scene, edit_data, files, retained }, warnings)
     }
 
     /// A mesh as it was read from a glTF, with its edit data if it has any. A document with the same mesh and
     /// data is written with that mesh as it stands in the file.
     #[must_use]
     pub fn loaded_mesh(&self, id: MeshId) -> Option<(&Mesh, Option<&EditData>)> {
-        let kept = self.kept.as_ref()?;
-        Some((kept.scene.meshes().get(id)?.mesh(), kept.edit_data.get(&id)))
+        let retained = self.retained.as_ref()?;
+        Some((retained.scene.meshes().get(id)?.mesh(), retained.edit_data.get(&id)))
     }
 
     /// The document as a file, not written yet, so that the caller can first ask about losses.
@@ -123,8 +124,8 @@ impl NativeDocument {
         let written = write_scene(&Input {
             scene: &self.scene,
             edit_data: Some(&self.edit_data),
-            kept: self.kept.as_deref(),
-            images: self.kept.as_ref().map(|kept| &kept.source),
+            retained: self.retained.as_deref(),
+            images: self.retained.as_ref().map(|retained| &retained.source),
             nodes: None,
             root: None,
         })?;
@@ -142,7 +143,7 @@ impl NativeDocument {
         format: Format,
         options: &ExportOptions<'_>,
     ) -> Result<Export, WriteError> {
-        let images = options.images.or(self.kept.as_ref().map(|kept| &kept.source));
+        let images = options.images.or(self.retained.as_ref().map(|retained| &retained.source));
         export(&self.scene, name, format, &ExportOptions { images, ..options.clone() })
     }
 }

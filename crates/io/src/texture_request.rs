@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use trigon_raster::TextureFormat;
 
-use crate::error::Place;
+use crate::error::Location;
 use crate::layers::Role;
 
 /// A texture to create, and where it was named.
@@ -15,7 +15,7 @@ pub(crate) struct Request {
     pub(crate) name: String,
     /// The file to report if it is broken.
     pub(crate) file: PathBuf,
-    pub(crate) place: Place,
+    pub(crate) location: Location,
     /// The images that it consists of.
     pub(crate) layers: Vec<(Role, ImageBytes)>,
     pub(crate) purpose: Purpose,

@@ -51,7 +51,7 @@ pub(crate) fn add_textures(
         let must_show = request.purpose == Purpose::BaseColor;
         let instead = if must_show { "shown as a checkerboard" } else { "left out" };
         let what = format!("image \"{}\" is {instead}: {why}", request.name);
-        import.warnings.push_about(&request.file, request.place.clone(), what, remedy);
+        import.warnings.push_about(&request.file, request.location.clone(), what, remedy);
         ids.push(must_show.then(|| {
             *stand_in.get_or_insert_with(|| {
                 let texture = to_texture(placeholder(), Purpose::BaseColor);

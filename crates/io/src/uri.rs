@@ -36,7 +36,7 @@ pub(crate) struct FileNames {
 }
 
 /// What stays as it is in an encoded path (RFC 3986, sections 2.3 and 3.3).
-const KEPT_IN_PATHS: &AsciiSet =
+const UNESCAPED_IN_PATHS: &AsciiSet =
     &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_').remove(b'~').remove(b'/');
 
 impl FileNames {
@@ -46,7 +46,7 @@ impl FileNames {
         if spelled.first().is_none_or(|decoded| decoded != uri) {
             spelled.push(uri.to_owned());
         }
-        let encoded = utf8_percent_encode(uri, KEPT_IN_PATHS).to_string();
+        let encoded = utf8_percent_encode(uri, UNESCAPED_IN_PATHS).to_string();
         // What has percent signs already was encoded by the model's author.
         let encoded = Some(encoded).filter(|encoded| encoded != uri && !uri.contains('%'));
         Self { spelled, encoded }

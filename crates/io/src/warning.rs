@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::error::{Place, printable};
+use crate::error::{Location, printable};
 
 /// Something in a file that is missing, wrong or not supported. Its `Display` is one line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub struct Warning {
     /// The faulty file.
     pub file: PathBuf,
     /// The first location.
-    pub place: Place,
+    pub location: Location,
     /// What is wrong with it.
     pub what: String,
     /// A remedy for people.
@@ -32,10 +32,10 @@ impl Warning {
     /// A warning about a file: where it is, what is wrong, and a remedy. Characters that a terminal would obey are
     /// replaced.
     #[must_use]
-    pub fn new(file: &Path, place: Place, what: &str, remedy: &str) -> Self {
+    pub fn new(file: &Path, location: Location, what: &str, remedy: &str) -> Self {
         Self {
             file: file.to_owned(),
-            place,
+            location,
             what: printable(what),
             remedy: printable(remedy),
             more: 0,
@@ -47,7 +47,7 @@ impl Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let file = printable(&self.file.display().to_string());
-        write!(f, "{file}{}: {}", self.place, self.what)?;
+        write!(f, "{file}{}: {}", self.location, self.what)?;
         if self.more > 0 {
             write!(f, " … and {} more", self.more)?;
         }
@@ -83,44 +83,44 @@ impl Warnings {
     }
 
     /// A warning about the model's own file.
-    pub(crate) fn push(&mut self, place: Place, what: impl Into<String>, remedy: impl Into<String>) {
+    pub(crate) fn push(&mut self, location: Location, what: impl Into<String>, remedy: impl Into<String>) {
         let file = self.file.clone();
-        self.push_about(&file, place, what, remedy);
+        self.push_about(&file, location, what, remedy);
     }
 
     /// A warning about another file of the model.
     pub(crate) fn push_about(
         &mut self,
         file: &Path,
-        place: Place,
+        location: Location,
         what: impl Into<String>,
         remedy: impl Into<String>,
     ) {
-        self.add(Warning::new(file, place, &what.into(), &remedy.into()));
+        self.add(Warning::new(file, location, &what.into(), &remedy.into()));
     }
 
     /// A warning about a file that could not be used; `tried` is where it was looked for.
     pub(crate) fn push_unusable(
         &mut self,
         file: &Path,
-        place: Place,
+        location: Location,
         what: String,
         remedy: &str,
         tried: Vec<PathBuf>,
     ) {
-        self.add(Warning { tried, ..Warning::new(file, place, &what, remedy) });
+        self.add(Warning { tried, ..Warning::new(file, location, &what, remedy) });
     }
 
     /// A warning that occurred `count` times, first at `place`.
     pub(crate) fn push_counted(
         &mut self,
         count: usize,
-        place: Place,
+        location: Location,
         what: impl Into<String>,
         remedy: impl Into<String>,
     ) {
         let Some(more) = count.checked_sub(1) else { return };
-        self.add(Warning { more, ..Warning::new(&self.file, place, &what.into(), &remedy.into()) });
+        self.add(Warning { more, ..Warning::new(&self.file, location, &what.into(), &remedy.into()) });
     }
 
     /// Adds a warning, or its count to the one with the same file and text, or to the last one if
@@ -155,7 +155,7 @@ mod tests {
     fn repeated_warnings_are_counted() {
         let mut warnings = Warnings::about(Path::new("a.obj"));
         for line in 5..47 {
-            warnings.push(Place::Line(line), "a face was dropped", "mend it");
+            warnings.push(Location::Line(line), "a face was dropped", "mend it");
         }
         let list = warnings.into_list();
         assert_eq!(list.len(), 1, "folded");
@@ -169,9 +169,9 @@ mod tests {
     #[test]
     fn counts_of_a_known_warning_are_added() {
         let mut warnings = Warnings::about(Path::new("a.obj"));
-        warnings.push_counted(3, Place::Line(5), "faces were dropped", "mend them");
-        warnings.push_counted(0, Place::Line(6), "faces were dropped", "mend them");
-        warnings.push_counted(40, Place::Line(7), "faces were dropped", "mend them");
+        warnings.push_counted(3, Location::Line(5), "faces were dropped", "mend them");
+        warnings.push_counted(0, Location::Line(6), "faces were dropped", "mend them");
+        warnings.push_counted(40, Location::Line(7), "faces were dropped", "mend them");
         assert_eq!(warnings.into_list()[0].more, 42, "43 in all");
     }
 
@@ -181,7 +181,7 @@ mod tests {
         let tried = vec![PathBuf::from("maps/a.png"), PathBuf::from("a.png")];
         for (line, tried) in [(2, tried.clone()), (3, Vec::new())] {
             let what = "no image".to_owned();
-            warnings.push_unusable(Path::new("a.mtl"), Place::Line(line), what, "mend it", tried);
+            warnings.push_unusable(Path::new("a.mtl"), Location::Line(line), what, "mend it", tried);
         }
         let list = warnings.into_list();
         assert_eq!(list[0].tried, tried, "of the first");
@@ -192,9 +192,9 @@ mod tests {
     fn a_flood_of_different_warnings_is_bounded() {
         let mut warnings = Warnings::about(Path::new("a.obj"));
         for line in 0..10_000 {
-            warnings.push(Place::Whole, format!("warning {line}"), "mend it");
+            warnings.push(Location::Whole, format!("warning {line}"), "mend it");
         }
-        warnings.push_counted(7, Place::Whole, "one more", "mend it");
+        warnings.push_counted(7, Location::Whole, "one more", "mend it");
         let list = warnings.into_list();
         assert_eq!(list.len(), MOST_WARNINGS, "bounded");
         assert_eq!(list.iter().map(|warning| 1 + warning.more).sum::<usize>(), 10_007, "none is lost");

@@ -121,7 +121,7 @@ fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     let new = NewFile::beside(path)?;
     written(&new.file, write)?;
     new.file.sync_all()?;
-    new.take_place_of(path)?;
+    new.replace(path)?;
     sync_folder(folder)
 }
 
@@ -137,7 +137,7 @@ impl NewFile {
         Ok(Self { file: create_unfinished(&path)?, path })
     }
 
-    fn take_place_of(&self, path: &Path) -> io::Result<()> {
+    fn replace(&self, path: &Path) -> io::Result<()> {
         fs::rename(&self.path, path)
     }
 }

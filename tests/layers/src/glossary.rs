@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use syn::visit::{self, Visit};
-use syn::{Attribute, Field, File, Ident, ImplItemFn, Item, PatIdent, Signature, Variant};
+use syn::{Attribute, Block, Field, File, Ident, ImplItemFn, Item, PatIdent, Signature, Variant};
 
 /// Words that no identifier contains, with what to write instead. `place` may begin an identifier of several
 /// words, where it is a verb: `place_nodes`.
@@ -21,31 +21,42 @@ const GLOSSARY: [(&str, &str); 8] = [
     ("told", "reported"),
 ];
 
-/// What the names that a crate defines violate, tests left out, sorted: words of the glossary as
-/// `file.rs: identifier: write …`, and names of several types as `Name: 2 types`.
-///
-/// # Errors
-/// A file that cannot be read or parsed.
-pub fn glossary_violations(of: &Crate) -> io::Result<Vec<String>> {
-    let (mut violations, mut types) = (Vec::new(), BTreeMap::<String, usize>::new());
-    for path in &of.files {
-        let invalid =
-            |error| io::Error::new(io::ErrorKind::InvalidData, format!("{}: {error}", path.display()));
-        let names = Names::of(&syn::parse_file(&fs::read_to_string(of.root.join(path))?).map_err(invalid)?);
-        violations.extend(names.violations().map(|violation| format!("{}: {violation}", path.display())));
-        names.types.into_iter().for_each(|name| *types.entry(name).or_default() += 1);
+/// What is wrong with the names that a crate defines, tests left out.
+#[derive(Debug, Default)]
+pub struct NameFaults {
+    /// Words of the glossary, as `file.rs: name: write …`.
+    pub words: Vec<String>,
+    /// Names of several types, as `Name: 2 types`. Types of one name in one file are variants of a type for
+    /// different systems, and count once.
+    pub shared_types: Vec<String>,
+}
+
+impl NameFaults {
+    /// Reads the files of a crate.
+    ///
+    /// # Errors
+    /// A file that cannot be read or parsed.
+    pub fn of(of: &Crate) -> io::Result<Self> {
+        let (mut faults, mut types) = (Self::default(), BTreeMap::<String, usize>::new());
+        for path in &of.files {
+            let invalid =
+                |error| io::Error::new(io::ErrorKind::InvalidData, format!("{}: {error}", path.display()));
+            let file = syn::parse_file(&fs::read_to_string(of.root.join(path))?).map_err(invalid)?;
+            let names = Names::of(&file);
+            faults.words.extend(names.violations().map(|fault| format!("{}: {fault}", path.display())));
+            names.types.into_iter().for_each(|name| *types.entry(name).or_default() += 1);
+        }
+        let shared = types.into_iter().filter(|&(_, count)| count > 1);
+        faults.shared_types = shared.map(|(name, count)| format!("{name}: {count} types")).collect();
+        Ok(faults)
     }
-    let repeated = types.into_iter().filter(|&(_, count)| count > 1);
-    violations.extend(repeated.map(|(name, count)| format!("{name}: {count} types")));
-    violations.sort();
-    Ok(violations)
 }
 
 /// The names that a file defines, tests left out. Names that a macro defines are not read.
 #[derive(Default)]
 struct Names {
     identifiers: BTreeSet<String>,
-    types: Vec<String>,
+    types: BTreeSet<String>,
 }
 
 impl Names {
@@ -92,6 +103,12 @@ impl Visit<'_> for Names {
         if !is_for_tests(&item.attrs) {
             visit::visit_impl_item_fn(self, item);
         }
+    }
+
+    fn visit_block(&mut self, block: &Block) {
+        let types = self.types.clone();
+        visit::visit_block(self, block);
+        self.types = types;
     }
 
     fn visit_signature(&mut self, signature: &Signature) {
@@ -172,14 +189,15 @@ mod tests {
     }
 
     #[test]
-    fn names_of_types_are_found_but_in_tests() {
+    fn names_of_types_are_found_but_in_tests_and_functions() {
         let code = "
             struct Step;
-            mod inner { type Step = u8; impl Deref for Row { type Target = u8; } }
+            mod inner { type Row = u8; fn local() { struct Local; } impl Deref for Row { type Target = u8; } }
             #[cfg(test)]
             mod tests { struct Step; }
         ";
         let names = Names::of(&syn::parse_file(code).expect("it parses"));
-        assert_eq!(names.types, ["Step", "Step"], "associated types are none");
+        let types: Vec<&String> = names.types.iter().collect();
+        assert_eq!(types, ["Row", "Step"], "neither associated types nor local ones");
     }
 }

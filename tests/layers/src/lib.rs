@@ -14,7 +14,7 @@ mod signatures;
 mod workspace;
 
 pub use circles::{Circle, circles, folder_circles};
-pub use glossary::glossary_violations;
+pub use glossary::NameFaults;
 pub use module::Crate;
 pub use patch::{FilePatch, Patch};
 pub use signatures::long_signatures;

@@ -94,8 +94,8 @@ impl Capture {
     /// The frame does not have the size given by the settings, or has no colours.
     #[must_use]
     pub fn new(scene: Scene, camera: Camera, settings: RenderSettings, frame: &Frame) -> Self {
-        let asked = (settings.width, settings.height);
-        assert_eq!((frame.width, frame.height), asked, "the frame was drawn by these settings");
+        let requested = (settings.width, settings.height);
+        assert_eq!((frame.width, frame.height), requested, "the frame was drawn by these settings");
         let pixels = settings.width as usize * settings.height as usize;
         assert_eq!(frame.color.len(), 4 * pixels, "the frame holds colours");
         let program = env!("CARGO_PKG_VERSION").to_owned();

@@ -36,7 +36,7 @@ impl Value {
                 field(material).map(|number| Self::Number(*number))
             }
             ParameterField::Color(field) => field(material).map(|color| Self::Color(*color)),
-            ParameterField::Texture(place) => Some(Self::Texture(material.texture(place))),
+            ParameterField::Texture(slot) => Some(Self::Texture(material.texture(slot))),
         }
     }
 
@@ -48,7 +48,7 @@ impl Value {
             (ParameterField::Color(field), Self::Color(color)) => {
                 field(material).into_iter().for_each(|field| *field = color);
             }
-            (ParameterField::Texture(place), Self::Texture(binding)) => material.set_texture(place, binding),
+            (ParameterField::Texture(slot), Self::Texture(binding)) => material.set_texture(slot, binding),
             _ => return Err(Damage::malformed("a parameter of a material is of another kind")),
         }
         Ok(())

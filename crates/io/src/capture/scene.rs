@@ -24,15 +24,15 @@ choice!(Transform { 0 => Decomposed { translation, rotation, scale }, 1 => Affin
 
 impl Stored for Scene {
     fn write(&self, to: &mut Writer<'_>) {
-        write_places(to, &self.textures, Stored::write);
+        write_slots(to, &self.textures, Stored::write);
         (self.meshes().len() as u64).write(to);
         for (_, asset) in self.meshes().iter() {
             asset.name.write(to);
             asset.mesh().write(to);
         }
-        write_places(to, &self.materials, Stored::write);
-        write_places(to, &self.skins, |_, _| {});
-        write_places(to, self.nodes(), Stored::write);
+        write_slots(to, &self.materials, Stored::write);
+        write_slots(to, &self.skins, |_, _| {});
+        write_slots(to, self.nodes(), Stored::write);
         for (_, skin) in self.skins.iter() {
             skin.write(to);
         }
@@ -50,15 +50,15 @@ impl Stored for Scene {
             from.ids.meshes.ids.push(scene.add_mesh(name, mesh));
         }
         from.ids.materials = read_arena(from, &mut scene.materials, Material::default)?;
-        let places = read_places(from, |_: Option<()>| scene.skins.insert(Skin::default()))?;
-        from.ids.skins = places.emptied(|id| _ = scene.skins.remove(id));
-        let places = read_places(from, |node: Option<Node>| scene.add(node.unwrap_or_default()))?;
-        from.ids.nodes = places.emptied(|id| _ = scene.remove(id));
+        let slots = read_slots(from, |_: Option<()>| scene.skins.insert(Skin::default()))?;
+        from.ids.skins = slots.emptied(|id| _ = scene.skins.remove(id));
+        let slots = read_slots(from, |node: Option<Node>| scene.add(node.unwrap_or_default()))?;
+        from.ids.nodes = slots.emptied(|id| _ = scene.remove(id));
         let skins: Vec<_> = scene.skins.iter().map(|(id, _)| id).collect();
         for id in skins {
             let skin = Stored::read(from)?;
-            if let Some(place) = scene.skins.get_mut(id) {
-                *place = skin;
+            if let Some(entry) = scene.skins.get_mut(id) {
+                *entry = skin;
             }
         }
         forest::read(from, &mut scene)?;
@@ -113,7 +113,7 @@ impl Stored for Curve {
 }
 
 /// The items of an arena up to the last one, and which slots are empty.
-fn write_places<T>(to: &mut Writer<'_>, arena: &Arena<T>, write: impl Fn(&T, &mut Writer<'_>)) {
+fn write_slots<T>(to: &mut Writer<'_>, arena: &Arena<T>, write: impl Fn(&T, &mut Writer<'_>)) {
     let count = arena.iter().last().map_or(0, |(id, _)| id.index() + 1);
     (count as u64).write(to);
     for index in 0..count {
@@ -134,30 +134,30 @@ fn part_count<T>(from: &mut Reader<'_>) -> Result<usize, Damage> {
 
 /// The slots of an arena. Empty ones hold placeholders until all are there; otherwise a later item
 /// would take them.
-struct Places<T> {
+struct Slots<T> {
     ids: Vec<Id<T>>,
     stand_ins: Vec<Id<T>>,
 }
 
 /// The ids that `insert` returns for the content of each slot, and for placeholders.
-fn read_places<T, I: Stored>(
+fn read_slots<T, I: Stored>(
     from: &mut Reader<'_>,
     mut insert: impl FnMut(Option<I>) -> Id<T>,
-) -> Result<Places<T>, Damage> {
-    let mut places = Places { ids: Vec::new(), stand_ins: Vec::new() };
+) -> Result<Slots<T>, Damage> {
+    let mut slots = Slots { ids: Vec::new(), stand_ins: Vec::new() };
     for _ in 0..part_count::<T>(from)? {
         let item = Option::read(from)?;
         let is_empty = item.is_none();
         let id = insert(item);
-        places.ids.push(id);
-        places.stand_ins.extend(is_empty.then_some(id));
+        slots.ids.push(id);
+        slots.stand_ins.extend(is_empty.then_some(id));
     }
     // One for ids that should find nothing.
-    places.stand_ins.push(insert(None));
-    Ok(places)
+    slots.stand_ins.push(insert(None));
+    Ok(slots)
 }
 
-impl<T> Places<T> {
+impl<T> Slots<T> {
     fn emptied(self, remove: impl FnMut(Id<T>)) -> Table<T> {
         let gone = self.stand_ins.last().copied();
         self.stand_ins.into_iter().for_each(remove);
@@ -170,8 +170,8 @@ fn read_arena<T: Stored>(
     arena: &mut Arena<T>,
     stand_in: impl Fn() -> T,
 ) -> Result<Table<T>, Damage> {
-    let places = read_places(from, |item: Option<T>| arena.insert(item.unwrap_or_else(&stand_in)))?;
-    Ok(places.emptied(|id| _ = arena.remove(id)))
+    let slots = read_slots(from, |item: Option<T>| arena.insert(item.unwrap_or_else(&stand_in)))?;
+    Ok(slots.emptied(|id| _ = arena.remove(id)))
 }
 
 fn one_texel() -> TextureAsset {

@@ -7,7 +7,7 @@ use trigon_mesh::Mesh;
 use trigon_scene::{MaterialId, Node, NodeId, Scene};
 
 use super::{ExportOptions, FaceExport, Precision};
-use crate::error::Place;
+use crate::error::Location;
 use crate::loss::Loss;
 use crate::rebase::offset_for;
 use crate::write::WriteError;
@@ -49,7 +49,10 @@ impl<'a> Gathered<'a> {
         for (id, node) in scene.nodes().iter().filter(|(id, _)| is_wanted(id)) {
             let Some(asset) = node.mesh.and_then(|mesh| scene.meshes().get(mesh)) else { continue };
             let Some(world) = visible[id.index()] else {
-                losses.push(Loss { place: place(node), what: "it is hidden and not written".to_owned() });
+                losses.push(Loss {
+                    location: node_location(node),
+                    what: "it is hidden and not written".to_owned(),
+                });
                 continue;
             };
             objects.push(Object::new(node, asset.mesh(), root * world, options.faces));
@@ -73,8 +76,8 @@ impl<'a> Gathered<'a> {
 }
 
 /// A node, for messages.
-pub(super) fn place(node: &Node) -> Place {
-    Place::Named(format!("node \"{}\"", node.name))
+pub(super) fn node_location(node: &Node) -> Location {
+    Location::Named(format!("node \"{}\"", node.name))
 }
 
 impl<'a> Object<'a> {

@@ -3,7 +3,7 @@
 use trigon_mesh::Mesh;
 use trigon_scene::{Node, NodeId, Scene};
 
-use super::gather::place;
+use super::gather::node_location;
 use super::{ExportOptions, FaceExport, Gathered, Object};
 use crate::loss::Loss;
 
@@ -95,7 +95,7 @@ fn add_of_nodes(gathered: &mut Gathered<'_>) {
     for (_, node) in gathered.scene.nodes().iter() {
         let parts = [(node.light.is_some(), "its light"), (node.camera.is_some(), "its camera")];
         for (_, what) in parts.iter().filter(|(is_there, _)| *is_there) {
-            gathered.losses.push(Loss { place: place(node), what: (*what).to_owned() });
+            gathered.losses.push(Loss { location: node_location(node), what: (*what).to_owned() });
         }
     }
 }

@@ -175,13 +175,13 @@ impl GltfSource {
 /// Prints sizes only, not megabytes of content.
 impl fmt::Debug for GltfSource {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let kept = |list: usize, bytes: usize| format!("{list} with {bytes} bytes");
+        let retained = |list: usize, bytes: usize| format!("{list} with {bytes} bytes");
         let buffers = self.buffers.iter().flatten().map(|bytes| bytes.len()).sum();
         let images = self.images.iter().flatten().map(|image| image.range.len()).sum();
         f.debug_struct("GltfSource")
             .field("json", &format!("{} bytes", self.json().len()))
-            .field("buffers", &kept(self.buffers.len(), buffers))
-            .field("images", &kept(self.images.len(), images))
+            .field("buffers", &retained(self.buffers.len(), buffers))
+            .field("images", &retained(self.images.len(), images))
             .finish_non_exhaustive()
     }
 }

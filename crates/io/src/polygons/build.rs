@@ -8,7 +8,7 @@ use trigon_math::{DVec3, Vec3, Vec4};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder, MeshColumns};
 
 use super::{Polygons, most_corners, too_many_corners};
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::import::Import;
 
 /// Faces and edges of one mesh that were left out, by reason.
@@ -52,9 +52,9 @@ fn whole(polygons: &mut Polygons, offset: DVec3) -> Option<Mesh> {
     if polygons.face_sizes.is_empty() || !polygons.edges.is_empty() {
         return None;
     }
-    let place = |position: &DVec3| (*position - offset).as_vec3();
+    let to_local = |position: &DVec3| (*position - offset).as_vec3();
     let columns = MeshColumns {
-        positions: polygons.positions.par_iter().map(place).collect(),
+        positions: polygons.positions.par_iter().map(to_local).collect(),
         face_sizes: take(&mut polygons.face_sizes),
         corner_vertices: take(&mut polygons.corner_vertices),
         ..MeshColumns::default()
@@ -66,7 +66,7 @@ fn whole(polygons: &mut Polygons, offset: DVec3) -> Option<Mesh> {
     // Large, and not needed any more.
     polygons.positions = Vec::new();
     let mut mesh = Mesh::from_columns(columns).expect("they were checked");
-    let attributes = attributes(take(polygons), &Kept::default(), mesh.corner_vertices(), &mesh);
+    let attributes = attributes(take(polygons), &RetainedFaces::default(), mesh.corner_vertices(), &mesh);
     mesh.set_attributes(attributes).expect("one value per corner");
     Some(mesh)
 }
@@ -84,7 +84,7 @@ fn build_of_sound_faces(
     // Large, and not needed any more.
     polygons.positions = Vec::new();
     let mut left_out = LeftOut::default();
-    let mut kept = Kept::default();
+    let mut retained = RetainedFaces::default();
     let (mut face, mut start) = (Vec::new(), 0);
     for (index, &size) in polygons.face_sizes.iter().enumerate() {
         let corners = start..start + size as usize;
@@ -96,26 +96,26 @@ fn build_of_sound_faces(
         } else if builder.push_face(&face).is_err() {
             left_out.flat.note(index);
         } else {
-            kept.push(index, corners);
+            retained.push(index, corners);
             continue;
         }
-        kept.begin(index, corners.start);
+        retained.begin(index, corners.start);
     }
     push_edges(import, &polygons, &local, &mut builder, &mut left_out)?;
     warn(import, &left_out);
     let mut mesh = builder.build();
-    let vertices = kept.at_corners(take(&mut polygons.corner_vertices));
+    let vertices = retained.at_corners(take(&mut polygons.corner_vertices));
     let vertex_colors = local.of_wires(&mut polygons);
-    let attributes = Attributes { vertex_colors, ..attributes(polygons, &kept, &vertices, &mesh) };
+    let attributes = Attributes { vertex_colors, ..attributes(polygons, &retained, &vertices, &mesh) };
     mesh.set_attributes(attributes).expect("one value per accepted corner");
     Ok(mesh)
 }
 
 /// The faces that were accepted, and their corners, by their numbers in the file: lists only once one is left out.
 #[derive(Default)]
-struct Kept(Option<(Vec<u32>, Vec<u32>)>);
+struct RetainedFaces(Option<(Vec<u32>, Vec<u32>)>);
 
-impl Kept {
+impl RetainedFaces {
     /// A face is left out that stands after so many faces and corners.
     fn begin(&mut self, faces: usize, corners: usize) {
         self.0.get_or_insert_with(|| ((0..faces as u32).collect(), (0..corners as u32).collect()));
@@ -185,17 +185,17 @@ fn push_vertices(
     offset: DVec3,
     builder: &mut MeshBuilder,
 ) -> Local {
-    let place = |position: &DVec3| -> Vec3 { (*position - offset).as_vec3() };
-    let Some(first) = polygons.positions.iter().position(|position| !place(position).is_finite()) else {
+    let to_local = |position: &DVec3| -> Vec3 { (*position - offset).as_vec3() };
+    let Some(first) = polygons.positions.iter().position(|position| !to_local(position).is_finite()) else {
         for position in &polygons.positions {
-            builder.push_vertex(place(position));
+            builder.push_vertex(to_local(position));
         }
         return Local::Same;
     };
     let mut count = 0;
-    let local = polygons.positions.iter().map(place).map(|place| {
-        if place.is_finite() {
-            return builder.push_vertex(place);
+    let local = polygons.positions.iter().map(to_local).map(|position| {
+        if position.is_finite() {
+            return builder.push_vertex(position);
         }
         count += 1;
         NOWHERE
@@ -203,7 +203,7 @@ fn push_vertices(
     let local = Local::Others(local.collect());
     import.warnings.push_counted(
         count,
-        Place::Item("vertex", first),
+        Location::Item("vertex", first),
         "a vertex has a position that is not finite and is left out",
         "export the model again",
     );
@@ -240,7 +240,7 @@ fn push_edges(
 
 fn warn(import: &mut Import<'_>, left_out: &LeftOut) {
     let mut warn = |Occurrences { count, first }, what: &str, remedy: &str| {
-        import.warnings.push_counted(count, Place::Item("face", first), what, remedy);
+        import.warnings.push_counted(count, Location::Item("face", first), what, remedy);
     };
     warn(
         left_out.non_finite,
@@ -255,18 +255,18 @@ fn warn(import: &mut Import<'_>, left_out: &LeftOut) {
 }
 
 /// The values at the corners of the faces that were accepted, those of a mesh; `vertices` are the file's vertices there.
-fn attributes(mut polygons: Polygons, kept: &Kept, vertices: &[u32], mesh: &Mesh) -> Attributes {
+fn attributes(mut polygons: Polygons, retained: &RetainedFaces, vertices: &[u32], mesh: &Mesh) -> Attributes {
     let normals = of_vertices(&polygons.normals, vertices);
     let uvs = match polygons.corner_uvs.is_empty() {
         true => of_vertices(&polygons.uvs, vertices),
-        false => Some(kept.at_corners(take(&mut polygons.corner_uvs))),
+        false => Some(retained.at_corners(take(&mut polygons.corner_uvs))),
     };
     let colors = of_vertices(&polygons.colors, vertices);
     let colors_by_face =
-        || (!polygons.face_colors.is_empty()).then(|| colors_of_faces(&polygons.face_colors, kept, mesh));
+        || (!polygons.face_colors.is_empty()).then(|| colors_of_faces(&polygons.face_colors, retained, mesh));
     let textures = &polygons.textures.of_faces;
     let of_faces = (!textures.is_empty())
-        .then(|| (0..mesh.face_count()).map(|face| textures[kept.face(face)]).collect());
+        .then(|| (0..mesh.face_count()).map(|face| textures[retained.face(face)]).collect());
     Attributes {
         face_materials: of_faces,
         corner_normals: normals,
@@ -283,8 +283,9 @@ fn of_vertices<T: Copy + Send + Sync>(values: &[T], vertices: &[u32]) -> Option<
 }
 
 /// The colour of its face at each corner of the faces that were accepted.
-fn colors_of_faces(colors: &[Vec4], kept: &Kept, mesh: &Mesh) -> Vec<Vec4> {
-    let color =
-        |(face, corners): (usize, Range<usize>)| std::iter::repeat_n(colors[kept.face(face)], corners.len());
+fn colors_of_faces(colors: &[Vec4], retained: &RetainedFaces, mesh: &Mesh) -> Vec<Vec4> {
+    let color = |(face, corners): (usize, Range<usize>)| {
+        std::iter::repeat_n(colors[retained.face(face)], corners.len())
+    };
     mesh.faces().enumerate().flat_map(color).collect()
 }

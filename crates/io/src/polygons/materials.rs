@@ -6,7 +6,7 @@ use trigon_math::Vec4;
 use trigon_scene::{AlphaMode, Material, MaterialId, TextureBinding, TextureId};
 
 use super::Polygons;
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::image_file::{Mention, find_image};
 use crate::import::Import;
 use crate::layers::Role;
@@ -54,7 +54,7 @@ fn plain_material(polygons: &Polygons) -> Material {
 fn leave_colors(import: &mut Import<'_>, polygons: &mut Polygons) {
     if !polygons.colors.is_empty() || !polygons.face_colors.is_empty() {
         let what = "colours of vertices or faces are not drawn beside a texture";
-        import.warnings.push(Place::Whole, what, "remove the name of the texture to see them");
+        import.warnings.push(Location::Whole, what, "remove the name of the texture to see them");
     }
     (polygons.colors, polygons.face_colors) = Default::default();
 }
@@ -90,12 +90,12 @@ fn read_textures(
     let Some((line, first)) = names.first() else { return Ok(Vec::new()) };
     if polygons.uvs.is_empty() && polygons.corner_uvs.is_empty() {
         let what = format!("texture \"{first}\" is not drawn: there are no texture coordinates");
-        import.warnings.push(Place::Line(*line), what, "export the texture coordinates, too");
+        import.warnings.push(Location::Line(*line), what, "export the texture coordinates, too");
         return Ok(Vec::new());
     }
     if names.len() > 1 && of_faces.is_empty() {
         let what = format!("no face says which of {} textures it has, and all have the first", names.len());
-        import.warnings.push(Place::Line(*line), what, "export the model again, with texnumber");
+        import.warnings.push(Location::Line(*line), what, "export the model again, with texnumber");
         names.truncate(1);
     }
     let mut is_used = vec![of_faces.is_empty(); names.len()];
@@ -120,6 +120,6 @@ fn request(import: &mut Import<'_>, line: u64, name: &str) -> Option<Request> {
     let file = import.path;
     let found = find_image(import, Mention { file, line, name })?;
     let layers = vec![(Role::Whole, ImageBytes::Own(found.bytes))];
-    let (name, file, place) = (name.to_owned(), file.to_owned(), Place::Line(line));
-    Some(Request { name, file, place, layers, purpose: Purpose::BaseColor })
+    let (name, file, location) = (name.to_owned(), file.to_owned(), Location::Line(line));
+    Some(Request { name, file, location, layers, purpose: Purpose::BaseColor })
 }

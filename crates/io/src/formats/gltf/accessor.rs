@@ -13,7 +13,7 @@ use gltf::json::validation::Checked;
 
 use super::buffers::{Buffers, Bytes, Unplaced, Unread};
 use super::packed::{Unpacked, UnpackedAttribute};
-use crate::error::{LoadErrorKind, Place};
+use crate::error::{LoadErrorKind, Location};
 use crate::folder::Folder;
 use crate::warning::Warnings;
 
@@ -52,7 +52,7 @@ pub(crate) struct Doubts(BTreeSet<(usize, &'static str)>);
 impl Doubts {
     pub(crate) fn tell(self, warnings: &mut Warnings) {
         for (index, what) in self.0 {
-            warnings.push(Place::Item("accessor", index), what, "export the model again");
+            warnings.push(Location::Item("accessor", index), what, "export the model again");
         }
     }
 }
@@ -91,7 +91,7 @@ impl Accessors<'_> {
     /// Counts the vertices or corners of a primitive. Thousands of primitives may share one
     /// accessor and so use thousands of times what the file holds; no legitimate file goes far in
     /// that.
-    pub(crate) fn spend(&mut self, corners: usize, place: &Place) -> Result<(), Unplaced> {
+    pub(crate) fn spend(&mut self, corners: usize, location: &Location) -> Result<(), Unplaced> {
         let sharing = self.buffers.bytes_read().saturating_mul(CORNERS_PER_BYTE).max(CORNERS_ALWAYS);
         let most = sharing.min(self.most_corners);
         *self.spent = self.spent.saturating_add(corners);
@@ -100,7 +100,7 @@ impl Accessors<'_> {
         }
         let what = format!("the primitives up to here make more than {most} corners of what the file holds");
         let remedy = "let nodes share a mesh instead of repeating its primitives";
-        Err(Unplaced(place.clone(), Unread { kind: LoadErrorKind::Limit, what, remedy }))
+        Err(Unplaced(location.clone(), Unread { kind: LoadErrorKind::Limit, what, remedy }))
     }
 
     /// Decodes an accessor of a vector type to f32. `allowed` are the valid types; `N` is the size
@@ -257,7 +257,7 @@ impl Accessors<'_> {
                 let what = format!("{} elements are more than the limit of {}", self.count(index), self.most);
                 let remedy = "raise the limit if you trust the file";
                 Err(Unplaced(
-                    Place::Item("accessor", index),
+                    Location::Item("accessor", index),
                     Unread { kind: LoadErrorKind::Limit, what, remedy },
                 ))
             }
@@ -345,7 +345,7 @@ impl Accessors<'_> {
 
 fn malformed(index: usize, what: String) -> Unplaced {
     Unplaced(
-        Place::Item("accessor", index),
+        Location::Item("accessor", index),
         Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" },
     )
 }

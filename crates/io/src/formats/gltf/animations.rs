@@ -10,7 +10,7 @@ use super::buffers::Unplaced;
 use super::formats::{MORPH_WEIGHTS, ROTATIONS, TIMES, Usage, VECTORS};
 use super::nodes::{Placed, ROTATION_TOLERANCE};
 use super::reader::Reader;
-use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::import::Import;
 use crate::warning::{Warnings, counted};
 
@@ -36,7 +36,7 @@ pub(crate) fn add_animations(
     if placed.document.foreign_channels > 0 {
         let what = counted(placed.document.foreign_channels, "animation channel");
         let what = format!("{what} of something other than nodes left out");
-        import.warnings.push(Place::Whole, what, "animate nodes or morph targets instead");
+        import.warnings.push(Location::Whole, what, "animate nodes or morph targets instead");
     }
     Ok(())
 }
@@ -55,21 +55,21 @@ fn read_animation(
     for (number, channel) in from.channels.iter().enumerate() {
         let target = channel.target.node.value();
         let Some(node) = placed.ids[target] else { continue };
-        let place = Place::Named(format!("animation {index}, channel {number}"));
+        let location = Location::Named(format!("animation {index}, channel {number}"));
         let width_of_weights = placed.target_counts[target];
-        let why = match read_channel(accessors, index, channel, width_of_weights, &place, warnings) {
+        let why = match read_channel(accessors, index, channel, width_of_weights, &location, warnings) {
             Ok(Ok((property, curve))) => {
                 channels.push(Channel { node, property, curve });
                 continue;
             }
             Ok(Err(why)) => why,
-            Err(Unplaced(place, unread)) if unread.kind == LoadErrorKind::Limit => {
-                return Err(Unplaced(place, unread));
+            Err(Unplaced(location, unread)) if unread.kind == LoadErrorKind::Limit => {
+                return Err(Unplaced(location, unread));
             }
             // The model can be shown without it.
-            Err(Unplaced(place, unread)) => format!("{}{place}", unread.what),
+            Err(Unplaced(location, unread)) => format!("{}{location}", unread.what),
         };
-        warnings.push(place, format!("it is not played: {why}"), REMEDY);
+        warnings.push(location, format!("it is not played: {why}"), REMEDY);
     }
     let name = from.name.clone().unwrap_or_else(|| format!("animation {index}"));
     Ok((!channels.is_empty()).then_some(Animation { name, channels }))
@@ -82,7 +82,7 @@ fn read_channel(
     animation: usize,
     channel: &JsonChannel,
     width_of_weights: usize,
-    place: &Place,
+    location: &Location,
     warnings: &mut Warnings,
 ) -> Result<Played, Unplaced> {
     let sampler = &accessors.root.animations[animation].samplers[channel.sampler.value()];
@@ -102,7 +102,7 @@ fn read_channel(
         return Ok(Err("the node's mesh has no morph targets".to_owned()));
     }
     let (input, output) = (sampler.input.value(), sampler.output.value());
-    accessors.spend(accessors.count(input).saturating_add(accessors.count(output)) as usize, place)?;
+    accessors.spend(accessors.count(input).saturating_add(accessors.count(output)) as usize, location)?;
     let times = accessors.vectors::<1>(input, TIMES.types)?.into_flattened();
     let values = match property {
         Property::Translation | Property::Scale => {
@@ -116,8 +116,8 @@ fn read_channel(
         Ok(curve) => curve,
         Err(why) => return Ok(Err(why)),
     };
-    warn_of_formats(accessors, [(input, TIMES), (output, usage)], place, warnings);
-    warn_of_values(property, &curve, broken, place, warnings);
+    warn_of_formats(accessors, [(input, TIMES), (output, usage)], location, warnings);
+    warn_of_values(property, &curve, broken, location, warnings);
     Ok(Ok((property, curve)))
 }
 
@@ -153,25 +153,31 @@ fn new_curve(
 fn warn_of_formats(
     accessors: &mut Accessors<'_>,
     used: [(usize, Usage); 2],
-    place: &Place,
+    location: &Location,
     warnings: &mut Warnings,
 ) {
     for (accessor, usage) in used {
         accessors.doubt_stride(accessor);
         if let Some(what) = usage.fault(accessors.root, accessor) {
-            warnings.push(place.clone(), what, REMEDY);
+            warnings.push(location.clone(), what, REMEDY);
         }
     }
 }
 
 /// Says how many values of a curve are not what they must be. Those that were
 /// not finite are 0 in the curve, so their number comes from before.
-fn warn_of_values(property: Property, curve: &Curve, broken: usize, place: &Place, warnings: &mut Warnings) {
+fn warn_of_values(
+    property: Property,
+    curve: &Curve,
+    broken: usize,
+    location: &Location,
+    warnings: &mut Warnings,
+) {
     let what = "a value of its curve is not finite and counts as 0";
-    warnings.push_counted(broken, place.clone(), what, REMEDY);
+    warnings.push_counted(broken, location.clone(), what, REMEDY);
     if property == Property::Rotation {
         let what = "a rotation of its curve is not a unit quaternion; it is normalized";
-        warnings.push_counted(bent_rotations(curve), place.clone(), what, REMEDY);
+        warnings.push_counted(bent_rotations(curve), location.clone(), what, REMEDY);
     }
 }
 

@@ -12,7 +12,7 @@ use gltf::json::Root;
 use super::compressed::compressed_view;
 use super::draco::Budget;
 use super::meshopt;
-use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::folder::{Folder, Lookup};
 use crate::refusal::Refusal;
 use crate::uri::{FileNames, Reference, parse_reference, quotable};
@@ -82,7 +82,7 @@ impl Buffers {
             return Ok(Some(bytes.clone()));
         }
         let broken =
-            |kind, what, remedy| Unplaced(Place::Item("bufferView", index), Unread { kind, what, remedy });
+            |kind, what, remedy| Unplaced(Location::Item("bufferView", index), Unread { kind, what, remedy });
         let malformed = |what| broken(LoadErrorKind::Malformed, what, "compress or export the model again");
         let Some(view) = compressed_view(root, index).map_err(malformed)? else { return Ok(None) };
         folder
@@ -106,18 +106,18 @@ impl Buffers {
         if let Some(bytes) = &self.read[index] {
             return Ok(bytes.clone());
         }
-        let place = Place::Item("buffer", index);
+        let location = Location::Item("buffer", index);
         let claim = root.buffers[index].byte_length.0;
         let bytes: Arc<[u8]> = match (&root.buffers[index].uri, &self.binary) {
             (Some(uri), _) => read_reference(uri, folder, Lookup::Exact)
-                .map_err(|unread| Unplaced(place.clone(), unread))?
+                .map_err(|unread| Unplaced(location.clone(), unread))?
                 .0
                 .into(),
             (None, Some(binary)) if index == 0 => Arc::clone(binary),
             (None, _) => {
                 let what = "the buffer has no data".to_owned();
                 return Err(Unplaced(
-                    place,
+                    location,
                     Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again, as GLB" },
                 ));
             }
@@ -125,7 +125,7 @@ impl Buffers {
         if (bytes.len() as u64) < claim {
             let what = format!("the buffer has {} bytes and should have {claim}", bytes.len());
             return Err(Unplaced(
-                place,
+                location,
                 Unread { kind: LoadErrorKind::Malformed, what, remedy: "export or download the model again" },
             ));
         }
@@ -135,7 +135,7 @@ impl Buffers {
 }
 
 /// Something unread, with its place in the document.
-pub(crate) struct Unplaced(pub(crate) Place, pub(crate) Unread);
+pub(crate) struct Unplaced(pub(crate) Location, pub(crate) Unread);
 
 impl Unplaced {
     pub(crate) fn into_error(self, path: &Path) -> LoadError {

@@ -5,7 +5,7 @@ use gltf::json::{Node, Root};
 use trigon_camera::Projection;
 
 use super::accessor::valid;
-use crate::error::Place;
+use crate::error::Location;
 use crate::warning::Warnings;
 
 /// The camera of a node, if it has one that works.
@@ -31,7 +31,7 @@ pub(crate) fn convert_camera(root: &Root, node: &Node, warnings: &mut Warnings) 
         Ok(projection) => Some(projection),
         Err(why) => {
             warnings.push(
-                Place::Item("camera", index),
+                Location::Item("camera", index),
                 format!("the camera is left out: {why}"),
                 "correct the camera in the model",
             );

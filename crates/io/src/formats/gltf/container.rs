@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::warning::Warnings;
 
 const HEADER: usize = 12;
@@ -25,7 +25,7 @@ pub(crate) fn open_glb<'a>(
     warnings: &mut Warnings,
 ) -> Result<Container<'a>, LoadError> {
     let error = |at: usize, what: String| {
-        LoadError::malformed(path, what, "export or download the file again").at(Place::Byte(at as u64))
+        LoadError::malformed(path, what, "export or download the file again").at(Location::Byte(at as u64))
     };
     if bytes.len() < HEADER {
         return Err(error(
@@ -39,7 +39,7 @@ pub(crate) fn open_glb<'a>(
     let version = word(bytes, 4);
     if version != 2 {
         let what = format!("GLB version {version} is not supported, only version 2 is");
-        return Err(LoadError::malformed(path, what, "export the model as glTF 2.0").at(Place::Byte(4)));
+        return Err(LoadError::malformed(path, what, "export the model as glTF 2.0").at(Location::Byte(4)));
     }
     let length = word(bytes, 8) as usize;
     if length > bytes.len() {
@@ -53,7 +53,7 @@ pub(crate) fn open_glb<'a>(
     }
     if length < bytes.len() {
         let what = format!("{} bytes after the declared end are ignored", bytes.len() - length);
-        warnings.push(Place::Byte(length as u64), what, "export the model again if something is missing");
+        warnings.push(Location::Byte(length as u64), what, "export the model again if something is missing");
     }
     read_chunks(&bytes[..length]).map_err(|(at, what)| error(at, what))
 }

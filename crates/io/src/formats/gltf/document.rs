@@ -12,7 +12,7 @@ use serde_json::value::RawValue;
 use super::attribute_names::{ForeignAttribute, RawPrimitive, foreign_attributes};
 use super::native::{Extras, Header, MaterialExtras, NodeExtras};
 use super::preview::Preview;
-use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::error::{LoadError, LoadErrorKind, Location};
 
 /// A parsed document.
 pub(crate) struct Document {
@@ -126,7 +126,7 @@ fn json_error(path: &Path, error: &serde_json::Error) -> LoadError {
     // The place is said once, at the front.
     let text = text.split(" at line ").next().unwrap_or_default();
     let what = format!("this is not the JSON of a glTF file: {text} (column {})", error.column());
-    LoadError::malformed(path, what, "export the model again").at(Place::Line(error.line() as u64))
+    LoadError::malformed(path, what, "export the model again").at(Location::Line(error.line() as u64))
 }
 
 fn check_version(path: &Path, preview: &Preview) -> Result<(), LoadError> {

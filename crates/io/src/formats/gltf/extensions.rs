@@ -7,7 +7,7 @@ use gltf::json::Root;
 
 use super::packed::DRACO;
 use super::{material_extensions, specular_glossiness, variants};
-use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::warning::Warnings;
 
 /// Read in full, beside those of materials that [`material_extensions`] lists.
@@ -69,7 +69,7 @@ pub(crate) fn check_extensions(
     for name in root.extensions_used.iter().map(String::as_str).chain(undeclared) {
         if !is_read(name) && ![IMAGES, INVISIBLE].iter().any(|list| list.contains(&name)) {
             warnings.push(
-                Place::Whole,
+                Location::Whole,
                 format!("the extension {name} is not drawn"),
                 "bake what it adds into the base colour or the mesh if it matters",
             );
@@ -88,16 +88,16 @@ fn warn_of_required(root: &Root, unread: &[&str], warnings: &mut Warnings) {
         let names = images.join(", ");
         let what =
             format!("the file requires {names}, which trigon does not support; such images are not drawn");
-        warnings.push(Place::Whole, what, "export the model with PNG, JPEG or WebP images");
+        warnings.push(Location::Whole, what, "export the model with PNG, JPEG or WebP images");
     }
     if !invisible.is_empty() {
         let names = invisible.join(", ");
         let what = format!("the file requires {names}, which trigon does not support; it is drawn without");
-        warnings.push(Place::Whole, what, "export the model without it if something is missing");
+        warnings.push(Location::Whole, what, "export the model without it if something is missing");
     }
     for name in root.extensions_required.iter().filter(|name| !root.extensions_used.contains(name)) {
         let what = format!("the file requires {name}, which is missing in extensionsUsed");
-        warnings.push(Place::Whole, what, "add it to extensionsUsed, or export the model again");
+        warnings.push(Location::Whole, what, "add it to extensionsUsed, or export the model again");
     }
 }
 

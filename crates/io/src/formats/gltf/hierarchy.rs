@@ -7,7 +7,7 @@ use std::path::Path;
 
 use gltf::json::Root;
 
-use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::options::{LoadOptions, SceneChoice};
 
 /// The nodes to load, and how they hang together.
@@ -36,7 +36,7 @@ pub(crate) fn find_hierarchy(
         return Err(LoadError::limit(path, format!("it has {count} nodes; the limit is {}", limits.nodes)));
     }
     let error = |node: usize, what: String| {
-        LoadError::malformed(path, what, "export the model again").at(Place::Item("node", node))
+        LoadError::malformed(path, what, "export the model again").at(Location::Item("node", node))
     };
     let mut parents = vec![None; count];
     for (parent, child) in links(root) {

@@ -13,7 +13,7 @@ use super::accessor::valid;
 use super::buffers::{Buffers, Unread, read_reference};
 use super::references::source_of;
 use super::slots::{SlotTexture, purpose_of};
-use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::folder::{Folder, Lookup};
 use crate::import::Import;
 use crate::layers::Role;
@@ -41,7 +41,7 @@ impl ImageUse {
             Some(factor) => Role::Glossiness { factor: factor.to_bits() },
             None => Role::Whole,
         };
-        let is_data = from.place.format() == TextureFormat::Linear;
+        let is_data = from.slot.format() == TextureFormat::Linear;
         Some(Self { image: image_of(root, from.texture)?, is_data, role })
     }
 }
@@ -65,9 +65,9 @@ impl Images {
             let source = (&from.uri, from.buffer_view.map(|view| view.value()), is_data, role);
             let index = *known.entry(source).or_insert_with(|| {
                 let bytes = read_image(import, root, buffers, image)?;
-                let (name, place) = (image_name(root, image), Place::Item("image", image));
+                let (name, location) = (image_name(root, image), Location::Item("image", image));
                 let layers = vec![(role, bytes)];
-                requests.push(Request { name, file: import.path.to_owned(), place, layers, purpose });
+                requests.push(Request { name, file: import.path.to_owned(), location, layers, purpose });
                 Some(requests.len() - 1)
             });
             indices.extend(index.map(|index| (used, index)));
@@ -97,11 +97,11 @@ fn wanted_images(
     let mut wanted = BTreeMap::new();
     for from in textures {
         let Some(used) = ImageUse::of(root, from) else {
-            let place = Place::Item("texture", from.texture);
-            import.warnings.push(place, "it has no image and is not drawn", "export the model again");
+            let location = Location::Item("texture", from.texture);
+            import.warnings.push(location, "it has no image and is not drawn", "export the model again");
             continue;
         };
-        let purpose = purpose_of(from.place);
+        let purpose = purpose_of(from.slot);
         let known = wanted.entry(used).or_insert(purpose);
         if purpose == Purpose::BaseColor {
             *known = purpose;
@@ -135,7 +135,7 @@ fn read_image(
     buffers: &mut Buffers,
     image: usize,
 ) -> Option<ImageBytes> {
-    let place = Place::Item("image", image);
+    let location = Location::Item("image", image);
     match fetch_image(root, buffers, &mut import.folder, image) {
         Ok((bytes, respelled)) => {
             if let Some(path) = respelled {
@@ -144,14 +144,14 @@ fn read_image(
                     image_name(root, image),
                     Path::new(&path).display()
                 );
-                import.warnings.push(place, what, "correct the name in the model");
+                import.warnings.push(location, what, "correct the name in the model");
             }
             Some(bytes)
         }
         Err(Unread { what, remedy, .. }) => {
             let what = format!("the image is not drawn: {what}");
             let tried = tried_for(&mut import.folder, root, image);
-            import.warnings.push_unusable(import.path, place, what, remedy, tried);
+            import.warnings.push_unusable(import.path, location, what, remedy, tried);
             None
         }
     }

@@ -10,7 +10,7 @@ use trigon_scene::Transform;
 
 use super::accessor::Accessors;
 use super::buffers::{Unplaced, Unread};
-use crate::error::{LoadErrorKind, Place};
+use crate::error::{LoadErrorKind, Location};
 use crate::warning::Warnings;
 
 /// What an instance may have of its own.
@@ -55,10 +55,10 @@ pub(crate) fn read_instances(
     for name in ATTRIBUTES {
         if attributes.get(name).is_some() && accessor(root, attributes, name).is_none() {
             let what = format!("the {name} of its instances refers to no accessor and is ignored");
-            warnings.push(Place::Item("node", node), what, "export the model again");
+            warnings.push(Location::Item("node", node), what, "export the model again");
         }
     }
-    accessors.spend(instance_count(root, node), &Place::Item("node", node))?;
+    accessors.spend(instance_count(root, node), &Location::Item("node", node))?;
     let find = |name| accessor(root, attributes, name);
     let translations = find("TRANSLATION").map(|index| accessors.vectors::<3>(index, &[Type::Vec3]));
     let translations = translations.transpose()?;
@@ -75,7 +75,7 @@ pub(crate) fn read_instances(
         let what = "its instances have attributes of different lengths".to_owned();
         let remedy = "export the model again";
         return Err(Unplaced(
-            Place::Item("node", node),
+            Location::Item("node", node),
             Unread { kind: LoadErrorKind::Malformed, what, remedy },
         ));
     }
@@ -83,7 +83,7 @@ pub(crate) fn read_instances(
     let numbers = vectors.chain(rotations.iter().flatten().flatten());
     let broken = numbers.filter(|number| !number.is_finite()).count();
     let what = "an instance has a value that is not finite; that translation, rotation or scale is ignored";
-    warnings.push_counted(broken, Place::Item("node", node), what, "export the model again");
+    warnings.push_counted(broken, Location::Item("node", node), what, "export the model again");
     let vector = |list: &Option<Vec<[f32; 3]>>, index: usize, otherwise: DVec3| {
         let value = list.as_ref().map_or(otherwise, |list| DVec3::from(list[index].map(f64::from)));
         if value.is_finite() { value } else { otherwise }
@@ -91,10 +91,10 @@ pub(crate) fn read_instances(
     let rotation = |index: usize| {
         rotations.as_ref().map_or(DQuat::IDENTITY, |list| DQuat::from_array(list[index].map(f64::from)))
     };
-    let place = |index| {
+    let transform = |index| {
         let (scale, translation) =
             (vector(&scales, index, DVec3::ONE), vector(&translations, index, DVec3::ZERO));
         Transform::from_scale_rotation_translation(scale, rotation(index), translation)
     };
-    Ok((0..count).map(place).collect())
+    Ok((0..count).map(transform).collect())
 }

@@ -10,7 +10,7 @@ use super::images::fetch_image;
 use super::lights::light_index;
 use super::mesh::BuiltMesh;
 use super::nodes::Placed;
-use crate::error::Place;
+use crate::error::Location;
 use crate::gltf_source::{JsonText, MeshOrigin, PrimitiveFaces, SharedBytes, SourceDraft, share};
 use crate::import::Import;
 use crate::warning::Warnings;
@@ -70,7 +70,7 @@ pub(super) fn keep_file(import: &mut Import<'_>, json: &[u8], placed: &Placed<'_
         Ok(text) => draft.text = Some(text),
         Err(what) => {
             let what = format!("the file is not kept to be written back: {what}");
-            import.warnings.push(Place::Whole, what, "export the model again");
+            import.warnings.push(Location::Whole, what, "export the model again");
         }
     }
     for (index, id) in placed.nodes() {
@@ -94,7 +94,7 @@ fn keep_images(draft: &mut SourceDraft, import: &mut Import<'_>, root: &Root, bu
         let mut fetch = || match fetch_image(root, buffers, &mut import.folder, index) {
             Ok((bytes, _)) => Some(share(&bytes)),
             Err(unread) => {
-                warn(&mut import.warnings, Place::Item("image", index), &unread);
+                warn(&mut import.warnings, Location::Item("image", index), &unread);
                 None
             }
         };
@@ -120,8 +120,8 @@ fn keep_buffers(draft: &mut SourceDraft, import: &mut Import<'_>, root: &Root, b
     }
 }
 
-fn warn(warnings: &mut Warnings, place: Place, unread: &Unread) {
-    warnings.push(place, format!("it is not kept to be written back: {}", unread.what), unread.remedy);
+fn warn(warnings: &mut Warnings, location: Location, unread: &Unread) {
+    warnings.push(location, format!("it is not kept to be written back: {}", unread.what), unread.remedy);
 }
 
 /// The text without a byte order mark.

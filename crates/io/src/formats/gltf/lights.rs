@@ -6,7 +6,7 @@ use trigon_math::Vec3;
 use trigon_scene::{Light, LightKind};
 
 use super::accessor::valid;
-use crate::error::Place;
+use crate::error::Location;
 use crate::warning::Warnings;
 
 /// Lux and candela count the light that arrives; a white diffuse surface
@@ -30,18 +30,18 @@ fn lights(root: &Root) -> &[JsonLight] {
 pub(crate) fn convert_light(root: &Root, node: &Node, warnings: &mut Warnings) -> Option<Light> {
     let index = light_index(node)?;
     let light = &lights(root)[index];
-    let place = || Place::Item("light", index);
-    warn_of_range(light, &place, warnings);
+    let location = || Location::Item("light", index);
+    warn_of_range(light, &location, warnings);
     let intensity = amount(light.intensity) * TO_INTENSITY;
     let plain = match valid(&light.type_) {
         Some(Type::Directional) => Light::directional(intensity),
         Some(Type::Point) => Light::point(intensity),
         Some(Type::Spot) => {
-            let (inner, outer) = cone(light, place, warnings);
+            let (inner, outer) = cone(light, location, warnings);
             Light { kind: LightKind::Spot { inner, outer }, ..Light::spot(intensity) }
         }
         None => {
-            warnings.push(place(), "its type is unknown and it is left out", "export the model again");
+            warnings.push(location(), "its type is unknown and it is left out", "export the model again");
             return None;
         }
     };
@@ -56,21 +56,21 @@ fn amount(value: f32) -> f32 {
 }
 
 /// Says when a light takes light away, or reaches nowhere.
-fn warn_of_range(light: &JsonLight, place: &impl Fn() -> Place, warnings: &mut Warnings) {
+fn warn_of_range(light: &JsonLight, location: &impl Fn() -> Location, warnings: &mut Warnings) {
     let colors = light.color.iter().copied();
     if colors.chain([light.intensity]).any(|value| amount(value) != value) {
         let what = "its intensity or colour is negative or too large; it counts as 0";
-        warnings.push(place(), what, "export the model again");
+        warnings.push(location(), what, "export the model again");
     }
     if light.range.is_some_and(|range| amount(range) == 0.0) {
         let what = "its range is not above 0; it counts as unlimited";
-        warnings.push(place(), what, "export the model again");
+        warnings.push(location(), what, "export the model again");
     }
 }
 
 /// Inner and outer angle of a spot light in radians, mended where they
 /// contradict the extension: 0 ≤ inner < outer ≤ π/2.
-fn cone(light: &JsonLight, place: impl Fn() -> Place, warnings: &mut Warnings) -> (f32, f32) {
+fn cone(light: &JsonLight, location: impl Fn() -> Location, warnings: &mut Warnings) -> (f32, f32) {
     const WIDEST: f32 = std::f32::consts::FRAC_PI_2;
     let spot = light.spot.clone().unwrap_or(Spot { inner_cone_angle: 0.0, outer_cone_angle: WIDEST / 2.0 });
     let (inner, outer) = (spot.inner_cone_angle, spot.outer_cone_angle);
@@ -78,7 +78,7 @@ fn cone(light: &JsonLight, place: impl Fn() -> Place, warnings: &mut Warnings) -
         return (inner, outer);
     }
     let what = format!("its cone from {inner} to {outer} is not within 0 and π/2 and is corrected");
-    warnings.push(place(), what, "export the model again");
+    warnings.push(location(), what, "export the model again");
     let within = |angle: f32, most: f32| if angle.is_finite() { angle.clamp(0.0, most) } else { 0.0 };
     let outer = within(outer, WIDEST);
     (within(inner, outer), outer)

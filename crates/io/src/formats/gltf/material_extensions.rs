@@ -39,11 +39,11 @@ pub(crate) fn textures(extensions: &Extensions) -> Vec<(MaterialTexture, texture
     let mut found = Vec::new();
     for members in names().into_iter().filter_map(|name| Some((name, members(extensions, name)?))) {
         for row in parameters(members.0) {
-            if let ParameterField::Texture(place) = row.field
+            if let ParameterField::Texture(slot) = row.field
                 && let Some(info) = members.1.get(row.name)
                 && let Ok(info) = serde_json::from_value(info.clone())
             {
-                found.push((place, info));
+                found.push((slot, info));
             }
         }
     }

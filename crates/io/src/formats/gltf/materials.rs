@@ -131,8 +131,8 @@ impl Converter<'_> {
             ..material
         };
         material_extensions::read_factors(extensions, &mut material);
-        for (place, _) in material_extensions::textures(extensions) {
-            material.set_texture(place, self.bind(place));
+        for (slot, _) in material_extensions::textures(extensions) {
+            material.set_texture(slot, self.bind(slot));
         }
         material
     }
@@ -147,9 +147,9 @@ impl Converter<'_> {
         }
     }
 
-    fn bind(&self, place: MaterialTexture) -> Option<TextureBinding> {
+    fn bind(&self, slot: MaterialTexture) -> Option<TextureBinding> {
         let from = slot_textures(&self.root.materials[self.index]);
-        let from = from.iter().find(|texture| texture.place == place)?;
+        let from = from.iter().find(|texture| texture.slot == slot)?;
         Some(TextureBinding {
             texture: self.images.get(self.root, from)?,
             // Where the mesh lacks the set, the mesh reader filled it in.

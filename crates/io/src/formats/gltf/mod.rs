@@ -68,10 +68,10 @@ use mesh::{BuiltMesh, Needs};
 use native::Extras;
 use reader::Reader;
 
-pub(crate) use write::{GlbFile, Input, KeptFile, mime_type, write_scene};
+pub(crate) use write::{GlbFile, Input, RetainedFile, mime_type, write_scene};
 pub use write::{encode_glb, write_glb};
 
-use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::import::Import;
 use crate::options::LoadStage;
 use crate::warning::Warnings;
@@ -99,7 +99,7 @@ fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<Arc<[u8]>>)
     let hierarchy = hierarchy::find_hierarchy(import.path, root, import.options)?;
     import.warnings.push_counted(
         document.unbounded,
-        Place::Whole,
+        Location::Whole,
         "a number is too large for 32 bits of floating point and is taken as 0",
         "export the model again",
     );
@@ -176,7 +176,7 @@ fn build_meshes(
         let mesh = &built.mesh;
         if mesh.vertex_count() > limits.vertices {
             let what = format!("it has more than {} vertices", limits.vertices);
-            return Err(LoadError::limit(import.path, what).at(Place::Item("mesh", index)));
+            return Err(LoadError::limit(import.path, what).at(Location::Item("mesh", index)));
         }
         drawable |= mesh.face_count() + mesh.loose_edges().len() + mesh.loose_points().len() > 0;
         meshes[index] = Some(built);
@@ -209,7 +209,7 @@ fn native_mesh(
         Err(why) => {
             let what = format!("{why}; they are read without polygons, marks and original positions");
             warnings.push(
-                Place::Item("mesh", index),
+                Location::Item("mesh", index),
                 what,
                 "open the file that trigon saved if you need these",
             );
@@ -248,7 +248,7 @@ fn check_placed(
         placed = placed.saturating_add(corners.saturating_mul(times));
         if placed > limit {
             let what = format!("with it, the nodes place more than {limit} corners");
-            return Err(LoadError::limit(import.path, what).at(Place::Item("node", node)));
+            return Err(LoadError::limit(import.path, what).at(Location::Item("node", node)));
         }
     }
     let nodes = hierarchy.order.len().saturating_add(copies);
@@ -265,7 +265,7 @@ fn nothing(import: &Import<'_>, root: &Root, used: usize) -> LoadError {
     let reason = match (root.meshes.len(), used, import.warnings.first()) {
         (0, ..) => "the file has no meshes".to_owned(),
         (count, 0, _) => format!("no node of its scene places one of its {count} meshes"),
-        (.., Some(warning)) => format!("its meshes are empty{}: {}", warning.place, warning.what),
+        (.., Some(warning)) => format!("its meshes are empty{}: {}", warning.location, warning.what),
         (.., None) => "its meshes are empty".to_owned(),
     };
     let what = format!("there is nothing to draw: {reason}");

@@ -14,7 +14,7 @@ use super::lights::convert_light;
 use super::mesh::{BuiltMesh, default_weights, sound_weights};
 use super::native::AmbientExtras;
 use super::reader::Reader;
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::import::Import;
 use crate::warning::Warnings;
 
@@ -154,7 +154,7 @@ fn convert_transform(raw: &RawTransform, index: usize, warnings: &mut Warnings) 
     if let Some(matrix) = &raw.matrix {
         if raw.translation.is_some() || raw.rotation.is_some() || raw.scale.is_some() {
             warnings.push(
-                Place::Item("node", index),
+                Location::Item("node", index),
                 "it has both a matrix and a translation, rotation or scale; only the matrix is used",
                 "remove one of them, or export the model again",
             );
@@ -162,7 +162,7 @@ fn convert_transform(raw: &RawTransform, index: usize, warnings: &mut Warnings) 
         let matrix = DMat4::from_cols_array(matrix);
         if matrix.row(3).to_array() != [0.0, 0.0, 0.0, 1.0] {
             warnings.push(
-                Place::Item("node", index),
+                Location::Item("node", index),
                 "the last row of its matrix is not 0 0 0 1 and is ignored",
                 "export the model again",
             );
@@ -172,13 +172,13 @@ fn convert_transform(raw: &RawTransform, index: usize, warnings: &mut Warnings) 
     let rotation = raw.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
     if rotation.length_squared() == 0.0 {
         warnings.push(
-            Place::Item("node", index),
+            Location::Item("node", index),
             "its rotation has no length and counts as none",
             "export the model again",
         );
     } else if (rotation.length() - 1.0).abs() > ROTATION_TOLERANCE {
         warnings.push(
-            Place::Item("node", index),
+            Location::Item("node", index),
             "its rotation is not a unit quaternion; it is normalized",
             "export the model again",
         );

@@ -13,7 +13,7 @@ use serde_json::Value;
 use super::accessor::{Accessors, valid};
 use super::buffers::{Unplaced, Unread};
 use super::draco::{self, DecodedAttribute, DecodedMesh, Failure};
-use crate::error::{LoadErrorKind, Place};
+use crate::error::{LoadErrorKind, Location};
 use crate::warning::Warnings;
 
 /// The extension.
@@ -55,19 +55,19 @@ impl Accessors<'_> {
     pub(super) fn unpack(
         &mut self,
         primitive: &Primitive,
-        place: &Place,
+        location: &Location,
         warnings: &mut Warnings,
     ) -> Result<(), Unplaced> {
         self.unpacked = None;
         let extensions = primitive.extensions.as_ref().map(|extensions| &extensions.others);
         let Some(value) = extensions.and_then(|extensions| extensions.get(DRACO)) else { return Ok(()) };
-        match self.read_stream(primitive, value, place, warnings) {
+        match self.read_stream(primitive, value, location, warnings) {
             Ok(unpacked) => self.unpacked = Some(unpacked),
             Err(unread) if self.has_plain_form(primitive) => {
                 let what = format!("{}; its uncompressed form is used", unread.what);
-                warnings.push(place.clone(), what, unread.remedy);
+                warnings.push(location.clone(), what, unread.remedy);
             }
-            Err(unread) => return Err(Unplaced(place.clone(), unread)),
+            Err(unread) => return Err(Unplaced(location.clone(), unread)),
         }
         Ok(())
     }
@@ -87,13 +87,13 @@ impl Accessors<'_> {
         &mut self,
         primitive: &Primitive,
         value: &Value,
-        place: &Place,
+        location: &Location,
         warnings: &mut Warnings,
     ) -> Result<Unpacked, Unread> {
         let extension = Extension::deserialize(value)
             .map_err(|error| malformed(format!("its Draco compression is not described: {error}")))?;
         let mesh = self.decode_view(extension.buffer_view)?;
-        let mut warn = |what: String| warnings.push(place.clone(), what, "export the model again");
+        let mut warn = |what: String| warnings.push(location.clone(), what, "export the model again");
         if !matches!(valid(&primitive.mode), Some(Mode::Triangles | Mode::TriangleStrip)) {
             warn("its mode does not fit its Draco data, which are triangles; they are drawn".to_owned());
         }

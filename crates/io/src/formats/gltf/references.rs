@@ -7,28 +7,29 @@ use gltf::json::validation::USize64;
 use gltf::json::{Root, buffer};
 
 use super::slots::slot_textures;
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 
 /// The texture index that gltf::json uses for "none".
 const NO_SOURCE: usize = u32::MAX as usize;
 
 pub(crate) fn check_references(path: &Path, root: &Root) -> Result<(), LoadError> {
-    check(root).map_err(|(place, what)| LoadError::malformed(path, what, "export the model again").at(place))
+    check(root)
+        .map_err(|(location, what)| LoadError::malformed(path, what, "export the model again").at(location))
 }
 
-type Fault = (Place, String);
+type Fault = (Location, String);
 
 fn check(root: &Root) -> Result<(), Fault> {
     for (index, view) in root.buffer_views.iter().enumerate() {
-        check_view(root, view, Place::Item("bufferView", index))?;
+        check_view(root, view, Location::Item("bufferView", index))?;
     }
     for (index, accessor) in root.accessors.iter().enumerate() {
-        let place = || Place::Item("accessor", index);
+        let location = || Location::Item("accessor", index);
         let views = root.buffer_views.len();
-        within(place, "bufferView", accessor.buffer_view.map(|view| view.value()), views)?;
+        within(location, "bufferView", accessor.buffer_view.map(|view| view.value()), views)?;
         if let Some(sparse) = &accessor.sparse {
-            within(place, "bufferView", Some(sparse.indices.buffer_view.value()), views)?;
-            within(place, "bufferView", Some(sparse.values.buffer_view.value()), views)?;
+            within(location, "bufferView", Some(sparse.indices.buffer_view.value()), views)?;
+            within(location, "bufferView", Some(sparse.values.buffer_view.value()), views)?;
         }
     }
     check_meshes(root)?;
@@ -37,24 +38,29 @@ fn check(root: &Root) -> Result<(), Fault> {
     check_appearance(root)
 }
 
-fn within(place: impl Fn() -> Place, kind: &str, index: Option<usize>, length: usize) -> Result<(), Fault> {
+fn within(
+    location: impl Fn() -> Location,
+    kind: &str,
+    index: Option<usize>,
+    length: usize,
+) -> Result<(), Fault> {
     match index {
         Some(index) if index >= length => {
-            Err((place(), format!("{kind} {index} does not exist; there are {length}")))
+            Err((location(), format!("{kind} {index} does not exist; there are {length}")))
         }
         _ => Ok(()),
     }
 }
 
-fn check_view(root: &Root, view: &buffer::View, place: Place) -> Result<(), Fault> {
-    within(|| place.clone(), "buffer", Some(view.buffer.value()), root.buffers.len())?;
+fn check_view(root: &Root, view: &buffer::View, location: Location) -> Result<(), Fault> {
+    within(|| location.clone(), "buffer", Some(view.buffer.value()), root.buffers.len())?;
     let buffer = &root.buffers[view.buffer.value()];
     let (offset, length) = (view.byte_offset.unwrap_or(USize64(0)).0, view.byte_length.0);
     let end = offset.checked_add(length);
     if end.is_none_or(|end| end > buffer.byte_length.0) {
         let (number, has) = (view.buffer.value(), buffer.byte_length.0);
         return Err((
-            place,
+            location,
             format!("{length} bytes from byte {offset} lie outside buffer {number}, which has {has}"),
         ));
     }
@@ -64,7 +70,7 @@ fn check_view(root: &Root, view: &buffer::View, place: Place) -> Result<(), Faul
 fn check_meshes(root: &Root) -> Result<(), Fault> {
     for (mesh_index, mesh) in root.meshes.iter().enumerate() {
         for (index, primitive) in mesh.primitives.iter().enumerate() {
-            let place = || Place::Named(format!("mesh {mesh_index}, primitive {index}"));
+            let location = || Location::Named(format!("mesh {mesh_index}, primitive {index}"));
             let accessors = root.accessors.len();
             let attributes = primitive.attributes.values().map(|accessor| accessor.value());
             let targets = primitive.targets.iter().flatten();
@@ -72,10 +78,10 @@ fn check_meshes(root: &Root) -> Result<(), Fault> {
             let targets = targets.flatten().map(|accessor| accessor.value());
             let indices = primitive.indices.map(|indices| indices.value());
             for accessor in attributes.chain(targets).chain(indices) {
-                within(place, "accessor", Some(accessor), accessors)?;
+                within(location, "accessor", Some(accessor), accessors)?;
             }
             within(
-                place,
+                location,
                 "material",
                 primitive.material.map(|material| material.value()),
                 root.materials.len(),
@@ -87,41 +93,41 @@ fn check_meshes(root: &Root) -> Result<(), Fault> {
 
 fn check_nodes(root: &Root) -> Result<(), Fault> {
     for (index, node) in root.nodes.iter().enumerate() {
-        let place = || Place::Item("node", index);
-        within(place, "mesh", node.mesh.map(|mesh| mesh.value()), root.meshes.len())?;
-        within(place, "skin", node.skin.map(|skin| skin.value()), root.skins.len())?;
-        within(place, "camera", node.camera.map(|camera| camera.value()), root.cameras.len())?;
-        within(place, "light", super::lights::light_index(node), super::lights::light_count(root))?;
+        let location = || Location::Item("node", index);
+        within(location, "mesh", node.mesh.map(|mesh| mesh.value()), root.meshes.len())?;
+        within(location, "skin", node.skin.map(|skin| skin.value()), root.skins.len())?;
+        within(location, "camera", node.camera.map(|camera| camera.value()), root.cameras.len())?;
+        within(location, "light", super::lights::light_index(node), super::lights::light_count(root))?;
         for child in node.children.iter().flatten() {
-            within(place, "node", Some(child.value()), root.nodes.len())?;
+            within(location, "node", Some(child.value()), root.nodes.len())?;
         }
     }
     for (index, scene) in root.scenes.iter().enumerate() {
         for node in &scene.nodes {
-            within(|| Place::Item("scene", index), "node", Some(node.value()), root.nodes.len())?;
+            within(|| Location::Item("scene", index), "node", Some(node.value()), root.nodes.len())?;
         }
     }
-    within(|| Place::Whole, "scene", root.scene.map(|scene| scene.value()), root.scenes.len())
+    within(|| Location::Whole, "scene", root.scene.map(|scene| scene.value()), root.scenes.len())
 }
 
 fn check_movements(root: &Root) -> Result<(), Fault> {
     let (nodes, accessors) = (root.nodes.len(), root.accessors.len());
     for (index, skin) in root.skins.iter().enumerate() {
-        let place = || Place::Item("skin", index);
+        let location = || Location::Item("skin", index);
         for joint in &skin.joints {
-            within(place, "node", Some(joint.value()), nodes)?;
+            within(location, "node", Some(joint.value()), nodes)?;
         }
-        within(place, "accessor", skin.inverse_bind_matrices.map(|matrices| matrices.value()), accessors)?;
+        within(location, "accessor", skin.inverse_bind_matrices.map(|matrices| matrices.value()), accessors)?;
     }
     for (index, animation) in root.animations.iter().enumerate() {
-        let place = || Place::Item("animation", index);
+        let location = || Location::Item("animation", index);
         for channel in &animation.channels {
-            within(place, "sampler", Some(channel.sampler.value()), animation.samplers.len())?;
-            within(place, "node", Some(channel.target.node.value()), nodes)?;
+            within(location, "sampler", Some(channel.sampler.value()), animation.samplers.len())?;
+            within(location, "node", Some(channel.target.node.value()), nodes)?;
         }
         for sampler in &animation.samplers {
-            within(place, "accessor", Some(sampler.input.value()), accessors)?;
-            within(place, "accessor", Some(sampler.output.value()), accessors)?;
+            within(location, "accessor", Some(sampler.input.value()), accessors)?;
+            within(location, "accessor", Some(sampler.output.value()), accessors)?;
         }
     }
     Ok(())
@@ -130,19 +136,19 @@ fn check_movements(root: &Root) -> Result<(), Fault> {
 fn check_appearance(root: &Root) -> Result<(), Fault> {
     for (index, material) in root.materials.iter().enumerate() {
         for from in slot_textures(material) {
-            let place = || Place::Item("material", index);
-            within(place, "texture", Some(from.texture), root.textures.len())?;
+            let location = || Location::Item("material", index);
+            within(location, "texture", Some(from.texture), root.textures.len())?;
         }
     }
     for (index, texture) in root.textures.iter().enumerate() {
-        let place = || Place::Item("texture", index);
+        let location = || Location::Item("texture", index);
         let source = Some(texture.source.value()).filter(|&source| source != NO_SOURCE);
-        within(place, "image", source, root.images.len())?;
-        within(place, "sampler", texture.sampler.map(|sampler| sampler.value()), root.samplers.len())?;
+        within(location, "image", source, root.images.len())?;
+        within(location, "sampler", texture.sampler.map(|sampler| sampler.value()), root.samplers.len())?;
     }
     for (index, image) in root.images.iter().enumerate() {
         let view = image.buffer_view.map(|view| view.value());
-        within(|| Place::Item("image", index), "bufferView", view, root.buffer_views.len())?;
+        within(|| Location::Item("image", index), "bufferView", view, root.buffer_views.len())?;
     }
     Ok(())
 }

@@ -11,7 +11,7 @@ use super::buffers::Unplaced;
 use super::formats::BIND_MATRIX;
 use super::nodes::Placed;
 use super::reader::Reader;
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::import::Import;
 use crate::warning::{Warnings, counted};
 
@@ -24,17 +24,17 @@ fn read_bind_matrices(
 ) -> Result<Vec<DAffine3>, Unplaced> {
     let skin = &accessors.root.skins[index];
     let Some(accessor) = skin.inverse_bind_matrices else { return Ok(Vec::new()) };
-    let place = || Place::Item("skin", index);
-    accessors.spend(usize::try_from(accessors.count(accessor.value())).unwrap_or(usize::MAX), &place())?;
+    let location = || Location::Item("skin", index);
+    accessors.spend(usize::try_from(accessors.count(accessor.value())).unwrap_or(usize::MAX), &location())?;
     accessors.doubt_stride(accessor.value());
     if let Some(what) = BIND_MATRIX.fault(accessors.root, accessor.value()) {
-        warnings.push(place(), what, "export the model again");
+        warnings.push(location(), what, "export the model again");
     }
     let read = accessors.vectors::<16>(accessor.value(), BIND_MATRIX.types)?;
     if read.len() < skin.joints.len() {
         let what =
             format!("{} for {}", counted(read.len(), "bind matrix"), counted(skin.joints.len(), "joint"));
-        warnings.push(place(), format!("{what}; the others are the identity"), "export the model again");
+        warnings.push(location(), format!("{what}; the others are the identity"), "export the model again");
     }
     let mut broken = 0;
     let mut convert = |columns: &[f32; 16]| {
@@ -45,7 +45,7 @@ fn read_bind_matrices(
     };
     let matrices = read.iter().take(skin.joints.len()).map(&mut convert).collect();
     let what = "a bind matrix is not finite, or its last row is not 0 0 0 1; it is corrected";
-    warnings.push_counted(broken, place(), what, "export the model again");
+    warnings.push_counted(broken, location(), what, "export the model again");
     Ok(matrices)
 }
 
@@ -79,9 +79,9 @@ pub(crate) fn add_skins(
         effort = effort.saturating_add(above);
         if effort > limit {
             let what = format!("with it, skins follow more than {limit} nodes");
-            return Err(LoadError::limit(import.path, what).at(Place::Item("node", node)));
+            return Err(LoadError::limit(import.path, what).at(Location::Item("node", node)));
         }
-        warn_of_joints(import, id, Place::Item("node", node), root.skins[index].joints.len());
+        warn_of_joints(import, id, Location::Item("node", node), root.skins[index].joints.len());
         if let Some(node) = import.scene.node_mut(id) {
             node.skin = Some(skin);
         }
@@ -119,7 +119,7 @@ fn convert(
             "{} outside the scene; what follows them stays where the mesh is",
             counted(lost, "joint")
         );
-        import.warnings.push(Place::Item("skin", index), what, "put all joints in the scene of the mesh");
+        import.warnings.push(Location::Item("skin", index), what, "put all joints in the scene of the mesh");
     }
     Skin {
         name: from.name.clone().unwrap_or_else(|| format!("skin {index}")),
@@ -129,7 +129,7 @@ fn convert(
 }
 
 /// Says when the mesh of a node and its skin do not fit together.
-fn warn_of_joints(import: &mut Import<'_>, id: NodeId, place: Place, joints: usize) {
+fn warn_of_joints(import: &mut Import<'_>, id: NodeId, location: Location, joints: usize) {
     let what = match joint_bound(import, id) {
         None => "it has a skin, and its mesh has no joints and weights: it is drawn unskinned".to_owned(),
         Some(bound) if bound > joints => {
@@ -140,7 +140,7 @@ fn warn_of_joints(import: &mut Import<'_>, id: NodeId, place: Place, joints: usi
         }
         Some(_) => return,
     };
-    import.warnings.push(place, what, "export the model again");
+    import.warnings.push(location, what, "export the model again");
 }
 
 /// One more than the last joint that a node's mesh follows; none when it

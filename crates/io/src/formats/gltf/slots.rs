@@ -11,8 +11,8 @@ use super::{material_extensions, specular_glossiness};
 use crate::texture_request::Purpose;
 
 /// What the images in a place of a material are for.
-pub(crate) fn purpose_of(place: MaterialTexture) -> Purpose {
-    match (place, place.format()) {
+pub(crate) fn purpose_of(slot: MaterialTexture) -> Purpose {
+    match (slot, slot.format()) {
         (MaterialTexture::BaseColor, _) => Purpose::BaseColor,
         (_, TextureFormat::Srgb) => Purpose::Color,
         (_, TextureFormat::Linear) => Purpose::Data,
@@ -22,7 +22,7 @@ pub(crate) fn purpose_of(place: MaterialTexture) -> Purpose {
 /// A texture in its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SlotTexture {
-    pub(crate) place: MaterialTexture,
+    pub(crate) slot: MaterialTexture,
     /// Of the document.
     pub(crate) texture: usize,
     pub(crate) uv_set: u32,
@@ -40,21 +40,21 @@ pub(crate) fn slot_textures(material: &Material) -> Vec<SlotTexture> {
         (MaterialTexture::Emissive, material.emissive_texture.as_ref()),
     ];
     let mut list: Vec<SlotTexture> =
-        own.into_iter().filter_map(|(place, info)| Some(from_info(place, info?))).collect();
+        own.into_iter().filter_map(|(slot, info)| Some(from_info(slot, info?))).collect();
     let extended = material.extensions.as_ref().map(material_extensions::textures).unwrap_or_default();
     if let Some(roughness) =
-        list.iter_mut().find(|texture| texture.place == MaterialTexture::MetallicRoughness)
+        list.iter_mut().find(|texture| texture.slot == MaterialTexture::MetallicRoughness)
     {
         roughness.glossiness = specular_glossiness::glossiness(material);
     }
-    list.extend(extended.iter().map(|(place, info)| from_info(*place, info)));
+    list.extend(extended.iter().map(|(slot, info)| from_info(*slot, info)));
     // Types of their own, in which gltf::json does not know the extension.
     macro_rules! loose {
-        ($place:expr, $info:expr) => {
+        ($slot:expr, $info:expr) => {
             if let Some(info) = $info {
                 let others = info.extensions.as_ref().map(|extensions| &extensions.others);
                 let transform = others.and_then(loose_transform);
-                list.push(in_place($place, info.index.value(), info.tex_coord, transform.as_ref()));
+                list.push(in_slot($slot, info.index.value(), info.tex_coord, transform.as_ref()));
             }
         };
     }
@@ -63,20 +63,20 @@ pub(crate) fn slot_textures(material: &Material) -> Vec<SlotTexture> {
     list
 }
 
-fn from_info(place: MaterialTexture, info: &texture::Info) -> SlotTexture {
+fn from_info(slot: MaterialTexture, info: &texture::Info) -> SlotTexture {
     let transform = info.extensions.as_ref().and_then(|extensions| extensions.texture_transform.as_ref());
-    in_place(place, info.index.value(), info.tex_coord, transform)
+    in_slot(slot, info.index.value(), info.tex_coord, transform)
 }
 
-fn in_place(
-    place: MaterialTexture,
+fn in_slot(
+    slot: MaterialTexture,
     texture: usize,
     tex_coord: u32,
     transform: Option<&TextureTransform>,
 ) -> SlotTexture {
     let uv_set = transform.and_then(|transform| transform.tex_coord).unwrap_or(tex_coord);
     let transform = transform.map_or(Affine2::IDENTITY, to_affine);
-    SlotTexture { place, texture, uv_set, transform, glossiness: None }
+    SlotTexture { slot, texture, uv_set, transform, glossiness: None }
 }
 
 /// gltf::json knows the extension in some places only.

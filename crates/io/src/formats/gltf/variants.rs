@@ -7,7 +7,7 @@ use gltf::json::mesh::Primitive;
 use gltf::json::{Index, Root};
 use serde_json::Value;
 
-use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::warning::Warnings;
 
 /// The name of the extension.
@@ -51,7 +51,7 @@ pub(crate) fn warn_of_variants(root: &Root, warnings: &mut Warnings) {
     let names = variant_names(root);
     for (index, mesh) in root.meshes.iter().enumerate() {
         let mut warn =
-            |what: String| warnings.push(Place::Item("mesh", index), what, "export the model again");
+            |what: String| warnings.push(Location::Item("mesh", index), what, "export the model again");
         for primitive in &mesh.primitives {
             for (variant, materials) in materials_by_variant(primitive) {
                 let Some(name) = names.get(variant) else { continue };

@@ -11,7 +11,7 @@ use super::index::NONE;
 use super::parse::Parsed;
 use super::passed::Passed;
 use super::smoothing::group_normals;
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::rebase::offset_for;
 use crate::warning::Warnings;
 
@@ -58,7 +58,7 @@ pub(crate) fn build_parts(
     let is_odd = |&(color, &used): &(&Vec3, &bool)| used && color.is_nan();
     warnings.push_counted(
         content.colors.iter().zip(&used).filter(is_odd).count(),
-        Place::Whole,
+        Location::Whole,
         "a vertex has a colour that is not finite; it is white there",
         "export the model again",
     );

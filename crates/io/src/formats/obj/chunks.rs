@@ -66,7 +66,7 @@ pub(crate) fn census(text: &[u8]) -> Census {
 /// them.
 pub(crate) fn number<'a>(pieces: &[&'a [u8]], censuses: &[Census]) -> (Vec<Chunk<'a>>, Counts) {
     let (mut lines_before, mut before) = (0, Counts::default());
-    let mut place = |(&text, census): (&&'a [u8], &Census)| {
+    let mut locate = |(&text, census): (&&'a [u8], &Census)| {
         let chunk = Chunk { text, lines_before, before };
         lines_before += census.lines;
         before.positions += census.counts.positions;
@@ -74,7 +74,7 @@ pub(crate) fn number<'a>(pieces: &[&'a [u8]], censuses: &[Census]) -> (Vec<Chunk
         before.normals += census.counts.normals;
         chunk
     };
-    let chunks = pieces.iter().zip(censuses).map(&mut place).collect();
+    let chunks = pieces.iter().zip(censuses).map(&mut locate).collect();
     (chunks, before)
 }
 

@@ -10,7 +10,7 @@ use trigon_scene::{AlphaMode, Material, MetallicRoughness, Shading};
 use super::mtl::{Fields, MapKind, MtlMaterial};
 use super::mtl_values::Stated;
 use super::undrawn::warn_undrawn;
-use crate::error::Place;
+use crate::error::Location;
 use crate::warning::Warnings;
 
 /// Converts what a library says of a material. The textures come later.
@@ -82,7 +82,7 @@ fn metallic_roughness(from: &Fields) -> Option<Shading> {
 fn alpha(file: &Path, from: &Fields, warnings: &mut Warnings) -> f32 {
     let of_transparency = from.transparency.map(|stated| Stated { value: 1.0 - stated.value, ..stated });
     let mut opaque = |line: u64, what: &str, remedy: &str| {
-        warnings.push_about(file, Place::Line(line), what, remedy);
+        warnings.push_about(file, Location::Line(line), what, remedy);
         1.0
     };
     match (from.dissolve, of_transparency) {
@@ -124,7 +124,7 @@ fn exponent(file: &Path, from: &Fields, warnings: &mut Warnings) -> Option<f32> 
     };
     if let Some(line) = stated {
         let what = "Ks without Ns, or with Ns of at most 1, is a placeholder, and no highlight is drawn";
-        warnings.push_about(file, Place::Line(line), what, "write Ns, such as 30, or Ks 0");
+        warnings.push_about(file, Location::Line(line), what, "write Ns, such as 30, or Ks 0");
     }
     None
 }

@@ -30,7 +30,7 @@ pub(crate) struct Corner {
 /// Reads the `v`, `v/vt`, `v//vn` or `v/vt/vn` that a text starts with; how long it
 /// is comes with it. Negative indices count back from `seen`; positive ones may
 /// point ahead, up to `total`, which is below [`NONE`].
-pub(crate) fn parse_corner(text: &[u8], seen: Counts, total: Counts) -> Result<(Corner, usize), String> {
+pub(crate) fn parse_corner(text: &[u8], before: Counts, total: Counts) -> Result<(Corner, usize), String> {
     let (position, mut at) = index(text, 0);
     let mut optional = [Index::Absent; 2];
     for index_of in &mut optional {
@@ -43,7 +43,7 @@ pub(crate) fn parse_corner(text: &[u8], seen: Counts, total: Counts) -> Result<(
         Some(byte) if !byte.is_ascii_whitespace() => return Err(describe(text, "is not an index")),
         _ => {}
     }
-    let position = match position.resolve(seen.positions, total.positions) {
+    let position = match position.resolve(before.positions, total.positions) {
         Resolved::Known(index) => index,
         Resolved::Absent => return Err(describe(text, "has no vertex index")),
         Resolved::Zero => return Err(describe(text, "has index 0, and indices count from 1")),
@@ -51,8 +51,8 @@ pub(crate) fn parse_corner(text: &[u8], seen: Counts, total: Counts) -> Result<(
     };
     let mut corner = Corner { position, coordinate: NONE, normal: NONE, dropped: false };
     let [coordinate, normal] = optional;
-    let coordinate = coordinate.resolve(seen.coordinates, total.coordinates);
-    let normal = normal.resolve(seen.normals, total.normals);
+    let coordinate = coordinate.resolve(before.coordinates, total.coordinates);
+    let normal = normal.resolve(before.normals, total.normals);
     for (slot, resolved) in [(&mut corner.coordinate, coordinate), (&mut corner.normal, normal)] {
         match resolved {
             Resolved::Known(index) => *slot = index,
@@ -79,7 +79,7 @@ pub(crate) struct Corners {
 /// Reads the corners of an element, up to a comment, in place of those in `corners`.
 pub(crate) fn read_corners(
     text: &[u8],
-    seen: Counts,
+    before: Counts,
     total: Counts,
     corners: &mut Vec<Corner>,
 ) -> Result<Corners, String> {
@@ -93,7 +93,7 @@ pub(crate) fn read_corners(
         if matches!(text.get(at), None | Some(b'#')) {
             break;
         }
-        let (corner, length) = parse_corner(&text[at..], seen, total)?;
+        let (corner, length) = parse_corner(&text[at..], before, total)?;
         found.coordinates += usize::from(corner.coordinate != NONE);
         found.normals += usize::from(corner.normal != NONE);
         found.dropped += usize::from(corner.dropped);
@@ -153,12 +153,14 @@ enum Resolved {
 
 impl Index {
     #[inline]
-    fn resolve(self, seen: usize, total: usize) -> Resolved {
+    fn resolve(self, before: usize, total: usize) -> Resolved {
         match self {
             Self::Absent => Resolved::Absent,
             Self::Forward(0) | Self::Backward(0) => Resolved::Zero,
             Self::Forward(value) if value <= total as u64 => Resolved::Known((value - 1) as u32),
-            Self::Backward(value) if value <= seen as u64 => Resolved::Known((seen as u64 - value) as u32),
+            Self::Backward(value) if value <= before as u64 => {
+                Resolved::Known((before as u64 - value) as u32)
+            }
             _ => Resolved::Nowhere,
         }
     }
@@ -189,8 +191,8 @@ mod tests {
     const TOTAL: Counts = Counts { positions: 5, coordinates: 3, normals: 2 };
 
     fn parse(word: &str) -> Result<Corner, String> {
-        let seen = Counts { positions: 4, coordinates: 3, normals: 2 };
-        let (corner, length) = parse_corner(format!("{word} 7").as_bytes(), seen, TOTAL)?;
+        let before = Counts { positions: 4, coordinates: 3, normals: 2 };
+        let (corner, length) = parse_corner(format!("{word} 7").as_bytes(), before, TOTAL)?;
         assert_eq!(length, word.len(), "{word:?} ends at the space");
         Ok(corner)
     }

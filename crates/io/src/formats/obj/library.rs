@@ -10,7 +10,7 @@ use super::mtl::{MapKind, MtlMaterial, parse_mtl};
 use super::oddities::Oddity;
 use super::record::Record;
 use super::textures::Textures;
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::folder::{Found, Lookup};
 use crate::image_file::{Mention, note_respelled};
 use crate::import::Import;
@@ -49,7 +49,7 @@ pub(crate) fn add_materials(
                 } else {
                     "add it to the MTL file"
                 };
-                import.warnings.push(Place::Line(record.material_lines[index]), what, remedy);
+                import.warnings.push(Location::Line(record.material_lines[index]), what, remedy);
             }
             None => {}
         }
@@ -59,7 +59,7 @@ pub(crate) fn add_materials(
     let is_hidden = has_only_these && is_all_invisible(&wanted);
     if is_hidden && let Some((_, first)) = wanted.first() {
         let what = "every material is invisible (d 0 or Tr 1), and all are drawn opaque";
-        import.warnings.push_about(&first.file, Place::Line(first.line), what, "write d 1");
+        import.warnings.push_about(&first.file, Location::Line(first.line), what, "write d 1");
     }
     let textures = Textures::read(import, wanted.iter().map(|(_, material)| *material))?;
     let mut ids = vec![None; used.len()];
@@ -105,8 +105,8 @@ fn read_libraries(import: &mut Import<'_>, record: &Record) -> (HashMap<String, 
                         tried.display()
                     );
                     let all = import.folder.tried(Path::new(""), &name);
-                    let place = Place::Line(*line);
-                    import.warnings.push_unusable(import.path, place, what, refusal.remedy(), all);
+                    let location = Location::Line(*line);
+                    import.warnings.push_unusable(import.path, location, what, refusal.remedy(), all);
                     continue;
                 }
             };
@@ -124,7 +124,7 @@ fn read_libraries(import: &mut Import<'_>, record: &Record) -> (HashMap<String, 
 /// In a library the last definition of a name counts; of several libraries the first
 /// that has it ("the first file listed is searched first").
 fn add_definition(materials: &mut HashMap<String, MtlMaterial>, new: MtlMaterial, warnings: &mut Warnings) {
-    let place = Place::Line(new.line);
+    let location = Location::Line(new.line);
     match materials.entry(new.material.name.clone()) {
         Entry::Vacant(entry) => {
             entry.insert(new);
@@ -132,12 +132,12 @@ fn add_definition(materials: &mut HashMap<String, MtlMaterial>, new: MtlMaterial
         Entry::Occupied(entry) if entry.get().looks_like(&new) => {}
         Entry::Occupied(mut entry) if entry.get().file == new.file => {
             let what = "a material is defined a second time, and this definition counts";
-            warnings.push_about(&new.file, place, what, "remove one, or give it another name");
+            warnings.push_about(&new.file, location, what, "remove one, or give it another name");
             entry.insert(new);
         }
         Entry::Occupied(_) => {
             let what = "a material is defined in an earlier library, too, and that definition counts";
-            warnings.push_about(&new.file, place, what, "remove one, or give it another name");
+            warnings.push_about(&new.file, location, what, "remove one, or give it another name");
         }
     }
 }
@@ -159,7 +159,7 @@ fn find_libraries(import: &mut Import<'_>, line: u64, names: &str) -> Vec<(Strin
     if each.len() > MOST_NAMES {
         each.truncate(MOST_NAMES);
         let what = format!("mtllib names more than {MOST_NAMES} libraries, and the others are not read");
-        import.warnings.push(Place::Line(line), what, "put their materials into one file");
+        import.warnings.push(Location::Line(line), what, "put their materials into one file");
     }
     let mut read = |name: String| {
         let result = import.folder.read(here, &name, Lookup::Forgiving);

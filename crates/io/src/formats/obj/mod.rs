@@ -43,7 +43,7 @@ use trigon_scene::{Material, MaterialId, Node, Transform};
 use self::build::Part;
 use self::library::Added;
 use self::record::Record;
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::import::Import;
 use crate::options::LoadStage;
 
@@ -101,7 +101,7 @@ fn warn_of_bare_faces(import: &mut Import<'_>, record: &Record, part: &Part, add
     for ((added, &is_bare), material) in added.iter().zip(&part.bare).zip(&part.materials) {
         if let (true, Some(index), Some(Added { is_textured: true, .. })) = (is_bare, material, added) {
             import.warnings.push(
-                Place::Line(record.material_lines[*index as usize]),
+                Location::Line(record.material_lines[*index as usize]),
                 "a material with textures is on faces without texture coordinates, which cannot show them",
                 "export the texture coordinates (vt), too",
             );

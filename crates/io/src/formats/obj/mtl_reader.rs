@@ -7,7 +7,7 @@ use std::path::Path;
 use super::lines::{decode_name, words};
 use super::mtl::{Fields, MapKind};
 use super::mtl_values::{Stated, read_color, read_number};
-use crate::error::Place;
+use crate::error::Location;
 use crate::warning::Warnings;
 
 /// Reads the statements of a library.
@@ -216,6 +216,6 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn warn(&mut self, line: u64, what: &str, remedy: &str) {
-        self.warnings.push_about(self.file, Place::Line(line), what, remedy);
+        self.warnings.push_about(self.file, Location::Line(line), what, remedy);
     }
 }

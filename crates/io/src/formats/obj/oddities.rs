@@ -1,7 +1,7 @@
 //! Parts of an OBJ that are left out or changed: counted line by line, and reported once each at the end.
 
 use super::unread::Unknown;
-use crate::error::Place;
+use crate::error::Location;
 use crate::warning::Warnings;
 
 /// What is worth one warning, however often a file has it.
@@ -146,7 +146,7 @@ impl Oddities {
     /// while others have one.
     pub(crate) fn warn(&self, colorless: Tally, warnings: &mut Warnings) {
         let mut warn = |tally: Tally, what: &str, remedy: &str| {
-            warnings.push_counted(tally.count, Place::Line(tally.line), what, remedy);
+            warnings.push_counted(tally.count, Location::Line(tally.line), what, remedy);
         };
         for (&tally, (what, remedy)) in self.tallies.iter().zip(WORDS) {
             warn(tally, what, remedy);

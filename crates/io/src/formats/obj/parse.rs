@@ -14,7 +14,7 @@ use super::index::{Counts, NONE};
 use super::oddities::{Oddities, Oddity, Tally};
 use super::record::Record;
 use super::section::{Section, read_section};
-use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::options::{LoadOptions, LoadStage};
 use crate::text::plain_text;
 use crate::warning::Warnings;
@@ -144,7 +144,7 @@ impl Parsed {
             return Err(LoadError::limit(path, format!("the faces have more than {most_corners} corners")));
         }
         if let Some(stop) = section.stop {
-            return Err(LoadError::malformed(path, stop.what, stop.remedy).at(Place::Line(stop.line)));
+            return Err(LoadError::malformed(path, stop.what, stop.remedy).at(Location::Line(stop.line)));
         }
         self.record.follow(chunk.text, &section.statements, section.content.arities.len());
         self.content.append(section.content);

@@ -4,7 +4,7 @@
 use trigon_mesh::Mesh;
 
 use super::parse::Parsed;
-use crate::error::Place;
+use crate::error::Location;
 use crate::warning::Warnings;
 
 /// How many elements there were, and what was odd about some of them.
@@ -39,7 +39,7 @@ impl Passed {
 
     pub(super) fn warn(&self, parsed: &Parsed, warnings: &mut Warnings) {
         let mut warn = |count: usize, line: Option<u64>, what: &str, remedy: &str| {
-            warnings.push_counted(count, line.map_or(Place::Whole, Place::Line), what, remedy);
+            warnings.push_counted(count, line.map_or(Location::Whole, Location::Line), what, remedy);
         };
         warn(
             self.non_finite,

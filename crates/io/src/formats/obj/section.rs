@@ -52,7 +52,7 @@ pub(crate) struct Stop {
 /// Reads a piece up to its end, the first malformed line, or the line that has
 /// more than so many corners.
 pub(crate) fn read_section(chunk: &Chunk<'_>, total: Counts, most_corners: usize) -> Section {
-    let mut reader = Reader { section: Section::default(), seen: chunk.before, total, corners: Vec::new() };
+    let mut reader = Reader { section: Section::default(), before: chunk.before, total, corners: Vec::new() };
     let mut lines = Lines::new(chunk.text);
     loop {
         let at = lines.position();
@@ -84,7 +84,7 @@ impl Fault {
 
 struct Reader {
     section: Section,
-    seen: Counts,
+    before: Counts,
     total: Counts,
     /// Of the element that is being read.
     corners: Vec<Corner>,
@@ -122,7 +122,7 @@ impl Reader {
 
     /// x, y, z; then nothing, or a weight, or a colour.
     fn position(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
-        self.seen.positions += 1;
+        self.before.positions += 1;
         let Numbers { values, count, surplus } = numbers::<6>(rest)?;
         if count < 3 {
             let what = format!("a vertex has {count} numbers and needs 3");
@@ -160,7 +160,7 @@ impl Reader {
 
     /// u and v; v may be missing, and a third number is for images of three dimensions.
     fn coordinate(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
-        self.seen.coordinates += 1;
+        self.before.coordinates += 1;
         let Numbers { values: [u, v, _], count, surplus } = numbers::<3>(rest)?;
         if count == 0 {
             return Err(Fault::new("a vt line has 0 numbers and needs 2", EXPORT_AGAIN));
@@ -178,7 +178,7 @@ impl Reader {
     }
 
     fn normal(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
-        self.seen.normals += 1;
+        self.before.normals += 1;
         let Numbers { values, count, surplus } = numbers::<3>(rest)?;
         if count < 3 {
             let what = format!("a vn line has {count} numbers and needs 3");
@@ -244,7 +244,7 @@ impl Reader {
 
     /// Reads the corners of an element.
     fn read_corners(&mut self, line: u64, rest: &[u8]) -> Result<Corners, Fault> {
-        let found = read_corners(rest, self.seen, self.total, &mut self.corners)
+        let found = read_corners(rest, self.before, self.total, &mut self.corners)
             .map_err(|what| Fault::new(what, "export the model again, or fix the line"))?;
         for _ in 0..found.dropped {
             self.note(Oddity::IndexDropped, line);

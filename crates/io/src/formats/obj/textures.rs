@@ -12,7 +12,7 @@ use trigon_scene::{Material, NormalMap, Shading, TextureBinding, TextureId};
 
 use super::map_options::MapStatement;
 use super::mtl::{Map, MapKind, MtlMaterial};
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::image_file::{Mention, find_image};
 use crate::import::Import;
 use crate::layers::Role;
@@ -95,9 +95,9 @@ impl Textures {
             let index = *known.entry(recipe).or_insert(requests.len());
             users.push((user(material, slot), index));
             if index == requests.len() {
-                let (name, file, place) =
-                    (first.statement.file.clone(), material.file.clone(), Place::Line(first.line));
-                requests.push(Request { name, file, place, layers, purpose: slot.purpose() });
+                let (name, file, location) =
+                    (first.statement.file.clone(), material.file.clone(), Location::Line(first.line));
+                requests.push(Request { name, file, location, layers, purpose: slot.purpose() });
             }
         }
         let ids = add_textures(import, &requests)?;

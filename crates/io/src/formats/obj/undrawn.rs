@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use super::mtl::{Fields, MapKind};
-use crate::error::Place;
+use crate::error::Location;
 use crate::warning::Warnings;
 
 /// Warns of what is not drawn as the material says. `alpha` is the opacity that
@@ -27,7 +27,7 @@ struct Notes<'a> {
 
 impl Notes<'_> {
     fn warn(&mut self, line: u64, what: &str, remedy: &str) {
-        self.warnings.push_about(self.file, Place::Line(line), what, remedy);
+        self.warnings.push_about(self.file, Location::Line(line), what, remedy);
     }
 
     /// Models 3 to 9 reflect what is around by as much as Ks, and 4, 6, 7 and 9 are glass.

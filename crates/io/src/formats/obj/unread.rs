@@ -2,7 +2,7 @@
 //! all. `docs/obj-statements.md` lists them all.
 
 use super::oddities::{Oddity, Tally};
-use crate::error::Place;
+use crate::error::Location;
 use crate::warning::Warnings;
 
 /// What leaving a statement out means.
@@ -91,11 +91,16 @@ impl Unknown {
         if self.kinds.len() > MOST_KINDS {
             let what = format!("more than {MOST_KINDS} kinds of statements are unknown and are ignored");
             let remedy = "check that the file is an OBJ, and its spelling";
-            warnings.push_counted(self.all.count, Place::Line(self.all.line), what, remedy);
+            warnings.push_counted(self.all.count, Location::Line(self.all.line), what, remedy);
             return;
         }
         for (keyword, tally) in &self.kinds {
-            warnings.push_counted(tally.count, Place::Line(tally.line), describe(keyword), remedy(keyword));
+            warnings.push_counted(
+                tally.count,
+                Location::Line(tally.line),
+                describe(keyword),
+                remedy(keyword),
+            );
         }
     }
 }

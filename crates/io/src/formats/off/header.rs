@@ -1,6 +1,6 @@
 //! The start of an OFF: the attributes of vertices, and the numbers of vertices and faces.
 
-use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::import::Import;
 use crate::rows::{Rows, Words, quoted, words};
 
@@ -82,7 +82,7 @@ fn read_count(import: &Import<'_>, text: &mut Words<'_>) -> Result<u64, LoadErro
     let word = text.next().unwrap_or_default();
     count(word).ok_or_else(|| {
         let what = format!("{} does not tell how many vertices and faces there are", quoted(word));
-        LoadError::malformed(import.path, what, REMEDY).at(Place::Line(text.line()))
+        LoadError::malformed(import.path, what, REMEDY).at(Location::Line(text.line()))
     })
 }
 

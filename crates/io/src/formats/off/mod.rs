@@ -47,13 +47,13 @@ pub(crate) fn import_off(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
             let before = std::mem::replace(&mut found, Ok(free));
             if let Some(error) = before.err().filter(|_| lines.is_within_vertices()) {
                 let what = format!("{}; the numbers are read as one list, whatever their lines", error.what);
-                import.warnings.push(error.place, what, header::REMEDY);
+                import.warnings.push(error.location, what, header::REMEDY);
             }
         }
     }
     let found = found?;
-    for (place, what, remedy) in found.warnings {
-        import.warnings.push(place, what, remedy);
+    for (location, what, remedy) in found.warnings {
+        import.warnings.push(location, what, remedy);
     }
     drop(text);
     drop(bytes);

@@ -28,12 +28,12 @@ pub(super) struct Faces {
 }
 
 /// The places in the next pieces of a text; `None` for a piece with a row that is no plain place.
-pub(super) fn places(text: &[u8]) -> Vec<Option<Piece<Vec<DVec3>>>> {
-    read_all(text, |row, places: &mut Vec<DVec3>| {
+pub(super) fn positions(text: &[u8]) -> Vec<Option<Piece<Vec<DVec3>>>> {
+    read_all(text, |row, positions: &mut Vec<DVec3>| {
         let (x, rest) = number(row)?;
         let (y, rest) = number(rest)?;
         let (z, rest) = number(rest)?;
-        places.push(DVec3::new(x, y, z));
+        positions.push(DVec3::new(x, y, z));
         Some(rest)
     })
 }
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn plain_rows_are_read_whatever_ends_them() {
-        let piece = only(places(b"1 2 3\r\n\n\t-0.5 1e2 .25 \n 4\t5  6")).expect("plain");
+        let piece = only(positions(b"1 2 3\r\n\n\t-0.5 1e2 .25 \n 4\t5  6")).expect("plain");
         let expected = [[1.0, 2.0, 3.0], [-0.5, 100.0, 0.25], [4.0, 5.0, 6.0]].map(DVec3::from_array);
         assert_eq!((piece.rows.as_slice(), piece.lines), (expected.as_slice(), 4), "one line is empty");
         let piece = only(faces(b"3 0 1 2\n4 9 8 7 6\n", 10)).expect("plain");
@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn other_rows_are_left_to_the_reader_of_single_rows() {
         for row in ["1 2", "1 2 3 4", "1 2 3 # four", "1 2 x", "1 2 3\r4 5 6", "nan 0 0", "1 2 3\u{c}"] {
-            assert!(only(places(format!("7 8 9\n{row}\n").as_bytes())).is_none(), "{row}");
+            assert!(only(positions(format!("7 8 9\n{row}\n").as_bytes())).is_none(), "{row}");
         }
         for row in ["2 0 1", "3 0 1", "3 0 1 2 255 0 0", "3 0 1 4", "3 0 1 2.0", "3 0 1 -1", "x", "3 0 1 2 #"]
         {
@@ -164,7 +164,7 @@ mod tests {
     fn pieces_end_where_rows_end() {
         let row = "0.125 0.25 0.5\n";
         let text = row.repeat(3 * PIECE / row.len());
-        let pieces = places(text.as_bytes());
+        let pieces = positions(text.as_bytes());
         let read: Vec<&Piece<_>> = pieces.iter().flatten().collect();
         assert_eq!(read.len(), pieces.len(), "all are plain");
         assert!(read.len() > 2, "there are several");
@@ -173,6 +173,6 @@ mod tests {
         let lines = read.iter().map(|piece| piece.lines).sum::<u64>();
         assert_eq!(rows, lines, "one for each line");
         let endless = "1 ".repeat(2 * PIECE);
-        assert!(places(endless.as_bytes()).is_empty(), "a row longer than a piece");
+        assert!(positions(endless.as_bytes()).is_empty(), "a row longer than a piece");
     }
 }

@@ -9,7 +9,7 @@ use super::columns::Columns;
 use super::header::{Header, REMEDY};
 use super::plain::{self, Piece};
 use super::rows::Numbers;
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::import::Import;
 use crate::options::LoadStage;
 use crate::polygons::{Polygons, RawColors, most_corners, too_many_corners};
@@ -48,7 +48,7 @@ pub(super) struct Reader<'a> {
 pub(super) struct Found {
     pub(super) polygons: Polygons,
     /// Each with its remedy.
-    pub(super) warnings: Vec<(Place, String, &'static str)>,
+    pub(super) warnings: Vec<(Location, String, &'static str)>,
     /// Whether another layout may make more of the file.
     pub(super) is_doubtful: bool,
 }
@@ -84,7 +84,7 @@ impl<'a> Reader<'a> {
     fn finished(&mut self, colors: impl FnOnce(&mut Self) -> &mut RawColors) -> Vec<Vec4> {
         let colors = take(colors(self));
         let fault =
-            colors.fault().map(|what| (Place::Whole, what, "write colours from 0 to 1 or from 0 to 255"));
+            colors.fault().map(|what| (Location::Whole, what, "write colours from 0 to 1 or from 0 to 255"));
         self.found.warnings.extend(fault);
         colors.finish()
     }
@@ -96,11 +96,11 @@ impl<'a> Reader<'a> {
     }
 
     fn malformed(&self, import: &Import<'_>, what: String) -> LoadError {
-        LoadError::malformed(import.path, what, REMEDY).at(Place::Line(self.text.line()))
+        LoadError::malformed(import.path, what, REMEDY).at(Location::Line(self.text.line()))
     }
 
     fn warn(&mut self, what: String, remedy: &'static str) {
-        self.found.warnings.push((Place::Line(self.text.line()), what, remedy));
+        self.found.warnings.push((Location::Line(self.text.line()), what, remedy));
     }
 
     fn report(&self, import: &Import<'_>, row: u64) -> Result<(), LoadError> {
@@ -116,7 +116,7 @@ impl<'a> Reader<'a> {
         let count = self.header.vertices;
         if self.layout == Layout::Lines {
             if self.header.least_numbers() == 3 {
-                self.plain_places(import)?;
+                self.plain_positions(import)?;
             }
             self.find_columns();
         }
@@ -130,8 +130,8 @@ impl<'a> Reader<'a> {
                 let what = format!("vertex {row} has too few numbers");
                 return Err(self.malformed(import, what));
             }
-            let (place, rest) = self.numbers.values.split_at(3);
-            self.polygons.positions.push(DVec3::from_slice(place));
+            let (position, rest) = self.numbers.values.split_at(3);
+            self.polygons.positions.push(DVec3::from_slice(position));
             self.columns.push(rest, &mut self.polygons, &mut self.colors);
         }
         Ok(())
@@ -152,9 +152,9 @@ impl<'a> Reader<'a> {
         self.columns = columns;
         self.found.is_doubtful |= columns.is_uneven;
         if let Some(what) = columns.oddity() {
-            let place = Place::Line(self.text.line() + 1);
+            let location = Location::Line(self.text.line() + 1);
             let remedy = "export the model again as NOFF, COFF or PLY";
-            self.found.warnings.push((place, what, remedy));
+            self.found.warnings.push((location, what, remedy));
         }
     }
 
@@ -198,12 +198,12 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn plain_places(&mut self, import: &Import<'_>) -> Result<(), LoadError> {
+    fn plain_positions(&mut self, import: &Import<'_>) -> Result<(), LoadError> {
         let count = self.header.vertices;
-        self.plain_rows(import, plain::places, |polygons, places| {
-            let fits = (polygons.positions.len() + places.len()) as u64 <= count;
+        self.plain_rows(import, plain::positions, |polygons, positions| {
+            let fits = (polygons.positions.len() + positions.len()) as u64 <= count;
             if fits {
-                polygons.positions.extend(places);
+                polygons.positions.extend(positions);
             }
             fits
         })

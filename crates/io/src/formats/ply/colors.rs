@@ -4,7 +4,7 @@
 use trigon_math::Vec4;
 
 use super::header::{Element, Kind};
-use crate::error::Place;
+use crate::error::Location;
 use crate::polygons::{RawColors, light_from_srgb};
 use crate::warning::Warnings;
 
@@ -51,10 +51,10 @@ impl Channels {
         if full > 1.0 {
             let what =
                 format!("the colours are fractions above 1, and are taken as numbers from 0 to {full}");
-            warnings.push(Place::Whole, what, "write them from 0 to 1, or as uchar");
+            warnings.push(Location::Whole, what, "write them from 0 to 1, or as uchar");
         }
         if let Some(what) = raw.fault() {
-            warnings.push(Place::Whole, what, "write them from 0 to 1, or as uchar");
+            warnings.push(Location::Whole, what, "write them from 0 to 1, or as uchar");
         }
         colors.append(&mut raw.finish());
     }

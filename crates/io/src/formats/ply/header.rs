@@ -1,7 +1,7 @@
 //! The header of a PLY: its elements, their number, and the properties of each.
 
 use super::scalar::{ByteOrder, Scalar};
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::import::Import;
 use crate::polygons::check_vertices;
 use crate::rows::{quoted, words};
@@ -100,7 +100,8 @@ const MOST_TEXTURES: usize = 1 << 12;
 pub(super) fn read_header(import: &mut Import<'_>, bytes: &[u8]) -> Result<Header, LoadError> {
     const REMEDY: &str = "export the model again";
     let path = import.path;
-    let malformed = |line: u64, what: String| LoadError::malformed(path, what, REMEDY).at(Place::Line(line));
+    let malformed =
+        |line: u64, what: String| LoadError::malformed(path, what, REMEDY).at(Location::Line(line));
     let mut lines = Lines::new(bytes);
     if lines.next() != Some(b"ply") {
         return Err(malformed(
@@ -124,7 +125,7 @@ pub(super) fn read_header(import: &mut Import<'_>, bytes: &[u8]) -> Result<Heade
         match draft.statement(line) {
             Ok(true) => {}
             Ok(false) => import.warnings.push(
-                Place::Line(lines.number),
+                Location::Line(lines.number),
                 format!("the statement {} is not one of PLY and is ignored", first_word(line)),
                 REMEDY,
             ),

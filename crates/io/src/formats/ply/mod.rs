@@ -82,7 +82,7 @@ fn read_elements<V: Values>(
             let (name, count) = (&element.name, element.count);
             let what =
                 format!("the file ends after {rows} of {count} elements \"{name}\"; the rest is missing");
-            import.warnings.push(values.place(), what, "copy or export the file again");
+            import.warnings.push(values.location(), what, "copy or export the file again");
             break;
         }
     }

@@ -47,14 +47,14 @@ pub(super) fn broken(
     what: &str,
 ) -> LoadError {
     let what = format!("{} {row} {what}", element.name);
-    LoadError::malformed(import.path, what, "export the model again").at(values.place())
+    LoadError::malformed(import.path, what, "export the model again").at(values.location())
 }
 
 /// The error of a file that ends before its vertices do.
 pub(super) fn cut_off(import: &Import<'_>, element: &Element, rows: u64, values: &impl Values) -> LoadError {
     let what = format!("the header claims {} vertices, and the file ends after {rows}", element.count);
     LoadError::new(LoadErrorKind::Malformed, import.path, what, "copy or export the file again")
-        .at(values.place())
+        .at(values.location())
 }
 
 /// Passes over an element that means nothing here.

@@ -2,7 +2,7 @@
 
 use super::header::Kind;
 use super::scalar::{ByteOrder, Scalar};
-use crate::error::Place;
+use crate::error::Location;
 use crate::numbers::number;
 use crate::rows::{Rows, words};
 
@@ -26,7 +26,7 @@ pub(super) struct Ended {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Surplus {
     pub(super) count: usize,
-    pub(super) first: Place,
+    pub(super) first: Location,
 }
 
 /// Numbers in the order of the file.
@@ -44,7 +44,7 @@ pub(super) trait Values {
     fn end_row(&mut self) {}
 
     /// Where in the file this is.
-    fn place(&self) -> Place;
+    fn location(&self) -> Location;
 
     /// How many bytes have been read, and how many have not.
     fn progress(&self) -> (usize, usize);
@@ -119,14 +119,14 @@ impl Values for Text<'_> {
     fn end_row(&mut self) {
         if words(self.rest).next().is_some() {
             if self.surplus.count == 0 {
-                self.surplus.first = self.place();
+                self.surplus.first = self.location();
             }
             self.surplus.count += 1;
         }
     }
 
-    fn place(&self) -> Place {
-        Place::Line(self.rows.line())
+    fn location(&self) -> Location {
+        Location::Line(self.rows.line())
     }
 
     fn progress(&self) -> (usize, usize) {
@@ -181,8 +181,8 @@ impl Values for Binary<'_> {
         Ok(())
     }
 
-    fn place(&self) -> Place {
-        Place::Byte(self.start + self.at as u64)
+    fn location(&self) -> Location {
+        Location::Byte(self.start + self.at as u64)
     }
 
     fn progress(&self) -> (usize, usize) {

@@ -112,9 +112,9 @@ pub(super) fn read_vertices<V: Values>(
         Kind::List { count, .. } => values.least_bytes(count),
     };
     let bytes: u64 = element.properties.iter().map(|property| least(property.kind)).sum();
-    let room = (values.progress().1 as u64 + 1) / bytes;
-    if element.count > room {
-        return Err(cut_off(import, element, room, values));
+    let capacity = (values.progress().1 as u64 + 1) / bytes;
+    if element.count > capacity {
+        return Err(cut_off(import, element, capacity, values));
     }
     let count = element.count as usize;
     polygons.positions.reserve_exact(count);

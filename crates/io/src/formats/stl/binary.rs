@@ -5,7 +5,7 @@ use trigon_math::DVec3;
 
 use super::colors::Attributes;
 use crate::equal_keys::EqualKeys;
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::import::Import;
 use crate::options::LoadStage;
 use crate::polygons::{Polygons, check_vertices, most_corners, too_many_corners};
@@ -35,9 +35,9 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
         let what = format!("it has {} bytes, and neither the start of text nor a binary header", bytes.len());
         return Err(LoadError::malformed(import.path, what, "copy or export the file again"));
     };
-    let room = (bytes.len() - HEADER) / TRIANGLE;
+    let capacity = (bytes.len() - HEADER) / TRIANGLE;
     // Programs that write while they compute leave 0 where they would have to come back for the number.
-    let length = if count == 0 { room } else { room.min(count as usize) };
+    let length = if count == 0 { capacity } else { capacity.min(count as usize) };
     warn_of_size(import, bytes, count, length);
     if length > most_corners(import) / 3 {
         return Err(too_many_corners(import));
@@ -72,16 +72,16 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
 #[derive(Default)]
 struct Corners {
     /// As the bits of their coordinates.
-    places: Vec<[[u32; 3]; 3]>,
+    positions: Vec<[[u32; 3]; 3]>,
     /// For each the number of the first corner at its place.
     firsts: Vec<u32>,
 }
 
 impl Corners {
     fn find(triangles: &[[u8; TRIANGLE]], equal: &mut EqualKeys<[u32; 3]>) -> Self {
-        let places: Vec<[[u32; 3]; 3]> = triangles.par_iter().map(corners).collect();
-        let firsts = equal.add(places.as_flattened());
-        Self { places, firsts }
+        let positions: Vec<[[u32; 3]; 3]> = triangles.par_iter().map(corners).collect();
+        let firsts = equal.add(positions.as_flattened());
+        Self { positions, firsts }
     }
 }
 
@@ -97,7 +97,7 @@ fn corners(triangle: &[u8; TRIANGLE]) -> [[u32; 3]; 3] {
 /// Adds corners, each new place among them as a vertex.
 fn push_corners(polygons: &mut Polygons, corners: &Corners) {
     let Polygons { positions, corner_vertices, .. } = polygons;
-    for (&first, corner) in corners.firsts.iter().zip(corners.places.as_flattened()) {
+    for (&first, corner) in corners.firsts.iter().zip(corners.positions.as_flattened()) {
         if first as usize == corner_vertices.len() {
             corner_vertices.push(positions.len() as u32);
             positions.push(DVec3::from_array(corner.map(|bits| f64::from(f32::from_bits(bits)))));
@@ -108,13 +108,13 @@ fn push_corners(polygons: &mut Polygons, corners: &Corners) {
 }
 
 fn warn_of_size(import: &mut Import<'_>, bytes: &[u8], claimed: u32, there: usize) {
-    let end = Place::Byte(bytes.len() as u64);
+    let end = Location::Byte(bytes.len() as u64);
     if there < claimed as usize {
         let what = format!("the header claims {claimed} triangles, and the file ends after {there}");
         import.warnings.push(end, what, "copy or export the file again");
     } else if claimed == 0 && there > 0 {
         let what = format!("the header claims no triangles, and the {there} that follow are read");
-        import.warnings.push(Place::Byte(HEADER as u64 - 4), what, "export the model again");
+        import.warnings.push(Location::Byte(HEADER as u64 - 4), what, "export the model again");
     } else if !has_exact_size(bytes) {
         let what = format!("there are bytes after the {claimed} triangles, which are ignored");
         import.warnings.push(end, what, "export the model again");

@@ -10,7 +10,7 @@
 use trigon_math::color::srgb_to_linear;
 use trigon_math::{Vec3, Vec4};
 
-use crate::error::Place;
+use crate::error::Location;
 use crate::polygons::Polygons;
 use crate::warning::Warnings;
 
@@ -79,7 +79,7 @@ impl Attributes {
         let any = |is_it: fn(u16) -> bool| self.values.iter().any(|&value| is_it(value));
         let unflagged = any(|value| value & FLAG == 0 && value != 0);
         let flagged = any(|value| value & FLAG != 0 && value != FLAG && value != FILLED);
-        let mut warn = |what: &str| warnings.push(Place::Whole, what, AGAIN);
+        let mut warn = |what: &str| warnings.push(Location::Whole, what, AGAIN);
         if has_header {
             // As Magics writes them: where others have no colour, 0 is black.
             if unflagged || (!flagged && any(|value| value & FLAG != 0)) && any(|value| value == 0) {
@@ -109,7 +109,7 @@ impl Attributes {
 
 /// The colour that the header gives to all triangles.
 fn color_of_all(header: &[u8], warnings: &mut Warnings) -> Option<Vec4> {
-    let mut warn = |what: &str| warnings.push(Place::Whole, what, AGAIN);
+    let mut warn = |what: &str| warnings.push(Location::Whole, what, AGAIN);
     let (color, diffuse) = (Stated::after(header, b"COLOR="), Stated::after(header, b"MATERIAL="));
     let diffuse = diffuse.filter(|diffuse| diffuse.rgb != [0; 3]);
     if color.is_some_and(|color| diffuse.is_some_and(|diffuse| diffuse.rgb != color.rgb)) {

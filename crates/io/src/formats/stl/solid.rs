@@ -51,9 +51,9 @@ impl Solid {
 struct Key([u64; 3]);
 
 impl Key {
-    fn new(place: &DVec3) -> Self {
+    fn new(position: &DVec3) -> Self {
         // Adding zero makes −0 and +0 the same.
-        Self((*place + DVec3::ZERO).to_array().map(f64::to_bits))
+        Self((*position + DVec3::ZERO).to_array().map(f64::to_bits))
     }
 }
 

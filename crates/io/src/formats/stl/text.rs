@@ -4,7 +4,7 @@
 use trigon_math::DVec3;
 
 use super::solid::Solid;
-use crate::error::{LoadError, Place};
+use crate::error::{LoadError, Location};
 use crate::import::Import;
 use crate::numbers::number;
 use crate::options::LoadStage;
@@ -97,7 +97,7 @@ pub(super) fn read(import: &mut Import<'_>, text: &[u8]) -> Result<Vec<Polygons>
     }
     if !reader.corners.is_empty() {
         import.warnings.push(
-            Place::Line(reader.words.line()),
+            Location::Line(reader.words.line()),
             "the file ends within a facet, which is left out",
             "copy or export the file again",
         );
@@ -132,15 +132,15 @@ impl Reader<'_> {
 
     fn vertex(&mut self, import: &Import<'_>) -> Result<(), LoadError> {
         let line = self.words.line();
-        let place = self.place().map_err(|what| {
+        let position = self.position().map_err(|what| {
             LoadError::malformed(import.path, what, "fix the line, or export the model again")
-                .at(Place::Line(line))
+                .at(Location::Line(line))
         })?;
-        self.corners.push(place);
+        self.corners.push(position);
         Ok(())
     }
 
-    fn place(&mut self) -> Result<DVec3, String> {
+    fn position(&mut self) -> Result<DVec3, String> {
         let mut coordinate = || match self.words.next().filter(|word| Keyword::of(word).is_none()) {
             Some(word) => number(word),
             None => Err("a vertex has fewer than 3 coordinates".to_owned()),
@@ -193,7 +193,7 @@ impl Reader<'_> {
 
     /// At the start of a line it takes the line with it: words of people may be words of the format.
     fn unknown(&mut self, import: &mut Import<'_>, word: &[u8], is_first: bool) {
-        let line = Place::Line(self.words.line());
+        let line = Location::Line(self.words.line());
         if is_first {
             self.words.pass_in_line(self.words.rest_of_line().len());
             if is_comment(word) {

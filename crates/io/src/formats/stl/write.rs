@@ -24,8 +24,8 @@ pub(crate) fn write_stl(
 /// The places of all triangles of an object.
 fn triangles(gathered: &Gathered<'_>, object: usize) -> impl Iterator<Item = [DVec3; 3]> {
     let object = &gathered.objects[object];
-    let place = |corner: u32| gathered.position(object, object.vertex(corner));
-    object.faces().map(move |face| [place(face[0]), place(face[1]), place(face[2])])
+    let position = |corner: u32| gathered.position(object, object.vertex(corner));
+    object.faces().map(move |face| [position(face[0]), position(face[1]), position(face[2])])
 }
 
 /// The unit normal of a triangle; zero where it has no area.
@@ -40,17 +40,17 @@ fn binary(gathered: &mut Gathered<'_>) -> Result<Vec<u8>, WriteError> {
             .push(Loss::of_scene("digits of positions far from the origin: they are rounded to f32"));
     }
     let count: usize = gathered.objects.iter().map(|object| object.face_sizes.len()).sum();
-    let room = HEADER + TRIANGLE * count;
-    let number = u32::try_from(count).map_err(|_| WriteError::TooLarge { bytes: room as u64 })?;
+    let length = HEADER + TRIANGLE * count;
+    let number = u32::try_from(count).map_err(|_| WriteError::TooLarge { bytes: length as u64 })?;
     // It must not begin with "solid", as text does.
     let mut bytes = b"binary STL written by trigon".to_vec();
     bytes.resize(HEADER - 4, 0);
-    bytes.reserve_exact(room - bytes.len());
+    bytes.reserve_exact(length - bytes.len());
     bytes.extend(number.to_le_bytes());
     for object in 0..gathered.objects.len() {
         for corners in triangles(gathered, object) {
-            for place in [[normal(corners)].as_slice(), &corners].concat() {
-                bytes.extend(place.to_array().iter().flat_map(|&value| (value as f32).to_le_bytes()));
+            for vector in [[normal(corners)].as_slice(), &corners].concat() {
+                bytes.extend(vector.to_array().iter().flat_map(|&value| (value as f32).to_le_bytes()));
             }
             bytes.extend([0; 2]);
         }
@@ -65,11 +65,11 @@ fn text(gathered: &Gathered<'_>) -> String {
         text += &format!("solid {name}\n");
         for corners in triangles(gathered, index) {
             text += " facet normal";
-            push_place(&mut text, normal(corners), Precision::Single);
+            push_vector(&mut text, normal(corners), Precision::Single);
             text += "  outer loop\n";
             for corner in corners {
                 text += "   vertex";
-                push_place(&mut text, corner, gathered.precision);
+                push_vector(&mut text, corner, gathered.precision);
             }
             text += "  endloop\n endfacet\n";
         }
@@ -78,8 +78,8 @@ fn text(gathered: &Gathered<'_>) -> String {
     text
 }
 
-fn push_place(text: &mut String, place: DVec3, precision: Precision) {
-    for value in place.to_array() {
+fn push_vector(text: &mut String, vector: DVec3, precision: Precision) {
+    for value in vector.to_array() {
         text.push(' ');
         push_number(text, value, precision);
     }

@@ -6,7 +6,7 @@ use gltf::json::Animation;
 use gltf::json::animation::{Channel, Property};
 
 use super::remedy::REMEDY;
-use crate::error::Place;
+use crate::error::Location;
 use crate::formats::gltf::accessor::valid;
 use crate::formats::gltf::document::Document;
 use crate::formats::gltf::hierarchy::Hierarchy;
@@ -31,15 +31,15 @@ fn warn_of_animation(
         let Some(property) = valid(&channel.target.path).filter(|_| hierarchy.included[node]) else {
             continue;
         };
-        let place = || Place::Named(format!("animation {index}, channel {number}"));
+        let location = || Location::Named(format!("animation {index}, channel {number}"));
         if !moved.insert((node, property as u8)) {
             let what = "an earlier channel moves the same property of the same node; the last one counts";
-            warnings.push(place(), what, "remove one of them, or export the animation again");
+            warnings.push(location(), what, "remove one of them, or export the animation again");
         }
         if moves_a_matrix(document, channel) {
             let what =
                 "its node has a matrix, which is split into translation, rotation and scale; shear is lost";
-            warnings.push(place(), what, REMEDY);
+            warnings.push(location(), what, REMEDY);
         }
     }
 }

@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 use trigon_scene::{Material, ParameterField};
 
 use super::remedy::REMEDY;
-use crate::error::Place;
+use crate::error::Location;
 use crate::formats::gltf::images::image_of;
 use crate::formats::gltf::material_extensions::{self, numbers};
 use crate::formats::gltf::slots::slot_textures;
@@ -31,7 +31,7 @@ pub(super) fn warn_of_materials(root: &Root, used: &BTreeSet<usize>, warnings: &
     let mut textures = BTreeSet::new();
     for &index in used {
         let material = &root.materials[index];
-        let mut warn = |what: String| warnings.push(Place::Item("material", index), what, REMEDY);
+        let mut warn = |what: String| warnings.push(Location::Item("material", index), what, REMEDY);
         factors(material).into_iter().filter_map(|factor| factor.fault()).for_each(&mut warn);
         if matches!(material.alpha_mode, Checked::Invalid) {
             warn("its alphaMode is unknown; it is drawn opaque".to_owned());
@@ -148,7 +148,11 @@ fn warn_of_samplers(root: &Root, textures: &BTreeSet<usize>, warnings: &mut Warn
             ("minFilter", matches!(sampler.min_filter, Some(Checked::Invalid)), "it is linear"),
         ];
         for (name, _, instead) in faults.into_iter().filter(|(_, is_invalid, _)| *is_invalid) {
-            warnings.push(Place::Item("sampler", index), format!("its {name} is unknown; {instead}"), REMEDY);
+            warnings.push(
+                Location::Item("sampler", index),
+                format!("its {name} is unknown; {instead}"),
+                REMEDY,
+            );
         }
     }
 }
@@ -159,7 +163,7 @@ fn warn_of_images(root: &Root, textures: &BTreeSet<usize>, warnings: &mut Warnin
         let image = &root.images[index];
         if image.uri.is_some() && image.buffer_view.is_some() {
             let what = "it has a URI and a bufferView; the URI is used";
-            warnings.push(Place::Item("image", index), what, REMEDY);
+            warnings.push(Location::Item("image", index), what, REMEDY);
         }
     }
 }

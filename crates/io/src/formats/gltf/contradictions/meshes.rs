@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use gltf::json::Root;
 
 use super::remedy::REMEDY;
-use crate::error::Place;
+use crate::error::Location;
 use crate::formats::gltf::document::Document;
 use crate::formats::gltf::hierarchy::Hierarchy;
 use crate::warning::{Warnings, counted};
@@ -18,29 +18,35 @@ pub(super) fn warn_of_meshes(
 ) {
     let root = &document.root;
     for &mesh in used {
-        warn_of_weights(root.meshes[mesh].weights.as_ref(), root, mesh, Place::Item("mesh", mesh), warnings);
+        warn_of_weights(
+            root.meshes[mesh].weights.as_ref(),
+            root,
+            mesh,
+            Location::Item("mesh", mesh),
+            warnings,
+        );
         let counts: BTreeSet<usize> = target_counts(root, mesh).collect();
         if counts.len() > 1 {
             let what = "its primitives have different numbers of morph targets; a primitive without a target keeps its shape";
-            warnings.push(Place::Item("mesh", mesh), what, REMEDY);
+            warnings.push(Location::Item("mesh", mesh), what, REMEDY);
         }
     }
     for &node in &hierarchy.order {
         let from = &root.nodes[node];
         if let Some(mesh) = from.mesh {
-            let place = Place::Item("node", node);
-            warn_of_weights(from.weights.as_ref(), root, mesh.value(), place, warnings);
+            let location = Location::Item("node", node);
+            warn_of_weights(from.weights.as_ref(), root, mesh.value(), location, warnings);
         }
     }
     for from in document.foreign_attributes.iter().filter(|from| used.contains(&from.mesh)) {
-        let place = Place::Named(format!("mesh {}, primitive {}", from.mesh, from.primitive));
+        let location = Location::Named(format!("mesh {}, primitive {}", from.mesh, from.primitive));
         let (name, remedy) = (&from.name, "rename or bake it if something is missing");
         let what = if from.in_target {
             format!("{name} of a morph target is not supported and is ignored")
         } else {
             format!("{name} is not an attribute of glTF and is ignored")
         };
-        warnings.push(place, what, remedy);
+        warnings.push(location, what, remedy);
     }
 }
 
@@ -55,7 +61,7 @@ fn warn_of_weights(
     weights: Option<&Vec<f32>>,
     root: &Root,
     mesh: usize,
-    place: Place,
+    location: Location,
     warnings: &mut Warnings,
 ) {
     let targets = target_counts(root, mesh).max().unwrap_or(0);
@@ -63,6 +69,6 @@ fn warn_of_weights(
         let (weights, targets) = (counted(weights.len(), "weight"), counted(targets, "morph target"));
         let what =
             format!("it has {weights} for {targets}; missing weights count as 0, and extra ones are ignored");
-        warnings.push(place, what, REMEDY);
+        warnings.push(location, what, REMEDY);
     }
 }

@@ -16,7 +16,7 @@ use gltf::json::Root;
 use self::remedy::REMEDY;
 use super::document::Document;
 use super::hierarchy::Hierarchy;
-use crate::error::Place;
+use crate::error::Location;
 use crate::warning::Warnings;
 
 pub(crate) fn warn_of_contradictions(document: &Document, hierarchy: &Hierarchy, warnings: &mut Warnings) {
@@ -38,7 +38,7 @@ fn warn_of_version(root: &Root, warnings: &mut Warnings) {
     let version = &root.asset.version;
     if version.split('.').nth(1).is_some_and(|minor| minor != "0") {
         let what = format!("the file is glTF {version} and is read as 2.0: what is newer is not drawn");
-        warnings.push(Place::Whole, what, "export the model as glTF 2.0");
+        warnings.push(Location::Whole, what, "export the model as glTF 2.0");
     }
 }
 
@@ -53,6 +53,6 @@ fn warn_of_listed_children(hierarchy: &Hierarchy, warnings: &mut Warnings) {
                 "the scene lists it as a root without its parent; it is drawn without the parent's transform"
             }
         };
-        warnings.push(Place::Item("node", node), what, REMEDY);
+        warnings.push(Location::Item("node", node), what, REMEDY);
     }
 }

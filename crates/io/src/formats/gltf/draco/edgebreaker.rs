@@ -224,13 +224,13 @@ impl Builder {
         }
         self.connect(corner + 2, a)?;
         self.connect(corner + 1, b)?;
-        let (kept, gone) = (self.table.vertex(previous(a)), self.table.vertex(next(b)));
+        let (retained, gone) = (self.table.vertex(previous(a)), self.table.vertex(next(b)));
         let behind = self.table.vertex(previous(b));
-        self.set_vertices(corner, [kept, self.table.vertex(next(a)), behind])?;
+        self.set_vertices(corner, [retained, self.table.vertex(next(a)), behind])?;
         self.table.first[behind as usize] = corner + 2;
-        walk.merge(kept, gone);
-        self.table.first[kept as usize] = self.table.first(gone);
-        self.rename(next(b), kept, budget)?;
+        walk.merge(retained, gone);
+        self.table.first[retained as usize] = self.table.first(gone);
+        self.rename(next(b), retained, budget)?;
         self.table.first[gone as usize] = NONE;
         self.merged.push(gone);
         *self.active.last_mut().expect("it has a top") = corner;

@@ -121,8 +121,8 @@ const WRONG_SUM: Broken = "the shares of its symbols do not make a whole";
 /// A share of one to three bytes; the lowest bits of the first are how many follow it.
 fn read_share(stream: &mut Stream<'_>, first: u8) -> Result<u32, Broken> {
     let mut share = u32::from(first >> 2);
-    for place in 0..u32::from(first & 3) {
-        share |= u32::from(stream.byte()?) << (8 * place + 6);
+    for byte_index in 0..u32::from(first & 3) {
+        share |= u32::from(stream.byte()?) << (8 * byte_index + 6);
     }
     Ok(share)
 }

@@ -31,7 +31,7 @@ impl Needs {
         let mut uv_sets: Vec<u32> = textures.iter().map(|texture| texture.uv_set).collect();
         uv_sets.sort_unstable();
         uv_sets.dedup();
-        let normal = textures.iter().find(|texture| texture.place == MaterialTexture::Normal);
+        let normal = textures.iter().find(|texture| texture.slot == MaterialTexture::Normal);
         Self { uv_sets, tangents_of: normal.map(|texture| texture.uv_set) }
     }
 }

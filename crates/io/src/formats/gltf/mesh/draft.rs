@@ -99,24 +99,24 @@ impl Draft {
         let face = |corners: &[u32; 3]| corners.map(|corner| vertices[corner as usize]);
         let mut faces = Vec::with_capacity(FACES_AT_ONCE);
         let mut all = take(&mut part.elements.triangles);
-        let (corners, mut kept) = (all.as_chunks_mut::<3>().0, 0);
+        let (corners, mut retained) = (all.as_chunks_mut::<3>().0, 0);
         for first in (0..corners.len()).step_by(FACES_AT_ONCE) {
             let some = first..corners.len().min(first + FACES_AT_ONCE);
             faces.clear();
             faces.extend(corners[some.clone()].iter().map(face));
             if self.builder.push_triangles(&faces).is_ok() {
-                corners.copy_within(some, kept);
-                kept += faces.len();
+                corners.copy_within(some, retained);
+                retained += faces.len();
                 continue;
             }
             for (index, face) in some.zip(&faces) {
                 if self.add_triangle(face, part.is_strip) {
-                    corners[kept] = corners[index];
-                    kept += 1;
+                    corners[retained] = corners[index];
+                    retained += 1;
                 }
             }
         }
-        all.truncate(3 * kept);
+        all.truncate(3 * retained);
         part.elements.triangles = all;
     }
 
@@ -183,11 +183,11 @@ impl Draft {
 
     /// The vertex of a vertex of a part.
     fn vertex<K: VertexKey>(&mut self, part: &Part, vertex: usize, key: K, hash: u64) -> u32 {
-        let (places, ways) = (self.builder.positions(), &self.movements.of_vertices);
+        let (positions, ways) = (self.builder.positions(), &self.movements.of_vertices);
         let colors = self.vertex_colors.as_deref().unwrap_or_default();
         let known = |vertex: u32| {
             let way = ways.get(vertex as usize).copied().unwrap_or(0);
-            K::new(Key::new(places[vertex as usize], way), || colors[vertex as usize])
+            K::new(Key::new(positions[vertex as usize], way), || colors[vertex as usize])
         };
         self.welded.number(&key, hash, known).unwrap_or_else(|new| {
             self.builder.push_vertex(part.positions[vertex]);

@@ -23,7 +23,7 @@ use gltf::json::Root;
 
 use super::accessor::Accessors;
 use super::buffers::Unplaced;
-use crate::error::Place;
+use crate::error::Location;
 use crate::gltf_source::PrimitiveFaces;
 use crate::warning::Warnings;
 pub(super) use built::{BuiltMesh, Needs};
@@ -42,8 +42,8 @@ pub(crate) fn build_mesh(
 ) -> Result<BuiltMesh, Unplaced> {
     let (mut parts, mut numbers) = (Vec::new(), Vec::new());
     for (number, primitive) in accessors.root.meshes[index].primitives.iter().enumerate() {
-        let place = Place::Named(format!("mesh {index}, primitive {number}"));
-        if let Some(part) = read_primitive(accessors, primitive, place, needs, warnings)? {
+        let location = Location::Named(format!("mesh {index}, primitive {number}"));
+        if let Some(part) = read_primitive(accessors, primitive, location, needs, warnings)? {
             parts.push(part);
             numbers.push(number);
         }
@@ -60,16 +60,16 @@ pub(crate) fn build_mesh(
     for part in parts {
         draft.add(part);
     }
-    let place = || Place::Item("mesh", index);
+    let location = || Location::Item("mesh", index);
     warnings.push_counted(
         draft.non_finite,
-        place(),
+        location(),
         "a triangle, line or point has a vertex that is not finite and is left out",
         "export the model again",
     );
     warnings.push_counted(
         draft.flat,
-        place(),
+        location(),
         "a triangle has fewer than 3 different vertices and is left out",
         "remove doubles and export again if a hole shows",
     );
@@ -87,10 +87,10 @@ fn tint_wires(root: &Root, parts: &mut [Part], mesh: usize, warnings: &mut Warni
     for part in parts.iter_mut().filter(|part| part.is_wire) {
         part.tint = Some(WireTint::of(root, part.material));
     }
-    let seen_through = parts.iter().filter_map(|part| part.tint).filter(|tint| !tint.is_opaque).count();
+    let translucent_count = parts.iter().filter_map(|part| part.tint).filter(|tint| !tint.is_opaque).count();
     warnings.push_counted(
-        seen_through,
-        Place::Item("mesh", mesh),
+        translucent_count,
+        Location::Item("mesh", mesh),
         "lines or points beside those of other materials are masked or translucent, and are drawn opaque",
         "give them a mesh of their own",
     );

@@ -83,7 +83,7 @@ pub(super) fn read_skin(from: &mut Optional<'_, '_>) -> Result<Option<PartSkin>,
     if mended > 0 {
         from.warnings.push_counted(
             mended,
-            from.place.clone(),
+            from.location.clone(),
             "a vertex has skin weights that are negative, not finite or not 1 in all; they are corrected",
             "normalize the weights and export again",
         );
@@ -114,7 +114,7 @@ pub(super) fn read_targets(
     let mut targets = Vec::new();
     let (has_normals, has_tangents) = (from.has(Semantic::Normals), from.has(Semantic::Tangents));
     for target in from.primitive.targets.iter().flatten() {
-        from.accessors.spend(from.vertices, from.place)?;
+        from.accessors.spend(from.vertices, from.location)?;
         if target.normals.is_some() && !has_normals || target.tangents.is_some() && !has_tangents {
             from.warn("a morph target has a NORMAL or TANGENT that the primitive lacks; it is ignored");
         }

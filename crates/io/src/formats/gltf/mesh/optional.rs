@@ -3,7 +3,7 @@
 use gltf::json::mesh::{Primitive, Semantic};
 use gltf::json::validation::Checked;
 
-use crate::error::Place;
+use crate::error::Location;
 use crate::formats::gltf::accessor::Accessors;
 use crate::formats::gltf::buffers::Unplaced;
 use crate::formats::gltf::formats::{self, Usage};
@@ -23,7 +23,7 @@ pub(super) struct Optional<'o, 'a> {
     pub(super) accessors: &'o mut Accessors<'a>,
     pub(super) primitive: &'o Primitive,
     pub(super) vertices: usize,
-    pub(super) place: &'o Place,
+    pub(super) location: &'o Location,
     pub(super) warnings: &'o mut Warnings,
 }
 
@@ -59,12 +59,12 @@ impl Optional<'_, '_> {
     }
 
     pub(super) fn warn(&mut self, what: impl Into<String>) {
-        self.warnings.push(self.place.clone(), what, "export the model again");
+        self.warnings.push(self.location.clone(), what, "export the model again");
     }
 
     /// A warning about `count` vertices.
     pub(super) fn warn_counted(&mut self, count: usize, what: &str) {
-        self.warnings.push_counted(count, self.place.clone(), what, "export the model again");
+        self.warnings.push_counted(count, self.location.clone(), what, "export the model again");
     }
 
     /// The UV sets; sets that a material needs and the primitive lacks are copies of the first.
@@ -85,7 +85,7 @@ impl Optional<'_, '_> {
                 None => "the texture shows one colour",
             };
             let what = format!("one of its textures needs TEXCOORD_{set}, which is missing; {instead}");
-            self.warnings.push(self.place.clone(), what, "export the model with that UV map");
+            self.warnings.push(self.location.clone(), what, "export the model with that UV map");
             if (set as usize) < sets.len() {
                 sets[set as usize] = sets[0].clone();
             }

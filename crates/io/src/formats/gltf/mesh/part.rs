@@ -8,7 +8,7 @@ use super::movement::{PartSkin, PartTarget, read_skin, read_targets};
 use super::optional::{Optional, find};
 use super::soundness;
 use super::wires::WireTint;
-use crate::error::{LoadErrorKind, Place};
+use crate::error::{LoadErrorKind, Location};
 use crate::formats::gltf::accessor::{Accessors, valid};
 use crate::formats::gltf::buffers::{Unplaced, Unread};
 use crate::formats::gltf::formats;
@@ -56,28 +56,29 @@ impl Part {
 pub(super) fn read_primitive(
     accessors: &mut Accessors<'_>,
     primitive: &Primitive,
-    place: Place,
+    location: Location,
     needs: &dyn Fn(Option<usize>) -> Needs,
     warnings: &mut Warnings,
 ) -> Result<Option<Part>, Unplaced> {
     let Some(position_index) = find(primitive, Semantic::Positions) else {
-        warnings.push(place, "it has no POSITION and is not drawn", "export the model again");
+        warnings.push(location, "it has no POSITION and is not drawn", "export the model again");
         return Ok(None);
     };
     let Some(mode) = valid(&primitive.mode) else {
-        warnings.push(place, "its mode is unknown and it is not drawn", "export the model again");
+        warnings.push(location, "its mode is unknown and it is not drawn", "export the model again");
         return Ok(None);
     };
-    accessors.unpack(primitive, &place, warnings)?;
+    accessors.unpack(primitive, &location, warnings)?;
     check_bounds(accessors, position_index)?;
     if let Some(what) = formats::POSITION.fault(accessors.root, position_index) {
-        warnings.push(place.clone(), what, "export the model again");
+        warnings.push(location.clone(), what, "export the model again");
     }
     let positions = accessors.vectors::<3>(position_index, formats::POSITION.types)?;
-    let elements = read_elements(accessors, primitive, mode, positions.len(), &place, warnings)?;
+    let elements = read_elements(accessors, primitive, mode, positions.len(), &location, warnings)?;
     let material = primitive.material.map(|material| material.value());
     let needs = needs(material);
-    let mut optional = Optional { accessors, primitive, vertices: positions.len(), place: &place, warnings };
+    let mut optional =
+        Optional { accessors, primitive, vertices: positions.len(), location: &location, warnings };
     let normals = optional.read::<3>(Semantic::Normals, &formats::NORMAL)?;
     let tangents = match (&normals, needs.tangents_of) {
         // Without normals the file's tangents must be ignored.
@@ -118,15 +119,15 @@ fn check_bounds(accessors: &Accessors<'_>, index: usize) -> Result<(), Unplaced>
         let numbers = bound.as_array().map_or(0, Vec::len);
         if numbers != 3 {
             let what = format!("POSITION {name} has {numbers} numbers and should have 3");
-            return Err(malformed(Place::Item("accessor", index), what));
+            return Err(malformed(Location::Item("accessor", index), what));
         }
     }
     Ok(())
 }
 
-fn malformed(place: Place, what: String) -> Unplaced {
+fn malformed(location: Location, what: String) -> Unplaced {
     let remedy = "export the model again";
-    Unplaced(place, Unread { kind: LoadErrorKind::Malformed, what, remedy })
+    Unplaced(location, Unread { kind: LoadErrorKind::Malformed, what, remedy })
 }
 
 /// The triangles, edges and points, all of whose indices exist.
@@ -135,7 +136,7 @@ fn read_elements(
     primitive: &Primitive,
     mode: Mode,
     vertices: usize,
-    place: &Place,
+    location: &Location,
     warnings: &mut Warnings,
 ) -> Result<Elements, Unplaced> {
     let unpacked = accessors.unpacked.as_mut().map(|unpacked| std::mem::take(&mut unpacked.triangles));
@@ -145,25 +146,25 @@ fn read_elements(
         (None, Some(indices)) => accessors.indices(indices.value())?,
         (None, None) => (0..vertices as u32).collect(),
     };
-    accessors.spend(vertices.max(corner_count(mode, indices.len())), place)?;
+    accessors.spend(vertices.max(corner_count(mode, indices.len())), location)?;
     // The compiler finds the greatest of many at a time. The first one that does not exist is needed only if there is one.
     let is_beyond = |vertex: &u32| *vertex as usize >= vertices;
     let greatest = indices.iter().copied().max().filter(is_beyond);
     if let Some(beyond) = greatest.and_then(|_| indices.iter().copied().find(is_beyond)) {
         let has = counted(vertices, "vertex");
         let what = format!("index {beyond} does not exist; the primitive has {has}");
-        return Err(malformed(place.clone(), what));
+        return Err(malformed(location.clone(), what));
     }
     let count = indices.len();
     let elements = elements(mode, indices);
     if elements.left_over > 0 {
         let count = counted(elements.left_over, "index");
         let what = format!("{count} at the end left over, too few for a whole element");
-        warnings.push(place.clone(), what, "export the model again");
+        warnings.push(location.clone(), what, "export the model again");
     } else if elements.is_empty() {
         let count = counted(count, "index");
         let what = format!("{count} are too few for its mode; it is not drawn");
-        warnings.push(place.clone(), what, "export the model again");
+        warnings.push(location.clone(), what, "export the model again");
     }
     Ok(elements)
 }

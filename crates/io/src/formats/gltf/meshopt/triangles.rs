@@ -72,7 +72,7 @@ impl Decoder<'_> {
         let (high, low) = (code >> 4, code & 0xf);
         match high {
             0xf if low < 0xe => self.looked_up(self.table[usize::from(low)]),
-            0xf => self.told_apart(if low == 0xf { WRITTEN } else { NEW }),
+            0xf => self.new_or_written(if low == 0xf { WRITTEN } else { NEW }),
             _ => self.beside_edge(high, low),
         }
     }
@@ -104,7 +104,7 @@ impl Decoder<'_> {
     }
 
     /// Three vertices, encoded individually: the first by `code`, the others by a byte of the data.
-    fn told_apart(&mut self, code: u8) -> Result<[u32; 3], Broken> {
+    fn new_or_written(&mut self, code: u8) -> Result<[u32; 3], Broken> {
         let pair = self.data.byte()?;
         if pair == 0 {
             self.next = 0;

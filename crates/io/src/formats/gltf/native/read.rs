@@ -9,7 +9,7 @@ use trigon_mesh::{EditData, Mesh};
 
 use super::columns::{ColumnReader, mesh_from_columns};
 use super::extras::Header;
-use crate::error::{LoadErrorKind, Place};
+use crate::error::{LoadErrorKind, Location};
 use crate::formats::gltf::accessor::{Accessors, TightBytes, valid};
 use crate::formats::gltf::buffers::{Bytes, Unplaced};
 use crate::formats::gltf::hash::xxh64;
@@ -131,7 +131,7 @@ fn fetch_columns(
         }
         let bytes = accessors.buffers.view(root, view, accessors.folder)?;
         // At least the smallest value of a column.
-        accessors.spend(bytes.1.len() / 12, &Place::Item("mesh", index))?;
+        accessors.spend(bytes.1.len() / 12, &Location::Item("mesh", index))?;
         columns.insert(name.clone(), bytes);
     }
     Ok(Ok(columns))
@@ -153,8 +153,8 @@ fn slot_materials(header: &Header, primitives: &[Primitive], count: usize) -> Ve
     let known = |material: &Option<usize>| material.filter(|&material| material < count);
     let mut materials: Vec<Option<usize>> = header.materials.iter().map(known).collect();
     for (&slot, primitive) in header.slots.iter().zip(primitives) {
-        if let Some(place) = materials.get_mut(slot as usize) {
-            *place = primitive.material.map(|material| material.value());
+        if let Some(material) = materials.get_mut(slot as usize) {
+            *material = primitive.material.map(|material| material.value());
         }
     }
     materials

@@ -136,8 +136,8 @@ impl<'a> Draft<'a> {
     }
 
     pub(super) fn set(&mut self, list: &'static str, index: usize, item: &impl Serialize) {
-        if let Some(place) = self.list_mut(list).get_mut(index) {
-            *place = raw(item);
+        if let Some(old) = self.list_mut(list).get_mut(index) {
+            *old = raw(item);
         }
     }
 
@@ -170,24 +170,24 @@ impl<'a> Draft<'a> {
     /// Removes bytes from the buffer: ranges in order, without overlap.
     pub(super) fn cut(&mut self, cuts: &[Range<usize>]) {
         let mut start = 0;
-        let mut kept = Vec::with_capacity(self.segments.len() + cuts.len());
+        let mut retained = Vec::with_capacity(self.segments.len() + cuts.len());
         for segment in std::mem::take(&mut self.segments) {
             let (mut at, end) = (start, start + segment.len());
             let first = cuts.partition_point(|cut| cut.end <= start);
             for cut in cuts[first..].iter().take_while(|cut| cut.start < end) {
                 if cut.start > at {
-                    kept.push(part(&segment, at - start..cut.start - start));
+                    retained.push(part(&segment, at - start..cut.start - start));
                 }
                 at = cut.end.min(end);
             }
             match at == start {
-                true => kept.push(segment),
-                false if at < end => kept.push(part(&segment, at - start..end - start)),
+                true => retained.push(segment),
+                false if at < end => retained.push(part(&segment, at - start..end - start)),
                 false => {}
             }
             start = end;
         }
-        self.segments = kept;
+        self.segments = retained;
         self.length = self.segments.iter().map(|segment| segment.len()).sum();
     }
 

@@ -170,13 +170,13 @@ fn range_of(view: &RawObject) -> Option<Range<usize>> {
 
 /// The bytes of views that no other view covers, in order, aligned so that the rest stays aligned.
 fn cuts(draft: &Draft<'_>, views: &BTreeSet<usize>) -> Vec<Range<usize>> {
-    let (mut gone, mut kept) = (Vec::new(), Vec::new());
+    let (mut gone, mut retained) = (Vec::new(), Vec::new());
     for (index, view) in draft.list("bufferViews").iter().enumerate() {
         let object = RawObject::parse(view.get());
-        let into = if views.contains(&index) { &mut gone } else { &mut kept };
+        let into = if views.contains(&index) { &mut gone } else { &mut retained };
         into.extend(range_of(&object));
         let extensions = object.object("extensions");
-        kept.extend(extensions.names().filter_map(|name| range_of(&extensions.object(name))));
+        retained.extend(extensions.names().filter_map(|name| range_of(&extensions.object(name))));
     }
     let aligned =
         |range: Range<usize>| range.start.next_multiple_of(ALIGNMENT)..range.end.next_multiple_of(ALIGNMENT);
@@ -184,14 +184,14 @@ fn cuts(draft: &Draft<'_>, views: &BTreeSet<usize>) -> Vec<Range<usize>> {
         gone.into_iter().map(aligned).filter(|range| !range.is_empty()).collect();
     gone.sort_unstable_by_key(|range| (range.start, range.end));
     gone.dedup_by(|next, before| next.start < before.end);
-    kept.sort_unstable_by_key(|range| (range.start, range.end));
+    retained.sort_unstable_by_key(|range| (range.start, range.end));
     // The largest end of all that start before.
-    let mut ends: Vec<usize> = kept.iter().map(|range| range.end).collect();
+    let mut ends: Vec<usize> = retained.iter().map(|range| range.end).collect();
     for index in 1..ends.len() {
         ends[index] = ends[index].max(ends[index - 1]);
     }
     gone.retain(|range| {
-        let before = kept.partition_point(|other| other.start < range.end);
+        let before = retained.partition_point(|other| other.start < range.end);
         before == 0 || ends[before - 1] <= range.start
     });
     gone

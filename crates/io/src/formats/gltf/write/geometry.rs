@@ -32,8 +32,8 @@ pub(super) struct Part {
 /// Writes a mesh; no parts if it has no vertex that could be shown.
 pub(super) fn write_geometry(draft: &mut Draft<'_>, mesh: &Mesh, render: &RenderMesh) -> Vec<Part> {
     let mut parts = write_triangles(draft, render);
-    let place = |vertex: &u32| mesh.positions()[*vertex as usize];
-    let is_finite = |vertex: &u32| place(vertex).is_finite();
+    let position = |vertex: &u32| mesh.positions()[*vertex as usize];
+    let is_finite = |vertex: &u32| position(vertex).is_finite();
     let edges: Vec<u32> =
         mesh.loose_edges().iter().filter(|ends| ends.iter().all(is_finite)).flatten().copied().collect();
     let mut points: Vec<u32> =

@@ -268,7 +268,7 @@ impl Value {
             ParameterField::Color(field) => field(material).map_or(Self::Missing, |color| {
                 Self::Color(color.to_array().map(|channel| amount(channel, 1.0)))
             }),
-            ParameterField::Texture(place) => Self::Texture(material.texture(place)),
+            ParameterField::Texture(slot) => Self::Texture(material.texture(slot)),
         }
     }
 }

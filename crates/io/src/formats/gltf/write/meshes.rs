@@ -13,9 +13,9 @@ use trigon_scene::MeshId;
 
 use super::draft::Draft;
 use super::geometry::{Part, write_geometry};
-use super::kept_file::KeptFile;
 use super::raw::{RawObject, raw};
-use crate::error::Place;
+use super::retained_file::RetainedFile;
+use crate::error::Location;
 use crate::formats::gltf::mesh::WireMaterials;
 use crate::formats::gltf::native::{self, Header, columns_of_mesh};
 use crate::formats::gltf::packed::DRACO;
@@ -31,10 +31,10 @@ pub(super) struct Shape<'a> {
 
 impl Shape<'_> {
     /// Whether it equals the file's mesh as it was read.
-    pub(super) fn is_unchanged(&self, id: MeshId, kept: &KeptFile) -> bool {
-        let Some(asset) = kept.scene.meshes().get(id) else { return false };
+    pub(super) fn is_unchanged(&self, id: MeshId, retained: &RetainedFile) -> bool {
+        let Some(asset) = retained.scene.meshes().get(id) else { return false };
         let none = EditData::default();
-        let was = kept.edit_data.get(&id).unwrap_or(&none);
+        let was = retained.edit_data.get(&id).unwrap_or(&none);
         let is_same_mesh = || std::ptr::eq(self.mesh, asset.mesh()) || *self.mesh == *asset.mesh();
         self.edit_data.is_none_or(|now| now == was) && is_same_mesh()
     }
@@ -69,12 +69,12 @@ enum Form {
     /// Written anew.
     Parts(Vec<Part>),
     /// As the file has them, with the slot of each.
-    Kept(Vec<(Box<RawValue>, Option<u32>)>),
+    Retained(Vec<(Box<RawValue>, Option<u32>)>),
 }
 
 impl Written {
     /// A mesh that is unchanged except for its materials.
-    pub(super) fn kept(object: RawObject) -> Self {
+    pub(super) fn retained(object: RawObject) -> Self {
         let primitives = object.list("primitives");
         let header = native_header(&object);
         let slots = match &header {
@@ -82,7 +82,7 @@ impl Written {
             None => slots_of(&primitives),
         };
         let slots = slots.into_iter().chain(std::iter::repeat(None));
-        Self { object, form: Form::Kept(primitives.into_iter().zip(slots).collect()), header }
+        Self { object, form: Form::Retained(primitives.into_iter().zip(slots).collect()), header }
     }
 
     /// Writes the accessors of a mesh; `None` if there is nothing that a file could hold.
@@ -114,7 +114,7 @@ impl Written {
 
     /// The slots that its primitives use have these materials in the file.
     pub(super) fn has_materials(&self, materials: &[Option<usize>]) -> bool {
-        let Form::Kept(primitives) = &self.form else { return false };
+        let Form::Retained(primitives) = &self.form else { return false };
         if self.header.as_ref().is_some_and(|header| header.materials != materials) {
             return false;
         }
@@ -132,7 +132,7 @@ impl Written {
             Form::Parts(parts) => {
                 parts.iter().map(|part| raw(&primitive(part, material(part.slot)))).collect()
             }
-            Form::Kept(kept) => kept
+            Form::Retained(retained) => retained
                 .iter()
                 .map(|(text, slot)| {
                     let mut primitive = RawObject::parse(text.get());
@@ -252,16 +252,16 @@ pub(super) fn losses(object: &RawObject, index: usize, mesh: &Mesh) -> Vec<Loss>
     let mut losses = Vec::new();
     for (number, text) in object.list("primitives").iter().enumerate() {
         let primitive = RawObject::parse(text.get());
-        let place = || Place::Named(format!("mesh {index}, primitive {number}"));
+        let location = || Location::Named(format!("mesh {index}, primitive {number}"));
         for name in primitive.object("attributes").names().filter(|name| !is_held(name, mesh)) {
-            losses.push(Loss { place: place(), what: format!("its attribute {name}") });
+            losses.push(Loss { location: location(), what: format!("its attribute {name}") });
         }
         // Only how it is stored.
         for name in primitive.object("extensions").names().filter(|&name| name != DRACO) {
-            losses.push(Loss { place: place(), what: format!("its extension {name}") });
+            losses.push(Loss { location: location(), what: format!("its extension {name}") });
         }
         if primitive.get("extras").is_some() {
-            losses.push(Loss { place: place(), what: "its extras".to_owned() });
+            losses.push(Loss { location: location(), what: "its extras".to_owned() });
         }
     }
     losses

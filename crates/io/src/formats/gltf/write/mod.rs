@@ -10,13 +10,13 @@ mod draft;
 mod freed;
 mod geometry;
 mod glb_file;
-mod kept;
-mod kept_file;
 mod materials;
 mod meshes;
 mod movement;
 mod nodes;
 mod raw;
+mod retained;
+mod retained_file;
 mod scene;
 mod textures;
 
@@ -25,7 +25,7 @@ use std::path::Path;
 use trigon_scene::Scene;
 
 pub(crate) use glb_file::GlbFile;
-pub(crate) use kept_file::KeptFile;
+pub(crate) use retained_file::RetainedFile;
 pub(crate) use scene::{Input, write_scene};
 pub(crate) use textures::mime_type;
 
@@ -77,7 +77,7 @@ fn export<'a>(scene: &'a Scene, options: &'a ExportOptions<'a>) -> Result<Input<
     Ok(Input {
         scene,
         edit_data: None,
-        kept: None,
+        retained: None,
         images: options.images,
         nodes: options.nodes.as_deref(),
         root: options.root(scene),

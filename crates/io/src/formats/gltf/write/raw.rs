@@ -48,7 +48,7 @@ impl RawObject {
         }
         self.is_changed = true;
         match self.members.iter_mut().find(|(known, _)| known == name) {
-            Some((_, place)) => *place = value,
+            Some((_, old)) => *old = value,
             None => self.members.push((name.to_owned(), value)),
         }
     }
@@ -125,9 +125,9 @@ impl<'de> Visitor<'de> for Members {
             // Of members with one name the last counts; a search in each would be quadratic.
             object.members.push((name, value));
         }
-        let mut seen = std::collections::HashSet::new();
+        let mut known = std::collections::HashSet::new();
         object.members.reverse();
-        object.members.retain(|(name, _)| seen.insert(name.clone()));
+        object.members.retain(|(name, _)| known.insert(name.clone()));
         object.members.reverse();
         Ok(object)
     }

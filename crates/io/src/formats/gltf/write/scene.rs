@@ -13,15 +13,15 @@ use trigon_scene::{Material, MaterialId, MeshAsset, MeshId, Node, NodeId, Scene,
 use super::draft::Draft;
 use super::freed::Replaced;
 use super::glb_file::GlbFile;
-use super::kept::draft_of;
-use super::kept_file::KeptFile;
 use super::materials::{plain, write_material};
 use super::meshes::{Shape, Written, losses};
 use super::movement::write_skin;
 use super::nodes::{camera, matrix, write_node};
 use super::raw::RawObject;
+use super::retained::draft_of;
+use super::retained_file::RetainedFile;
 use super::textures::Textures;
-use crate::error::Place;
+use crate::error::Location;
 use crate::gltf_source::GltfSource;
 use crate::loss::Loss;
 use crate::write::WriteError;
@@ -33,7 +33,7 @@ pub(crate) struct Input<'a> {
     /// With it, the file is trigon's own: these meshes are being edited.
     pub(crate) edit_data: Option<&'a BTreeMap<MeshId, EditData>>,
     /// The file that the scene came from, if it is to be written back.
-    pub(crate) kept: Option<&'a KeptFile>,
+    pub(crate) retained: Option<&'a RetainedFile>,
     /// Where encoded images are.
     pub(crate) images: Option<&'a GltfSource>,
     /// Those to write; all unless given.
@@ -53,15 +53,15 @@ pub(crate) struct WrittenScene<'a> {
 /// # Errors
 /// The file would have more bytes than the format can count.
 pub(crate) fn write_scene<'a>(input: &Input<'a>) -> Result<WrittenScene<'a>, WriteError> {
-    let draft = input.kept.map_or_else(Draft::new, |kept| draft_of(&kept.source));
+    let draft = input.retained.map_or_else(Draft::new, |retained| draft_of(&retained.source));
     let mut writer = SceneWriter {
         scene: input.scene,
         edit_data: input.edit_data,
-        kept: input.kept,
-        textures: Textures::new(input.scene, input.images, input.kept.is_some()),
+        retained: input.retained,
+        textures: Textures::new(input.scene, input.images, input.retained.is_some()),
         draft,
         choice: Choice::new(input.scene, input.nodes),
-        copies: input.kept.map_or_else(BTreeMap::new, |kept| unchanged_copies(input.scene, kept)),
+        copies: input.retained.map_or_else(BTreeMap::new, |retained| unchanged_copies(input.scene, retained)),
         indices: BTreeMap::new(),
         materials: BTreeMap::new(),
         stand_in: None,
@@ -87,7 +87,7 @@ type Use = (MeshId, Vec<Option<usize>>);
 struct SceneWriter<'a> {
     scene: &'a Scene,
     edit_data: Option<&'a BTreeMap<MeshId, EditData>>,
-    kept: Option<&'a KeptFile>,
+    retained: Option<&'a RetainedFile>,
     textures: Textures<'a>,
     draft: Draft<'a>,
     choice: Choice,
@@ -114,8 +114,8 @@ impl<'a> SceneWriter<'a> {
 
     /// The node as the file has it.
     fn loaded(&self, id: NodeId) -> Option<(usize, &'a Node)> {
-        let kept = self.kept?;
-        Some((kept.source.node(id)?, kept.scene.node(id)?))
+        let retained = self.retained?;
+        Some((retained.source.node(id)?, retained.scene.node(id)?))
     }
 
     fn number_nodes(&mut self) {
@@ -142,8 +142,9 @@ impl<'a> SceneWriter<'a> {
     }
 
     fn write_material(&mut self, id: MaterialId, now: &Material) -> Option<usize> {
-        let loaded =
-            self.kept.and_then(|kept| Some((kept.source.material(id), kept.scene.materials.get(id)?)));
+        let loaded = self
+            .retained
+            .and_then(|retained| Some((retained.source.material(id), retained.scene.materials.get(id)?)));
         if let Some((index, was)) = loaded
             && was == now
         {
@@ -195,11 +196,12 @@ impl<'a> SceneWriter<'a> {
         let Some(asset) = self.scene.meshes().get(id) else { return };
         let edit_data = self.edit_data.and_then(|all| all.get(&id));
         let shape = Shape { mesh: asset.mesh(), edit_data };
-        let origin = self.kept.and_then(|kept| kept.source.mesh(id));
+        let origin = self.retained.and_then(|retained| retained.source.mesh(id));
         let object = self.mesh_object(id, asset, origin);
-        let unchanged = origin.is_some() && self.kept.is_some_and(|kept| shape.is_unchanged(id, kept));
+        let unchanged =
+            origin.is_some() && self.retained.is_some_and(|retained| shape.is_unchanged(id, retained));
         let written = match unchanged {
-            true => Some(Written::kept(object.clone())),
+            true => Some(Written::retained(object.clone())),
             false => self.write_shape(&object, origin, &shape),
         };
         let Some(written) = written else {
@@ -230,7 +232,10 @@ impl<'a> SceneWriter<'a> {
     /// What the file says of a mesh, with its name.
     fn mesh_object(&self, id: MeshId, asset: &MeshAsset, origin: Option<usize>) -> RawObject {
         let mut object = origin.map(|index| self.draft.object("meshes", index)).unwrap_or_default();
-        let was = self.kept.and_then(|kept| kept.scene.meshes().get(id)).map_or("", |asset| &asset.name);
+        let was = self
+            .retained
+            .and_then(|retained| retained.scene.meshes().get(id))
+            .map_or("", |asset| &asset.name);
         if asset.name != was {
             object.set_or_remove("name", Some(&asset.name).filter(|name| !name.is_empty()));
         }
@@ -253,8 +258,8 @@ impl<'a> SceneWriter<'a> {
 
     fn lose(&mut self, users: &[(NodeId, &Node)], what: &str) {
         for (_, node) in users {
-            let place = Place::Named(format!("node \"{}\"", node.name));
-            self.losses.push(Loss { place, what: what.to_owned() });
+            let location = Location::Named(format!("node \"{}\"", node.name));
+            self.losses.push(Loss { location, what: what.to_owned() });
         }
     }
 
@@ -283,7 +288,9 @@ impl<'a> SceneWriter<'a> {
         let mut skins = BTreeMap::new();
         for id in used {
             let Some(now) = self.scene.skins.get(id).filter(|skin| !skin.joints.is_empty()) else { continue };
-            let loaded = self.kept.and_then(|kept| Some((kept.source.skin(id)?, kept.scene.skins.get(id)?)));
+            let loaded = self
+                .retained
+                .and_then(|retained| Some((retained.source.skin(id)?, retained.scene.skins.get(id)?)));
             if let Some((index, _)) = loaded.filter(|(_, was)| same_skin(was, now)) {
                 skins.insert(id, index);
                 continue;
@@ -346,8 +353,8 @@ impl<'a> SceneWriter<'a> {
 
     /// Takes the extension off a node whose copies have become nodes of their own.
     fn dissolve(&self, id: NodeId, object: &mut RawObject) {
-        let is_copy = |id: &NodeId| self.kept.is_some_and(|kept| kept.source.node(*id).is_none());
-        let was = self.kept.and_then(|kept| kept.scene.node(id));
+        let is_copy = |id: &NodeId| self.retained.is_some_and(|retained| retained.source.node(*id).is_none());
+        let was = self.retained.and_then(|retained| retained.scene.node(id));
         if was.is_some_and(|was| was.children().iter().any(is_copy)) {
             let mut extensions = object.object("extensions");
             extensions.remove(INSTANCING);
@@ -359,7 +366,7 @@ impl<'a> SceneWriter<'a> {
     fn write_children(&self, id: NodeId, was: Option<&Node>, object: &mut RawObject) {
         let now = self.scene.node(id).map_or(&[][..], Node::children);
         let now: Vec<usize> = now.iter().filter_map(|child| self.indices.get(child).copied()).collect();
-        let in_file = |child: &NodeId| self.kept.and_then(|kept| kept.source.node(*child));
+        let in_file = |child: &NodeId| self.retained.and_then(|retained| retained.source.node(*child));
         let was: Vec<usize> = was.map_or(&[][..], Node::children).iter().filter_map(in_file).collect();
         if was != now {
             object.set_or_remove("children", Some(&now).filter(|now| !now.is_empty()));
@@ -369,9 +376,9 @@ impl<'a> SceneWriter<'a> {
     /// What is left of nodes of the file that are not in the scene any more: a number, for those
     /// that refer to later ones.
     fn strip_removed(&mut self) {
-        let Some(kept) = self.kept else { return };
-        for (id, _) in kept.scene.nodes().iter() {
-            let Some(index) = kept.source.node(id).filter(|_| self.scene.node(id).is_none()) else {
+        let Some(retained) = self.retained else { return };
+        for (id, _) in retained.scene.nodes().iter() {
+            let Some(index) = retained.source.node(id).filter(|_| self.scene.node(id).is_none()) else {
                 continue;
             };
             let mut object = RawObject::default();
@@ -385,7 +392,7 @@ impl<'a> SceneWriter<'a> {
     /// The scene and its roots.
     fn write_roots(&mut self, map: Option<DAffine3>) {
         let now: Vec<NodeId> = self.scene.roots().collect();
-        let is_same = self.kept.is_some_and(|kept| kept.scene.roots().eq(now.iter().copied()));
+        let is_same = self.retained.is_some_and(|retained| retained.scene.roots().eq(now.iter().copied()));
         if is_same && self.gone.is_none() {
             return;
         }
@@ -396,7 +403,7 @@ impl<'a> SceneWriter<'a> {
             list = vec![self.draft.push("nodes", &root)];
         }
         let list = Some(&list).filter(|list| !list.is_empty());
-        match self.kept.and_then(|kept| kept.source.scene()) {
+        match self.retained.and_then(|retained| retained.source.scene()) {
             Some(index) => {
                 let mut scene = self.draft.object("scenes", index);
                 scene.set_or_remove("nodes", list);

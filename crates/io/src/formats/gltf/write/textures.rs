@@ -19,16 +19,16 @@ pub(super) struct Textures<'a> {
     /// Where the encoded images are.
     source: Option<&'a GltfSource>,
     /// Whether images of the source keep their index.
-    is_kept: bool,
+    is_retained: bool,
     images: BTreeMap<TextureId, Option<usize>>,
     samplers: HashMap<Sampler, usize>,
     textures: HashMap<(usize, Sampler), usize>,
 }
 
 impl<'a> Textures<'a> {
-    pub(super) fn new(scene: &'a Scene, source: Option<&'a GltfSource>, is_kept: bool) -> Self {
+    pub(super) fn new(scene: &'a Scene, source: Option<&'a GltfSource>, is_retained: bool) -> Self {
         let (images, samplers, textures) = Default::default();
-        Self { scene, source, is_kept, images, samplers, textures }
+        Self { scene, source, is_retained, images, samplers, textures }
     }
 
     /// The `textureInfo` of a binding; none if its texture is gone.
@@ -77,7 +77,7 @@ impl<'a> Textures<'a> {
             return known;
         }
         let origin = self.source.and_then(|source| source.images(id).next());
-        let image = match origin.filter(|_| self.is_kept) {
+        let image = match origin.filter(|_| self.is_retained) {
             Some(image) => Some(image),
             None => self.add_image(draft, id, origin),
         };

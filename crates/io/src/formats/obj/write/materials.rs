@@ -6,7 +6,7 @@ use trigon_scene::{AlphaMode, Material, MaterialTexture, Shading, TextureBinding
 
 use super::image_files::ImageFiles;
 use super::names::MaterialNames;
-use crate::error::Place;
+use crate::error::Location;
 use crate::export::{Gathered, Precision, push_number};
 use crate::loss::Loss;
 
@@ -51,8 +51,8 @@ impl Library<'_, '_> {
             self.map("norm", &scale, Some(&normal.binding));
         }
         for what in unheld(material) {
-            let place = Place::Named(format!("material \"{}\"", material.name));
-            self.losses.push(Loss { place, what: what.to_owned() });
+            let location = Location::Named(format!("material \"{}\"", material.name));
+            self.losses.push(Loss { location, what: what.to_owned() });
         }
     }
 
@@ -133,7 +133,7 @@ fn unheld(material: &Material) -> Vec<&'static str> {
     /// Named by what they belong to.
     const NAMED: [MaterialTexture; 2] = [MaterialTexture::Occlusion, MaterialTexture::Transmission];
     let has_more_textures =
-        material.textures().any(|(place, _)| !WRITTEN.contains(&place) && !NAMED.contains(&place));
+        material.textures().any(|(slot, _)| !WRITTEN.contains(&slot) && !NAMED.contains(&slot));
     let lost = [
         (has_more_textures, "its textures of metal, roughness and highlights"),
         (material.occlusion.is_some(), "its occlusion"),

@@ -130,10 +130,10 @@ fn one_budget_serves_all_meshes_of_a_file() {
 #[test]
 fn other_versions_and_kinds_are_foreign() {
     let Fixture { bytes, .. } = fixtures().swap_remove(0);
-    for (place, value) in [(5, 1), (6, 1), (6, 3), (7, 0), (8, 2)] {
+    for (location, value) in [(5, 1), (6, 1), (6, 3), (7, 0), (8, 2)] {
         let mut other = bytes.clone();
-        other[place] = value;
-        assert!(matches!(decoded(&other), Err(Failure::Foreign(_))), "byte {place} is {value}");
+        other[location] = value;
+        assert!(matches!(decoded(&other), Err(Failure::Foreign(_))), "byte {location} is {value}");
     }
     assert!(matches!(decoded(b"DRACA"), Err(Failure::Broken(_))), "no stream");
     assert!(matches!(decoded(b""), Err(Failure::Broken(_))), "nothing");

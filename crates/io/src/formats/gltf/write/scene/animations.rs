@@ -6,7 +6,7 @@ use serde_json::value::RawValue;
 use trigon_scene::Animation;
 
 use super::SceneWriter;
-use crate::error::Place;
+use crate::error::Location;
 use crate::formats::gltf::write::movement::write_animation;
 use crate::formats::gltf::write::raw::RawObject;
 use crate::loss::Loss;
@@ -14,19 +14,19 @@ use crate::loss::Loss;
 impl SceneWriter<'_> {
     /// Animations that are in the file stay; others are written, and those that were removed go.
     pub(super) fn write_animations(&mut self) {
-        let was: &[Animation] = self.kept.map_or(&[], |kept| &kept.scene.animations);
+        let was: &[Animation] = self.retained.map_or(&[], |retained| &retained.scene.animations);
         let now = &self.scene.animations;
-        if self.kept.is_some() && was == now {
+        if self.retained.is_some() && was == now {
             return;
         }
-        let kept = self.kept;
-        let origin = |place: usize| kept.and_then(|kept| kept.source.animation(place));
-        let same_place = places_of(was, now);
-        let taken: BTreeSet<usize> = same_place.iter().flatten().copied().collect();
+        let retained = self.retained;
+        let origin = |index: usize| retained.and_then(|retained| retained.source.animation(index));
+        let same_index = indices_of(was, now);
+        let taken: BTreeSet<usize> = same_index.iter().flatten().copied().collect();
         let removed: BTreeSet<usize> =
-            (0..was.len()).filter(|place| !taken.contains(place)).filter_map(origin).collect();
-        for (animation, place) in now.iter().zip(&same_place) {
-            if place.is_some_and(|place| was[place] == *animation && origin(place).is_some()) {
+            (0..was.len()).filter(|index| !taken.contains(index)).filter_map(origin).collect();
+        for (animation, index) in now.iter().zip(&same_index) {
+            if index.is_some_and(|index| was[index] == *animation && origin(index).is_some()) {
                 continue;
             }
             let indices = &self.indices;
@@ -34,7 +34,7 @@ impl SceneWriter<'_> {
             else {
                 continue;
             };
-            match place.and_then(origin) {
+            match index.and_then(origin) {
                 Some(index) => self.change_animation(index, &written),
                 None => drop(self.draft.push("animations", &written)),
             }
@@ -56,7 +56,7 @@ impl SceneWriter<'_> {
             .filter(|channel| RawObject::parse(channel.get()).object("target").get("node").is_none());
         if foreign.count() > 0 {
             let what = "its channels that move something other than nodes".to_owned();
-            self.losses.push(Loss { place: Place::Item("animation", index), what });
+            self.losses.push(Loss { location: Location::Item("animation", index), what });
         }
         for name in ["name", "channels", "samplers"] {
             let text = written.get(name).map(|text| RawValue::from_string(text.to_owned()));
@@ -69,16 +69,16 @@ impl SceneWriter<'_> {
 
 /// Where each animation was: the place of an equal one, else its own place if no other was there.
 /// No two were at one place.
-fn places_of(was: &[Animation], now: &[Animation]) -> Vec<Option<usize>> {
-    let mut places: Vec<Option<usize>> =
-        (0..now.len()).map(|place| (was.get(place) == Some(&now[place])).then_some(place)).collect();
-    let mut taken: BTreeSet<usize> = places.iter().flatten().copied().collect();
-    for (place, found) in places.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
-        *found = (0..was.len()).find(|other| !taken.contains(other) && was[*other] == now[place]);
+fn indices_of(was: &[Animation], now: &[Animation]) -> Vec<Option<usize>> {
+    let mut indices: Vec<Option<usize>> =
+        (0..now.len()).map(|index| (was.get(index) == Some(&now[index])).then_some(index)).collect();
+    let mut taken: BTreeSet<usize> = indices.iter().flatten().copied().collect();
+    for (index, found) in indices.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
+        *found = (0..was.len()).find(|other| !taken.contains(other) && was[*other] == now[index]);
         taken.extend(*found);
     }
-    for (place, found) in places.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
-        *found = Some(place).filter(|place| *place < was.len() && !taken.contains(place));
+    for (index, found) in indices.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
+        *found = Some(index).filter(|index| *index < was.len() && !taken.contains(index));
     }
-    places
+    indices
 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use trigon_scene::{Node, NodeId, Scene};
 
-use crate::formats::gltf::write::kept_file::KeptFile;
+use crate::formats::gltf::write::retained_file::RetainedFile;
 
 /// Which nodes are written.
 pub(super) struct Choice {
@@ -38,16 +38,16 @@ impl Choice {
 
 /// The nodes that EXT_mesh_gpu_instancing made when a file was read, if all that hang on one
 /// node are as they were: the file need not name them. By that node.
-pub(super) fn unchanged_copies(scene: &Scene, kept: &KeptFile) -> BTreeMap<NodeId, Vec<NodeId>> {
+pub(super) fn unchanged_copies(scene: &Scene, retained: &RetainedFile) -> BTreeMap<NodeId, Vec<NodeId>> {
     let mut copies: BTreeMap<NodeId, Vec<NodeId>> = BTreeMap::new();
-    for (id, node) in kept.scene.nodes().iter() {
-        if let (None, Some(parent)) = (kept.source.node(id), node.parent()) {
+    for (id, node) in retained.scene.nodes().iter() {
+        if let (None, Some(parent)) = (retained.source.node(id), node.parent()) {
             copies.entry(parent).or_default().push(id);
         }
     }
     copies.retain(|&parent, copies| {
         let holder = scene.node(parent).is_some_and(|node| node.mesh.is_none());
-        let is_same = |&id: &NodeId| match (scene.node(id), kept.scene.node(id)) {
+        let is_same = |&id: &NodeId| match (scene.node(id), retained.scene.node(id)) {
             (Some(now), Some(was)) => same_node(now, was) && now.materials == was.materials,
             _ => false,
         };

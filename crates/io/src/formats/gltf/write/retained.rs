@@ -24,9 +24,9 @@ struct Moved {
 /// A document with the contents of the file.
 pub(super) fn draft_of(source: &GltfSource) -> Draft<'_> {
     let mut draft = Draft::from_top(RawObject::parse(source.json()));
-    let places = join_buffers(&mut draft, source);
+    let moves = join_buffers(&mut draft, source);
     let views = std::mem::take(draft.list_mut("bufferViews"));
-    let moved = views.into_iter().map(|view| moved_view(view, &places));
+    let moved = views.into_iter().map(|view| moved_view(view, &moves));
     *draft.list_mut("bufferViews") = moved.collect();
     take_images_in(&mut draft, source);
     draft
@@ -34,17 +34,17 @@ pub(super) fn draft_of(source: &GltfSource) -> Draft<'_> {
 
 fn join_buffers<'a>(draft: &mut Draft<'a>, source: &'a GltfSource) -> Vec<Moved> {
     let buffers = std::mem::take(draft.list_mut("buffers"));
-    let (mut first, mut others, mut places) = (None, Vec::new(), Vec::new());
+    let (mut first, mut others, mut moves) = (None, Vec::new(), Vec::new());
     for (index, buffer) in buffers.into_iter().enumerate() {
         match source.buffer(index) {
             Some(bytes) => {
                 first.get_or_insert(buffer);
-                places.push(Moved { buffer: 0, offset: draft.append(Cow::Borrowed(bytes)) });
+                moves.push(Moved { buffer: 0, offset: draft.append(Cow::Borrowed(bytes)) });
             }
             // Stand-ins for compressed ones, and those that could not be read.
             None => {
                 others.push(buffer);
-                places.push(Moved { buffer: others.len(), offset: 0 });
+                moves.push(Moved { buffer: others.len(), offset: 0 });
             }
         }
     }
@@ -52,21 +52,21 @@ fn join_buffers<'a>(draft: &mut Draft<'a>, source: &'a GltfSource) -> Vec<Moved>
         others.insert(0, first.unwrap_or_else(|| raw(&RawObject::default())));
     }
     *draft.list_mut("buffers") = others;
-    places
+    moves
 }
 
 /// A view with its new offset; the same text if it does not move.
-fn moved_view(view: Box<RawValue>, places: &[Moved]) -> Box<RawValue> {
-    let is_still = |place: &Moved| place.buffer == 0 && place.offset == 0;
-    if places.first().is_none_or(is_still) && places.len() <= 1 {
+fn moved_view(view: Box<RawValue>, moves: &[Moved]) -> Box<RawValue> {
+    let is_still = |moved: &Moved| moved.buffer == 0 && moved.offset == 0;
+    if moves.first().is_none_or(is_still) && moves.len() <= 1 {
         return view;
     }
     let mut object = RawObject::parse(view.get());
-    let mut changed = move_within(&mut object, places);
+    let mut changed = move_within(&mut object, moves);
     let mut extensions = object.object("extensions");
     for name in ["EXT_meshopt_compression", "KHR_meshopt_compression"] {
         let mut compressed = extensions.object(name);
-        if move_within(&mut compressed, places) {
+        if move_within(&mut compressed, moves) {
             extensions.set(name, &compressed);
             object.set("extensions", &extensions);
             changed = true;
@@ -76,17 +76,17 @@ fn moved_view(view: Box<RawValue>, places: &[Moved]) -> Box<RawValue> {
 }
 
 /// Updates references to a buffer and an offset in it; returns whether anything changed.
-fn move_within(object: &mut RawObject, places: &[Moved]) -> bool {
+fn move_within(object: &mut RawObject, moves: &[Moved]) -> bool {
     let Some(buffer) = object.index("buffer") else { return false };
-    let Some(place) = places.get(buffer).copied() else { return false };
-    if place.buffer != buffer {
-        object.set("buffer", &place.buffer);
+    let Some(moved) = moves.get(buffer).copied() else { return false };
+    if moved.buffer != buffer {
+        object.set("buffer", &moved.buffer);
     }
-    if place.offset > 0 {
-        let offset = object.index("byteOffset").unwrap_or(0) + place.offset;
+    if moved.offset > 0 {
+        let offset = object.index("byteOffset").unwrap_or(0) + moved.offset;
         object.set("byteOffset", &offset);
     }
-    place.buffer != buffer || place.offset > 0
+    moved.buffer != buffer || moved.offset > 0
 }
 
 /// Moves images in files or URIs into the buffer.
@@ -97,8 +97,8 @@ fn take_images_in<'a>(draft: &mut Draft<'a>, source: &'a GltfSource) {
         let Some(bytes) = source.image(index).filter(|_| image.get("uri").is_some()) else { continue };
         let Some(kind) = mime_type(bytes) else { continue };
         // Many images may be the same file.
-        let place = (bytes.as_ptr().addr(), bytes.len());
-        let view = *views.entry(place).or_insert_with(|| draft.view(Cow::Borrowed(bytes), None));
+        let key = (bytes.as_ptr().addr(), bytes.len());
+        let view = *views.entry(key).or_insert_with(|| draft.view(Cow::Borrowed(bytes), None));
         image.remove("uri");
         image.set("bufferView", &view);
         image.set("mimeType", kind);

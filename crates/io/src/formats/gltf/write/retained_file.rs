@@ -9,7 +9,7 @@ use crate::gltf_source::GltfSource;
 
 /// A file, and the scene as loaded: whatever is unchanged in a scene is unchanged in the file.
 #[derive(Debug)]
-pub(crate) struct KeptFile {
+pub(crate) struct RetainedFile {
     pub(crate) source: GltfSource,
     pub(crate) scene: Scene,
     pub(crate) edit_data: BTreeMap<MeshId, EditData>,
