@@ -41,5 +41,5 @@ pub(crate) use layout::RecordShape;
 pub(crate) use list::{FragmentList, FragmentSlice};
 pub(crate) use output::{Codes, ShadeOutput, finite};
 pub(crate) use records::Records;
-pub(crate) use task::{FragmentBatch, Group, SeenGroups, Task};
+pub(crate) use task::{FragmentBatch, Group, Task, VisibleTriangles};
 pub(crate) use triangle_lanes::TriangleLanes;

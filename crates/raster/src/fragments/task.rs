@@ -19,7 +19,7 @@ pub(crate) struct Group {
 
 /// The triangles that the pixels of groups show.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct SeenGroups<'t> {
+pub(crate) struct VisibleTriangles<'t> {
     /// One for each sample.
     pub(crate) triangles: &'t [u32],
     /// From group to group.
@@ -32,7 +32,7 @@ pub(crate) struct Task<'t> {
     /// The number of the first record.
     pub(crate) base: u32,
     pub(crate) groups: &'t [Group],
-    pub(crate) visible: SeenGroups<'t>,
+    pub(crate) visible: VisibleTriangles<'t>,
     /// The records of the tile's triangles.
     pub(crate) slots: &'t [u32],
     pub(crate) fragments: FragmentSlice<'t>,
@@ -102,7 +102,7 @@ impl<'t, S: Simd> FragmentBatch<'t, S> {
 impl<'t> Task<'t> {
     /// A list of fragments.
     pub(crate) fn of_fragments(records: &'t Records, base: u32, fragments: FragmentSlice<'t>) -> Self {
-        Self { records, base, groups: &[], visible: SeenGroups::default(), slots: &[], fragments }
+        Self { records, base, groups: &[], visible: VisibleTriangles::default(), slots: &[], fragments }
     }
 
     /// How many vectors there are.
@@ -122,7 +122,7 @@ impl<'t> Task<'t> {
 
     #[inline(always)]
     fn group<S: Simd>(&self, simd: S, group: &Group) -> FragmentBatch<'t, S> {
-        let SeenGroups { triangles, step } = self.visible;
+        let VisibleTriangles { triangles, step } = self.visible;
         let visible =
             triangles[group.number as usize * step..].first_chunk().expect("a group has eight pixels");
         let active = u64::from(group.lanes);

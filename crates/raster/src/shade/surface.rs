@@ -10,7 +10,7 @@ use super::tile_bits::GROUP_COUNT;
 use super::visible::{SomeLanes, divide, list};
 use crate::bin::TriangleRef;
 use crate::fragments::{
-    Codes, Encoding, FragmentSlice, Records, SeenGroups, ShadeContext, ShadeOutput, ShadePoint, Task,
+    Codes, Encoding, FragmentSlice, Records, ShadeContext, ShadeOutput, ShadePoint, Task, VisibleTriangles,
 };
 use crate::ink::VisibleFaces;
 use crate::simd::{LANES, at_level};
@@ -39,7 +39,8 @@ pub(crate) fn shade_tile(
             Some(shape) => shading.records.select(shape),
             None => shading.records.fill(frame.token, &context, &shading.seen[run.slots.clone()]),
         }
-        let visible = SeenGroups { triangles: tile.buffer.visible(), step: LANES * tile.buffer.samples };
+        let visible =
+            VisibleTriangles { triangles: tile.buffer.visible(), step: LANES * tile.buffer.samples };
         // With lines on it no triangle is flat.
         if context.is_flat && (frame.ink.is_none() || context.is_of_plain_marks()) {
             shade_flat(frame, &context, shading, run, visible, encoding);
@@ -116,7 +117,7 @@ fn shade_run(
     context: &ShadeContext<'_>,
     shading: &mut Shading,
     run: &Run,
-    visible: SeenGroups<'_>,
+    visible: VisibleTriangles<'_>,
     encoding: Option<Encoding>,
 ) {
     let Shading { records, columns, slots, groups, fragments, parts, codes, colors, .. } = shading;
@@ -149,7 +150,7 @@ fn shade_flat(
     context: &ShadeContext<'_>,
     shading: &mut Shading,
     run: &Run,
-    visible: SeenGroups<'_>,
+    visible: VisibleTriangles<'_>,
     encoding: Option<Encoding>,
 ) {
     shade_triangles(frame, context, shading, run.draw, run.slots.len(), encoding);

@@ -20,7 +20,7 @@ pub(crate) fn draw_outline(outline: &Outline, objects: &[u32], width: usize, pix
     let mut cover = vec![0.0_f32; objects.len()];
     for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
         let index = y * width + x;
-        if !inside(index) || is_within(inside, (x, y), (width, height)) {
+        if !inside(index) || is_within(inside, [x, y], [width, height]) {
             continue;
         }
         for row in y.saturating_sub(reach)..=(y + reach).min(height - 1) {
@@ -42,11 +42,7 @@ pub(crate) fn draw_outline(outline: &Outline, objects: &[u32], width: usize, pix
 }
 
 /// Whether all four neighbours are also inside.
-fn is_within(
-    inside: impl Fn(usize) -> bool,
-    (x, y): (usize, usize),
-    (width, height): (usize, usize),
-) -> bool {
+fn is_within(inside: impl Fn(usize) -> bool, [x, y]: [usize; 2], [width, height]: [usize; 2]) -> bool {
     let index = y * width + x;
     x > 0
         && x + 1 < width
@@ -72,12 +68,12 @@ mod tests {
     #[test]
     fn pixels_within_have_four_neighbours_inside() {
         // The last row and the last column are outside.
-        let size = (5, 4);
+        let size = [5, 4];
         let inside = |index: usize| index % 5 < 4 && index / 5 < 3;
         for (x, y) in (0..4).flat_map(|y| (0..5).map(move |x| (x, y))) {
             let expected = (1..3).contains(&x) && y == 1;
-            assert_eq!(is_within(inside, (x, y), size), expected, "{x}, {y}");
-            let [all, none] = [true, false].map(|answer| is_within(|_| answer, (x, y), size));
+            assert_eq!(is_within(inside, [x, y], size), expected, "{x}, {y}");
+            let [all, none] = [true, false].map(|answer| is_within(|_| answer, [x, y], size));
             assert_eq!(all, (1..4).contains(&x) && (1..3).contains(&y), "{x}, {y}: borders have fewer");
             assert!(!none, "{x}, {y}");
         }

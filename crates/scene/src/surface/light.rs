@@ -60,7 +60,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             #[inline(always)]
             || {
                 let base = splat(simd, self.params.material.base_color.truncate());
-                let (brdf, share) = self.params.brdf(simd, base, None::<&FragmentLanes<'_, S>>);
+                let (brdf, share) = self.params.brdf(simd, base, None);
                 let reflected = self.reflected(simd, points, &brdf, None, None);
                 Reflected { diffuse: scaled(reflected.diffuse, share), ..reflected }
             },

@@ -4,9 +4,8 @@
 use crate::work::{Work, note};
 use trigon_math::{Vec3, Vec4};
 use trigon_raster::simd::{Each, F32, Simd, prelude::*};
-use trigon_raster::{Sampler, Texture};
+use trigon_raster::{FragmentLanes, Sampler, Texture};
 
-use super::values::Values;
 use crate::effects::Optics;
 use crate::lanes::{V3, lesser_of, mix, product, splat};
 use crate::lighting::{Brdf, Microfacets};
@@ -89,7 +88,7 @@ impl<'a> Maps<'a> {
 impl Map<'_> {
     /// RGBA at eight points.
     #[inline(always)]
-    pub(crate) fn look_up<S: Simd>(&self, simd: S, values: &impl Values<S>) -> [F32<S>; 4] {
+    pub(crate) fn look_up<S: Simd>(&self, simd: S, values: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
         note(Work::TextureLookUp(self.place));
         let uv = [values.varying(self.at), values.varying(self.at + 1)];
         let [[ux, uy], [vx, vy]] = [values.gradient(self.at), values.gradient(self.at + 1)];
@@ -97,7 +96,7 @@ impl Map<'_> {
     }
 
     /// The same as a separate function, for textures that few materials have.
-    pub(crate) fn look_up_apart<S: Simd>(&self, simd: S, values: &impl Values<S>) -> [F32<S>; 4] {
+    pub(crate) fn look_up_apart<S: Simd>(&self, simd: S, values: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
         simd.vectorize(
             #[inline(always)]
             || self.look_up(simd, values),
@@ -112,7 +111,7 @@ impl MaterialParams<'_> {
         &self,
         simd: S,
         color: Option<usize>,
-        values: &impl Values<S>,
+        values: &FragmentLanes<'_, S>,
     ) -> [F32<S>; 4] {
         let mut albedo = match self.maps.get(MaterialTexture::BaseColor) {
             Some(map) => {
@@ -145,7 +144,7 @@ impl MaterialParams<'_> {
         &self,
         simd: S,
         albedo: V3<S>,
-        values: Option<&impl Values<S>>,
+        values: Option<&FragmentLanes<'_, S>>,
     ) -> (Brdf<S>, F32<S>) {
         let one = F32::splat(simd, 1.0);
         match &self.model {
@@ -170,7 +169,7 @@ impl MicrofacetModel {
         simd: S,
         [r, g, b]: V3<S>,
         maps: &Maps<'_>,
-        values: Option<&impl Values<S>>,
+        values: Option<&FragmentLanes<'_, S>>,
     ) -> (Brdf<S>, F32<S>) {
         let [mut roughness, mut metallic, mut specular] = [self.roughness, self.metallic, self.specular]
             .each(

@@ -16,13 +16,11 @@ mod scatter;
 mod tally;
 mod traced;
 mod value;
-mod values;
 
 pub(crate) use bound_material::{BoundMaterial, MaterialContext};
 pub(crate) use illumination::Illumination;
 pub(crate) use layout::{Layout, LightSlots};
 pub(crate) use material_params::{Coverage, Map, Maps, MaterialParams, MicrofacetModel, Model};
-pub(crate) use values::{Values, three};
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -188,13 +186,13 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
         };
         let mut shaded = self.with_emission(simd, fragments, shaded);
         if let (Some(mist), Some(at)) = (&self.lighting.mist, self.layout.position) {
-            shaded = mist.over(simd, three(fragments, at), shaded);
+            shaded = mist.over(simd, points::three(fragments, at), shaded);
         }
         self.finished(simd, shaded, alpha)
     }
 
     #[inline(always)]
-    fn with_emission<S: Simd>(&self, simd: S, values: &impl Values<S>, shaded: V3<S>) -> V3<S> {
+    fn with_emission<S: Simd>(&self, simd: S, values: &FragmentLanes<'_, S>, shaded: V3<S>) -> V3<S> {
         let emissive = self.params.material.emissive;
         if emissive != Vec3::ZERO {
             note(Work::Emission);

@@ -4,7 +4,7 @@ use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;
 use trigon_raster::simd::{Each, F32, LANES, Mask, Simd, inlined, prelude::*};
 
-use super::{Map, Surface, three};
+use super::{Map, Surface};
 use crate::lanes::{V3, cross, negated, normalized, scaled, select, splat, sum, turned};
 use crate::lighting::LitPoints;
 use crate::material::MaterialTexture;
@@ -140,4 +140,10 @@ fn apply_normal_map<S: Simd>(
             normalized(sum(across, scaled(normal, z * 2.0 - 1.0)))
         },
     )
+}
+
+/// Three varyings in a row.
+#[inline(always)]
+pub(super) fn three<S: Simd>(fragments: &FragmentLanes<'_, S>, at: usize) -> V3<S> {
+    [fragments.varying(at), fragments.varying(at + 1), fragments.varying(at + 2)]
 }
