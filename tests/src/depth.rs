@@ -178,11 +178,11 @@ fn stages_are_timed_only_on_request() {
     for timed in [false, true] {
         let mut target = Samples::ONE.target([SIDE as u32; 2], &[Output::Linear, Output::Object]);
         let settings = ExecuteSettings { timed, ..Default::default() };
-        let Stats { times, samples_seen, .. } = rasterizer(&settings).draw(&pass, &mut target);
+        let Stats { times, samples_visible, .. } = rasterizer(&settings).draw(&pass, &mut target);
         let objects = target.into_images().objects.expect("asked for");
         let seen = objects.iter().filter(|&&object| object != u32::MAX).count() as u64;
         assert!(seen > 0, "the triangles cover something");
-        assert_eq!(samples_seen, if timed { seen } else { 0 }, "{timed}");
+        assert_eq!(samples_visible, if timed { seen } else { 0 }, "{timed}");
         let stages = [times.vertices, times.set_up, times.visibility, times.shading, times.resolve];
         assert!(stages.iter().all(|time| time.is_zero() != timed), "{timed}: {times:?}");
         assert!(times.blending.is_zero(), "nothing is translucent");

@@ -5,7 +5,7 @@ use crate::effort::cases;
 use crate::hard_cases::slivers::sliver;
 use proptest::prelude::*;
 use trigon_math::{Vec4, elementary};
-use trigon_raster::simd::{Each, F32, Simd};
+use trigon_raster::simd::{F32, InlineMap, Simd};
 use trigon_raster::{
     Culling, Draw, Fragment, FragmentLanes, LanePipeline, Pass, Pipeline, VertexLanes, VertexOutput,
 };

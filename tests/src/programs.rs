@@ -1,7 +1,7 @@
 //! One way to shade, written as each kind of pipeline that there is.
 
 use trigon_math::{Vec2, Vec4};
-use trigon_raster::simd::{Each, F32, I32, Mask, Simd, lanes_of, prelude::*};
+use trigon_raster::simd::{F32, I32, InlineMap, Mask, Simd, lanes_of, prelude::*};
 use trigon_raster::{
     Fragment, FragmentLanes, LanePipeline, Pipeline, Sampler, Texture, VertexLanes, VertexOutput,
 };

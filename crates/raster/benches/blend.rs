@@ -4,7 +4,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::num::NonZeroUsize;
 use trigon_math::Vec4;
-use trigon_raster::simd::{Each, F32, Simd};
+use trigon_raster::simd::{F32, InlineMap, Simd};
 use trigon_raster::{
     BlendMode, Culling, Draw, ExecuteSettings, FragmentLanes, LanePipeline, Output, Pass, Rasterizer, Target,
     VertexLanes,

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 pub(crate) struct Clock(Option<Instant>);
 
 impl Clock {
-    pub(crate) fn new(is_asked: bool) -> Self {
-        Self(is_asked.then(Instant::now))
+    pub(crate) fn new(is_timed: bool) -> Self {
+        Self(is_timed.then(Instant::now))
     }
 
     /// The time since the last lap.

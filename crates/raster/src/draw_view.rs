@@ -4,7 +4,7 @@ use crate::bin::{Chunk, TriangleRef};
 use crate::geometry::{Geometry, Shape};
 use crate::point::PlainPoints;
 use crate::primitive::{Quad, SetupTriangle};
-use crate::simd::Each;
+use crate::simd::InlineMap;
 use crate::vertex::{DrawVertices, ScreenVertex};
 
 /// Looks up the triangles of one draw.
@@ -23,45 +23,45 @@ pub(crate) struct DrawView<'f> {
 impl<'f> DrawView<'f> {
     /// The primitive of the draw that a triangle belongs to.
     #[inline(always)]
-    pub(crate) fn primitive(&self, place: TriangleRef) -> u32 {
-        place.ordinal - self.first
+    pub(crate) fn primitive(&self, triangle: TriangleRef) -> u32 {
+        triangle.ordinal - self.first
     }
 
     /// A triangle, ready; the first half of a point.
     #[inline]
-    pub(crate) fn triangle(&self, place: TriangleRef) -> SetupTriangle {
-        if let Some(square) = self.square(place) {
+    pub(crate) fn triangle(&self, triangle: TriangleRef) -> SetupTriangle {
+        if let Some(square) = self.square(triangle) {
             return square.half(0);
         }
-        if !place.is_whole()
-            && let Some(triangle) = self.chunk_of(place).made(place)
+        if !triangle.is_whole()
+            && let Some(made) = self.chunk_of(triangle).made(triangle)
         {
-            return triangle;
+            return made;
         }
-        SetupTriangle::whole(self.corners(place).each(|vertex| *vertex), place.ordinal)
+        SetupTriangle::whole(self.corners(triangle).each(|vertex| *vertex), triangle.ordinal)
     }
 
     /// The square around a point that is drawn from its vertex.
     #[inline]
-    pub(crate) fn square(&self, place: TriangleRef) -> Option<Quad> {
+    pub(crate) fn square(&self, triangle: TriangleRef) -> Option<Quad> {
         let Shape::Points { points, sizes, .. } = &self.geometry.shape else { return None };
-        let plain = self.points.filter(|_| place.is_point())?;
-        let primitive = self.primitive(place);
-        let centre = self.vertices.get(points[primitive as usize]);
-        Some(plain.square(sizes, primitive, place.ordinal, *centre))
+        let plain = self.points.filter(|_| triangle.is_point())?;
+        let primitive = self.primitive(triangle);
+        let center = self.vertices.get(points[primitive as usize]);
+        Some(plain.square(sizes, primitive, triangle.ordinal, *center))
     }
 
     /// The vertices of a primitive.
     #[inline(always)]
-    pub(crate) fn corners(&self, place: TriangleRef) -> [&'f ScreenVertex; 3] {
-        self.geometry.corners(self.primitive(place)).each(
+    pub(crate) fn corners(&self, triangle: TriangleRef) -> [&'f ScreenVertex; 3] {
+        self.geometry.corners(self.primitive(triangle)).each(
             #[inline(always)]
             |index| self.vertices.get(index),
         )
     }
 
     /// The chunk that a triangle belongs to.
-    pub(crate) fn chunk_of(&self, place: TriangleRef) -> &'f Chunk {
-        Chunk::of(self.chunks, place)
+    pub(crate) fn chunk_of(&self, triangle: TriangleRef) -> &'f Chunk {
+        Chunk::of(self.chunks, triangle)
     }
 }

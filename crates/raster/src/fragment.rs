@@ -149,9 +149,9 @@ mod tests {
         fn a_ratio_is_rounded_down_to_a_step(bits: u32, step in 0..32_usize) {
             let near = RADIUS_RATIOS[step];
             for ratio in [f32::from_bits(bits), near.next_down(), near, near.next_up()] {
-                let kept = EdgeFlags::ALL.with_radius_ratio(ratio).radius_ratio();
+                let stored = EdgeFlags::ALL.with_radius_ratio(ratio).radius_ratio();
                 let expected = RADIUS_RATIOS.into_iter().rev().find(|&step| step <= ratio).unwrap_or(1.0);
-                prop_assert_eq!(kept, expected, "{}", ratio);
+                prop_assert_eq!(stored, expected, "{}", ratio);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The geometry of a recorded draw: indices and ids, without the pipeline.
 
-use crate::simd::{Each, LANES};
+use crate::simd::{InlineMap, LANES};
 use crate::{BlendMode, Culling, EdgeFlags, MarkedPoints, Marks, PointShape, Smoothing};
 
 /// The primitives of one draw.

@@ -149,11 +149,11 @@ fn by_index<T>(indices: [u32; 2], [a, b]: [T; 2]) -> [T; 2] {
 }
 
 /// The two corners of each end of a segment, in the order of [`Quad::corners`].
-type Corners = [[[i32; 2]; 2]; 2];
+type SegmentCorners = [[[i32; 2]; 2]; 2];
 
 /// The corners of the parallelogram around a segment, across the minor direction. `None` if one
-/// has no place on the grid.
-fn outline([from, to]: [[i32; 2]; 2], style: LineStyle) -> Option<Corners> {
+/// does not fit the grid.
+fn outline([from, to]: [[i32; 2]; 2], style: LineStyle) -> Option<SegmentCorners> {
     let span = [to[0] - from[0], to[1] - from[1]].map(f64::from);
     let major = if span[0].abs() >= span[1].abs() { 0 } else { 1 };
     let minor = 1 - major;
@@ -169,16 +169,16 @@ fn outline([from, to]: [[i32; 2]; 2], style: LineStyle) -> Option<Corners> {
     };
     let along = if span[major] < 0.0 { -style.half_width } else { style.half_width };
     let corners = |end: [i32; 2], along: f64| {
-        let place = on_grid(f64::from(end[major]) + along)?;
+        let position = on_grid(f64::from(end[major]) + along)?;
         let middle = f64::from(end[minor]) + along * slope;
         let sides = [on_grid(middle - across)?, on_grid(middle + across)?];
-        Some(sides.map(|side| if major == 0 { [place, side] } else { [side, place] }))
+        Some(sides.map(|side| if major == 0 { [position, side] } else { [side, position] }))
     };
     Some([corners(from, -along)?, corners(to, along)?])
 }
 
 /// The corners of the rectangle around an anti-aliased segment.
-fn rectangle(ends: [[i32; 2]; 2], stroke: &Stroke, reach: f64) -> Option<Corners> {
+fn rectangle(ends: [[i32; 2]; 2], stroke: &Stroke, reach: f64) -> Option<SegmentCorners> {
     let [dx, dy] = stroke.direction().map(|v| v * reach);
     let corner = |[x, y]: [i32; 2], along: f64, across: f64| {
         let x = f64::from(x) + along * dx - across * dy;

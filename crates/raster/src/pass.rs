@@ -20,7 +20,7 @@ pub enum Background<'a> {
 }
 
 /// One draw as the pass keeps it.
-pub(crate) struct Recorded<'a> {
+pub(crate) struct RecordedDraw<'a> {
     pub(crate) geometry: Geometry<'a>,
     pub(crate) pipeline: &'a dyn AnyPipeline,
 }
@@ -31,7 +31,7 @@ pub(crate) struct Recorded<'a> {
 /// ones that with the smaller (object, face).
 pub struct Pass<'a> {
     pub(crate) background: Background<'a>,
-    pub(crate) draws: Vec<Recorded<'a>>,
+    pub(crate) draws: Vec<RecordedDraw<'a>>,
     pub(crate) scissor: Option<Rect>,
     pub(crate) edges: Option<FaceEdges>,
     pub(crate) marks: Option<MarkColors>,
@@ -128,7 +128,7 @@ impl<'a> Pass<'a> {
     }
 
     fn record<P: LanePipeline>(&mut self, pipeline: &'a P, geometry: Geometry<'a>) -> &mut Self {
-        self.draws.push(Recorded { geometry, pipeline });
+        self.draws.push(RecordedDraw { geometry, pipeline });
         self
     }
 

@@ -110,12 +110,12 @@ mod tests {
             let pattern = SamplePattern::of(samples).unwrap();
             assert_eq!(pattern.count(), samples as usize, "number of samples");
             for axis in 0..2 {
-                let mut places: Vec<i32> = pattern.offsets().iter().map(|offset| offset[axis]).collect();
-                places.sort_unstable();
-                assert!(places[0] >= pattern.reach[0], "the least offset of {samples}");
-                assert!(places[places.len() - 1] <= pattern.reach[1], "the greatest of {samples}");
-                places.dedup();
-                assert_eq!(places.len(), samples as usize, "each row and column is hit once: {samples}");
+                let mut offsets: Vec<i32> = pattern.offsets().iter().map(|offset| offset[axis]).collect();
+                offsets.sort_unstable();
+                assert!(offsets[0] >= pattern.reach[0], "the least offset of {samples}");
+                assert!(offsets[offsets.len() - 1] <= pattern.reach[1], "the greatest of {samples}");
+                offsets.dedup();
+                assert_eq!(offsets.len(), samples as usize, "each row and column is hit once: {samples}");
             }
         }
         assert_eq!(SamplePattern::of(3), None, "no such pattern");

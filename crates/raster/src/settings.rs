@@ -17,7 +17,7 @@ pub struct ExecuteSettings {
     /// Whether hidden blocks are rejected by bounds of their depths.
     pub depth_test: DepthTest,
     /// Whether [`Stats::times`](crate::Stats::times) are measured, a few calls of a
-    /// clock for each tile, and [`Stats::samples_seen`](crate::Stats::samples_seen)
+    /// clock for each tile, and [`Stats::samples_visible`](crate::Stats::samples_visible)
     /// counted.
     pub timed: bool,
 }

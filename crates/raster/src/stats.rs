@@ -51,7 +51,7 @@ pub struct Stats {
     pub groups_tested: u64,
     /// Samples that show an opaque or masked triangle. Zero unless
     /// [`ExecuteSettings::timed`](crate::ExecuteSettings::timed) is set.
-    pub samples_seen: u64,
+    pub samples_visible: u64,
     /// Fragments that were shaded.
     pub pixels_shaded: u64,
     /// Translucent fragments that were shaded.
@@ -82,7 +82,7 @@ impl AddAssign for Stats {
         self.blocks_rejected += other.blocks_rejected;
         self.blocks_accepted += other.blocks_accepted;
         self.groups_tested += other.groups_tested;
-        self.samples_seen += other.samples_seen;
+        self.samples_visible += other.samples_visible;
         self.pixels_shaded += other.pixels_shaded;
         self.pixels_blended += other.pixels_blended;
         self.triangles_edged += other.triangles_edged;
@@ -139,8 +139,8 @@ mod tests {
 
     /// Each count and each time is another number.
     fn numbered(first: u64) -> Stats {
-        let count = |place: u64| first + place;
-        let time = |place: u64| Duration::from_millis(first * 100 + place);
+        let count = |index: u64| first + index;
+        let time = |index: u64| Duration::from_millis(first * 100 + index);
         Stats {
             primitives: count(0),
             vertices: count(1),
@@ -157,7 +157,7 @@ mod tests {
             blocks_rejected: count(12),
             blocks_accepted: count(13),
             groups_tested: count(14),
-            samples_seen: count(15),
+            samples_visible: count(15),
             pixels_shaded: count(16),
             pixels_blended: count(17),
             triangles_edged: count(18),

@@ -1,15 +1,15 @@
 //! Floats counted in units in the last place.
 
-/// The place of a number among all f32, so that neighbours differ by 1; both zeros
+/// The position of a number among all f32, so that neighbours differ by 1; both zeros
 /// are 0.
-pub(crate) fn place(value: f32) -> i64 {
+pub(crate) fn ordinal(value: f32) -> i64 {
     let magnitude = i64::from(value.abs().to_bits());
     if value < 0.0 { -magnitude } else { magnitude }
 }
 
 /// The number so many units further on, at most the largest.
 pub(crate) fn stepped(value: f32, steps: i64) -> f32 {
-    let number = place(value) + steps;
+    let number = ordinal(value) + steps;
     let largest = i64::from(f32::MAX.to_bits());
     let value = f32::from_bits(number.abs().min(largest) as u32);
     if number < 0 { -value } else { value }
@@ -22,7 +22,7 @@ mod tests {
     #[test]
     fn neighbours_are_one_step_apart() {
         for depth in [0.25_f32, 1.0, 1e-30, -3.5, 0.0] {
-            assert_eq!(place(depth.next_up()) - place(depth), 1, "after {depth}");
+            assert_eq!(ordinal(depth.next_up()) - ordinal(depth), 1, "after {depth}");
         }
     }
 

@@ -21,7 +21,7 @@ pub trait Varyings: Copy + Send + Sync {
     const COMPONENTS: usize;
 
     /// Writes the components to the first [`COMPONENTS`](Self::COMPONENTS)
-    /// places of `components`.
+    /// entries of `components`.
     fn store(&self, components: &mut [f32]);
 
     /// The value with these components.

@@ -19,7 +19,7 @@ use std::error::Error;
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-use trigon_raster::simd::{Each, F32, Simd, greater, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, Simd, greater, prelude::*};
 use trigon_raster::{
     Background as Behind, Culling, Draw, ExecuteSettings, FragmentLanes, LanePipeline, Pass, Rasterizer,
     Sampler, Target, Texture, TextureFormat, VertexLanes,

@@ -10,7 +10,7 @@ use std::error::Error;
 use std::num::NonZeroUsize;
 use trigon_math::Vec3;
 use trigon_mesh::{Attributes, MeshBuilder};
-use trigon_raster::simd::{Each, F32, Simd, SimdLevel, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, Simd, SimdLevel, prelude::*};
 use trigon_raster::{
     BlendMode, Culling, Draw, ExecuteSettings, FragmentLanes, LanePipeline, Output, Pass, Rasterizer, Target,
     VertexLanes,

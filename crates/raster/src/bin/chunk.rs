@@ -3,7 +3,7 @@
 use super::triangle_ref::{Entry, Listed, TriangleRef};
 use super::{Grid, TileRange};
 use crate::primitive::{Corners, CutWeights, DetailIndex, Edge, Quad, QuadDetail, SetupTriangle, Stroke};
-use crate::simd::{Each, LANES, Mask, Simd, U32, append, prelude::*};
+use crate::simd::{InlineMap, LANES, Mask, Simd, U32, append, prelude::*};
 use crate::{BlendMode, Stats};
 use std::ops::Range;
 
@@ -45,8 +45,8 @@ pub(crate) struct Chunk {
 
 impl Chunk {
     /// The chunk of a triangle among those of a frame, which are in the order of their ordinals.
-    pub(crate) fn of(chunks: &[Self], place: TriangleRef) -> &Self {
-        &chunks[chunks.partition_point(|chunk| chunk.ordinals.end <= place.ordinal)]
+    pub(crate) fn of(chunks: &[Self], triangle: TriangleRef) -> &Self {
+        &chunks[chunks.partition_point(|chunk| chunk.ordinals.end <= triangle.ordinal)]
     }
 
     /// Empties the chunk for another frame and keeps its memory.
@@ -78,13 +78,14 @@ impl Chunk {
         &mut self,
         mask: Mask<S>,
         tiles: U32<S>,
-        places: U32<S>,
+        indices: U32<S>,
         entry: fn(u32) -> Entry,
     ) {
         let count = mask.to_bitmask().count_ones() as usize;
-        let [tiles, places]: [[u32; LANES]; 2] = [tiles.compress(mask).into(), places.compress(mask).into()];
+        let [tiles, indices]: [[u32; LANES]; 2] =
+            [tiles.compress(mask).into(), indices.compress(mask).into()];
         append(&mut self.tiles, &tiles, count);
-        append(&mut self.pushed, &places.each(entry), count);
+        append(&mut self.pushed, &indices.each(entry), count);
     }
 
     /// Notes all tiles that a triangle may have samples in.
@@ -142,32 +143,32 @@ impl Chunk {
 
     /// The line or point that a triangle is half of.
     #[inline(always)]
-    pub(crate) fn quad(&self, place: TriangleRef) -> Option<&Quad> {
-        place.quad().map(|(index, _)| &self.quads[index])
+    pub(crate) fn quad(&self, triangle: TriangleRef) -> Option<&Quad> {
+        triangle.quad().map(|(index, _)| &self.quads[index])
     }
 
-    /// The triangle of a place that is not a whole primitive; `None` if it is.
-    pub(crate) fn made(&self, place: TriangleRef) -> Option<SetupTriangle> {
-        match place.quad() {
+    /// The triangle of a reference that is not a whole primitive; `None` if it is.
+    pub(crate) fn made(&self, triangle: TriangleRef) -> Option<SetupTriangle> {
+        match triangle.quad() {
             Some((index, half)) => Some(self.quads[index].half(half)),
-            None => place.extra().map(|extra| self.extras[extra]),
+            None => triangle.extra().map(|extra| self.extras[extra]),
         }
     }
 
     /// The stroke of the anti-aliased line or point that a triangle is half of.
-    pub(crate) fn stroke_of(&self, place: TriangleRef) -> Option<&Stroke> {
-        self.detail(self.quad(place)?)?.stroke.as_ref()
+    pub(crate) fn stroke_of(&self, triangle: TriangleRef) -> Option<&Stroke> {
+        self.detail(self.quad(triangle)?)?.stroke.as_ref()
     }
 
     /// The weights of the primitive's corners at the vertices of a triangle, unless those
     /// are its corners.
-    pub(crate) fn weights_of(&self, place: TriangleRef) -> Option<CutWeights> {
-        if let Some((index, half)) = place.quad() {
+    pub(crate) fn weights_of(&self, triangle: TriangleRef) -> Option<CutWeights> {
+        if let Some((index, half)) = triangle.quad() {
             let quad = &self.quads[index];
             let ends = self.detail(quad).map_or(QuadDetail::WHOLE, |detail| detail.weights);
             return quad.weights(half, ends);
         }
-        match self.extras[place.extra()?].corners {
+        match self.extras[triangle.extra()?].corners {
             Corners::Cut { weights, .. } => Some(self.weights[weights as usize]),
             Corners::Whole(_) | Corners::Ends(_) => None,
         }
@@ -204,24 +205,24 @@ impl Chunk {
 
     /// The triangles listed for a tile, without the large ones.
     fn listed(&self, tile: u32) -> &[Entry] {
-        let Some(place) = tile.checked_sub(self.first_tile).map(|place| place as usize) else {
+        let Some(index) = tile.checked_sub(self.first_tile).map(|index| index as usize) else {
             return &[];
         };
-        match (self.starts.get(place), self.starts.get(place + 1)) {
+        match (self.starts.get(index), self.starts.get(index + 1)) {
             (Some(&start), Some(&end)) => &self.entries[start as usize..end as usize],
             _ => &[],
         }
     }
 
-    /// Appends the triangles of a tile to `places`, in the order of the
+    /// Appends the triangles of a tile to `triangles`, in the order of the
     /// primitives.
-    pub(crate) fn collect(&self, grid: &Grid, tile: u32, places: &mut Vec<TriangleRef>) {
+    pub(crate) fn collect(&self, grid: &Grid, tile: u32, triangles: &mut Vec<TriangleRef>) {
         let listed = self.listed(tile);
         if self.large.is_empty() {
             if self.extras.is_empty() && self.quads.is_empty() {
-                places.extend(listed.iter().map(|&entry| TriangleRef::whole(self.ordinals.start, entry)));
+                triangles.extend(listed.iter().map(|&entry| TriangleRef::whole(self.ordinals.start, entry)));
             } else {
-                listed.iter().for_each(|&entry| self.append(entry, places));
+                listed.iter().for_each(|&entry| self.append(entry, triangles));
             }
             return;
         }
@@ -233,19 +234,19 @@ impl Chunk {
             while let Some(entry) =
                 listed.next_if(|entry| self.primitive(*entry) < self.primitive(large.entry))
             {
-                self.append(entry, places);
+                self.append(entry, triangles);
             }
-            self.append(large.entry, places);
+            self.append(large.entry, triangles);
         }
-        listed.for_each(|entry| self.append(entry, places));
+        listed.for_each(|entry| self.append(entry, triangles));
     }
 
     /// Appends the triangles of an entry.
     #[inline(always)]
-    fn append(&self, entry: Entry, places: &mut Vec<TriangleRef>) {
-        places.push(self.triangle(entry));
+    fn append(&self, entry: Entry, triangles: &mut Vec<TriangleRef>) {
+        triangles.push(self.triangle(entry));
         if let Listed::Quad(index) = entry.listed() {
-            places.push(TriangleRef::half(self.quads[index].ordinal, index, 1));
+            triangles.push(TriangleRef::half(self.quads[index].ordinal, index, 1));
         }
     }
 
@@ -272,23 +273,23 @@ impl Chunk {
             && primitives_of(&self.pushed) == set_up
     }
 
-    /// Drops primitives, given by their places in the chunk, from what tiles list. The chunk must be
+    /// Drops primitives, given by their indices in the chunk, from what tiles list. The chunk must be
     /// [plain](Self::is_plain).
-    pub(super) fn drop_listed(&mut self, places: &[u32]) {
-        let mut dropped = places.iter().copied().peekable();
-        let mut kept = 0;
+    pub(super) fn drop_listed(&mut self, indices: &[u32]) {
+        let mut dropped = indices.iter().copied().peekable();
+        let mut count = 0;
         for at in 0..self.pushed.len() {
-            let place = self.pushed[at].place();
-            while dropped.next_if(|&dropped| dropped < place).is_some() {}
-            if dropped.peek() != Some(&place) {
-                (self.tiles[kept], self.pushed[kept]) = (self.tiles[at], self.pushed[at]);
-                kept += 1;
+            let index = self.pushed[at].index();
+            while dropped.next_if(|&dropped| dropped < index).is_some() {}
+            if dropped.peek() != Some(&index) {
+                (self.tiles[count], self.pushed[count]) = (self.tiles[at], self.pushed[at]);
+                count += 1;
             }
         }
-        self.tiles.truncate(kept);
-        self.pushed.truncate(kept);
+        self.tiles.truncate(count);
+        self.pushed.truncate(count);
         self.stats.set_up = primitives_of(&self.pushed);
-        self.stats.culled = (self.ordinals.len() - places.len()) as u64 - self.stats.set_up;
+        self.stats.culled = (self.ordinals.len() - indices.len()) as u64 - self.stats.set_up;
         self.starts.clear();
         self.entries.clear();
         self.sort();
@@ -323,16 +324,16 @@ impl Chunk {
             self.large.iter().map(|large| large.entry).chain(self.entries.clone()).collect();
         entries.sort_unstable_by_key(|&entry| (self.primitive(entry), entry.0));
         entries.dedup();
-        let mut places = Vec::new();
-        entries.into_iter().for_each(|entry| self.append(entry, &mut places));
-        places
+        let mut triangles = Vec::new();
+        entries.into_iter().for_each(|entry| self.append(entry, &mut triangles));
+        triangles
     }
 
-    /// The place in the chunk of the primitive that a triangle belongs to.
+    /// The index in the chunk of the primitive that a triangle belongs to.
     #[inline]
     pub(crate) fn primitive(&self, entry: Entry) -> u32 {
         match entry.listed() {
-            Listed::Primitive(place) => place,
+            Listed::Primitive(index) => index,
             Listed::Extra(extra) => self.extras[extra].ordinal - self.ordinals.start,
             Listed::Quad(index) => self.quads[index].ordinal - self.ordinals.start,
         }

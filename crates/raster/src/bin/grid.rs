@@ -212,9 +212,9 @@ mod tests {
             let Some([x, y]) = grid.pixels_of(&triangle) else { return Ok(()) };
             grid.for_each_tile(&triangle, |tile| binned.push(tile));
             for tile in 0..grid.columns * grid.viewport.height.div_ceil(size) {
-                let place = [tile % grid.columns, tile / grid.columns];
-                let corner = place.map(|v| (v * size) as i32);
-                let [low, high] = grid.reach_of_tile(place);
+                let position = [tile % grid.columns, tile / grid.columns];
+                let corner = position.map(|v| (v * size) as i32);
+                let [low, high] = grid.reach_of_tile(position);
                 let reached = |edge: &Edge| edge.range(low, high)[1] + edge.bias() >= 0;
                 let inside = Edge::of(&triangle).iter().all(reached);
                 let meets = |[first, last]: [i32; 2], at: i32| first < at + size as i32 && at <= last;

@@ -7,7 +7,7 @@ pub(crate) struct Entry(pub(super) u32);
 
 /// The primitive to which an [`Entry`] refers.
 pub(super) enum Listed {
-    /// The triangle or the point at this place in the chunk.
+    /// The triangle or the point of this index in the chunk.
     Primitive(u32),
     /// The index of one of the chunk's own triangles.
     Extra(usize),
@@ -20,21 +20,21 @@ impl Entry {
     const QUAD: u32 = 1 << 30;
     const POINT: u32 = 1 << 29;
 
-    /// The triangle at this place in the chunk, as it is.
+    /// The triangle of this index in the chunk, as it is.
     #[inline(always)]
-    pub(crate) fn primitive(place: u32) -> Self {
-        Self(place)
+    pub(crate) fn primitive(index: u32) -> Self {
+        Self(index)
     }
 
-    /// The point at this place in the chunk, drawn from its vertex.
+    /// The point of this index in the chunk, drawn from its vertex.
     #[inline(always)]
-    pub(crate) fn point(place: u32) -> Self {
-        Self(place + Self::POINT)
+    pub(crate) fn point(index: u32) -> Self {
+        Self(index + Self::POINT)
     }
 
-    /// The place in the chunk of a triangle or a point that is drawn as it is.
+    /// The index in the chunk of a triangle or a point that is drawn as it is.
     #[inline(always)]
-    pub(super) fn place(self) -> u32 {
+    pub(super) fn index(self) -> u32 {
         self.0 & !Self::POINT
     }
 
@@ -62,7 +62,7 @@ impl Entry {
         } else if self.0 & Self::QUAD != 0 {
             Listed::Quad((self.0 & !Self::QUAD) as usize)
         } else {
-            Listed::Primitive(self.place())
+            Listed::Primitive(self.index())
         }
     }
 }
@@ -84,7 +84,7 @@ impl TriangleRef {
     /// A triangle or a point that is drawn as it is, of a chunk whose ordinals start here.
     #[inline(always)]
     pub(super) fn whole(start: u32, entry: Entry) -> Self {
-        Self { ordinal: start + entry.place(), extra: Self::WHOLE - u32::from(entry.is_point()) }
+        Self { ordinal: start + entry.index(), extra: Self::WHOLE - u32::from(entry.is_point()) }
     }
 
     /// Half of a line or a point.
@@ -148,12 +148,15 @@ mod tests {
     fn entries_tell_what_they_list() {
         for number in [0, 1, 2, 77, (1 << 29) - 1] {
             for (entry, is_point) in [(Entry::primitive(number), false), (Entry::point(number), true)] {
-                let Listed::Primitive(place) = entry.listed() else { panic!("a primitive") };
-                assert_eq!((place, entry.place(), entry.is_point()), (number, number, is_point));
-                let place = TriangleRef::whole(5, entry);
-                assert_eq!((place.ordinal, place.part()), (5 + number, None), "all of its primitive");
-                assert_eq!((place.is_point(), place.is_whole()), (is_point, !is_point));
-                assert_eq!((place.extra(), place.quad(), place.is_first_half()), (None, None, false));
+                let Listed::Primitive(index) = entry.listed() else { panic!("a primitive") };
+                assert_eq!((index, entry.index(), entry.is_point()), (number, number, is_point));
+                let triangle = TriangleRef::whole(5, entry);
+                assert_eq!((triangle.ordinal, triangle.part()), (5 + number, None), "all of its primitive");
+                assert_eq!((triangle.is_point(), triangle.is_whole()), (is_point, !is_point));
+                assert_eq!(
+                    (triangle.extra(), triangle.quad(), triangle.is_first_half()),
+                    (None, None, false)
+                );
             }
             let index = number as usize;
             assert!(matches!(Entry::extra(index).listed(), Listed::Extra(found) if found == index));

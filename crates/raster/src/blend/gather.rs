@@ -10,29 +10,29 @@ use crate::tile::{Blocks, Candidate, SampleGroup, TileTriangle, TileView, single
 use std::ops::Range;
 
 /// A triangle of a tile.
-struct Shape {
+struct LayerTriangle {
     covering: TileTriangle,
-    place: u32,
+    index: u32,
     /// Its fractional coverage, if it is anti-aliased.
     stroke: Option<Stroke>,
 }
 
 /// A triangle of another segment that meets this one.
-pub(super) struct Beside {
-    shape: Shape,
+pub(super) struct JoinedTriangle {
+    shape: LayerTriangle,
     is_later: bool,
 }
 
-impl Shape {
-    fn new(tile: TileView<'_>, place: usize) -> Option<Self> {
-        let at = tile.triangles[place];
+impl LayerTriangle {
+    fn new(tile: TileView<'_>, index: usize) -> Option<Self> {
+        let at = tile.triangles[index];
         let covering = single(tile.frame, tile.area, at)?;
         let stroke = at.part().and_then(|_| tile.frame.chunk_of(at).stroke_of(at).copied());
-        Some(Self { covering, place: place as u32, stroke })
+        Some(Self { covering, index: index as u32, stroke })
     }
 
     fn candidate(&self) -> Candidate<'_> {
-        Candidate { covering: &self.covering, place: self.place }
+        Candidate { covering: &self.covering, triangle: self.index }
     }
 
     /// The share that it covers at the samples of a group.
@@ -50,21 +50,19 @@ impl Layers {
     pub(super) fn gather(&mut self, tile: TileView<'_>, round: &Round, triangles: Range<usize>) {
         let first = triangles.start;
         let mut beside = std::mem::take(&mut self.beside);
-        for place in triangles {
-            if self.blocks[place - first].intersection(round.blocks).is_empty() {
+        for index in triangles {
+            if self.blocks[index - first].intersection(round.blocks).is_empty() {
                 continue;
             }
             beside.clear();
-            beside.extend(
-                self.joints.beside(tile, place).filter_map(|(place, is_later)| {
-                    Some(Beside { shape: Shape::new(tile, place)?, is_later })
-                }),
-            );
-            let seen = Shape::new(tile, place).map_or(Blocks::NONE, |shape| {
+            beside.extend(self.joints.beside(tile, index).filter_map(|(index, is_later)| {
+                Some(JoinedTriangle { shape: LayerTriangle::new(tile, index)?, is_later })
+            }));
+            let visible = LayerTriangle::new(tile, index).map_or(Blocks::NONE, |shape| {
                 at_level!(tile.frame.token, simd => self.gather_one(simd, tile, round, &shape, &beside))
             });
-            let blocks = &mut self.blocks[place - first];
-            *blocks = blocks.without(round.blocks).union(seen);
+            let blocks = &mut self.blocks[index - first];
+            *blocks = blocks.without(round.blocks).union(visible);
         }
         self.beside = beside;
     }
@@ -76,22 +74,22 @@ impl Layers {
         simd: S,
         tile: TileView<'_>,
         round: &Round,
-        shape: &Shape,
-        beside: &[Beside],
+        shape: &LayerTriangle,
+        beside: &[JoinedTriangle],
     ) -> Blocks {
         let Self { runs, last, .. } = self;
         let order = DepthOrder(tile);
         let samples = tile.buffer.samples;
         let mut blocks = Blocks::NONE;
-        tile.for_each_seen(
+        tile.for_each_visible(
             simd,
             shape.candidate(),
             round.blocks,
             #[inline(always)]
-            |group, seen, depth| {
+            |group, visible, depth| {
                 blocks.insert(group.group / 8);
                 let coverage = shape.coverage(simd, group);
-                let mut lanes = seen.to_bitmask();
+                let mut lanes = visible.to_bitmask();
                 if shape.stroke.is_some() {
                     lanes &= where_of(|lane| coverage[lane] > 0.0);
                 }
@@ -105,7 +103,7 @@ impl Layers {
                     let lane = lanes.trailing_zeros() as usize;
                     lanes &= lanes - 1;
                     let (depth, coverage) = (depth[lane], coverage[lane]);
-                    let layer = Layer { depth, place: shape.place, coverage, color: 0 };
+                    let layer = Layer { depth, triangle: shape.index, coverage, color: 0 };
                     if !round.again || order.is_behind(&last[in_buffer + lane], &layer) {
                         runs.push(order, first + lane, layer);
                     }
@@ -116,7 +114,7 @@ impl Layers {
     }
 }
 
-impl Beside {
+impl JoinedTriangle {
     /// The lanes of a group that it paints instead of one with this coverage.
     #[inline(always)]
     fn paints<S: Simd>(
@@ -126,11 +124,11 @@ impl Beside {
         group: SampleGroup,
         coverage: &[f32; LANES],
     ) -> u64 {
-        let Some((seen, _)) = tile.look(simd, self.shape.candidate(), group) else {
+        let Some((visible, _)) = tile.look(simd, self.shape.candidate(), group) else {
             return 0;
         };
         let own = self.shape.coverage(simd, group);
-        seen.to_bitmask() & where_of(|lane| prevails(own[lane], self.is_later, coverage[lane]))
+        visible.to_bitmask() & where_of(|lane| prevails(own[lane], self.is_later, coverage[lane]))
     }
 }
 

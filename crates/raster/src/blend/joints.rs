@@ -3,7 +3,7 @@
 
 use crate::bin::TriangleRef;
 use crate::geometry::Shape;
-use crate::pass::Recorded;
+use crate::pass::RecordedDraw;
 use crate::primitive::SetupTriangle;
 use crate::tile::TileView;
 use crate::view::FrameView;
@@ -21,9 +21,9 @@ impl Joints {
     /// Lists the segments among a tile's triangles.
     pub(super) fn collect(&mut self, tile: &TileView<'_>, triangles: Range<usize>) {
         self.0.clear();
-        let is_lines = |draw: &Recorded<'_>| matches!(draw.geometry.shape, Shape::Lines { .. });
+        let is_lines = |draw: &RecordedDraw<'_>| matches!(draw.geometry.shape, Shape::Lines { .. });
         if tile.frame.pass.iter().any(is_lines) {
-            let ends = |place| Some(Segment::of(tile.frame, tile.triangles[place])?.ends(place));
+            let ends = |index| Some(Segment::of(tile.frame, tile.triangles[index])?.ends(index));
             self.0.extend(triangles.filter_map(ends).flatten());
             self.0.sort_unstable();
         }
@@ -34,12 +34,12 @@ impl Joints {
     pub(super) fn beside<'j>(
         &'j self,
         tile: TileView<'j>,
-        place: usize,
+        index: usize,
     ) -> impl Iterator<Item = (usize, bool)> + 'j {
-        let segment = if self.0.is_empty() { None } else { Segment::of(tile.frame, tile.triangles[place]) };
-        let ends = segment.map(|segment| segment.ends(place));
-        let extent = move |place: usize| extents(&tile.frame.triangle(tile.triangles[place]));
-        let own = ends.map(|_| extent(place));
+        let segment = if self.0.is_empty() { None } else { Segment::of(tile.frame, tile.triangles[index]) };
+        let ends = segment.map(|segment| segment.ends(index));
+        let extent = move |index: usize| extents(&tile.frame.triangle(tile.triangles[index]));
+        let own = ends.map(|_| extent(index));
         ends.into_iter().flatten().flat_map(move |[draw, vertex, primitive, _]| {
             let start = self.0.partition_point(|joint| *joint < [draw, vertex, 0, 0]);
             let here = self.0[start..].iter().take_while(move |joint| joint[..2] == [draw, vertex]);
@@ -59,20 +59,20 @@ struct Segment {
 }
 
 impl Segment {
-    fn of(frame: &FrameView<'_>, place: TriangleRef) -> Option<Self> {
-        place.part()?;
-        let plan = &frame.plan.draws[frame.draw_of(place)];
+    fn of(frame: &FrameView<'_>, triangle: TriangleRef) -> Option<Self> {
+        triangle.part()?;
+        let plan = &frame.plan.draws[frame.draw_of(triangle)];
         let geometry = &frame.pass[plan.draw].geometry;
         let segment = || {
-            let primitive = place.ordinal - plan.ordinals.start;
+            let primitive = triangle.ordinal - plan.ordinals.start;
             let [from, to, _] = geometry.corners(primitive);
             Self { draw: plan.draw as u32, primitive, vertices: [from, to] }
         };
         matches!(geometry.shape, Shape::Lines { .. }).then(segment)
     }
 
-    fn ends(&self, place: usize) -> [Joint; 2] {
-        self.vertices.map(|vertex| [self.draw, vertex, self.primitive, place as u32])
+    fn ends(&self, index: usize) -> [Joint; 2] {
+        self.vertices.map(|vertex| [self.draw, vertex, self.primitive, index as u32])
     }
 }
 

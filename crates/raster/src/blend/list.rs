@@ -32,20 +32,20 @@ impl Fragments {
     #[inline(always)]
     pub(super) fn name(&mut self, pixel: usize, first: usize, layers: &mut [Layer]) {
         for layer in layers {
-            let place = layer.place as usize;
-            let latest = self.latest[place] as usize;
+            let triangle = layer.triangle as usize;
+            let latest = self.latest[triangle] as usize;
             // Another sample of the pixel may have named it already.
-            let named = latest >= first && self.listed.get(latest).is_some_and(|at| at.0 == layer.place);
-            layer.color = if named { latest as u32 } else { self.list(pixel, layer.place) };
+            let named = latest >= first && self.listed.get(latest).is_some_and(|at| at.0 == layer.triangle);
+            layer.color = if named { latest as u32 } else { self.list(pixel, layer.triangle) };
         }
     }
 
     #[inline(always)]
-    fn list(&mut self, pixel: usize, place: u32) -> u32 {
+    fn list(&mut self, pixel: usize, triangle: u32) -> u32 {
         let color = self.listed.len() as u32;
-        self.listed.push((place, pixel as u32));
-        self.latest[place as usize] = color;
-        self.counts[place as usize] += 1;
+        self.listed.push((triangle, pixel as u32));
+        self.latest[triangle as usize] = color;
+        self.counts[triangle as usize] += 1;
         color
     }
 
@@ -58,17 +58,17 @@ impl Fragments {
     pub(super) fn sort(&mut self, partly: bool) {
         self.jobs.clear();
         let mut start = 0;
-        for (place, count) in self.counts.iter_mut().enumerate().filter(|(_, count)| **count > 0) {
+        for (triangle, count) in self.counts.iter_mut().enumerate().filter(|(_, count)| **count > 0) {
             let end = start + *count as usize;
-            self.jobs.push(Job { place: place as u32, points: start..end });
+            self.jobs.push(Job { triangle: triangle as u32, points: start..end });
             *count = start as u32;
             start = end;
         }
         if self.points.len() < start {
             self.points.resize(start, ShadePoint::default());
         }
-        for (color, &(place, pixel)) in self.listed.iter().enumerate() {
-            let next = &mut self.counts[place as usize];
+        for (color, &(triangle, pixel)) in self.listed.iter().enumerate() {
+            let next = &mut self.counts[triangle as usize];
             self.points[*next as usize] = ShadePoint::anywhere(pixel as usize, partly, color);
             *next += 1;
         }

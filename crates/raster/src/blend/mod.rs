@@ -30,11 +30,11 @@ use crate::simd::LANES;
 use crate::tile::{Blocks, TileState, TileView};
 use crate::tile_buffer::TileArea;
 use crate::view::FrameView;
-use gather::Beside;
+use gather::JoinedTriangle;
 use joints::Joints;
 use list::Fragments;
 use order::DepthOrder;
-use runs::{Layer, ROOM, Runs};
+use runs::{CAPACITY, Layer, Runs};
 use std::ops::Range;
 use trigon_math::Vec4;
 
@@ -54,7 +54,7 @@ pub(crate) struct Layers {
     samples: Vec<Vec4>,
     joints: Joints,
     /// The segments joined to the current one.
-    beside: Vec<Beside>,
+    beside: Vec<JoinedTriangle>,
     /// For each triangle, the blocks in which it may be visible.
     blocks: Vec<Blocks>,
     /// For each sample the last layer that was laid; of blocks that have had a
@@ -122,11 +122,11 @@ impl Layers {
         let (mut left, mut depth, mut again) = (Blocks::of(tile.area), USUAL_DEPTH, false);
         let mut shaded = 0;
         while !left.is_empty() {
-            let at_once = (ROOM / (BLOCK * samples * depth)).max(1);
+            let at_once = (CAPACITY / (BLOCK * samples * depth)).max(1);
             let (mut rest, mut deepest) = (Blocks::NONE, 0);
             while !left.is_empty() {
                 let round = Round::new(left.take(at_once), samples, again);
-                self.runs.reset(round.blocks.len() * BLOCK * samples, ROOM);
+                self.runs.reset(round.blocks.len() * BLOCK * samples, CAPACITY);
                 self.gather(tile, &round, triangles.clone());
                 self.list(tile, &round);
                 self.shade(tile, shading);
@@ -140,7 +140,7 @@ impl Layers {
         shaded
     }
 
-    /// Puts the layers that were kept in order and lists their fragments.
+    /// Puts the layers that were held in order and lists their fragments.
     fn list(&mut self, tile: TileView<'_>, round: &Round) {
         let Self { runs, fragments, .. } = self;
         let samples = tile.buffer.samples;

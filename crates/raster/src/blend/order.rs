@@ -25,7 +25,7 @@ impl DepthOrder<'_> {
     #[inline]
     fn compare_keys(&self, a: &Layer, b: &Layer) -> Ordering {
         let TileView { frame, triangles, ties, .. } = self.0;
-        let part = |layer: &Layer| triangles[layer.place as usize].part();
-        ties.compare(frame, triangles, [b.place, a.place]).then_with(|| part(b).cmp(&part(a)))
+        let part = |layer: &Layer| triangles[layer.triangle as usize].part();
+        ties.compare(frame, triangles, [b.triangle, a.triangle]).then_with(|| part(b).cmp(&part(a)))
     }
 }

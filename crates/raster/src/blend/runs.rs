@@ -11,15 +11,15 @@
 use std::cmp::Ordering;
 
 /// Layers that all samples together have room for: three quarters of a megabyte
-/// with what is kept beside each, and eight for every sample of the largest tile.
-pub(super) const ROOM: usize = 1 << 15;
+/// with what is held beside each, and eight for every sample of the largest tile.
+pub(super) const CAPACITY: usize = 1 << 15;
 
 /// One translucent fragment at one sample.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Layer {
     pub(super) depth: f32,
     /// Index among the tile's triangles.
-    pub(super) place: u32,
+    pub(super) triangle: u32,
     /// The fraction of the sample that it covers, 0 to 1.
     pub(super) coverage: f32,
     /// Which colour it has, once that is known.
@@ -38,12 +38,12 @@ pub(super) trait Order: Copy {
     }
 }
 
-/// The layers that are kept at one sample.
+/// The layers that are held at one sample.
 #[derive(Clone, Copy, Default)]
-struct Run {
+struct SampleRun {
     len: u32,
     /// How many layers found no room. If any did, the first half of the room
-    /// holds the farthest of all, in order, and all that is kept lies behind the
+    /// holds the farthest of all, in order, and all that is held lies behind the
     /// last of those.
     waiting: u32,
 }
@@ -52,18 +52,18 @@ struct Run {
 #[derive(Default)]
 pub(super) struct Runs {
     layers: Vec<Layer>,
-    runs: Vec<Run>,
+    runs: Vec<SampleRun>,
     /// How many layers each sample has room for, at least 2.
-    room: usize,
+    capacity: usize,
 }
 
 impl Runs {
     /// Empties all, and shares `total` layers out among `samples`.
     pub(super) fn reset(&mut self, samples: usize, total: usize) {
-        self.room = (total / samples).max(2);
+        self.capacity = (total / samples).max(2);
         self.runs.clear();
-        self.runs.resize(samples, Run::default());
-        let needed = self.room * samples;
+        self.runs.resize(samples, SampleRun::default());
+        let needed = self.capacity * samples;
         if self.layers.len() < needed {
             self.layers.resize(needed, Layer::default());
         }
@@ -72,9 +72,9 @@ impl Runs {
     /// Keeps a layer if it is among the farthest of its sample.
     #[inline(always)]
     pub(super) fn push(&mut self, order: impl Order, sample: usize, layer: Layer) {
-        let Run { len, waiting } = self.runs[sample];
-        if waiting == 0 && (len as usize) < self.room {
-            self.layers[sample * self.room + len as usize] = layer;
+        let SampleRun { len, waiting } = self.runs[sample];
+        if waiting == 0 && (len as usize) < self.capacity {
+            self.layers[sample * self.capacity + len as usize] = layer;
             self.runs[sample].len += 1;
         } else {
             self.push_to_full(order, sample, layer);
@@ -83,16 +83,16 @@ impl Runs {
 
     #[inline(never)]
     fn push_to_full(&mut self, order: impl Order, sample: usize, layer: Layer) {
-        let half = self.room / 2;
+        let half = self.capacity / 2;
         let run = &mut self.runs[sample];
-        let layers = &mut self.layers[sample * self.room..(sample + 1) * self.room];
+        let layers = &mut self.layers[sample * self.capacity..(sample + 1) * self.capacity];
         if run.waiting > 0 && !order.is_behind(&layer, &layers[half - 1]) {
             run.waiting += 1;
             return;
         }
-        if run.len as usize == self.room {
+        if run.len as usize == self.capacity {
             layers.sort_unstable_by(|a, b| order.compare(a, b));
-            run.waiting += (self.room - half) as u32;
+            run.waiting += (self.capacity - half) as u32;
             run.len = half as u32;
             if !order.is_behind(&layer, &layers[half - 1]) {
                 run.waiting += 1;
@@ -106,7 +106,7 @@ impl Runs {
     /// The layers of a sample from back to front.
     #[inline(always)]
     pub(super) fn sorted(&mut self, order: impl Order, sample: usize) -> &mut [Layer] {
-        let start = sample * self.room;
+        let start = sample * self.capacity;
         let layers = &mut self.layers[start..start + self.runs[sample].len as usize];
         if !layers.is_sorted_by(|a, b| order.is_behind(a, b)) {
             layers.sort_unstable_by(|a, b| order.compare(a, b));
@@ -117,7 +117,7 @@ impl Runs {
     /// The layers of a sample as they are.
     #[inline(always)]
     pub(super) fn of(&self, sample: usize) -> &[Layer] {
-        let start = sample * self.room;
+        let start = sample * self.capacity;
         &self.layers[start..start + self.runs[sample].len as usize]
     }
 
@@ -133,21 +133,21 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// By depth, then by place.
+    /// By depth, then by index.
     #[derive(Clone, Copy)]
     struct ByDepth;
 
     impl Order for ByDepth {
         fn compare(&self, a: &Layer, b: &Layer) -> Ordering {
-            a.depth.total_cmp(&b.depth).then(a.place.cmp(&b.place))
+            a.depth.total_cmp(&b.depth).then(a.triangle.cmp(&b.triangle))
         }
     }
 
     /// What is laid, round by round, with room for so many layers at a time.
-    fn peeled(layers: &[Layer], room: usize) -> Vec<u32> {
+    fn peeled(layers: &[Layer], capacity: usize) -> Vec<u32> {
         let (mut runs, mut laid) = (Runs::default(), Vec::<Layer>::new());
         loop {
-            runs.reset(2, 2 * room);
+            runs.reset(2, 2 * capacity);
             let last = laid.last().copied();
             let is_left = |layer: &&Layer| last.is_none_or(|last| ByDepth.is_behind(&last, layer));
             let left = layers.iter().filter(is_left);
@@ -155,19 +155,19 @@ mod tests {
             laid.extend_from_slice(runs.sorted(ByDepth, 1));
             assert!(runs.of(0).is_empty(), "the other sample is left alone");
             if runs.waiting(1) == 0 {
-                return laid.iter().map(|layer| layer.place).collect();
+                return laid.iter().map(|layer| layer.triangle).collect();
             }
         }
     }
 
     proptest! {
         #[test]
-        fn layers_come_in_order_however_many_have_room(depths in proptest::collection::vec(0..50_u8, 0..200), room in 2..40_usize) {
-            let layer = |(place, depth): (u32, &u8)| Layer { depth: f32::from(*depth), place, ..Layer::default() };
+        fn layers_come_in_order_however_many_have_room(depths in proptest::collection::vec(0..50_u8, 0..200), capacity in 2..40_usize) {
+            let layer = |(triangle, depth): (u32, &u8)| Layer { depth: f32::from(*depth), triangle, ..Layer::default() };
             let mut layers: Vec<_> = (0..).zip(&depths).map(layer).collect();
-            let found = peeled(&layers, room);
+            let found = peeled(&layers, capacity);
             layers.sort_by(|a, b| ByDepth.compare(a, b));
-            let expected: Vec<_> = layers.iter().map(|layer| layer.place).collect();
+            let expected: Vec<_> = layers.iter().map(|layer| layer.triangle).collect();
             prop_assert_eq!(found, expected);
         }
     }

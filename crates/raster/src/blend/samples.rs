@@ -19,11 +19,11 @@ pub(super) fn expand(
     samples.clear();
     samples.resize(buffer.span() * count, Vec4::ZERO);
     for (pixel, color) in shading.colors.iter().enumerate().take(buffer.span()) {
-        let place = TileArea::pixel_at(pixel);
-        if !area.contains(place) {
+        let position = TileArea::pixel_at(pixel);
+        if !area.contains(position) {
             continue;
         }
-        let background = || frame.lined_background_at(area, place, &shading.outer);
+        let background = || frame.lined_background_at(area, position, &shading.outer);
         for sample in 0..count {
             let index = buffer.index(pixel, sample);
             samples[index] = match buffer.visible[index] {

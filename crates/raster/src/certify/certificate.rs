@@ -1,6 +1,6 @@
 //! The result: what is proven of each pixel.
 
-use super::codes::Codes;
+use super::codes::TargetCodes;
 use super::tile::TileCertainty;
 use crate::tile_buffer::TileArea;
 use crate::view::FrameView;
@@ -76,7 +76,7 @@ impl Certificate {
     }
 
     /// Doubts certified pixels whose bytes may change.
-    pub(super) fn doubt_colors(&mut self, colors: &[Vec4], codes: &Codes) {
+    pub(super) fn doubt_colors(&mut self, colors: &[Vec4], codes: &TargetCodes) {
         for ((pixel, drawn), &color) in self.pixels.iter_mut().zip(&self.drawn).zip(colors) {
             if *pixel == Certainty::Certified && *drawn && !codes.are_settled(color) {
                 *pixel = Certainty::Color;

@@ -5,19 +5,19 @@ use crate::fragments::Encoding;
 use trigon_math::{Vec4, color};
 
 /// The encodings of a target, and by how much colours may be off.
-pub(super) struct Codes {
+pub(super) struct TargetCodes {
     srgb8: bool,
     unorm8: bool,
     bound: f32,
 }
 
-impl Codes {
+impl TargetCodes {
     pub(super) fn of(target: &Target<'_>, bound: f32) -> Self {
         Self { srgb8: target.srgb8().is_some(), unorm8: target.unorm8().is_some(), bound }
     }
 
     /// Whether there are any bytes.
-    pub(super) fn is_asked(&self) -> bool {
+    pub(super) fn is_requested(&self) -> bool {
         self.srgb8 || self.unorm8
     }
 
@@ -64,7 +64,7 @@ mod tests {
             share in [-1.0_f32..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0],
             bound in 0.0_f32..0.002,
         ) {
-            let codes = Codes { srgb8: true, unorm8: true, bound };
+            let codes = TargetCodes { srgb8: true, unorm8: true, bound };
             for value in [Vec4::from_array(value), Vec4::from_array(unit)] {
                 prop_assume!(value.is_finite());
                 let moved = value + Vec4::from_array(share) * bound;
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn only_colours_near_a_threshold_are_unsettled() {
-        let codes = Codes { srgb8: true, unorm8: true, bound: 1e-5 };
+        let codes = TargetCodes { srgb8: true, unorm8: true, bound: 1e-5 };
         let grays = (0..1000).map(|i| Vec4::splat(i as f32 / 1000.0).with_w(1.0));
         let settled = grays.filter(|&gray| codes.are_settled(gray)).count();
         assert!(settled > 950, "{settled} of 1000");

@@ -57,9 +57,9 @@ impl Contenders {
 /// the grid.
 pub(super) fn extent(corners: &[Corner], drift: i32) -> [[i32; 2]; 2] {
     [0, 1].map(|axis| {
-        let places = || corners.iter().map(|corner| corner.vertex.raw()[axis]);
-        let least = places().min().unwrap_or(0);
-        let greatest = places().max().unwrap_or(0);
+        let coordinates = || corners.iter().map(|corner| corner.vertex.raw()[axis]);
+        let least = coordinates().min().unwrap_or(0);
+        let greatest = coordinates().max().unwrap_or(0);
         [least.saturating_sub(drift), greatest.saturating_add(drift)]
     })
 }

@@ -29,7 +29,7 @@ pub(super) fn contenders(frame: &FrameView<'_>, tolerance: Tolerance) -> Contend
     contenders
 }
 
-/// How far snapped places move, in units of the grid, if the places are off by so
+/// How far snapped vertices move, in units of the grid, if the positions are off by so
 /// many pixels: rounding adds less than one unit, and units are whole.
 fn drift(pixels: f64) -> i32 {
     if pixels > 0.0 { (256.0 * pixels).floor() as i32 + 1 } else { 0 }
@@ -85,8 +85,8 @@ impl Gather<'_> {
             Culling::Front => (area > 0, certain && area < 0),
         };
         if !is_hidden {
-            let is_kept = if whole { self.stays_whole(&corners) } else { certain };
-            self.push(&corners, is_drawn && is_kept, false);
+            let is_certain = if whole { self.stays_whole(&corners) } else { certain };
+            self.push(&corners, is_drawn && is_certain, false);
         }
     }
 
@@ -99,9 +99,9 @@ impl Gather<'_> {
     fn cut(&self, indices: [u32; 3]) -> (Vec<Corner>, i64) {
         let positions = indices.map(|index| self.vertices.position(index));
         let cut = clip::cut_triangle(positions, self.volume);
-        let places = cut.polygon.vertices().iter();
-        let places = places.filter_map(|v| ScreenVertex::of(v.position, self.frame.grid.viewport));
-        (places.map(|vertex| self.corner(vertex, 0.0)).collect(), cut.winding)
+        let vertices = cut.polygon.vertices().iter();
+        let vertices = vertices.filter_map(|v| ScreenVertex::of(v.position, self.frame.grid.viewport));
+        (vertices.map(|vertex| self.corner(vertex, 0.0)).collect(), cut.winding)
     }
 
     /// A line lies around its segment; its exact shape is not examined.
@@ -113,8 +113,8 @@ impl Gather<'_> {
         let ends = if outcodes.iter().any(|outcode| outcode.cuts()) {
             let positions = indices.map(|index| self.vertices.position(index));
             let viewport = self.frame.grid.viewport;
-            let place = |end: trigon_math::ClipVertex<2>| ScreenVertex::of(end.position, viewport);
-            clip_segment(positions, self.volume).map(|ends| ends.map(place))
+            let vertex = |end: trigon_math::ClipVertex<2>| ScreenVertex::of(end.position, viewport);
+            clip_segment(positions, self.volume).map(|ends| ends.map(vertex))
         } else {
             Some(indices.map(|index| Some(*self.vertices.get(index))))
         };
@@ -131,12 +131,12 @@ impl Gather<'_> {
         if outcode.is_invalid() || outcode.cuts() {
             return;
         }
-        let centre = *self.vertices.get(index);
-        let whole = self.stays_whole(&[self.corner(centre, 0.0)]);
-        let [column, row] = centre.raw();
+        let center = *self.vertices.get(index);
+        let whole = self.stays_whole(&[self.corner(center, 0.0)]);
+        let [column, row] = center.raw();
         let corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(|[x, y]| {
             let moved = |raw: i32, by: i32| Fixed::from_raw(raw + by * half);
-            self.corner(centre.at(FixedPoint::new(moved(column, x), moved(row, y))), depth_bias)
+            self.corner(center.at(FixedPoint::new(moved(column, x), moved(row, y))), depth_bias)
         });
         self.push(&corners, whole && form.is_some(), form == Some(PointShape::Round));
     }
@@ -166,8 +166,8 @@ impl Gather<'_> {
         let within = |vertex: ScreenVertex, axis: usize| {
             // From the middle, in units of the grid.
             let half = 128.0 * f64::from(sides[axis]);
-            let place = f64::from(vertex.raw()[axis]) - half;
-            place.abs() + f64::from(self.drift + 1) < f64::from(bands[axis].factor()) * half
+            let offset = f64::from(vertex.raw()[axis]) - half;
+            offset.abs() + f64::from(self.drift + 1) < f64::from(bands[axis].factor()) * half
         };
         corners.iter().all(|corner| corner.high <= 1.0 && (0..2).all(|axis| within(corner.vertex, axis)))
     }
@@ -189,10 +189,10 @@ mod tests {
         for (pixels, units) in [(0.0, 0), (1e-9, 1), (1.0 / 512.0, 1), (1.0 / 256.0, 2), (0.01, 3)] {
             assert_eq!(drift(pixels), units, "{pixels} pixels");
             for i in 0..1000 {
-                let place = f64::from(i) * 0.000_37;
-                let moved = Fixed::from_f64(place + pixels).unwrap().raw();
-                let by = moved - Fixed::from_f64(place).unwrap().raw();
-                assert!(by <= units, "{place} by {pixels} pixels moves {by} units");
+                let offset = f64::from(i) * 0.000_37;
+                let moved = Fixed::from_f64(offset + pixels).unwrap().raw();
+                let by = moved - Fixed::from_f64(offset).unwrap().raw();
+                assert!(by <= units, "{offset} by {pixels} pixels moves {by} units");
             }
         }
     }

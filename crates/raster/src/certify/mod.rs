@@ -62,7 +62,7 @@ pub use tolerance::Tolerance;
 
 use crate::{Output, Pass, Rasterizer, Target, TargetError};
 use bins::Bins;
-use codes::Codes;
+use codes::TargetCodes;
 use tile::TileCertainty;
 
 impl Rasterizer {
@@ -106,8 +106,8 @@ impl Rasterizer {
         tolerance: Tolerance,
     ) -> Result<Certificate, TargetError> {
         let mut certificate = self.certify_visibility(pass, target, tolerance);
-        let codes = Codes::of(target, tolerance.color());
-        if codes.is_asked() {
+        let codes = TargetCodes::of(target, tolerance.color());
+        if codes.is_requested() {
             let colors = Target::new(target.width(), target.height(), &[Output::Linear])?;
             let colors = colors.with_samples_per_axis(target.samples_per_axis())?;
             let mut colors = colors.with_samples(target.samples())?;

@@ -106,9 +106,9 @@ impl Outline {
 
     /// Whether two of the triangles that it is cut into may meet in the pixel
     /// around this point.
-    pub(super) fn may_part(&self, centre: [i32; 2]) -> bool {
-        let centre = centre.map(i64::from);
-        self.diagonals.iter().any(|diagonal| diagonal.is_within(self.drift + 128, centre))
+    pub(super) fn may_part(&self, center: [i32; 2]) -> bool {
+        let center = center.map(i64::from);
+        self.diagonals.iter().any(|diagonal| diagonal.is_within(self.drift + 128, center))
     }
 
     /// Whether a point of the square certainly lies in the disc, if only that is
@@ -224,9 +224,9 @@ pub(super) fn doubled_area(corners: &[Corner]) -> i64 {
 /// across the line between its neighbours, and pairs of neighbours together.
 pub(super) fn area_slack(corners: &[Corner], drift: i64) -> i64 {
     let count = corners.len();
-    let place = |i: usize| corners[i % count].vertex.raw().map(i64::from);
+    let position = |i: usize| corners[i % count].vertex.raw().map(i64::from);
     let apart = |i: usize| {
-        let [a, b] = [place(i), place(i + 2)];
+        let [a, b] = [position(i), position(i + 2)];
         (a[0] - b[0]).abs() + (a[1] - b[1]).abs()
     };
     drift * (0..count).map(apart).sum::<i64>() + 2 * count as i64 * drift * drift

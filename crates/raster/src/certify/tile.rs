@@ -21,7 +21,7 @@ struct Nearest {
 }
 
 /// A translucent layer that certainly lies over a sample.
-struct Layer {
+struct CertainLayer {
     sample: usize,
     depths: [f32; 2],
 }
@@ -77,7 +77,7 @@ struct Builder<'f> {
     area: &'f TileArea,
     /// For each sample of each pixel.
     nearest: Vec<Nearest>,
-    layers: Vec<Layer>,
+    layers: Vec<CertainLayer>,
     certainty: TileCertainty,
 }
 
@@ -99,23 +99,23 @@ impl Builder<'_> {
         }
     }
 
-    /// The samples of a pixel: index and place.
+    /// The samples of a pixel: index and position.
     fn samples(&self, pixel: usize, corner: [i32; 2]) -> impl Iterator<Item = (usize, [i32; 2])> + use<> {
         let offsets = self.frame.grid.pattern.offsets();
         let first = pixel * offsets.len();
-        let places = offsets.iter().map(move |offset| [corner[0] + offset[0], corner[1] + offset[1]]);
-        places.enumerate().map(move |(number, place)| (first + number, place))
+        let positions = offsets.iter().map(move |offset| [corner[0] + offset[0], corner[1] + offset[1]]);
+        positions.enumerate().map(move |(number, position)| (first + number, position))
     }
 
     /// Keeps an opaque primitive where it certainly covers a sample and is the
     /// nearest that does.
     fn occlude(&mut self, number: usize, outline: &Outline) {
         self.for_each_pixel(outline, |builder, pixel, corner| {
-            for (sample, place) in builder.samples(pixel, corner) {
-                if outline.covers(place) != Cover::Covers {
+            for (sample, position) in builder.samples(pixel, corner) {
+                if outline.covers(position) != Cover::Covers {
                     continue;
                 }
-                let depths = outline.depths(place);
+                let depths = outline.depths(position);
                 let nearest = &mut builder.nearest[sample];
                 if depths[0] > nearest.depths[0] {
                     *nearest = Nearest { outline: Some(number), depths };
@@ -128,32 +128,32 @@ impl Builder<'_> {
     /// Marks as uncertain the pixels in which a primitive may be visible without being certain.
     fn challenge(&mut self, number: usize, outline: &Outline) {
         self.for_each_pixel(outline, |builder, pixel, corner| {
-            let mut is_seen = false;
-            for (sample, place) in builder.samples(pixel, corner) {
+            let mut is_visible = false;
+            for (sample, position) in builder.samples(pixel, corner) {
                 if builder.nearest[sample].outline == Some(number) {
-                    is_seen = true;
+                    is_visible = true;
                     continue;
                 }
-                let cover = outline.covers(place);
+                let cover = outline.covers(position);
                 if cover == Cover::Misses {
                     continue;
                 }
-                let (depths, ground) = (outline.depths(place), builder.nearest[sample].depths);
+                let (depths, ground) = (outline.depths(position), builder.nearest[sample].depths);
                 let is_hidden = depths[1] < ground[0] || depths[1] <= BEHIND_ALL;
                 let is_layer = outline.blend_mode == BlendMode::Translucent && cover == Cover::Covers;
                 if is_layer && depths[0] > ground[1] {
-                    builder.layers.push(Layer { sample, depths });
+                    builder.layers.push(CertainLayer { sample, depths });
                     builder.certainty.drawn[pixel] = true;
-                    is_seen = true;
+                    is_visible = true;
                 } else if !is_hidden {
                     builder.certainty.doubtful[pixel] = true;
                 }
             }
             // Where it is shaded depends on whether it covers the centre, and how
             // often on the triangles that it is cut into.
-            let centre = corner.map(|v| v + 128);
-            let is_unsettled = || outline.covers(centre) == Cover::May || outline.may_part(centre);
-            if is_seen && builder.frame.is_multisampled() && is_unsettled() {
+            let center = corner.map(|v| v + 128);
+            let is_unsettled = || outline.covers(center) == Cover::May || outline.may_part(center);
+            if is_visible && builder.frame.is_multisampled() && is_unsettled() {
                 builder.certainty.doubtful[pixel] = true;
             }
         });

@@ -19,7 +19,7 @@ impl PixelInTile {
     /// The pixel alone, as fragments of one triangle are shaded.
     fn alone(&self, frame: &FrameView<'_>) -> (Job, ShadePoint) {
         let point = ShadePoint::anywhere(TileArea::index_of(self.at), frame.is_multisampled(), 0);
-        (Job { place: 0, points: 0..1 }, point)
+        (Job { triangle: 0, points: 0..1 }, point)
     }
 }
 
@@ -29,22 +29,27 @@ pub(super) fn mask(
     frame: &FrameView<'_>,
     pixel: PixelInTile,
     sample: Option<usize>,
-    place: TriangleRef,
+    triangle: TriangleRef,
 ) -> bool {
     let (job, point) = pixel.alone(frame);
     let at = |sample| ShadePoint::at_sample(TileArea::index_of(pixel.at), sample, 0);
     let point = sample.map_or(point, at);
-    let mut kept = [0];
-    let list = JobList { triangles: &[place], jobs: &[job], points: &[point] };
-    mask_jobs(frame, &pixel.area, &mut Shading::new(), list, &mut kept);
-    kept != [0]
+    let mut passed = [0];
+    let list = JobList { triangles: &[triangle], jobs: &[job], points: &[point] };
+    mask_jobs(frame, &pixel.area, &mut Shading::new(), list, &mut passed);
+    passed != [0]
 }
 
 /// The colour of a triangle at a pixel that it covers, with edges that others paint there.
-pub(super) fn color(frame: &FrameView<'_>, pixel: PixelInTile, place: TriangleRef, outer: &OuterInk) -> Vec4 {
+pub(super) fn color(
+    frame: &FrameView<'_>,
+    pixel: PixelInTile,
+    triangle: TriangleRef,
+    outer: &OuterInk,
+) -> Vec4 {
     let (job, point) = pixel.alone(frame);
     let mut colors = [[0.0; 4]];
-    let list = JobList { triangles: &[place], jobs: &[job], points: &[point] };
+    let list = JobList { triangles: &[triangle], jobs: &[job], points: &[point] };
     shade_jobs_with(frame, &pixel.area, &mut Shading::new(), list, &mut colors, outer.covered());
     Vec4::from_array(colors[0])
 }

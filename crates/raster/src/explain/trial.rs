@@ -23,7 +23,7 @@ pub(super) struct Trial<'f> {
 
 /// A triangle at a sample, still with its name.
 struct Entrant {
-    place: TriangleRef,
+    triangle_ref: TriangleRef,
     /// The share that it covers, if it covers the sample.
     coverage: f32,
     fragment: FragmentExplanation,
@@ -41,11 +41,17 @@ impl Entrant {
 
 impl<'f> Trial<'f> {
     pub(super) fn new(frame: &'f FrameView<'f>) -> Self {
-        let places = frame.chunks.iter().flat_map(|chunk| chunk.all());
-        let triangles = places.flat_map(|place| {
+        let triangle_refs = frame.chunks.iter().flat_map(|chunk| chunk.all());
+        let triangles = triangle_refs.flat_map(|triangle_ref| {
             // A point that is drawn from its vertex has one entry for both halves of its square.
-            let other = frame.draw_view(frame.draw_of(place)).square(place).map(|square| square.half(1));
-            [Some(frame.triangle(place)), other].into_iter().flatten().map(move |triangle| (place, triangle))
+            let other = frame
+                .draw_view(frame.draw_of(triangle_ref))
+                .square(triangle_ref)
+                .map(|square| square.half(1));
+            [Some(frame.triangle(triangle_ref)), other]
+                .into_iter()
+                .flatten()
+                .map(move |triangle| (triangle_ref, triangle))
         });
         Self { frame, triangles: triangles.collect() }
     }
@@ -62,7 +68,9 @@ impl<'f> Trial<'f> {
         let position = [0, 1].map(|axis| cell[axis] as i32 * 256 + offset[axis]);
         let entries = self.triangles.iter();
         let mut entrants: Vec<Entrant> = entries
-            .filter_map(|(place, triangle)| self.enter(pixel, number, position, *place, triangle))
+            .filter_map(|(triangle_ref, triangle)| {
+                self.enter(pixel, number, position, *triangle_ref, triangle)
+            })
             .collect();
         self.judge(&mut entrants);
         self.number_layers(&mut entrants);
@@ -70,7 +78,7 @@ impl<'f> Trial<'f> {
             if matches!(entrant.fragment.verdict, Verdict::Visible | Verdict::Layer(_)) {
                 // Over translucent faces no edges of others are laid.
                 let outer = if entrant.is(Verdict::Visible) { &outer } else { &OuterInk::default() };
-                let color = ask::color(frame, pixel, entrant.place, outer);
+                let color = ask::color(frame, pixel, entrant.triangle_ref, outer);
                 entrant.fragment.color = Some(color * entrant.coverage);
             }
         }
@@ -86,7 +94,7 @@ impl<'f> Trial<'f> {
         pixel: PixelInTile,
         number: usize,
         point: [i32; 2],
-        place: TriangleRef,
+        triangle_ref: TriangleRef,
         triangle: &SetupTriangle,
     ) -> Option<Entrant> {
         let within = |axis: usize| {
@@ -96,10 +104,10 @@ impl<'f> Trial<'f> {
         if !(within(0) && within(1)) {
             return None;
         }
-        let mut fragment = self.describe(place, triangle, point);
+        let mut fragment = self.describe(triangle_ref, triangle, point);
         let covering = TileTriangle::new(triangle, &self.frame.grid, &pixel.area);
         let at = pixel.at.map(|v| v as i32);
-        let stroke = self.frame.chunk_of(place).stroke_of(place);
+        let stroke = self.frame.chunk_of(triangle_ref).stroke_of(triangle_ref);
         let coverage = stroke.map_or(1.0, |stroke| stroke.coverage_at(point) as f32);
         let covers = |covering: &TileTriangle| coverage > 0.0 && covering.covers(at, number, point);
         if let Some(covering) = covering.filter(covers) {
@@ -107,20 +115,25 @@ impl<'f> Trial<'f> {
             fragment.depth = Some(covering.depth.at(point));
             let is_there = match fragment.blend_mode {
                 BlendMode::Opaque | BlendMode::Overlay | BlendMode::Translucent => true,
-                BlendMode::Masked => ask::mask(self.frame, pixel, None, place),
-                BlendMode::MaskedPerSample => ask::mask(self.frame, pixel, Some(number), place),
+                BlendMode::Masked => ask::mask(self.frame, pixel, None, triangle_ref),
+                BlendMode::MaskedPerSample => ask::mask(self.frame, pixel, Some(number), triangle_ref),
             };
             fragment.verdict = if is_there { Verdict::Hidden } else { Verdict::MaskedAway };
         }
-        Some(Entrant { place, coverage, fragment })
+        Some(Entrant { triangle_ref, coverage, fragment })
     }
 
     /// A triangle that misses the sample, until it is known to cover it.
-    fn describe(&self, place: TriangleRef, triangle: &SetupTriangle, point: [i32; 2]) -> FragmentExplanation {
+    fn describe(
+        &self,
+        triangle_ref: TriangleRef,
+        triangle: &SetupTriangle,
+        point: [i32; 2],
+    ) -> FragmentExplanation {
         let frame = self.frame;
-        let plan = &frame.plan.draws[frame.draw_of(place)];
+        let plan = &frame.plan.draws[frame.draw_of(triangle_ref)];
         let geometry = &frame.pass[plan.draw].geometry;
-        let primitive = place.ordinal - plan.ordinals.start;
+        let primitive = triangle_ref.ordinal - plan.ordinals.start;
         let order = order_of(triangle);
         // Each is opposite the vertex that it does not meet.
         let edges = Edge::of(triangle);
@@ -130,9 +143,9 @@ impl<'f> Trial<'f> {
             object: geometry.object,
             face: geometry.face(primitive),
             primitive,
-            kind: self.kind_of(place, triangle),
+            kind: self.kind_of(triangle_ref, triangle),
             blend_mode: geometry.blend_mode,
-            is_cut: self.is_cut(place, triangle),
+            is_cut: self.is_cut(triangle_ref, triangle),
             front_facing: triangle.front_facing,
             vertices: order.map(|i| triangle.vertices[i].raw()),
             edges,
@@ -144,13 +157,14 @@ impl<'f> Trial<'f> {
         }
     }
 
-    fn kind_of(&self, place: TriangleRef, triangle: &SetupTriangle) -> PrimitiveKind {
+    fn kind_of(&self, triangle_ref: TriangleRef, triangle: &SetupTriangle) -> PrimitiveKind {
         match triangle.kind {
             Kind::Triangle => PrimitiveKind::Triangle,
             Kind::Line => PrimitiveKind::Line,
             Kind::SquarePoint => PrimitiveKind::SquarePoint,
             Kind::RoundPoint => PrimitiveKind::RoundPoint,
-            Kind::Stroke => match self.frame.chunk_of(place).stroke_of(place).map(Stroke::form) {
+            Kind::Stroke => match self.frame.chunk_of(triangle_ref).stroke_of(triangle_ref).map(Stroke::form)
+            {
                 Some(Form::Square) => PrimitiveKind::SquarePoint,
                 Some(Form::Round) => PrimitiveKind::RoundPoint,
                 Some(Form::Line) | None => PrimitiveKind::Line,
@@ -159,11 +173,11 @@ impl<'f> Trial<'f> {
     }
 
     /// Whether vertices of the triangle are not its primitive's own.
-    fn is_cut(&self, place: TriangleRef, triangle: &SetupTriangle) -> bool {
+    fn is_cut(&self, triangle_ref: TriangleRef, triangle: &SetupTriangle) -> bool {
         match triangle.corners {
             Corners::Whole(_) => false,
             Corners::Cut { .. } | Corners::Ends(_) => {
-                let weights = self.frame.chunk_of(place).weights_of(place);
+                let weights = self.frame.chunk_of(triangle_ref).weights_of(triangle_ref);
                 weights.is_some_and(|weights| !weights.iter().all(|corners| corners.contains(&1.0)))
             }
         }
@@ -171,7 +185,8 @@ impl<'f> Trial<'f> {
 
     /// Whether `a` is visible rather than `b`, where both cover the sample.
     fn beats(&self, a: &Entrant, b: &Entrant) -> bool {
-        a.depth() > b.depth() || (a.depth() == b.depth() && self.frame.precedes(a.place, b.place))
+        a.depth() > b.depth()
+            || (a.depth() == b.depth() && self.frame.precedes(a.triangle_ref, b.triangle_ref))
     }
 
     /// Finds the visible triangle, and why the others that cover the sample are not visible; layers are left
@@ -198,7 +213,7 @@ impl<'f> Trial<'f> {
             entrant.fragment.verdict = verdict;
             let rival = if visible == Some(i) { depths[1] } else { depths[0] };
             let pair = entrant.fragment.depth.zip(rival);
-            entrant.fragment.margin = pair.map(|(ours, theirs)| ulps::place(ours) - ulps::place(theirs));
+            entrant.fragment.margin = pair.map(|(ours, theirs)| ulps::ordinal(ours) - ulps::ordinal(theirs));
         }
     }
 
@@ -227,7 +242,7 @@ impl<'f> Trial<'f> {
         layers.sort_by(|a, b| self.back_to_front(a, b));
         let shares: Vec<_> = layers
             .iter()
-            .map(|layer| SampleShare { triangle: layer.place, coverage: layer.coverage })
+            .map(|layer| SampleShare { triangle: layer.triangle_ref, coverage: layer.coverage })
             .collect();
         let mut number = 0;
         for (layer, own) in layers.into_iter().zip(&shares) {
@@ -242,7 +257,7 @@ impl<'f> Trial<'f> {
 
     fn back_to_front(&self, a: &Entrant, b: &Entrant) -> Ordering {
         let depth = a.depth().partial_cmp(&b.depth()).unwrap_or(Ordering::Equal);
-        depth.then_with(|| self.frame.compare(b.place, a.place))
+        depth.then_with(|| self.frame.compare(b.triangle_ref, a.triangle_ref))
     }
 
     fn in_telling_order(&self, a: &Entrant, b: &Entrant) -> Ordering {
@@ -259,9 +274,9 @@ impl<'f> Trial<'f> {
 /// The colour of a sample: its layers over the visible triangle or the background.
 fn blended(fragments: &[FragmentExplanation], background: Vec4) -> Vec4 {
     let colored = |won: bool| {
-        let told =
+        let explained =
             fragments.iter().rev().filter(move |fragment| (fragment.verdict == Verdict::Visible) == won);
-        told.filter_map(|fragment| fragment.color)
+        explained.filter_map(|fragment| fragment.color)
     };
     let ground = colored(true).next().unwrap_or(background);
     colored(false).fold(ground, |color, layer| saturated(layer + color * (1.0 - layer.w)))

@@ -13,9 +13,9 @@
 //! Shading", 1991.)
 
 use super::layout::cold;
-use super::placed::Placed;
+use super::placed::WeightedPoints;
 use super::triangle_lanes::TriangleLanes;
-use crate::simd::{Each, F32, I32, Row, Simd, greater, inlined, lesser, prelude::*};
+use crate::simd::{F32, I32, InlineMap, Row, Simd, greater, inlined, lesser, prelude::*};
 
 /// The weights of eight points in their triangles, and what follows from them.
 pub(crate) struct Barycentrics<S: Simd> {
@@ -38,7 +38,7 @@ impl<S: Simd> TriangleLanes<'_, S> {
     /// The weights at points in 1/256 pixel from the tile's corner, computed ahead of shading
     /// because the division takes longest.
     #[inline(always)]
-    pub(crate) fn weigh(&self, simd: S, point: [I32<S>; 2]) -> Placed {
+    pub(crate) fn weigh(&self, simd: S, point: [I32<S>; 2]) -> WeightedPoints {
         let (edges, _) = self.edges(simd, point);
         let raw = self.raw_weights(edges);
         // One division for all three weights.
@@ -49,7 +49,7 @@ impl<S: Simd> TriangleLanes<'_, S> {
         );
         let [x, y] = point;
         let [a, b, c] = raw;
-        Placed {
+        WeightedPoints {
             point: [x.into(), y.into()],
             weights: [row(a * inverse), row(b * inverse), row(c * inverse)],
             inverse: row(inverse),
@@ -58,7 +58,7 @@ impl<S: Simd> TriangleLanes<'_, S> {
 
     /// The weights at points, with their derivatives and the distances to edges.
     #[inline(always)]
-    pub(crate) fn at(&self, simd: S, placed: &Placed) -> Barycentrics<S> {
+    pub(crate) fn at(&self, simd: S, placed: &WeightedPoints) -> Barycentrics<S> {
         let point = placed.point(simd);
         let value = inlined(
             #[inline(always)]

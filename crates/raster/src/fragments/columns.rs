@@ -6,14 +6,14 @@
 
 use super::context::ShadeContext;
 use super::layout::{CutColumns, RecordShape, cold, hot, lined};
-use super::placed::Placed;
+use super::placed::WeightedPoints;
 use super::records::Records;
 use super::task::FragmentBatch;
 use crate::MAX_VARYINGS;
-use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};
+use crate::simd::{I32, InlineMap, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};
 
 /// The records of the triangles of eight pixels, and the lanes of all but the first.
-enum Seen<S: Simd> {
+enum TrianglesOfLanes<S: Simd> {
     One([u32; 1]),
     Two([u32; 2], [Mask<S>; 1]),
     Three([u32; 3], [Mask<S>; 2]),
@@ -22,7 +22,7 @@ enum Seen<S: Simd> {
     Many([u32; LANES]),
 }
 
-impl<S: Simd> Seen<S> {
+impl<S: Simd> TrianglesOfLanes<S> {
     /// Finds the different triangles that the eight lanes show. The processor cannot predict their
     /// count, so it should be known early: the first and the last of the lanes that differ from
     /// lane 0 are compared at the same time, not one after the other. If these two show one
@@ -78,15 +78,15 @@ pub(crate) struct Columns {
     /// Whether a triangle is wide or cut.
     is_special: bool,
     /// Filled only then.
-    special: Special,
+    special: SpecialColumns,
     /// The one triangle that all lanes hold.
     uniform: Option<u32>,
     /// Where the pixels lie in their triangles.
-    pub(crate) placed: Placed,
+    pub(crate) placed: WeightedPoints,
 }
 
 /// What only vectors with a wide or cut triangle need.
-pub(crate) struct Special {
+pub(crate) struct SpecialColumns {
     pub(crate) cold: [Row; cold::COUNT],
     /// Twice the areas.
     pub(crate) areas: [f64; LANES],
@@ -95,7 +95,7 @@ pub(crate) struct Special {
     is_cut: bool,
 }
 
-impl Special {
+impl SpecialColumns {
     /// The corners' weights at the vertices, if a triangle is cut.
     #[inline(always)]
     pub(crate) fn cut(&self) -> Option<&CutColumns> {
@@ -109,9 +109,9 @@ impl Columns {
         Self {
             rows: Box::new(AlignedRows([[0; LANES]; ROWS])),
             is_special: false,
-            special: Special { cold, areas: [0.0; LANES], cut, is_cut: false },
+            special: SpecialColumns { cold, areas: [0.0; LANES], cut, is_cut: false },
             uniform: None,
-            placed: Placed::default(),
+            placed: WeightedPoints::default(),
         }
     }
 
@@ -148,7 +148,7 @@ impl Columns {
 
     /// What is special, if a triangle is wide or cut.
     #[inline(always)]
-    pub(crate) fn special(&self) -> Option<&Special> {
+    pub(crate) fn special(&self) -> Option<&SpecialColumns> {
         self.is_special.then_some(&self.special)
     }
 
@@ -166,18 +166,18 @@ impl Columns {
             #[inline(always)]
             |slot: u32| rows.of(slot),
         );
-        match Seen::find(simd, vector) {
-            Seen::One(slots) => {
+        match TrianglesOfLanes::find(simd, vector) {
+            TrianglesOfLanes::One(slots) => {
                 self.uniform = Some(slots[0]);
                 if self.uniform == before {
                     return;
                 }
                 self.mix(simd, slots.each(of), []);
             }
-            Seen::Two(slots, masks) => self.mix(simd, slots.each(of), masks),
-            Seen::Three(slots, masks) => self.mix(simd, slots.each(of), masks),
-            Seen::Four(slots, masks) => self.mix(simd, slots.each(of), masks),
-            Seen::Many(slots) => self.gather_apart(simd, records, slots),
+            TrianglesOfLanes::Two(slots, masks) => self.mix(simd, slots.each(of), masks),
+            TrianglesOfLanes::Three(slots, masks) => self.mix(simd, slots.each(of), masks),
+            TrianglesOfLanes::Four(slots, masks) => self.mix(simd, slots.each(of), masks),
+            TrianglesOfLanes::Many(slots) => self.gather_apart(simd, records, slots),
         }
         self.is_special = self.any_special(simd);
         if self.is_special {
@@ -246,7 +246,7 @@ impl Columns {
     }
 }
 
-impl Special {
+impl SpecialColumns {
     /// The rest, from the cold columns.
     #[cold]
     fn load(&mut self, context: &ShadeContext<'_>) {
@@ -263,8 +263,8 @@ impl Special {
     fn load_cuts(&mut self, context: &ShadeContext<'_>) {
         self.is_cut = false;
         for lane in 0..LANES {
-            let place = context.triangles[self.cold[cold::PLACE][lane] as usize];
-            let cut = place.part().and_then(|_| context.draw.chunk_of(place).weights_of(place));
+            let triangle = context.triangles[self.cold[cold::INDEX][lane] as usize];
+            let cut = triangle.part().and_then(|_| context.draw.chunk_of(triangle).weights_of(triangle));
             self.is_cut |= cut.is_some();
             let weights = cut.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
             for (columns, weights) in self.cut.iter_mut().zip(weights) {
@@ -283,7 +283,7 @@ mod tests {
     use crate::simd::{SimdLevel, at_level};
 
     /// How many records are told apart, and the record of each lane by the masks.
-    fn seen(slots: [u32; LANES]) -> (usize, [u32; LANES]) {
+    fn triangles_of(slots: [u32; LANES]) -> (usize, [u32; LANES]) {
         fn lanes<S: Simd, const COUNT: usize, const OTHERS: usize>(
             slots: [u32; COUNT],
             masks: [Mask<S>; OTHERS],
@@ -299,12 +299,12 @@ mod tests {
         let fragments = FragmentSlice { slots: &slots, spots: &[0; LANES], outputs: &[0; LANES] };
         let task = crate::fragments::task::Task::of_fragments(&records, 0, fragments);
         let token = SimdLevel::best().token().expect("the best level is there");
-        at_level!(token, simd => match Seen::find(simd, &task.vector(simd, 0)) {
-            Seen::One([slot]) => (1, [slot; LANES]),
-            Seen::Two(slots, masks) => lanes(slots, masks),
-            Seen::Three(slots, masks) => lanes(slots, masks),
-            Seen::Four(slots, masks) => lanes(slots, masks),
-            Seen::Many(slots) => (LANES, slots),
+        at_level!(token, simd => match TrianglesOfLanes::find(simd, &task.vector(simd, 0)) {
+            TrianglesOfLanes::One([slot]) => (1, [slot; LANES]),
+            TrianglesOfLanes::Two(slots, masks) => lanes(slots, masks),
+            TrianglesOfLanes::Three(slots, masks) => lanes(slots, masks),
+            TrianglesOfLanes::Four(slots, masks) => lanes(slots, masks),
+            TrianglesOfLanes::Many(slots) => (LANES, slots),
         })
     }
 
@@ -314,14 +314,18 @@ mod tests {
         for number in (0..1 << (2 * LANES)).step_by(5) {
             let slots: [u32; LANES] = std::array::from_fn(|lane| 30 + (number >> (2 * lane) & 3));
             let count = (30..34).filter(|slot| slots.contains(slot)).count();
-            let (found, told) = seen(slots);
-            assert_eq!(told, slots, "{slots:?}");
+            let (found, triangles) = triangles_of(slots);
+            assert_eq!(triangles, slots, "{slots:?}");
             // The first and the last of the others are compared with them at once. If both are one triangle, more than
             // two are told apart in a longer way.
             let mut others = slots.iter().filter(|&&slot| slot != slots[0]);
             let is_exact = count < 3 || others.next() != others.next_back();
             assert!(if is_exact { found == count } else { found > count }, "{found} of {slots:?}");
         }
-        assert_eq!(seen([4, 9, 4, 2, 7, 7, 1, 0]).1, [4, 9, 4, 2, 7, 7, 1, 0], "and more are gathered");
+        assert_eq!(
+            triangles_of([4, 9, 4, 2, 7, 7, 1, 0]).1,
+            [4, 9, 4, 2, 7, 7, 1, 0],
+            "and more are gathered"
+        );
     }
 }

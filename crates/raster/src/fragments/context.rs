@@ -177,6 +177,6 @@ pub(crate) struct Spots<S: Simd> {
 #[derive(Clone, Debug)]
 pub(crate) struct Job {
     /// Index of the triangle among the tile's.
-    pub(crate) place: u32,
+    pub(crate) triangle: u32,
     pub(crate) points: Range<usize>,
 }

@@ -1,6 +1,6 @@
 //! Linear light to bytes.
 
-use crate::simd::{Each, F32, I32, LANES, Simd, U32, channels, greater, lanes_of, lesser, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Simd, U32, channels, greater, lanes_of, lesser, prelude::*};
 use trigon_math::{Vec4, color};
 
 /// What the bytes of an image mean.

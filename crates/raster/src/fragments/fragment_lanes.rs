@@ -6,7 +6,7 @@ use super::context::ShadeContext;
 use super::layout::{cold, flag};
 use super::records::{Records, Tag};
 use super::task::FragmentBatch;
-use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, lesser, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Mask, Row, Simd, greater, lesser, prelude::*};
 use crate::{Fragment, MAX_VARYINGS, Varyings};
 use trigon_math::{UVec2, Vec2};
 
@@ -109,8 +109,8 @@ impl<S: Simd> FragmentLanes<'_, S> {
         [0, 1].each(
             #[inline(always)]
             |axis| {
-                let place = self.point[axis] + self.context.area.origin[axis] * 256;
-                place.to_float::<F32<S>>() / pixel
+                let position = self.point[axis] + self.context.area.origin[axis] * 256;
+                position.to_float::<F32<S>>() / pixel
             },
         )
     }
@@ -138,7 +138,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
     /// Calls `visit` with each active lane as a separate fragment.
     #[inline(always)]
     pub(crate) fn for_each(&self, mut visit: impl FnMut(usize, RawFragment<'_>)) {
-        let (mut rows, count) = (Rows::new(), self.varyings[0].len());
+        let (mut rows, count) = (ComponentRows::new(), self.varyings[0].len());
         for index in 0..count {
             let [dx, dy] = self.gradient(index);
             rows.set(index, [self.varying(index), dx, dy]);
@@ -219,9 +219,9 @@ impl RawFragment<'_> {
 }
 
 /// Values and derivatives, turned from columns of lanes to rows of components.
-struct Rows([[[f32; MAX_VARYINGS]; LANES]; 3]);
+struct ComponentRows([[[f32; MAX_VARYINGS]; LANES]; 3]);
 
-impl Rows {
+impl ComponentRows {
     #[inline(always)]
     fn new() -> Self {
         Self([[[0.0; MAX_VARYINGS]; LANES]; 3])

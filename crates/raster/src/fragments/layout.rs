@@ -27,7 +27,7 @@ pub(crate) mod cold {
     /// The power of two.
     pub(crate) const SCALE: usize = 6;
     /// The triangle among the tile's.
-    pub(crate) const PLACE: usize = 7;
+    pub(crate) const INDEX: usize = 7;
     /// Depths of the vertices.
     pub(crate) const DEPTH: usize = 8;
     /// How many there are.

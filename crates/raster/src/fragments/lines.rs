@@ -3,12 +3,14 @@
 use super::context::ShadeContext;
 use super::layout::{RecordShape, lined};
 use super::perspective::perspective;
-use super::sorted::Sorted;
+use super::sorted::SortedTriangles;
 use crate::EdgeFlags;
 use crate::bin::TriangleRef;
 use crate::ink::{FaceLine, Ink, LineColumns, VisibleFaces};
 use crate::primitive::Corners;
-use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, inlined, lesser, prelude::*, transpose};
+use crate::simd::{
+    F32, I32, InlineMap, LANES, Mask, Row, Simd, greater, inlined, lesser, prelude::*, transpose,
+};
 
 /// The radius in pixels of faces whose exact size does not matter.
 const HUGE: f32 = 1e9;
@@ -17,7 +19,7 @@ const HUGE: f32 = 1e9;
 const LEAST: f32 = 1e-6;
 
 /// What is painted on eight triangles, and what others have to know of it.
-pub(crate) struct Lines {
+pub(crate) struct FaceLines {
     /// Those of [`lined`], and two that only fill up the eight that are transposed.
     columns: [Row; LANES],
     half: [f32; LANES],
@@ -27,13 +29,13 @@ pub(crate) struct Lines {
     shows_edges: bool,
 }
 
-impl Lines {
+impl FaceLines {
     #[inline(always)]
     pub(crate) fn new<S: Simd>(
         simd: S,
         context: &ShadeContext<'_>,
         ink: &Ink,
-        sorted: &Sorted<S>,
+        sorted: &SortedTriangles<S>,
         triangles: [TriangleRef; LANES],
         primitives: [u32; LANES],
     ) -> Self {
@@ -46,7 +48,7 @@ impl Lines {
         let is_edge = edges_of(simd, sorted, flags);
         let lengths = lengths_of(sorted);
         let mut radius = radius_of(simd, sorted, lengths, is_edge, flags);
-        let is_cut = triangles.each(|place| corners_of(context, place).is_some());
+        let is_cut = triangles.each(|triangle| corners_of(context, triangle).is_some());
         if is_cut.contains(&true) {
             let cut = Mask::from_bitmask(simd, bits(is_cut));
             radius = cut.select(F32::splat(simd, HUGE), radius);
@@ -92,7 +94,7 @@ impl Lines {
     fn cut<S: Simd>(
         &mut self,
         context: &ShadeContext<'_>,
-        sorted: &Sorted<S>,
+        sorted: &SortedTriangles<S>,
         triangle: TriangleRef,
         flags: EdgeFlags,
         lane: usize,
@@ -141,24 +143,35 @@ impl Lines {
 
     /// Notes what the search for outer halves of lines needs of the visible triangles.
     #[inline(always)]
-    pub(crate) fn note<S: Simd>(&self, simd: S, sorted: &Sorted<S>, seen: &[u32], outer: &mut VisibleFaces) {
+    pub(crate) fn note<S: Simd>(
+        &self,
+        simd: S,
+        sorted: &SortedTriangles<S>,
+        visible: &[u32],
+        outer: &mut VisibleFaces,
+    ) {
         let [a, b, c] = sorted.depth;
         let greatest = greater(greater(a, b), c);
         let none = F32::splat(simd, f32::NEG_INFINITY);
         if self.shows_edges {
             let is_painted = F32::simd_from(simd, self.beyond).simd_gt(0.0);
             let least = is_painted.select(lesser(lesser(a, b), c), none);
-            outer.note_eight(simd, seen, [least, greatest], [self.half, self.beyond, self.radius]);
+            outer.note_eight(simd, visible, [least, greatest], [self.half, self.beyond, self.radius]);
         } else {
             let FaceLine { half, weight, radius } = FaceLine::UNLINED;
-            outer.note_eight(simd, seen, [none, greatest], [[half; LANES], [weight; LANES], [radius; LANES]]);
+            outer.note_eight(
+                simd,
+                visible,
+                [none, greatest],
+                [[half; LANES], [weight; LANES], [radius; LANES]],
+            );
         }
     }
 }
 
 /// Where the edges opposite the sorted vertices are edges of the face.
 #[inline(always)]
-fn edges_of<S: Simd>(simd: S, sorted: &Sorted<S>, flags: [EdgeFlags; LANES]) -> [Mask<S>; 3] {
+fn edges_of<S: Simd>(simd: S, sorted: &SortedTriangles<S>, flags: [EdgeFlags; LANES]) -> [Mask<S>; 3] {
     let opposite = I32::simd_from(
         simd,
         flags.each(
@@ -179,7 +192,7 @@ fn edges_of<S: Simd>(simd: S, sorted: &Sorted<S>, flags: [EdgeFlags; LANES]) -> 
 
 /// The lengths in pixels of the sides opposite the sorted vertices.
 #[inline(always)]
-fn lengths_of<S: Simd>(sorted: &Sorted<S>) -> [F32<S>; 3] {
+fn lengths_of<S: Simd>(sorted: &SortedTriangles<S>) -> [F32<S>; 3] {
     let length = inlined(
         #[inline(always)]
         |(from, to): (usize, usize)| {
@@ -197,7 +210,7 @@ fn lengths_of<S: Simd>(sorted: &Sorted<S>) -> [F32<S>; 3] {
 #[inline(always)]
 fn radius_of<S: Simd>(
     simd: S,
-    sorted: &Sorted<S>,
+    sorted: &SortedTriangles<S>,
     lengths: [F32<S>; 3],
     is_edge: [Mask<S>; 3],
     flags: [EdgeFlags; LANES],
@@ -228,7 +241,7 @@ fn radius_of<S: Simd>(
 
 /// The factors that turn raw weights of corners into distances in pixels.
 #[inline(always)]
-fn inverses<S: Simd>(simd: S, sorted: &Sorted<S>, lengths: [F32<S>; 3]) -> [F32<S>; 3] {
+fn inverses<S: Simd>(simd: S, sorted: &SortedTriangles<S>, lengths: [F32<S>; 3]) -> [F32<S>; 3] {
     let (q, _) = perspective(simd, sorted.inverse_w);
     [0, 1, 2].each(
         #[inline(always)]
@@ -239,12 +252,12 @@ fn inverses<S: Simd>(simd: S, sorted: &Sorted<S>, lengths: [F32<S>; 3]) -> [F32<
 
 /// The index of the weights of a triangle that was cut, and the corners of their columns.
 #[inline(always)]
-fn corners_of(context: &ShadeContext<'_>, place: TriangleRef) -> Option<(u32, [u8; 3])> {
+fn corners_of(context: &ShadeContext<'_>, triangle: TriangleRef) -> Option<(u32, [u8; 3])> {
     // Most are whole, and to find the chunk of one takes a search.
-    if place.is_whole() {
+    if triangle.is_whole() {
         return None;
     }
-    match context.draw.chunk_of(place).made(place)?.corners {
+    match context.draw.chunk_of(triangle).made(triangle)?.corners {
         Corners::Cut { weights, order } => Some((weights, order)),
         Corners::Whole(_) | Corners::Ends(_) => None,
     }

@@ -7,7 +7,7 @@ use super::records::Records;
 use super::triangle_lanes::TriangleLanes;
 use crate::ink::Ink;
 use crate::marks::Overlap;
-use crate::simd::{Each, F32, I32, LANES, Row, Simd, U32, greater, lesser, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Row, Simd, U32, greater, lesser, prelude::*};
 
 /// The inputs. Nothing that shading has computed is among them: its results stay in registers, and
 /// what is needed here is computed again.

@@ -1,5 +1,5 @@
 //! Lists of fragments, in columns: eight fragments need one load each for their triangles, their points and the
-//! places of their results.
+//! indices of their results.
 
 use super::context::ShadePoint;
 use crate::simd::{Mask, Simd, U32, append, prelude::*};

@@ -5,7 +5,7 @@ use super::fragment_lanes::FragmentLanes;
 use super::lines_over::LinesOver;
 use super::task::Destination;
 use crate::ink::Ink;
-use crate::simd::{Each, F32, LANES, Simd, colors_of, prelude::*};
+use crate::simd::{F32, InlineMap, LANES, Simd, colors_of, prelude::*};
 
 /// The colours of a tile's pixels or fragments.
 ///
@@ -23,10 +23,10 @@ pub(crate) enum ShadeOutput<'a> {
 /// Where colours go with what paints over them.
 pub(crate) struct Inked<'a> {
     ink: &'a Ink,
-    to: Plain<'a>,
+    to: PlainOutput<'a>,
 }
 
-enum Plain<'a> {
+enum PlainOutput<'a> {
     Codes(Codes<'a>),
     Colors(Colors<'a>),
 }
@@ -50,13 +50,13 @@ impl<'a> ShadeOutput<'a> {
     /// The same with edges and marks over the colours, if there is something that paints them.
     pub(crate) fn with_ink(self, ink: Option<&'a Ink>) -> Self {
         match (self, ink) {
-            (Self::Codes(codes), Some(ink)) => Self::Inked(Inked { ink, to: Plain::Codes(codes) }),
-            (Self::Colors(colors), Some(ink)) => Self::Inked(Inked { ink, to: Plain::Colors(colors) }),
+            (Self::Codes(codes), Some(ink)) => Self::Inked(Inked { ink, to: PlainOutput::Codes(codes) }),
+            (Self::Colors(colors), Some(ink)) => Self::Inked(Inked { ink, to: PlainOutput::Colors(colors) }),
             (inked @ Self::Inked(_), _) | (inked, None) => inked,
         }
     }
 
-    /// Writes the colours of up to eight fragments, each to its place.
+    /// Writes the colours of up to eight fragments, each to its index.
     #[inline(always)]
     pub(crate) fn write<S: Simd>(&mut self, fragments: &FragmentLanes<'_, S>, color: [F32<S>; 4]) {
         let FragmentLanes { simd, context, records, columns, vector, .. } = *fragments;
@@ -82,8 +82,8 @@ impl Inked<'_> {
     fn write<S: Simd>(&mut self, color: [F32<S>; 4], to: Destination<'_>) {
         let simd = color[0].token();
         match &mut self.to {
-            Plain::Codes(codes) => codes.write(simd, color, to),
-            Plain::Colors(colors) => colors.write(simd, color, to),
+            PlainOutput::Codes(codes) => codes.write(simd, color, to),
+            PlainOutput::Colors(colors) => colors.write(simd, color, to),
         }
     }
 }

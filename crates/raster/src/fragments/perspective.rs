@@ -1,6 +1,6 @@
 //! The factors that make weights perspective-correct.
 
-use crate::simd::{Each, F32, Simd, U32, greater, prelude::*};
+use crate::simd::{F32, InlineMap, Simd, U32, greater, prelude::*};
 
 /// Bounds the ratio of w within a triangle: the 1/w of a vertex is clamped to at least the largest
 /// power of two not above the greatest one, divided by this. Keeps all quotients finite.

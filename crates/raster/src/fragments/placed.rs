@@ -6,7 +6,7 @@ use crate::simd::{I32, Row, Simd, prelude::*};
 /// eight pixels before the current eight are shaded, so that shading does not wait for them.
 #[derive(Clone, Default)]
 #[repr(align(64))]
-pub(crate) struct Placed {
+pub(crate) struct WeightedPoints {
     /// In 1/256 pixel from the tile's corner.
     pub(crate) point: [Row; 2],
     /// Perspective-correct weights of the corners, and one over the sum of the raw weights: bits of
@@ -15,7 +15,7 @@ pub(crate) struct Placed {
     pub(crate) inverse: Row,
 }
 
-impl Placed {
+impl WeightedPoints {
     #[inline(always)]
     pub(crate) fn point<S: Simd>(&self, simd: S) -> [I32<S>; 2] {
         let [x, y] = self.point;

@@ -7,12 +7,12 @@
 
 use super::context::ShadeContext;
 use super::layout::{RecordShape, cold, hot};
-use super::lines::Lines;
-use super::sorted::Sorted;
+use super::lines::FaceLines;
+use super::sorted::SortedTriangles;
 use crate::bin::TriangleRef;
 use crate::ink::VisibleFaces;
 use crate::marks::Marks;
-use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
+use crate::simd::{InlineMap, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
 /// What few pipelines read of a triangle.
 #[derive(Clone, Copy, Default)]
@@ -30,7 +30,7 @@ pub(crate) struct Records {
     rows: Vec<Row>,
     tags: Vec<Tag>,
     /// The triangles among the tile's.
-    seen: Vec<u32>,
+    visible: Vec<u32>,
     /// The layout of the selected draw's records.
     shape: RecordShape,
     /// How many rows and records there are.
@@ -40,15 +40,15 @@ pub(crate) struct Records {
 impl Records {
     /// Makes records of some of the tile's triangles, all of the context's draw, and forgets
     /// all others.
-    pub(crate) fn fill(&mut self, token: Token, context: &ShadeContext<'_>, seen: &[u32]) {
+    pub(crate) fn fill(&mut self, token: Token, context: &ShadeContext<'_>, visible: &[u32]) {
         self.clear();
-        self.append(token, context, seen, None);
+        self.append(token, context, visible, None);
     }
 
     /// Forgets all records.
     pub(crate) fn clear(&mut self) {
         self.used = [0; 2];
-        self.seen.clear();
+        self.visible.clear();
     }
 
     /// Appends records of triangles of the context's draw and selects them. `outer`
@@ -57,32 +57,32 @@ impl Records {
         &mut self,
         token: Token,
         context: &ShadeContext<'_>,
-        seen: &[u32],
+        visible: &[u32],
         mut outer: Option<&mut VisibleFaces>,
     ) -> RecordShape {
         let shape = RecordShape { first: self.used, ..RecordShape::new(context) };
         let [row, record] = shape.first;
-        let used = [row + seen.len() * shape.size, record + seen.len()];
+        let used = [row + visible.len() * shape.size, record + visible.len()];
         if self.rows.len() < used[0] {
             self.rows.resize(used[0], [0; LANES]);
         }
         if self.tags.len() < used[1] {
             self.tags.resize(used[1], Tag::default());
         }
-        self.seen.extend_from_slice(seen);
+        self.visible.extend_from_slice(visible);
         (self.used, self.shape) = (used, shape);
         if context.has_flat_marks() {
-            self.fill_flat(context, seen, shape);
+            self.fill_flat(context, visible, shape);
             if let Some(outer) = outer.as_deref_mut() {
-                note_flat(context, seen, outer);
+                note_flat(context, visible, outer);
             }
             return shape;
         }
         at_level!(token, simd => {
             let rows = self.rows[row..used[0]].chunks_mut(LANES * shape.size);
             let tags = self.tags[record..used[1]].chunks_mut(LANES);
-            for ((seen, rows), tags) in seen.chunks(LANES).zip(rows).zip(tags) {
-                eight(simd, context, seen, EightRecords { rows, shape, tags }, outer.as_deref_mut());
+            for ((visible, rows), tags) in visible.chunks(LANES).zip(rows).zip(tags) {
+                prepare_batch(simd, context, visible, EightRecords { rows, shape, tags }, outer.as_deref_mut());
             }
         });
         shape
@@ -95,13 +95,13 @@ impl Records {
 
     /// Records of flat lines and points. Only their ids are read, so all else stays zero, except
     /// the steps, because steps of zero mark a triangle that is wide or cut.
-    fn fill_flat(&mut self, context: &ShadeContext<'_>, seen: &[u32], shape: RecordShape) {
+    fn fill_flat(&mut self, context: &ShadeContext<'_>, visible: &[u32], shape: RecordShape) {
         let [row, record] = shape.first;
         let rows = &mut self.rows[row..self.used[0]];
         rows.fill([0; LANES]);
         let first = context.draw.first;
         let tags = &mut self.tags[record..];
-        for ((record, tag), &number) in rows.chunks_exact_mut(shape.size).zip(tags).zip(seen) {
+        for ((record, tag), &number) in rows.chunks_exact_mut(shape.size).zip(tags).zip(visible) {
             record[0][hot::STEPS] = 1;
             record[0][hot::STEPS + 1] = 1;
             *tag = Tag { primitive: context.triangles[number as usize].ordinal - first, flags: 0 };
@@ -148,13 +148,13 @@ impl Records {
         simd.vectorize(
             #[inline(always)]
             || {
-                let seen = slots.each(
+                let visible = slots.each(
                     #[inline(always)]
-                    |slot| self.seen[self.shape.first[1] + slot as usize],
+                    |slot| self.visible[self.shape.first[1] + slot as usize],
                 );
                 let mut columns = [[0; LANES]; cold::COUNT];
                 if self.shape.size == self.shape.loaded {
-                    let sorted = Sorted::made(simd, context, triangle_refs(context, seen));
+                    let sorted = SortedTriangles::made(simd, context, triangle_refs(context, visible));
                     let [_, first, second] = sorted.heads(simd, context.area.origin);
                     columns[..LANES].copy_from_slice(&first);
                     columns[LANES..].copy_from_slice(&second);
@@ -168,7 +168,7 @@ impl Records {
                         transpose(simd, rows, columns);
                     }
                 }
-                columns[cold::PLACE] = seen.each(u32::cast_signed);
+                columns[cold::INDEX] = visible.each(u32::cast_signed);
                 columns
             },
         )
@@ -176,8 +176,8 @@ impl Records {
 }
 
 /// Notes where flat lines and points lie, for the edges of faces beside them.
-fn note_flat(context: &ShadeContext<'_>, seen: &[u32], outer: &mut VisibleFaces) {
-    for &number in seen {
+fn note_flat(context: &ShadeContext<'_>, visible: &[u32], outer: &mut VisibleFaces) {
+    for &number in visible {
         let greatest = context.draw.triangle(context.triangles[number as usize]).nearest();
         outer.note_unlined(number, greatest);
     }
@@ -200,8 +200,8 @@ impl<'r> SelectedRows<'r> {
 
 /// Eight of the tile's triangles.
 #[inline(always)]
-fn triangle_refs(context: &ShadeContext<'_>, seen: [u32; LANES]) -> [TriangleRef; LANES] {
-    seen.each(
+fn triangle_refs(context: &ShadeContext<'_>, visible: [u32; LANES]) -> [TriangleRef; LANES] {
+    visible.each(
         #[inline(always)]
         |number| context.triangles[number as usize],
     )
@@ -216,31 +216,31 @@ struct EightRecords<'r> {
 
 /// Makes the records of up to eight triangles. Unused lanes repeat the first.
 #[inline(always)]
-fn eight<S: Simd>(
+fn prepare_batch<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
-    seen: &[u32],
+    visible: &[u32],
     out: EightRecords<'_>,
     outer: Option<&mut VisibleFaces>,
 ) {
     let EightRecords { rows, shape, tags } = out;
     let numbers = lanes_of(
         #[inline(always)]
-        |lane| *seen.get(lane).unwrap_or(&seen[0]),
+        |lane| *visible.get(lane).unwrap_or(&visible[0]),
     );
     let triangles = triangle_refs(context, numbers);
     let first = context.draw.first;
     let primitives = triangles.each(
         #[inline(always)]
-        |place| place.ordinal - first,
+        |triangle| triangle.ordinal - first,
     );
     let indices = context.geometry().corners_of(primitives);
-    let sorted = if triangles.iter().all(|place| place.is_whole()) {
-        Sorted::whole(simd, context, indices)
+    let sorted = if triangles.iter().all(|triangle| triangle.is_whole()) {
+        SortedTriangles::whole(simd, context, indices)
     } else {
         simd.vectorize(
             #[inline(always)]
-            || Sorted::made(simd, context, triangles),
+            || SortedTriangles::made(simd, context, triangles),
         )
     };
     let columns = sorted.heads(simd, context.area.origin);
@@ -248,8 +248,8 @@ fn eight<S: Simd>(
     for ((tag, primitive), flags) in tags.iter_mut().zip(primitives).zip(flags) {
         *tag = Tag { primitive, flags };
     }
-    let kept = if shape.size == shape.loaded { 1 } else { 3 };
-    for (columns, row) in columns.iter().zip([0, shape.loaded, shape.loaded + 1]).take(kept) {
+    let columns_per_row = if shape.size == shape.loaded { 1 } else { 3 };
+    for (columns, row) in columns.iter().zip([0, shape.loaded, shape.loaded + 1]).take(columns_per_row) {
         let mut turned = [[0; LANES]; LANES];
         transpose(simd, columns.each_ref(), &mut turned);
         for (record, turned) in rows.chunks_exact_mut(shape.size).zip(turned) {
@@ -263,10 +263,10 @@ fn eight<S: Simd>(
         simd.vectorize(
             #[inline(always)]
             || {
-                let lines = Lines::new(simd, context, ink, &sorted, triangles, primitives);
-                lines.store(simd, rows, shape, seen.len());
+                let lines = FaceLines::new(simd, context, ink, &sorted, triangles, primitives);
+                lines.store(simd, rows, shape, visible.len());
                 if let Some(outer) = outer {
-                    lines.note(simd, &sorted, seen, outer);
+                    lines.note(simd, &sorted, visible, outer);
                 }
             },
         );
@@ -283,7 +283,7 @@ fn eight<S: Simd>(
             )
         },
     );
-    let records = rows.chunks_exact_mut(shape.size).zip(&corners[..seen.len()]);
+    let records = rows.chunks_exact_mut(shape.size).zip(&corners[..visible.len()]);
     // The most common counts are constants, so that the copy needs no loop.
     match shape.varyings {
         0 => {}

@@ -4,19 +4,19 @@
 //! function through the first vertex is the dot product of the steps (right, down) with the offset
 //! from that vertex, which is one instruction for eight lanes.
 
-use crate::simd::{Each, I32, Simd, U32, prelude::*};
+use crate::simd::{I32, InlineMap, Simd, U32, prelude::*};
 use fearless_simd::i16x16;
 
 /// Triangles whose sides and whose distances from points of the tile fit 16 bits: two
 /// numbers to a lane, x in the low half, y in the high one.
-pub(crate) struct Small<S: Simd> {
+pub(crate) struct SmallTriangles<S: Simd> {
     /// The first of the sorted vertices, from the tile's corner.
     pub(crate) point: I32<S>,
     /// Steps of the edge functions opposite vertices 1 and 2.
     pub(crate) steps: [I32<S>; 2],
 }
 
-impl<S: Simd> Small<S> {
+impl<S: Simd> SmallTriangles<S> {
     /// The edge functions and twice the area.
     #[inline(always)]
     pub(crate) fn edges(&self, [x, y]: [I32<S>; 2]) -> ([I32<S>; 3], I32<S>) {
@@ -81,7 +81,7 @@ mod tests {
             let packed = |[x, y]: [i32; 2]| (x & 0xffff) | y << 16;
             for token in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
                 let found = at_level!(token, simd => {
-                    let small = Small {
+                    let small = SmallTriangles {
                         point: I32::splat(simd, packed(vertex)),
                         steps: steps.map(|steps| I32::splat(simd, packed(steps))),
                     };

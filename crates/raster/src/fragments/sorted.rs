@@ -5,10 +5,10 @@ use super::layout::flag;
 use super::perspective::perspective;
 use crate::bin::TriangleRef;
 use crate::primitive::{Column, Corners, Kind, SMALL, SetupTriangle, small_lanes, sorted_columns};
-use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, inlined, lanes_of, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Mask, Row, Simd, inlined, lanes_of, prelude::*};
 
 /// Eight triangles, their vertices sorted.
-pub(crate) struct Sorted<S: Simd> {
+pub(crate) struct SortedTriangles<S: Simd> {
     pub(crate) x: [I32<S>; 3],
     pub(crate) y: [I32<S>; 3],
     pub(crate) depth: [F32<S>; 3],
@@ -22,7 +22,7 @@ pub(crate) struct Sorted<S: Simd> {
     flags: I32<S>,
 }
 
-impl<S: Simd> Sorted<S> {
+impl<S: Simd> SortedTriangles<S> {
     /// Triangles that are whole primitives.
     #[inline(always)]
     pub(crate) fn whole(simd: S, context: &ShadeContext<'_>, indices: [[u32; 3]; LANES]) -> Self {
@@ -84,7 +84,7 @@ impl<S: Simd> Sorted<S> {
     pub(crate) fn made(simd: S, context: &ShadeContext<'_>, refs: [TriangleRef; LANES]) -> Self {
         let triangles = refs.each(
             #[inline(always)]
-            |place| context.draw.triangle(place),
+            |triangle| context.draw.triangle(triangle),
         );
         let column = inlined(
             #[inline(always)]

@@ -3,7 +3,7 @@
 use super::context::ShadePoint;
 use super::list::FragmentSlice;
 use super::records::Records;
-use crate::simd::{Each, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
+use crate::simd::{InlineMap, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
 
 /// A group of pixels, some of which show triangles of one draw.
 #[derive(Clone, Copy, Debug)]
@@ -41,10 +41,10 @@ pub(crate) struct Task<'t> {
 /// Where the colours of a vector go.
 #[derive(Clone, Copy)]
 pub(crate) enum Destination<'t> {
-    /// To eight places from this one on, and whether some are edge pixels, which are needed in
-    /// linear light. Lanes that are not active write as well; their places are overwritten later.
+    /// To eight indices from this one on, and whether some are edge pixels, which are needed in
+    /// linear light. Lanes that are not active write as well; their outputs are overwritten later.
     Group(usize, bool),
-    /// To the places listed, one for each active lane.
+    /// To the indices listed, one for each active lane.
     Listed(&'t [u32]),
 }
 
@@ -54,7 +54,7 @@ pub(crate) struct FragmentBatch<'t, S: Simd> {
     /// of an active one, so that every lane has a record. In a group they keep their own pixels, which
     /// the triangle may not cover: their values are arbitrary.
     pub(crate) names: U32<S>,
-    named: Names<'t>,
+    named: RecordNames<'t>,
     pub(crate) spots: U32<S>,
     /// The lanes whose results are used.
     pub(crate) active: u64,
@@ -63,7 +63,7 @@ pub(crate) struct FragmentBatch<'t, S: Simd> {
 
 /// How records are named.
 #[derive(Clone, Copy)]
-enum Names<'t> {
+enum RecordNames<'t> {
     /// By their numbers.
     Slots,
     /// By the visible triangles, whose slots are listed; and the number of the first record.
@@ -75,8 +75,8 @@ impl<'t, S: Simd> FragmentBatch<'t, S> {
     #[inline(always)]
     pub(crate) fn slot(&self, name: u32) -> u32 {
         match self.named {
-            Names::Slots => name,
-            Names::Visible(slots, base) => slots[name as usize] - base,
+            RecordNames::Slots => name,
+            RecordNames::Visible(slots, base) => slots[name as usize] - base,
         }
     }
 
@@ -136,7 +136,7 @@ impl<'t> Task<'t> {
         }
         FragmentBatch {
             names,
-            named: Names::Visible(self.slots, self.base),
+            named: RecordNames::Visible(self.slots, self.base),
             spots,
             active,
             destination: Destination::Group(pixel, group.edges != 0),
@@ -147,9 +147,9 @@ impl<'t> Task<'t> {
     fn listed<S: Simd>(&self, simd: S, first: usize) -> FragmentBatch<'t, S> {
         let FragmentSlice { slots, spots, outputs } = self.fragments.part(first..first + LANES);
         FragmentBatch {
-            names: U32::simd_from(simd, eight(slots)) - self.base,
-            named: Names::Slots,
-            spots: U32::simd_from(simd, eight(spots)),
+            names: U32::simd_from(simd, first_eight(slots)) - self.base,
+            named: RecordNames::Slots,
+            spots: U32::simd_from(simd, first_eight(spots)),
             active: (1 << outputs.len()) - 1,
             destination: Destination::Listed(outputs),
         }
@@ -158,7 +158,7 @@ impl<'t> Task<'t> {
 
 /// Up to eight numbers as lanes; unused lanes repeat the first.
 #[inline(always)]
-fn eight(numbers: &[u32]) -> [u32; LANES] {
+fn first_eight(numbers: &[u32]) -> [u32; LANES] {
     match numbers.first_chunk() {
         Some(eight) => *eight,
         None => lanes_of(

@@ -6,26 +6,26 @@
 
 use super::columns::Columns;
 use super::layout::{CutColumns, cold, hot};
-use super::small::Small;
+use super::small::SmallTriangles;
 use crate::primitive::owns_boundary;
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, inlined, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Mask, Simd, inlined, prelude::*};
 
 /// The triangle of each lane, from its record: what all its points have in common.
 pub(crate) struct TriangleLanes<'c, S: Simd> {
-    small: Small<S>,
+    small: SmallTriangles<S>,
     /// Steps of the edge functions opposite vertices 1 and 2, both through
     /// vertex 0.
     pub(crate) right: [I32<S>; 2],
     pub(crate) down: [I32<S>; 2],
     /// Replaces `small` if one of the triangles is wide or cut.
-    wide: Option<Wide<'c, S>>,
+    wide: Option<WideTriangles<'c, S>>,
     /// 1/w of the vertices, divided by the largest power of two not above the greatest of them.
     q: [F32<S>; 3],
     cut: Option<&'c CutColumns>,
 }
 
 /// The numbers that for wide triangles may not fit 16 bits, or 32.
-struct Wide<'c, S: Simd> {
+struct WideTriangles<'c, S: Simd> {
     /// The first of the sorted vertices, from the tile's corner.
     point: [I32<S>; 2],
     /// Twice the areas.
@@ -50,7 +50,7 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
         );
         let steps = [column(hot::STEPS), column(hot::STEPS + 1)];
         let small = Self {
-            small: Small { point: column(hot::POINT), steps },
+            small: SmallTriangles { point: column(hot::POINT), steps },
             right: [low(steps[0]), low(steps[1])],
             down: [steps[0] >> 16, steps[1] >> 16],
             wide: None,
@@ -69,7 +69,7 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
         Self {
             right: [column(cold::RIGHT), column(cold::RIGHT + 1)],
             down: [column(cold::DOWN), column(cold::DOWN + 1)],
-            wide: Some(Wide { point, areas: &special.areas }),
+            wide: Some(WideTriangles { point, areas: &special.areas }),
             cut: special.cut(),
             ..small
         }
@@ -101,7 +101,7 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
     /// The edge functions and twice the area, each exact up to one rounding to f32.
     #[inline(always)]
     pub(crate) fn edges(&self, simd: S, point: [I32<S>; 2]) -> ([F32<S>; 3], F32<S>) {
-        let Some(Wide { point: vertex, areas }) = self.wide else {
+        let Some(WideTriangles { point: vertex, areas }) = self.wide else {
             let (edges, area) = self.small.edges(point);
             return (edges.each(SimdCvt::to_f32), area.to_f32());
         };

@@ -6,7 +6,7 @@ use super::changed_vertices::{ChangedVertices, VertexBits};
 use crate::bin::Chunk;
 use crate::geometry::{Geometry, Shape};
 use crate::outer_ink::parts;
-use crate::pass::Recorded;
+use crate::pass::RecordedDraw;
 use crate::vertex::Slots;
 use crate::view::Plan;
 use std::ops::Range;
@@ -50,7 +50,7 @@ impl AffectedPrimitives {
 /// What the search for affected primitives reads.
 #[derive(Clone, Copy)]
 pub(super) struct AffectedSearch<'a> {
-    pub(super) pass: &'a [Recorded<'a>],
+    pub(super) pass: &'a [RecordedDraw<'a>],
     pub(super) plan: &'a Plan,
     pub(super) vertices: &'a ChangedVertices,
     pub(super) changes: &'a [DrawChange<'a>],

@@ -9,13 +9,13 @@ use super::layout::Layout;
 use crate::bin::{Chunk, Grid};
 use crate::geometry::Shape;
 use crate::paint2d::Rect;
-use crate::pass::{Pass, Recorded};
+use crate::pass::{Pass, RecordedDraw};
 use crate::vertex::UsedVertices;
 use crate::view::{Plan, RequestedOutputs};
 use crate::{BlendMode, Stats};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// How a draw differs from the one in the same place of the last pass.
+/// How a draw differs from the one of the same index in the last pass.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DrawChange<'a> {
     /// Vertices for which the pipeline may return other values, in any order.
@@ -65,7 +65,7 @@ struct DrawSignature {
 impl Signature {
     pub(super) fn new(pass: &Pass<'_>, layout: &Layout, workers: usize) -> Self {
         let Layout { axis, wants, ref grid, .. } = *layout;
-        let of_draw = |recorded: &Recorded<'_>| DrawSignature {
+        let of_draw = |recorded: &RecordedDraw<'_>| DrawSignature {
             primitives: recorded.geometry.len(),
             vertices: recorded.pipeline.vertex_count(),
             varyings: recorded.pipeline.varyings(),
@@ -85,11 +85,11 @@ impl Signature {
 
 /// Whether the changes of a pass that has the last one's signature are of a kind that the
 /// plan outlasts.
-pub(super) fn can_follow(plan: &Plan, pass: &Pass<'_>, changes: &[DrawChange<'_>]) -> bool {
+pub(super) fn can_update(plan: &Plan, pass: &Pass<'_>, changes: &[DrawChange<'_>]) -> bool {
     pass.scissor.is_none()
         && changes.len() == pass.draws.len()
         && plan.draws.iter().all(|draw| {
-            let Recorded { geometry, pipeline } = &pass.draws[draw.draw];
+            let RecordedDraw { geometry, pipeline } = &pass.draws[draw.draw];
             let is_mesh = matches!(geometry.shape, Shape::Triangles { .. });
             // Other corners could use other vertices.
             let uses_all = draw.used == UsedVertices::Range(0..pipeline.vertex_count());
@@ -108,7 +108,7 @@ impl DirtyTiles {
         Self((0..count).map(|_| AtomicBool::new(false)).collect())
     }
 
-    /// Adds those that list primitives of a chunk for which a test of their places holds.
+    /// Adds those that list primitives of a chunk for which a test of their indices in the chunk holds.
     pub(super) fn add(&self, grid: &Grid, chunk: &Chunk, is_one: impl Fn(u32) -> bool) {
         chunk.for_each_tile_of(grid, is_one, |tile| self.add_tile(tile));
     }

@@ -3,9 +3,9 @@
 use super::DrawChange;
 use super::options::{FrameOptions, VERTICES};
 use super::stages::VertexValues;
-use crate::pass::Recorded;
+use crate::pass::RecordedDraw;
 use crate::simd::Token;
-use crate::vertex::{ScreenVertex, Slots, VertexOutput};
+use crate::vertex::{ScreenVertex, Slots, VertexDestination};
 use crate::view::Plan;
 use crate::viewport::Viewport;
 use std::hint::black_box;
@@ -88,7 +88,7 @@ impl ChangedVertices {
     /// Runs the changed vertices and their neighbours again, and finds which have moved.
     pub(super) fn run(
         &mut self,
-        pass: &[Recorded<'_>],
+        pass: &[RecordedDraw<'_>],
         plan: &Plan,
         viewport: Viewport,
         options: FrameOptions<'_>,
@@ -132,7 +132,7 @@ impl ChangedVertices {
 
 /// Some consecutive slots of a draw.
 struct RunTask<'a> {
-    recorded: &'a Recorded<'a>,
+    recorded: &'a RecordedDraw<'a>,
     used: Slots<'a>,
     slots: Range<usize>,
     changed: &'a [u64],
@@ -165,17 +165,23 @@ impl RunTask<'_> {
                 before[..vertices.len()].copy_from_slice(vertices);
                 let slots = self.slots.start + first..self.slots.start + end;
                 let varyings = &mut self.varyings[first * stride..end * stride];
-                pipeline.run_vertices(token, self.used, slots, viewport, VertexOutput { vertices, varyings });
+                pipeline.run_vertices(
+                    token,
+                    self.used,
+                    slots,
+                    viewport,
+                    VertexDestination { vertices, varyings },
+                );
                 for ((bit, after), before) in (first % 64..).zip(&*vertices).zip(&before) {
                     // The position of a vertex without a snapped one is computed by the pipeline once more.
-                    let differs = after.0 != before.0 || !after.has_place();
+                    let differs = after.0 != before.0 || !after.is_snapped();
                     *moved |= changed & (u64::from(differs) << bit);
                 }
             }
         }
     }
 
-    /// Reads what the groups hold, which may lie all over the memory: a processor waits for many places at once if
+    /// Reads what the groups hold, which may lie all over the memory: a processor waits for many reads at once if
     /// nothing else is done meanwhile, and finds them nearby afterwards.
     fn read_ahead(&self) {
         let stride = self.recorded.pipeline.stride();

@@ -4,19 +4,19 @@ use super::affected_primitives::{AffectedPrimitives, AffectedSearch};
 use super::change::{DirtyTiles, DrawChange};
 use super::moving::MovingPrimitives;
 use super::options::FrameOptions;
-use super::set_up::SetUp;
+use super::set_up::SetUpContext;
 use crate::bin::{Chunk, MovingChunk};
 
 /// What is brought up to date.
-pub(super) struct Follow<'a> {
-    pub(super) set_up: SetUp<'a>,
+pub(super) struct PrimitiveUpdate<'a> {
+    pub(super) set_up: SetUpContext<'a>,
     pub(super) search: AffectedSearch<'a>,
     /// Whether primitives that move again and again may be listed apart.
     pub(super) may_part: bool,
     pub(super) options: FrameOptions<'a>,
 }
 
-impl Follow<'_> {
+impl PrimitiveUpdate<'_> {
     /// Sets primitives up again whose vertices have run, and returns the tiles that may look different.
     pub(super) fn run(&self, chunks: &mut [Chunk], moving: &mut MovingPrimitives) -> Vec<u32> {
         let AffectedSearch { plan, vertices, changes, .. } = self.search;

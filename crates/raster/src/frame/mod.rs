@@ -5,13 +5,13 @@ mod bits;
 mod change;
 mod changed_vertices;
 mod follow;
-mod kept_tiles;
 mod layout;
 mod moving;
 mod options;
 mod redraw;
 mod set_up;
 mod stages;
+mod tile_cache;
 mod tiles;
 
 pub use change::{DrawChange, Redraw};

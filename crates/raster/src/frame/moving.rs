@@ -1,19 +1,19 @@
 //! Frames in which the same vertices change again and again, as in a drag.
 //!
 //! From the second such frame on, the primitives that move are set up and listed apart, and tiles keep what the others
-//! show ([`KeptTiles`]). Whole faces move: where one of its triangles does, the others may be cut in another way, and
+//! show ([`TileCache`]). Whole faces move: where one of its triangles does, the others may be cut in another way, and
 //! their edges are painted together.
 
 use super::DrawChange;
 use super::affected_primitives::AffectedPrimitives;
 use super::bits::{are_among, is_set, reset, set};
 use super::changed_vertices::ChangedVertices;
-use super::kept_tiles::KeptTiles;
+use super::tile_cache::TileCache;
 use crate::BlendMode;
 use crate::bin::{Chunk, Grid, MovingChunk};
 use crate::geometry::Shape;
 use crate::outer_ink::slots;
-use crate::pass::Recorded;
+use crate::pass::RecordedDraw;
 use crate::view::{DrawPlan, Plan};
 
 /// If more than one in so many primitives moves, listing them apart is not worth it.
@@ -34,13 +34,13 @@ pub(super) struct MovingPrimitives {
     pub(super) chunks: Vec<MovingChunk>,
     /// The tiles in which still primitives may look different.
     pub(super) tiles: Vec<u32>,
-    kept: KeptTiles,
+    cache: TileCache,
 }
 
 impl MovingPrimitives {
     /// What is kept of tiles, if primitives are listed apart.
-    pub(super) fn kept(&self) -> Option<&KeptTiles> {
-        self.is_apart.then_some(&self.kept)
+    pub(super) fn cache(&self) -> Option<&TileCache> {
+        self.is_apart.then_some(&self.cache)
     }
 
     /// Leaves no primitives apart, and no vertices that have changed.
@@ -53,7 +53,7 @@ impl MovingPrimitives {
     pub(super) fn unite(&mut self) {
         self.is_apart = false;
         self.chunks.clear();
-        self.kept.reset(0);
+        self.cache.reset(0);
     }
 
     /// Whether primitives are listed apart, and all that moves or looks different in a frame was expected to.
@@ -82,11 +82,11 @@ impl MovingPrimitives {
     }
 
     /// Finds which primitives move, and which look different, from what was found in each chunk; then which of
-    /// each chunk's primitives those are that move, by their places. `None` if they cannot be listed apart, or are
+    /// each chunk's primitives those are that move, by their indices. `None` if they cannot be listed apart, or are
     /// not worth it.
     pub(super) fn find(
         &mut self,
-        pass: &[Recorded<'_>],
+        pass: &[RecordedDraw<'_>],
         plan: &Plan,
         vertices: &ChangedVertices,
         chunks: &[Chunk],
@@ -100,31 +100,31 @@ impl MovingPrimitives {
             reset(&mut self.primitives, count);
         }
         self.moved.iter_mut().zip(vertices.moved()).for_each(|(all, &moved)| *all |= moved);
-        let differ = &mut self.kept.differ;
+        let differ = &mut self.cache.differ;
         reset(differ, count);
         for (chunk, affected) in chunks.iter().zip(affected) {
             let start = chunk.ordinals.start as usize;
             let flagged = |flags: &[bool], bits: &mut [u64]| {
-                let places = (start..).zip(flags).filter(|(_, is_flagged)| **is_flagged);
-                places.for_each(|(ordinal, _)| set(bits, ordinal));
+                let ordinals = (start..).zip(flags).filter(|(_, is_flagged)| **is_flagged);
+                ordinals.for_each(|(ordinal, _)| set(bits, ordinal));
             };
             flagged(&affected.differs, differ);
             flagged(&affected.is_moved, &mut self.primitives);
         }
         self.add_slots(pass, plan);
-        self.kept.differ.iter_mut().zip(&self.primitives).for_each(|(differ, &moved)| *differ |= moved);
+        self.cache.differ.iter_mut().zip(&self.primitives).for_each(|(differ, &moved)| *differ |= moved);
         let moving: u32 = self.primitives.iter().map(|word| word.count_ones()).sum();
-        let places = |chunk: &Chunk| -> Vec<u32> {
+        let indices = |chunk: &Chunk| -> Vec<u32> {
             let ordinals = chunk.ordinals.clone();
             let moving = ordinals.filter(|&ordinal| is_set(&self.primitives, ordinal as usize));
             moving.map(|ordinal| ordinal - chunk.ordinals.start).collect()
         };
         let are_few = (moving as usize) < count / MANY;
-        are_few.then(|| chunks.iter().map(places).collect())
+        are_few.then(|| chunks.iter().map(indices).collect())
     }
 
     /// Adds all slots of the faces whose triangles move.
-    fn add_slots(&mut self, pass: &[Recorded<'_>], plan: &Plan) {
+    fn add_slots(&mut self, pass: &[RecordedDraw<'_>], plan: &Plan) {
         for draw in &plan.draws {
             let geometry = &pass[draw.draw].geometry;
             if !matches!(geometry.shape, Shape::Triangles { .. }) {
@@ -139,13 +139,13 @@ impl MovingPrimitives {
         }
     }
 
-    /// Whether primitives can be listed apart, given their places in each chunk.
+    /// Whether primitives can be listed apart, given their indices in each chunk.
     pub(super) fn can_part(
         &self,
-        pass: &[Recorded<'_>],
+        pass: &[RecordedDraw<'_>],
         plan: &Plan,
         chunks: &[Chunk],
-        places: &[Vec<u32>],
+        indices: &[Vec<u32>],
     ) -> bool {
         let is_plain = |draw: &DrawPlan| match pass[draw.draw].geometry.shape {
             Shape::Triangles { .. } => true,
@@ -153,23 +153,23 @@ impl MovingPrimitives {
             Shape::Lines { .. } => false,
         };
         let none = MovingChunk::default();
-        let mut parted = (0..).zip(chunks).zip(places).filter(|(_, places)| !places.is_empty());
-        parted.all(|((number, chunk), places)| {
+        let mut parted = (0..).zip(chunks).zip(indices).filter(|(_, indices)| !indices.is_empty());
+        parted.all(|((number, chunk), indices)| {
             let apart = self.chunks.get::<usize>(number).unwrap_or(&none);
-            let draw = |&place: &u32| &plan.draws[plan.draw_of(chunk.ordinals.start + place)];
+            let draw = |&index: &u32| &plan.draws[plan.draw_of(chunk.ordinals.start + index)];
             matches!(chunk.blend_mode, BlendMode::Opaque | BlendMode::Overlay)
                 && apart.can_take(chunk)
-                && places.iter().map(draw).all(is_plain)
+                && indices.iter().map(draw).all(is_plain)
         })
     }
 
     /// Moves primitives from chunks to lists of their own.
-    pub(super) fn part(&mut self, grid: &Grid, chunks: &mut [Chunk], places: Vec<Vec<u32>>) {
+    pub(super) fn part(&mut self, grid: &Grid, chunks: &mut [Chunk], indices: Vec<Vec<u32>>) {
         self.is_apart = true;
         self.chunks.resize_with(chunks.len(), MovingChunk::default);
-        for ((moving, chunk), places) in self.chunks.iter_mut().zip(chunks).zip(places) {
-            moving.take(chunk, places);
+        for ((moving, chunk), indices) in self.chunks.iter_mut().zip(chunks).zip(indices) {
+            moving.take(chunk, indices);
         }
-        self.kept.reset((grid.columns * grid.viewport.height.div_ceil(grid.size)) as usize);
+        self.cache.reset((grid.columns * grid.viewport.height.div_ceil(grid.size)) as usize);
     }
 }

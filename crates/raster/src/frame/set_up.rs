@@ -6,7 +6,7 @@ use crate::bin::{Chunk, Grid, MovingChunk};
 use crate::clip;
 use crate::geometry::{PointSizes, Shape};
 use crate::line::LineStyle;
-use crate::pass::Recorded;
+use crate::pass::RecordedDraw;
 use crate::point::{PlainPoints, PointStyle};
 use crate::setup::{EightPrimitives, Setup};
 use crate::simd::{LANES, Simd, Token, at_level};
@@ -17,17 +17,17 @@ use std::sync::{Mutex, PoisonError};
 
 /// What set-up reads.
 #[derive(Clone, Copy)]
-pub(super) struct SetUp<'a> {
-    pub(super) pass: &'a [Recorded<'a>],
+pub(super) struct SetUpContext<'a> {
+    pub(super) pass: &'a [RecordedDraw<'a>],
     pub(super) plan: &'a Plan,
-    pub(super) places: &'a [ScreenVertex],
+    pub(super) screen_vertices: &'a [ScreenVertex],
     pub(super) grid: &'a Grid,
     /// Internal pixels for each pixel of the target and axis.
     pub(super) axis: u32,
     pub(super) token: Token,
 }
 
-impl SetUp<'_> {
+impl SetUpContext<'_> {
     /// Set-up and binning: every worker takes a chunk at a time.
     pub(super) fn all(&self, options: FrameOptions<'_>, chunks: &mut [Chunk]) {
         let many = chunks.len() > 1;
@@ -59,14 +59,14 @@ impl SetUp<'_> {
     /// Sets up the primitives that move, which are listed apart from those of their chunk.
     pub(super) fn apart(&self, chunk: &Chunk, moving: &mut MovingChunk) {
         moving.begin(chunk);
-        let (places, listed) = moving.parts();
-        let mut numbers = Vec::with_capacity(places.len());
+        let (indices, listed) = moving.parts();
+        let mut numbers = Vec::with_capacity(indices.len());
         for (draw, range) in self.plan.parts(chunk.ordinals.clone()) {
             let first = draw.ordinals.start.wrapping_sub(chunk.ordinals.start);
             let number =
-                |&place: &u32| Some(place.wrapping_sub(first)).filter(|number| range.contains(number));
+                |&index: &u32| Some(index.wrapping_sub(first)).filter(|number| range.contains(number));
             numbers.clear();
-            numbers.extend(places.iter().filter_map(number));
+            numbers.extend(indices.iter().filter_map(number));
             let (token, mut setup) = (self.token, self.part(draw, listed));
             match (&self.pass[draw.draw].geometry.shape, self.plan.points(draw)) {
                 (&Shape::Triangles { triangles, culling, .. }, _) => {
@@ -87,7 +87,7 @@ impl SetUp<'_> {
     fn part<'s>(&'s self, draw: &DrawPlan, chunk: &'s mut Chunk) -> Setup<'s> {
         let vertices = DrawVertices {
             slots: self.plan.slots(draw),
-            places: &self.places[draw.places.clone()],
+            screen_vertices: &self.screen_vertices[draw.screen_vertices.clone()],
             pipeline: self.pass[draw.draw].pipeline,
             token: self.token,
         };

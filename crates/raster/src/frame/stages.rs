@@ -4,18 +4,18 @@
 use super::FrameOptions;
 use super::change::Signature;
 use super::changed_vertices::ChangedVertices;
-use super::kept_tiles::KeptTiles;
 use super::layout::Layout;
 use super::moving::MovingPrimitives;
 use super::options::VERTICES;
-use super::set_up::SetUp;
+use super::set_up::SetUpContext;
+use super::tile_cache::TileCache;
 use super::tiles::{Scratch, draw_tile};
 use crate::bin::Chunk;
 use crate::clock::Clock;
-use crate::pass::{Pass, Recorded};
+use crate::pass::{Pass, RecordedDraw};
 use crate::resolve::Strip;
 use crate::target::Bands;
-use crate::vertex::{ScreenVertex, VertexOutput};
+use crate::vertex::{ScreenVertex, VertexDestination};
 use crate::view::{BackgroundRow, FrameView, Plan};
 use crate::viewport::Viewport;
 use crate::{StageTimes, Stats, Target};
@@ -26,13 +26,13 @@ use std::sync::{Mutex, PoisonError};
 #[derive(Default)]
 pub(crate) struct Arena {
     pub(super) plan: Plan,
-    pub(super) places: Vec<ScreenVertex>,
+    pub(super) screen_vertices: Vec<ScreenVertex>,
     pub(super) varyings: Vec<f32>,
     pub(super) chunks: Vec<Chunk>,
     background_rows: Vec<BackgroundRow>,
     pub(super) scratches: Vec<Scratch>,
     /// What the last frame was, if the next one may follow it.
-    pub(super) followed: Option<Signature>,
+    pub(super) last_signature: Option<Signature>,
     pub(super) changed_vertices: ChangedVertices,
     pub(super) moving: MovingPrimitives,
 }
@@ -55,7 +55,7 @@ pub(crate) fn draw(
 #[derive(Clone, Copy)]
 pub(super) struct SomeTiles<'t> {
     pub(super) numbers: &'t [u32],
-    pub(super) kept: Option<&'t KeptTiles>,
+    pub(super) cache: Option<&'t TileCache>,
 }
 
 /// Draws the tiles, or some of them, of a frame that is prepared.
@@ -86,23 +86,23 @@ pub(crate) fn prepare<'f>(
 ) -> FrameView<'f> {
     let layout = Layout::new(pass, target, options);
     let grid = layout.grid;
-    arena.followed = None;
-    let Arena { plan, places, varyings, chunks, .. } = arena;
+    arena.last_signature = None;
+    let Arena { plan, screen_vertices, varyings, chunks, .. } = arena;
     let used = plan.make(&pass.draws, chunks, options.workers.count(), layout.axis);
     let chunks = &mut chunks[..used];
-    places.resize(plan.places, ScreenVertex::MISSING);
+    screen_vertices.resize(plan.screen_vertices, ScreenVertex::MISSING);
     varyings.resize(plan.varyings, 0.0);
     let mut clock = Clock::new(options.timed);
-    run_vertices(
-        &pass.draws,
-        plan,
-        grid.viewport,
-        options,
-        VertexValues { screen_vertices: places, varyings },
-    );
+    run_vertices(&pass.draws, plan, grid.viewport, options, VertexValues { screen_vertices, varyings });
     let vertices = clock.lap();
-    let set_up =
-        SetUp { pass: &pass.draws, plan, places, grid: &grid, axis: layout.axis, token: options.token };
+    let set_up = SetUpContext {
+        pass: &pass.draws,
+        plan,
+        screen_vertices,
+        grid: &grid,
+        axis: layout.axis,
+        token: options.token,
+    };
     set_up.all(options, chunks);
     let times = StageTimes { vertices, set_up: clock.lap(), ..StageTimes::default() };
     arena.view(pass, target, layout, options, times)
@@ -124,7 +124,7 @@ impl Arena {
             background: pass.background,
             background_rows: &self.background_rows,
             plan: &self.plan,
-            places: &self.places,
+            screen_vertices: &self.screen_vertices,
             varyings: &self.varyings,
             chunks: &self.chunks[..self.plan.chunks],
             moving: &[],
@@ -159,7 +159,7 @@ pub(super) struct VertexValues<'a> {
 
 /// The vertex stage: every worker takes some vertices at a time.
 fn run_vertices(
-    pass: &[Recorded<'_>],
+    pass: &[RecordedDraw<'_>],
     plan: &Plan,
     viewport: Viewport,
     options: FrameOptions<'_>,
@@ -168,31 +168,31 @@ fn run_vertices(
     struct VertexQueue<'a> {
         draw: usize,
         slot: usize,
-        places: &'a mut [ScreenVertex],
+        screen_vertices: &'a mut [ScreenVertex],
         varyings: &'a mut [f32],
     }
-    let VertexValues { screen_vertices: places, varyings } = values;
-    let rest = Mutex::new(VertexQueue { draw: 0, slot: 0, places, varyings });
+    let VertexValues { screen_vertices, varyings } = values;
+    let queue = Mutex::new(VertexQueue { draw: 0, slot: 0, screen_vertices, varyings });
     let next = || {
-        let mut rest = rest.lock().unwrap_or_else(PoisonError::into_inner);
-        while plan.draws.get(rest.draw).is_some_and(|draw| rest.slot == draw.used.len()) {
-            (rest.draw, rest.slot) = (rest.draw + 1, 0);
-            let (missing, others) = std::mem::take(&mut rest.places).split_first_mut()?;
+        let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
+        while plan.draws.get(queue.draw).is_some_and(|draw| queue.slot == draw.used.len()) {
+            (queue.draw, queue.slot) = (queue.draw + 1, 0);
+            let (missing, others) = std::mem::take(&mut queue.screen_vertices).split_first_mut()?;
             *missing = ScreenVertex::MISSING;
-            rest.places = others;
+            queue.screen_vertices = others;
         }
-        let draw = plan.draws.get(rest.draw)?;
-        let slots = rest.slot..draw.used.len().min(rest.slot + VERTICES);
-        rest.slot = slots.end;
+        let draw = plan.draws.get(queue.draw)?;
+        let slots = queue.slot..draw.used.len().min(queue.slot + VERTICES);
+        queue.slot = slots.end;
         let stride = pass[draw.draw].pipeline.stride();
-        let (places, others) = std::mem::take(&mut rest.places).split_at_mut(slots.len());
-        rest.places = others;
-        let (varyings, others) = std::mem::take(&mut rest.varyings).split_at_mut(slots.len() * stride);
-        rest.varyings = others;
-        Some((draw, slots, places, varyings))
+        let (screen_vertices, others) = std::mem::take(&mut queue.screen_vertices).split_at_mut(slots.len());
+        queue.screen_vertices = others;
+        let (varyings, others) = std::mem::take(&mut queue.varyings).split_at_mut(slots.len() * stride);
+        queue.varyings = others;
+        Some((draw, slots, screen_vertices, varyings))
     };
     options.workers.run(plan.vertices > VERTICES, |_| {
-        while let Some((draw, slots, places, varyings)) = next()
+        while let Some((draw, slots, screen_vertices, varyings)) = next()
             && !options.is_cancelled()
         {
             let pipeline = pass[draw.draw].pipeline;
@@ -201,7 +201,7 @@ fn run_vertices(
                 plan.slots(draw),
                 slots,
                 viewport,
-                VertexOutput { vertices: places, varyings },
+                VertexDestination { vertices: screen_vertices, varyings },
             );
         }
     });
@@ -246,8 +246,8 @@ fn draw_tiles(
         while let Some(index) = index_of(own.start)
             && !options.is_cancelled()
         {
-            match some.and_then(|some| some.kept) {
-                Some(kept) => kept.draw(view, scratch, bands, index),
+            match some.and_then(|some| some.cache) {
+                Some(cache) => cache.draw(view, scratch, bands, index),
                 None => draw_tile(view, scratch, bands, index),
             }
             if let Some(cancel) = options.cancel {

@@ -48,7 +48,7 @@ pub(super) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
     let mut clock = Clock::new(frame.timed);
     state.begin(frame, index);
     resolve_visibility(frame, &area, state, &surfaces, shading, stats);
-    count_seen(frame, state, stats);
+    count_visible(frame, state, stats);
     stats.times.visibility += clock.lap();
     // Depth and ids know nothing of what is shown over the surfaces.
     store_visibility(frame, &area, None, state, bands);
@@ -61,9 +61,9 @@ pub(super) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
 }
 
 /// Counts the samples that show opaque and masked triangles.
-pub(super) fn count_seen(frame: &FrameView<'_>, state: &TileState, stats: &mut Stats) {
+pub(super) fn count_visible(frame: &FrameView<'_>, state: &TileState, stats: &mut Stats) {
     if frame.timed {
-        stats.samples_seen += state.buffer.seen() as u64;
+        stats.samples_visible += state.buffer.visible_count() as u64;
     }
 }
 

@@ -20,7 +20,7 @@ pub(crate) use line_width::{EdgePoint, FaceLine, LineColumns};
 pub(crate) use visible_faces::{LARGE, VisibleFaces};
 
 use crate::marks::{MarkColors, Overlap};
-use crate::simd::{Each, F32, LANES, Simd, U32, prelude::*};
+use crate::simd::{F32, InlineMap, LANES, Simd, U32, prelude::*};
 use trigon_math::{Vec3, Vec4};
 
 /// How a pass paints the edges of faces: see [`Pass::edges`](crate::Pass::edges).
@@ -88,12 +88,12 @@ impl Ink {
         let mut colors = marks.map_or([[0.0; 4]; MarkColors::COUNT], |marks| marks.edges.map(premultiplied));
         colors[0] = edges.map_or([0.0; 4], |edges| premultiplied(edges.color.extend(edges.opacity)));
         let tints = marks.map_or([[0.0; 4]; MarkColors::COUNT], |marks| marks.faces.map(premultiplied));
-        let is_seen = |colors: &[[f32; 4]]| colors.iter().any(|color| color[3] > 0.0);
+        let is_visible = |colors: &[[f32; 4]]| colors.iter().any(|color| color[3] > 0.0);
         // Not where the width is no number, either.
-        let has_lines = width > 0.0 && is_seen(&colors);
+        let has_lines = width > 0.0 && is_visible(&colors);
         let width = (width.min(FaceEdges::MAX_WIDTH) * scale).min(MAX_INNER_WIDTH);
         let half_width = if has_lines { width * 0.5 } else { 0.0 };
-        let is_painted = has_lines || is_seen(&tints[1..]);
+        let is_painted = has_lines || is_visible(&tints[1..]);
         is_painted.then_some(Self { half_width, scale, colors, tints, has_marks: marks.is_some() })
     }
 

@@ -338,8 +338,8 @@ proptest! {
         let target = Target::new(SIDE, SIDE, &[]).unwrap();
         let target = target.with_samples_per_axis(grid.samples_per_axis).unwrap();
         let target = target.with_samples(grid.samples).unwrap();
-        let told = Rasterizer::default().explain_pixel(&pass(list, width), &target, x, y).unwrap();
-        prop_assert_eq!(told.color, drawn[(y * SIDE + x) as usize]);
+        let explained = Rasterizer::default().explain_pixel(&pass(list, width), &target, x, y).unwrap();
+        prop_assert_eq!(explained.color, drawn[(y * SIDE + x) as usize]);
     }
 }
 

@@ -50,17 +50,17 @@ impl VisibleFaces {
         self.lines[triangle_count] = FaceLine::UNLINED;
     }
 
-    /// Takes triangles from others that were noted, which have these places in the tile's list now; the places increase.
-    pub(crate) fn note_again(&mut self, others: &Self, places: &[u32]) {
-        let count = places.len();
+    /// Takes triangles from others that were noted, which have these indices in the tile's list now; the indices increase.
+    pub(crate) fn note_again(&mut self, others: &Self, indices: &[u32]) {
+        let count = indices.len();
         // Mostly all of them come first.
-        if places.last().is_some_and(|&last| last as usize == count - 1) {
+        if indices.last().is_some_and(|&last| last as usize == count - 1) {
             self.depths[..count].copy_from_slice(&others.depths[..count]);
             self.lines[..count].copy_from_slice(&others.lines[..count]);
         } else {
-            for ((&place, &depths), &line) in places.iter().zip(&others.depths).zip(&others.lines) {
-                self.depths[place as usize] = depths;
-                self.lines[place as usize] = line;
+            for ((&index, &depths), &line) in indices.iter().zip(&others.depths).zip(&others.lines) {
+                self.depths[index as usize] = depths;
+                self.lines[index as usize] = line;
             }
         }
         self.has_lines |= others.has_lines;
@@ -73,26 +73,26 @@ impl VisibleFaces {
     pub(crate) fn note_eight<S: Simd>(
         &mut self,
         simd: S,
-        places: &[u32],
+        indices: &[u32],
         [least, greatest]: [F32<S>; 2],
         [half, weight, radius]: [[f32; LANES]; 3],
     ) {
-        let lanes = (1 << places.len()) - 1;
+        let lanes = (1 << indices.len()) - 1;
         let has_lines = least.simd_gt(F32::splat(simd, f32::NEG_INFINITY));
         let is_large = F32::simd_from(simd, radius).simd_ge(LARGE);
         self.has_lines |= has_lines.to_bitmask() & lanes != 0;
         self.has_large |= is_large.to_bitmask() & lanes != 0;
         let [least, greatest]: [[f32; LANES]; 2] = [least.into(), greatest.into()];
-        for (lane, &place) in places.iter().enumerate() {
-            self.depths[place as usize] = DepthRange { least: least[lane], greatest: greatest[lane] };
+        for (lane, &index) in indices.iter().enumerate() {
+            self.depths[index as usize] = DepthRange { least: least[lane], greatest: greatest[lane] };
             let line = FaceLine { half: half[lane], weight: weight[lane], radius: radius[lane] };
-            self.lines[place as usize] = line;
+            self.lines[index as usize] = line;
         }
     }
 
     /// Takes a visible triangle of the tile that belongs to no face with edges, by its greatest depth.
-    pub(crate) fn note_unlined(&mut self, place: u32, greatest: f32) {
-        self.depths[place as usize] = DepthRange { greatest, ..DepthRange::EMPTY };
-        self.lines[place as usize] = FaceLine::UNLINED;
+    pub(crate) fn note_unlined(&mut self, index: u32, greatest: f32) {
+        self.depths[index as usize] = DepthRange { greatest, ..DepthRange::EMPTY };
+        self.lines[index as usize] = FaceLine::UNLINED;
     }
 }

@@ -10,7 +10,7 @@ use crate::view::FrameView;
 
 /// An edge of a face between two vertices.
 #[derive(Clone, Copy, Default)]
-struct Segment {
+struct FaceEdge {
     /// In 1/256 pixel.
     from: [f64; 2],
     way: [f64; 2],
@@ -29,7 +29,7 @@ struct Segment {
 pub(super) struct EdgedFace {
     /// Places and bits of depths.
     vertices: Vec<[i32; 3]>,
-    segments: Vec<Segment>,
+    segments: Vec<FaceEdge>,
     edges: [Edge; 3],
     plane: DepthPlane,
     has_parts: bool,
@@ -38,7 +38,7 @@ pub(super) struct EdgedFace {
 /// The maximum number of triangles of the face that are examined before this one, and after it.
 const MOST_PARTS: u32 = 32;
 
-impl Segment {
+impl FaceEdge {
     fn between(from: ScreenVertex, to: ScreenVertex, mark: u8) -> Self {
         let (start, end) = (from.raw(), to.raw());
         let way = [0, 1].map(|axis| f64::from(end[axis] - start[axis]));
@@ -63,28 +63,28 @@ impl Segment {
 
 impl EdgedFace {
     /// Becomes that of a triangle.
-    pub(super) fn set(&mut self, frame: &FrameView<'_>, place: TriangleRef) {
-        let triangle = frame.triangle(place);
+    pub(super) fn set(&mut self, frame: &FrameView<'_>, triangle_ref: TriangleRef) {
+        let triangle = frame.triangle(triangle_ref);
         (self.edges, self.plane) = (Edge::of(&triangle), DepthPlane::of(&triangle));
         self.vertices.clear();
         self.vertices.extend(triangle.vertices.each_ref().map(identity));
         self.segments.clear();
         self.has_parts = false;
-        let draw = frame.draw_of(place);
+        let draw = frame.draw_of(triangle_ref);
         let plan = &frame.plan.draws[draw];
         let geometry = &frame.pass[plan.draw].geometry;
         if !geometry.shows_edges() {
             return;
         }
-        let primitive = place.ordinal - plan.ordinals.start;
+        let primitive = triangle_ref.ordinal - plan.ordinals.start;
         let (flags, marks) = (geometry.edge_flags(primitive), geometry.side_marks(primitive));
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             // The corner that the side does not meet; none for a side that a cut made.
-            let opposite = opposite_corner(frame, place, &triangle, [from, to]);
+            let opposite = opposite_corner(frame, triangle_ref, &triangle, [from, to]);
             let side = opposite.map(|corner| (corner + 1) % 3);
             if let Some(side) = side.filter(|&side| flags.contains(side)) {
                 let [from, to] = [from, to].map(|vertex| triangle.vertices[vertex]);
-                self.segments.push(Segment::between(from, to, marks[side]));
+                self.segments.push(FaceEdge::between(from, to, marks[side]));
             }
         }
         for part in parts(geometry, primitive) {
@@ -96,7 +96,7 @@ impl EdgedFace {
     /// Adds another triangle of the face, unless it has to be cut.
     fn add(&mut self, vertices: DrawVertices<'_>, geometry: &Geometry<'_>, primitive: u32) {
         let corners = geometry.corners(primitive).map(|index| *vertices.get(index));
-        if !corners.iter().all(|corner| corner.has_place()) {
+        if !corners.iter().all(|corner| corner.is_snapped()) {
             return;
         }
         for corner in corners.iter().map(identity) {
@@ -106,7 +106,7 @@ impl EdgedFace {
         }
         let (flags, marks) = (geometry.edge_flags(primitive), geometry.side_marks(primitive));
         for edge in (0..3).filter(|&edge| flags.contains(edge)) {
-            self.segments.push(Segment::between(corners[edge], corners[(edge + 1) % 3], marks[edge]));
+            self.segments.push(FaceEdge::between(corners[edge], corners[(edge + 1) % 3], marks[edge]));
         }
     }
 
@@ -173,14 +173,14 @@ pub(crate) fn slots(geometry: &Geometry<'_>, primitive: u32) -> impl Iterator<It
 /// The corner of the primitive that is opposite its side on which two vertices lie.
 fn opposite_corner(
     frame: &FrameView<'_>,
-    place: TriangleRef,
+    triangle_ref: TriangleRef,
     triangle: &SetupTriangle,
     [from, to]: [usize; 2],
 ) -> Option<usize> {
     match triangle.corners {
         Corners::Whole(corners) => Some(usize::from(corners[3 - from - to])),
         Corners::Cut { weights, order } => {
-            let weights = &frame.chunk_of(place).weights[weights as usize];
+            let weights = &frame.chunk_of(triangle_ref).weights[weights as usize];
             let column = (0..3).find(|&column| weights[from][column] == 0.0 && weights[to][column] == 0.0)?;
             Some(usize::from(order[column]))
         }

@@ -23,7 +23,7 @@ pub(crate) use edged_face::{parts, slots};
 use crate::bin::TriangleRef;
 use crate::ink::{Ink, LARGE, VisibleFaces};
 use crate::marks::Overlap;
-use crate::simd::{Each, F32, LANES, Simd, U32, at_level, inlined, prelude::*, unzipped};
+use crate::simd::{F32, InlineMap, LANES, Simd, U32, at_level, inlined, prelude::*, unzipped};
 use crate::tile_buffer::{MAX_SIDE, NO_TRIANGLE, PIXELS, TileArea, VisibilityBuffer};
 use crate::view::{FrameView, VisibleTile};
 use edged_face::EdgedFace;
@@ -31,7 +31,7 @@ use std::ops::Range;
 use visible_rows::{VisibleRows, beside_large, in_front};
 
 /// A bit for each column of each row of a tile.
-type Rows = [u64; MAX_SIDE];
+type RowBits = [u64; MAX_SIDE];
 
 /// Triangles that are kept ready: neighbouring pixels ask for the same ones.
 const READY: usize = 16;
@@ -51,12 +51,12 @@ pub(crate) struct OuterInk {
     own: Vec<u8>,
     own_part: [Range<usize>; 2],
     /// Faces whose edges are examined, and faces over which they lie.
-    ready: [Ready; 2],
+    ready: [ReadyFaces; 2],
 }
 
-/// Faces that are kept for the next pixels, with the places of their triangles.
+/// Faces that are kept for the next pixels, with the indices of their triangles.
 #[derive(Default)]
-struct Ready(Vec<(u32, EdgedFace)>);
+struct ReadyFaces(Vec<(u32, EdgedFace)>);
 
 impl OuterInk {
     /// Starts a tile with this many triangles.
@@ -115,7 +115,7 @@ impl OuterInk {
         frame: &FrameView<'_>,
         ink: &Ink,
         tile: VisibleTile<'_>,
-        asked: Option<[&Rows; 2]>,
+        requested: Option<[&RowBits; 2]>,
     ) {
         if !self.faces.has_lines {
             return;
@@ -123,13 +123,13 @@ impl OuterInk {
         self.own_lanes(frame, tile.area);
         let reach = ink.reach() as usize;
         let mut rows = self.rows.take().unwrap_or_else(VisibleRows::new);
-        const ALL: Rows = [u64::MAX; MAX_SIDE];
-        let [asked, near] = asked.unwrap_or([&ALL; 2]);
+        const ALL: RowBits = [u64::MAX; MAX_SIDE];
+        let [requested, near] = requested.unwrap_or([&ALL; 2]);
         let found = at_level!(frame.token, simd => {
             self.spread(simd, tile, near, &mut rows);
-            self.candidates(simd, tile.area, &rows, asked, reach)
+            self.candidates(simd, tile.area, &rows, requested, reach)
         });
-        self.ready.iter_mut().for_each(Ready::clear);
+        self.ready.iter_mut().for_each(ReadyFaces::clear);
         for y in self.own_part[1].clone() {
             let mut rest = found[y];
             while rest != 0 {
@@ -141,33 +141,33 @@ impl OuterInk {
         self.rows = Some(rows);
     }
 
-    /// The asked pixels that lines of others may cover: a bit for each column of each row.
+    /// The requested pixels that lines of others may cover: a bit for each column of each row.
     #[inline(always)]
     fn candidates<S: Simd>(
         &self,
         simd: S,
         area: &TileArea,
         visible: &VisibleRows,
-        asked: &Rows,
+        requested: &RowBits,
         reach: usize,
-    ) -> Rows {
+    ) -> RowBits {
         let [columns, rows] = self.own_part.clone();
         let own = (u64::MAX >> (MAX_SIDE - columns.len())) << columns.start;
         let mut found = [0; MAX_SIDE];
-        for y in rows.filter(|&y| asked[y] != 0) {
+        for y in rows.filter(|&y| requested[y] != 0) {
             let around = y.saturating_sub(reach)..(y + reach + 1).min(area.size[1]);
             let mut bits = in_front(simd, visible, y, around.clone(), reach);
             if self.faces.has_large {
                 bits |= beside_large(simd, visible, y, around, reach);
             }
-            found[y] = bits & own & asked[y];
+            found[y] = bits & own & requested[y];
         }
         found
     }
 
     /// Lays what pixels see out in rows. Where no column of a group is `near` what is asked for, anything may stay.
     #[inline(always)]
-    fn spread<S: Simd>(&self, simd: S, tile: VisibleTile<'_>, near: &Rows, rows: &mut VisibleRows) {
+    fn spread<S: Simd>(&self, simd: S, tile: VisibleTile<'_>, near: &RowBits, rows: &mut VisibleRows) {
         let area = tile.area;
         if area.padded() != [MAX_SIDE; 2] {
             rows.least.fill([f32::NEG_INFINITY; MAX_SIDE]);
@@ -289,8 +289,8 @@ impl OuterInk {
         [other, own]: [u32; 2],
         point: [i32; 2],
     ) -> Overlap {
-        let index = |place: u32| (place as usize).min(triangles.len());
-        let [ours, theirs] = [own, other].map(|place| self.faces.lines[index(place)]);
+        let index = |triangle: u32| (triangle as usize).min(triangles.len());
+        let [ours, theirs] = [own, other].map(|triangle| self.faces.lines[index(triangle)]);
         let least = self.faces.depths[index(other)].least;
         let is_before = least > self.faces.depths[index(own)].greatest;
         let is_large = ours.radius >= LARGE || theirs.radius >= LARGE;
@@ -304,31 +304,31 @@ impl OuterInk {
         let line = if are_joined { theirs.narrower(ours) } else { theirs };
         lined.nearest(point).fold(Overlap::default(), |most, edge| {
             let covered = line.overlap(&edge);
-            let is_seen = || {
+            let is_visible = || {
                 ground.is_none_or(
                     |ground| {
                         if are_joined { !ground.hides(&edge) } else { ground.is_behind(&edge) }
                     },
                 )
             };
-            if covered.is_above(most) && is_seen() { covered } else { most }
+            if covered.is_above(most) && is_visible() { covered } else { most }
         })
     }
 }
 
-impl Ready {
+impl ReadyFaces {
     /// Forgets all, and keeps their memory.
     fn clear(&mut self) {
         self.0.resize_with(READY, || (NO_TRIANGLE, EdgedFace::default()));
-        self.0.iter_mut().for_each(|(place, _)| *place = NO_TRIANGLE);
+        self.0.iter_mut().for_each(|(index, _)| *index = NO_TRIANGLE);
     }
 
     /// The face of a triangle of the tile.
-    fn face(&mut self, frame: &FrameView<'_>, triangles: &[TriangleRef], place: u32) -> &EdgedFace {
-        let (of, face) = &mut self.0[place as usize % READY];
-        if *of != place {
-            face.set(frame, triangles[place as usize]);
-            *of = place;
+    fn face(&mut self, frame: &FrameView<'_>, triangles: &[TriangleRef], index: u32) -> &EdgedFace {
+        let (of, face) = &mut self.0[index as usize % READY];
+        if *of != index {
+            face.set(frame, triangles[index as usize]);
+            *of = index;
         }
         face
     }

@@ -21,7 +21,7 @@ pub(super) struct VisibleRows {
 }
 
 /// One row with room for a reach at both ends.
-type Wide<T> = [T; MAX_SIDE + 2 * MOST_REACH];
+type WideRow<T> = [T; MAX_SIDE + 2 * MOST_REACH];
 
 impl VisibleRows {
     pub(super) fn new() -> Box<Self> {
@@ -44,7 +44,7 @@ pub(super) fn in_front<S: Simd>(
     around: Range<usize>,
     reach: usize,
 ) -> u64 {
-    let mut wide: Wide<f32> = [f32::NEG_INFINITY; MAX_SIDE + 2 * MOST_REACH];
+    let mut wide: WideRow<f32> = [f32::NEG_INFINITY; MAX_SIDE + 2 * MOST_REACH];
     for x in (0..MAX_SIDE).step_by(LANES) {
         let mut most = F32::splat(simd, f32::NEG_INFINITY);
         for row in &rows.least[around.clone()] {
@@ -73,10 +73,10 @@ pub(super) fn beside_large<S: Simd>(
     around: Range<usize>,
     reach: usize,
 ) -> u64 {
-    let mut large: Wide<f32> = [0.0; MAX_SIDE + 2 * MOST_REACH];
+    let mut large: WideRow<f32> = [0.0; MAX_SIDE + 2 * MOST_REACH];
     // Columns beside the tile are no other triangle.
-    let mut least: Wide<u32> = [u32::MAX; MAX_SIDE + 2 * MOST_REACH];
-    let mut most: Wide<u32> = [0; MAX_SIDE + 2 * MOST_REACH];
+    let mut least: WideRow<u32> = [u32::MAX; MAX_SIDE + 2 * MOST_REACH];
+    let mut most: WideRow<u32> = [0; MAX_SIDE + 2 * MOST_REACH];
     for x in (0..MAX_SIDE).step_by(LANES) {
         let mut found = (F32::splat(simd, 0.0), U32::splat(simd, u32::MAX), U32::splat(simd, 0));
         for row in around.clone() {

@@ -11,11 +11,11 @@ use crate::simd::{F32, I32, U32};
 const TO_UNIT: f32 = 1.0 / 255.0;
 
 /// Four channels of eight pixels in levels.
-pub(super) type Channels<S> = [F32<S>; 4];
+pub(super) type LevelChannels<S> = [F32<S>; 4];
 
 /// The channels of packed pixels, the first in the lowest byte.
 #[inline(always)]
-pub(super) fn unpack<S: Simd>(pixels: U32<S>) -> Channels<S> {
+pub(super) fn unpack<S: Simd>(pixels: U32<S>) -> LevelChannels<S> {
     [channel(pixels), channel(pixels >> 8), channel(pixels >> 16), channel(pixels >> 24)]
 }
 
@@ -26,7 +26,7 @@ fn channel<S: Simd>(pixels: U32<S>) -> F32<S> {
 
 /// The product of two colours.
 #[inline(always)]
-pub(super) fn multiply<S: Simd>(a: Channels<S>, b: Channels<S>) -> Channels<S> {
+pub(super) fn multiply<S: Simd>(a: LevelChannels<S>, b: LevelChannels<S>) -> LevelChannels<S> {
     [a[0] * b[0] * TO_UNIT, a[1] * b[1] * TO_UNIT, a[2] * b[2] * TO_UNIT, a[3] * b[3] * TO_UNIT]
 }
 
@@ -35,7 +35,7 @@ pub(super) fn multiply<S: Simd>(a: Channels<S>, b: Channels<S>) -> Channels<S> {
 /// Lanes where the source is no colour give anything, and not the same on every
 /// machine: the caller drops them.
 #[inline(always)]
-pub(super) fn over<S: Simd>(source: Channels<S>, below: U32<S>) -> U32<S> {
+pub(super) fn over<S: Simd>(source: LevelChannels<S>, below: U32<S>) -> U32<S> {
     let rest = (255.0 - source[3]) * TO_UNIT;
     let below = unpack(below);
     let [r, g, b, a] = [

@@ -70,7 +70,7 @@ impl<'a> Canvas<'a> {
         Ok(Self { pixels, bounds: Rect::new([0, top], [right, bottom]) })
     }
 
-    /// All pixels' places.
+    /// All pixels' positions.
     #[must_use]
     pub fn bounds(&self) -> Rect {
         self.bounds

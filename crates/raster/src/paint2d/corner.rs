@@ -5,7 +5,7 @@ use trigon_math::{Fixed, FixedPoint};
 
 /// A vertex whose position is on the grid.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corner {
+pub(super) struct SnappedVertex {
     pub(super) point: FixedPoint,
     pub(super) uv: [f32; 2],
     pub(super) color: [u8; 4],
@@ -24,11 +24,11 @@ pub(super) fn snap(vertex: &Vertex) -> Option<FixedPoint> {
 pub(super) fn triangles<'a>(
     mesh: &'a Mesh<'a>,
     points: &'a [Option<FixedPoint>],
-) -> impl Iterator<Item = Option<[Corner; 3]>> {
+) -> impl Iterator<Item = Option<[SnappedVertex; 3]>> {
     let corner = |index: u32| {
         let vertex = mesh.vertices.get(index as usize)?;
         let point = (*points.get(index as usize)?)?;
-        Some(Corner { point, uv: vertex.uv, color: vertex.color })
+        Some(SnappedVertex { point, uv: vertex.uv, color: vertex.color })
     };
     mesh.indices.chunks(3).map(move |indices| {
         let &[a, b, c] = indices.first_chunk::<3>()?;

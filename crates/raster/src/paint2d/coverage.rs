@@ -9,14 +9,14 @@ use std::ops::Range;
 use trigon_math::{Fixed, FixedPoint, orientation_fixed};
 
 /// The first pixel, column or row, whose centre is at `coordinate` or beyond.
-pub(super) fn first_centre(coordinate: Fixed) -> i32 {
+pub(super) fn first_center(coordinate: Fixed) -> i32 {
     const HALF: i32 = Fixed::ONE.raw() / 2;
     // Rounded up; the sum is within ±(2³⁰ + 2⁷).
     (coordinate.raw() + (HALF - 1)) >> Fixed::FRACTION_BITS
 }
 
 /// The centre of a pixel in 1/256 pixel.
-pub(super) fn centre(pixel: i32) -> i64 {
+pub(super) fn center(pixel: i32) -> i64 {
     i64::from(pixel) * i64::from(Fixed::ONE.raw()) + i64::from(Fixed::ONE.raw() / 2)
 }
 
@@ -45,19 +45,19 @@ impl Triangle {
     pub(super) fn spans(&self, clip: Rect, mut paint: impl FnMut(i32, Range<i32>)) {
         let [top, middle, bottom] = self.points;
         let rows = |upper: FixedPoint, lower: FixedPoint| {
-            first_centre(upper.y).max(clip.min[1])..first_centre(lower.y).min(clip.max[1])
+            first_center(upper.y).max(clip.min[1])..first_center(lower.y).min(clip.max[1])
         };
         let whole = rows(top, bottom);
         if whole.is_empty() || self.misses_columns(clip) {
             return;
         }
-        let mut long = Edge::new(top, bottom, whole.start);
+        let mut long = DescendingEdge::new(top, bottom, whole.start);
         for (upper, lower) in [(top, middle), (middle, bottom)] {
             let rows = rows(upper, lower);
             if rows.is_empty() {
                 continue;
             }
-            let mut short = Edge::new(upper, lower, rows.start);
+            let mut short = DescendingEdge::new(upper, lower, rows.start);
             for y in rows {
                 let [a, b] = [long.first(), short.first()];
                 let span = if self.area > 0 { a..b } else { b..a };
@@ -71,14 +71,14 @@ impl Triangle {
     }
 
     fn misses_columns(&self, clip: Rect) -> bool {
-        let [a, b, c] = self.points.map(|point| first_centre(point.x));
+        let [a, b, c] = self.points.map(|point| first_center(point.x));
         let [first, end] = [a.min(b).min(c), a.max(b).max(c)];
         first >= end || end <= clip.min[0] || first >= clip.max[0]
     }
 }
 
 /// An edge on its way down: a quotient that is kept exact from row to row.
-struct Edge {
+struct DescendingEdge {
     /// The edge's first pixel, and what is left of the dividend.
     quotient: i64,
     remainder: i64,
@@ -89,7 +89,7 @@ struct Edge {
     height: i64,
 }
 
-impl Edge {
+impl DescendingEdge {
     /// The edge from `upper` to `lower`, whose y is larger, at row y between
     /// them.
     ///
@@ -100,7 +100,7 @@ impl Edge {
     fn new(upper: FixedPoint, lower: FixedPoint, y: i32) -> Self {
         let raw = |v: Fixed| i64::from(v.raw());
         let [width, height] = [raw(lower.x) - raw(upper.x), raw(lower.y) - raw(upper.y)];
-        let bound = width * (centre(y) - raw(upper.y)) + (raw(upper.x) - centre(0)) * height;
+        let bound = width * (center(y) - raw(upper.y)) + (raw(upper.x) - center(0)) * height;
         // x is at least bound / 256 / height, and rounding up twice is rounding
         // up once.
         let bound = ((bound + 255) >> Fixed::FRACTION_BITS) + height - 1;

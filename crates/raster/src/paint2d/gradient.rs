@@ -5,9 +5,9 @@
 //! A value therefore lies between those of the corners (f32 stays within 1/1000 level), however thin the triangle is,
 //! and the scissor cannot change it.
 
-use super::blend::{Channels, multiply, over};
-use super::coverage::{Triangle, centre};
-use super::texel::Place;
+use super::blend::{LevelChannels, multiply, over};
+use super::coverage::{Triangle, center};
+use super::texel::TexelPosition;
 use super::{Canvas, Image, Rect, eight};
 use crate::simd::prelude::*;
 use crate::simd::{F32, LANES, lane_numbers};
@@ -16,13 +16,13 @@ use trigon_math::Fixed;
 
 /// An image on a triangle.
 #[derive(Clone, Copy)]
-pub(super) struct Texture<'a> {
+pub(super) struct TriangleTexture<'a> {
     pub(super) image: &'a Image,
-    /// The corners' places in texels.
-    pub(super) places: [[f64; 2]; 3],
+    /// The corners' positions in texels.
+    pub(super) texel_positions: [[f64; 2]; 3],
 }
 
-/// How colour and place change across a triangle.
+/// How colour and position change across a triangle.
 pub(super) struct Gradient<'a> {
     weights: Weights,
     color: Linear<4>,
@@ -30,12 +30,17 @@ pub(super) struct Gradient<'a> {
 }
 
 impl<'a> Gradient<'a> {
-    /// With the colours of the triangle's points in levels, and their places.
+    /// With the colours of the triangle's points in levels, and their positions.
     #[inline(always)]
-    pub(super) fn new(triangle: &Triangle, colors: [[f64; 4]; 3], texture: Option<Texture<'a>>) -> Self {
+    pub(super) fn new(
+        triangle: &Triangle,
+        colors: [[f64; 4]; 3],
+        texture: Option<TriangleTexture<'a>>,
+    ) -> Self {
         let weights = Weights::new(triangle);
         let color = Linear::new(colors, weights.step);
-        let texture = texture.map(|texture| (texture.image, Linear::new(texture.places, weights.step)));
+        let texture =
+            texture.map(|texture| (texture.image, Linear::new(texture.texel_positions, weights.step)));
         Self { weights, color, texture }
     }
 
@@ -51,9 +56,9 @@ impl<'a> Gradient<'a> {
     ) {
         let weights = self.weights.at(span.start, y);
         let color = self.color.at(weights);
-        let texture = self
-            .texture
-            .map(|(image, linear)| (image, Place::new(linear.at(weights)), Place::new(linear.step)));
+        let texture = self.texture.map(|(image, linear)| {
+            (image, TexelPosition::new(linear.at(weights)), TexelPosition::new(linear.step))
+        });
         let [start, end] = [span.start.max(clip.min[0]), span.end.min(clip.max[0])];
         for x in (start..end).step_by(LANES) {
             let steps = x - span.start;
@@ -76,7 +81,7 @@ impl<'a> Gradient<'a> {
 
 /// The colours `steps` and up to seven more from `start`.
 #[inline(always)]
-fn eight_steps<S: Simd>(simd: S, start: [f64; 4], step: [f64; 4], steps: i32) -> Channels<S> {
+fn eight_steps<S: Simd>(simd: S, start: [f64; 4], step: [f64; 4], steps: i32) -> LevelChannels<S> {
     let steps: F32<S> = F32::float_from(lane_numbers(simd) + steps);
     let channel = |c: usize| steps * step[c] as f32 + start[c] as f32;
     [channel(0), channel(1), channel(2), channel(3)]
@@ -111,7 +116,7 @@ impl Weights {
     /// the triangle's, and that is within ±2⁶².
     #[inline(always)]
     fn at(&self, x: i32, y: i32) -> [f64; 2] {
-        let [x, y] = [centre(x) - self.first[0], centre(y) - self.first[1]];
+        let [x, y] = [center(x) - self.first[0], center(y) - self.first[1]];
         let middle = x * self.to_last[1] - y * self.to_last[0];
         let last = self.to_middle[0] * y - self.to_middle[1] * x;
         [middle as f64 * self.per_area, last as f64 * self.per_area]

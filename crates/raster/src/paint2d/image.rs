@@ -60,7 +60,7 @@ impl Image {
         Ok(())
     }
 
-    /// All texels' places.
+    /// All texels' positions.
     pub(super) fn bounds(&self) -> Rect {
         Rect::new([0, 0], self.size)
     }

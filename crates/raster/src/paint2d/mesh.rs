@@ -8,7 +8,7 @@ pub struct Vertex {
     /// In pixels from the top left, y down; the middle of the first pixel is at
     /// (0.5, 0.5).
     pub position: [f32; 2],
-    /// The place in the image: (0, 0) is its top left corner, (1, 1) its bottom
+    /// The position in the image: (0, 0) is its top left corner, (1, 1) its bottom
     /// right one. Without an image it does not matter.
     pub uv: [f32; 2],
     /// Gamma space, premultiplied by alpha, which comes last. Channels above

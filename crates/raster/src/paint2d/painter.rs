@@ -1,10 +1,10 @@
 //! Paints meshes on a canvas in the given order.
 
-use super::corner::{Corner, snap, triangles};
+use super::corner::{SnappedVertex, snap, triangles};
 use super::coverage::Triangle;
 use super::gradient::Gradient;
 use super::rectangle::Rectangle;
-use super::source::{Source, Texels};
+use super::source::{MeshTexels, Source};
 use super::{Canvas, Mesh, Rect, blit::blit};
 use crate::simd::prelude::*;
 use crate::simd::{SimdLevel, SimdLevelError, Token, at_level};
@@ -82,7 +82,7 @@ fn paint_mesh<S: Simd>(
     clip: Rect,
     painted: &mut Painted,
 ) {
-    let mut texels = Texels::new(mesh.image);
+    let mut texels = MeshTexels::new(mesh.image);
     let mut triangles = triangles(mesh, points).peekable();
     while let Some(corners) = triangles.next() {
         painted.triangles += 1;
@@ -112,8 +112,8 @@ fn paint_mesh<S: Simd>(
 fn paint_rectangle<S: Simd>(
     simd: S,
     canvas: &mut Canvas<'_>,
-    halves: [&[Corner; 3]; 2],
-    texels: &mut Texels<'_>,
+    halves: [&[SnappedVertex; 3]; 2],
+    texels: &mut MeshTexels<'_>,
     clip: Rect,
 ) -> bool {
     let Some(rectangle) = Rectangle::from_halves(halves) else { return false };
@@ -139,7 +139,7 @@ fn paint_rectangle<S: Simd>(
 fn paint_triangle<S: Simd>(
     simd: S,
     canvas: &mut Canvas<'_>,
-    corners: &[Corner; 3],
+    corners: &[SnappedVertex; 3],
     source: &Source<'_>,
     clip: Rect,
 ) {
@@ -168,9 +168,9 @@ fn paint_triangle<S: Simd>(
 
 /// By y, then by x: no image depends on which vertex is the first.
 #[inline(always)]
-fn sorted([a, b, c]: [Corner; 3]) -> [Corner; 3] {
-    let key = |corner: &Corner| (corner.point.y, corner.point.x);
-    let pair = |a: Corner, b: Corner| if key(&b) < key(&a) { (b, a) } else { (a, b) };
+fn sorted([a, b, c]: [SnappedVertex; 3]) -> [SnappedVertex; 3] {
+    let key = |corner: &SnappedVertex| (corner.point.y, corner.point.x);
+    let pair = |a: SnappedVertex, b: SnappedVertex| if key(&b) < key(&a) { (b, a) } else { (a, b) };
     let (a, b) = pair(a, b);
     let (b, c) = pair(b, c);
     let (a, b) = pair(a, b);

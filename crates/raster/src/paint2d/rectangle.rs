@@ -1,7 +1,7 @@
 //! Two triangles that form an upright rectangle of one colour: panels, and the quads of glyphs and images.
 
-use super::corner::Corner;
-use super::coverage::first_centre;
+use super::corner::SnappedVertex;
+use super::coverage::first_center;
 use super::{Image, Rect};
 use trigon_math::{Fixed, FixedPoint};
 
@@ -19,7 +19,7 @@ type Code = usize;
 impl Rectangle {
     /// The rectangle that two triangles are halves of.
     #[inline(always)]
-    pub(super) fn from_halves([a, b]: [&[Corner; 3]; 2]) -> Option<Self> {
+    pub(super) fn from_halves([a, b]: [&[SnappedVertex; 3]; 2]) -> Option<Self> {
         let [x, y] = [a.map(|corner| corner.point.x), a.map(|corner| corner.point.y)];
         let least = |[a, b, c]: [Fixed; 3]| a.min(b).min(c);
         let most = |[a, b, c]: [Fixed; 3]| a.max(b).max(c);
@@ -34,7 +34,7 @@ impl Rectangle {
 
     /// The one corner that is none of three different ones.
     #[inline(always)]
-    fn missing_corner(&self, corners: &[Corner; 3]) -> Option<Code> {
+    fn missing_corner(&self, corners: &[SnappedVertex; 3]) -> Option<Code> {
         let [a, b, c] =
             [self.code(corners[0].point)?, self.code(corners[1].point)?, self.code(corners[2].point)?];
         (a != b && b != c && c != a).then(|| 6 - a - b - c)
@@ -50,7 +50,7 @@ impl Rectangle {
 
     /// The pixels whose centres are inside, or on the left or the upper side.
     pub(super) fn pixels(&self) -> Rect {
-        let corner = |point: FixedPoint| [first_centre(point.x), first_centre(point.y)];
+        let corner = |point: FixedPoint| [first_center(point.x), first_center(point.y)];
         Rect::new(corner(self.min), corner(self.max))
     }
 
@@ -59,7 +59,7 @@ impl Rectangle {
     #[inline(always)]
     pub(super) fn texel_offset(
         &self,
-        halves: [&[Corner; 3]; 2],
+        halves: [&[SnappedVertex; 3]; 2],
         image: &Image,
         pixels: Rect,
     ) -> Option<[i32; 2]> {
@@ -72,19 +72,19 @@ impl Rectangle {
     }
 }
 
-/// How many texels all corners' places are ahead of their positions on an axis,
+/// How many texels all corners' texel positions are ahead of their positions in pixels on an axis,
 /// if it is the same whole number for all.
 #[inline(always)]
-fn whole_offset(halves: [&[Corner; 3]; 2], axis: usize, size: i32) -> Option<i32> {
+fn whole_offset(halves: [&[SnappedVertex; 3]; 2], axis: usize, size: i32) -> Option<i32> {
     /// In texels: half of the distance that the painter of triangles rounds to the centre of a texel, so that
     /// both find the same texel.
     const NEAR: f64 = 1.0 / 16384.0;
-    let offset = |corner: &Corner| {
+    let offset = |corner: &SnappedVertex| {
         let position = if axis == 0 { corner.point.x } else { corner.point.y };
         f64::from(corner.uv[axis]) * f64::from(size) - position.to_f64()
     };
     // NaN becomes 0, and is not near it.
     let whole = offset(&halves[0][0]).round_ties_even() as i32;
-    let near = |corner: &Corner| (offset(corner) - f64::from(whole)).abs() <= NEAR;
+    let near = |corner: &SnappedVertex| (offset(corner) - f64::from(whole)).abs() <= NEAR;
     (halves[0].iter().all(near) && halves[1].iter().all(near)).then_some(whole)
 }

@@ -5,30 +5,30 @@
 //! linearly filtered channel by less than 1/16 level.
 
 use super::Image;
-use super::blend::{Channels, unpack};
+use super::blend::{LevelChannels, unpack};
 use crate::simd::prelude::*;
-use crate::simd::{Each, F32, I32, LANES, U32};
+use crate::simd::{F32, I32, InlineMap, LANES, U32};
 use crate::texture::Filter;
 use std::ops::Range;
 
-/// Bits behind the point of a place.
-const PLACE_BITS: u32 = 32;
+/// Bits behind the point of a position.
+const FRACTION_BITS: u32 = 32;
 /// Bits that are left of them.
 const WEIGHT_BITS: u32 = 12;
 const ONE: i64 = 1 << WEIGHT_BITS;
 
-/// The furthest place in texels, to either side: rounded ones fit 32 bits.
+/// The furthest position in texels, to either side: rounded ones fit 32 bits.
 pub(super) const FURTHEST: f64 = (1 << 18) as f64;
 
-/// A place, both axes.
+/// A position in texels, both axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place(pub(super) [i64; 2]);
+pub(super) struct TexelPosition(pub(super) [i64; 2]);
 
-impl Place {
-    /// From texels. What is out of range becomes any place.
+impl TexelPosition {
+    /// From texels. What is out of range becomes any position.
     #[inline(always)]
     pub(super) fn new(texels: [f64; 2]) -> Self {
-        const UNIT: f64 = (1_i64 << PLACE_BITS) as f64;
+        const UNIT: f64 = (1_i64 << FRACTION_BITS) as f64;
         Self([(texels[0] * UNIT) as i64, (texels[1] * UNIT) as i64])
     }
 
@@ -43,10 +43,10 @@ impl Place {
 /// Two neighbours on an axis: the first one's index, and how much of the colour
 /// is the second one's, of [`ONE`].
 #[inline(always)]
-fn neighbours(place: i64, offset: i64) -> (i32, i32) {
-    const CUT: u32 = PLACE_BITS - WEIGHT_BITS;
-    let place = (place.wrapping_add(1 << (CUT - 1)) >> CUT) - offset;
-    ((place >> WEIGHT_BITS) as i32, (place & (ONE - 1)) as i32)
+fn neighbours(position: i64, offset: i64) -> (i32, i32) {
+    const CUT: u32 = FRACTION_BITS - WEIGHT_BITS;
+    let position = (position.wrapping_add(1 << (CUT - 1)) >> CUT) - offset;
+    ((position >> WEIGHT_BITS) as i32, (position & (ONE - 1)) as i32)
 }
 
 impl Image {
@@ -56,10 +56,10 @@ impl Image {
     pub(super) fn colors<S: Simd>(
         &self,
         simd: S,
-        start: Place,
-        step: Place,
+        start: TexelPosition,
+        step: TexelPosition,
         steps: Range<i64>,
-    ) -> Channels<S> {
+    ) -> LevelChannels<S> {
         match self.filter {
             Filter::Nearest => self.nearest(simd, start, step, steps),
             Filter::Linear => self.linear(simd, start, step, steps),
@@ -67,21 +67,33 @@ impl Image {
     }
 
     #[inline(always)]
-    fn nearest<S: Simd>(&self, simd: S, start: Place, step: Place, steps: Range<i64>) -> Channels<S> {
+    fn nearest<S: Simd>(
+        &self,
+        simd: S,
+        start: TexelPosition,
+        step: TexelPosition,
+        steps: Range<i64>,
+    ) -> LevelChannels<S> {
         let mut texels = [0; LANES];
         for (texel, count) in texels.iter_mut().zip(steps) {
-            let Place([u, v]) = start.stepped(step, count);
+            let TexelPosition([u, v]) = start.stepped(step, count);
             *texel = self.texel(neighbours(u, 0).0, neighbours(v, 0).0);
         }
         unpack(U32::simd_from(simd, texels))
     }
 
     #[inline(always)]
-    fn linear<S: Simd>(&self, simd: S, start: Place, step: Place, steps: Range<i64>) -> Channels<S> {
+    fn linear<S: Simd>(
+        &self,
+        simd: S,
+        start: TexelPosition,
+        step: TexelPosition,
+        steps: Range<i64>,
+    ) -> LevelChannels<S> {
         let mut texels = [[0; LANES]; 4];
         let mut weights = [[0; LANES]; 2];
         for (lane, count) in steps.enumerate().take(LANES) {
-            let Place([u, v]) = start.stepped(step, count);
+            let TexelPosition([u, v]) = start.stepped(step, count);
             let (x, weight_x) = neighbours(u, ONE / 2);
             let (y, weight_y) = neighbours(v, ONE / 2);
             weights[0][lane] = weight_x;
@@ -106,7 +118,7 @@ impl Image {
 /// (1 − weight) of one colour and `weight` of another; equal ones stay exactly
 /// what they are.
 #[inline(always)]
-fn mix<S: Simd>(a: Channels<S>, b: Channels<S>, weight: F32<S>) -> Channels<S> {
+fn mix<S: Simd>(a: LevelChannels<S>, b: LevelChannels<S>, weight: F32<S>) -> LevelChannels<S> {
     let rest = 1.0 - weight;
     [
         a[0] * rest + b[0] * weight,

@@ -25,14 +25,14 @@ pub(crate) trait AnyPipeline: VertexProgram {
         output: &mut ShadeOutput<'_>,
     );
 
-    /// Evaluates the masks of a list of fragments: 1 or 0 for each, at its output's place.
+    /// Evaluates the masks of a list of fragments: 1 or 0 for each, at its output's index.
     fn mask(
         &self,
         token: Token,
         context: &ShadeContext<'_>,
         task: &Task<'_>,
         columns: &mut [Columns; 2],
-        kept: &mut [u8],
+        passed: &mut [u8],
     );
 }
 
@@ -67,15 +67,15 @@ impl<P: LanePipeline> AnyPipeline for P {
         context: &ShadeContext<'_>,
         task: &Task<'_>,
         columns: &mut [Columns; 2],
-        kept: &mut [u8],
+        passed: &mut [u8],
     ) {
         if P::SCALAR {
             let pipeline = self.as_scalar().expect("a scalar pipeline");
-            scalar::mask(token, pipeline, context, task, columns, kept);
+            scalar::mask(token, pipeline, context, task, columns, passed);
         } else if P::MASKED {
-            at_level!(token, simd => run::mask(simd, self, context, task, columns, kept));
+            at_level!(token, simd => run::mask(simd, self, context, task, columns, passed));
         } else {
-            kept.fill(1);
+            passed.fill(1);
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::fragments::{
     Columns, FragmentBatch, FragmentLanes, Records, ShadeContext, ShadeOutput, ShadePoint, Spots, Task,
     TriangleLanes, finite,
 };
-use crate::simd::{Each, I32, Simd, U32, prelude::*};
+use crate::simd::{I32, InlineMap, Simd, U32, prelude::*};
 
 /// Writes the colours of all pixels.
 #[inline(always)]
@@ -38,7 +38,7 @@ pub(super) fn mask<S: Simd, P: LanePipeline>(
     context: &ShadeContext<'_>,
     task: &Task<'_>,
     columns: &mut [Columns; 2],
-    kept: &mut [u8],
+    passed: &mut [u8],
 ) {
     for_each_vector(
         simd,
@@ -49,7 +49,7 @@ pub(super) fn mask<S: Simd, P: LanePipeline>(
         |fragments, vector| {
             let mask = pipeline.masks(simd, fragments).to_bitmask();
             for (lane, &output) in vector.outputs().iter().enumerate() {
-                kept[output as usize] = (mask >> lane & 1) as u8;
+                passed[output as usize] = (mask >> lane & 1) as u8;
             }
         },
     );
@@ -155,9 +155,9 @@ fn sample_points<S: Simd>(
         #[inline(always)]
         |column| column + 128,
     );
-    let asked = samples.simd_gt(I32::splat(simd, 0)) & !partly;
+    let sampled = samples.simd_gt(I32::splat(simd, 0)) & !partly;
     let beside = partly & !triangle.covers(simd, points);
-    let mut pending = asked | beside;
+    let mut pending = sampled | beside;
     for (index, offset) in context.pattern.offsets().iter().enumerate() {
         if !pending.any_true() {
             break;

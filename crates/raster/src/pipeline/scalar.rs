@@ -4,7 +4,7 @@
 use super::run::for_each_vector;
 use super::traits::ScalarPipeline;
 use crate::fragments::{Columns, ShadeContext, ShadeOutput, Task, finite};
-use crate::simd::{Each, F32, LANES, Simd, Token, at_level, prelude::*};
+use crate::simd::{F32, InlineMap, LANES, Simd, Token, at_level, prelude::*};
 
 /// Writes the colours of all pixels.
 pub(super) fn shade(
@@ -56,11 +56,11 @@ pub(super) fn mask(
     context: &ShadeContext<'_>,
     task: &Task<'_>,
     columns: &mut [Columns; 2],
-    kept: &mut [u8],
+    passed: &mut [u8],
 ) {
     at_level!(token, simd => for_each_vector(simd, context, task, columns, #[inline(always)] |fragments, vector| {
         fragments.for_each(|lane, fragment| {
-            kept[vector.outputs()[lane] as usize] = u8::from(pipeline.run_mask(&fragment));
+            passed[vector.outputs()[lane] as usize] = u8::from(pipeline.run_mask(&fragment));
         });
     }));
 }

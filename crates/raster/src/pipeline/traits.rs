@@ -179,8 +179,8 @@ impl<P: Pipeline> LanePipeline for P {
 
     #[inline(always)]
     fn masks<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> Mask<S> {
-        let mut kept = [0.0_f32; LANES];
-        fragments.for_each(|lane, fragment| kept[lane] = f32::from(u8::from(self.run_mask(&fragment))));
-        F32::simd_from(simd, kept).simd_gt(F32::splat(simd, 0.5))
+        let mut passed = [0.0_f32; LANES];
+        fragments.for_each(|lane, fragment| passed[lane] = f32::from(u8::from(self.run_mask(&fragment))));
+        F32::simd_from(simd, passed).simd_gt(F32::splat(simd, 0.5))
     }
 }

@@ -3,8 +3,8 @@
 
 use super::traits::{LanePipeline, ScalarPipeline};
 use crate::MAX_VARYINGS;
-use crate::simd::{Each, F32, LANES, Simd, Token, at_level, prelude::*};
-use crate::vertex::{Slots, VertexLanes, VertexOutput, VertexProgram, to_screen};
+use crate::simd::{F32, InlineMap, LANES, Simd, Token, at_level, prelude::*};
+use crate::vertex::{Slots, VertexDestination, VertexLanes, VertexProgram, to_screen};
 use crate::viewport::Viewport;
 use std::ops::Range;
 use trigon_math::Vec4;
@@ -35,7 +35,7 @@ impl<P: LanePipeline> VertexProgram for P {
         used: Slots<'_>,
         slots: Range<usize>,
         viewport: Viewport,
-        out: VertexOutput<'_>,
+        out: VertexDestination<'_>,
     ) {
         let run = VertexRun { used, slots, viewport, out };
         // The other branch is not compiled.
@@ -63,13 +63,13 @@ struct VertexRun<'r> {
     used: Slots<'r>,
     slots: Range<usize>,
     viewport: Viewport,
-    out: VertexOutput<'r>,
+    out: VertexDestination<'r>,
 }
 
 /// Computes screen vertices and varyings.
 #[inline(always)]
 fn run_lanes<S: Simd, P: LanePipeline>(simd: S, pipeline: &P, run: VertexRun<'_>) {
-    let VertexRun { used, slots, viewport, out: VertexOutput { vertices, mut varyings } } = run;
+    let VertexRun { used, slots, viewport, out: VertexDestination { vertices, mut varyings } } = run;
     let (guard, stride) = (viewport.guard(), stride(pipeline.varyings()));
     // Listed vertices do not lie side by side.
     let together = if used.are_consecutive() { LANES } else { 1 };
@@ -85,7 +85,7 @@ fn run_lanes<S: Simd, P: LanePipeline>(simd: S, pipeline: &P, run: VertexRun<'_>
 
 /// As [`run_lanes`], one vertex after the other; compiled once for all pipelines.
 fn run_scalar(token: Token, pipeline: &dyn ScalarPipeline, stride: usize, run: VertexRun<'_>) {
-    let VertexRun { used, slots, viewport, out: VertexOutput { vertices, mut varyings } } = run;
+    let VertexRun { used, slots, viewport, out: VertexDestination { vertices, mut varyings } } = run;
     let guard = viewport.guard();
     for (group, vertices) in vertices.chunks_mut(LANES).enumerate() {
         let mut columns = [[0.0; LANES]; 4];

@@ -42,14 +42,14 @@ impl PointStyle {
     }
 
     /// The square around a point.
-    fn square(&self, ordinal: u32, centre: ScreenVertex, detail: Option<DetailIndex>) -> Quad {
-        let ([column, row], half) = (centre.raw(), self.half);
+    fn square(&self, ordinal: u32, center: ScreenVertex, detail: Option<DetailIndex>) -> Quad {
+        let ([column, row], half) = (center.raw(), self.half);
         // Within the guard band and the largest size, nothing leaves the grid.
         let corner = |x: i32, y: i32| [column + x * half, row + y * half];
         Quad {
             corners: [[corner(-1, -1), corner(1, -1)], [corner(-1, 1), corner(1, 1)]],
-            depths: [nearer(centre.depth(), self.depth_bias); 2],
-            inverse_w: [centre.inverse_w(); 2],
+            depths: [nearer(center.depth(), self.depth_bias); 2],
+            inverse_w: [center.inverse_w(); 2],
             ordinal,
             detail,
             kind: if self.smooth.is_some() { Kind::Stroke } else { self.kind },
@@ -71,12 +71,12 @@ impl Setup<'_> {
         }
     }
 
-    fn square(&mut self, primitive: u32, centre: ScreenVertex, style: PointStyle) {
+    fn square(&mut self, primitive: u32, center: ScreenVertex, style: PointStyle) {
         let detail = style.smooth.and_then(|size| {
             let form = if style.kind == Kind::RoundPoint { Form::Round } else { Form::Square };
-            let stroke = Some(Stroke::point(centre.raw(), size, form));
+            let stroke = Some(Stroke::point(center.raw(), size, form));
             self.chunk.keep(QuadDetail { weights: QuadDetail::WHOLE, stroke })
         });
-        self.push_quad(style.square(self.first + primitive, centre, detail));
+        self.push_quad(style.square(self.first + primitive, center, detail));
     }
 }

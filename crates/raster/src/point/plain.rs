@@ -6,7 +6,7 @@ use crate::bin::Entry;
 use crate::geometry::{Geometry, PointSizes, Shape};
 use crate::primitive::{Column, Kind, Quad};
 use crate::setup::{EightPrimitives, Setup};
-use crate::simd::{Each, I32, LANES, Mask, Simd, inlined, prelude::*};
+use crate::simd::{I32, InlineMap, LANES, Mask, Simd, inlined, prelude::*};
 use crate::vertex::ScreenVertex;
 use crate::{BlendMode, Smoothing};
 
@@ -74,12 +74,12 @@ impl PlainPoints {
         sizes: &PointSizes<'_>,
         primitive: u32,
         ordinal: u32,
-        centre: ScreenVertex,
+        center: ScreenVertex,
     ) -> Quad {
         let [usual, marked] = self.styles;
         let is_marked = sizes.marked.is_some_and(|marked| marked.set.contains(primitive as usize));
         let style = if is_marked { marked } else { usual };
-        style.square(ordinal, centre, None)
+        style.square(ordinal, center, None)
     }
 }
 
@@ -88,11 +88,11 @@ impl PlainPoints {
 /// a square belongs to it.
 #[inline(always)]
 pub(crate) fn sampled_pixels<S: Simd>(
-    centres: I32<S>,
+    centers: I32<S>,
     half: I32<S>,
     [least, greatest]: [i32; 2],
 ) -> [I32<S>; 2] {
-    [(centres - half + (255 - greatest)) >> 8, (centres + half - (least + 1)) >> 8]
+    [(centers - half + (255 - greatest)) >> 8, (centers + half - (least + 1)) >> 8]
 }
 
 impl Setup<'_> {
@@ -109,19 +109,19 @@ impl Setup<'_> {
             #[inline(always)]
             |&index| self.vertices.get(index),
         );
-        let centres = Column::new(simd, vertices, 0);
+        let centers = Column::new(simd, vertices, 0);
         let lanes = points.lanes();
-        let placed = !centres.x.simd_eq(I32::splat(simd, ScreenVertex::NOWHERE)).to_bitmask() & lanes;
+        let placed = !centers.x.simd_eq(I32::splat(simd, ScreenVertex::NOWHERE)).to_bitmask() & lanes;
         for lane in (0..LANES).filter(|lane| (lanes & !placed) >> lane & 1 != 0) {
             let stats = &mut self.chunk.stats;
             let is_invalid = vertices[lane].outcode().is_invalid();
             *(if is_invalid { &mut stats.invalid } else { &mut stats.outside }) += 1;
         }
         let half = plain.half_sizes(simd, sizes, points.numbers);
-        let (seen, pixels) = self.pixels_of_squares(simd, [centres.x, centres.y], half, placed);
-        self.chunk.stats.culled += u64::from((placed & !seen).count_ones());
-        self.chunk.stats.set_up += u64::from(seen.count_ones());
-        self.push_points(simd, points.numbers, seen, pixels);
+        let (visible, pixels) = self.pixels_of_squares(simd, [centers.x, centers.y], half, placed);
+        self.chunk.stats.culled += u64::from((placed & !visible).count_ones());
+        self.chunk.stats.set_up += u64::from(visible.count_ones());
+        self.push_points(simd, points.numbers, visible, pixels);
     }
 
     /// Those of the `placed` lanes whose squares hold a sample of the view, and the first and last
@@ -130,23 +130,23 @@ impl Setup<'_> {
     fn pixels_of_squares<S: Simd>(
         &self,
         simd: S,
-        centres: [I32<S>; 2],
+        centers: [I32<S>; 2],
         half: I32<S>,
         placed: u64,
     ) -> (u64, [[I32<S>; 2]; 2]) {
         let grid = self.grid;
         let reach = grid.pattern.reach();
-        let mut seen = Mask::from_bitmask(simd, placed);
+        let mut visible = Mask::from_bitmask(simd, placed);
         let pixels = [(0, grid.viewport.width), (1, grid.viewport.height)].each(
             #[inline(always)]
             |(axis, side)| {
-                let [begin, end] = sampled_pixels(centres[axis], half, reach);
-                seen = seen & begin.simd_le(end) & end.simd_ge(I32::splat(simd, 0));
-                seen &= begin.simd_lt(I32::splat(simd, side as i32));
+                let [begin, end] = sampled_pixels(centers[axis], half, reach);
+                visible = visible & begin.simd_le(end) & end.simd_ge(I32::splat(simd, 0));
+                visible &= begin.simd_lt(I32::splat(simd, side as i32));
                 [begin, end]
             },
         );
-        (seen.to_bitmask(), pixels)
+        (visible.to_bitmask(), pixels)
     }
 
     /// Bins the points of lanes, from the first and last columns and rows of their pixels.
@@ -155,7 +155,7 @@ impl Setup<'_> {
         &mut self,
         simd: S,
         primitives: [u32; LANES],
-        seen: u64,
+        visible: u64,
         pixels: [[I32<S>; 2]; 2],
     ) {
         let grid = self.grid;
@@ -171,19 +171,19 @@ impl Setup<'_> {
             },
         );
         let (columns, rows) = (tiles((0, grid.viewport.width)), tiles((1, grid.viewport.height)));
-        let lanes = Mask::from_bitmask(simd, seen);
+        let lanes = Mask::from_bitmask(simd, visible);
         let alone = columns[0].simd_eq(columns[1]) & rows[0].simd_eq(rows[1]);
         if !(lanes & !alone).any_true() {
             let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
-            let places = self.indices_in_chunk(simd, primitives);
-            return self.chunk.push_some(lanes, tiles, places, Entry::point);
+            let indices = self.indices_in_chunk(simd, primitives);
+            return self.chunk.push_some(lanes, tiles, indices, Entry::point);
         }
         let [columns, rows] = [columns, rows].each(
             #[inline(always)]
             |range| range.each(<[i32; LANES]>::from),
         );
         // One after the other, because tiles list their points in the order of primitives.
-        for lane in (0..LANES).filter(|lane| seen >> lane & 1 != 0) {
+        for lane in (0..LANES).filter(|lane| visible >> lane & 1 != 0) {
             let entry = Entry::point(self.index_in_chunk(primitives[lane]));
             for row in rows[0][lane]..=rows[1][lane] {
                 for column in columns[0][lane]..=columns[1][lane] {

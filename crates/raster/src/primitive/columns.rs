@@ -1,6 +1,6 @@
 //! Eight triangles side by side, one in each lane: a [`Column`] holds one vertex of each.
 
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, prelude::*, transposed};
+use crate::simd::{F32, I32, InlineMap, LANES, Mask, Simd, prelude::*, transposed};
 use crate::vertex::ScreenVertex;
 
 /// Triangles whose bounding box is smaller than this on both axes, in 1/256 pixel,

@@ -1,7 +1,7 @@
 //! The depth of a triangle at any point of the sub-pixel grid.
 
 use super::triangle::SetupTriangle;
-use crate::simd::{Each, F32, Simd, greater, lesser, prelude::*};
+use crate::simd::{F32, InlineMap, Simd, greater, lesser, prelude::*};
 use crate::vertex::ScreenVertex;
 use fearless_simd::f64x4;
 

@@ -5,7 +5,7 @@
 
 use super::stroke::Stroke;
 use super::triangle::{Corners, CutWeights, Kind, SetupTriangle, sorted};
-use crate::simd::Each;
+use crate::simd::InlineMap;
 use crate::vertex::ScreenVertex;
 
 /// A quadrilateral around a segment or a point.

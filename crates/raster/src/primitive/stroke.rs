@@ -22,7 +22,7 @@ pub(crate) enum Form {
     Square,
 }
 
-/// The exact place of an anti-aliased line or point on the grid.
+/// The exact position of an anti-aliased line or point on the grid.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stroke {
     /// Its first end in 1/256 pixel.
@@ -45,8 +45,8 @@ impl Stroke {
     }
 
     /// A point of a size in pixels.
-    pub(crate) fn point(centre: [i32; 2], width: f64, form: Form) -> Self {
-        Self { form, ..Self::line([centre; 2], width) }
+    pub(crate) fn point(center: [i32; 2], width: f64, form: Form) -> Self {
+        Self { form, ..Self::line([center; 2], width) }
     }
 
     /// How far it reaches from its segment, in 1/256 pixel.
@@ -72,17 +72,17 @@ impl Stroke {
             #[inline(always)]
             |value: f64| f64x8::splat(simd, value),
         );
-        let place = inlined(
+        let position = inlined(
             #[inline(always)]
             |axis: usize| {
-                let places: [f64; LANES] = lanes_of(
+                let positions: [f64; LANES] = lanes_of(
                     #[inline(always)]
                     |lane| f64::from(lane_point(first, lane)[axis] - self.start[axis]),
                 );
-                f64x8::simd_from(simd, places) * splat(1.0 / 256.0)
+                f64x8::simd_from(simd, positions) * splat(1.0 / 256.0)
             },
         );
-        let (x, y) = (place(0), place(1));
+        let (x, y) = (position(0), position(1));
         let overlaps = match self.form {
             Form::Square => self.overlaps(simd, x.abs()) * self.overlaps(simd, y.abs()),
             Form::Line => self.overlaps(simd, self.distances(simd, [x, y])),

@@ -49,7 +49,7 @@ pub(super) fn fill_background(frame: &FrameView<'_>, [first, last]: [TileArea; 2
     let columns = columns.start..way + frame.drawn_part(&last)[0].end;
     let (mut band, first) = bands.lock(corner);
     let band = &mut *band;
-    let part = Part { first, width: bands.width(), drawn: [columns, rows] };
+    let part = RowPart { first, width: bands.width(), drawn: [columns, rows] };
     part.fill(band.depth, 0.0);
     for ids in [&mut band.objects, &mut band.faces, &mut band.triangles] {
         part.fill(ids, u32::MAX);
@@ -67,7 +67,7 @@ pub(super) fn fill_background(frame: &FrameView<'_>, [first, last]: [TileArea; 2
 }
 
 /// The part of a band that tiles draw.
-struct Part {
+struct RowPart {
     /// The index of the first tile's first pixel.
     first: usize,
     /// Pixels in a row of the band.
@@ -76,7 +76,7 @@ struct Part {
     drawn: [Range<usize>; 2],
 }
 
-impl Part {
+impl RowPart {
     /// Fills a plane, if there is one.
     fn fill<T: Copy>(&self, plane: &mut [T], value: T) {
         for y in self.drawn[1].clone() {
@@ -181,7 +181,7 @@ pub(super) fn lay_colors(frame: &FrameView<'_>, area: &TileArea, shading: &mut S
     }
 }
 
-/// The lanes of a group that lie in the image, with their places in the tile.
+/// The lanes of a group that lie in the image, with their positions in the tile.
 fn within(area: &TileArea, group: u32, lanes: u32) -> impl Iterator<Item = (usize, [usize; 2])> {
     bits(lanes)
         .map(move |lane| (lane, TileArea::pixel_at(group as usize * LANES + lane)))

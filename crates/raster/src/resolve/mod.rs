@@ -47,9 +47,9 @@ pub(crate) fn resolve(
             edges::average_codes(frame, area, shading, encoding);
             return strip.push(frame, area, &mut shading.codes, bands);
         }
-        TileColors::PartlyEncoded(encoding, asked) => {
+        TileColors::PartlyEncoded(encoding, requested) => {
             background::lay_codes(frame, area, shading, encoding);
-            return some::write_some(frame, area, asked, &shading.codes, bands);
+            return some::write_some(frame, area, requested, &shading.codes, bands);
         }
         TileColors::Shaded => {
             background::lay_colors(frame, area, shading);
@@ -91,11 +91,11 @@ fn store_colors(frame: &FrameView<'_>, area: &TileArea, colors: &[[f32; 4]], ban
 }
 
 /// Writes depth and ids, if they are requested, each from one sample of the pixel, row by row. Of ids, which take
-/// longer, only those are written for which `asked` has a bit in their row, if it is given: the target holds all others.
+/// longer, only those are written for which `requested` has a bit in their row, if it is given: the target holds all others.
 pub(crate) fn store_visibility(
     frame: &FrameView<'_>,
     area: &TileArea,
-    asked: Option<&TileRows>,
+    requested: Option<&TileRows>,
     state: &TileState,
     bands: &Bands<'_>,
 ) {
@@ -116,18 +116,18 @@ pub(crate) fn store_visibility(
         let samples = columns.clone().map(sample_in);
         if frame.wants.depth {
             for (depth, sample) in band.depth[row.clone()].iter_mut().zip(samples.clone()) {
-                let seen = state.buffer.depth[sample];
+                let nearest = state.buffer.depth[sample];
                 // The background is behind 0; and -0 becomes 0.
-                *depth = if seen > 0.0 { seen } else { 0.0 };
+                *depth = if nearest > 0.0 { nearest } else { 0.0 };
             }
         }
         if frame.wants.ids {
             let pixels = row.zip(samples);
-            match asked.map(|asked| asked[top + y] >> (left + columns.start)) {
+            match requested.map(|requested| requested[top + y] >> (left + columns.start)) {
                 None => store_ids(frame, state, band, pixels),
-                Some(asked) => {
-                    let is_asked = |column: usize| asked >> column & 1 != 0;
-                    let some = pixels.enumerate().filter(|(column, _)| is_asked(*column));
+                Some(requested) => {
+                    let is_requested = |column: usize| requested >> column & 1 != 0;
+                    let some = pixels.enumerate().filter(|(column, _)| is_requested(*column));
                     store_ids(frame, state, band, some.map(|(_, pixel)| pixel));
                 }
             }
@@ -151,8 +151,8 @@ fn store_ids(
         }
         let planes = [&mut band.objects, &mut band.faces, &mut band.triangles];
         for (plane, id) in planes.into_iter().zip(last.1) {
-            if let Some(place) = plane.get_mut(index) {
-                *place = id;
+            if let Some(slot) = plane.get_mut(index) {
+                *slot = id;
             }
         }
     }
@@ -183,10 +183,10 @@ impl FrameView<'_> {
         match visible {
             NO_TRIANGLE => [u32::MAX; 3],
             visible => {
-                let place = state.triangles[visible as usize];
-                let plan = &self.plan.draws[self.draw_of(place)];
+                let triangle = state.triangles[visible as usize];
+                let plan = &self.plan.draws[self.draw_of(triangle)];
                 let geometry = &self.pass[plan.draw].geometry;
-                let primitive = place.ordinal - plan.ordinals.start;
+                let primitive = triangle.ordinal - plan.ordinals.start;
                 [geometry.object, geometry.face(primitive), primitive]
             }
         }

@@ -12,20 +12,20 @@ const SIDE: usize = LANES / 2;
 /// All bits of the pixels of a group for which a number has a bit.
 const MASKS: [[u32; SIDE]; 1 << SIDE] = {
     let mut masks = [[0; SIDE]; 1 << SIDE];
-    let mut place = 0;
-    while place < SIDE << SIDE {
-        let (number, lane) = (place / SIDE, place % SIDE);
+    let mut index = 0;
+    while index < SIDE << SIDE {
+        let (number, lane) = (index / SIDE, index % SIDE);
         masks[number][lane] = if number >> lane & 1 != 0 { u32::MAX } else { 0 };
-        place += 1;
+        index += 1;
     }
     masks
 };
 
-/// Writes those of a tile's own pixels for which `asked` has a bit in their row.
+/// Writes those of a tile's own pixels for which `requested` has a bit in their row.
 pub(super) fn write_some(
     frame: &FrameView<'_>,
     area: &TileArea,
-    asked: &TileRows,
+    requested: &TileRows,
     codes: &[u32],
     bands: &Bands<'_>,
 ) {
@@ -33,22 +33,22 @@ pub(super) fn write_some(
     let band = &mut *band;
     let image = if band.unorm8.is_empty() { &mut *band.srgb8 } else { &mut *band.unorm8 };
     let ([columns, rows], [left, top]) = (frame.drawn_part(area), area.margin);
-    for (y, asked) in rows.map(|y| (y, asked[top + y])).filter(|(_, asked)| *asked != 0) {
+    for (y, requested) in rows.map(|y| (y, requested[top + y])).filter(|(_, requested)| *requested != 0) {
         let start = corner + y * bands.width();
         let row = &mut image[start + columns.start..start + columns.end];
-        write_row(row, codes, asked, [left + columns.start, top + y]);
+        write_row(row, codes, requested, [left + columns.start, top + y]);
     }
 }
 
 /// Writes to a row of pixels, which begins at a column of the tile.
-fn write_row(row: &mut [[u8; 4]], codes: &[u32], asked: u64, [column, y]: [usize; 2]) {
+fn write_row(row: &mut [[u8; 4]], codes: &[u32], requested: u64, [column, y]: [usize; 2]) {
     // Up to a whole group first.
     let head = row.len().min(column.next_multiple_of(SIDE) - column);
     let (head, row) = row.split_at_mut(head);
-    write_each(head, codes, asked, [column, y]);
+    write_each(head, codes, requested, [column, y]);
     let whole = column + head.len();
     let (groups, tail) = row.as_chunks_mut::<SIDE>();
-    let mut rest = asked.checked_shr(whole as u32).unwrap_or(0);
+    let mut rest = requested.checked_shr(whole as u32).unwrap_or(0);
     while let Some(pixels) = groups.get_mut(rest.trailing_zeros() as usize / SIDE) {
         let first = rest.trailing_zeros() as usize / SIDE * SIDE;
         let mask = &MASKS[(rest >> first) as usize % MASKS.len()];
@@ -62,12 +62,12 @@ fn write_row(row: &mut [[u8; 4]], codes: &[u32], asked: u64, [column, y]: [usize
         });
     }
     let written = whole + SIDE * groups.len();
-    write_each(tail, codes, asked, [written, y]);
+    write_each(tail, codes, requested, [written, y]);
 }
 
 /// The same, pixel by pixel.
-fn write_each(pixels: &mut [[u8; 4]], codes: &[u32], asked: u64, [x, y]: [usize; 2]) {
-    for (pixel, x) in pixels.iter_mut().zip(x..).filter(|(_, x)| asked >> x & 1 != 0) {
+fn write_each(pixels: &mut [[u8; 4]], codes: &[u32], requested: u64, [x, y]: [usize; 2]) {
+    for (pixel, x) in pixels.iter_mut().zip(x..).filter(|(_, x)| requested >> x & 1 != 0) {
         *pixel = codes[TileArea::index_of([x, y])].to_le_bytes();
     }
 }

@@ -2,7 +2,7 @@
 //! faster than short ones: the processor prefetches them.
 
 use super::fill_background;
-use crate::simd::{Each, LANES};
+use crate::simd::{InlineMap, LANES};
 use crate::target::Bands;
 use crate::tile_buffer::{PIXELS, TileArea};
 use crate::view::FrameView;
@@ -35,7 +35,7 @@ impl Strip {
         }
     }
 
-    /// Takes a tile's pixels, and leaves others in their place. What waits is written
+    /// Takes a tile's pixels, and leaves others instead. What waits is written
     /// first if the tile does not continue it.
     pub(super) fn push(
         &mut self,

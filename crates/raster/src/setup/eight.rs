@@ -7,7 +7,7 @@ use super::{EightPrimitives, Setup};
 use crate::Culling;
 use crate::bin::Entry;
 use crate::primitive::SMALL;
-use crate::simd::{Each, I32, LANES, Mask, Simd, lanes_of, prelude::*, transposed};
+use crate::simd::{I32, InlineMap, LANES, Mask, Simd, lanes_of, prelude::*, transposed};
 use crate::vertex::ScreenVertex;
 
 /// What eight triangles look like on the screen.
@@ -38,7 +38,7 @@ impl<S: Simd> ScreenTriangles<S> {
                 )
             },
         );
-        // A vertex without a place has a coordinate that no vertex on the grid has.
+        // A vertex that is not snapped has a coordinate that no vertex on the grid has.
         let nowhere = I32::splat(simd, ScreenVertex::NOWHERE);
         let special = a[0].simd_eq(nowhere) | b[0].simd_eq(nowhere) | c[0].simd_eq(nowhere);
         let extent = [0, 1].each(
@@ -115,7 +115,7 @@ impl Setup<'_> {
         let eight = ScreenTriangles::new(simd, vertices);
         let lanes = triangles.lanes();
         let plain = eight.plain.to_bitmask() & lanes;
-        let (drawn, pixels) = self.seen(simd, &eight, plain);
+        let (drawn, pixels) = self.visible(simd, &eight, plain);
         self.chunk.stats.culled += u64::from((plain & !drawn).count_ones());
         self.chunk.stats.set_up += u64::from(drawn.count_ones());
         if plain == lanes && self.push_together(simd, triangles.numbers, drawn, pixels) {
@@ -143,7 +143,7 @@ impl Setup<'_> {
     /// The `plain` lanes that may be visible, and the first and last columns and rows in which they may have
     /// samples.
     #[inline(always)]
-    fn seen<S: Simd>(&self, simd: S, eight: &ScreenTriangles<S>, plain: u64) -> (u64, [[I32<S>; 2]; 2]) {
+    fn visible<S: Simd>(&self, simd: S, eight: &ScreenTriangles<S>, plain: u64) -> (u64, [[I32<S>; 2]; 2]) {
         let zero = I32::splat(simd, 0);
         let faces = match self.culling {
             Culling::None => !eight.area.simd_eq(zero),
@@ -152,7 +152,7 @@ impl Setup<'_> {
         };
         let grid = self.grid;
         let [least, greatest] = grid.pattern.reach();
-        let mut seen = faces;
+        let mut visible = faces;
         let pixels = [(0, grid.viewport.width), (1, grid.viewport.height)].each(
             #[inline(always)]
             |(axis, side)| {
@@ -161,8 +161,8 @@ impl Setup<'_> {
                 let [low, high] = eight.extent[axis];
                 let begin = (low + (255 - greatest)) >> 8;
                 let end = (high - least) >> 8;
-                seen = seen & begin.simd_le(end) & end.simd_ge(zero);
-                seen &= begin.simd_lt(I32::splat(simd, side as i32));
+                visible = visible & begin.simd_le(end) & end.simd_ge(zero);
+                visible &= begin.simd_lt(I32::splat(simd, side as i32));
                 [begin, end]
             },
         );
@@ -171,9 +171,9 @@ impl Setup<'_> {
                 #[inline(always)]
                 |[begin, end]| (end - begin).simd_le(I32::splat(simd, 1)),
             );
-            seen &= !(x & y & eight.miss(simd, [pixels[0][0], pixels[1][0]]));
+            visible &= !(x & y & eight.miss(simd, [pixels[0][0], pixels[1][0]]));
         }
-        (seen.to_bitmask() & plain, pixels)
+        (visible.to_bitmask() & plain, pixels)
     }
 
     /// Bins the drawn triangles if each of them lies in a single tile, which small ones mostly do.
@@ -204,8 +204,8 @@ impl Setup<'_> {
             return false;
         }
         let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
-        let places = self.indices_in_chunk(simd, primitives);
-        self.chunk.push_some(drawn, tiles, places, Entry::primitive);
+        let indices = self.indices_in_chunk(simd, primitives);
+        self.chunk.push_some(drawn, tiles, indices, Entry::primitive);
         true
     }
 

@@ -1,6 +1,6 @@
 //! Up to eight primitives of one draw, to be set up together.
 
-use crate::simd::{Each, LANES, lanes_of};
+use crate::simd::{InlineMap, LANES, lanes_of};
 
 /// One primitive in each lane; unused lanes repeat the last one.
 pub(crate) struct EightPrimitives<'p, T> {

@@ -49,7 +49,7 @@ pub(crate) struct Setup<'a> {
 }
 
 /// Three vertices of a cut triangle, to be made into a record.
-struct Candidate {
+struct PolygonTriangle {
     vertices: [ScreenVertex; 3],
     primitive: u32,
     /// The corner that each column of the weights is for.
@@ -75,7 +75,7 @@ impl Setup<'_> {
     #[inline(never)]
     pub(crate) fn triangle(&mut self, primitive: u32, indices: [u32; 3]) {
         let vertices = indices.map(|index| *self.vertices.get(index));
-        if vertices.iter().all(|vertex| vertex.has_place()) {
+        if vertices.iter().all(|vertex| vertex.is_snapped()) {
             return self.whole_triangle(primitive, vertices);
         }
         let [a, b, c] = indices.map(|index| self.vertices.outcode(index));
@@ -118,7 +118,7 @@ impl Setup<'_> {
             return;
         }
         cut_ears(screen, |ear| {
-            let candidate = Candidate {
+            let candidate = PolygonTriangle {
                 vertices: ear.map(|i| screen[i]),
                 primitive,
                 order: cut.order,
@@ -154,7 +154,7 @@ impl Setup<'_> {
 
     /// Sorts the vertices and keeps the triangle if it can hold a sample of the
     /// view.
-    fn push(&mut self, candidate: Candidate, weights: CutWeights) {
+    fn push(&mut self, candidate: PolygonTriangle, weights: CutWeights) {
         let order = sorted(candidate.vertices);
         let triangle = SetupTriangle {
             vertices: order.map(|i| candidate.vertices[i]),

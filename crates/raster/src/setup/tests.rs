@@ -200,8 +200,8 @@ fn tiles_of(points: [[i32; 2]; 3], culling: Culling, grid: &Grid) -> Option<u64>
     // Those of a pixel or two are asked whether they cover a centre.
     let edges = Edge::of(&triangle);
     let covers = |[x, y]: [i32; 2]| {
-        let centre = [x * 256 + 128, y * 256 + 128];
-        edges.iter().all(|edge| edge.at(centre) + edge.bias() >= 0)
+        let center = [x * 256 + 128, y * 256 + 128];
+        edges.iter().all(|edge| edge.at(center) + edge.bias() >= 0)
     };
     let is_tiny = columns[1] - columns[0] <= 1 && rows[1] - rows[0] <= 1;
     let mut pixels = (columns[0]..=columns[1]).flat_map(|x| (rows[0]..=rows[1]).map(move |y| [x, y]));
@@ -217,8 +217,8 @@ proptest! {
         samples in prop::sample::select(vec![1, 1, 4]),
         (tile_size, side) in prop::sample::select(vec![(TileSize::Pixels8, 8), (TileSize::Pixels64, 64)]),
     ) {
-        let place = |raw: i32| raw as f32 / (SIDE * 128) as f32 - 1.0;
-        let corners = triangles.iter().flatten().map(|&[x, y]| [place(x), -place(y), 0.5, 1.0]).collect();
+        let coordinate = |raw: i32| raw as f32 / (SIDE * 128) as f32 - 1.0;
+        let corners = triangles.iter().flatten().map(|&[x, y]| [coordinate(x), -coordinate(y), 0.5, 1.0]).collect();
         let indices: Vec<_> = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
         let (_, stats) = frame(corners, &indices, (culling, samples, tile_size));
 

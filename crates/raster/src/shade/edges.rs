@@ -4,23 +4,23 @@ use crate::fragments::{FragmentList, ShadePoint};
 use crate::simd::{LANES, Mask, Simd, U32, lane_numbers, prelude::*};
 use crate::tile_buffer::{NO_TRIANGLE, PIXELS};
 
-/// The place of the colour behind all triangles.
+/// The index of the colour behind all triangles.
 pub(crate) const BEHIND: usize = PIXELS;
 
-/// The first place of a colour that only some samples of a pixel have.
+/// The first index of a colour that only some samples of a pixel have.
 const PARTS: usize = PIXELS + 1;
 
 /// No colour's name.
 const UNNAMED: u32 = u32::MAX;
 
 /// The pixels of a tile whose samples see different triangles, and the names of their
-/// samples' colours: the places where they lie.
+/// samples' colours: the indices where they lie.
 pub(crate) struct Edges {
     groups: Vec<EdgeGroup>,
     /// Group by group, sample by sample; and room for more.
     names: Vec<[u32; LANES]>,
     samples: usize,
-    /// How many colours have a place of their own, beside those of pixels.
+    /// How many colours have an index of their own, beside those of pixels.
     parts: usize,
 }
 
@@ -64,13 +64,13 @@ impl Edges {
         self.groups.clear();
     }
 
-    /// How many colours have a place of their own.
+    /// How many colours have an index of their own.
     pub(super) fn part_count(&self) -> usize {
         self.parts
     }
 
-    /// How many places there are for colours.
-    pub(super) fn places(&self) -> usize {
+    /// How many colours there is memory for.
+    pub(super) fn color_count(&self) -> usize {
         PARTS + self.parts
     }
 
@@ -108,10 +108,10 @@ impl Edges {
             }
             // All lanes without a name at once: how many there are is hard to predict.
             let others = name.simd_eq(unnamed) & listed;
-            let places = (lane_numbers(simd) + (PARTS + self.parts) as i32).bitcast::<U32<S>>();
-            parts.push_some(others, [visible, ShadePoint::covering_lanes(pixels, sample)], places);
+            let indices = (lane_numbers(simd) + (PARTS + self.parts) as i32).bitcast::<U32<S>>();
+            parts.push_some(others, [visible, ShadePoint::covering_lanes(pixels, sample)], indices);
             self.parts += others.to_bitmask().count_ones() as usize;
-            names[sample] = places.expand_merge(others, name).into();
+            names[sample] = indices.expand_merge(others, name).into();
         }
     }
 }

@@ -50,18 +50,18 @@ pub(crate) fn shade_jobs_with(
     });
 }
 
-/// Evaluates the masks of jobs: 1 or 0 at each output's place.
+/// Evaluates the masks of jobs: 1 or 0 at each output's index.
 pub(crate) fn mask_jobs(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
     list: JobList<'_>,
-    kept: &mut [u8],
+    passed: &mut [u8],
 ) {
     for_each_part(frame, area, shading, list, |draw, context, shading| {
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
-        frame.pipeline(draw).mask(frame.token, context, &task, columns, kept);
+        frame.pipeline(draw).mask(frame.token, context, &task, columns, passed);
     });
 }
 
@@ -77,12 +77,12 @@ fn for_each_part(
     let JobList { triangles, jobs, points } = list;
     let mut rest = jobs;
     while let Some(first) = rest.first() {
-        let draw = frame.draw_of(triangles[first.place as usize]);
+        let draw = frame.draw_of(triangles[first.triangle as usize]);
         let end = frame.plan.draws[draw].ordinals.end;
-        let same = rest.partition_point(|job| triangles[job.place as usize].ordinal < end);
+        let same = rest.partition_point(|job| triangles[job.triangle as usize].ordinal < end);
         let (part, after) = rest.split_at(same.min(READY));
-        shading.seen.clear();
-        shading.seen.extend(part.iter().map(|job| job.place));
+        shading.visible_triangles.clear();
+        shading.visible_triangles.extend(part.iter().map(|job| job.triangle));
         shading.fragments.clear();
         for (slot, job) in part.iter().enumerate() {
             for &point in &points[job.points.clone()] {
@@ -90,7 +90,7 @@ fn for_each_part(
             }
         }
         let context = frame.shade_context(area, triangles, draw);
-        shading.records.fill(frame.token, &context, &shading.seen);
+        shading.records.fill(frame.token, &context, &shading.visible_triangles);
         visit(draw, &context, shading);
         rest = after;
     }

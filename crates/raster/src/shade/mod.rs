@@ -29,7 +29,7 @@ mod tests;
 
 pub(crate) use edges::{BEHIND, EdgeGroup};
 pub(crate) use list::{JobList, mask_jobs, shade_jobs, shade_jobs_with};
-pub(crate) use pixels_to_shade::{Partly, PixelsToShade};
+pub(crate) use pixels_to_shade::{PartialTile, PixelsToShade};
 pub(crate) use shading::{EmptyGroup, Shading};
 pub(crate) use surface::{list_visible, note_faces, shade_tile};
 pub(crate) use tile_bits::{GROUP_COUNT, TileLanes, TileRows, rows_of, rows_of_either};

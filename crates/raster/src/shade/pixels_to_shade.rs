@@ -15,22 +15,22 @@ pub(crate) struct PixelsToShade {
     /// Those, and pixels within reach of them.
     pub(crate) near: TileRows,
     /// Those, and pixels within reach of them that show moving triangles.
-    pub(crate) seen: TileLanes,
+    pub(crate) visible: TileLanes,
 }
 
 /// What is known of a tile of which not all pixels are shaded.
 #[derive(Clone, Copy)]
-pub(crate) struct Partly<'p> {
+pub(crate) struct PartialTile<'p> {
     pub(crate) pixels: &'p PixelsToShade,
     /// The still triangles, as the search for outer halves of lines needs them.
     pub(crate) still: &'p VisibleFaces,
-    /// Their places in the tile's list.
-    pub(crate) places: &'p [u32],
+    /// Their indices in the tile's list.
+    pub(crate) indices: &'p [u32],
 }
 
 impl PixelsToShade {
     pub(crate) fn new() -> Self {
-        Self { lanes: [0; GROUP_COUNT], rows: [0; MAX_SIDE], near: [0; MAX_SIDE], seen: [0; GROUP_COUNT] }
+        Self { lanes: [0; GROUP_COUNT], rows: [0; MAX_SIDE], near: [0; MAX_SIDE], visible: [0; GROUP_COUNT] }
     }
 
     /// Asks for those of a tile's own `columns` and `rows` that show a still triangle which may look different, or
@@ -51,9 +51,12 @@ impl PixelsToShade {
         }
         self.lanes = lanes_of(&self.rows);
         self.near = spread(&self.rows, reach);
-        self.seen = lanes_of(&self.near);
+        self.visible = lanes_of(&self.near);
         let lanes = self.lanes.iter().zip(now);
-        self.seen.iter_mut().zip(lanes).for_each(|(seen, (lanes, now))| *seen = lanes | *seen & now);
+        self.visible
+            .iter_mut()
+            .zip(lanes)
+            .for_each(|(visible, (lanes, now))| *visible = lanes | *visible & now);
     }
 
     /// Whether any pixel is shaded.
@@ -110,24 +113,24 @@ mod tests {
             own in [0..20_usize, 0..20_usize], sides in [1..44_usize, 1..44_usize], reach in 0..17_usize,
         ) {
             let [columns, rows] = [0, 1].map(|axis| own[axis]..own[axis] + sides[axis]);
-            let mut asked = PixelsToShade::new();
-            asked.set(&rows_of(&lanes(&look)), &lanes(&now), &lanes(&before), [columns.clone(), rows.clone()], reach);
+            let mut found = PixelsToShade::new();
+            found.set(&rows_of(&lanes(&look)), &lanes(&now), &lanes(&before), [columns.clone(), rows.clone()], reach);
             let is_near = |[a, b]: [usize; 2], [x, y]: [usize; 2]| a.abs_diff(x) <= reach && b.abs_diff(y) <= reach;
-            let is_asked = |pixel: [usize; 2]| {
+            let is_expected = |pixel: [usize; 2]| {
                 let is_moved = now.iter().chain(&before).any(|&moved| is_near(moved, pixel));
                 columns.contains(&pixel[0]) && rows.contains(&pixel[1]) && (look.contains(&pixel) || is_moved)
             };
             let all = || (0..PIXELS).map(TileArea::pixel_at);
-            let expected: Vec<_> = all().filter(|&pixel| is_asked(pixel)).collect();
-            let is_seen = |at: &[usize; 2]| {
+            let expected: Vec<_> = all().filter(|&pixel| is_expected(pixel)).collect();
+            let is_visible = |at: &[usize; 2]| {
                 expected.contains(at) || now.contains(at) && expected.iter().any(|&pixel| is_near(pixel, *at))
             };
-            let seen: Vec<_> = all().filter(is_seen).collect();
-            prop_assert_eq!(asked.any(), !expected.is_empty());
-            prop_assert!(asked.lanes == lanes(&expected));
-            prop_assert!(asked.seen == lanes(&seen));
+            let visible_pixels: Vec<_> = all().filter(is_visible).collect();
+            prop_assert_eq!(found.any(), !expected.is_empty());
+            prop_assert!(found.lanes == lanes(&expected));
+            prop_assert!(found.visible == lanes(&visible_pixels));
             for [x, y] in all() {
-                prop_assert_eq!(asked.rows[y] >> x & 1 != 0, expected.contains(&[x, y]));
+                prop_assert_eq!(found.rows[y] >> x & 1 != 0, expected.contains(&[x, y]));
             }
         }
     }

@@ -7,7 +7,7 @@ use crate::tile_buffer::PIXELS;
 use std::ops::Range;
 
 /// What is visible of one draw.
-pub(super) struct Run {
+pub(super) struct DrawRun {
     pub(super) draw: usize,
     /// The records of its triangles.
     pub(super) slots: Range<usize>,
@@ -32,14 +32,14 @@ pub(crate) struct Shading {
     /// For each of the tile's triangles its number among the visible ones.
     pub(super) slots: Vec<u32>,
     /// The visible triangles among the tile's, in their order.
-    pub(super) seen: Vec<u32>,
+    pub(super) visible_triangles: Vec<u32>,
     /// Groups of pixels that see one draw.
     pub(super) groups: Vec<Group>,
     /// Pixels that see one triangle, in other groups.
     pub(super) fragments: FragmentList,
     /// Fragments that cover a part of their pixel.
     pub(super) parts: FragmentList,
-    pub(super) runs: Vec<Run>,
+    pub(super) runs: Vec<DrawRun>,
     pub(crate) records: Records,
     pub(super) columns: [Columns; 2],
     /// A fragment and one colour for each visible triangle of a flat draw, in linear
@@ -78,7 +78,7 @@ impl Shading {
     pub(crate) fn new() -> Self {
         Self {
             slots: Vec::new(),
-            seen: Vec::new(),
+            visible_triangles: Vec::new(),
             groups: Vec::new(),
             fragments: FragmentList::default(),
             parts: FragmentList::default(),

@@ -4,8 +4,8 @@
 //! into a list instead: pixels of groups that show several draws, and, with multisampling, pixels that show several
 //! triangles. A lane depends on its own triangle and pixel alone, so groups and lists give the same result.
 
-use super::pixels_to_shade::Partly;
-use super::shading::{Run, Shading};
+use super::pixels_to_shade::PartialTile;
+use super::shading::{DrawRun, Shading};
 use super::tile_bits::GROUP_COUNT;
 use super::visible::{SomeLanes, divide, list};
 use crate::bin::TriangleRef;
@@ -23,7 +23,7 @@ use crate::view::{FrameView, VisibleTile};
 pub(crate) fn shade_tile(
     frame: &FrameView<'_>,
     tile: VisibleTile<'_>,
-    partly: Option<Partly<'_>>,
+    partly: Option<PartialTile<'_>>,
     shading: &mut Shading,
     encoding: Option<Encoding>,
 ) -> u64 {
@@ -37,7 +37,9 @@ pub(crate) fn shade_tile(
         };
         match run.records {
             Some(shape) => shading.records.select(shape),
-            None => shading.records.fill(frame.token, &context, &shading.seen[run.slots.clone()]),
+            None => {
+                shading.records.fill(frame.token, &context, &shading.visible_triangles[run.slots.clone()])
+            }
         }
         let visible =
             VisibleTriangles { triangles: tile.buffer.visible(), step: LANES * tile.buffer.samples };
@@ -57,32 +59,36 @@ pub(crate) fn shade_tile(
 pub(crate) fn list_visible(
     frame: &FrameView<'_>,
     tile: VisibleTile<'_>,
-    partly: Option<Partly<'_>>,
+    partly: Option<PartialTile<'_>>,
     shading: &mut Shading,
 ) -> usize {
     let VisibleTile { area, buffer, triangles } = tile;
     let mut outer = std::mem::take(&mut shading.outer);
     let ink = frame.ink.as_ref().filter(|ink| ink.has_lines());
     let some = match partly {
-        Some(Partly { pixels, .. }) => Some(SomeLanes { shaded: &pixels.lanes, seen: &pixels.seen }),
+        Some(PartialTile { pixels, .. }) => {
+            Some(SomeLanes { shaded: &pixels.lanes, visible: &pixels.visible })
+        }
         // Lines reach across the borders of tiles.
-        None => ink.map(|_| SomeLanes { shaded: outer.own_lanes(frame, area), seen: &[0xff; GROUP_COUNT] }),
+        None => {
+            ink.map(|_| SomeLanes { shaded: outer.own_lanes(frame, area), visible: &[0xff; GROUP_COUNT] })
+        }
     };
     shading.edged = 0;
     let count = at_level!(frame.token, simd => list(simd, buffer, triangles.len(), some, shading));
     divide(frame, buffer, triangles, shading);
     if let Some(ink) = ink {
         outer.begin(triangles.len());
-        if let Some(Partly { still, places, .. }) = partly {
-            outer.faces_mut().note_again(still, places);
+        if let Some(PartialTile { still, indices, .. }) = partly {
+            outer.faces_mut().note_again(still, indices);
         }
-        let Shading { runs, records, seen, edged, .. } = shading;
+        let Shading { runs, records, visible_triangles, edged, .. } = shading;
         records.clear();
         for run in runs {
             let context = frame.shade_context(area, triangles, run.draw);
-            let seen = &seen[run.slots.clone()];
-            let shape = records.append(frame.token, &context, seen, Some(outer.faces_mut()));
-            *edged += if shape.lines.is_some() { seen.len() as u64 } else { 0 };
+            let visible_triangles = &visible_triangles[run.slots.clone()];
+            let shape = records.append(frame.token, &context, visible_triangles, Some(outer.faces_mut()));
+            *edged += if shape.lines.is_some() { visible_triangles.len() as u64 } else { 0 };
             run.records = Some(shape);
         }
         outer.find(frame, ink, tile, partly.map(|partly| [&partly.pixels.rows, &partly.pixels.near]));
@@ -102,12 +108,12 @@ pub(crate) fn note_faces(
 ) -> VisibleFaces {
     let mut faces = VisibleFaces::default();
     faces.begin(triangles.len());
-    let places: Vec<u32> = (0..triangles.len() as u32).collect();
+    let indices: Vec<u32> = (0..triangles.len() as u32).collect();
     records.clear();
-    let draw_of = |&place: &u32| frame.draw_of(triangles[place as usize]);
-    for places in places.chunk_by(|a, b| draw_of(a) == draw_of(b)) {
-        let context = frame.shade_context(area, triangles, draw_of(&places[0]));
-        records.append(frame.token, &context, places, Some(&mut faces));
+    let draw_of = |&index: &u32| frame.draw_of(triangles[index as usize]);
+    for indices in indices.chunk_by(|a, b| draw_of(a) == draw_of(b)) {
+        let context = frame.shade_context(area, triangles, draw_of(&indices[0]));
+        records.append(frame.token, &context, indices, Some(&mut faces));
     }
     faces
 }
@@ -116,7 +122,7 @@ fn shade_run(
     frame: &FrameView<'_>,
     context: &ShadeContext<'_>,
     shading: &mut Shading,
-    run: &Run,
+    run: &DrawRun,
     visible: VisibleTriangles<'_>,
     encoding: Option<Encoding>,
 ) {
@@ -149,7 +155,7 @@ fn shade_flat(
     frame: &FrameView<'_>,
     context: &ShadeContext<'_>,
     shading: &mut Shading,
-    run: &Run,
+    run: &DrawRun,
     visible: VisibleTriangles<'_>,
     encoding: Option<Encoding>,
 ) {
@@ -159,8 +165,8 @@ fn shade_flat(
     for group in &groups[run.groups.clone()] {
         let number = group.number as usize;
         let pixels = number * LANES..(number + 1) * LANES;
-        let seen = &visible.triangles[number * visible.step..][..LANES];
-        if seen.iter().all(|&visible| visible == seen[0]) {
+        let visible_triangles = &visible.triangles[number * visible.step..][..LANES];
+        if visible_triangles.iter().all(|&visible| visible == visible_triangles[0]) {
             let slot = (group.slot - base) as usize;
             if encoding.is_some() {
                 codes[pixels.clone()].fill(flat_codes[slot]);
@@ -172,8 +178,8 @@ fn shade_flat(
         }
         // Lanes that are not active get any colour, which is overwritten later.
         let slot = |lane: usize| {
-            let is_asked = group.lanes >> lane & 1 != 0;
-            (if is_asked { slots[seen[lane] as usize] } else { group.slot } - base) as usize
+            let is_shaded = group.lanes >> lane & 1 != 0;
+            (if is_shaded { slots[visible_triangles[lane] as usize] } else { group.slot } - base) as usize
         };
         if encoding.is_some() {
             for (lane, code) in codes[pixels.clone()].iter_mut().enumerate() {

@@ -60,12 +60,12 @@ fn drawn(corners: [Vec4; 3], shown: fn(&Fragment<()>) -> f32) -> (Vec<f32>, Vec<
 /// The value at the centre of a pixel of what is linear on the screen, from its values at the corners.
 fn linear(corners: [Vec4; 3], values: [f64; 3], pixel: usize) -> f64 {
     let [width, height] = SIZE.map(f64::from);
-    let place = |corner: Vec4| {
+    let project = |corner: Vec4| {
         let (x, y) = (f64::from(corner.x / corner.w), f64::from(corner.y / corner.w));
         // Rounded to the grid of 1/256 pixel, as corners are.
         [(x + 1.0) / 2.0 * width, (1.0 - y) / 2.0 * height].map(|v| (v * 256.0).round_ties_even() / 256.0)
     };
-    let [a, b, c] = corners.map(place);
+    let [a, b, c] = corners.map(project);
     let at = [(pixel % SIZE[0] as usize) as f64 + 0.5, (pixel / SIZE[0] as usize) as f64 + 0.5];
     let doubled = |[a, b, c]: [[f64; 2]; 3]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     let shares = [[at, b, c], [a, at, c], [a, b, at]].map(doubled);
@@ -76,9 +76,9 @@ fn linear(corners: [Vec4; 3], values: [f64; 3], pixel: usize) -> f64 {
 fn fragments_know_their_depth() {
     for corners in corners() {
         let (shown, depths) = drawn(corners, |fragment| fragment.depth);
-        let seen = depths.iter().enumerate().filter(|(_, depth)| **depth > 0.0);
-        assert!(seen.clone().count() > 300, "{}", seen.count());
-        for (pixel, depth) in seen {
+        let drawn = depths.iter().enumerate().filter(|(_, depth)| **depth > 0.0);
+        assert!(drawn.clone().count() > 300, "{}", drawn.count());
+        for (pixel, depth) in drawn {
             let expected = linear(corners, corners.map(|corner| f64::from(corner.z / corner.w)), pixel);
             assert!((f64::from(shown[pixel]) - expected).abs() < 1e-6, "{}, not {expected}", shown[pixel]);
             assert!((shown[pixel] - depth).abs() < 1e-6, "{} and {depth}", shown[pixel]);
@@ -99,8 +99,9 @@ fn fragments_know_their_distance_and_their_place() {
                 "{}, not {expected}",
                 inverse[pixel]
             );
-            let place = [pixel % SIZE[0] as usize, pixel / SIZE[0] as usize].map(|v| v as f32 * 101.0 + 0.5);
-            assert_eq!([across[pixel], down[pixel]], place, "the centre of the pixel");
+            let expected =
+                [pixel % SIZE[0] as usize, pixel / SIZE[0] as usize].map(|v| v as f32 * 101.0 + 0.5);
+            assert_eq!([across[pixel], down[pixel]], expected, "the centre of the pixel");
         }
     }
 }
@@ -119,10 +120,10 @@ fn fragments_know_how_far_their_edges_are() {
             let mut values = [0.0; 3];
             values[(edge + 2) % 3] = 1.0;
             let [width, height] = SIZE.map(f64::from);
-            let place = |corner: Vec4| {
+            let project = |corner: Vec4| {
                 [f64::from(corner.x / corner.w) * width / 2.0, f64::from(corner.y / corner.w) * height / 2.0]
             };
-            let [from, to, opposite] = [edge, (edge + 1) % 3, (edge + 2) % 3].map(|i| place(corners[i]));
+            let [from, to, opposite] = [edge, (edge + 1) % 3, (edge + 2) % 3].map(|i| project(corners[i]));
             let way = [to[0] - from[0], to[1] - from[1]];
             let beside = [opposite[0] - from[0], opposite[1] - from[1]];
             let far =

@@ -1,6 +1,6 @@
 //! Which triangles of a tile are visible, and at which pixels.
 
-use super::shading::{EmptyGroup, Run, Shading};
+use super::shading::{DrawRun, EmptyGroup, Shading};
 use crate::bin::TriangleRef;
 use crate::fragments::{FragmentList, Group, ShadePoint};
 use crate::simd::{LANES, Mask, Simd, U32, prelude::*};
@@ -16,7 +16,7 @@ pub(super) struct SomeLanes<'l> {
     /// Those that are shaded.
     pub(super) shaded: &'l [u8],
     /// Those whose triangles count as visible.
-    pub(super) seen: &'l [u8],
+    pub(super) visible: &'l [u8],
 }
 
 /// Lists the visible triangles of a tile and the pixels in which they are visible, for some lanes if not for all.
@@ -29,7 +29,7 @@ pub(super) fn list<S: Simd>(
     some: Option<SomeLanes<'_>>,
     shading: &mut Shading,
 ) -> usize {
-    const NONE: SomeLanes<'_> = SomeLanes { shaded: &[], seen: &[] };
+    const NONE: SomeLanes<'_> = SomeLanes { shaded: &[], visible: &[] };
     match (buffer.samples, some) {
         (1, None) => list_samples::<S, 1, true>(simd, buffer, triangle_count, NONE, shading),
         (1, Some(some)) => list_samples::<S, 1, false>(simd, buffer, triangle_count, some, shading),
@@ -55,7 +55,7 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
     // As a slice: where it lies is looked up once.
     let marks = slots.as_mut_slice();
     for (group, rows) in rows.chunks_exact(samples).enumerate() {
-        if !WHOLE && some.seen[group] == 0 {
+        if !WHOLE && some.visible[group] == 0 {
             continue;
         }
         let (first, others) = rows.split_first().expect("a pixel has a sample");
@@ -63,8 +63,8 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
         // As before: often within large triangles.
         let mut counted = lanes;
         if !WHOLE {
-            let seen = Mask::from_bitmask(simd, u64::from(some.seen[group]));
-            counted = seen.select(lanes, U32::splat(simd, NO_TRIANGLE));
+            let visible = Mask::from_bitmask(simd, u64::from(some.visible[group]));
+            counted = visible.select(lanes, U32::splat(simd, NO_TRIANGLE));
         }
         if !counted.simd_eq(last).all_true() {
             // All eight are marked: a branch on which are new would be mispredicted often.
@@ -87,21 +87,21 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
         if empty != 0 {
             empty_groups.push(EmptyGroup { number: group as u32, lanes: empty as u32 });
         }
-        let seen = !empty & shaded;
-        pixels += seen.count_ones();
+        let occupied = !empty & shaded;
+        pixels += occupied.count_ones();
         if partly != 0 {
             edges.push(simd, group, rows, partly, parts);
         }
-        if seen.count_ones() >= FULL {
-            let slot = first[seen.trailing_zeros() as usize % LANES];
-            let edges = (seen & partly) as u32;
-            groups.push(Group { slot, number: group as u32, lanes: seen as u32, edges });
+        if occupied.count_ones() >= FULL {
+            let slot = first[occupied.trailing_zeros() as usize % LANES];
+            let edges = (occupied & partly) as u32;
+            groups.push(Group { slot, number: group as u32, lanes: occupied as u32, edges });
         } else {
-            push_lanes([fragments, parts], group, first, [seen & !partly, seen & partly]);
+            push_lanes([fragments, parts], group, first, [occupied & !partly, occupied & partly]);
         }
     }
     number(triangle_count, shading);
-    let needed = shading.edges.places();
+    let needed = shading.edges.color_count();
     if shading.colors.len() < needed {
         shading.colors.resize(needed, [0.0; 4]);
     }
@@ -119,20 +119,20 @@ fn mark_all(marks: &mut [u32], rows: &[[u32; LANES]], triangle_count: usize) {
 /// the indices of the visible triangles.
 #[inline(always)]
 fn number(triangle_count: usize, shading: &mut Shading) {
-    let Shading { slots, seen, groups, fragments, parts, .. } = shading;
+    let Shading { slots, visible_triangles, groups, fragments, parts, .. } = shading;
     for &visible in parts.slots() {
         slots[visible as usize] = 1;
     }
     slots.truncate(triangle_count);
-    seen.resize(triangle_count, 0);
+    visible_triangles.resize(triangle_count, 0);
     let mut count = 0;
-    // Without a branch on what is visible, which would be mispredicted often: the place of a
+    // Without a branch on what is visible, which would be mispredicted often: the index of a
     // triangle that is not visible is overwritten by the next one.
-    for (place, slot) in slots.iter_mut().enumerate() {
-        seen[count] = place as u32;
+    for (index, slot) in slots.iter_mut().enumerate() {
+        visible_triangles[count] = index as u32;
         count += std::mem::replace(slot, count as u32) as usize;
     }
-    seen.truncate(count);
+    visible_triangles.truncate(count);
     for group in groups {
         group.slot = slots[group.slot as usize];
     }
@@ -145,7 +145,7 @@ fn number(triangle_count: usize, shading: &mut Shading) {
 /// see: those that see one triangle, and edge pixels with what their first samples see,
 /// each kind in its list.
 #[inline(always)]
-fn push_lanes(lists: [&mut FragmentList; 2], group: usize, seen: &[u32; LANES], lanes: [u64; 2]) {
+fn push_lanes(lists: [&mut FragmentList; 2], group: usize, slots: &[u32; LANES], lanes: [u64; 2]) {
     for ((list, mut lanes), partly) in lists.into_iter().zip(lanes).zip([false, true]) {
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize % LANES;
@@ -156,7 +156,7 @@ fn push_lanes(lists: [&mut FragmentList; 2], group: usize, seen: &[u32; LANES], 
             } else {
                 ShadePoint::anywhere(pixel, false, pixel)
             };
-            list.push(seen[lane], point);
+            list.push(slots[lane], point);
         }
     }
 }
@@ -168,15 +168,23 @@ pub(super) fn divide(
     triangles: &[TriangleRef],
     shading: &mut Shading,
 ) {
-    let Shading { seen, runs, .. } = shading;
+    let Shading { visible_triangles, runs, .. } = shading;
     runs.clear();
     let mut start = 0;
-    while let Some(&first) = seen.get(start) {
+    while let Some(&first) = visible_triangles.get(start) {
         let draw = frame.draw_of(triangles[first as usize]);
         let ordinals = frame.plan.draws[draw].ordinals.end;
-        let end =
-            start + seen[start..].partition_point(|&place| triangles[place as usize].ordinal < ordinals);
-        runs.push(Run { draw, slots: start..end, groups: 0..0, fragments: 0..0, parts: 0..0, records: None });
+        let end = start
+            + visible_triangles[start..]
+                .partition_point(|&index| triangles[index as usize].ordinal < ordinals);
+        runs.push(DrawRun {
+            draw,
+            slots: start..end,
+            groups: 0..0,
+            fragments: 0..0,
+            parts: 0..0,
+            records: None,
+        });
         start = end;
     }
     if runs.len() > 1 {
@@ -206,13 +214,13 @@ fn part_groups(buffer: &VisibilityBuffer, shading: &mut Shading) {
             buffer.visible()[number * LANES * buffer.samples..].first_chunk().expect("groups are whole");
         let run = shading.runs.partition_point(|run| run.slots.end <= group.slot as usize);
         let slots = shading.runs[run].slots.clone();
-        let seen: [u32; LANES] =
+        let slot_of_lane: [u32; LANES] =
             visible.map(|visible| shading.slots.get(visible as usize).copied().unwrap_or(NO_TRIANGLE));
-        let belongs = |lane: usize| slots.contains(&(seen[lane] as usize));
+        let belongs = |lane: usize| slots.contains(&(slot_of_lane[lane] as usize));
         let stays = (0..LANES).filter(|lane| group.lanes >> lane & 1 != 0).all(belongs);
         if !stays {
             let lanes = [group.lanes & !group.edges, group.edges].map(u64::from);
-            push_lanes([&mut shading.fragments, &mut shading.parts], number, &seen, lanes);
+            push_lanes([&mut shading.fragments, &mut shading.parts], number, &slot_of_lane, lanes);
         }
         stays
     });

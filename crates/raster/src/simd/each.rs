@@ -3,14 +3,14 @@
 /// As [`array::map`], and always inlined: what is not inlined loses the
 /// instructions of its SIMD level. Give it closures with
 /// `#[inline(always)]`, too.
-pub trait Each<T, const N: usize>: Sized {
+pub trait InlineMap<T, const N: usize>: Sized {
     /// `f` of each entry.
     fn each<R>(self, f: impl FnMut(T) -> R) -> [R; N];
 }
 
 macro_rules! each {
     ($($count:literal: $($name:ident)*),*) => {$(
-        impl<T> Each<T, $count> for [T; $count] {
+        impl<T> InlineMap<T, $count> for [T; $count] {
             #[inline(always)]
             fn each<R>(self, mut f: impl FnMut(T) -> R) -> [R; $count] {
                 let [$($name),*] = self;

@@ -1,7 +1,7 @@
 //! Transposes rows into columns of eight lanes, and columns into rows. Without `unsafe` there are no gather instructions;
 //! loads and a transposition are as fast.
 
-use super::{Each, F32, I32, Simd, U32, is_avx512};
+use super::{F32, I32, InlineMap, Simd, U32, is_avx512};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, i32x4, u64x2, u64x4};
 

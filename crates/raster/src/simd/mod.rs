@@ -8,7 +8,7 @@ mod each;
 mod gather;
 mod level;
 
-pub use each::{Each, inlined, lanes_of};
+pub use each::{InlineMap, inlined, lanes_of};
 pub use fearless_simd::Simd;
 pub use fearless_simd::prelude;
 pub(crate) use gather::{Row, append, channels, colors_of, transpose, transposed, unzipped};

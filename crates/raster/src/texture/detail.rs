@@ -12,7 +12,7 @@
 
 use super::{Sampler, Texture};
 use crate::simd::prelude::*;
-use crate::simd::{Each, F32, I32, Simd, greater, lesser};
+use crate::simd::{F32, I32, InlineMap, Simd, greater, lesser};
 use trigon_math::Vec2;
 
 /// The square for a gradient that is not finite or too large to square: beyond

@@ -11,7 +11,7 @@ use super::detail::{FootprintLanes, log2_of_root_lanes};
 use super::strips::{COLUMNS, PITCH, Strips, TexelQuad};
 use super::{MipFilter, Sampler, Texture, TextureFormat};
 use crate::simd::prelude::*;
-use crate::simd::{Each, F32, I32, LANES, Simd, U32, lanes_of, transposed, unzipped};
+use crate::simd::{F32, I32, InlineMap, LANES, Simd, U32, lanes_of, transposed, unzipped};
 
 impl Texture {
     /// [`Self::sample`] for eight points: red, green, blue and alpha, in each
@@ -89,7 +89,7 @@ impl<S: Simd> Probes<'_, S> {
         // its halves to be stored.
         self.simd.vectorize(
             #[inline(always)]
-            || Lookup::new(self, [u, v], square).value::<T>(),
+            || LaneLookup::new(self, [u, v], square).value::<T>(),
         )
     }
 
@@ -120,7 +120,7 @@ impl<S: Simd> Probes<'_, S> {
 }
 
 /// A look-up at eight points.
-struct Lookup<'a, S: Simd> {
+struct LaneLookup<'a, S: Simd> {
     simd: S,
     texture: &'a Texture,
     sampler: &'a Sampler,
@@ -131,7 +131,7 @@ struct Lookup<'a, S: Simd> {
     next_weight: F32<S>,
 }
 
-impl<'a, S: Simd> Lookup<'a, S> {
+impl<'a, S: Simd> LaneLookup<'a, S> {
     #[inline(always)]
     fn new(of: &Probes<'a, S>, uv: [F32<S>; 2], square: F32<S>) -> Self {
         let Probes { simd, texture, sampler, .. } = *of;

@@ -5,13 +5,13 @@ use trigon_math::{Vec4, color};
 
 /// One level as rows of texels, top row first.
 #[derive(Clone, Debug)]
-pub(super) struct Rows {
+pub(super) struct LevelRows {
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) texels: Vec<[u8; 4]>,
 }
 
-impl Rows {
+impl LevelRows {
     pub(super) fn row(&self, y: u32) -> &[[u8; 4]] {
         let width = self.width as usize;
         &self.texels[y as usize * width..][..width]
@@ -45,7 +45,7 @@ impl CoveredTexels {
 }
 
 /// The next smaller level; `None` below a single texel.
-pub(super) fn halved(from: &Rows, format: TextureFormat) -> Option<Rows> {
+pub(super) fn halved(from: &LevelRows, format: TextureFormat) -> Option<LevelRows> {
     if from.width == 1 && from.height == 1 {
         return None;
     }
@@ -58,10 +58,10 @@ pub(super) fn halved(from: &Rows, format: TextureFormat) -> Option<Rows> {
             texels.push(mean(from, *column, rows, format));
         }
     }
-    Some(Rows { width, height, texels })
+    Some(LevelRows { width, height, texels })
 }
 
-fn mean(from: &Rows, columns: CoveredTexels, rows: CoveredTexels, format: TextureFormat) -> [u8; 4] {
+fn mean(from: &LevelRows, columns: CoveredTexels, rows: CoveredTexels, format: TextureFormat) -> [u8; 4] {
     let mut plain = Vec4::ZERO;
     let mut weighted = Vec4::ZERO;
     for (j, &row_weight) in (rows.first..from.height).zip(&rows.weights) {
@@ -90,12 +90,12 @@ fn encode(value: Vec4, format: TextureFormat) -> [u8; 4] {
 mod tests {
     use super::*;
 
-    fn level(width: u32, height: u32, value: impl Fn(u32, u32) -> u8) -> Rows {
+    fn level(width: u32, height: u32, value: impl Fn(u32, u32) -> u8) -> LevelRows {
         let texels = (0..width * height).map(|i| [value(i % width, i / width), 0, 0, 255]).collect();
-        Rows { width, height, texels }
+        LevelRows { width, height, texels }
     }
 
-    fn chain(base: Rows, format: TextureFormat) -> Vec<Rows> {
+    fn chain(base: LevelRows, format: TextureFormat) -> Vec<LevelRows> {
         std::iter::successors(Some(base), |rows| halved(rows, format)).collect()
     }
 
@@ -142,7 +142,7 @@ mod tests {
     #[test]
     fn transparent_texels_do_not_bleed() {
         let texels = vec![[255, 0, 0, 255], [0, 255, 0, 0]];
-        let levels = chain(Rows { width: 2, height: 1, texels }, TextureFormat::Srgb);
+        let levels = chain(LevelRows { width: 2, height: 1, texels }, TextureFormat::Srgb);
         assert_eq!(levels[1].texels[0], [255, 0, 0, 128], "only the red one is seen");
     }
 }

@@ -31,7 +31,7 @@ pub use dual::Dual;
 pub use format::TextureFormat;
 pub use sampler::{Filter, MAX_ANISOTROPY, MipFilter, Sampler, Wrap};
 
-use mips::Rows;
+use mips::LevelRows;
 use strips::Strips;
 use thiserror::Error;
 
@@ -95,7 +95,7 @@ impl Texture {
             return Err(TextureError::Length { given: texels.len(), needed });
         }
         let opaque = texels.iter().all(|&[.., alpha]| alpha == u8::MAX);
-        let base = Rows { width, height, texels };
+        let base = LevelRows { width, height, texels };
         Ok(Self { format, strips: Strips::new(base, |rows| mips::halved(rows, format)), opaque })
     }
 

@@ -11,7 +11,7 @@
 //!
 //! [`Wrap::Repeat`]: super::Wrap::Repeat
 
-use super::mips::Rows;
+use super::mips::LevelRows;
 
 /// Columns of a strip, a power of two.
 pub(super) const COLUMNS: u32 = 8;
@@ -45,7 +45,7 @@ pub(super) type TexelQuad = [u64; 2];
 
 impl Strips {
     /// The base level first; each next half as wide and high.
-    pub(super) fn new(base: Rows, smaller: impl Fn(&Rows) -> Option<Rows>) -> Self {
+    pub(super) fn new(base: LevelRows, smaller: impl Fn(&LevelRows) -> Option<LevelRows>) -> Self {
         let (width, height) = (base.width, base.height);
         let levels = [[0; 4]; MAX_LEVELS];
         let mut strips = Self { width, height, last_level: 0, levels, texels: Vec::new() };
@@ -60,7 +60,7 @@ impl Strips {
         strips
     }
 
-    fn push(&mut self, rows: &Rows) {
+    fn push(&mut self, rows: &LevelRows) {
         self.levels[self.last_level as usize] =
             [self.texels.len() as u32, rows.width, rows.height, rows.height * PITCH].map(u32::cast_signed);
         for left in (0..rows.width).step_by(COLUMNS as usize) {
@@ -144,7 +144,7 @@ mod tests {
     /// An image whose texels hold their own coordinates.
     fn numbered(width: u32, height: u32) -> Strips {
         let texels = (0..width * height).map(|i| at(i % width, i / width)).collect();
-        Strips::new(Rows { width, height, texels }, |_| None)
+        Strips::new(LevelRows { width, height, texels }, |_| None)
     }
 
     fn at(x: u32, y: u32) -> [u8; 4] {

@@ -1,4 +1,4 @@
-//! What the still triangles of a tile show, kept from frame to frame: where the same vertices move again and again, as
+//! What the still triangles of a tile show, cached from frame to frame: where the same vertices move again and again, as
 //! in a drag, only the moving triangles are drawn over it.
 //!
 //! The nearest triangle is visible in whatever order they are drawn, so the result is that of all triangles. What is
@@ -15,7 +15,7 @@ use crate::tile_buffer::{BLOCKS, BlockBounds, NO_TRIANGLE, TileArea};
 use crate::view::FrameView;
 use std::ops::Range;
 
-/// No triangle, as it is kept.
+/// No triangle, as it is cached.
 const NONE: u16 = u16::MAX;
 
 /// What the still triangles of a tile show. It has one sample to a pixel.
@@ -23,21 +23,21 @@ pub(crate) struct CachedTile {
     /// Those that are visible: opaque ones, then overlays.
     triangles: Vec<TriangleRef>,
     /// What opaque triangles show.
-    opaque: Layer,
+    opaque: CachedLayer,
     /// Where overlays are visible; empty if there are none.
-    overlay: Layer,
+    overlay: CachedLayer,
     /// Bounds of the depths of opaque triangles.
     bounds: [BlockBounds; BLOCKS * BLOCKS],
 }
 
-/// The visible triangle of each sample, by its number among those kept, and its depth.
+/// The visible triangle of each sample, by its number among the cached triangles, and its depth.
 #[derive(Default)]
-struct Layer {
+struct CachedLayer {
     depth: Vec<f32>,
     visible: Vec<u16>,
 }
 
-/// The triangles that are drawn over what is kept: ranges of the tile's list.
+/// The triangles that are drawn over what is cached: ranges of the tile's list.
 pub(crate) struct MovingRanges {
     pub(crate) surfaces: Surfaces,
     /// How many still ones come before them.
@@ -45,7 +45,7 @@ pub(crate) struct MovingRanges {
 }
 
 impl CachedTile {
-    /// Finds what the still triangles of a tile show; `None` if that cannot be kept, because some
+    /// Finds what the still triangles of a tile show; `None` if a tile cannot be cached, because some
     /// are masked or translucent.
     pub(crate) fn find(
         frame: &FrameView<'_>,
@@ -61,13 +61,13 @@ impl CachedTile {
         }
         state.begin(frame, tile);
         resolve_visibility(frame, area, state, &surfaces, shading, stats);
-        let mut names = Names::new(state.triangles.len());
-        let mut opaque = Layer::of(state, &mut names, |_| true);
+        let mut names = TriangleNumbers::new(state.triangles.len());
+        let mut opaque = CachedLayer::of(state, &mut names, |_| true);
         let bounds = state.buffer.blocks;
-        let mut overlay = Layer::default();
+        let mut overlay = CachedLayer::default();
         if !surfaces.overlay.is_empty() {
             cover_overlay(frame, area, state, &surfaces, stats);
-            overlay = Layer::of(state, &mut names, |place| surfaces.overlay.contains(&place));
+            overlay = CachedLayer::of(state, &mut names, |index| surfaces.overlay.contains(&index));
         }
         let triangles = names.sorted(&mut [&mut opaque, &mut overlay], &state.triangles);
         Some(Self { triangles, opaque, overlay, bounds })
@@ -75,7 +75,7 @@ impl CachedTile {
 }
 
 impl CachedTile {
-    /// The triangles that are kept, in the order of the frame's primitives.
+    /// The cached triangles, in the order of the frame's primitives.
     pub(crate) fn triangles(&self) -> &[TriangleRef] {
         &self.triangles
     }
@@ -91,7 +91,7 @@ impl CachedTile {
         }
     }
 
-    /// Puts what is kept into a tile, and lists the moving triangles.
+    /// Puts the cached samples into a tile, and lists the moving triangles.
     pub(crate) fn restore(
         &self,
         frame: &FrameView<'_>,
@@ -103,7 +103,7 @@ impl CachedTile {
         triangles.clear();
         triangles.extend_from_slice(&self.triangles);
         let surfaces = Surfaces::list(frame, tile, Listing::Moving, triangles);
-        buffer.restore(area, &self.opaque.depth, self.opaque.places(), &self.bounds);
+        buffer.restore(area, &self.opaque.depth, self.opaque.triangles(), &self.bounds);
         ties.reset(triangles.len());
         MovingRanges { surfaces, still: self.triangles.len() }
     }
@@ -111,15 +111,15 @@ impl CachedTile {
     /// Lays the still overlays over it, where moving triangles have not come to hide them.
     pub(crate) fn lay_overlays(&self, frame: &FrameView<'_>, state: &mut TileState) {
         let TileState { triangles, buffer, .. } = state;
-        let kept = self.overlay.depth.iter().zip(self.overlay.places());
-        for (at, (&depth, place)) in kept.enumerate().filter(|(_, (_, place))| *place != NO_TRIANGLE) {
+        let overlay = self.overlay.depth.iter().zip(self.overlay.triangles());
+        for (at, (&depth, index)) in overlay.enumerate().filter(|(_, (_, index))| *index != NO_TRIANGLE) {
             let (there, visible) = (buffer.depth[at], buffer.visible[at]);
             let precedes = || {
-                let [ours, theirs] = [place, visible].map(|place| triangles[place as usize]);
+                let [ours, theirs] = [index, visible].map(|index| triangles[index as usize]);
                 frame.precedes(ours, theirs)
             };
             if depth > there || depth == there && precedes() {
-                (buffer.depth[at], buffer.visible[at]) = (depth, place);
+                (buffer.depth[at], buffer.visible[at]) = (depth, index);
             }
         }
         if !self.overlay.depth.is_empty() {
@@ -158,8 +158,8 @@ impl MovingRanges {
         });
     }
 
-    /// The places of the still triangles in the tile's list after it was sorted.
-    pub(crate) fn still_places<'s>(&self, state: &'s TileState) -> &'s [u32] {
+    /// The indices of the still triangles in the tile's list after it was sorted.
+    pub(crate) fn still_indices<'s>(&self, state: &'s TileState) -> &'s [u32] {
         &state.ranks[..self.still]
     }
 
@@ -199,57 +199,57 @@ impl MovingRanges {
     }
 }
 
-impl Layer {
-    /// What those triangles show in a tile for which a test of their places holds. The names of these are appended.
-    fn of(state: &TileState, names: &mut Names, is_one: impl Fn(usize) -> bool) -> Self {
+impl CachedLayer {
+    /// What the triangles show for which a test of their indices in the tile's list holds. Their numbers are appended to `names`.
+    fn of(state: &TileState, names: &mut TriangleNumbers, is_one: impl Fn(usize) -> bool) -> Self {
         let buffer = &state.buffer;
-        let name = |&place: &u32| match place {
+        let name = |&index: &u32| match index {
             NO_TRIANGLE => NONE,
-            place if is_one(place as usize) => names.of(place),
+            index if is_one(index as usize) => names.of(index),
             _ => NONE,
         };
         let visible = buffer.visible().iter().map(name).collect();
         Self { depth: buffer.depth[..buffer.span()].to_vec(), visible }
     }
 
-    /// The places of the triangles in the tile's list.
-    fn places(&self) -> impl Iterator<Item = u32> {
+    /// The indices of the visible triangles in the tile's list.
+    fn triangles(&self) -> impl Iterator<Item = u32> {
         self.visible.iter().map(|&name| if name == NONE { NO_TRIANGLE } else { u32::from(name) })
     }
 }
 
 /// Numbers the visible ones of a tile's triangles.
-struct Names {
+struct TriangleNumbers {
     /// The number of each triangle, if it has one.
     numbers: Vec<u16>,
     /// Those that have one.
-    seen: Vec<u32>,
+    numbered: Vec<u32>,
 }
 
-impl Names {
+impl TriangleNumbers {
     fn new(count: usize) -> Self {
-        Self { numbers: vec![NONE; count], seen: Vec::new() }
+        Self { numbers: vec![NONE; count], numbered: Vec::new() }
     }
 
-    fn of(&mut self, place: u32) -> u16 {
-        let number = &mut self.numbers[place as usize];
+    fn of(&mut self, index: u32) -> u16 {
+        let number = &mut self.numbers[index as usize];
         if *number == NONE {
             // Two layers have fewer samples than there are numbers.
-            *number = self.seen.len() as u16;
-            self.seen.push(place);
+            *number = self.numbered.len() as u16;
+            self.numbered.push(index);
         }
         *number
     }
 
     /// The triangles that have numbers, in their order. Layers get their numbers in it.
-    fn sorted(self, layers: &mut [&mut Layer], triangles: &[TriangleRef]) -> Vec<TriangleRef> {
-        let mut order: Vec<u32> = self.seen.clone();
+    fn sorted(self, layers: &mut [&mut CachedLayer], triangles: &[TriangleRef]) -> Vec<TriangleRef> {
+        let mut order: Vec<u32> = self.numbered.clone();
         order.sort_unstable();
         let mut ranks = self.numbers;
-        (0..).zip(&order).for_each(|(rank, &place)| ranks[place as usize] = rank);
+        (0..).zip(&order).for_each(|(rank, &index)| ranks[index as usize] = rank);
         for name in layers.iter_mut().flat_map(|layer| &mut layer.visible).filter(|name| **name != NONE) {
-            *name = ranks[self.seen[usize::from(*name)] as usize];
+            *name = ranks[self.numbered[usize::from(*name)] as usize];
         }
-        order.into_iter().map(|place| triangles[place as usize]).collect()
+        order.into_iter().map(|index| triangles[index as usize]).collect()
     }
 }

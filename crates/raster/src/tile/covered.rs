@@ -17,13 +17,13 @@ pub(super) struct Covered {
     count: usize,
     /// The index of each pixel in the tile, times eight, plus the lane of its triangle; and sixteen more
     /// entries, because eight are written at a time, and `sliver` writes two times eight before it asks.
-    places: [u32; PIXELS + 2 * LANES],
+    entries: [u32; PIXELS + 2 * LANES],
     depths: [f32; PIXELS + 2 * LANES],
 }
 
 impl Covered {
     pub(super) fn new() -> Self {
-        Self { count: 0, places: [0; PIXELS + 2 * LANES], depths: [0.0; PIXELS + 2 * LANES] }
+        Self { count: 0, entries: [0; PIXELS + 2 * LANES], depths: [0.0; PIXELS + 2 * LANES] }
     }
 
     /// Whether pixels must not be appended more than twice.
@@ -39,9 +39,9 @@ impl Covered {
     /// many pixels are covered, which a processor could not predict.
     #[inline(always)]
     pub(super) fn push<S: Simd>(&mut self, lanes: Mask<S>, depth: F32<S>, [index, of]: [I32<S>; 2]) {
-        let places = ((index << 3) + of).bitcast::<U32<S>>();
+        let entries = ((index << 3) + of).bitcast::<U32<S>>();
         let count = self.count;
-        places.compress(lanes).store_slice(&mut self.places[count..count + LANES]);
+        entries.compress(lanes).store_slice(&mut self.entries[count..count + LANES]);
         depth.compress(lanes).store_slice(&mut self.depths[count..count + LANES]);
         self.count += lanes.to_bitmask().count_ones() as usize;
     }
@@ -49,14 +49,14 @@ impl Covered {
     /// Drops pixels that are hidden by what is in the buffer, without a branch on whether they are.
     #[inline(never)]
     pub(super) fn drop_hidden(&mut self, buffer: &VisibilityBuffer) {
-        let mut kept = 0;
+        let mut count = 0;
         // A limit that the compiler knows, so that it checks no index.
-        for entry in 0..self.count.min(self.places.len()) {
-            let (place, depth) = (self.places[entry], self.depths[entry]);
-            (self.places[kept], self.depths[kept]) = (place, depth);
-            kept += usize::from(depth >= buffer.depth[place as usize / LANES]);
+        for index in 0..self.count.min(self.entries.len()) {
+            let (entry, depth) = (self.entries[index], self.depths[index]);
+            (self.entries[count], self.depths[count]) = (entry, depth);
+            count += usize::from(depth >= buffer.depth[entry as usize / LANES]);
         }
-        self.count = kept;
+        self.count = count;
     }
 }
 
@@ -72,14 +72,14 @@ impl TileRasterizer<'_> {
         buffer: &mut VisibilityBuffer,
     ) {
         let count = std::mem::take(&mut pixels.count);
-        for (&place, &depth) in pixels.places[..count].iter().zip(&pixels.depths) {
+        for (&entry, &depth) in pixels.entries[..count].iter().zip(&pixels.depths) {
             // The list packs a pixel's index and its lane into one value. With one sample per
             // pixel the index is also that of the sample in the buffer.
-            let (at, lane) = (place as usize / LANES, place as usize % LANES);
-            let (there, place) = (buffer.depth[at], eight.index + lane as u32);
-            if depth > there || (depth == there && self.precedes_at_tie(place, buffer.visible[at])) {
+            let (at, lane) = (entry as usize / LANES, entry as usize % LANES);
+            let (there, triangle) = (buffer.depth[at], eight.index + lane as u32);
+            if depth > there || (depth == there && self.precedes_at_tie(triangle, buffer.visible[at])) {
                 buffer.depth[at] = depth;
-                buffer.visible[at] = place;
+                buffer.visible[at] = triangle;
                 buffer.note_write(at / (GROUPS * LANES), eight.high[lane]);
             }
         }
@@ -91,11 +91,11 @@ impl TileRasterizer<'_> {
     /// triangle by triangle, and slivers are drawn after the other triangles of the eight. That is why numbers are
     /// compared even when triangles are drawn in the order of their keys.
     #[cold]
-    fn precedes_at_tie(&self, place: u32, visible: u32) -> bool {
+    fn precedes_at_tie(&self, triangle: u32, visible: u32) -> bool {
         if self.in_order {
-            visible != NO_TRIANGLE && place < visible
+            visible != NO_TRIANGLE && triangle < visible
         } else {
-            self.may_decide(1) && visible != NO_TRIANGLE && (self.precedes)(place, visible)
+            self.may_decide(1) && visible != NO_TRIANGLE && (self.precedes)(triangle, visible)
         }
     }
 }

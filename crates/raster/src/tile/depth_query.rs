@@ -5,7 +5,7 @@
 use super::blocks::Blocks;
 use super::{Ties, TileTriangle};
 use crate::bin::TriangleRef;
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Mask, Simd, lane_numbers, prelude::*};
 use crate::tile_buffer::{NO_TRIANGLE, TileArea, VisibilityBuffer};
 use crate::view::FrameView;
 
@@ -24,7 +24,7 @@ pub(crate) struct TileView<'t> {
 #[derive(Clone, Copy)]
 pub(crate) struct Candidate<'c> {
     pub(crate) covering: &'c TileTriangle,
-    pub(crate) place: u32,
+    pub(crate) triangle: u32,
 }
 
 /// The samples of one number in a group of pixels: four columns, two rows.
@@ -51,7 +51,7 @@ impl TileView<'_> {
     /// Calls `visit` for all samples of some blocks at which a triangle would be visible:
     /// group by group, sample by sample, with those lanes and the depths.
     #[inline(always)]
-    pub(crate) fn for_each_seen<S: Simd>(
+    pub(crate) fn for_each_visible<S: Simd>(
         &self,
         simd: S,
         candidate: Candidate<'_>,
@@ -74,8 +74,8 @@ impl TileView<'_> {
                         true => self.within_image(simd, first),
                         false => self.covered(simd, covering, group),
                     };
-                    if let Some((seen, depth)) = self.visible_lanes(simd, candidate, covered, group) {
-                        visit(group, seen, depth);
+                    if let Some((visible, depth)) = self.visible_lanes(simd, candidate, covered, group) {
+                        visit(group, visible, depth);
                     }
                 }
             }
@@ -97,13 +97,13 @@ impl TileView<'_> {
 
     /// Whether a triangle at this depth would be visible at a sample of the buffer.
     #[inline]
-    pub(super) fn is_seen(&self, index: usize, depth: f32, place: u32) -> bool {
+    pub(super) fn is_visible(&self, index: usize, depth: f32, triangle: u32) -> bool {
         let there = self.buffer.depth[index];
-        depth > there || (depth == there && self.precedes_at_tie(place, self.buffer.visible[index]))
+        depth > there || (depth == there && self.precedes_at_tie(triangle, self.buffer.visible[index]))
     }
 
-    fn precedes_at_tie(&self, place: u32, visible: u32) -> bool {
-        visible != NO_TRIANGLE && self.ties.compare(self.frame, self.triangles, [place, visible]).is_lt()
+    fn precedes_at_tie(&self, triangle: u32, visible: u32) -> bool {
+        visible != NO_TRIANGLE && self.ties.compare(self.frame, self.triangles, [triangle, visible]).is_lt()
     }
 
     #[inline(always)]
@@ -163,20 +163,20 @@ impl TileView<'_> {
         let depth = candidate.covering.depth.group(simd, group.point);
         let index = (group.group * self.buffer.samples + group.sample) * LANES;
         let there = F32::from_slice(simd, &self.buffer.depth[index..index + LANES]);
-        let mut seen = covered & depth.simd_gt(there);
+        let mut visible = covered & depth.simd_gt(there);
         let ties = covered & depth.simd_eq(there);
         if ties.any_true() {
-            let won = self.preceded_ties(candidate.place, ties.to_bitmask(), index);
-            seen |= Mask::from_bitmask(simd, won);
+            let won = self.preceded_ties(candidate.triangle, ties.to_bitmask(), index);
+            visible |= Mask::from_bitmask(simd, won);
         }
-        seen.any_true().then_some((seen, depth))
+        visible.any_true().then_some((visible, depth))
     }
 
     /// In which of the lanes of equal depth the triangle has the smaller key.
     #[cold]
-    fn preceded_ties(&self, place: u32, ties: u64, index: usize) -> u64 {
+    fn preceded_ties(&self, triangle: u32, ties: u64, index: usize) -> u64 {
         let wins = |lane: &usize| {
-            ties >> lane & 1 != 0 && self.precedes_at_tie(place, self.buffer.visible[index + lane])
+            ties >> lane & 1 != 0 && self.precedes_at_tie(triangle, self.buffer.visible[index + lane])
         };
         (0..LANES).filter(wins).fold(0, |won, lane| won | 1 << lane)
     }

@@ -9,7 +9,7 @@ use super::eight::EightTriangles;
 use super::multisample::MultisampleOrigins;
 use super::rasterizer::TileRasterizer;
 use crate::samples::MAX_SAMPLES;
-use crate::simd::{Each, F32, I32, LANES, Simd, inlined, prelude::*, widened};
+use crate::simd::{F32, I32, InlineMap, LANES, Simd, inlined, prelude::*, widened};
 use fearless_simd::f64x4;
 
 /// Edge functions and offsets are whole numbers, so adding steps to them rounds nothing. Depths are

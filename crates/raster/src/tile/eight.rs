@@ -6,7 +6,7 @@
 use super::TileTriangle;
 use crate::primitive::{Column, DepthPlane, owns_boundary, small_lanes, sorted_columns};
 use crate::samples::{MAX_SAMPLES, SamplePattern};
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lesser, prelude::*, widened};
+use crate::simd::{F32, I32, InlineMap, LANES, Mask, Simd, greater, inlined, lesser, prelude::*, widened};
 use crate::tile_buffer::TileArea;
 use crate::vertex::ScreenVertex;
 use fearless_simd::f64x4;
@@ -298,9 +298,9 @@ fn depth_slopes<S: Simd>(simd: S, [a, b, c]: [Column<S>; 3]) -> [[f64; LANES]; 2
         let inverse = f64x4::splat(simd, 1.0) / (ux * vy - uy * vx);
         let right = (zu * vy - zv * uy) * inverse;
         let down = (zv * ux - zu * vx) * inverse;
-        let place = half * 4..half * 4 + 4;
-        right.store_slice(&mut result[0][place.clone()]);
-        down.store_slice(&mut result[1][place]);
+        let lanes = half * 4..half * 4 + 4;
+        right.store_slice(&mut result[0][lanes.clone()]);
+        down.store_slice(&mut result[1][lanes]);
     }
     result
 }
@@ -328,8 +328,8 @@ mod tests {
             let area = TileArea { origin: [64, 128], size: [64, 60], margin: [0, 0] };
             let vertices: [[ScreenVertex; 3]; 8] = std::array::from_fn(|lane| {
                 std::array::from_fn(|corner| {
-                    let place = |i: usize| i32::from(points[lane][corner][i]) * 2 / 5 / steps * steps;
-                    let point = [0, 1].map(|i| place(i) + area.origin[i] * 256 - 3000);
+                    let coordinate = |i: usize| i32::from(points[lane][corner][i]) * 2 / 5 / steps * steps;
+                    let point = [0, 1].map(|i| coordinate(i) + area.origin[i] * 256 - 3000);
                     let vertex = SetupTriangle::on_grid([point; 3]).vertices[0];
                     vertex.with_depth(depths[lane][corner].abs().fract())
                 })

@@ -38,20 +38,21 @@ impl KeyOrder {
         self.sorted.clear();
         // Neighbours mostly belong to the same draw.
         let mut draw = 0;
-        self.sorted.extend(triangles.iter().zip(0..).map(|(&place, number)| {
-            if !frame.plan.draws[draw].ordinals.contains(&place.ordinal) {
-                draw = frame.draw_of(place);
+        self.sorted.extend(triangles.iter().zip(0..).map(|(&triangle, number)| {
+            if !frame.plan.draws[draw].ordinals.contains(&triangle.ordinal) {
+                draw = frame.draw_of(triangle);
             }
-            Keyed::new(frame.object_and_face(draw, place), number)
+            Keyed::new(frame.object_and_face(draw, triangle), number)
         }));
         self.sorted.sort_unstable();
         let same_face = |a: &Keyed, b: &Keyed| a.object_and_face() == b.object_and_face();
         for face in self.sorted.chunk_by_mut(same_face).filter(|face| face.len() > 1) {
-            let place = |keyed: &Keyed| triangles[keyed.number()];
-            let [first, last] = [&face[0], &face[face.len() - 1]].map(|keyed| frame.draw_of(place(keyed)));
+            let triangle_of = |keyed: &Keyed| triangles[keyed.number()];
+            let [first, last] =
+                [&face[0], &face[face.len() - 1]].map(|keyed| frame.draw_of(triangle_of(keyed)));
             // Those of one draw are in order already.
             if first != last {
-                face.sort_unstable_by(|a, b| frame.compare(place(a), place(b)).then(a.cmp(b)));
+                face.sort_unstable_by(|a, b| frame.compare(triangle_of(a), triangle_of(b)).then(a.cmp(b)));
             }
         }
     }

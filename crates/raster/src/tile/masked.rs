@@ -18,11 +18,11 @@ const PORTION: usize = 4096;
 
 /// A masked fragment at a sample, whose mask is not evaluated yet.
 #[derive(Clone, Copy)]
-struct Waiting {
+struct WaitingFragment {
     /// Index of the sample in the buffer.
-    index: u32,
+    sample: u32,
     depth: f32,
-    place: u32,
+    triangle: u32,
     /// The index of its mask evaluation.
     evaluation: u32,
 }
@@ -30,10 +30,10 @@ struct Waiting {
 /// Masked fragments of one draw that wait for their masks.
 #[derive(Default)]
 pub(crate) struct MaskQueue {
-    waiting: Vec<Waiting>,
+    waiting: Vec<WaitingFragment>,
     jobs: Vec<Job>,
     points: Vec<ShadePoint>,
-    kept: Vec<u8>,
+    passed: Vec<u8>,
 }
 
 /// Draws the masked triangles of a tile: a range of those that are listed.
@@ -46,14 +46,14 @@ pub(super) fn cover_masked(
     stats: &mut Stats,
 ) {
     let mut queue = std::mem::take(&mut state.mask_queue);
-    for place in range.clone() {
-        let draw = |place: usize| frame.draw_of(state.triangles[place]);
-        let turns = place > range.start && draw(place) != draw(place - 1);
+    for triangle in range.clone() {
+        let draw = |triangle: usize| frame.draw_of(state.triangles[triangle]);
+        let turns = triangle > range.start && draw(triangle) != draw(triangle - 1);
         if turns || queue.waiting.len() > PORTION {
             stats.samples_masked += queue.evaluate(frame, area, state, shading);
         }
         let view = state.view(frame, area);
-        at_level!(frame.token, simd => queue.collect(simd, view, place));
+        at_level!(frame.token, simd => queue.collect(simd, view, triangle));
     }
     stats.samples_masked += queue.evaluate(frame, area, state, shading);
     state.mask_queue = queue;
@@ -62,44 +62,44 @@ pub(super) fn cover_masked(
 impl MaskQueue {
     /// Adds the fragments of a triangle at all samples where nothing hides it.
     #[inline(always)]
-    fn collect<S: Simd>(&mut self, simd: S, view: TileView<'_>, place: usize) {
-        let Some(covering) = single(view.frame, view.area, view.triangles[place]) else {
+    fn collect<S: Simd>(&mut self, simd: S, view: TileView<'_>, triangle: usize) {
+        let Some(covering) = single(view.frame, view.area, view.triangles[triangle]) else {
             return;
         };
-        let draw = &view.frame.plan.draws[view.frame.draw_of(view.triangles[place])];
+        let draw = &view.frame.plan.draws[view.frame.draw_of(view.triangles[triangle])];
         let per_sample = view.frame.pass[draw.draw].geometry.blend_mode == BlendMode::MaskedPerSample;
         let multisampled = view.frame.is_multisampled();
         let Self { waiting, jobs, points, .. } = self;
         let start = points.len();
-        let candidate = Candidate { covering: &covering, place: place as u32 };
-        let (mut group, mut kept) = (usize::MAX, [NO_TRIANGLE; LANES]);
-        view.for_each_seen(
+        let candidate = Candidate { covering: &covering, triangle: triangle as u32 };
+        let (mut group, mut evaluations) = (usize::MAX, [NO_TRIANGLE; LANES]);
+        view.for_each_visible(
             simd,
             candidate,
             Blocks::ALL,
             #[inline(always)]
-            |samples, seen, depth| {
+            |samples, visible, depth| {
                 if samples.group != group {
-                    (group, kept) = (samples.group, [NO_TRIANGLE; LANES]);
+                    (group, evaluations) = (samples.group, [NO_TRIANGLE; LANES]);
                 }
-                let (seen, depth): (_, [f32; LANES]) = (seen.to_bitmask(), depth.into());
-                for lane in (0..LANES).filter(|lane| seen >> lane & 1 != 0) {
+                let (visible, depth): (_, [f32; LANES]) = (visible.to_bitmask(), depth.into());
+                for lane in (0..LANES).filter(|lane| visible >> lane & 1 != 0) {
                     let pixel = samples.pixel(lane);
-                    if per_sample || kept[lane] == NO_TRIANGLE {
-                        kept[lane] = points.len() as u32;
+                    if per_sample || evaluations[lane] == NO_TRIANGLE {
+                        evaluations[lane] = points.len() as u32;
                         points.push(match per_sample {
                             true => ShadePoint::at_sample(pixel, samples.sample, points.len()),
                             false => ShadePoint::anywhere(pixel, multisampled, points.len()),
                         });
                     }
-                    let index = view.buffer.index(pixel, samples.sample) as u32;
-                    let (place, evaluation) = (place as u32, kept[lane]);
-                    waiting.push(Waiting { index, depth: depth[lane], place, evaluation });
+                    let sample = view.buffer.index(pixel, samples.sample) as u32;
+                    let (triangle, evaluation) = (triangle as u32, evaluations[lane]);
+                    waiting.push(WaitingFragment { sample, depth: depth[lane], triangle, evaluation });
                 }
             },
         );
         if points.len() > start {
-            jobs.push(Job { place: place as u32, points: start..points.len() });
+            jobs.push(Job { triangle: triangle as u32, points: start..points.len() });
         }
     }
 
@@ -112,16 +112,16 @@ impl MaskQueue {
         state: &mut TileState,
         shading: &mut Shading,
     ) -> u64 {
-        let Self { waiting, jobs, points, kept } = self;
+        let Self { waiting, jobs, points, passed } = self;
         let evaluations = points.len();
-        kept.clear();
-        kept.resize(evaluations, 0);
-        mask_jobs(frame, area, shading, JobList { triangles: &state.triangles, jobs, points }, kept);
-        for fragment in waiting.drain(..).filter(|fragment| kept[fragment.evaluation as usize] != 0) {
-            let (index, depth) = (fragment.index as usize, fragment.depth);
-            if state.view(frame, area).is_seen(index, depth, fragment.place) {
+        passed.clear();
+        passed.resize(evaluations, 0);
+        mask_jobs(frame, area, shading, JobList { triangles: &state.triangles, jobs, points }, passed);
+        for fragment in waiting.drain(..).filter(|fragment| passed[fragment.evaluation as usize] != 0) {
+            let (index, depth) = (fragment.sample as usize, fragment.depth);
+            if state.view(frame, area).is_visible(index, depth, fragment.triangle) {
                 state.buffer.depth[index] = depth;
-                state.buffer.visible[index] = fragment.place;
+                state.buffer.visible[index] = fragment.triangle;
             }
         }
         jobs.clear();

@@ -11,7 +11,9 @@ use super::covered::{Covered, index_of};
 use super::eight::{EightTriangles, MICRO};
 use super::rasterizer::TileRasterizer;
 use crate::counts::Counts;
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lane_numbers, lesser, prelude::*, widened};
+use crate::simd::{
+    F32, I32, InlineMap, LANES, Mask, Simd, greater, lane_numbers, lesser, prelude::*, widened,
+};
 use crate::tile_buffer::VisibilityBuffer;
 use fearless_simd::f64x4;
 
@@ -40,7 +42,7 @@ impl TileRasterizer<'_> {
         if !live.any_true() {
             return;
         }
-        buffer.settle();
+        buffer.write_back();
         counts.groups += u64::from(live.to_bitmask().count_ones());
         let column = |values: &[i32; LANES]| I32::simd_from(simd, *values);
         // The bounding boxes, in pixels of the tile.
@@ -145,8 +147,8 @@ impl TileRasterizer<'_> {
         axis: usize,
         anchor: &[[i32; LANES]; 2],
     ) -> [f64x4<S>; 2] {
-        let place = ((pixel + self.area.origin[axis]) << 8) + self.offsets[0][axis];
-        widened((place - I32::simd_from(simd, anchor[axis])).to_float())
+        let position = ((pixel + self.area.origin[axis]) << 8) + self.offsets[0][axis];
+        widened((position - I32::simd_from(simd, anchor[axis])).to_float())
     }
 }
 

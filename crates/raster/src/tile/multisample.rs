@@ -15,7 +15,7 @@ use super::edge_origins::EdgeOrigins;
 use super::store::name_where;
 use super::tiny::Tiny;
 use crate::samples::MAX_SAMPLES;
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lesser, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Mask, Simd, greater, lesser, prelude::*};
 use crate::tile_buffer::{TileArea, VisibilityBuffer};
 use fearless_simd::{f64x4, f64x8};
 
@@ -140,7 +140,7 @@ fn columns<S: Simd, const TIES: bool>(
                 ties |= depth.simd_eq(before);
             }
             *there = greater(depth, before).into();
-            name_where(simd, depth.simd_gt(before), tiny.place, visible);
+            name_where(simd, depth.simd_gt(before), tiny.triangle, visible);
         }
     }
     ties

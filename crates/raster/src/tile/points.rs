@@ -12,7 +12,7 @@ use crate::geometry::Shape;
 use crate::point::{PlainPoints, sampled_pixels};
 use crate::primitive::Column;
 use crate::samples::SamplePattern;
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
 use crate::tile_buffer::{GROUPS, TileArea, VisibilityBuffer};
 use crate::vertex::nearer_lanes;
 use crate::view::FrameView;
@@ -20,7 +20,7 @@ use crate::view::FrameView;
 /// What the kernel needs of eight points of one draw.
 pub(super) struct EightPoints {
     /// The points' coordinates from the tile's corner, in 1/256 pixel.
-    centre: [[i32; LANES]; 2],
+    center: [[i32; LANES]; 2],
     half: [i32; LANES],
     depth: [f32; LANES],
     /// First and last columns and rows with a sample.
@@ -38,12 +38,12 @@ struct Squares<S: Simd> {
 }
 
 /// A point that is being drawn.
-struct Walk {
-    centre: [i32; 2],
+struct PointWalk {
+    center: [i32; 2],
     half: i32,
     depth: f32,
     is_round: bool,
-    place: u32,
+    index: u32,
 }
 
 impl EightPoints {
@@ -84,11 +84,11 @@ impl EightPoints {
         &Squares { ref vertices, half, count }: &Squares<S>,
     ) -> Self {
         let mut live = Mask::from_bitmask(simd, (1 << count) - 1);
-        let centre = [vertices.x - area.origin[0] * 256, vertices.y - area.origin[1] * 256];
+        let center = [vertices.x - area.origin[0] * 256, vertices.y - area.origin[1] * 256];
         let pixels = [0, 1].each(
             #[inline(always)]
             |axis| {
-                let [first, last] = sampled_pixels(centre[axis], half, pattern.reach());
+                let [first, last] = sampled_pixels(center[axis], half, pattern.reach());
                 let end = I32::splat(simd, area.padded()[axis] as i32 - 1);
                 let [first, last] = [first.max(I32::splat(simd, 0)), last.min(end)];
                 live &= first.simd_le(last);
@@ -96,7 +96,7 @@ impl EightPoints {
             },
         );
         Self {
-            centre: centre.each(Into::into),
+            center: center.each(Into::into),
             half: half.into(),
             depth: nearer_lanes(simd, vertices.depth(), plain.depth_bias()).into(),
             pixels,
@@ -135,18 +135,18 @@ impl TileRasterizer<'_> {
             live &= !hidden.to_bitmask();
         }
         if live != 0 {
-            buffer.settle();
+            buffer.write_back();
         }
         while live != 0 {
             let lane = live.trailing_zeros() as usize % LANES;
             live &= live - 1;
             let [columns, rows] = [eight.pixels(0, lane), eight.pixels(1, lane)];
-            let walk = Walk {
-                centre: [eight.centre[0][lane], eight.centre[1][lane]],
+            let walk = PointWalk {
+                center: [eight.center[0][lane], eight.center[1][lane]],
                 half: eight.half[lane],
                 depth: eight.depth[lane],
                 is_round: eight.are_round,
-                place: first + lane as u32,
+                index: first + lane as u32,
             };
             for column in columns[0] >> 2..(columns[1] >> 2) + 1 {
                 for row in rows[0] >> 1..(rows[1] >> 1) + 1 {
@@ -161,7 +161,7 @@ impl TileRasterizer<'_> {
     fn group_of_point<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        walk: &Walk,
+        walk: &PointWalk,
         [column, row]: [i32; 2],
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -179,9 +179,9 @@ impl TileRasterizer<'_> {
             let covered = walk.covers(simd, [column * 4, row * 2], *offset);
             let at = (group * samples + sample) * LANES;
             let visible =
-                self.visible_lanes(simd, GroupSamples { place: walk.place, covered, depth }, buffer, at);
+                self.visible_lanes(simd, GroupSamples { index: walk.index, covered, depth }, buffer, at);
             if visible.any_true() {
-                store_where(simd, visible, walk.place, depth, buffer, at);
+                store_where(simd, visible, walk.index, depth, buffer, at);
                 wrote = true;
             }
         }
@@ -191,7 +191,7 @@ impl TileRasterizer<'_> {
     }
 }
 
-impl Walk {
+impl PointWalk {
     /// Which pixels of a group have the sample at this offset in the square or the disc. Samples
     /// exactly on the circle are not in the disc.
     #[inline(always)]
@@ -199,7 +199,7 @@ impl Walk {
         let lanes = [lane_numbers(simd) & 3, lane_numbers(simd) >> 2];
         let [x, y] = [0, 1].each(
             #[inline(always)]
-            |axis| (lanes[axis] << 8) + (first[axis] * 256 + offset[axis] - self.centre[axis]),
+            |axis| (lanes[axis] << 8) + (first[axis] * 256 + offset[axis] - self.center[axis]),
         );
         if self.is_round {
             return (x * x + y * y).simd_lt(I32::splat(simd, self.half * self.half));

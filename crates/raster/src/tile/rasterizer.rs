@@ -21,7 +21,7 @@ use super::store::{store, store_where};
 use super::ties::Ties;
 use super::triangle::TileTriangle;
 use crate::counts::Counts;
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Mask, Simd, lane_numbers, prelude::*};
 use crate::tile_buffer::{BLOCKS, NO_TRIANGLE, TileArea, VisibilityBuffer};
 use crate::view::FrameView;
 
@@ -48,14 +48,14 @@ pub(crate) struct TileRasterizer<'f> {
 /// A triangle at a sample of each pixel of a group.
 #[derive(Clone, Copy)]
 pub(super) struct GroupSamples<S: Simd> {
-    pub(super) place: u32,
+    pub(super) index: u32,
     /// The lanes whose samples the triangle covers.
     pub(super) covered: Mask<S>,
     pub(super) depth: F32<S>,
 }
 
 /// A triangle that is being drawn, with what its blocks and groups have in common.
-struct Walk<'c, S: Simd> {
+struct TriangleWalk<'c, S: Simd> {
     covering: &'c TileTriangle,
     /// The edge functions at the pixels of the tile's first group: at their samples if they have one, else less the
     /// `starts` of each sample.
@@ -64,16 +64,16 @@ struct Walk<'c, S: Simd> {
     groups: [I32<S>; 3],
     /// `None` if blocks and groups are not tested against edges.
     sides: Option<&'c Sides<S>>,
-    place: u32,
+    index: u32,
 }
 
-impl<'c, S: Simd> Walk<'c, S> {
+impl<'c, S: Simd> TriangleWalk<'c, S> {
     #[inline(always)]
     fn new<const MULTI: bool>(
         simd: S,
         covering: &'c TileTriangle,
         sides: Option<&'c Sides<S>>,
-        place: u32,
+        index: u32,
     ) -> Self {
         let TileTriangle { right, down, starts, .. } = covering;
         let (x, y) = (lane_numbers(simd) & 3, lane_numbers(simd) >> 2);
@@ -89,7 +89,7 @@ impl<'c, S: Simd> Walk<'c, S> {
             #[inline(always)]
             |k| column * right[k].wrapping_mul(4) + row * down[k].wrapping_mul(2),
         );
-        Self { covering, lanes, groups, sides, place }
+        Self { covering, lanes, groups, sides, index }
     }
 
     /// What leads from the tile's first pixel to the first ones of a block's groups.
@@ -171,16 +171,16 @@ impl TileRasterizer<'_> {
         &self,
         simd: S,
         covering: &TileTriangle,
-        place: u32,
+        index: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) {
         if self.fills_tile(covering, buffer) {
             counts.tiles_filled += 1;
-            buffer.fill_with(covering.depth.low, place);
+            buffer.fill_with(covering.depth.low, index);
             return;
         }
-        buffer.settle();
+        buffer.write_back();
         let [columns, rows] = [covering.columns, covering.rows];
         // For a box of at most 8 pixels each way, testing blocks against edges costs more than it saves.
         let is_small = columns[1] - columns[0] < 8 && rows[1] - rows[0] < 8;
@@ -191,15 +191,15 @@ impl TileRasterizer<'_> {
             made = Sides::new(simd, covering);
             Some(&made)
         };
-        let walk = Walk::new::<MULTI>(simd, covering, sides, place);
-        let asked = ALL << (columns[0] >> 3) & ALL >> (7 - (columns[1] >> 3));
+        let walk = TriangleWalk::new::<MULTI>(simd, covering, sides, index);
+        let requested = ALL << (columns[0] >> 3) & ALL >> (7 - (columns[1] >> 3));
         for block_y in rows[0] >> 3..(rows[1] >> 3) + 1 {
             let [outside, inside] = match walk.sides {
                 Some(sides) => sides.blocks(simd, covering, block_y * 8),
                 None => [0, 0],
             };
-            counts.blocks_rejected += u64::from((asked & outside).count_ones());
-            let mut rest = asked & !outside;
+            counts.blocks_rejected += u64::from((requested & outside).count_ones());
+            let mut rest = requested & !outside;
             while rest != 0 {
                 let block_x = rest.trailing_zeros() as i32;
                 rest &= rest - 1;
@@ -281,7 +281,7 @@ impl TileRasterizer<'_> {
     fn whole_block<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        walk: &Walk<'_, S>,
+        walk: &TriangleWalk<'_, S>,
         buffer: &mut VisibilityBuffer,
         block: usize,
         corner: [i32; 2],
@@ -297,10 +297,10 @@ impl TileRasterizer<'_> {
                 let depth = self.depth(simd, walk, first, sample);
                 let at = ((block * 8 + group as usize) * samples + sample) * LANES;
                 if overwrites {
-                    store(simd, walk.place, depth, buffer, at);
+                    store(simd, walk.index, depth, buffer, at);
                 } else {
                     let covered = Mask::splat(simd, true);
-                    let tested = GroupSamples { place: walk.place, covered, depth };
+                    let tested = GroupSamples { index: walk.index, covered, depth };
                     self.test_and_store(simd, tested, buffer, at);
                 }
             }
@@ -315,7 +315,7 @@ impl TileRasterizer<'_> {
     fn part_of_block<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        walk: &Walk<'_, S>,
+        walk: &TriangleWalk<'_, S>,
         buffer: &mut VisibilityBuffer,
         block: usize,
         [left, top]: [i32; 2],
@@ -355,7 +355,7 @@ impl TileRasterizer<'_> {
                 }
                 let depth = self.depth(simd, walk, first, sample);
                 let at = (group * samples + sample) * LANES;
-                let tested = GroupSamples { place: walk.place, covered, depth };
+                let tested = GroupSamples { index: walk.index, covered, depth };
                 wrote |= self.test_and_store(simd, tested, buffer, at);
             }
         }
@@ -370,7 +370,7 @@ impl TileRasterizer<'_> {
     fn covered<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        walk: &Walk<'_, S>,
+        walk: &TriangleWalk<'_, S>,
         edges: [I32<S>; 3],
         first: [i32; 2],
         sample: usize,
@@ -383,7 +383,7 @@ impl TileRasterizer<'_> {
     }
 
     #[inline(always)]
-    fn depth<S: Simd>(&self, simd: S, walk: &Walk<'_, S>, first: [i32; 2], sample: usize) -> F32<S> {
+    fn depth<S: Simd>(&self, simd: S, walk: &TriangleWalk<'_, S>, first: [i32; 2], sample: usize) -> F32<S> {
         walk.covering.depth.group(simd, self.point(first, sample))
     }
 
@@ -402,10 +402,10 @@ impl TileRasterizer<'_> {
         buffer: &mut VisibilityBuffer,
         at: usize,
     ) -> bool {
-        let seen = self.visible_lanes(simd, samples, buffer, at);
-        let any = seen.any_true();
+        let visible = self.visible_lanes(simd, samples, buffer, at);
+        let any = visible.any_true();
         if any {
-            store_where(simd, seen, samples.place, samples.depth, buffer, at);
+            store_where(simd, visible, samples.index, samples.depth, buffer, at);
         }
         any
     }
@@ -417,20 +417,20 @@ impl TileRasterizer<'_> {
     pub(super) fn visible_lanes<S: Simd>(
         &self,
         simd: S,
-        GroupSamples { place, covered, depth }: GroupSamples<S>,
+        GroupSamples { index, covered, depth }: GroupSamples<S>,
         buffer: &VisibilityBuffer,
         at: usize,
     ) -> Mask<S> {
         let there = F32::from_slice(simd, &buffer.depth[at..at + LANES]);
-        let seen = covered & depth.simd_gt(there);
+        let visible = covered & depth.simd_gt(there);
         if !self.in_order {
             let ties = covered & depth.simd_eq(there);
             if ties.any_true() {
-                let won = self.preceded_ties(place, ties.to_bitmask(), &buffer.visible[at..at + LANES]);
-                return seen | Mask::from_bitmask(simd, won);
+                let won = self.preceded_ties(index, ties.to_bitmask(), &buffer.visible[at..at + LANES]);
+                return visible | Mask::from_bitmask(simd, won);
             }
         }
-        seen
+        visible
     }
 
     /// Counts work spent on ties. Returns whether they are to be resolved: not if the tile has too
@@ -442,12 +442,12 @@ impl TileRasterizer<'_> {
 
     /// In which of the lanes of equal depth the new triangle has the smaller key.
     #[cold]
-    fn preceded_ties(&self, place: u32, ties: u64, visible: &[u32]) -> u64 {
+    fn preceded_ties(&self, index: u32, ties: u64, visible: &[u32]) -> u64 {
         if !self.may_decide(ties.count_ones()) {
             // The tile is drawn again.
             return 0;
         }
-        let wins = |visible: u32| visible != NO_TRIANGLE && (self.precedes)(place, visible);
+        let wins = |visible: u32| visible != NO_TRIANGLE && (self.precedes)(index, visible);
         visible
             .iter()
             .enumerate()

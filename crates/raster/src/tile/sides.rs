@@ -2,7 +2,7 @@
 //! a time, where [`TileTriangle::block_sides`] tells it of one block.
 
 use super::triangle::TileTriangle;
-use crate::simd::{Each, I32, LANES, Simd, lane_numbers, prelude::*};
+use crate::simd::{I32, InlineMap, LANES, Simd, lane_numbers, prelude::*};
 
 /// The edge functions of a triangle at eight blocks or groups, less what leads from the tile's first pixel to the first of
 /// them.

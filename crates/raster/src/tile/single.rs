@@ -7,8 +7,8 @@ use crate::tile_buffer::TileArea;
 use crate::view::FrameView;
 
 /// One triangle of the tile.
-pub(crate) fn single(frame: &FrameView<'_>, area: &TileArea, place: TriangleRef) -> Option<TileTriangle> {
-    covering_apart(frame, area, &frame.triangle(place))
+pub(crate) fn single(frame: &FrameView<'_>, area: &TileArea, triangle: TriangleRef) -> Option<TileTriangle> {
+    covering_apart(frame, area, &frame.triangle(triangle))
 }
 
 /// Not inlined, so that it is compiled once.

@@ -12,11 +12,11 @@ use super::covered::{Covered, index_of};
 use super::eight::{EightTriangles, Slivers};
 use super::rasterizer::TileRasterizer;
 use crate::counts::Counts;
-use crate::simd::{Each, F32, I32, LANES, Simd, greater, lane_numbers, lesser, prelude::*, widened};
+use crate::simd::{F32, I32, InlineMap, LANES, Simd, greater, lane_numbers, lesser, prelude::*, widened};
 use crate::tile_buffer::{BLOCKS, VisibilityBuffer};
 use fearless_simd::f64x4;
 
-/// The estimated place of the longest edge is less than this from the edge, in 1/256 pixel: its edge function is rounded
+/// The estimated position of the longest edge is less than this from the edge, in 1/256 pixel: its edge function is rounded
 /// down by less than 1, and its steps are at least 1024 a pixel ([`LEAST`]), which makes a quarter; the numbers in f32 are
 /// less than 1024 pixels, so each of their few roundings adds less than 1/64.
 const SLACK: i32 = 1;
@@ -24,7 +24,7 @@ const SLACK: i32 = 1;
 /// Slivers are at least so long, in 1/256 pixel.
 const LEAST: i32 = 4 << 8;
 
-/// Added to places in pixels, none of which is less than -256, so that cutting rounds down.
+/// Added to positions in pixels, none of which is less than -256, so that cutting rounds down.
 const OFFSET: f32 = 512.0;
 
 /// How wide a triangle may be that covers one pixel of a column, and one that covers two.
@@ -89,9 +89,9 @@ struct Line {
     starts: [f32; 3],
     along: [f32; 3],
     across: [f32; 3],
-    /// The place of the first candidate across the major axis at the tile's first column, plus [`OFFSET`], not yet rounded
+    /// The position of the first candidate across the major axis at the tile's first column, plus [`OFFSET`], not yet rounded
     /// down; and its step from column to column.
-    place: f32,
+    start: f32,
     slope: f32,
     /// From the first candidate of a column to the second: away from the longest edge.
     inwards: f32,
@@ -114,12 +114,12 @@ impl Line {
         let (first, second) = if a >= b { (0, a) } else { (1, b) };
         let longest = if c > second { 2 } else { first };
         let inverse = -1.0 / across[longest];
-        // The candidates lie inside of the edge. Where its function grows with the place, the first one is that after the
+        // The candidates lie inside of the edge. Where its function grows with the position, the first one is that after the
         // estimate, else that before it.
         let slack = SLACK as f32 / 256.0;
         let (inwards, shift) = if across[longest] > 0.0 { (1.0, 1.0 - slack) } else { (-1.0, slack) };
-        let (place, slope) = (starts[longest] * inverse + (OFFSET + shift), along[longest] * inverse);
-        Self { starts, along, across, place, slope, inwards }
+        let (start, slope) = (starts[longest] * inverse + (OFFSET + shift), along[longest] * inverse);
+        Self { starts, along, across, start, slope, inwards }
     }
 }
 
@@ -138,7 +138,7 @@ impl TileRasterizer<'_> {
         simd.vectorize(
             #[inline(always)]
             || {
-                buffer.settle();
+                buffer.write_back();
                 let slivers = &eight.slivers;
                 let mut rest = slivers.lanes;
                 while rest != 0 {
@@ -185,7 +185,7 @@ impl TileRasterizer<'_> {
             #[inline(always)]
             |end| F32::splat(simd, eight.pixels[minor][end][lane] as f32),
         );
-        let plane = Plane::new(simd, eight, lane);
+        let plane = SliverDepth::new(simd, eight, lane);
         // From a pixel's column or row to the offset of its sample from the first vertex.
         let offset = [0, 1].each(
             #[inline(always)]
@@ -208,7 +208,7 @@ impl TileRasterizer<'_> {
                 self.scatter(eight, pixels, buffer);
             }
             let along = plane.term(column * 256.0 + offset[major], major);
-            let mut numbers = I32::truncate_from(column * line.slope + line.place) - OFFSET as i32;
+            let mut numbers = I32::truncate_from(column * line.slope + line.start) - OFFSET as i32;
             let mut row = numbers.to_float::<F32<S>>();
             for candidate in 0..CANDIDATES {
                 if candidate > 0 {
@@ -240,14 +240,14 @@ impl TileRasterizer<'_> {
 }
 
 /// The depths of one triangle: the formula of [`DepthPlane`](crate::primitive::DepthPlane).
-struct Plane<S: Simd> {
+struct SliverDepth<S: Simd> {
     value: f64x4<S>,
     slopes: [f64x4<S>; 2],
     low: F32<S>,
     high: F32<S>,
 }
 
-impl<S: Simd> Plane<S> {
+impl<S: Simd> SliverDepth<S> {
     #[inline(always)]
     fn new(simd: S, eight: &EightTriangles, lane: usize) -> Self {
         Self {

@@ -286,7 +286,7 @@ fn check(heaps: &[Heap], settings: ExecuteSettings, samples: u32) {
         assert_eq!(*depth, found[0].0.unwrap_or(0.0), "the depth of pixel {pixel:?}");
         seen += found.iter().filter(|(depth, _)| depth.is_some()).count() as u64;
     }
-    assert_eq!(stats.samples_seen, seen, "samples of the image that see a triangle");
+    assert_eq!(stats.samples_visible, seen, "samples of the image that see a triangle");
 }
 
 proptest! {

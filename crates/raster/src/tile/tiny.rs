@@ -22,7 +22,9 @@ use super::multisample;
 use super::rasterizer::TileRasterizer;
 use super::store::name_where;
 use crate::counts::Counts;
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser, prelude::*};
+use crate::simd::{
+    F32, I32, InlineMap, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser, prelude::*,
+};
 use crate::tile_buffer::{BLOCKS, NO_TRIANGLE, TileArea, VisibilityBuffer};
 use fearless_simd::f64x4;
 
@@ -36,7 +38,7 @@ const COVERING: u32 = 16;
 
 /// The triangle of one lane, copied to all lanes.
 pub(super) struct Tiny<S: Simd> {
-    pub(super) place: u32,
+    pub(super) triangle: u32,
     /// First and last columns and rows of groups.
     pub(super) columns: [usize; 2],
     pub(super) rows: [usize; 2],
@@ -90,14 +92,14 @@ impl TileRasterizer<'_> {
         &self,
         simd: S,
         of: PreparedTriangle<'_>,
-        place: u32,
+        triangle: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) {
         // A separate function, so that values which only larger triangles need take no registers.
         simd.vectorize(
             #[inline(always)]
-            || self.tiny_or_multisample::<S, MULTI>(simd, of, place, buffer, counts),
+            || self.tiny_or_multisample::<S, MULTI>(simd, of, triangle, buffer, counts),
         );
     }
 
@@ -106,18 +108,18 @@ impl TileRasterizer<'_> {
         &self,
         simd: S,
         of: PreparedTriangle<'_>,
-        place: u32,
+        triangle: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) {
         let PreparedTriangle { eight, origins, lane } = of;
         let lane = lane % LANES;
-        buffer.settle();
+        buffer.write_back();
         if self.hierarchical && self.hides_tiny(simd, eight, lane, buffer) {
             counts.tiles_rejected += 1;
             return;
         }
-        let tiny = eight.tiny(simd, origins, lane, place);
+        let tiny = eight.tiny(simd, origins, lane, triangle);
         counts.groups += tiny.groups();
         let ties = if MULTI {
             match self.in_order {
@@ -136,14 +138,20 @@ impl TileRasterizer<'_> {
             }
         };
         if !self.in_order && ties.any_true() {
-            self.resolve_ties(eight, lane, place, buffer);
+            self.resolve_ties(eight, lane, triangle, buffer);
         }
     }
 
     /// Makes the triangle visible at its samples where the visible triangle has the same depth and a
     /// larger key.
     #[cold]
-    fn resolve_ties(&self, eight: &EightTriangles, lane: usize, place: u32, buffer: &mut VisibilityBuffer) {
+    fn resolve_ties(
+        &self,
+        eight: &EightTriangles,
+        lane: usize,
+        triangle: u32,
+        buffer: &mut VisibilityBuffer,
+    ) {
         let Some(covering) = eight.covering(lane, self.offsets) else { return };
         let [columns, rows] = [covering.columns, covering.rows];
         let pixels = (columns[1] + 1 - columns[0]) * (rows[1] + 1 - rows[0]);
@@ -159,9 +167,9 @@ impl TileRasterizer<'_> {
                 if visible != NO_TRIANGLE
                     && covering.covers(at, sample, [0, 0])
                     && covering.depth.at(self.area.point(at, offset)) == buffer.depth[index]
-                    && (self.precedes)(place, visible)
+                    && (self.precedes)(triangle, visible)
                 {
-                    buffer.visible[index] = place;
+                    buffer.visible[index] = triangle;
                 }
             }
         }
@@ -255,7 +263,7 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
             }
             // The nearer depth stays. Where that is the new one, the visible triangle is replaced.
             depths[at] = greater(depth, there).into();
-            name_where(simd, depth.simd_gt(there), tiny.place, &mut visible[at]);
+            name_where(simd, depth.simd_gt(there), tiny.triangle, &mut visible[at]);
             // Four pixels to the right.
             a += tiny.right[0];
             b += tiny.right[1];
@@ -273,7 +281,7 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
 
 impl EightTriangles {
     #[inline(always)]
-    fn tiny<S: Simd>(&self, simd: S, origins: &EdgeOrigins, lane: usize, place: u32) -> Tiny<S> {
+    fn tiny<S: Simd>(&self, simd: S, origins: &EdgeOrigins, lane: usize, triangle: u32) -> Tiny<S> {
         let (x, y) = (lane_numbers(simd) & 3, lane_numbers(simd) >> 2);
         let [right, down] = [&self.right, &self.down].each(
             #[inline(always)]
@@ -292,7 +300,7 @@ impl EightTriangles {
             },
         );
         Tiny {
-            place,
+            triangle,
             columns: ends((0, 2)),
             rows: ends((1, 1)),
             lanes: [0, 1, 2].each(

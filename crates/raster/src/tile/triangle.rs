@@ -61,7 +61,7 @@ impl Special {
 #[derive(Clone, Copy)]
 struct Disc {
     /// Twice the centre, in 1/256 pixel.
-    centre: [i64; 2],
+    center: [i64; 2],
     diameter: i64,
 }
 
@@ -71,12 +71,12 @@ impl Disc {
         let axis = |i: usize| triangle.extent(i).map(i64::from);
         let ([left, right], [top, bottom]) = (axis(0), axis(1));
         (triangle.kind == Kind::RoundPoint)
-            .then_some(Self { centre: [left + right, top + bottom], diameter: right - left })
+            .then_some(Self { center: [left + right, top + bottom], diameter: right - left })
     }
 
     /// Whether a point is in the disc. Points exactly on the circle are not.
     fn covers(&self, point: [i32; 2]) -> bool {
-        let [dx, dy] = [0, 1].map(|axis| 2 * i64::from(point[axis]) - self.centre[axis]);
+        let [dx, dy] = [0, 1].map(|axis| 2 * i64::from(point[axis]) - self.center[axis]);
         dx * dx + dy * dy < self.diameter * self.diameter
     }
 }
@@ -259,8 +259,8 @@ mod tests {
         }
     }
 
-    /// Samples and places beside them, many at corners of blocks.
-    fn place() -> impl Strategy<Value = [i32; 2]> {
+    /// Samples and positions beside them, many at corners of blocks.
+    fn position() -> impl Strategy<Value = [i32; 2]> {
         let corner = prop_oneof![
             (0..4).prop_map(|block| 8 * block * 256 + 128),
             (0..4).prop_map(|block| { (8 * block + 7) * 256 + 128 })
@@ -270,7 +270,7 @@ mod tests {
         [axis(), axis()].prop_map(|[x, y]| [x + 64 * 256, y + 128 * 256])
     }
 
-    /// Triangles with an edge through a place, and discs around it.
+    /// Triangles with an edge through a position, and discs around it.
     fn triangle() -> impl Strategy<Value = SetupTriangle> {
         let reach = prop::sample::select(vec![300, 2500, 30_000, 1 << 20, 1 << 24]);
         let way = (reach, 0..4_u8).prop_flat_map(|(reach, kind)| {
@@ -281,10 +281,10 @@ mod tests {
                 _ => ([x, y], other),
             })
         });
-        let edge = (place(), way).prop_map(|([x, y], ([dx, dy], [cx, cy]))| {
+        let edge = (position(), way).prop_map(|([x, y], ([dx, dy], [cx, cy]))| {
             SetupTriangle::on_grid([[x - dx, y - dy], [x + dx, y + dy], [x + cx, y + cy]])
         });
-        let disc = (place(), 1..40_i32, any::<bool>()).prop_map(|([x, y], half, upper)| {
+        let disc = (position(), 1..40_i32, any::<bool>()).prop_map(|([x, y], half, upper)| {
             let [left, right, top, bottom] = [x - half * 256, x + half * 256, y - half * 256, y + half * 256];
             let other = if upper { [right, top] } else { [left, bottom] };
             let triangle = SetupTriangle::on_grid([[left, top], other, [right, bottom]]);

@@ -18,7 +18,7 @@ use crate::Stats;
 use crate::bin::TriangleRef;
 use crate::counts::Counts;
 use crate::shade::Shading;
-use crate::simd::{Each, LANES, Simd, at_level, lanes_of};
+use crate::simd::{InlineMap, LANES, Simd, at_level, lanes_of};
 use crate::tile_buffer::{NO_TRIANGLE, TileArea, VisibilityBuffer};
 use crate::vertex::ScreenVertex;
 use crate::view::FrameView;
@@ -38,7 +38,7 @@ pub(crate) fn resolve_visibility(
     if !surfaces.opaque.is_empty() {
         counts = cover_opaque(frame, area, state, surfaces.opaque.len());
     }
-    state.buffer.settle();
+    state.buffer.write_back();
     masked::cover_masked(frame, area, state, surfaces.masked.clone(), shading, stats);
     state.buffer.blank_outside(area);
     stats.add_counts(&counts);
@@ -62,7 +62,7 @@ pub(crate) fn cover_overlay(
     if !surfaces.masked.is_empty() {
         buffer.forget_nearest();
     }
-    buffer.settle();
+    buffer.write_back();
     if frame.hierarchical {
         // Most overlays lie behind what hides them, so the bounds are recomputed once for all of them.
         at_level!(frame.token, simd => buffer.refresh_all(simd, area));
@@ -95,7 +95,7 @@ pub(super) fn cover_more(
     let triangles = &triangles[..part.end];
     let pass = TilePass { frame, rasterizer, triangles, buffer, counts: &mut counts };
     let is_drawn = pass.cover_all(part.start);
-    buffer.settle();
+    buffer.write_back();
     stats.add_counts(&counts);
     is_drawn
 }
@@ -130,7 +130,7 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
     counts = Counts { tiles_reordered: 1, ..Counts::default() };
     let rasterizer = TileRasterizer { in_order: true, by_draws: false, ..rasterizer };
     TilePass { frame, rasterizer, triangles: reordered, buffer, counts: &mut counts }.cover_all(0);
-    buffer.settle();
+    buffer.write_back();
     key_order.name_visible(buffer);
     counts
 }
@@ -174,7 +174,7 @@ fn cover_triangles<S: Simd, const MULTI: bool>(simd: S, mut pass: TilePass<'_>, 
             continue;
         }
         let together = side_by_side(frame, rasterizer, &triangles[start..]);
-        let mut eight = (together > 0).then(|| eight(simd, &pass, start..start + together));
+        let mut eight = (together > 0).then(|| prepare_batch(simd, &pass, start..start + together));
         let mut end = start + together.max(1);
         if eight.is_none() && cover_quad::<S, MULTI>(simd, &mut pass, &mut edges, start) {
             // Both of its triangles.
@@ -216,8 +216,8 @@ fn points_side_by_side(frame: &FrameView<'_>, triangles: &[TriangleRef]) -> usiz
         return 0;
     }
     let draw = &frame.plan.draws[frame.draw_of(first)].ordinals;
-    let belongs = |place: &TriangleRef| place.is_point() && draw.contains(&place.ordinal);
-    triangles.iter().take(LANES).take_while(|place| belongs(place)).count()
+    let belongs = |triangle: &TriangleRef| triangle.is_point() && draw.contains(&triangle.ordinal);
+    triangles.iter().take(LANES).take_while(|triangle| belongs(triangle)).count()
 }
 
 /// Draws up to eight points of one draw from their vertices.
@@ -245,9 +245,9 @@ fn cover_quad<S: Simd, const MULTI: bool>(
     edges: &mut QuadEdges,
     index: usize,
 ) -> bool {
-    let place = pass.triangles[index];
-    let first = place.is_first_half().then(|| pass.frame.chunk_of(place));
-    let Some(quad) = first.and_then(|chunk| chunk.quad(place)) else { return false };
+    let triangle = pass.triangles[index];
+    let first = triangle.is_first_half().then(|| pass.frame.chunk_of(triangle));
+    let Some(quad) = first.and_then(|chunk| chunk.quad(triangle)) else { return false };
     let quad = IndexedQuad { quad, index: index as u32 };
     pass.rasterizer.quad::<S, MULTI>(simd, quad, edges, pass.buffer, pass.counts)
 }
@@ -300,13 +300,13 @@ fn side_by_side(frame: &FrameView<'_>, rasterizer: &TileRasterizer<'_>, triangle
     }
     let end =
         if rasterizer.by_draws { frame.plan.draws[frame.draw_of(first)].ordinals.end } else { u32::MAX };
-    let belongs = |place: &TriangleRef| place.is_whole() && place.ordinal < end;
-    triangles.iter().take(LANES).take_while(|place| belongs(place)).count()
+    let belongs = |triangle: &TriangleRef| triangle.is_whole() && triangle.ordinal < end;
+    triangles.iter().take(LANES).take_while(|triangle| belongs(triangle)).count()
 }
 
 /// Prepares up to eight whole primitives; unused lanes repeat the first.
 #[inline(always)]
-fn eight<S: Simd>(simd: S, pass: &TilePass<'_>, range: Range<usize>) -> EightTriangles {
+fn prepare_batch<S: Simd>(simd: S, pass: &TilePass<'_>, range: Range<usize>) -> EightTriangles {
     let (frame, area, index) = (pass.frame, &pass.rasterizer.area, range.start as u32);
     let (pattern, triangles) = (frame.grid.pattern, &pass.triangles[range]);
     // Each branch is a separate function, so that it is compiled once.
@@ -338,8 +338,8 @@ fn corners_of_one<'f>(frame: &FrameView<'f>, triangles: &[TriangleRef]) -> [[&'f
     let corners: [[u32; 3]; LANES] = lanes_of(
         #[inline(always)]
         |lane| {
-            let place = triangles.get(lane).unwrap_or(&triangles[0]);
-            geometry.corners(place.ordinal - plan.ordinals.start)
+            let triangle = triangles.get(lane).unwrap_or(&triangles[0]);
+            geometry.corners(triangle.ordinal - plan.ordinals.start)
         },
     );
     [0, 1, 2].each(

@@ -1,6 +1,6 @@
 //! Where a tile lies, and how its pixels lie in memory.
 
-use crate::simd::{Each, I32, Simd};
+use crate::simd::{I32, InlineMap, Simd};
 
 /// The most pixels in a row or a column of a tile.
 pub(crate) const MAX_SIDE: usize = 64;
@@ -105,12 +105,12 @@ mod tests {
 
     #[test]
     fn numbers_and_places_belong_together() {
-        let mut seen = vec![false; MAX_SIDE * MAX_SIDE];
+        let mut visited = vec![false; MAX_SIDE * MAX_SIDE];
         for y in 0..MAX_SIDE {
             for x in 0..MAX_SIDE {
                 let index = TileArea::index_of([x, y]);
                 assert_eq!(TileArea::pixel_at(index), [x, y], "pixel {index}");
-                assert!(!std::mem::replace(&mut seen[index], true), "{index} is given once");
+                assert!(!std::mem::replace(&mut visited[index], true), "{index} is given once");
             }
         }
     }

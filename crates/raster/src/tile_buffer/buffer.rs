@@ -96,7 +96,7 @@ impl VisibilityBuffer {
     }
 
     /// Gives all samples one depth and triangle. Only a note is made; the arrays are filled when they
-    /// are needed (`settle`).
+    /// are needed (`write_back`).
     pub(crate) fn fill_with(&mut self, depth: f32, visible: u32) {
         self.fill = Some((depth, visible));
         (self.farthest, self.farthest_block, self.stale) = (depth, 0, false);
@@ -109,15 +109,15 @@ impl VisibilityBuffer {
 
     /// Writes a pending fill to the arrays. Samples beside the tile's blocks get no triangle.
     #[inline(always)]
-    pub(crate) fn settle(&mut self) {
+    pub(crate) fn write_back(&mut self) {
         // Called for each triangle, so this part is inlined.
         if let Some((depth, visible)) = self.fill.take() {
-            self.settle_fill(depth, visible);
+            self.write_back_fill(depth, visible);
         }
     }
 
     #[inline(never)]
-    fn settle_fill(&mut self, depth: f32, visible: u32) {
+    fn write_back_fill(&mut self, depth: f32, visible: u32) {
         let length = self.span * self.samples;
         self.depth[..length].fill(depth);
         let block = GROUPS * LANES * self.samples;
@@ -165,7 +165,7 @@ impl VisibilityBuffer {
     }
 
     /// The number of samples at which a triangle is visible.
-    pub(crate) fn seen(&self) -> usize {
+    pub(crate) fn visible_count(&self) -> usize {
         self.visible().iter().filter(|&&visible| visible != NO_TRIANGLE).count()
     }
 

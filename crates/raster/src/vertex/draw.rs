@@ -10,7 +10,7 @@ use trigon_math::Vec4;
 pub(crate) struct DrawVertices<'a> {
     pub(crate) slots: Slots<'a>,
     /// The last is that of vertices that do not exist.
-    pub(crate) places: &'a [ScreenVertex],
+    pub(crate) screen_vertices: &'a [ScreenVertex],
     pub(crate) pipeline: &'a dyn VertexProgram,
     pub(crate) token: Token,
 }
@@ -19,8 +19,9 @@ impl<'a> DrawVertices<'a> {
     /// The vertex of an index; one that is not snapped and invalid if there is none.
     #[inline(always)]
     pub(crate) fn get(&self, index: u32) -> &'a ScreenVertex {
-        let missing = self.places.len().checked_sub(1).expect("there is one place more than vertices");
-        &self.places[self.slots.of(index).min(missing)]
+        let missing =
+            self.screen_vertices.len().checked_sub(1).expect("there is one place more than vertices");
+        &self.screen_vertices[self.slots.of(index).min(missing)]
     }
 
     /// The planes beyond which a vertex lies; none for one that needs no cutting.

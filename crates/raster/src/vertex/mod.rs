@@ -25,7 +25,7 @@ mod used;
 pub(crate) use depth::{nearer, nearer_lanes};
 pub(crate) use draw::DrawVertices;
 pub use lanes::VertexLanes;
-pub(crate) use program::{VertexOutput, VertexProgram};
+pub(crate) use program::{VertexDestination, VertexProgram};
 pub(crate) use screen::ScreenVertex;
 pub(crate) use snap::to_screen;
 pub(crate) use used::{Slots, UsedVertices};

@@ -7,7 +7,7 @@ use std::ops::Range;
 use trigon_math::Vec4;
 
 /// Where the vertex stage writes vertices, and their varyings side by side.
-pub(crate) struct VertexOutput<'o> {
+pub(crate) struct VertexDestination<'o> {
     pub(crate) vertices: &'o mut [ScreenVertex],
     pub(crate) varyings: &'o mut [f32],
 }
@@ -30,7 +30,7 @@ pub(crate) trait VertexProgram: Sync {
         used: Slots<'_>,
         slots: Range<usize>,
         viewport: Viewport,
-        out: VertexOutput<'_>,
+        out: VertexDestination<'_>,
     );
 
     /// The clip-space position of a vertex.

@@ -13,7 +13,7 @@ impl ScreenVertex {
     /// A vertex that does not exist.
     pub(crate) const MISSING: Self = Self([Self::NOWHERE, Outcode::INVALID.bits() as i32, 0, 0]);
 
-    /// In place of x: no vertex on the grid has it.
+    /// Instead of x: no vertex on the grid has it.
     pub(crate) const NOWHERE: i32 = i32::MIN;
 
     #[inline(always)]
@@ -28,14 +28,14 @@ impl ScreenVertex {
     }
 
     #[inline(always)]
-    pub(crate) fn has_place(self) -> bool {
+    pub(crate) fn is_snapped(self) -> bool {
         self.0[0] != Self::NOWHERE
     }
 
     /// The outcode of a vertex that is not snapped; for all others that of a vertex in full view.
     #[inline]
     pub(crate) fn outcode(self) -> Outcode {
-        if self.has_place() { Outcode::from_bits(0) } else { Outcode::from_bits(self.0[1] as u16) }
+        if self.is_snapped() { Outcode::from_bits(0) } else { Outcode::from_bits(self.0[1] as u16) }
     }
 
     /// Coordinates in 1/256 pixel.

@@ -3,7 +3,7 @@
 use super::ScreenVertex;
 use super::depth::DEPTH_LEAST;
 use crate::clip::{COORDINATE_MAX, Outcode, W_MIN};
-use crate::simd::{Each, F32, LANES, Mask, Simd, prelude::*};
+use crate::simd::{F32, InlineMap, LANES, Mask, Simd, prelude::*};
 use crate::viewport::Viewport;
 use trigon_math::{Band, Vec4};
 

@@ -7,7 +7,7 @@ use crate::bin::{Chunk, Grid, MovingChunk, TileRange, TriangleRef};
 use crate::draw_view::DrawView;
 use crate::ink::Ink;
 use crate::paint2d::Rect;
-use crate::pass::{Background, Recorded};
+use crate::pass::{Background, RecordedDraw};
 use crate::pipeline::AnyPipeline;
 use crate::primitive::SetupTriangle;
 use crate::simd::Token;
@@ -18,12 +18,12 @@ use std::ops::Range;
 
 /// Everything that tiles read.
 pub(crate) struct FrameView<'f> {
-    pub(crate) pass: &'f [Recorded<'f>],
+    pub(crate) pass: &'f [RecordedDraw<'f>],
     pub(crate) background: Background<'f>,
     /// The background's rows, if each has its own colour.
     pub(crate) background_rows: &'f [BackgroundRow],
     pub(crate) plan: &'f Plan,
-    pub(crate) places: &'f [ScreenVertex],
+    pub(crate) screen_vertices: &'f [ScreenVertex],
     pub(crate) varyings: &'f [f32],
     /// In the order of their ordinals.
     pub(crate) chunks: &'f [Chunk],
@@ -112,8 +112,8 @@ impl<'f> FrameView<'f> {
 
     /// The index among the plans of the draw that a triangle belongs to.
     #[inline(always)]
-    pub(crate) fn draw_of(&self, place: TriangleRef) -> usize {
-        self.plan.draw_of(place.ordinal)
+    pub(crate) fn draw_of(&self, triangle: TriangleRef) -> usize {
+        self.plan.draw_of(triangle.ordinal)
     }
 
     pub(crate) fn pipeline(&self, draw: usize) -> &'f dyn AnyPipeline {
@@ -124,9 +124,9 @@ impl<'f> FrameView<'f> {
     #[inline(always)]
     pub(crate) fn vertices(&self, draw: usize) -> DrawVertices<'f> {
         let plan = &self.plan.draws[draw];
-        let places = &self.places[plan.places.clone()];
+        let screen_vertices = &self.screen_vertices[plan.screen_vertices.clone()];
         let pipeline = self.pass[plan.draw].pipeline;
-        DrawVertices { slots: self.plan.slots(plan), places, pipeline, token: self.token }
+        DrawVertices { slots: self.plan.slots(plan), screen_vertices, pipeline, token: self.token }
     }
 
     /// The triangles of a draw.
@@ -144,28 +144,28 @@ impl<'f> FrameView<'f> {
 
     /// A triangle of a tile, ready.
     #[inline]
-    pub(crate) fn triangle(&self, place: TriangleRef) -> SetupTriangle {
-        self.draw_view(self.draw_of(place)).triangle(place)
+    pub(crate) fn triangle(&self, triangle: TriangleRef) -> SetupTriangle {
+        self.draw_view(self.draw_of(triangle)).triangle(triangle)
     }
 
     /// The vertices of a primitive.
     #[inline(always)]
-    pub(crate) fn corners(&self, place: TriangleRef) -> [&'f ScreenVertex; 3] {
-        self.draw_view(self.draw_of(place)).corners(place)
+    pub(crate) fn corners(&self, triangle: TriangleRef) -> [&'f ScreenVertex; 3] {
+        self.draw_view(self.draw_of(triangle)).corners(triangle)
     }
 
     /// The chunk that a triangle belongs to.
-    pub(crate) fn chunk_of(&self, place: TriangleRef) -> &'f Chunk {
-        Chunk::of(self.chunks, place)
+    pub(crate) fn chunk_of(&self, triangle: TriangleRef) -> &'f Chunk {
+        Chunk::of(self.chunks, triangle)
     }
 
     /// The (object, face) of a triangle as one number, given the index of its draw among the plans: the
     /// first part of the key by which [`Self::compare`] orders triangles.
     #[inline]
-    pub(crate) fn object_and_face(&self, draw: usize, place: TriangleRef) -> u64 {
+    pub(crate) fn object_and_face(&self, draw: usize, triangle: TriangleRef) -> u64 {
         let plan = &self.plan.draws[draw];
         let geometry = &self.pass[plan.draw].geometry;
-        let face = geometry.face(place.ordinal - plan.ordinals.start);
+        let face = geometry.face(triangle.ordinal - plan.ordinals.start);
         u64::from(geometry.object) << 32 | u64::from(face)
     }
 
@@ -173,10 +173,10 @@ impl<'f> FrameView<'f> {
     /// smaller (object, face) comes first; within a face, and only there, the smaller index, then the
     /// earlier draw.
     pub(crate) fn compare(&self, a: TriangleRef, b: TriangleRef) -> Ordering {
-        let key = |place: TriangleRef| {
-            let draw = self.draw_of(place);
+        let key = |triangle: TriangleRef| {
+            let draw = self.draw_of(triangle);
             let plan = &self.plan.draws[draw];
-            (self.object_and_face(draw, place), place.ordinal - plan.ordinals.start, plan.draw)
+            (self.object_and_face(draw, triangle), triangle.ordinal - plan.ordinals.start, plan.draw)
         };
         key(a).cmp(&key(b))
     }

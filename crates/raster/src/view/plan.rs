@@ -2,7 +2,7 @@
 
 use crate::BlendMode;
 use crate::bin::Chunk;
-use crate::pass::Recorded;
+use crate::pass::RecordedDraw;
 use crate::point::PlainPoints;
 use crate::vertex::{Slots, UsedVertices};
 use std::ops::Range;
@@ -24,9 +24,9 @@ pub(crate) struct DrawPlan {
     /// Ordinals of its primitives in the frame.
     pub(crate) ordinals: Range<u32>,
     pub(crate) used: UsedVertices,
-    /// Its vertices' places in the frame's array, and one more, of those that do not
+    /// Where its vertices are in the frame's array, and one more, for those that do not
     /// exist.
-    pub(crate) places: Range<usize>,
+    pub(crate) screen_vertices: Range<usize>,
     /// The same for its varyings.
     pub(crate) varyings: usize,
     /// Where the plan says how its points look, if they are drawn from their vertices.
@@ -43,9 +43,9 @@ pub(crate) struct Plan {
     listed: Vec<u32>,
     /// The looks of points: few draws have any.
     points: Vec<PlainPoints>,
-    /// How many vertices, places and varyings there are in all.
+    /// How many vertices, screen vertices and varyings there are in all.
     pub(crate) vertices: usize,
-    pub(crate) places: usize,
+    pub(crate) screen_vertices: usize,
     pub(crate) varyings: usize,
     /// How many chunks its primitives are cut into.
     pub(crate) chunks: usize,
@@ -60,7 +60,7 @@ impl Plan {
     /// of their ordinals.
     pub(crate) fn make(
         &mut self,
-        recorded: &[Recorded<'_>],
+        recorded: &[RecordedDraw<'_>],
         chunks: &mut Vec<Chunk>,
         workers: usize,
         supersampling: u32,
@@ -68,15 +68,15 @@ impl Plan {
         self.draws.clear();
         self.listed.clear();
         self.points.clear();
-        (self.vertices, self.places, self.varyings) = (0, 0, 0);
+        (self.vertices, self.screen_vertices, self.varyings) = (0, 0, 0);
         self.draws.extend((0..recorded.len()).map(|draw| {
-            let Recorded { geometry, pipeline } = &recorded[draw];
+            let RecordedDraw { geometry, pipeline } = &recorded[draw];
             let used = UsedVertices::new(geometry.indices(), pipeline.vertex_count(), &mut self.listed);
             let points = plain_points(&recorded[draw], supersampling).map(|looks| {
                 self.points.push(looks);
                 self.points.len() as u32 - 1
             });
-            DrawPlan { draw, ordinals: 0..0, used, places: 0..0, varyings: 0, points }
+            DrawPlan { draw, ordinals: 0..0, used, screen_vertices: 0..0, varyings: 0, points }
         }));
         // Equal keys stay in the order of the pass.
         self.draws.sort_unstable_by_key(|plan| {
@@ -85,12 +85,12 @@ impl Plan {
         });
         let mut ordinal = 0;
         for plan in &mut self.draws {
-            let Recorded { geometry, pipeline } = &recorded[plan.draw];
+            let RecordedDraw { geometry, pipeline } = &recorded[plan.draw];
             let end = ordinal + geometry.len() as u32;
             plan.ordinals = ordinal..end;
             ordinal = end;
-            plan.places = self.places..self.places + plan.used.len() + 1;
-            self.places = plan.places.end;
+            plan.screen_vertices = self.screen_vertices..self.screen_vertices + plan.used.len() + 1;
+            self.screen_vertices = plan.screen_vertices.end;
             plan.varyings = self.varyings;
             self.vertices += plan.used.len();
             self.varyings += plan.used.len() * pipeline.stride();
@@ -103,7 +103,7 @@ impl Plan {
 
     /// Brings the looks of points up to date with a pass for which [`has_points_of`](Self::has_points_of)
     /// holds.
-    pub(crate) fn update_points(&mut self, recorded: &[Recorded<'_>], supersampling: u32) {
+    pub(crate) fn update_points(&mut self, recorded: &[RecordedDraw<'_>], supersampling: u32) {
         for plan in &self.draws {
             let looks = plain_points(&recorded[plan.draw], supersampling);
             if let (Some(index), Some(looks)) = (plan.points, looks) {
@@ -113,14 +113,14 @@ impl Plan {
     }
 
     /// Whether the same draws of a pass have points that are drawn from their vertices.
-    pub(crate) fn has_points_of(&self, recorded: &[Recorded<'_>], supersampling: u32) -> bool {
+    pub(crate) fn has_points_of(&self, recorded: &[RecordedDraw<'_>], supersampling: u32) -> bool {
         self.draws
             .iter()
             .all(|plan| plan.points.is_some() == plain_points(&recorded[plan.draw], supersampling).is_some())
     }
 
     /// Whether equal depths can be decided by the ordinal among opaque draws.
-    fn are_keys(&self, recorded: &[Recorded<'_>]) -> bool {
+    fn are_keys(&self, recorded: &[RecordedDraw<'_>]) -> bool {
         let opaque = self
             .draws
             .iter()
@@ -142,7 +142,7 @@ impl Plan {
     }
 
     /// Cuts it into chunks of at most `size` primitives.
-    fn cut(&self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>, size: u32) -> usize {
+    fn cut(&self, recorded: &[RecordedDraw<'_>], chunks: &mut Vec<Chunk>, size: u32) -> usize {
         let mut count = 0;
         let mut add = |ordinals: Range<u32>, blend_mode: BlendMode| {
             if count == chunks.len() {
@@ -199,6 +199,6 @@ impl Plan {
     }
 }
 
-fn plain_points(recorded: &Recorded<'_>, supersampling: u32) -> Option<PlainPoints> {
+fn plain_points(recorded: &RecordedDraw<'_>, supersampling: u32) -> Option<PlainPoints> {
     PlainPoints::of(&recorded.geometry, recorded.pipeline.is_flat(), supersampling)
 }

@@ -12,7 +12,7 @@ use crate::work::{Work, note};
 use std::sync::LazyLock;
 
 use trigon_math::{Mat3, Vec3, elementary};
-use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, LANES, Simd, lanes_of, prelude::*};
 
 use crate::lanes::{dot, mix, splat, table_step};
 use crate::lighting::LitPoints;

@@ -1,6 +1,6 @@
 //! Sums the light of all lamps at eight points of a surface.
 
-use trigon_raster::simd::{Each, F32, Simd, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, Simd, prelude::*};
 
 use super::LightingEnvironment;
 use crate::lanes::{V3, dot, lesser_of, normalized, positive, pow, scaled, sum, tinted};

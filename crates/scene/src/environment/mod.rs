@@ -18,7 +18,7 @@ use harmonics::Harmonics;
 use octahedral::Octahedral;
 use thiserror::Error;
 use trigon_math::{Mat3, Vec3, elementary};
-use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, LANES, Simd, lanes_of, prelude::*};
 
 use crate::lanes::{V3, turned};
 

@@ -7,7 +7,7 @@ mod power;
 pub(crate) use power::{exp2, pow};
 
 use trigon_math::{Mat3, Mat4, Vec3};
-use trigon_raster::simd::{Each, F32, I32, LANES, Simd, greater, lesser, prelude::*};
+use trigon_raster::simd::{F32, I32, InlineMap, LANES, Simd, greater, lesser, prelude::*};
 
 /// Eight vectors: their x, their y and their z.
 pub(crate) type V3<S> = [F32<S>; 3];

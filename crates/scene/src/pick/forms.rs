@@ -6,7 +6,7 @@
 //! corners above all, are told apart from hidden ones without the exact test.
 
 use trigon_math::DVec2;
-use trigon_raster::simd::{Each, F32, LANES, Simd, inlined, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, LANES, Simd, inlined, prelude::*};
 
 use super::occluders::Pieces;
 use super::probes::Probe;

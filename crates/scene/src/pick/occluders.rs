@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use trigon_math::DVec2;
-use trigon_raster::simd::{Each, F32, LANES, Simd, inlined, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, LANES, Simd, inlined, prelude::*};
 
 use super::screen::Spot;
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use trigon_math::DVec2;
-use trigon_raster::simd::{Each, F32, LANES, Simd, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, LANES, Simd, prelude::*};
 
 use super::occluders::Extent;
 use super::screen::{Screen, Spot};

@@ -7,7 +7,7 @@
 use fearless_simd::f64x8;
 use trigon_camera::{Camera, Viewport};
 use trigon_math::{DAffine3, DMat4, DVec2, DVec3, DVec4};
-use trigon_raster::simd::{Each, LANES, Simd, inlined, lanes_of, prelude::*};
+use trigon_raster::simd::{InlineMap, LANES, Simd, inlined, lanes_of, prelude::*};
 
 use crate::render::placement::Eye;
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use trigon_math::{UVec2, Vec3, Vec4};
-use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, LANES, Simd, lanes_of, prelude::*};
 use trigon_raster::{Fragment, FragmentLanes, LanePipeline, MarkColors, Pipeline, VertexLanes, VertexOutput};
 
 use crate::geometry::Columns;

@@ -2,7 +2,7 @@
 
 use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;
-use trigon_raster::simd::{Each, F32, LANES, Simd, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, LANES, Simd, prelude::*};
 
 use super::{Coverage, Illumination, Surface, shown};
 use crate::lanes::{V3, cross, difference, dot, negated, normalized, scaled, select, splat, sum};

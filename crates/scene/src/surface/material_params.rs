@@ -3,7 +3,7 @@
 
 use crate::work::{Work, note};
 use trigon_math::{Vec3, Vec4};
-use trigon_raster::simd::{Each, F32, Simd, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, Sampler, Texture};
 
 use crate::effects::Optics;

@@ -27,7 +27,7 @@ use std::sync::Arc;
 
 use crate::work::{Work, note};
 use trigon_math::{Mat3, Vec3};
-use trigon_raster::simd::{Each, F32, Mask, Simd, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, Mask, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
 
 use crate::effects::LightingEnvironment;

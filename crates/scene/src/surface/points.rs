@@ -2,7 +2,7 @@
 
 use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;
-use trigon_raster::simd::{Each, F32, LANES, Mask, Simd, inlined, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, LANES, Mask, Simd, inlined, prelude::*};
 
 use super::{Map, Surface};
 use crate::lanes::{V3, cross, negated, normalized, scaled, select, splat, sum, turned};

@@ -1,7 +1,7 @@
 //! Surfaces that show one of their values as a colour, instead of light.
 
 use trigon_raster::FragmentLanes;
-use trigon_raster::simd::{Each, F32, Simd, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, Simd, prelude::*};
 
 use super::{Model, Surface};
 use crate::display::Display;

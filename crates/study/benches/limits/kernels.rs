@@ -4,7 +4,7 @@ use crate::limit::Kernel;
 use fearless_simd::{Level, Simd, dispatch};
 use std::hint::black_box;
 use trigon_raster::simd::prelude::*;
-use trigon_raster::simd::{Each, F32, LANES, U32, greater};
+use trigon_raster::simd::{F32, InlineMap, LANES, U32, greater};
 
 /// Numbers of 32 bits in 8 MB.
 const IMAGE: usize = 2 << 20;

@@ -6,7 +6,7 @@ use fearless_simd::{Level, Simd, dispatch};
 use std::hint::black_box;
 use trigon_math::Vec3;
 use trigon_raster::simd::prelude::*;
-use trigon_raster::simd::{Each, F32, I32, LANES, greater, inlined, lane_numbers, lesser};
+use trigon_raster::simd::{F32, I32, InlineMap, LANES, greater, inlined, lane_numbers, lesser};
 use trigon_raster::{Sampler, Texture};
 use trigon_study::workloads::{blinn_phong as light, knot_surface, lambert_lanes};
 

@@ -5,7 +5,7 @@ use crate::engine::{Engine, field, target};
 use crate::visibility::clip_corners;
 use trigon_classic::{Field, Scene};
 use trigon_math::Vec4;
-use trigon_raster::simd::{Each, F32, Simd, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, Simd, prelude::*};
 use trigon_raster::{
     BlendMode, Culling, Draw, FragmentLanes, LanePipeline, Output, Pass, Target, VertexLanes,
 };

@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::shading::{BASE_COLOR, blinn_phong, lambert_lanes, lit};
-use trigon_raster::simd::{Each, F32, Simd, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, LanePipeline, Sampler, Texture, VertexLanes};
 
 /// Each triangle in its own colour.

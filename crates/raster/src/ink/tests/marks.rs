@@ -182,7 +182,7 @@ proptest! {
         let mut pass = pass(&[], width);
         pass.edges(FaceEdges { width, color: Vec3::ZERO, opacity: 0.5 }).marks(colors());
         marked.record(&mut pass);
-        let told = Rasterizer::default().explain_pixel(&pass, &target(grid), x, y).unwrap();
-        prop_assert_eq!(told.color, drawn[(y * SIDE + x) as usize]);
+        let explained = Rasterizer::default().explain_pixel(&pass, &target(grid), x, y).unwrap();
+        prop_assert_eq!(explained.color, drawn[(y * SIDE + x) as usize]);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::primitive::{Edge, Quad, SMALL, owns_boundary};
 use crate::samples::{MAX_SAMPLES, SamplePattern};
-use crate::simd::{Each, I32, LANES, Row, Simd, lane_numbers, prelude::*};
+use crate::simd::{I32, InlineMap, LANES, Row, Simd, lane_numbers, prelude::*};
 use crate::tile_buffer::TileArea;
 
 /// The last of the edges: not one of the outline.
@@ -14,7 +14,7 @@ pub(super) const EDGES: usize = 5;
 /// How a line or a point lies in a tile.
 pub(super) enum QuadPosition {
     /// It has no sample in it.
-    Beside,
+    JoinedTriangle,
     Within,
     /// Its edge functions do not fit 32 bits there.
     TooLong,
@@ -96,7 +96,7 @@ impl QuadEdges {
             let fall = steps[0].min(0) * span[0] + steps[1].min(0) * span[1];
             let is_outside = value + rise < 0;
             if is_outside && k != DIAGONAL {
-                return QuadPosition::Beside;
+                return QuadPosition::JoinedTriangle;
             }
             if is_outside || value + fall >= 0 {
                 // All of the tile lies on one side of the edge, so a constant with the right sign is

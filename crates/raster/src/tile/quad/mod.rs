@@ -15,33 +15,33 @@ mod strip;
 pub(super) use edges::QuadEdges;
 
 use super::rasterizer::{GroupSamples, TileRasterizer};
-use super::store::store_places_where;
+use super::store::store_each_where;
 use crate::counts::Counts;
 use crate::primitive::{DepthPlane, Kind, Quad};
 use crate::samples::SamplePattern;
-use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, U32, inlined, lane_numbers, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Mask, Row, Simd, U32, inlined, lane_numbers, prelude::*};
 use crate::tile_buffer::{GROUPS, TileArea, VisibilityBuffer};
 use edges::{DIAGONAL, EDGES, QuadPosition};
-use strip::{SHIFT, Strip};
+use strip::{OutlineStrip, SHIFT};
 
 /// From this width on, in 1/256 pixel, testing whole blocks first pays, so the two triangles are
 /// drawn as such.
 const WIDE: i32 = 32 * 256;
 
 /// The round outline of a point, from the tile's corner.
-struct Disc {
+struct TileDisc {
     /// Twice the centre, in 1/256 pixel.
-    centre: [i32; 2],
+    center: [i32; 2],
     square_of_diameter: i32,
 }
 
-impl Disc {
+impl TileDisc {
     /// Of a point that is not [`WIDE`], so that squares in the groups around it fit 32 bits.
     fn new(quad: &Quad, area: &TileArea) -> Self {
         let [[left, right], [top, bottom]] = [quad.extent(0), quad.extent(1)];
         let [x, y] = area.origin.map(|v| v * 512);
         let diameter = right - left;
-        Self { centre: [left + right - x, top + bottom - y], square_of_diameter: diameter * diameter }
+        Self { center: [left + right - x, top + bottom - y], square_of_diameter: diameter * diameter }
     }
 
     /// Which pixels of a group have the sample at this offset in the disc. Samples exactly on the
@@ -51,7 +51,7 @@ impl Disc {
         let lanes = [lane_numbers(simd) & 3, lane_numbers(simd) >> 2];
         let [dx, dy] = [0, 1].each(
             #[inline(always)]
-            |axis| (lanes[axis] << 9) + (first[axis] * 512 + 2 * offset[axis] - self.centre[axis]),
+            |axis| (lanes[axis] << 9) + (first[axis] * 512 + 2 * offset[axis] - self.center[axis]),
         );
         (dx * dx + dy * dy).simd_lt(I32::splat(simd, self.square_of_diameter))
     }
@@ -65,12 +65,12 @@ pub(super) struct IndexedQuad<'q> {
 }
 
 /// A line or a point that is being drawn, with what its groups have in common.
-struct Walk<'q, S: Simd> {
+struct QuadWalk<'q, S: Simd> {
     quad: &'q Quad,
     edges: &'q QuadEdges,
     /// The edges' steps within a group.
     lanes: [I32<S>; EDGES],
-    disc: Option<Disc>,
+    disc: Option<TileDisc>,
     /// The planes of both triangles, if the ends are not equally deep.
     planes: Option<[DepthPlane; 2]>,
     /// The first triangle among the tile's; the other comes next.
@@ -118,20 +118,20 @@ impl TileRasterizer<'_> {
         }
         let Some(pixels) = pixels_in(quad, edges.pattern, &self.area) else { return true };
         match edges.find(simd, quad, &self.area) {
-            QuadPosition::Beside => return true,
+            QuadPosition::JoinedTriangle => return true,
             QuadPosition::TooLong => return false,
             QuadPosition::Within => {}
         }
-        buffer.settle();
+        buffer.write_back();
         let planes = (quad.depths[0] != quad.depths[1]).then(
             #[inline(always)]
             || [plane_of_half(quad, 0), plane_of_half(quad, 1)],
         );
-        let disc = (quad.kind == Kind::RoundPoint).then(|| Disc::new(quad, &self.area));
+        let disc = (quad.kind == Kind::RoundPoint).then(|| TileDisc::new(quad, &self.area));
         let pattern = edges.pattern;
-        let walk = Walk { quad, lanes: edges.lanes(simd), edges, disc, planes, index };
+        let walk = QuadWalk { quad, lanes: edges.lanes(simd), edges, disc, planes, index };
         let (first, last) = (pixels[major][0] >> SHIFT[major], pixels[major][1] >> SHIFT[major]);
-        let mut strip = Strip::new(quad, pattern, &self.area, major, first);
+        let mut strip = OutlineStrip::new(quad, pattern, &self.area, major, first);
         for along in first..last + 1 {
             for across in strip.next(pixels[minor], SHIFT[minor]) {
                 let at = if major == 0 { [along, across] } else { [across, along] };
@@ -146,7 +146,7 @@ impl TileRasterizer<'_> {
     fn group<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        walk: &Walk<'_, S>,
+        walk: &QuadWalk<'_, S>,
         [column, row]: [i32; 2],
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -183,11 +183,11 @@ impl TileRasterizer<'_> {
             let is_first = (walk.lanes[DIAGONAL] + here[DIAGONAL]).simd_ge(I32::splat(simd, 0));
             let depth = walk.depth(simd, is_first, self.area.point(first, self.offsets[sample]));
             let at = (group * samples + sample) * LANES;
-            let seen =
-                self.visible_lanes(simd, GroupSamples { place: walk.index, covered, depth }, buffer, at);
-            if seen.any_true() {
-                let places = is_first.select(U32::splat(simd, walk.index), U32::splat(simd, walk.index + 1));
-                store_places_where(simd, seen, places, depth, buffer, at);
+            let visible =
+                self.visible_lanes(simd, GroupSamples { index: walk.index, covered, depth }, buffer, at);
+            if visible.any_true() {
+                let indices = is_first.select(U32::splat(simd, walk.index), U32::splat(simd, walk.index + 1));
+                store_each_where(simd, visible, indices, depth, buffer, at);
                 wrote = true;
             }
         }
@@ -197,7 +197,7 @@ impl TileRasterizer<'_> {
     }
 }
 
-impl<S: Simd> Walk<'_, S> {
+impl<S: Simd> QuadWalk<'_, S> {
     /// Which pixels of a group lie inside of the outline, from the values at its first.
     #[inline(always)]
     fn inside(&self, simd: S, here: &Row) -> Mask<S> {

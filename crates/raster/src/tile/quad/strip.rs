@@ -5,7 +5,7 @@ use crate::samples::SamplePattern;
 use crate::tile_buffer::TileArea;
 
 /// Between which pixels across the major axis an outline may lie, group by group along it.
-pub(super) struct Strip {
+pub(super) struct OutlineStrip {
     /// The first and the last pixel from the tile's, times 2^24.
     first: i64,
     last: i64,
@@ -13,7 +13,7 @@ pub(super) struct Strip {
     step: i64,
 }
 
-impl Strip {
+impl OutlineStrip {
     /// From a group on, that with this number along the major axis.
     #[inline(always)]
     pub(super) fn new(

@@ -194,11 +194,11 @@ fn known(marks: &Marks, draw: u32, sampling: Sampling) -> Vec<Known> {
                 if outcodes[0].cuts() {
                     continue;
                 }
-                let centre = near(ScreenVertex::of(positions[0], viewport).unwrap());
+                let center = near(ScreenVertex::of(positions[0], viewport).unwrap());
                 let half =
                     (f64::from(size.clamp(1.0, 4096.0)) * f64::from(sampling.per_axis) * 128.0).round();
-                let [x, y] = centre.raw().map(f64::from);
-                let corner = |i: f64, j: f64| centre.at(grid([x + i * half, y + j * half]).unwrap());
+                let [x, y] = center.raw().map(f64::from);
+                let corner = |i: f64, j: f64| center.at(grid([x + i * half, y + j * half]).unwrap());
                 let disc = [x as i64, y as i64, 2 * half as i64];
                 let disc = (shape == PointShape::Round).then_some(disc);
                 push([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0)], disc);
@@ -293,11 +293,11 @@ fn position() -> impl Strategy<Value = Vec4> {
         [axis(0).boxed(), axis(1).boxed()]
     });
     let far = [-9_000_000..9_000_000_i32, -9_000_000..9_000_000_i32];
-    let place = prop_oneof![6 => near, 1 => far];
+    let coordinates = prop_oneof![6 => near, 1 => far];
     let depth =
         prop_oneof![2 => (0..=4_u8).prop_map(|quarters| f32::from(quarters) / 4.0), 1 => -0.1_f32..1.2];
     let w = prop_oneof![4 => Just(1.0), 2 => 0.1_f32..4.0, 1 => -1.0_f32..1.0];
-    (place, depth, w).prop_map(|([x, y], depth, w)| {
+    (coordinates, depth, w).prop_map(|([x, y], depth, w)| {
         let [x, y] =
             [(x, SIZE[0]), (y, SIZE[1])].map(|(v, side)| (f64::from(v) / f64::from(128 * side) - 1.0) as f32);
         Vec4::new(x * w, -y * w, depth * w, w)

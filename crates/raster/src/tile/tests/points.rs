@@ -83,13 +83,13 @@ impl Still {
 
 /// In the image, often on samples and at depths of others, beside it, and behind the eye.
 fn vertex() -> impl Strategy<Value = Vec4> {
-    let place = [-1.2_f32..1.2, -1.2_f32..1.2];
+    let coordinates = [-1.2_f32..1.2, -1.2_f32..1.2];
     let on_samples = [0..SIZE[0] * 2, 0..SIZE[1] * 2]
-        .prop_map(|place| [0, 1].map(|axis| place[axis] as f32 / SIZE[axis] as f32 - 1.0));
-    let place = prop_oneof![2 => place, 1 => on_samples];
+        .prop_map(|coordinate| [0, 1].map(|axis| coordinate[axis] as f32 / SIZE[axis] as f32 - 1.0));
+    let coordinates = prop_oneof![2 => coordinates, 1 => on_samples];
     let depth = prop_oneof![(0..=4_u8).prop_map(|quarters| f32::from(quarters) / 4.0), -0.1_f32..1.1];
     let w = prop_oneof![6 => Just(1.0), 2 => 0.2_f32..3.0, 1 => -1.0_f32..0.1];
-    (place, depth, w).prop_map(|([x, y], depth, w)| Vec4::new(x * w, y * w, depth * w, w))
+    (coordinates, depth, w).prop_map(|([x, y], depth, w)| Vec4::new(x * w, y * w, depth * w, w))
 }
 
 fn still() -> impl Strategy<Value = Still> {

@@ -110,7 +110,7 @@ fn masks_are_asked_once_a_pixel_and_not_beside_the_image() {
     let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| f64::from(x + y + 1)));
     for sum in [40.5, 60.5, 100.5, 200.0] {
         let (_, stats) = draw(&[masked(corner(sum, 0.5))], timed(), 1);
-        let count = pixels.clone().filter(|&place| place < sum).count();
+        let count = pixels.clone().filter(|&index| index < sum).count();
         assert_eq!(stats.samples_masked, count as u64, "pixels within {sum}");
     }
     let (_, stats) = draw(&[masked(wall(ALL, [0.5; 3]))], timed(), 4);

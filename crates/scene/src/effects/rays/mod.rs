@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use surface_hit::CasterSurfaces;
 use trigon_math::{Bvh, DAffine3, DMat4, DVec3, Mat4, Ray, Vec3};
-use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, LANES, Simd, lanes_of, prelude::*};
 
 use crate::effects::casters::Casters;
 use crate::lanes::{V3, moved, turned};

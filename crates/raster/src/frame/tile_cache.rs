@@ -5,12 +5,12 @@
 //! (`cargo bench -p trigon-scene --bench changes -- sheet edges`, and `derived edges`).
 
 use super::bits::is_set;
-use super::tiles::{Scratch, count_seen, draw_tile};
+use super::tiles::{Scratch, count_visible, draw_tile};
 use crate::clock::Clock;
 use crate::ink::{Ink, VisibleFaces};
 use crate::resolve::{TileColors, resolve, store_visibility};
 use crate::shade::{
-    GROUP_COUNT, Partly, TileLanes, TileRows, note_faces, rows_of, rows_of_either, shade_tile,
+    GROUP_COUNT, PartialTile, TileLanes, TileRows, note_faces, rows_of, rows_of_either, shade_tile,
 };
 use crate::target::Bands;
 use crate::tile::{CachedTile, MovingRanges};
@@ -20,8 +20,8 @@ use std::sync::{Mutex, PoisonError};
 
 /// The tiles of a frame of which some primitives are listed apart, as far as they were drawn since.
 #[derive(Default)]
-pub(super) struct KeptTiles {
-    tiles: Vec<Mutex<Option<Box<KeptTile>>>>,
+pub(super) struct TileCache {
+    tiles: Vec<Mutex<Option<Box<TileCacheEntry>>>>,
     /// The primitives that may look different: a bit for each of the frame.
     pub(super) differ: Vec<u64>,
 }
@@ -30,7 +30,7 @@ pub(super) struct KeptTiles {
 const ALL: [TileLanes; 2] = [[u8::MAX; GROUP_COUNT]; 2];
 
 /// What is kept of a tile.
-struct KeptTile {
+struct TileCacheEntry {
     /// `None` if it cannot be kept.
     still: Option<CachedTile>,
     /// The still triangles as the search for outer halves of lines needs them, if there are lines.
@@ -42,7 +42,7 @@ struct KeptTile {
     shown: [TileLanes; 2],
 }
 
-impl KeptTiles {
+impl TileCache {
     /// Forgets all tiles, and begins with `count`.
     pub(super) fn reset(&mut self, count: usize) {
         self.tiles.clear();
@@ -51,10 +51,10 @@ impl KeptTiles {
 
     /// Draws a tile.
     pub(super) fn draw(&self, frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Bands<'_>, index: u32) {
-        let mut kept = self.tiles[index as usize].lock().unwrap_or_else(PoisonError::into_inner);
+        let mut cached = self.tiles[index as usize].lock().unwrap_or_else(PoisonError::into_inner);
         let area = &frame.area(index);
-        let find = || Box::new(KeptTile::find(frame, &self.differ, area, index, scratch));
-        let own = kept.get_or_insert_with(find);
+        let find = || Box::new(TileCacheEntry::find(frame, &self.differ, area, index, scratch));
+        let own = cached.get_or_insert_with(find);
         if own.draw(frame, scratch, bands, area, index).is_none() {
             own.shown = ALL;
             draw_tile(frame, scratch, bands, index);
@@ -62,7 +62,7 @@ impl KeptTiles {
     }
 }
 
-impl KeptTile {
+impl TileCacheEntry {
     /// Finds what its still triangles show.
     fn find(
         frame: &FrameView<'_>,
@@ -97,7 +97,7 @@ impl KeptTile {
         let mut clock = Clock::new(frame.timed);
         let moving = still.restore(frame, area, index, state);
         MovingRanges::cover(frame, area, state, &moving.surfaces.opaque, stats)?;
-        count_seen(frame, state, stats);
+        count_visible(frame, state, stats);
         stats.times.visibility += clock.lap();
         let mut now = [[0; GROUP_COUNT]; 2];
         if frame.wants.depth || frame.wants.ids {
@@ -117,8 +117,11 @@ impl KeptTile {
         stats.times.visibility += clock.lap();
         if pixels_to_shade.any() {
             let visible = state.visible(area);
-            let partly =
-                Partly { pixels: pixels_to_shade, still: &self.faces, places: moving.still_places(state) };
+            let partly = PartialTile {
+                pixels: pixels_to_shade,
+                still: &self.faces,
+                indices: moving.still_indices(state),
+            };
             stats.pixels_shaded += shade_tile(frame, visible, Some(partly), shading, Some(encoding));
             stats.triangles_edged += shading.edged;
             stats.times.shading += clock.lap();
