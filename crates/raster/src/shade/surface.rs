@@ -38,7 +38,7 @@ pub(crate) fn shade_tile(
         match run.records {
             Some(shape) => shading.records.select(shape),
             None => {
-                shading.records.fill(frame.token, &context, &shading.visible_triangles[run.slots.clone()])
+                shading.records.fill(frame.token, &context, &shading.visible_triangles[run.slots.clone()]);
             }
         }
         let visible =
