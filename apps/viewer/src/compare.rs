@@ -66,7 +66,7 @@ fn compared(
     let [one, two] = draw_both([&model.scene, &changed.scene], &camera, &request.settings)?;
     let difference = difference(&one, &two);
     let heat = frame_of(&difference.image);
-    let subject = Subject { model: source.image_subject(), frame: 0 };
+    let subject = Subject { model: source.image_subject(), ..Subject::default() };
     outlet.put(subject, &beside(&[&one, &two, &heat]))?;
     if request.json {
         write_json(&facts(&source, other, &difference, &outlet.written))?;

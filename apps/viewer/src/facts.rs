@@ -172,8 +172,12 @@ pub(crate) struct CameraFacts {
     projection: &'static str,
     /// From the lower to the upper edge of a perspective view, in degrees.
     vertical_fov: Option<f64>,
-    /// The height of a parallel view.
-    height: Option<f64>,
+    /// The same in radians, which gives back the camera to the bit.
+    vertical_fov_radians: Option<f64>,
+    /// The height of a parallel view, in the units of the file.
+    view_height: Option<f64>,
+    /// Left, right, bottom and top of a view off the centre, on the near plane.
+    frustum: Option<[f64; 4]>,
     near: f64,
     /// `null` is at infinity.
     far: Option<f64>,
@@ -186,25 +190,30 @@ impl CameraFacts {
     pub(crate) fn new(camera: &Camera, image: Viewport) -> Self {
         let projection = camera.projection;
         let intrinsics = projection.intrinsics(image, PixelCenters::AtHalves);
-        let (mut vertical_fov, mut height) = (None, None);
+        let (mut vertical_fov, mut view_height, mut frustum) = (None, None, None);
         let projection_name = match projection {
             Projection::Perspective { vertical_fov: angle, .. } => {
-                vertical_fov = Some(angle.to_degrees());
+                vertical_fov = Some(angle);
                 "perspective"
             }
             Projection::Orthographic { height: whole, .. } => {
-                height = Some(whole);
+                view_height = Some(whole);
                 "orthographic"
             }
-            Projection::Frustum { .. } => "frustum",
+            Projection::Frustum { left, right, bottom, top, .. } => {
+                frustum = Some([left, right, bottom, top]);
+                "frustum"
+            }
             Projection::Pinhole { .. } => "pinhole",
         };
         Self {
             position: camera.position.to_array(),
             rotation: camera.orientation.to_array(),
             projection: projection_name,
-            vertical_fov,
-            height,
+            vertical_fov: vertical_fov.map(f64::to_degrees),
+            vertical_fov_radians: vertical_fov,
+            view_height,
+            frustum,
             near: projection.near(),
             far: projection.far(),
             intrinsics: intrinsics
@@ -221,6 +230,9 @@ pub(crate) struct ImageFacts<'a> {
     /// `None` for a series of images.
     #[serde(flatten)]
     pub(crate) drawing: Option<DrawingFacts>,
+    /// The images of a series; empty for a single one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) views: Vec<ViewFacts>,
     pub(crate) width: u32,
     pub(crate) height: u32,
     pub(crate) load_seconds: f64,
@@ -237,6 +249,47 @@ pub(crate) struct DrawingFacts {
     pub(crate) pixels_shaded: u64,
     /// How far the image is from that of `--reference`.
     pub(crate) error: Option<f64>,
+}
+
+/// How one image of a series was drawn.
+#[derive(Serialize)]
+pub(crate) struct ViewFacts {
+    /// The number in its name, from 0.
+    pub(crate) frame: u32,
+    /// The name of its camera.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub(crate) name: String,
+    pub(crate) camera: CameraFacts,
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) positions_origin: Option<[f64; 3]>,
+    pub(crate) draw_seconds: f64,
+    pub(crate) pixels_shaded: u64,
+    pub(crate) written: Vec<String>,
+    /// Why a part of it, or all, is missing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) failure: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) exit_code: Option<u8>,
+}
+
+impl ViewFacts {
+    /// Of a view that is not drawn yet.
+    pub(crate) fn new(frame: u32, name: &str, camera: CameraFacts, image: Viewport) -> Self {
+        Self {
+            frame,
+            name: name.to_owned(),
+            camera,
+            width: image.width,
+            height: image.height,
+            positions_origin: None,
+            draw_seconds: 0.0,
+            pixels_shaded: 0,
+            written: Vec::new(),
+            failure: None,
+            exit_code: None,
+        }
+    }
 }
 
 /// Files as text.

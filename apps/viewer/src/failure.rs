@@ -17,6 +17,9 @@ pub(crate) enum Failure {
     /// Something could not be done: exit code 1.
     #[error("{0}")]
     Work(Box<dyn std::error::Error + Send + Sync>),
+    /// Some views of a series failed, of which everything has been said: their worst exit code.
+    #[error("some views failed")]
+    Reported(u8),
 }
 
 impl Failure {
@@ -31,6 +34,7 @@ impl Failure {
             Self::Work(_) | Self::Empty(_) => 1,
             Self::Usage(_) => 2,
             Self::Mismatch(_) => 3,
+            Self::Reported(code) => *code,
         }
     }
 }

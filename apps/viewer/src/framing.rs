@@ -163,7 +163,7 @@ impl Framing {
 
     /// Views once around the model, all from the same distance: the camera of `shot`, turned
     /// about the model's up axis through its middle.
-    pub(crate) fn turntable(&self, scene: &Scene, aspect: f64, views: u32) -> Result<Vec<Camera>, Failure> {
+    pub(crate) fn turntable(&self, scene: &Scene, aspect: f64, views: u32) -> Result<Vec<Shot>, Failure> {
         let points: Vec<DVec3> = scene.visible_points().filter(|point| point.is_finite()).collect();
         let bounds = Bounds3::from_points(points.iter().copied());
         let center = self.focal_point.unwrap_or_else(|| Extent::new(&bounds).center());
@@ -174,14 +174,15 @@ impl Framing {
         let keeps_position = matches!(self.eye, Eye::Position(_) | Eye::SceneCamera(_));
         let first = if keeps_position { first } else { self.around_ball(first, center, radius, aspect) };
         let axis = scene.up.direction();
-        let camera = |view: u32| {
+        let shot = |view: u32| {
             let angle = std::f64::consts::TAU * f64::from(view) / f64::from(views);
             let turn = DQuat::from_axis_angle(axis, angle);
             let position = center + turn * (first.position - center);
             let orientation = (turn * first.orientation).normalize();
-            Camera { position, orientation, ..first }.with_clip_planes(&bounds)
+            let camera = Camera { position, orientation, ..first }.with_clip_planes(&bounds);
+            Shot { camera, distance: position.distance(center) }
         };
-        Ok((0..views).map(camera).collect())
+        Ok((0..views).map(shot).collect())
     }
 
     /// The camera, moved along its line of sight, or zoomed, until it shows a ball.

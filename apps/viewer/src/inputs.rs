@@ -21,10 +21,15 @@ impl Inputs {
         };
         let reference = request.reference.as_ref().map(|reference| &reference.file);
         let played = request.window.interaction_play.as_ref();
-        let named = [of_mode, reference, request.environment.as_ref(), request.script.as_ref(), played];
+        let cameras = request.sequence.cameras.as_ref();
+        // Those of a model of COLMAP are in a folder.
+        let colmap = ["cameras.txt", "images.txt"].map(|name| cameras.map(|folder| folder.join(name)));
+        let named =
+            [of_mode, cameras, reference, request.environment.as_ref(), request.script.as_ref(), played];
         let mut inputs = Self::default();
         inputs.add(&request.files);
         inputs.add(named.into_iter().flatten());
+        inputs.add(colmap.iter().flatten());
         inputs.add(request.look.textures.files());
         inputs.add(request.line.files());
         inputs

@@ -3,7 +3,6 @@
 
 use std::path::PathBuf;
 
-use trigon_camera::Camera;
 use trigon_math::{Bounds3, DVec3};
 use trigon_mesh::Mesh;
 use trigon_scene::{NodeId, Scene};
@@ -123,12 +122,7 @@ impl Model {
     }
 
     /// Views once around it.
-    pub(crate) fn turntable(
-        &self,
-        framing: &Framing,
-        aspect: f64,
-        views: u32,
-    ) -> Result<Vec<Camera>, Failure> {
+    pub(crate) fn turntable(&self, framing: &Framing, aspect: f64, views: u32) -> Result<Vec<Shot>, Failure> {
         self.composed(framing).turntable(&self.scene, aspect, views)
     }
 

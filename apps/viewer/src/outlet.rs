@@ -51,13 +51,24 @@ impl<'a> Outlet<'a> {
             Some(Destination::Stdout) => write_stream(frame).map(|()| None),
             Some(Destination::File(template)) => {
                 let path = template.unused(subject);
-                self.save(&path, frame, write_file)?;
+                let image = self.save(&path, frame, write_file);
                 // OpenEXR has them in it.
                 let beside = if template.is_exr() { &[] } else { self.beside };
-                beside.iter().try_for_each(|beside| self.put_beside(*beside, &path, frame))?;
+                // One that fails does not keep the others from being written.
+                let beside = beside.iter().map(|beside| self.put_beside(*beside, &path, frame));
+                let failures = std::iter::once(image).chain(beside).filter_map(Result::err).collect();
+                self.first_of(failures)?;
                 Ok(Some(path))
             }
         }
+    }
+
+    /// The first failure, once the others are reported.
+    fn first_of(&self, failures: Vec<Failure>) -> Result<(), Failure> {
+        let mut failures = failures.into_iter();
+        let first = failures.next();
+        failures.for_each(|failure| self.reporter.error(failure));
+        first.map_or(Ok(()), Err)
     }
 
     /// Writes one output to a file of its own, next to the image's.
@@ -126,7 +137,7 @@ impl<'a> Outlet<'a> {
             return Ok(());
         }
         Err(Failure::Usage(format!(
-            "{}: two models would be written to it; write {{n}} in the name of --output (--output '{{model}}_{{n}}.png')",
+            "{}: two images would be written to it; write {{n}} in the name of --output (--output '{{model}}_{{n}}.png'), or {{frame}} for views",
             path.display()
         )))
     }

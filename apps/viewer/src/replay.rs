@@ -33,7 +33,7 @@ fn replay(
     let RenderSettings { threads, simd, .. } = request.settings;
     let settings = RenderSettings { threads, simd, ..capture.settings.clone() };
     let frame = render(&capture.scene, &capture.camera, &settings).map_err(Failure::work)?;
-    outlet.put(Subject { model: Some(path), frame: 0 }, &frame)?;
+    outlet.put(Subject { model: Some(path), ..Subject::default() }, &frame)?;
     match capture.mismatch(&frame) {
         None => {
             let (path, hash) = (path.display(), capture.image_hash());

@@ -1,27 +1,49 @@
-//! Image sequences: a turntable, or an animation frame by frame.
+//! Image sequences: the cameras of a file, a turntable, or an animation frame by frame.
 
-use trigon_camera::Camera;
+use std::path::Path;
+
+use trigon_camera::{Camera, Viewport};
+use trigon_io::{CameraView, Limits, load_cameras};
 use trigon_scene::Scene;
 
 use crate::args::Request;
 use crate::failure::Failure;
+use crate::framing::Shot;
 use crate::model::Model;
 use crate::moment::{self, Clip};
+use crate::report::Reporter;
 
 /// An hour at 28 frames a second.
 const MOST_FRAMES: u32 = 100_000;
 
 /// What changes from frame to frame.
 pub(crate) enum Series {
+    /// The camera and the image's size.
+    Cameras(Vec<SeriesCamera>),
     /// The camera.
-    Turntable(Vec<Camera>),
+    Turntable(Vec<Shot>),
     /// The pose.
     Animation(AnimationFrames),
 }
 
+/// A camera of a file.
+pub(crate) struct SeriesCamera {
+    name: String,
+    view: SeriesView,
+}
+
+/// How one image is drawn.
+#[derive(Clone, Copy)]
+pub(crate) struct SeriesView {
+    pub(crate) shot: Shot,
+    pub(crate) image: Viewport,
+    /// Whether the clip planes are given. If not, they may have to be wider for what is shown beside the model.
+    pub(crate) has_clip_planes: bool,
+}
+
 /// An animation, frame by frame.
 pub(crate) struct AnimationFrames {
-    camera: Camera,
+    shot: Shot,
     clips: Vec<usize>,
     /// Of the first frame.
     start: f64,
@@ -33,9 +55,12 @@ pub(crate) struct AnimationFrames {
 }
 
 impl Series {
-    /// What the request asks for: its turntable, or the animation that its file has.
-    pub(crate) fn new(model: &Model, request: &Request) -> Result<Self, Failure> {
+    /// What the request asks for: its cameras, its turntable, or the animation that its file has.
+    pub(crate) fn new(model: &Model, request: &Request, reporter: Reporter) -> Result<Self, Failure> {
         let aspect = request.settings.aspect();
+        if let Some(file) = &request.sequence.cameras {
+            return cameras(file, model, request, reporter).map(Self::Cameras);
+        }
         if let Some(views) = request.sequence.turntable {
             return model.turntable(&request.framing, aspect, views).map(Self::Turntable);
         }
@@ -55,31 +80,93 @@ impl Series {
                 "the animation has {frames} frames, more than {MOST_FRAMES}; write a smaller --frame-rate or a larger --animation-speed-factor"
             )));
         }
-        let camera = model.shot(&request.framing, aspect)?.camera;
+        let shot = model.shot(&request.framing, aspect)?;
         // At least the pose at the start.
         let frames = (frames as u32).max(1);
-        Ok(Self::Animation(AnimationFrames { camera, clips, start, speed, rate, frames }))
+        Ok(Self::Animation(AnimationFrames { shot, clips, start, speed, rate, frames }))
     }
 
     pub(crate) fn frames(&self) -> u32 {
         match self {
-            Self::Turntable(cameras) => cameras.len() as u32,
+            Self::Cameras(cameras) => cameras.len() as u32,
+            Self::Turntable(shots) => shots.len() as u32,
             Self::Animation(playing) => playing.frames,
         }
     }
 
-    /// Puts the scene where a frame has it; returns its camera.
-    pub(crate) fn set(&self, scene: &mut Scene, frame: u32) -> Camera {
+    /// The name of a frame's camera; empty if it has none.
+    pub(crate) fn name(&self, frame: u32) -> &str {
         match self {
-            Self::Turntable(cameras) => cameras[frame as usize],
+            Self::Cameras(cameras) => &cameras[frame as usize].name,
+            Self::Turntable(_) | Self::Animation(_) => "",
+        }
+    }
+
+    /// The size that all images have.
+    pub(crate) fn common_size(&self, request: &Request) -> Result<Viewport, Failure> {
+        let Self::Cameras(cameras) = self else { return Ok(size(request)) };
+        let first = cameras.first().map_or(size(request), |camera| camera.view.image);
+        if cameras.iter().all(|camera| camera.view.image == first) {
+            return Ok(first);
+        }
+        Err(Failure::Usage(
+            "the cameras' images have different sizes, but those of one file have the same; set --resolution, or write {frame} in the name of --output".to_owned(),
+        ))
+    }
+
+    /// Puts the scene where a frame has it; returns how it is drawn.
+    pub(crate) fn set(&self, scene: &mut Scene, frame: u32, request: &Request) -> SeriesView {
+        let shot = match self {
+            Self::Cameras(cameras) => return cameras[frame as usize].view,
+            Self::Turntable(shots) => shots[frame as usize],
             Self::Animation(playing) => {
                 // Divided last: k / rate in f64 rounds to the keyframe that was written for it.
                 let seconds = playing.start + f64::from(frame) * playing.speed / playing.rate;
                 moment::pose(scene, &playing.clips, seconds);
-                playing.camera
+                playing.shot
             }
-        }
+        };
+        SeriesView { shot, image: size(request), has_clip_planes: false }
     }
+}
+
+/// The size of images whose camera has none.
+fn size(request: &Request) -> Viewport {
+    Viewport { width: request.settings.width, height: request.settings.height }
+}
+
+/// The cameras of a file, for images of --resolution, or else of their own size.
+fn cameras(
+    file: &Path,
+    model: &Model,
+    request: &Request,
+    reporter: Reporter,
+) -> Result<Vec<SeriesCamera>, Failure> {
+    let read = load_cameras(file, size(request), &Limits::default()).map_err(Failure::work)?;
+    read.warnings.iter().for_each(|warning| reporter.warning(warning));
+    if read.views.len() > MOST_FRAMES as usize {
+        return Err(Failure::Usage(format!(
+            "{}: it has {} cameras, more than {MOST_FRAMES}; divide it",
+            file.display(),
+            read.views.len()
+        )));
+    }
+    let has_size = request.line.is_given("resolution", model.source.first_file());
+    let bounds = model.scene.tight_bounds();
+    let placed =
+        read.views.into_iter().map(|CameraView { name, camera, image, has_own_size, has_clip_planes }| {
+            let camera = if has_clip_planes { camera } else { camera.with_clip_planes(&bounds) };
+            let image = if has_own_size && !has_size { image } else { size(request) };
+            let shot = Shot { camera, distance: distance(&camera, model) };
+            SeriesCamera { name, view: SeriesView { shot, image, has_clip_planes } }
+        });
+    Ok(placed.collect())
+}
+
+/// How far ahead of a camera the middle of the model is; of one that is behind it, any distance will do.
+fn distance(camera: &Camera, model: &Model) -> f64 {
+    let ahead = model.center().map(|center| (center - camera.position).dot(camera.forward()));
+    ahead.filter(|ahead| *ahead > 0.0).unwrap_or(1.0)
 }
 
 #[cfg(test)]
@@ -113,9 +200,11 @@ mod tests {
     fn shown(keys: u32, fps: u32, flags: &str) -> Vec<u32> {
         let (mut model, node) = model(keys, fps);
         let flags = format!("--output f.gif --frame-rate={fps} {flags}");
-        let series = Series::new(&model, &request(&flags)).expect("it has an animation");
+        let request = request(&flags);
+        let series =
+            Series::new(&model, &request, Reporter::new(request.level)).expect("it has an animation");
         let key = |frame| {
-            series.set(&mut model.scene, frame);
+            series.set(&mut model.scene, frame, &request);
             model.scene.world_transform(node).translation.x as u32
         };
         (0..series.frames()).map(key).collect()

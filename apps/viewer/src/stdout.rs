@@ -65,6 +65,9 @@ struct FailureFacts {
 /// Reports a failure, with `as_json` also on a line of its own, so that there is one for each input. Returns
 /// the exit code.
 pub(crate) fn report_failure(source: &Source, failure: &Failure, as_json: bool, reporter: Reporter) -> u8 {
+    if let Failure::Reported(exit_code) = failure {
+        return *exit_code;
+    }
     reporter.error(failure);
     let exit_code = failure.exit_code();
     exit_code.max(if as_json { write_failure(source.first_file(), failure, reporter) } else { 0 })

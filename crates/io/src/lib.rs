@@ -36,6 +36,7 @@
 //! coordinates v = 0 is the top edge, and v grows downwards. Colours are linear light. A model far from the
 //! origin is moved to the origin, and its node gets the offset. One node of the file is one node of the scene.
 
+mod cameras;
 mod capture;
 mod compare;
 mod environment;
@@ -76,6 +77,7 @@ mod vertex_table;
 mod warning;
 mod write;
 
+pub use cameras::{CameraFile, CameraView, load_cameras};
 pub use capture::{Capture, Mismatch, PixelMismatch};
 pub use compare::{ImageDifference, SizeMismatch, compare_images};
 pub use environment::load_environment;

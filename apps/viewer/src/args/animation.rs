@@ -1,5 +1,6 @@
 //! Flags for animations and image sequences.
 
+use std::path::PathBuf;
 use std::str::FromStr;
 
 use super::values;
@@ -45,6 +46,17 @@ pub(crate) struct AnimationArgs {
     /// Draw N views once around the model: to a .gif or .apng file, or to numbered files ({frame} in the name)
     #[arg(long, value_name = "N", value_parser = values::count::<1, 3600>, allow_negative_numbers = true, requires = "output", help_heading = "Animation")]
     pub(crate) turntable: Option<u32>,
+
+    /// Draw a view by each camera of a file: trigon's JSON, NeRF's transforms.json, or a folder with COLMAP's text
+    /// model; {frame} or {camera} in the name of --output
+    ///
+    /// Sizes are the file's unless --resolution is given. docs/cameras.md describes the formats. What --json writes
+    /// is such a file, too.
+    #[arg(long, value_name = "FILE", requires = "output", help_heading = "Animation", conflicts_with_all = [
+        "turntable", "view", "camera_direction", "camera_position", "camera_focal_point", "camera_view_up",
+        "camera_index", "camera_exact", "compare", "reference",
+    ])]
+    pub(crate) cameras: Option<PathBuf>,
 
     /// A jump in time, as in command scripts.
     #[arg(long, hide = true, allow_hyphen_values = true)]

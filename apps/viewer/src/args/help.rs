@@ -72,6 +72,7 @@ const ESSENTIAL: [(&str, &[Row]); 7] = [
             ("animation-time", ""),
             ("frame-rate", "Frames per second, for {frame}, .gif and .apng"),
             ("turntable", ""),
+            ("cameras", "Draw each view of a file: JSON, NeRF or COLMAP"),
         ],
     ),
     (

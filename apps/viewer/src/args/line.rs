@@ -176,6 +176,12 @@ impl CommandLine {
         Ok(words)
     }
 
+    /// Whether a flag was typed, or set by a configuration file, for a file.
+    pub(crate) fn is_given(&self, flag: &str, file: Option<&Path>) -> bool {
+        let source = self.matches(file).ok().and_then(|matches| matches.value_source(flag));
+        source.is_some_and(|source| source != ValueSource::DefaultValue)
+    }
+
     /// A flag with the value that follows one in the list of those that it takes, around the
     /// end.
     ///

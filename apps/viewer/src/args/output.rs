@@ -59,6 +59,8 @@ enum Piece {
     Number(usize),
     /// The number of a frame, padded to this many digits.
     Frame(usize),
+    /// The name of the camera without folder and extension, or else the number of the frame.
+    Camera,
     /// The date in a format of `strftime`.
     Date(String),
 }
@@ -70,6 +72,8 @@ pub(crate) struct Subject<'a> {
     pub(crate) model: Option<&'a Path>,
     /// From 0.
     pub(crate) frame: u32,
+    /// The name of its camera, such as that of a photograph; empty if there is none.
+    pub(crate) view: &'a str,
 }
 
 impl Template {
@@ -102,7 +106,7 @@ impl Template {
 
     /// Whether each frame gets its own name.
     pub(crate) fn tells_frames_apart(&self) -> bool {
-        self.0.iter().any(|piece| matches!(piece, Piece::Frame(_)))
+        self.0.iter().any(|piece| matches!(piece, Piece::Frame(_) | Piece::Camera))
     }
 
     /// Whether different models get different names.
@@ -126,7 +130,7 @@ impl Template {
         free.expect("a folder holds fewer files than there are numbers")
     }
 
-    fn fill(&self, Subject { model, frame }: Subject<'_>, number: usize, now: SystemTime) -> PathBuf {
+    fn fill(&self, Subject { model, frame, view }: Subject<'_>, number: usize, now: SystemTime) -> PathBuf {
         let text = |part: Option<&std::ffi::OsStr>| part.map(|part| part.to_string_lossy().into_owned());
         let name: String = self
             .0
@@ -140,6 +144,7 @@ impl Template {
                 Piece::Extension => text(model.and_then(Path::extension)).unwrap_or_default(),
                 Piece::Number(digits) => format!("{number:0digits$}"),
                 Piece::Frame(digits) => format!("{frame:0digits$}"),
+                Piece::Camera => text(Path::new(view).file_stem()).unwrap_or_else(|| frame.to_string()),
                 Piece::Date(format) => date(now, format),
             })
             .collect();
@@ -168,12 +173,13 @@ fn variable(text: &str) -> Result<(Piece, &str), String> {
         ("n", _) => Piece::Number(1),
         (_, Some(("n", digits))) => Piece::Number(padding(digits)?),
         ("frame", _) => Piece::Frame(1),
+        ("camera", _) => Piece::Camera,
         (_, Some(("frame", digits))) => Piece::Frame(padding(digits)?),
         ("date", _) => Piece::Date("%Y%m%d".to_owned()),
         (_, Some(("date", format))) => Piece::Date(format.to_owned()),
         _ => {
             return Err(format!(
-                "{{{name}}} is not a variable; there are {{model}}, {{model.ext}}, {{model_ext}}, {{n}}, {{n:3}}, {{frame}}, {{frame:4}}, {{date}}, {{app}} and {{version}}"
+                "{{{name}}} is not a variable; there are {{model}}, {{model.ext}}, {{model_ext}}, {{n}}, {{n:3}}, {{frame}}, {{frame:4}}, {{camera}}, {{date}}, {{app}} and {{version}}"
             ));
         }
     };
@@ -236,7 +242,7 @@ mod tests {
 
     fn filled(template: &str, model: Option<&str>) -> String {
         let template = Template::parse(template).expect("a template");
-        let subject = Subject { model: model.map(Path::new), frame: 12 };
+        let subject = Subject { model: model.map(Path::new), frame: 12, view: "images/left.1.jpg" };
         // 2024-02-29 13:05:09.
         let now = SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(1_709_211_909);
         template.fill(subject, 7, now).to_string_lossy().into_owned()
@@ -252,6 +258,7 @@ mod tests {
         assert_eq!(filled("{{model}}_{app}.png", model), "{model}_trigon-viewer.png", "escaped");
         assert_eq!(filled("{model}.png", None), "trigon.png", "the built-in scene");
         assert_eq!(filled("{frame}_{frame:04}.png", None), "12_0012.png", "a frame");
+        assert_eq!(filled("{camera}.png", None), "left.1.png", "a camera");
         assert_eq!(filled("{date}_{date:%H-%M-%S}.png", None), "20240229_13-05-09.png", "a leap day");
     }
 

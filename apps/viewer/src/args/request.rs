@@ -120,6 +120,8 @@ pub(crate) struct Request {
 pub(crate) struct Frames {
     /// The number of views around the model, for a turntable.
     pub(crate) turntable: Option<u32>,
+    /// The file of the cameras.
+    pub(crate) cameras: Option<PathBuf>,
     /// Frames per second.
     pub(crate) rate: f64,
     /// The speed factor of animations; negative plays backwards.
@@ -334,6 +336,7 @@ fn moment(raw: &RawArgs) -> Option<Moment> {
 fn sequence(animation: &AnimationArgs) -> Frames {
     Frames {
         turntable: animation.turntable,
+        cameras: animation.cameras.clone(),
         rate: animation.frame_rate,
         speed: animation.animation_speed_factor,
         autoplay: animation.animation_autoplay == Some(true),

@@ -19,7 +19,7 @@ pub(super) fn save(
     model: Option<&Path>,
     inputs: &Inputs,
 ) -> Result<PathBuf, Failure> {
-    let path = template.unused_in(&folder(), Subject { model, frame: 0 });
+    let path = template.unused_in(&folder(), Subject { model, ..Subject::default() });
     if let Some(folder) = path.parent() {
         // What fails here is said when the file is written.
         let _ = fs::create_dir_all(folder);

@@ -31,8 +31,8 @@ use super::screenshot;
 use super::side::SidePanel;
 use super::watch::Watch;
 use crate::args::{Request, Template};
+use crate::drawing;
 use crate::failure::Failure;
-use crate::image;
 use crate::inputs::Inputs;
 use crate::model::{Model, Summary};
 use crate::report::Reporter;
@@ -312,7 +312,7 @@ impl Viewer {
         let mut request = self.request.clone();
         (request.overlay.name, request.overlay.metadata) = (self.show_name, self.show_metadata);
         request.overlay.tree = false;
-        image::finished(frame, &shown.model(stage), &stage.camera(), &request)
+        drawing::finished(frame, &shown.model(stage), &stage.camera(), &request)
     }
 }
 

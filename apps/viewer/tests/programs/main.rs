@@ -7,6 +7,7 @@ mod glass;
 mod moments;
 mod outputs;
 mod up;
+mod views;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -233,7 +234,7 @@ fn several_files_are_drawn_together_or_under_several_names() {
     fs::create_dir(folder.path("other")).expect("a folder");
     fs::copy(folder.path("b.obj"), folder.path("other/b.obj")).expect("a copy");
     let said = folder.said("b.obj other/b.obj --output {model}.png --resolution 20,20", 2);
-    assert!(said.contains("two models") && said.contains("{n}"), "no image is lost silently: {said}");
+    assert!(said.contains("two images") && said.contains("{n}"), "no image is lost silently: {said}");
 }
 
 #[test]

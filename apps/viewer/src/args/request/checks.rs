@@ -73,11 +73,20 @@ pub(super) fn check_frames(raw: &RawArgs, mode: &Mode) -> Result<(), String> {
         Some(Destination::Stdout) | None => (false, false),
     };
     let frames = moves || many;
-    if frames && (capture.is_some() || raw.reference.is_some() || !raw.outputs.is_empty()) {
+    if frames && (capture.is_some() || raw.reference.is_some()) {
         return Err(
-            "--output with several frames does not work with --capture, --reference and --outputs; name one image"
+            "--output with several frames does not work with --capture and --reference; name one image"
                 .to_owned(),
         );
+    }
+    if moves && !raw.outputs.is_empty() {
+        return Err("--outputs writes files beside each image, but all are in one file; write {frame} in the name of --output (--output 'view_{frame:3}.png')".to_owned());
+    }
+    if let (Some(file), false) = (&raw.animation.cameras, frames) {
+        return Err(format!(
+            "--cameras={} makes an image for each camera; write {{frame}} or {{camera}} in the name of --output (--output 'view_{{frame:3}}.png')",
+            file.display()
+        ));
     }
     if let (Some(views), false) = (raw.animation.turntable, frames) {
         return Err(format!(

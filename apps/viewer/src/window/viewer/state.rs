@@ -101,7 +101,7 @@ impl Viewer {
     /// The file of the state.
     fn state_path(&self) -> PathBuf {
         let model = self.sources[self.current].first_file();
-        self.request.state_file.unused(Subject { model, frame: 0 })
+        self.request.state_file.unused(Subject { model, ..Subject::default() })
     }
 
     pub(super) fn save_state(&mut self, stage: &mut Stage) {
