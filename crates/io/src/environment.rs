@@ -6,9 +6,9 @@ use std::path::Path;
 use image::{ImageFormat, ImageReader};
 use trigon_scene::Environment;
 
+use super::options::Limits;
 use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::folder::{Folder, to_the_end};
-use crate::limits::Limits;
 use crate::rgba_image::{check_claim, decoder_limits, reason};
 use crate::warning::{Warning, Warnings};
 

@@ -11,9 +11,9 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use super::options::Limits;
+use super::refusal::is_lfs_pointer;
 use crate::error::LoadError;
-use crate::lfs::is_lfs_pointer;
-use crate::limits::Limits;
 use crate::refusal::{Refusal, relative_path};
 
 /// How exactly a name must match.

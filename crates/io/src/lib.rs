@@ -39,36 +39,26 @@
 mod cameras;
 mod capture;
 mod compare;
+mod encode_image;
 mod environment;
-mod equal_keys;
 mod error;
 mod export;
-mod file_identity;
 mod folder;
 mod format;
 mod formats;
 mod gltf_source;
-mod image_file;
 mod import;
-mod layers;
-mod lfs;
-mod limits;
 mod load;
-mod loss;
-mod lossy;
 mod native_document;
 mod numbers;
 mod options;
 mod outputs;
-mod png;
 mod polygons;
 mod rebase;
 mod refusal;
 mod rgba_image;
 mod rows;
 mod sequence;
-mod signals;
-mod text;
 mod texture_request;
 mod textures;
 mod unfinished;
@@ -80,31 +70,28 @@ mod write;
 pub use cameras::{CameraFile, CameraView, load_cameras};
 pub use capture::{Capture, Mismatch, PixelMismatch};
 pub use compare::{ImageDifference, SizeMismatch, compare_images};
+pub use encode_image::{Pixels, encode_jpeg, encode_png, encode_webp, write_jpeg, write_png, write_webp};
 pub use environment::load_environment;
 pub use error::{LoadError, LoadErrorKind, Location};
-pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport};
-pub use file_identity::FileIdentity;
+pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport, Loss};
 pub use format::{Format, Reader, Writer};
 pub use formats::gltf::{encode_glb, write_glb};
 pub use formats::{export, readers, writers};
 pub use gltf_source::GltfSource;
-pub use limits::Limits;
 pub use load::{Loaded, load, load_from_slice};
-pub use loss::Loss;
-pub use lossy::{encode_jpeg, encode_webp, write_jpeg, write_webp};
 pub use native_document::{NativeDocument, NativeFile};
-pub use options::{LoadOptions, LoadStage, Progress, ProgressHook, SceneChoice};
+pub use options::{Limits, LoadOptions, LoadStage, Progress, ProgressHook, SceneChoice};
 pub use outputs::{
     Output, UnknownOutput, encode_exr, encode_npy, encode_png16, write_exr, write_npy, write_origin_npy,
     write_png16,
 };
-pub use png::{Pixels, encode_png, write_png};
 pub use rgba_image::{RgbaImage, load_image};
 pub use sequence::{Sequence, write_apng, write_gif};
-pub use signals::end_on_signals;
 /// Which way is up in a file.
 pub use trigon_camera::UpAxis;
-pub use unfinished::{create_unfinished, forget_unfinished, link_unfinished, unfinished_path};
+pub use unfinished::{
+    FileIdentity, create_unfinished, end_on_signals, forget_unfinished, link_unfinished, unfinished_path,
+};
 pub use warning::Warning;
 pub use write::{WriteError, write_atomically};
 

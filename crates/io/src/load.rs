@@ -8,13 +8,13 @@ use rayon::ThreadPoolBuilder;
 use trigon_mesh::EditData;
 use trigon_scene::{MeshId, Scene};
 
+use super::refusal::is_lfs_pointer;
 use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::folder::Folder;
 use crate::format::Format;
 use crate::formats::{detect_format, supported};
 use crate::gltf_source::{GltfSource, SourceDraft};
 use crate::import::Import;
-use crate::lfs::is_lfs_pointer;
 use crate::options::{LoadOptions, LoadStage};
 use crate::refusal::Refusal;
 use crate::warning::{Warning, Warnings};

@@ -9,13 +9,13 @@ use trigon_camera::UpAxis;
 use trigon_mesh::{EditData, Mesh};
 use trigon_scene::{MeshId, Scene};
 
+use super::export::Loss;
 use crate::error::LoadError;
 use crate::export::{Export, ExportOptions};
 use crate::format::Format;
 use crate::formats::export;
 use crate::formats::gltf::{GlbFile, Input, RetainedFile, write_scene};
 use crate::load::{Loaded, load, load_from_slice};
-use crate::loss::Loss;
 use crate::options::LoadOptions;
 use crate::warning::Warning;
 use crate::write::{WriteError, write_atomically};

@@ -5,8 +5,7 @@ use std::path::{Component, Path, PathBuf};
 
 use thiserror::Error;
 
-use crate::error::{LoadError, LoadErrorKind};
-use crate::lfs;
+use super::error::{LoadError, LoadErrorKind};
 
 /// Why a name was not opened.
 #[derive(Debug, Error)]
@@ -60,7 +59,7 @@ impl Refusal {
             Self::Cancelled => return LoadError::cancelled(path),
             Self::TooLarge(..) => (LoadErrorKind::Limit, "raise the limit if you trust the file"),
             Self::Missing => (LoadErrorKind::Read, "check the name and the folder"),
-            Self::LfsPointer => (LoadErrorKind::Malformed, lfs::REMEDY),
+            Self::LfsPointer => (LoadErrorKind::Malformed, REMEDY),
             _ => (LoadErrorKind::Forbidden, "name a regular file; pipe streams through `-`"),
         };
         LoadError::new(kind, path, self.to_string(), remedy)
@@ -72,7 +71,7 @@ impl Refusal {
             Self::Missing => "put the file there, or export the model again with it",
             Self::NoFolder => "load the model from a file instead of a stream, or embed everything in a GLB",
             Self::TooLarge(..) => "use a smaller file, or raise the limit",
-            Self::LfsPointer => lfs::REMEDY,
+            Self::LfsPointer => REMEDY,
             Self::Read(_) => "check that the file can be read",
             _ => "put the file beside the model and name it by its relative path",
         }
@@ -114,4 +113,16 @@ fn has_scheme(name: &str) -> bool {
         scheme.starts_with(|c: char| c.is_ascii_alphabetic())
             && scheme.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.'))
     })
+}
+
+/// What helps.
+pub(crate) const REMEDY: &str = "fetch the real file with `git lfs pull`";
+
+/// How a pointer begins: with the address of its specification, or with the one of the time before its release.
+const STARTS: [&[u8]; 2] = [b"version https://git-lfs", b"version https://hawser"];
+
+/// Whether a file is a pointer, whatever its name says.
+pub(crate) fn is_lfs_pointer(bytes: &[u8]) -> bool {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    STARTS.iter().any(|start| text.starts_with(start))
 }

@@ -10,9 +10,9 @@ use std::path::Path;
 
 use image::{ImageDecoder, ImageError, ImageFormat, ImageReader};
 
+use super::options::Limits;
 use crate::error::{LoadError, LoadErrorKind};
 use crate::folder::{Folder, to_the_end};
-use crate::limits::Limits;
 
 /// An image in memory: sRGB colours with straight alpha.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -145,7 +145,7 @@ pub(crate) fn reason(error: &ImageError) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::png::{Pixels, encode_png};
+    use crate::encode_image::{Pixels, encode_png};
 
     #[test]
     fn a_png_comes_back_as_it_was() {

@@ -6,7 +6,7 @@ use std::path::Path;
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame, RgbaImage};
 
-use crate::lossy::{into_io, on_white};
+use super::encode_image::{into_io, on_white};
 use crate::write::{WriteError, write_atomically};
 
 /// GIF stores sides in 16 bits.

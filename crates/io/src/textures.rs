@@ -1,22 +1,21 @@
-//! Converts images of a model to textures of the scene: decoded in parallel, and only those that a
-//! material uses.
-//!
-//! Images whose files are missing or cannot be read never get here: the readers report them
-//! (`formats/gltf/images.rs`, `formats/obj/textures.rs`), and the material has no texture.
+//! Converts images of a model to textures of the scene: found as files beside it under any spelling, and decoded in
+//! parallel, only those that a material uses.
 
+use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 use trigon_raster::Texture;
 use trigon_scene::TextureId;
 
-use crate::error::LoadError;
-use crate::import::Import;
-use crate::layers::{HeightMap, Role, merge};
-use crate::limits::Limits;
-use crate::options::LoadStage;
-use crate::rgba_image::{RgbaImage, decode_image, image_size, placeholder};
-use crate::texture_request::{ImageBytes, Purpose, Request};
+use super::error::{LoadError, Location};
+use super::folder::{Found, Lookup};
+use super::import::Import;
+use super::options::{Limits, LoadStage};
+use super::refusal::Refusal;
+use super::rgba_image::{RgbaImage, decode_image, image_size, placeholder};
+use super::texture_request::{HeightMap, Role, merge};
+use super::texture_request::{ImageBytes, Purpose, Request};
 
 /// Decodes images and adds them to the scene, in order. A broken one becomes a warning, and a
 /// checkerboard if it is the colour of a surface.
@@ -101,4 +100,48 @@ fn within_budget(requests: &[Request], limits: &Limits) -> Vec<Result<(), Fault>
 fn to_texture(image: RgbaImage, purpose: Purpose) -> Result<Texture, String> {
     let texels = image.rgba.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2], texel[3]]).collect();
     Texture::new(image.width, image.height, texels, purpose.format()).map_err(|error| error.to_string())
+}
+
+/// Where a file names another.
+#[derive(Clone, Copy)]
+pub(crate) struct Mention<'a> {
+    /// The file that does.
+    pub(crate) file: &'a Path,
+    pub(crate) line: u64,
+    /// The name.
+    pub(crate) name: &'a str,
+}
+
+/// Warns if a file was found under a different spelling of its name. `what` is the file and its name.
+pub(crate) fn note_respelled(import: &mut Import<'_>, what: &str, found: &Found, from: Mention<'_>) {
+    if found.respelled {
+        let what = format!("{what} was not found; \"{}\" is used instead", found.path.display());
+        import.warnings.push_about(from.file, Location::Line(from.line), what, "correct the name there");
+    }
+}
+
+/// Reads an image that a file names: beside that file, or else beside the model.
+pub(crate) fn find_image(import: &mut Import<'_>, from: Mention<'_>) -> Option<Found> {
+    let (here, name) = (Path::new(""), from.name);
+    let beside = import.folder.relative_folder(from.file);
+    let mut result = import.folder.read(&beside, name, Lookup::Forgiving);
+    if matches!(result, Err(Refusal::Missing)) && !beside.as_os_str().is_empty() {
+        result = import.folder.read(here, name, Lookup::Forgiving);
+    }
+    match result {
+        Ok(found) => {
+            note_respelled(import, &format!("texture \"{name}\""), &found, from);
+            Some(found)
+        }
+        Err(refusal) => {
+            let what = format!("texture \"{name}\" is not drawn: {refusal}");
+            let mut tried = import.folder.tried(&beside, name);
+            if !beside.as_os_str().is_empty() {
+                tried.extend(import.folder.tried(here, name));
+            }
+            let location = Location::Line(from.line);
+            import.warnings.push_unusable(from.file, location, what, refusal.remedy(), tried);
+            None
+        }
+    }
 }

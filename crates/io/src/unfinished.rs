@@ -1,14 +1,11 @@
-//! Files that are being written under a temporary name, so that a program that is told to end leaves none of them
-//! behind.
-//!
-//! Their names are random and the files are new: nobody else can have put a file, or a link to one, in their place.
-//! A crash or a power failure may still leave one; it ends in `.part`.
+//! Files that are written under a temporary name, so that a program that is told to end leaves none of them; and whether
+//! two names are the same file.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{File, OpenOptions};
 use std::hash::{BuildHasher, RandomState};
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::{fs, io};
 
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
@@ -66,9 +63,92 @@ pub(crate) fn remove_unfinished() -> impl Sized {
     list
 }
 
+/// From now on, a program that is interrupted (Ctrl+C), terminated or hung up removes its [temporary
+/// files](crate::create_unfinished) before it ends as it would have ended anyway. A shell sees the exit codes
+/// 130, 143 and 129. Signals that the program was started to ignore stay ignored. For programs, not for
+/// libraries; to be called once, at their start. Does nothing where there are no such signals.
+///
+/// # Errors
+/// The system refuses to tell of signals, or has no room for a thread.
+pub fn end_on_signals() -> io::Result<()> {
+    #[cfg(unix)]
+    unix::end_on_signals()?;
+    Ok(())
+}
+
+#[cfg(unix)]
+mod unix {
+    use std::{io, thread};
+
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+    use signal_hook::low_level::emulate_default_handler;
+
+    use super::remove_unfinished;
+
+    pub(super) fn end_on_signals() -> io::Result<()> {
+        let ignored = ignored();
+        let is_ignored = |signal: i32| ignored >> (signal - 1) & 1 == 1;
+        let wanted = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|&signal| !is_ignored(signal));
+        let mut signals = Signals::new(wanted)?;
+        let end = move || {
+            for signal in signals.forever() {
+                // Nothing is finished or created any more while the program ends.
+                let _nothing_more = remove_unfinished();
+                // It fails for signals only that do not exist.
+                let _ = emulate_default_handler(signal);
+            }
+        };
+        thread::Builder::new().name("trigon-signals".into()).spawn(end).map(drop)
+    }
+
+    /// A bit for each signal that is ignored, such as hang-ups under `nohup`. Where the system does not tell it in this
+    /// file, none counts as ignored.
+    fn ignored() -> u64 {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+        mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
+    }
+}
+
+/// What a file is, whatever names it has. While the file exists, no other one is equal.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct FileIdentity(Identity);
+
+/// The device and the number of the file on it.
+#[cfg(unix)]
+type Identity = [u64; 2];
+
+/// The path without links: a second name of the same file is not recognized.
+#[cfg(not(unix))]
+type Identity = std::path::PathBuf;
+
+impl FileIdentity {
+    /// Of the file that a path leads to.
+    ///
+    /// # Errors
+    /// There is none, or an error of the operating system.
+    pub fn of(path: &Path) -> io::Result<Self> {
+        identity(path).map(Self)
+    }
+}
+
+#[cfg(unix)]
+fn identity(path: &Path) -> io::Result<Identity> {
+    use std::os::unix::fs::MetadataExt;
+    let metadata = fs::metadata(path)?;
+    Ok([metadata.dev(), metadata.ino()])
+}
+
+#[cfg(not(unix))]
+fn identity(path: &Path) -> io::Result<Identity> {
+    std::fs::canonicalize(path)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn no_file_is_taken_for_a_new_one() {
@@ -93,5 +173,25 @@ mod tests {
         assert_ne!(one, two, "nobody can guess them");
         assert_eq!(one.parent(), Some(Path::new("a")), "renamed within the folder");
         assert_eq!(unfinished_path(Path::new("b.png")).parent(), Some(Path::new("")), "here");
+    }
+
+    #[test]
+    fn all_names_of_a_file_are_one_identity() {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        let at = |name: &str| dir.path().join(name);
+        fs::create_dir(at("folder")).expect("a folder");
+        fs::write(at("a"), "same").expect("a file");
+        fs::write(at("b"), "same").expect("a file");
+        let identity = |name: &str| FileIdentity::of(&at(name)).expect("it is there");
+        assert_ne!(identity("a"), identity("b"), "equal contents are no identity");
+        assert_eq!(identity("a"), identity("folder/../a"), "another way there");
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink("../a", at("folder/link")).expect("a link");
+            fs::hard_link(at("a"), at("folder/second")).expect("a second name");
+            assert_eq!(identity("a"), identity("folder/link"), "through a link");
+            assert_eq!(identity("a"), identity("folder/second"), "by another name");
+        }
+        FileIdentity::of(&at("c")).expect_err("nothing is there");
     }
 }

@@ -15,8 +15,8 @@ use trigon_camera::{Camera, Viewport};
 
 use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::folder::{Folder, to_the_end};
-use crate::limits::Limits;
-use crate::text::plain_text;
+use crate::options::Limits;
+use crate::rows::plain_text;
 use crate::warning::{Warning, Warnings};
 
 /// The most views of one file.

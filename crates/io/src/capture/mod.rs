@@ -18,37 +18,27 @@
 //! Within the last part values follow each other without tags; the lists of fields in this folder
 //! are its order. Any change of them is a new version.
 
-mod forest;
-mod hash;
-mod ids;
 mod looks;
-mod marks;
 mod mesh;
-mod mismatch;
-mod parameters;
 mod scene;
 mod settings;
 mod stored;
-mod stream;
-#[cfg(test)]
-mod tests;
 
+use std::fmt;
 use std::io::Write;
 use std::path::Path;
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
+use stored::Stored;
 use trigon_camera::Camera;
 use trigon_scene::{Frame, RenderSettings, Scene};
 
-use crate::error::{LoadError, LoadErrorKind};
-use crate::folder::{Folder, to_the_end};
-use crate::limits::Limits;
-use crate::write::{WriteError, write_atomically};
-use hash::fnv1a;
-pub use mismatch::{Mismatch, PixelMismatch};
-use stored::Stored;
-use stream::{Damage, Reader, Writer};
+use self::stored::{Damage, Reader, Writer};
+use super::error::{LoadError, LoadErrorKind};
+use super::folder::{Folder, to_the_end};
+use super::options::Limits;
+use super::write::{WriteError, write_atomically};
 
 const MAGIC: [u8; 8] = *b"\x93TRIGON\n";
 
@@ -122,7 +112,7 @@ impl Capture {
         self.settings.write(&mut to);
         self.camera.write(&mut to);
         self.color.write(&mut to);
-        parameters::write(&self.scene, &mut to);
+        looks::write(&self.scene, &mut to);
         sealed(VERSION, &self.program, &to.bytes)
     }
 
@@ -165,7 +155,7 @@ impl Capture {
         if pixels.checked_mul(4) != Some(color.len() as u64) {
             return Err(Damage::malformed("the image has another size than the settings"));
         }
-        parameters::read(&mut scene, &mut from)?;
+        looks::read(&mut scene, &mut from)?;
         from.finish()?;
         Ok(Self { scene, camera, settings, color, program })
     }
@@ -211,3 +201,84 @@ fn opened<'a>(name: &Path, bytes: &'a [u8]) -> Result<(String, &'a [u8]), LoadEr
         _ => Err(LoadError::malformed(name, "its bytes are not those that were written", CAPTURE_AGAIN)),
     }
 }
+
+fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+/// The difference between an image and the captured one. Its `Display` is one line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Mismatch {
+    /// The hash of the captured image.
+    pub captured_hash: u64,
+    /// The hash of the new image.
+    pub drawn_hash: u64,
+    /// Where they differ; `None` if their sizes do.
+    pub pixels: Option<PixelMismatch>,
+}
+
+/// The pixels that differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct PixelMismatch {
+    /// How many.
+    pub count: usize,
+    /// Out of this many.
+    pub total: usize,
+    /// The position of the first one, in rows from the top: x and y.
+    pub first: [u32; 2],
+    /// Red, green, blue and alpha of the first one in the captured image.
+    pub captured: [u8; 4],
+    /// And in the new image.
+    pub drawn: [u8; 4],
+}
+
+impl Mismatch {
+    /// Compares two images of four bytes per pixel, each with its width.
+    fn between(widths: [u32; 2], captured: &[u8], drawn: &[u8]) -> Option<Self> {
+        let has_one_width = widths[0] == widths[1];
+        if has_one_width && captured == drawn {
+            return None;
+        }
+        let has_one_size = has_one_width && captured.len() == drawn.len();
+        let pixels = has_one_size.then(|| PixelMismatch::between(widths[0], captured, drawn)).flatten();
+        Some(Self { captured_hash: fnv1a(captured), drawn_hash: fnv1a(drawn), pixels })
+    }
+}
+
+impl PixelMismatch {
+    fn between(width: u32, captured: &[u8], drawn: &[u8]) -> Option<Self> {
+        let (captured, drawn) = (captured.as_chunks().0, drawn.as_chunks().0);
+        let differs = |&index: &usize| captured[index] != drawn[index];
+        let mut different = (0..captured.len()).filter(differs);
+        let first = different.next()?;
+        Some(Self {
+            count: 1 + different.count(),
+            total: captured.len(),
+            first: [first as u32 % width, first as u32 / width],
+            captured: captured[first],
+            drawn: drawn[first],
+        })
+    }
+}
+
+impl fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { captured_hash, drawn_hash, pixels } = self;
+        write!(f, "the image differs from the captured one: ")?;
+        match pixels {
+            Some(PixelMismatch { count, total, first: [x, y], captured, drawn }) => write!(
+                f,
+                "{count} of {total} pixels, the first at ({x}, {y}), which was {captured:?} and is {drawn:?}"
+            )?,
+            None => write!(f, "it has another size")?,
+        }
+        write!(f, "; its hash was {captured_hash:016x} and is {drawn_hash:016x}")
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -6,14 +6,12 @@ use std::sync::Arc;
 
 use trigon_mesh::Mesh;
 use trigon_scene::{
-    Animation, Arena, Channel, Curve, Id, Interpolation, Material, MeshAsset, Node, Property, Scene, Skin,
-    Texture, TextureAsset, TextureFormat, Transform,
+    Animation, Arena, Channel, Curve, Id, Interpolation, Material, MeshAsset, Node, NodeId, Property, Scene,
+    Skin, Texture, TextureAsset, TextureFormat, Transform,
 };
 
-use super::forest;
-use super::ids::Table;
-use super::stored::{Stored, choice, record};
-use super::stream::{Damage, Reader, Writer};
+use super::stored::Table;
+use super::stored::{Damage, Reader, Stored, Writer, choice, record};
 
 record!(Skin { name, joints, inverse_bind_matrices });
 record!(Animation { name, channels });
@@ -61,13 +59,13 @@ impl Stored for Scene {
                 *entry = skin;
             }
         }
-        forest::read(from, &mut scene)?;
+        read(from, &mut scene)?;
         scene.animations = Stored::read(from)?;
         Ok(scene)
     }
 }
 
-/// Everything except parent and children, which [`forest`] restores.
+/// Everything except parent and children, which are restored at the end.
 impl Stored for Node {
     fn write(&self, to: &mut Writer<'_>) {
         let Self { name, transform, mesh, materials, skin, morph_weights, light, camera, visible, .. } = self;
@@ -177,4 +175,47 @@ fn read_arena<T: Stored>(
 fn one_texel() -> TextureAsset {
     let texture = Texture::new(1, 1, vec![[0; 4]], TextureFormat::Linear).expect("one texel is a texture");
     TextureAsset { name: String::new(), texture: Arc::new(texture) }
+}
+
+/// Reads the children of every node and sets their parents.
+pub(super) fn read(from: &mut Reader<'_>, scene: &mut Scene) -> Result<(), Damage> {
+    let nodes: Vec<NodeId> = scene.nodes().iter().map(|(id, _)| id).collect();
+    let mut children = vec![Vec::<NodeId>::new(); scene.nodes().index_bound()];
+    let mut is_root = vec![true; scene.nodes().index_bound()];
+    for &id in &nodes {
+        let hanging = Vec::<NodeId>::read(from)?;
+        for child in &hanging {
+            if scene.node(*child).is_none() || !std::mem::replace(&mut is_root[child.index()], false) {
+                return Err(Damage::malformed("a node has two parents, or does not exist"));
+            }
+        }
+        children[id.index()] = hanging;
+    }
+    let roots = nodes.iter().copied().filter(|id| is_root[id.index()]);
+    let order = downwards(roots.collect(), &children, from.limits.depth)?;
+    if order.len() < nodes.len() {
+        return Err(Damage::malformed("nodes form a cycle"));
+    }
+    // From below: the scene looks for cycles above the new parent, which has no parent yet.
+    for parent in order.into_iter().rev() {
+        for &child in &children[parent.index()] {
+            scene.set_parent(child, Some(parent)).map_err(|error| Damage::malformed(error.to_string()))?;
+        }
+    }
+    Ok(())
+}
+
+/// Every node reachable from the roots, after its parent.
+fn downwards(roots: Vec<NodeId>, children: &[Vec<NodeId>], limit: usize) -> Result<Vec<NodeId>, Damage> {
+    let (mut order, mut level, mut depth) = (Vec::new(), roots, 0);
+    while !level.is_empty() {
+        depth += 1;
+        if depth > limit {
+            return Err(Damage::Limit(format!("nodes are nested more than {limit} deep")));
+        }
+        let next = level.iter().flat_map(|id| children[id.index()].iter().copied()).collect();
+        order.append(&mut level);
+        level = next;
+    }
+    Ok(order)
 }

@@ -8,8 +8,8 @@ use trigon_scene::{
     Style, ToneMapping,
 };
 
+use super::stored::{Damage, Reader, Writer};
 use super::stored::{Stored, choice, record};
-use super::stream::{Damage, Reader, Writer};
 
 record!(EffectSettings {
     shadows,

@@ -1,12 +1,18 @@
-//! The encoding of values: one after the other, in the order in which they are listed, with nothing
-//! between them. The lists in this folder are the format.
+//! The encoding of captured values: one after the other, in the order in which they are listed, with nothing between
+//! them. Numbers are little-endian, floats their bits. The lists in this folder are the file format.
 
+use std::io::{BufRead, BufReader, Read};
 use std::sync::Arc;
 
+use flate2::read::ZlibDecoder;
 use trigon_math::glam::{Affine2, DAffine3, DMat3, Mat2};
 use trigon_math::{DQuat, DVec3, Vec2, Vec3, Vec4};
+use trigon_scene::{
+    Arena, Id, Material, MaterialId, MeshAsset, MeshId, Node, NodeId, Scene, Skin, SkinId, TextureAsset,
+    TextureId,
+};
 
-use super::stream::{Damage, Reader, Writer};
+use crate::options::Limits;
 
 /// A value that a capture can contain.
 pub(super) trait Stored: Sized {
@@ -193,4 +199,137 @@ impl Stored for String {
         let length = from.count(1)?;
         Self::from_utf8(from.run(length)?).map_err(|_| Damage::malformed("a name is not text"))
     }
+}
+
+/// Receives the parts of a capture, uncompressed.
+pub(super) struct Writer<'a> {
+    pub(super) bytes: Vec<u8>,
+    /// Ids are written relative to the existing items of this.
+    pub(super) scene: &'a Scene,
+}
+
+/// Returns them.
+pub(super) struct Reader<'a> {
+    stream: BufReader<ZlibDecoder<&'a [u8]>>,
+    /// The remaining memory budget in bytes.
+    left: u64,
+    pub(super) limits: &'a Limits,
+    /// What has been read so far, for ids.
+    pub(super) ids: Ids,
+}
+
+/// Why a part cannot be read.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Damage {
+    /// The parts are inconsistent or invalid.
+    Malformed(String),
+    /// A limit is exceeded.
+    Limit(String),
+}
+
+impl Damage {
+    pub(super) fn malformed(what: impl Into<String>) -> Self {
+        Self::Malformed(what.into())
+    }
+}
+
+impl<'a> Reader<'a> {
+    /// Reads compressed parts. Their memory is limited by that for all files of a model.
+    pub(super) fn new(compressed: &'a [u8], limits: &'a Limits) -> Self {
+        let stream = BufReader::new(ZlibDecoder::new(compressed));
+        Self { stream, left: limits.total_bytes, limits, ids: Ids::default() }
+    }
+
+    pub(super) fn bytes<const N: usize>(&mut self) -> Result<[u8; N], Damage> {
+        let mut bytes = [0; N];
+        self.stream.read_exact(&mut bytes).map_err(|_| Damage::malformed("it ends too early"))?;
+        Ok(bytes)
+    }
+
+    /// The number of items that follow, each of which takes this many bytes of memory.
+    pub(super) fn count(&mut self, each: usize) -> Result<usize, Damage> {
+        let count = u64::from_le_bytes(self.bytes()?);
+        let wanted = count.checked_mul(each.max(1) as u64).filter(|&wanted| wanted <= self.left);
+        let wanted = wanted.ok_or_else(|| {
+            let allowed = self.limits.total_bytes;
+            Damage::Limit(format!("{count} items of {each} bytes are more than the {allowed} bytes allowed"))
+        })?;
+        self.left -= wanted;
+        usize::try_from(count).map_err(|_| Damage::malformed("a list is too large for memory"))
+    }
+
+    /// This many bytes in a row, already counted. Memory is allocated as they arrive.
+    pub(super) fn run(&mut self, length: usize) -> Result<Vec<u8>, Damage> {
+        let mut bytes = Vec::new();
+        let read = (&mut self.stream).take(length as u64).read_to_end(&mut bytes);
+        match read {
+            Ok(read) if read == length => Ok(bytes),
+            _ => Err(Damage::malformed("it ends too early")),
+        }
+    }
+
+    /// Whether nothing follows.
+    pub(super) fn is_at_end(&mut self) -> bool {
+        self.stream.fill_buf().is_ok_and(<[u8]>::is_empty)
+    }
+
+    /// Whether everything has been read, including the checksum.
+    pub(super) fn finish(mut self) -> Result<(), Damage> {
+        match self.stream.read(&mut [0]) {
+            Ok(0) => Ok(()),
+            _ => Err(Damage::malformed("more follows where it should end")),
+        }
+    }
+}
+
+/// Stands for an item that was removed.
+const GONE: u32 = u32::MAX;
+
+/// The ids of one kind of item read so far, by their indices, and one that finds nothing.
+pub(super) struct Table<T> {
+    pub(super) ids: Vec<Id<T>>,
+    pub(super) gone: Option<Id<T>>,
+}
+
+impl<T> Default for Table<T> {
+    fn default() -> Self {
+        Self { ids: Vec::new(), gone: None }
+    }
+}
+
+/// All ids that have been read.
+#[derive(Default)]
+pub(super) struct Ids {
+    pub(super) textures: Table<TextureAsset>,
+    pub(super) meshes: Table<MeshAsset>,
+    pub(super) materials: Table<Material>,
+    pub(super) skins: Table<Skin>,
+    pub(super) nodes: Table<Node>,
+}
+
+macro_rules! id {
+    ($($type:ty: $table:ident, $arena:expr;)+) => {$(
+        impl Stored for $type {
+            fn write(&self, to: &mut Writer<'_>) {
+                let arena: fn(&Scene) -> &Arena<_> = $arena;
+                let is_alive = arena(to.scene).get(*self).is_some();
+                if is_alive { self.index() as u32 } else { GONE }.write(to);
+            }
+
+            fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+                let index = u32::read(from)?;
+                let table = &from.ids.$table;
+                let found = if index == GONE { table.gone } else { table.ids.get(index as usize).copied() };
+                let what = stringify!($table);
+                found.ok_or_else(|| Damage::malformed(format!("{what} has no item {index}")))
+            }
+        }
+    )+};
+}
+id! {
+    TextureId: textures, |scene| &scene.textures;
+    MeshId: meshes, Scene::meshes;
+    MaterialId: materials, |scene| &scene.materials;
+    SkinId: skins, |scene| &scene.skins;
+    NodeId: nodes, Scene::nodes;
 }

@@ -12,7 +12,7 @@ use trigon_scene::{
     Outline, Property, Shadows, SightRays, Skin, Texture, TextureFormat, render,
 };
 
-use super::*;
+use super::{fnv1a, *};
 
 /// A small capture with parts of most kinds. Its image is not what it would show.
 fn capture() -> Capture {
@@ -184,4 +184,10 @@ proptest! {
     fn no_bytes_make_the_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
         prop_assert!(read(&sealed(VERSION, "0", &bytes)).is_err(), "too short for a capture");
     }
+}
+
+#[test]
+fn the_authors_test_vectors_hold() {
+    assert_eq!(fnv1a(b""), 0xcbf2_9ce4_8422_2325, "the offset basis");
+    assert_eq!(fnv1a(b"foobar"), 0x8594_4171_f739_67e8, "from their page");
 }

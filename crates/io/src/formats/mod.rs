@@ -1,7 +1,6 @@
 //! The model formats, one row for each: how it is read and written, and how it is recognized, by its name, or
 //! by its first bytes if the name has no known extension.
 
-mod export_scene;
 pub(crate) mod gltf;
 mod obj;
 mod off;
@@ -14,13 +13,13 @@ use std::path::Path;
 use trigon_camera::UpAxis;
 use trigon_scene::Scene;
 
-use crate::error::LoadError;
-use crate::export::{ExportOptions, ExportedFile, Gathered, HeldPoints, Holds};
-use crate::format::{Format, Reader, Writer};
-use crate::import::Import;
-use crate::write::WriteError;
-
-pub use export_scene::export;
+use super::error::LoadError;
+use super::export::{
+    Export, ExportOptions, ExportedFile, Gathered, HeldPoints, Holds, add_losses, losses_of_whole,
+};
+use super::format::{Format, Reader, Writer};
+use super::import::Import;
+use super::write::WriteError;
 
 /// Everything that loader and exporter know about a format.
 pub(crate) struct FormatRow {
@@ -246,6 +245,53 @@ fn looks_like_obj(line: &[u8]) -> bool {
 fn first_visible(bytes: &[u8]) -> Option<u8> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     bytes.iter().copied().find(|byte| !byte.is_ascii_whitespace())
+}
+
+/// Creates the files of a scene in a format. `name` is that of the model's file, such as
+/// `chair.obj`: the names of its other files begin with `chair`.
+///
+/// Positions are in world space, as f32 like those of meshes; if a model lies so far from the origin that f32
+/// is not enough, text and PLY have all digits of f64. Positions that are written and read again have the
+/// same bits.
+///
+/// ```
+/// use trigon_io::{ExportOptions, Format, LoadOptions, export, load_from_slice};
+/// use trigon_mesh::primitives;
+/// use trigon_scene::{Material, Scene};
+///
+/// let mut scene = Scene::new();
+/// scene.add_object("cube", primitives::cube(2.0), Material::default());
+/// let written = export(&scene, "cube.off", Format::Off, &ExportOptions::default())?;
+/// assert_eq!(written.what_would_be_lost()[0].to_string(), "materials and their textures");
+///
+/// let again = load_from_slice("cube.off", &written.files[0].bytes, &LoadOptions::default())?;
+/// let (_, cube) = again.scene.meshes().iter().next().expect("it was written");
+/// assert_eq!((cube.mesh().vertex_count(), cube.mesh().face_count()), (8, 6), "polygons stay polygons");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// The format is not written, the file would be too large for it, or an object lies too far away for its numbers.
+pub fn export(
+    scene: &Scene,
+    name: &str,
+    format: Format,
+    options: &ExportOptions<'_>,
+) -> Result<Export, WriteError> {
+    let options = &options.for_format(format);
+    match &format.row().writing {
+        Writing::Unwritten => Err(WriteError::Unwritten { name: name.to_owned(), writers: endings() }),
+        Writing::Scene(write) => {
+            let files = vec![ExportedFile { name: name.to_owned(), bytes: write(scene, options)? }];
+            Ok(Export { files, losses: losses_of_whole(scene, options) })
+        }
+        Writing::Objects(holds, write) => {
+            let mut gathered = Gathered::new(scene, options)?;
+            add_losses(&mut gathered, holds);
+            let files = write(name, &mut gathered, options)?;
+            Ok(Export { files, losses: gathered.losses })
+        }
+    }
 }
 
 #[cfg(test)]

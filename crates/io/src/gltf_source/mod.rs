@@ -5,25 +5,20 @@
 //! read, objects that nothing uses, numbers with more digits than an f64 has. An editor takes all
 //! of these from here, as text and bytes, so that nothing is rounded, sorted or lost.
 //!
-//! `draft` collects it during a load (`keep` of the reader fills it), `origins` maps ids to indices, `text`
-//! finds parts of the JSON. None of it runs without
+//! A load collects it (`keep` of the reader fills the draft), and `text` finds parts of the JSON. None of it runs without
 //! [`LoadOptions::keep_source`](crate::LoadOptions::keep_source).
 
-mod draft;
-mod origins;
 mod text;
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
 use trigon_scene::{MaterialId, MeshId, NodeId, SkinId, TextureId};
 
-pub(crate) use draft::SourceDraft;
-pub(crate) use draft::share;
-pub(crate) use origins::MeshOrigin;
-use origins::Origins;
-pub(crate) use origins::PrimitiveFaces;
+use super::texture_request::{ImageBytes, Request};
+
 pub(crate) use text::JsonText;
 
 /// A glTF or GLB file as it was read, with its mapping to the scene.
@@ -183,5 +178,93 @@ impl fmt::Debug for GltfSource {
             .field("buffers", &retained(self.buffers.len(), buffers))
             .field("images", &retained(self.images.len(), images))
             .finish_non_exhaustive()
+    }
+}
+
+/// The data collected so far.
+#[derive(Default)]
+pub(crate) struct SourceDraft {
+    /// `None` as long as the file is not known to be a glTF.
+    pub(crate) text: Option<JsonText>,
+    pub(crate) buffers: Vec<Option<Arc<[u8]>>>,
+    pub(crate) images: BTreeMap<usize, SharedBytes>,
+    pub(crate) image_count: usize,
+    pub(crate) origins: Origins,
+}
+
+impl SourceDraft {
+    /// Records the images given by their index in `requests`, and the textures that they became.
+    pub(crate) fn note_images(
+        &mut self,
+        requests: &[Request],
+        textures: &[Option<TextureId>],
+        images: impl Iterator<Item = (usize, usize)>,
+    ) {
+        // Many images may be the same file, which is kept once.
+        let shared: Vec<SharedBytes> = requests.iter().map(|request| share(&request.layers[0].1)).collect();
+        for (image, request) in images {
+            self.images.entry(image).or_insert_with(|| shared[request].clone());
+            if let Some(id) = textures[request] {
+                self.origins.textures.entry(id).or_default().insert(image);
+            }
+        }
+    }
+
+    /// Records the next animation of the scene.
+    pub(crate) fn note_animation(&mut self, index: usize) {
+        self.origins.animations.push(index);
+    }
+
+    /// The source; `None` if the file was not a glTF.
+    pub(crate) fn finish(self) -> Option<GltfSource> {
+        let Self { text, buffers, mut images, image_count, origins } = self;
+        let images = (0..image_count).map(|image| images.remove(&image)).collect();
+        Some(GltfSource { text: text?, buffers, images, origins })
+    }
+}
+
+pub(crate) fn share(bytes: &ImageBytes) -> SharedBytes {
+    match bytes {
+        ImageBytes::Own(bytes) => SharedBytes { bytes: bytes.as_slice().into(), range: 0..bytes.len() },
+        ImageBytes::Shared(buffer, range) => SharedBytes { bytes: buffer.clone(), range: range.clone() },
+    }
+}
+
+/// Indices of the file by ids of the scene.
+#[derive(Default)]
+pub(crate) struct Origins {
+    pub(crate) nodes: BTreeMap<NodeId, usize>,
+    pub(crate) meshes: BTreeMap<MeshId, MeshOrigin>,
+    pub(crate) materials: BTreeMap<MaterialId, usize>,
+    pub(crate) textures: BTreeMap<TextureId, BTreeSet<usize>>,
+    pub(crate) skins: BTreeMap<SkinId, usize>,
+    /// By their index in the scene.
+    pub(crate) animations: Vec<usize>,
+    pub(crate) cameras: BTreeMap<NodeId, usize>,
+    pub(crate) lights: BTreeMap<NodeId, usize>,
+    /// The loaded scene, if the file has scenes.
+    pub(crate) scene: Option<usize>,
+}
+
+/// A mesh of the file.
+pub(crate) struct MeshOrigin {
+    pub(crate) index: usize,
+    /// In the order of their faces.
+    pub(crate) primitives: Vec<PrimitiveFaces>,
+}
+
+/// The faces of a primitive: from the end of the previous one's.
+#[derive(Clone, Debug)]
+pub(crate) struct PrimitiveFaces {
+    /// Its index in the mesh of the file.
+    pub(crate) primitive: usize,
+    /// One after its last face.
+    pub(crate) end: usize,
+}
+
+impl MeshOrigin {
+    fn primitive(&self, face: usize) -> Option<usize> {
+        let next = self.primitives.partition_point(|faces| faces.end <= face);
+        Some(self.primitives.get(next)?.primitive)
     }
 }

@@ -4,7 +4,6 @@
 //! are copied to the corners at each vertex.
 
 mod build;
-mod colors;
 mod materials;
 
 use trigon_math::color::{srgb_to_linear, srgb8_to_linear};
@@ -18,8 +17,7 @@ use crate::import::Import;
 use crate::options::LoadStage;
 use crate::rebase::offset_for;
 
-pub(crate) use self::colors::RawColors;
-pub(crate) use self::materials::NamedTextures;
+pub(crate) use materials::{NamedTextures, RawColors};
 
 /// One mesh as a reader found it. Every index leads to a vertex.
 #[derive(Debug, Default)]

@@ -7,9 +7,9 @@ use trigon_scene::{Animation, Channel, Curve, Interpolation, Property};
 
 use super::accessor::{Accessors, valid};
 use super::buffers::Unplaced;
+use super::formats::Reader;
 use super::formats::{MORPH_WEIGHTS, ROTATIONS, TIMES, Usage, VECTORS};
 use super::nodes::{Placed, ROTATION_TOLERANCE};
-use super::reader::Reader;
 use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::import::Import;
 use crate::warning::{Warnings, counted};

@@ -9,9 +9,9 @@ use serde::Deserialize;
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use super::attribute_names::{ForeignAttribute, RawPrimitive, foreign_attributes};
 use super::native::{Extras, Header, MaterialExtras, NodeExtras};
 use super::preview::Preview;
+use super::primitive::{ForeignAttribute, RawPrimitive, foreign_attributes};
 use crate::error::{LoadError, LoadErrorKind, Location};
 
 /// A parsed document.

@@ -7,7 +7,11 @@
 use gltf::json::Root;
 use gltf::json::accessor::{ComponentType, Type};
 
-use super::accessor::valid;
+use super::accessor::{Accessors, Doubts, valid};
+use super::buffers::{Buffers, Unplaced};
+use crate::error::LoadError;
+use crate::import::Import;
+use crate::warning::Warnings;
 
 /// What an accessor is read as.
 pub(crate) struct Usage {
@@ -96,4 +100,36 @@ impl Usage {
 fn is_quantized(root: &Root) -> bool {
     let mut declared = root.extensions_used.iter().chain(&root.extensions_required);
     declared.any(|name| name == "KHR_mesh_quantization")
+}
+
+/// What accessors are read from.
+pub(crate) struct Reader<'r> {
+    pub(crate) root: &'r Root,
+    pub(crate) buffers: Buffers,
+    /// See [`Accessors::spent`].
+    pub(crate) spent: usize,
+}
+
+impl Reader<'_> {
+    /// Calls back with accessors, and with the warnings to add to.
+    pub(crate) fn read<T>(
+        &mut self,
+        import: &mut Import<'_>,
+        read: impl FnOnce(&mut Accessors<'_>, &mut Warnings) -> Result<T, Unplaced>,
+    ) -> Result<T, LoadError> {
+        let limits = &import.options.limits;
+        let mut accessors = Accessors {
+            root: self.root,
+            buffers: &mut self.buffers,
+            folder: &mut import.folder,
+            most: limits.vertices.max(limits.corners),
+            most_corners: limits.corners,
+            spent: &mut self.spent,
+            unpacked: None,
+            doubts: Doubts::default(),
+        };
+        let read = read(&mut accessors, &mut import.warnings);
+        accessors.doubts.tell(&mut import.warnings);
+        read.map_err(|unplaced| unplaced.into_error(import.path))
+    }
 }

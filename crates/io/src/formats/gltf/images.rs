@@ -16,7 +16,7 @@ use super::slots::{SlotTexture, purpose_of};
 use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::folder::{Folder, Lookup};
 use crate::import::Import;
-use crate::layers::Role;
+use crate::texture_request::Role;
 use crate::texture_request::{ImageBytes, Purpose, Request};
 use crate::textures::add_textures;
 use crate::uri::{Reference, parse_reference};

@@ -1,7 +1,9 @@
-//! KHR_lights_punctual.
+//! Cameras of the file, and its lights (KHR_lights_punctual). Invalid cameras are left out.
 
-use gltf::json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Spot, Type};
-use gltf::json::{Node, Root};
+use gltf::json;
+use gltf::json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Spot, Type as LightType};
+use gltf::json::{Root, camera};
+use trigon_camera::Projection;
 use trigon_math::Vec3;
 use trigon_scene::{Light, LightKind};
 
@@ -13,7 +15,7 @@ use crate::warning::Warnings;
 /// sends 1/π of it back in each direction, and that is trigon's unit.
 const TO_INTENSITY: f32 = std::f32::consts::FRAC_1_PI;
 
-pub(crate) fn light_index(node: &Node) -> Option<usize> {
+pub(crate) fn light_index(node: &json::Node) -> Option<usize> {
     Some(node.extensions.as_ref()?.khr_lights_punctual.as_ref()?.light.value())
 }
 
@@ -27,16 +29,16 @@ fn lights(root: &Root) -> &[JsonLight] {
 }
 
 /// The light of a node, if it has one.
-pub(crate) fn convert_light(root: &Root, node: &Node, warnings: &mut Warnings) -> Option<Light> {
+pub(crate) fn convert_light(root: &Root, node: &json::Node, warnings: &mut Warnings) -> Option<Light> {
     let index = light_index(node)?;
     let light = &lights(root)[index];
     let location = || Location::Item("light", index);
     warn_of_range(light, &location, warnings);
     let intensity = amount(light.intensity) * TO_INTENSITY;
     let plain = match valid(&light.type_) {
-        Some(Type::Directional) => Light::directional(intensity),
-        Some(Type::Point) => Light::point(intensity),
-        Some(Type::Spot) => {
+        Some(LightType::Directional) => Light::directional(intensity),
+        Some(LightType::Point) => Light::point(intensity),
+        Some(LightType::Spot) => {
             let (inner, outer) = cone(light, location, warnings);
             Light { kind: LightKind::Spot { inner, outer }, ..Light::spot(intensity) }
         }
@@ -82,4 +84,36 @@ fn cone(light: &JsonLight, location: impl Fn() -> Location, warnings: &mut Warni
     let within = |angle: f32, most: f32| if angle.is_finite() { angle.clamp(0.0, most) } else { 0.0 };
     let outer = within(outer, WIDEST);
     (within(inner, outer), outer)
+}
+
+/// The camera of a node, if it has one that works.
+pub(crate) fn convert_camera(root: &Root, node: &json::Node, warnings: &mut Warnings) -> Option<Projection> {
+    let index = node.camera?.value();
+    let camera = &root.cameras[index];
+    let projection = match (valid(&camera.type_), &camera.perspective, &camera.orthographic) {
+        (Some(camera::Type::Perspective), Some(from), _) => {
+            Projection::perspective(from.yfov.into(), from.znear.into(), from.zfar.map(f64::from))
+                .map_err(|error| error.to_string())
+        }
+        (Some(camera::Type::Orthographic), _, Some(from)) if from.xmag <= 0.0 => {
+            Err("its xmag must be more than 0".to_owned())
+        }
+        // The magnifications are half extents.
+        (Some(camera::Type::Orthographic), _, Some(from)) => {
+            Projection::orthographic(2.0 * f64::from(from.ymag), from.znear.into(), from.zfar.into())
+                .map_err(|error| error.to_string())
+        }
+        _ => Err("it is neither perspective nor orthographic".to_owned()),
+    };
+    match projection {
+        Ok(projection) => Some(projection),
+        Err(why) => {
+            warnings.push(
+                Location::Item("camera", index),
+                format!("the camera is left out: {why}"),
+                "correct the camera in the model",
+            );
+            None
+        }
+    }
 }

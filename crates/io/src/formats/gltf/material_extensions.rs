@@ -6,8 +6,6 @@ use gltf::json::texture;
 use serde_json::{Map, Value};
 use trigon_scene::{ExtensionParameter, Material, MaterialTexture, ParameterField};
 
-use super::ranges::{amount, share};
-
 /// The names of the extensions.
 pub(crate) fn names() -> Vec<&'static str> {
     let mut names: Vec<&str> = Material::EXTENSION_PARAMETERS.iter().map(|row| row.extension).collect();
@@ -84,5 +82,19 @@ pub(crate) fn numbers(value: &Value) -> Option<Vec<f32>> {
     match value {
         Value::Array(list) => list.iter().map(|value| Some(value.as_f64()? as f32)).collect(),
         _ => value.as_f64().map(|value| vec![value as f32]),
+    }
+}
+
+/// A number from 0 to 1.
+pub(crate) fn share(value: f32, otherwise: f32) -> f32 {
+    if value.is_finite() { value.clamp(0.0, 1.0) } else { otherwise }
+}
+
+/// A number from 0.
+pub(crate) fn amount(value: f32, otherwise: f32) -> f32 {
+    match value.is_finite() {
+        true if value > 0.0 => value,
+        true => 0.0,
+        false => otherwise,
     }
 }

@@ -3,34 +3,27 @@
 //! A file passes through these modules in this order:
 //!
 //! 1. `container` takes a GLB apart; `document` parses the JSON, after a first look by `preview`.
-//! 2. `extensions`, `references` and `hierarchy` check the document and may refuse it;
+//! 2. `preview` (its extensions), `references` and `hierarchy` check the document and may refuse it;
 //!    `contradictions` only warns.
-//! 3. `mesh` reads the meshes, with `accessor` and `buffers`; `compressed` and `packed` lead to the
+//! 3. `mesh` reads the meshes, with `accessor` and `buffers`; `buffers` and `packed` lead to the
 //!    decoders `meshopt` and `draco`. `native` reads the meshes of the editor's files.
 //! 4. `materials` reads the materials, with `slots` and `images`; before, `variants` chose them and
 //!    `specular_glossiness` translated them.
-//! 5. `nodes` adds the nodes, with `instances`; then come `skins` and `animations`.
+//! 5. `nodes` adds the nodes, with instances from `hierarchy`; then come `skins` and `animations`.
 //!
 //! [`gltf_source`](crate::gltf_source) keeps the file itself on request. Everything is checked before
 //! it is followed, and nothing is recursive.
 
 mod accessor;
 mod animations;
-mod attribute_names;
-mod broken;
 mod buffers;
-mod cameras;
-mod compressed;
 mod container;
 mod contradictions;
 mod document;
 mod draco;
-mod extensions;
 mod formats;
-mod hash;
 mod hierarchy;
 mod images;
-mod instances;
 mod keep;
 mod lights;
 mod material_extensions;
@@ -42,8 +35,6 @@ mod nodes;
 mod packed;
 mod preview;
 mod primitive;
-mod ranges;
-mod reader;
 mod references;
 mod skins;
 mod slots;
@@ -60,13 +51,13 @@ use std::sync::Arc;
 use gltf::json::Root;
 use trigon_mesh::Mesh;
 
+use self::formats::Reader;
 use accessor::{Accessors, Doubts};
 use buffers::{Buffers, Unplaced};
 use document::Document;
 use hierarchy::Hierarchy;
 use mesh::{BuiltMesh, Needs};
 use native::Extras;
-use reader::Reader;
 
 pub(crate) use write::{GlbFile, Input, RetainedFile, mime_type, write_scene};
 pub use write::{encode_glb, write_glb};
@@ -94,7 +85,7 @@ fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<Arc<[u8]>>)
     let mut document = document::parse_document(import.path, json)?;
     prepare_materials(import, &mut document.root)?;
     let root = &document.root;
-    extensions::check_extensions(import.path, root, &document.extensions, &mut import.warnings)?;
+    preview::check_extensions(import.path, root, &document.extensions, &mut import.warnings)?;
     references::check_references(import.path, root)?;
     let hierarchy = hierarchy::find_hierarchy(import.path, root, import.options)?;
     import.warnings.push_counted(
@@ -241,9 +232,9 @@ fn check_placed(
         meshes.iter().map(|built| built.as_ref().map_or(0, |built| corners(&built.mesh))).collect();
     let (mut placed, mut copies, limit) = (0_usize, 0_usize, import.options.limits.corners);
     for &node in &hierarchy.order {
-        let times = instances::instance_count(root, node);
+        let times = hierarchy::instance_count(root, node);
         // They are nodes of their own, below the file's.
-        copies = copies.saturating_add(if instances::has_instances(root, node) { times } else { 0 });
+        copies = copies.saturating_add(if hierarchy::has_instances(root, node) { times } else { 0 });
         let corners = root.nodes[node].mesh.map_or(0, |mesh| each[mesh.value()]);
         placed = placed.saturating_add(corners.saturating_mul(times));
         if placed > limit {

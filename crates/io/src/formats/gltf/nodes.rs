@@ -6,14 +6,14 @@ use std::collections::BTreeMap;
 use trigon_math::{DAffine3, DMat4, DQuat, DVec3};
 use trigon_scene::{Light, MaterialId, MeshId, Node, NodeId, Transform};
 
-use super::cameras::convert_camera;
 use super::document::{Document, RawTransform};
+use super::formats::Reader;
 use super::hierarchy::Hierarchy;
-use super::instances::{has_instances, read_instances};
+use super::hierarchy::{has_instances, read_instances};
+use super::lights::convert_camera;
 use super::lights::convert_light;
 use super::mesh::{BuiltMesh, default_weights, sound_weights};
 use super::native::AmbientExtras;
-use super::reader::Reader;
 use crate::error::{LoadError, Location};
 use crate::import::Import;
 use crate::warning::Warnings;

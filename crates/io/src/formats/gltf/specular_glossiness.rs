@@ -14,7 +14,7 @@ use gltf::json::{Material, Root, texture};
 use serde_json::{Map, Value};
 
 use super::material_extensions::numbers;
-use super::ranges::share;
+use super::material_extensions::share;
 
 /// The name of the extension.
 pub(crate) const NAME: &str = "KHR_materials_pbrSpecularGlossiness";

@@ -1,7 +1,5 @@
 //! A stream of compressed bytes, read from the front; numbers are little-endian.
 
-use super::broken::Broken;
-
 /// The rest of a stream.
 pub(crate) struct Stream<'b>(pub(crate) &'b [u8]);
 
@@ -62,3 +60,6 @@ const TOO_SHORT: Broken = "it ends too early";
 pub(crate) fn unzigzag(value: u32) -> u32 {
     if value & 1 == 0 { value >> 1 } else { !(value >> 1) }
 }
+
+/// Why compressed data is invalid.
+pub(crate) type Broken = &'static str;

@@ -1,16 +1,16 @@
-//! Builds nodes from the parsed lists: one for each object or group of the file.
+//! Builds nodes from the parsed lists, one for each object or group, with progress. Faces of one smoothing group
+//! are smooth among each other, with a crease towards all others.
 
 use std::collections::HashMap;
 
-use trigon_math::{DVec3, Vec2, Vec3, Vec4, color::srgb_to_linear};
+use trigon_math::color::srgb_to_linear;
+use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 
-use super::content::Content;
-use super::follow::{Follow, STRIDE};
 use super::index::NONE;
+use super::oddities::Passed;
 use super::parse::Parsed;
-use super::passed::Passed;
-use super::smoothing::group_normals;
+use super::record::Content;
 use crate::error::{LoadError, Location};
 use crate::rebase::offset_for;
 use crate::warning::Warnings;
@@ -335,4 +335,49 @@ impl Draft {
         // Its vertices were just added: it can only be too few different ones.
         passed.flat += usize::from(added.is_err());
     }
+}
+
+/// Is told which share of the elements has been built, and may end it.
+pub(super) type Follow<'a> = &'a dyn Fn(f32) -> Result<(), LoadError>;
+
+/// So many elements are built before [`Follow`] is asked again: some milliseconds.
+pub(super) const STRIDE: usize = 1 << 17;
+
+/// Fills in the normals of smooth faces where none is given (zero). Faces of
+/// group 0 keep zero, which means flat. `go_on` is asked now and then, and may end it.
+pub(crate) fn group_normals(
+    mesh: &Mesh,
+    given: Option<Vec<Vec3>>,
+    face_groups: &[u32],
+    go_on: &dyn Fn() -> Result<(), LoadError>,
+) -> Result<Vec<Vec3>, LoadError> {
+    let ask = |face: usize| if face.is_multiple_of(STRIDE) { go_on() } else { Ok(()) };
+    let mut normals = given.unwrap_or_else(|| vec![Vec3::ZERO; mesh.corner_count()]);
+    let mut sums: HashMap<(u32, u32), Vec3> = HashMap::new();
+    for (face, &group) in face_groups.iter().enumerate().filter(|&(_, &group)| group != 0) {
+        ask(face)?;
+        let area = area_vector(mesh, face);
+        for &vertex in mesh.face_vertices(face) {
+            *sums.entry((vertex, group)).or_default() += area;
+        }
+    }
+    for (face, &group) in face_groups.iter().enumerate().filter(|&(_, &group)| group != 0) {
+        ask(face)?;
+        for (corner, &vertex) in mesh.face_corners(face).zip(mesh.face_vertices(face)) {
+            if normals[corner] == Vec3::ZERO {
+                normals[corner] = sums[&(vertex, group)].normalize_or_zero();
+            }
+        }
+    }
+    Ok(normals)
+}
+
+/// The normal of a polygon, as long as twice its area (Newell's method; Sutherland,
+/// Sproull, Schumacker, "A Characterization of Ten Hidden-Surface Algorithms", 1974).
+fn area_vector(mesh: &Mesh, face: usize) -> Vec3 {
+    let positions = mesh.positions();
+    let corners = mesh.face_vertices(face);
+    let origin = positions[corners[0] as usize];
+    let from_origin = |index: usize| positions[corners[index] as usize] - origin;
+    (1..corners.len() - 1).map(|index| from_origin(index).cross(from_origin(index + 1))).sum()
 }

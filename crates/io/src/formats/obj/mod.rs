@@ -1,9 +1,9 @@
 //! Wavefront OBJ and MTL.
 //!
-//! `lines` → `chunks` (pieces of the text) → `section` (one piece: `index`, `oddities`) → `parse` (all pieces
+//! `lines` (pieces of the text) → `section` (one piece: `index`, `oddities`) → `parse` (all pieces
 //! in parallel; `record` carries names and materials from one to the next) → `build` (polygons, one node for
-//! each object or group). Materials come from `mtl` and `convert` through `library`, their images through
-//! `textures`. `write` is the other direction.
+//! each object or group). Materials and their images come from `mtl` and `convert` through
+//! `library`. `write` is the other direction.
 //!
 //! The tests use the `tobj` crate as an oracle. The first reader was built on `tobj` and rewrote every line
 //! before. `tobj` stops at the first invalid byte without saying where, takes polylines for polygons, and repeats
@@ -12,27 +12,16 @@
 //! 4.7 billion and 168 MB up to the finished scene (example `obj_readers` under callgrind, `time -v`).
 
 mod build;
-mod chunks;
-mod content;
 mod convert;
-mod follow;
 mod index;
 mod library;
 mod lines;
-mod map_options;
 mod mtl;
-mod mtl_maps;
 mod mtl_reader;
-mod mtl_values;
 mod oddities;
 mod parse;
-mod passed;
 mod record;
 mod section;
-mod smoothing;
-mod textures;
-mod undrawn;
-mod unread;
 mod write;
 
 use std::borrow::Cow;

@@ -1,12 +1,11 @@
-//! Reads the statements of a material library one by one. Keywords may be upper or lower case: exporters
-//! write `map_kd`, `map_Kd` and `map_KD`.
+//! Reads the statements of a material library one by one: numbers, colours and the names of images. Keywords may
+//! be upper or lower case: exporters write `map_kd`, `map_Kd` and `map_KD`.
 
 use std::ops::RangeInclusive;
 use std::path::Path;
 
 use super::lines::{decode_name, words};
-use super::mtl::{Fields, MapKind};
-use super::mtl_values::{Stated, read_color, read_number};
+use super::mtl::{Fields, Map, MapKind, MapStatement, parse_map};
 use crate::error::Location;
 use crate::warning::Warnings;
 
@@ -218,4 +217,98 @@ impl<'a> Reader<'a> {
     pub(super) fn warn(&mut self, line: u64, what: &str, remedy: &str) {
         self.warnings.push_about(self.file, Location::Line(line), what, remedy);
     }
+}
+
+impl Reader<'_> {
+    pub(super) fn map(&mut self, line: u64, keyword: &str, kind: MapKind, rest: &[u8]) {
+        let statement = parse_map(&decode_name(rest), kind.holds_colors());
+        let file = &statement.file;
+        if file.is_empty() {
+            return self.warn(line, &format!("{keyword} names no file, and is ignored"), MEND);
+        }
+        self.note_options(line, &statement);
+        if self.fields().has(kind) {
+            self.note_repeated(line, keyword);
+        }
+        let maps = &mut self.fields().maps;
+        maps.retain(|map| map.kind != kind);
+        maps.push(Map { kind, line, statement });
+    }
+
+    fn note_options(&mut self, line: u64, MapStatement { file, malformed, ignored, .. }: &MapStatement) {
+        if !malformed.is_empty() {
+            let options = malformed.join(", ");
+            let what = format!("the options {options} of texture \"{file}\" are malformed and not followed");
+            self.warn(line, &what, MEND);
+        }
+        if !ignored.is_empty() {
+            let options = ignored.join(", ");
+            let what = format!("the options {options} of texture \"{file}\" are not followed");
+            self.warn(line, &what, "apply them to the image, and remove them here");
+        }
+    }
+
+    /// Textures that are not drawn, and what is no statement.
+    pub(super) fn other(&mut self, line: u64, keyword: &str, lower: &str, rest: &[u8]) {
+        let remedy = match lower {
+            "map_ka" => {
+                let value = parse_map(&decode_name(rest), true).file;
+                self.fields().ambient_map = Some(Stated { line, value });
+                return;
+            }
+            "refl" | "map_refl" => "light the model with an environment image instead",
+            "disp" | "map_disp" => "displace the mesh before exporting it",
+            "map_tr" => "write map_d, with the image inverted if it shows transparency",
+            "map_ns" => "write Ns, or map_Pr with an image of roughness",
+            "map_rma" | "map_orm" => "split the image into map_Pr and map_Pm",
+            _ if lower.starts_with("map_") || lower == "decal" => "bake the effect into map_Kd if it matters",
+            _ => {
+                let what = format!("the statement \"{keyword}\" is unknown and is ignored");
+                return self.warn(line, &what, "check its spelling, or remove it");
+            }
+        };
+        let file = parse_map(&decode_name(rest), false).file;
+        self.warn(line, &format!("{keyword} \"{file}\" is not drawn"), remedy);
+    }
+}
+
+/// What a statement says, and the line that says it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stated<T> {
+    pub(super) line: u64,
+    pub(super) value: T,
+}
+
+/// Three channels, or one for all of them: `Kd 1 0 0`, `Kd 0.5`. Says whether there
+/// are more numbers, which were not read.
+pub(super) fn read_color(rest: &[u8]) -> Result<([f32; 3], bool), String> {
+    match words(rest).next() {
+        Some(b"spectral") => return Err("names a spectral curve, which is not read".to_owned()),
+        Some(b"xyz") => return Err("is in CIE XYZ, which is not read".to_owned()),
+        _ => {}
+    }
+    match *finite_numbers(rest)?.as_slice() {
+        [] => Err("has no number".to_owned()),
+        [grey] => Ok(([grey; 3], false)),
+        [_, _] => Err("has 2 numbers and needs 1 or 3".to_owned()),
+        [red, green, blue, ref more @ ..] => Ok(([red, green, blue], !more.is_empty())),
+    }
+}
+
+/// One number. Says whether there are more, which were not read.
+pub(super) fn read_number(rest: &[u8]) -> Result<(f32, bool), String> {
+    match *finite_numbers(rest)?.as_slice() {
+        [] => Err("has no number".to_owned()),
+        [value, ref more @ ..] => Ok((value, !more.is_empty())),
+    }
+}
+
+/// All words up to a comment, which must be finite numbers.
+fn finite_numbers(rest: &[u8]) -> Result<Vec<f32>, String> {
+    let number = |word: &[u8]| {
+        let text = decode_name(word);
+        let value = text.parse().ok().filter(|value: &f32| value.is_finite());
+        value.ok_or_else(|| format!("has \"{text}\", which is not a finite number"))
+    };
+    words(rest).map(number).collect()
 }

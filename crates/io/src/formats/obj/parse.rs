@@ -8,15 +8,15 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::chunks::{Census, Chunk, census, cut, number};
-use super::content::Content;
 use super::index::{Counts, NONE};
+use super::lines::{Census, Chunk, census, cut, number};
 use super::oddities::{Oddities, Oddity, Tally};
+use super::record::Content;
 use super::record::Record;
 use super::section::{Section, read_section};
 use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::options::{LoadOptions, LoadStage};
-use crate::text::plain_text;
+use crate::rows::plain_text;
 use crate::warning::Warnings;
 
 /// How many bytes are a piece: long enough to be worth a task.

@@ -3,12 +3,12 @@
 
 use trigon_math::{DVec3, Vec2, Vec3};
 
-use super::chunks::Chunk;
-use super::content::{Content, WHITE};
 use super::index::{Corner, Corners, Counts, is_flat, read_corners};
+use super::lines::Chunk;
 use super::lines::{Lines, split_keyword};
 use super::oddities::{Oddities, Oddity, Tally};
-use super::unread::{Unread, judge};
+use super::oddities::{Unread, judge};
+use super::record::{Content, WHITE};
 use crate::numbers::{Numbers, read_numbers};
 
 /// A statement that says something about the elements that follow it.

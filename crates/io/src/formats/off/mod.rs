@@ -9,26 +9,26 @@
 //! coordinates, and no file with a face of two vertices. It reads colours only of a kind that the caller knows
 //! beforehand.
 
-mod columns;
 mod header;
 mod plain;
 mod reader;
-mod rows;
-mod write;
 
 use std::borrow::Cow;
+
+use trigon_math::color::linear_to_srgba8;
 
 use self::header::read_header;
 use self::reader::{Layout, Reader};
 use crate::error::{LoadError, LoadErrorKind};
+use crate::export::{Columns, ExportOptions, ExportedFile, Gathered, VertexTable, number_text, push_number};
 use crate::import::Import;
 use crate::options::LoadStage;
 use crate::polygons::{add_polygons, check_vertices};
+use crate::rows::plain_text;
 use crate::rows::{Rows, Words};
-use crate::text::plain_text;
+use crate::write::WriteError;
 
 pub(crate) use header::is_off;
-pub(crate) use write::write_off;
 
 /// Reads an OFF into the scene.
 pub(crate) fn import_off(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Result<(), LoadError> {
@@ -58,4 +58,45 @@ pub(crate) fn import_off(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
     drop(text);
     drop(bytes);
     add_polygons(import, vec![found.polygons])
+}
+
+/// Writes an OFF.
+pub(crate) fn write_off(
+    name: &str,
+    gathered: &mut Gathered<'_>,
+    _: &ExportOptions<'_>,
+) -> Result<Vec<ExportedFile>, WriteError> {
+    let columns = Columns { normals: false, uvs: false, colors: true }.found(gathered);
+    let table = VertexTable::new(gathered, columns);
+    let sizes = || gathered.objects.iter().flat_map(|object| object.face_sizes.iter().copied());
+    let faces = sizes().count() + table.edges.len();
+    let keyword = if columns.colors { "COFF" } else { "OFF" };
+    let mut text = format!("{keyword}\n{} {faces} 0\n", table.positions.len());
+    for (position, values) in table.positions.iter().zip(&table.values) {
+        let [x, y, z] = position.to_array();
+        push_number(&mut text, x, gathered.precision);
+        text += &format!(" {} ", number_text(y, gathered.precision));
+        push_number(&mut text, z, gathered.precision);
+        if columns.colors {
+            let [red, green, blue, alpha] = linear_to_srgba8(values.color);
+            text += &format!(" {red} {green} {blue} {alpha}");
+        }
+        text.push('\n');
+    }
+    let mut rest = table.corner_vertices.as_slice();
+    for size in sizes() {
+        let (face, after) = rest.split_at(size as usize);
+        rest = after;
+        push_row(&mut text, face);
+    }
+    table.edges.iter().for_each(|edge| push_row(&mut text, edge));
+    Ok(vec![ExportedFile { name: name.to_owned(), bytes: text.into_bytes() }])
+}
+
+fn push_row(text: &mut String, vertices: &[u32]) {
+    *text += &vertices.len().to_string();
+    for vertex in vertices {
+        *text += &format!(" {vertex}");
+    }
+    text.push('\n');
 }

@@ -8,22 +8,18 @@
 //! row, also if only the last faces are cut off. It counts rows of binary data as lines, so its errors name no
 //! byte. It delivers each number through a call with the name of its property.
 
-mod colors;
 mod faces;
 mod header;
-mod outcome;
-mod scalar;
-mod strips;
 mod values;
 mod vertices;
 mod write;
 
 use std::borrow::Cow;
 
+use self::faces::read_strips;
 use self::faces::{read_edges, read_faces};
 use self::header::{Encoding, Header, read_header};
-use self::outcome::skip;
-use self::strips::read_strips;
+use self::values::skip;
 use self::values::{Binary, Ended, Text, Values};
 use self::vertices::read_vertices;
 use crate::error::LoadError;

@@ -3,10 +3,10 @@
 
 use trigon_math::color::{linear_to_srgba8, srgba8_to_linear};
 
+use crate::export::Loss;
 use crate::export::{
     Columns, Encoding, ExportOptions, ExportedFile, Gathered, Precision, VertexTable, push_number,
 };
-use crate::loss::Loss;
 use crate::write::WriteError;
 
 /// Numbers on their way into a file.

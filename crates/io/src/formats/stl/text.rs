@@ -3,7 +3,7 @@
 
 use trigon_math::DVec3;
 
-use super::solid::Solid;
+use super::Solid;
 use crate::error::{LoadError, Location};
 use crate::import::Import;
 use crate::numbers::number;

@@ -4,15 +4,15 @@
 use std::collections::HashMap;
 
 use super::Stream;
-use super::bits::Bits;
-use super::budget::Budget;
+use super::attributes::{Numbered, number_points};
+use super::attributes::{Shape, Tables};
 use super::corners::{CornerTable, NONE, next, previous};
-use super::failure::Failure;
-use super::points::{Numbered, number_points};
-use super::seams::{read_seams, split_at_seams};
-use super::shape::{Shape, Tables};
+use super::corners::{read_seams, split_at_seams};
+use super::symbols::Bits;
+use super::symbols::Budget;
+use super::symbols::Failure;
 use super::walk::{Header, Symbol, Walk};
-use crate::formats::gltf::broken::Broken;
+use crate::formats::gltf::stream::Broken;
 
 pub(super) fn read_triangles(stream: &mut Stream<'_>, budget: &mut Budget) -> Result<Shape, Failure> {
     let header = Header::read(stream)?;

@@ -1,7 +1,7 @@
 //! The order in which an attribute's values are stored: that of a walk over the triangles.
 
 use super::corners::{CornerTable, NONE, next, previous};
-use crate::formats::gltf::broken::Broken;
+use crate::formats::gltf::stream::Broken;
 
 /// The values of an attribute: one for each vertex of its table.
 pub(super) struct Order {

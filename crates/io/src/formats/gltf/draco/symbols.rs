@@ -1,10 +1,6 @@
 //! Lists of numbers, of which some are more likely.
 
-use super::bits::Bits;
-use super::budget::Budget;
-use super::failure::Failure;
-use super::rans::Rans;
-use crate::formats::gltf::broken::Broken;
+use crate::formats::gltf::stream::Broken;
 use crate::formats::gltf::stream::Stream;
 
 /// How the numbers are stored.
@@ -125,4 +121,153 @@ fn read_share(stream: &mut Stream<'_>, first: u8) -> Result<u32, Broken> {
         share |= u32::from(stream.byte()?) << (8 * byte_index + 6);
     }
     Ok(share)
+}
+
+/// The state.
+pub(super) struct Rans<'b> {
+    state: u32,
+    /// At least this, as long as there are bytes; a power of 2 of at most 2²².
+    base: u32,
+    /// The bytes that are not read.
+    bytes: &'b [u8],
+}
+
+impl<'b> Rans<'b> {
+    /// Starts at the end of some bytes: the last one says how many hold the first state.
+    pub(super) fn open(bytes: &'b [u8], base: u32) -> Result<Self, Broken> {
+        let last = *bytes.last().ok_or("its symbols have no bytes")?;
+        let size = usize::from(last >> 6) + 1;
+        let start = bytes.len().checked_sub(size).ok_or("its symbols end too early")?;
+        let mut word = [0; 4];
+        word[..size].copy_from_slice(&bytes[start..]);
+        let state = u32::from_le_bytes(word) & ((1 << (8 * size - 2)) - 1);
+        // The highest byte is read once the state is below the base.
+        let state = state.checked_add(base).filter(|state| state / 256 < base);
+        Ok(Self {
+            state: state.ok_or("its symbols start with too large a state")?,
+            base,
+            bytes: &bytes[..start],
+        })
+    }
+
+    /// The lower bits of the state, which name the next symbol.
+    pub(super) fn fill(&mut self, precision_bits: u32) -> u32 {
+        while self.state < self.base
+            && let Some((&last, rest)) = self.bytes.split_last()
+        {
+            self.state = self.state << 8 | u32::from(last);
+            self.bytes = rest;
+        }
+        self.state & ((1 << precision_bits) - 1)
+    }
+
+    /// Removes a symbol from the state: its share of all states, and the sum of those before it.
+    pub(super) fn advance(&mut self, precision_bits: u32, share: u32, before: u32) {
+        let rest = self.state & ((1 << precision_bits) - 1);
+        // At most the state, since the share is at most all states.
+        self.state = (self.state >> precision_bits) * share + rest - before;
+    }
+}
+
+/// The states that a bit has.
+const BIT_PRECISION: u32 = 8;
+
+/// Bits of which one value is more likely.
+pub(super) struct LikelyBits<'b> {
+    rans: Rans<'b>,
+    /// The share of ones, of 256.
+    ones: u32,
+}
+
+impl<'b> LikelyBits<'b> {
+    pub(super) fn open(stream: &mut Stream<'b>) -> Result<Self, Broken> {
+        let zeros = u32::from(stream.byte()?);
+        Ok(Self { rans: Rans::open(stream.counted_bytes()?, 1 << 12)?, ones: (1 << BIT_PRECISION) - zeros })
+    }
+
+    pub(super) fn take(&mut self) -> bool {
+        let (all, ones) = (1 << BIT_PRECISION, self.ones);
+        let is_one = self.rans.fill(BIT_PRECISION) < ones;
+        let (share, before) = if is_one { (ones, 0) } else { (all - ones, ones) };
+        self.rans.advance(BIT_PRECISION, share, before);
+        is_one
+    }
+}
+
+/// Bits of a stream; the lowest bit of each byte is the first.
+pub(super) struct Bits<'b> {
+    bytes: &'b [u8],
+    /// The number of bits that were read.
+    read: usize,
+}
+
+impl<'b> Bits<'b> {
+    pub(super) fn new(bytes: &'b [u8]) -> Self {
+        Self { bytes, read: 0 }
+    }
+
+    /// A number of at most 32 bits, the lowest first.
+    pub(super) fn take(&mut self, count: u32) -> Result<u32, Broken> {
+        let end = self.read + count as usize;
+        if count > 32 || end > self.bytes.len().saturating_mul(8) {
+            return Err("its bits end too early");
+        }
+        let mut window = [0; 8];
+        let rest = &self.bytes[self.read / 8..];
+        let here = rest.len().min(8);
+        window[..here].copy_from_slice(&rest[..here]);
+        let value = (u64::from_le_bytes(window) >> (self.read % 8)) & ((1 << count) - 1);
+        self.read = end;
+        Ok(value as u32)
+    }
+
+    /// The bytes after the last bit that was read.
+    pub(super) fn rest(&self) -> &'b [u8] {
+        &self.bytes[self.read.div_ceil(8)..]
+    }
+}
+
+/// A word is about what one number of a mesh takes, in memory or in time. Meshes that were
+/// exported take 5 to 30 words per byte of their stream; large flat grids take up to 200.
+const WORDS_PER_BYTE: u64 = 256;
+
+/// The allowance for small files: 512 MiB.
+const WORDS_ALWAYS: u64 = 1 << 27;
+
+/// Counts what decoding costs, in words of four bytes. All meshes of a file share one, since a
+/// file may refer to the same few bytes thousands of times.
+#[derive(Default)]
+pub(crate) struct Budget {
+    spent: u64,
+    limit: u64,
+}
+
+impl Budget {
+    /// Sets the limit to what a file of some size may cost.
+    pub(crate) fn allow(&mut self, file_bytes: usize) {
+        self.limit = (file_bytes as u64).saturating_mul(WORDS_PER_BYTE).max(WORDS_ALWAYS);
+    }
+
+    /// Counts words that are about to be allocated or visited.
+    pub(super) fn spend(&mut self, words: usize) -> Result<(), Failure> {
+        self.spent = self.spent.saturating_add(words as u64);
+        if self.spent <= self.limit { Ok(()) } else { Err(Failure::TooLarge) }
+    }
+}
+
+/// Why a mesh is not decoded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Failure {
+    /// The stream is invalid.
+    Broken(Broken),
+    /// It is of a kind that is not read.
+    Foreign(&'static str),
+    /// It stands for more than the [`Budget`](super::Budget) allows.
+    TooLarge,
+}
+
+impl From<Broken> for Failure {
+    fn from(broken: Broken) -> Self {
+        Self::Broken(broken)
+    }
 }

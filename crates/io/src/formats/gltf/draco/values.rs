@@ -2,8 +2,8 @@
 
 use gltf::json::accessor::ComponentType;
 
-use super::failure::Failure;
-use crate::formats::gltf::broken::Broken;
+use super::symbols::Failure;
+use crate::formats::gltf::stream::Broken;
 
 /// The values of an attribute, one after the other as in an accessor.
 pub(crate) struct Values {

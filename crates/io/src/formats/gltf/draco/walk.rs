@@ -1,13 +1,13 @@
 //! The symbols of the walk over a surface: how each triangle joins those before it.
 
 use super::Stream;
-use super::bits::Bits;
-use super::budget::Budget;
 use super::corners::{CornerTable, NONE, next, previous};
-use super::failure::Failure;
-use super::rans::LikelyBits;
+use super::symbols::Bits;
+use super::symbols::Budget;
+use super::symbols::Failure;
+use super::symbols::LikelyBits;
 use super::symbols::read_symbols;
-use crate::formats::gltf::broken::Broken;
+use crate::formats::gltf::stream::Broken;
 
 /// How a triangle joins those before it, as Rossignac's EdgeBreaker (1999) names the cases.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -9,8 +9,8 @@ use rayon::prelude::*;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, MeshBuilder};
 
-use super::built::BuiltMesh;
-use super::movements::{Movements, bits};
+use super::BuiltMesh;
+use super::movement::{Movements, bits};
 use super::part::Part;
 use crate::formats::gltf::primitive::Elements;
 use crate::vertex_table::{AT_ONCE, VertexTable};

@@ -1,17 +1,17 @@
-//! One primitive of a mesh, decoded.
+//! One primitive of a mesh, decoded: its positions and elements, its optional attributes, and the checks of their
+//! values. `draft` corrects invalid ones.
 
 use gltf::json::mesh::{Mode, Primitive, Semantic};
+use gltf::json::validation::Checked;
 use trigon_math::Vec3;
 
-use super::built::Needs;
 use super::movement::{PartSkin, PartTarget, read_skin, read_targets};
-use super::optional::{Optional, find};
-use super::soundness;
-use super::wires::WireTint;
+use super::{Needs, WireTint};
 use crate::error::{LoadErrorKind, Location};
 use crate::formats::gltf::accessor::{Accessors, valid};
 use crate::formats::gltf::buffers::{Unplaced, Unread};
 use crate::formats::gltf::formats;
+use crate::formats::gltf::formats::Usage;
 use crate::formats::gltf::primitive::{Elements, corner_count, elements};
 use crate::warning::{Warnings, counted};
 
@@ -89,11 +89,11 @@ pub(super) fn read_primitive(
     let uv_sets = optional.uv_sets(&needs.uv_sets)?;
     let skin = read_skin(&mut optional)?;
     let targets = read_targets(&mut optional, tangents.is_some())?;
-    soundness::warn_of_normals(&mut optional, normals.as_deref());
-    soundness::warn_of_tangents(&mut optional, tangents.as_deref());
-    soundness::warn_of_colors(&mut optional, colors.as_deref());
-    soundness::warn_of_uv_sets(&mut optional, &uv_sets);
-    soundness::warn_of_targets(&mut optional, &targets);
+    warn_of_normals(&mut optional, normals.as_deref());
+    warn_of_tangents(&mut optional, tangents.as_deref());
+    warn_of_colors(&mut optional, colors.as_deref());
+    warn_of_uv_sets(&mut optional, &uv_sets);
+    warn_of_targets(&mut optional, &targets);
     Ok(Some(Part {
         positions: positions.into_iter().map(Vec3::from).collect(),
         normals,
@@ -167,4 +167,145 @@ fn read_elements(
         warnings.push(location.clone(), what, "export the model again");
     }
     Ok(elements)
+}
+
+/// The number of UV sets always read, and the maximum.
+const UV_SETS: u32 = 2;
+const MOST_UV_SETS: u32 = 8;
+
+/// The accessor of an attribute.
+pub(super) fn find(primitive: &Primitive, semantic: Semantic) -> Option<usize> {
+    primitive.attributes.get(&Checked::Valid(semantic)).map(|accessor| accessor.value())
+}
+
+/// Reads optional attributes of primitives.
+pub(super) struct Optional<'o, 'a> {
+    pub(super) accessors: &'o mut Accessors<'a>,
+    pub(super) primitive: &'o Primitive,
+    pub(super) vertices: usize,
+    pub(super) location: &'o Location,
+    pub(super) warnings: &'o mut Warnings,
+}
+
+impl Optional<'_, '_> {
+    pub(super) fn read<const N: usize>(
+        &mut self,
+        semantic: Semantic,
+        usage: &Usage,
+    ) -> Result<Option<Vec<[f32; N]>>, Unplaced> {
+        find(self.primitive, semantic).map_or(Ok(None), |index| self.read_accessor(index, usage))
+    }
+
+    pub(super) fn has(&self, semantic: Semantic) -> bool {
+        find(self.primitive, semantic).is_some()
+    }
+
+    /// `None`, with a warning, if there is not one value per vertex.
+    pub(super) fn read_accessor<const N: usize>(
+        &mut self,
+        index: usize,
+        usage: &Usage,
+    ) -> Result<Option<Vec<[f32; N]>>, Unplaced> {
+        let (name, count) = (usage.name, self.accessors.count(index));
+        if count != self.vertices as u64 {
+            let what = format!("{name} has {count} values for {} vertices and is ignored", self.vertices);
+            self.warn(what);
+            return Ok(None);
+        }
+        if let Some(what) = usage.fault(self.accessors.root, index) {
+            self.warn(what);
+        }
+        self.accessors.vectors(index, usage.types).map(Some)
+    }
+
+    pub(super) fn warn(&mut self, what: impl Into<String>) {
+        self.warnings.push(self.location.clone(), what, "export the model again");
+    }
+
+    /// A warning about `count` vertices.
+    pub(super) fn warn_counted(&mut self, count: usize, what: &str) {
+        self.warnings.push_counted(count, self.location.clone(), what, "export the model again");
+    }
+
+    /// The UV sets; sets that a material needs and the primitive lacks are copies of the first.
+    /// Later sets keep their number: a missing one before them is empty.
+    pub(super) fn uv_sets(&mut self, wanted: &[u32]) -> Result<Vec<Vec<[f32; 2]>>, Unplaced> {
+        let last = wanted.iter().copied().filter(|&set| set < MOST_UV_SETS).max();
+        let mut sets = Vec::new();
+        for set in 0..UV_SETS.max(last.map_or(0, |last| last + 1)) {
+            sets.push(self.read::<2>(Semantic::TexCoords(set), &formats::TEXCOORD)?);
+        }
+        for &set in wanted {
+            if sets.get(set as usize).is_some_and(Option::is_some) {
+                continue;
+            }
+            let instead = match &sets[0] {
+                _ if set >= MOST_UV_SETS => "the texture is not drawn",
+                Some(_) => "TEXCOORD_0 is used",
+                None => "the texture shows one colour",
+            };
+            let what = format!("one of its textures needs TEXCOORD_{set}, which is missing; {instead}");
+            self.warnings.push(self.location.clone(), what, "export the model with that UV map");
+            if (set as usize) < sets.len() {
+                sets[set as usize] = sets[0].clone();
+            }
+        }
+        while sets.last().is_some_and(Option::is_none) {
+            sets.pop();
+        }
+        Ok(sets.into_iter().map(Option::unwrap_or_default).collect())
+    }
+}
+
+/// How far a colour may be outside 0 to 1 without a warning: half an 8-bit step, which no image
+/// shows.
+const COLOR_TOLERANCE: f32 = 0.5 / 255.0;
+/// How far the sign of a tangent may be from 1 or −1: one step of a normalized byte.
+const SIGN_TOLERANCE: f32 = 1.0 / 127.0;
+
+pub(super) fn warn_of_normals(from: &mut Optional<'_, '_>, normals: Option<&[[f32; 3]]>) {
+    let count = normals.map_or(0, |list| list.iter().filter(|normal| !is_direction(normal)).count());
+    from.warn_counted(
+        count,
+        "a vertex has a normal that is zero or not finite; the normal of its face is used",
+    );
+}
+
+pub(super) fn warn_of_tangents(from: &mut Optional<'_, '_>, tangents: Option<&[[f32; 4]]>) {
+    let is_sound = |tangent: &[f32; 4]| {
+        let [x, y, z, sign] = *tangent;
+        is_direction(&[x, y, z]) && (sign.abs() - 1.0).abs() <= SIGN_TOLERANCE
+    };
+    let count = tangents.map_or(0, |list| list.iter().filter(|tangent| !is_sound(tangent)).count());
+    from.warn_counted(
+        count,
+        "a vertex has a tangent that is zero or not finite, or whose w is not 1 or −1; it is corrected",
+    );
+}
+
+pub(super) fn warn_of_colors(from: &mut Optional<'_, '_>, colors: Option<&[[f32; 4]]>) {
+    let sound = -COLOR_TOLERANCE..=1.0 + COLOR_TOLERANCE;
+    let is_sound = |color: &[f32; 4]| color.iter().all(|channel| sound.contains(channel));
+    let count = colors.map_or(0, |list| list.iter().filter(|color| !is_sound(color)).count());
+    from.warn_counted(count, "a vertex has a colour that is not between 0 and 1; it is clamped");
+}
+
+pub(super) fn warn_of_uv_sets(from: &mut Optional<'_, '_>, sets: &[Vec<[f32; 2]>]) {
+    let count = sets.iter().flatten().filter(|uv| !are_finite(&uv[..])).count();
+    from.warn_counted(count, "a vertex has texture coordinates that are not finite; they count as 0");
+}
+
+pub(super) fn warn_of_targets(from: &mut Optional<'_, '_>, targets: &[PartTarget]) {
+    let lists = targets.iter().flat_map(|target| [&target.positions, &target.normals, &target.tangents]);
+    let count = lists.flatten().flatten().filter(|delta| !are_finite(&delta[..])).count();
+    from.warn_counted(count, "a morph target has a value that is not finite; it counts as 0");
+}
+
+/// Whether it is longer than 0; the length itself does not matter.
+fn is_direction(vector: &[f32; 3]) -> bool {
+    are_finite(vector) && vector.iter().any(|&value| value != 0.0)
+}
+
+fn are_finite(values: &[f32]) -> bool {
+    values.iter().all(|value| value.is_finite())
 }

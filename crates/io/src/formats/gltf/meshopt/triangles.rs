@@ -1,7 +1,7 @@
-//! Mode 1: each triangle is a byte that refers to a recent edge and a recent vertex, plus a few bytes where
-//! that is not enough.
+//! Modes 1 and 2: triangles, each a byte that refers to a recent edge and a recent vertex, plus a few bytes where that
+//! is not enough; and lists of indices, each a difference from one of two previous ones.
 
-use crate::formats::gltf::broken::Broken;
+use crate::formats::gltf::stream::Broken;
 use crate::formats::gltf::stream::{Stream, unzigzag};
 
 const HEADER: u8 = 0xe1;
@@ -147,4 +147,25 @@ impl Decoder<'_> {
         let delta = unzigzag(self.data.varint()?);
         Ok(self.beside_last(delta))
     }
+}
+
+const INDEX_HEADER: u8 = 0xd1;
+const INDEX_TAIL: usize = 4;
+
+pub(super) fn decode_indices(bytes: &[u8], count: usize) -> Result<Vec<u32>, Broken> {
+    let (header, mut stream, _) = Stream::open(bytes, INDEX_TAIL)?;
+    if header != INDEX_HEADER {
+        return Err("it does not begin as a sequence of indices does");
+    }
+    let mut last = [0u32; 2];
+    // Not with the claimed capacity: each index takes at least one byte.
+    let mut indices = Vec::with_capacity(count.min(stream.0.len()));
+    for _ in 0..count {
+        let code = stream.varint()?;
+        let baseline = &mut last[(code & 1) as usize];
+        *baseline = baseline.wrapping_add(unzigzag(code >> 1));
+        indices.push(*baseline);
+    }
+    stream.finish()?;
+    Ok(indices)
 }

@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Deltas, EdgeMark, EditData, Mesh, MeshColumns, MorphTarget, SkinWeights};
 
-use super::extras::Header;
-use crate::formats::gltf::hash::xxh64;
+use super::Header;
+use crate::formats::gltf::triangle_hash::xxh64;
 
 const SHARP: u32 = 1;
 const SEAM: u32 = 2;

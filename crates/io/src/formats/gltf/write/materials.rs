@@ -9,8 +9,8 @@ use trigon_scene::{
 use super::draft::Draft;
 use super::raw::RawObject;
 use super::textures::Textures;
+use crate::formats::gltf::material_extensions::{amount, share};
 use crate::formats::gltf::native::{self, ExactShading, MaterialExtras};
-use crate::formats::gltf::ranges::{amount, share};
 use crate::formats::gltf::{material_extensions, specular_glossiness};
 
 /// The defaults of a material in a file.

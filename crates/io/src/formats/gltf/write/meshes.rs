@@ -13,14 +13,14 @@ use trigon_scene::MeshId;
 
 use super::draft::Draft;
 use super::geometry::{Part, write_geometry};
+use super::raw::RetainedFile;
 use super::raw::{RawObject, raw};
-use super::retained_file::RetainedFile;
 use crate::error::Location;
+use crate::export::Loss;
 use crate::formats::gltf::mesh::WireMaterials;
 use crate::formats::gltf::native::{self, Header, columns_of_mesh};
 use crate::formats::gltf::packed::DRACO;
 use crate::formats::gltf::triangle_hash::TriangleHash;
-use crate::loss::Loss;
 
 /// A mesh in its current state.
 pub(super) struct Shape<'a> {

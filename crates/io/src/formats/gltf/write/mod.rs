@@ -2,21 +2,18 @@
 //!
 //! `draft` (lists of objects, and the bytes of the buffer) is filled by `scene`, part by part:
 //! `nodes`, `meshes` with `geometry`, `materials` with `textures`, `movement`. If the scene came
-//! from a glTF, the draft starts as that file (`kept`), and each part changes only the differences,
+//! from a glTF, the draft starts as that file, and each part changes only the differences,
 //! as text (`raw`), so unchanged parts are written as they were read. `freed` removes what
 //! rewritten meshes leave behind.
 
 mod draft;
 mod freed;
 mod geometry;
-mod glb_file;
 mod materials;
 mod meshes;
 mod movement;
 mod nodes;
 mod raw;
-mod retained;
-mod retained_file;
 mod scene;
 mod textures;
 
@@ -24,8 +21,8 @@ use std::path::Path;
 
 use trigon_scene::Scene;
 
-pub(crate) use glb_file::GlbFile;
-pub(crate) use retained_file::RetainedFile;
+pub(crate) use draft::GlbFile;
+pub(crate) use raw::RetainedFile;
 pub(crate) use scene::{Input, write_scene};
 pub(crate) use textures::mime_type;
 

@@ -1,8 +1,5 @@
 //! A scene into a document, part by part.
 
-mod animations;
-mod choice;
-
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::json;
@@ -11,21 +8,21 @@ use trigon_mesh::EditData;
 use trigon_scene::{Material, MaterialId, MeshAsset, MeshId, Node, NodeId, Scene, Skin, SkinId};
 
 use super::draft::Draft;
+use super::draft::GlbFile;
 use super::freed::Replaced;
-use super::glb_file::GlbFile;
 use super::materials::{plain, write_material};
 use super::meshes::{Shape, Written, losses};
 use super::movement::write_skin;
+use super::nodes::{Choice, unchanged_copies};
 use super::nodes::{camera, matrix, write_node};
 use super::raw::RawObject;
-use super::retained::draft_of;
-use super::retained_file::RetainedFile;
+use super::raw::RetainedFile;
+use super::raw::draft_of;
 use super::textures::Textures;
 use crate::error::Location;
+use crate::export::Loss;
 use crate::gltf_source::GltfSource;
-use crate::loss::Loss;
 use crate::write::WriteError;
-use choice::{Choice, unchanged_copies};
 
 /// What is to be written.
 pub(crate) struct Input<'a> {
@@ -84,23 +81,23 @@ pub(crate) fn write_scene<'a>(input: &Input<'a>) -> Result<WrittenScene<'a>, Wri
 /// A mesh, and the material of each of its slots in the file.
 type Use = (MeshId, Vec<Option<usize>>);
 
-struct SceneWriter<'a> {
-    scene: &'a Scene,
+pub(super) struct SceneWriter<'a> {
+    pub(super) scene: &'a Scene,
     edit_data: Option<&'a BTreeMap<MeshId, EditData>>,
-    retained: Option<&'a RetainedFile>,
+    pub(super) retained: Option<&'a RetainedFile>,
     textures: Textures<'a>,
-    draft: Draft<'a>,
+    pub(super) draft: Draft<'a>,
     choice: Choice,
     /// See [`unchanged_copies`].
     copies: BTreeMap<NodeId, Vec<NodeId>>,
-    indices: BTreeMap<NodeId, usize>,
+    pub(super) indices: BTreeMap<NodeId, usize>,
     /// None for the format's default.
     materials: BTreeMap<MaterialId, Option<usize>>,
     /// The material of slots that have none.
     stand_in: Option<usize>,
     /// A node in place of joints that were removed.
     gone: Option<usize>,
-    losses: Vec<Loss>,
+    pub(super) losses: Vec<Loss>,
     replaced: Replaced,
 }
 

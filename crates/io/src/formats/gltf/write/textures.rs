@@ -11,7 +11,7 @@ use trigon_scene::{Filter, MipFilter, Sampler, Scene, TextureBinding, TextureId,
 use super::draft::Draft;
 use super::raw::RawObject;
 use crate::GltfSource;
-use crate::png::{Pixels, encode_png};
+use crate::encode_image::{Pixels, encode_png};
 
 /// What is known of textures while a document is written.
 pub(super) struct Textures<'a> {

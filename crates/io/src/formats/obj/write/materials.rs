@@ -1,14 +1,19 @@
-//! The material library.
+//! The material library that is written beside an OBJ, with its images in their original encoding or as PNG.
+
+use std::collections::BTreeMap;
+use std::path::Path;
 
 use trigon_math::Vec3;
 use trigon_math::color::linear_to_srgb;
-use trigon_scene::{AlphaMode, Material, MaterialTexture, Shading, TextureBinding, Wrap};
+use trigon_scene::{AlphaMode, Material, MaterialTexture, Scene, Shading, TextureBinding, TextureId, Wrap};
 
-use super::image_files::ImageFiles;
-use super::names::MaterialNames;
+use super::{MaterialNames, Names};
+use crate::encode_image::{Pixels, encode_png};
 use crate::error::Location;
-use crate::export::{Gathered, Precision, push_number};
-use crate::loss::Loss;
+use crate::export::Loss;
+use crate::export::{ExportedFile, Gathered, Precision, plain_name, push_number};
+use crate::formats::gltf::mime_type;
+use crate::gltf_source::GltfSource;
 
 /// The text of the library.
 pub(super) fn write(
@@ -149,4 +154,59 @@ fn unheld(material: &Material) -> Vec<&'static str> {
         ),
     ];
     lost.into_iter().filter(|(is_lost, _)| *is_lost).map(|(_, what)| what).collect()
+}
+
+pub(super) struct ImageFiles<'a> {
+    /// What all names begin with, so that none is that of another model's image.
+    stem: &'a str,
+    scene: &'a Scene,
+    source: Option<&'a GltfSource>,
+    names: Names,
+    known: BTreeMap<TextureId, String>,
+    files: Vec<ExportedFile>,
+}
+
+impl<'a> ImageFiles<'a> {
+    pub(super) fn new(stem: &'a str, scene: &'a Scene, source: Option<&'a GltfSource>) -> Self {
+        let (names, known, files) = Default::default();
+        Self { stem, scene, source, names, known, files }
+    }
+
+    pub(super) fn into_files(self) -> Vec<ExportedFile> {
+        self.files
+    }
+
+    /// The name of a texture's file; none if the texture is gone.
+    pub(super) fn file(&mut self, id: TextureId) -> Option<String> {
+        if let Some(name) = self.known.get(&id) {
+            return Some(name.clone());
+        }
+        let asset = self.scene.textures.get(id)?;
+        let origin = self.source.and_then(|source| source.image(source.images(id).next()?));
+        let encoded = origin.and_then(|bytes| Some((bytes.to_vec(), ending(mime_type(bytes)?)?)));
+        let (bytes, ending) = encoded.unwrap_or_else(|| {
+            let texels: Vec<u8> = asset.texture.texels().flatten().collect();
+            let mut png = Vec::new();
+            let (width, height) = (asset.texture.width(), asset.texture.height());
+            encode_png(&mut png, width, height, Pixels::Rgba8(&texels)).expect("memory takes an image");
+            (png, "png")
+        });
+        let own = asset.name.replace('\\', "/");
+        let own = Path::new(&own).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = self.names.unique(&format!("{}_{}", self.stem, plain_name(&own, "texture")), "texture");
+        let name = format!("{name}.{ending}");
+        self.files.push(ExportedFile { name: name.clone(), bytes });
+        self.known.insert(id, name.clone());
+        Some(name)
+    }
+}
+
+/// The ending of a kind of image that other programs read in an MTL.
+fn ending(mime_type: &str) -> Option<&'static str> {
+    match mime_type {
+        "image/png" => Some("png"),
+        "image/jpeg" => Some("jpg"),
+        "image/webp" => Some("webp"),
+        _ => None,
+    }
 }

@@ -1,26 +1,20 @@
 //! Integers that are stored as corrections of what their neighbours let expect.
 //!
 //! A prediction is made of values that are already known. A transform then adds the stored
-//! correction such that the result stays in its range: `wrap` for numbers, `octahedron` for normals.
+//! correction such that the result stays in its range: [`Wrap`] for numbers, [`Octahedron`] for normals.
 
 mod normals;
-mod octahedron;
 mod parallelogram;
-mod texture_coordinates;
-mod wrap;
 
 use normals::FaceNormals;
-use octahedron::Octahedron;
 use parallelogram::Creases;
-use texture_coordinates::Turns;
-use wrap::Wrap;
 
-use super::budget::Budget;
+use self::normals::Octahedron;
+use self::parallelogram::Turns;
 use super::corners::CornerTable;
-use super::failure::Failure;
 use super::order::Order;
-use super::symbols::read_symbols;
-use crate::formats::gltf::broken::Broken;
+use super::symbols::{Budget, Failure, read_symbols};
+use crate::formats::gltf::stream::Broken;
 use crate::formats::gltf::stream::{Stream, unzigzag};
 
 /// What predictions may look at.
@@ -238,5 +232,39 @@ fn last(known: &[i32], predicted: &mut [i32]) {
     match known.len().checked_sub(predicted.len()) {
         Some(start) => predicted.copy_from_slice(&known[start..]),
         None => predicted.fill(0),
+    }
+}
+
+/// The range of all values.
+#[derive(Clone, Copy)]
+struct Wrap {
+    min: i32,
+    max: i32,
+    /// How many values are in the range.
+    size: i32,
+}
+
+impl Wrap {
+    fn read(stream: &mut Stream<'_>) -> Result<Self, Broken> {
+        let (min, max) = (i32::from_le_bytes(stream.array()?), i32::from_le_bytes(stream.array()?));
+        let size = max.checked_sub(min).filter(|&size| size >= 0).and_then(|size| size.checked_add(1));
+        Ok(Self { min, max, size: size.ok_or("an attribute has an impossible range")? })
+    }
+
+    /// Adds predicted numbers to corrections.
+    fn correct(self, predicted: &[i32], corrections: &mut [i32]) {
+        for (&predicted, value) in predicted.iter().zip(corrections) {
+            *value = self.inside(predicted.clamp(self.min, self.max).wrapping_add(*value));
+        }
+    }
+
+    fn inside(self, value: i32) -> i32 {
+        if value > self.max {
+            value.wrapping_sub(self.size)
+        } else if value < self.min {
+            value.wrapping_add(self.size)
+        } else {
+            value
+        }
     }
 }

@@ -1,19 +1,66 @@
-//! Contradictions in materials, samplers and images, which cannot be drawn as specified.
+//! Contradictions in a document, found before it is read. It is drawn anyway, and each warning says
+//! how.
+//!
+//! Only parts that the scene reaches are checked, because the rest is not visible. Contradictions
+//! that only show in accessor data are reported where it is read.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
+use gltf::json;
+use gltf::json::animation::{Channel, Property};
 use gltf::json::extensions::texture::TextureTransform;
 use gltf::json::validation::Checked;
-use gltf::json::{self, Root};
+use gltf::json::{Animation, Root};
 use serde_json::{Map, Value};
 use trigon_scene::{Material, ParameterField};
 
-use super::remedy::REMEDY;
+use super::accessor::valid;
+use super::document::Document;
+use super::hierarchy::Hierarchy;
+use super::images::image_of;
+use super::material_extensions;
+use super::material_extensions::numbers;
+use super::slots::slot_textures;
 use crate::error::Location;
-use crate::formats::gltf::images::image_of;
-use crate::formats::gltf::material_extensions::{self, numbers};
-use crate::formats::gltf::slots::slot_textures;
-use crate::warning::Warnings;
+use crate::warning::{Warnings, counted};
+
+pub(crate) fn warn_of_contradictions(document: &Document, hierarchy: &Hierarchy, warnings: &mut Warnings) {
+    let root = &document.root;
+    warn_of_version(root, warnings);
+    warn_of_listed_children(hierarchy, warnings);
+    let meshes: BTreeSet<usize> =
+        hierarchy.order.iter().filter_map(|&node| Some(root.nodes[node].mesh?.value())).collect();
+    warn_of_meshes(document, hierarchy, &meshes, warnings);
+    let primitives = meshes.iter().flat_map(|&mesh| &root.meshes[mesh].primitives);
+    let materials: BTreeSet<usize> =
+        primitives.filter_map(|primitive| Some(primitive.material?.value())).collect();
+    warn_of_materials(root, &materials, warnings);
+    warn_of_animations(document, hierarchy, warnings);
+}
+
+/// A later 2.x may be read as 2.0, unless its `minVersion` says otherwise.
+fn warn_of_version(root: &Root, warnings: &mut Warnings) {
+    let version = &root.asset.version;
+    if version.split('.').nth(1).is_some_and(|minor| minor != "0") {
+        let what = format!("the file is glTF {version} and is read as 2.0: what is newer is not drawn");
+        warnings.push(Location::Whole, what, "export the model as glTF 2.0");
+    }
+}
+
+/// Reports nodes that the scene lists as its roots although they have a parent.
+fn warn_of_listed_children(hierarchy: &Hierarchy, warnings: &mut Warnings) {
+    for &node in &hierarchy.listed_children {
+        let what = match hierarchy.parents[node] {
+            Some(_) => {
+                "the scene lists it as a root, and it is another node's child; it is drawn once, as that child"
+            }
+            None => {
+                "the scene lists it as a root without its parent; it is drawn without the parent's transform"
+            }
+        };
+        warnings.push(Location::Item("node", node), what, REMEDY);
+    }
+}
 
 /// The valid range of a factor, and what happens outside it.
 #[derive(Clone, Copy)]
@@ -27,7 +74,7 @@ const SHARE: Range = Range { least: 0.0, most: 1.0, otherwise: "not between 0 an
 const AMOUNT: Range = Range { least: 0.0, most: f32::MAX, otherwise: "negative or too large" };
 const REFRACTION: Range = Range { least: 1.0, most: f32::MAX, otherwise: "below 1 or too large" };
 
-pub(super) fn warn_of_materials(root: &Root, used: &BTreeSet<usize>, warnings: &mut Warnings) {
+fn warn_of_materials(root: &Root, used: &BTreeSet<usize>, warnings: &mut Warnings) {
     let mut textures = BTreeSet::new();
     for &index in used {
         let material = &root.materials[index];
@@ -167,3 +214,106 @@ fn warn_of_images(root: &Root, textures: &BTreeSet<usize>, warnings: &mut Warnin
         }
     }
 }
+
+fn warn_of_meshes(
+    document: &Document,
+    hierarchy: &Hierarchy,
+    used: &BTreeSet<usize>,
+    warnings: &mut Warnings,
+) {
+    let root = &document.root;
+    for &mesh in used {
+        warn_of_weights(
+            root.meshes[mesh].weights.as_ref(),
+            root,
+            mesh,
+            Location::Item("mesh", mesh),
+            warnings,
+        );
+        let counts: BTreeSet<usize> = target_counts(root, mesh).collect();
+        if counts.len() > 1 {
+            let what = "its primitives have different numbers of morph targets; a primitive without a target keeps its shape";
+            warnings.push(Location::Item("mesh", mesh), what, REMEDY);
+        }
+    }
+    for &node in &hierarchy.order {
+        let from = &root.nodes[node];
+        if let Some(mesh) = from.mesh {
+            let location = Location::Item("node", node);
+            warn_of_weights(from.weights.as_ref(), root, mesh.value(), location, warnings);
+        }
+    }
+    for from in document.foreign_attributes.iter().filter(|from| used.contains(&from.mesh)) {
+        let location = Location::Named(format!("mesh {}, primitive {}", from.mesh, from.primitive));
+        let (name, remedy) = (&from.name, "rename or bake it if something is missing");
+        let what = if from.in_target {
+            format!("{name} of a morph target is not supported and is ignored")
+        } else {
+            format!("{name} is not an attribute of glTF and is ignored")
+        };
+        warnings.push(location, what, remedy);
+    }
+}
+
+/// The number of morph targets of each primitive of a mesh.
+fn target_counts(root: &Root, mesh: usize) -> impl Iterator<Item = usize> {
+    let primitives = root.meshes[mesh].primitives.iter();
+    primitives.map(|primitive| primitive.targets.as_ref().map_or(0, Vec::len))
+}
+
+/// Warns if the number of weights differs from the number of morph targets of a mesh.
+fn warn_of_weights(
+    weights: Option<&Vec<f32>>,
+    root: &Root,
+    mesh: usize,
+    location: Location,
+    warnings: &mut Warnings,
+) {
+    let targets = target_counts(root, mesh).max().unwrap_or(0);
+    if let Some(weights) = weights.filter(|weights| weights.len() != targets) {
+        let (weights, targets) = (counted(weights.len(), "weight"), counted(targets, "morph target"));
+        let what =
+            format!("it has {weights} for {targets}; missing weights count as 0, and extra ones are ignored");
+        warnings.push(location, what, REMEDY);
+    }
+}
+
+fn warn_of_animations(document: &Document, hierarchy: &Hierarchy, warnings: &mut Warnings) {
+    for (index, animation) in document.root.animations.iter().enumerate() {
+        warn_of_animation(document, hierarchy, animation, index, warnings);
+    }
+}
+
+fn warn_of_animation(
+    document: &Document,
+    hierarchy: &Hierarchy,
+    animation: &Animation,
+    index: usize,
+    warnings: &mut Warnings,
+) {
+    let mut moved = HashSet::new();
+    for (number, channel) in animation.channels.iter().enumerate() {
+        let node = channel.target.node.value();
+        let Some(property) = valid(&channel.target.path).filter(|_| hierarchy.included[node]) else {
+            continue;
+        };
+        let location = || Location::Named(format!("animation {index}, channel {number}"));
+        if !moved.insert((node, property as u8)) {
+            let what = "an earlier channel moves the same property of the same node; the last one counts";
+            warnings.push(location(), what, "remove one of them, or export the animation again");
+        }
+        if moves_a_matrix(document, channel) {
+            let what =
+                "its node has a matrix, which is split into translation, rotation and scale; shear is lost";
+            warnings.push(location(), what, REMEDY);
+        }
+    }
+}
+
+fn moves_a_matrix(document: &Document, channel: &Channel) -> bool {
+    let transform = document.transforms.get(channel.target.node.value());
+    transform.is_some_and(|transform| transform.matrix.is_some())
+        && valid(&channel.target.path) != Some(Property::MorphTargetWeights)
+}
+
+const REMEDY: &str = "export the model again";

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use trigon_math::elementary::{cos_f32, sin_f32};
 
 use super::*;
-use crate::formats::gltf::hash::xxh64;
+use crate::formats::gltf::triangle_hash::xxh64;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/draco")
