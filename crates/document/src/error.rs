@@ -51,10 +51,10 @@ pub enum EditError {
     #[error("there is nothing to {0}")]
     Nothing(&'static str),
     /// A script is invalid.
-    #[error("{place}: {what}")]
+    #[error("{position}: {what}")]
     Script {
         /// The command or the line.
-        place: String,
+        position: String,
         /// What is wrong, and what is expected.
         what: String,
     },

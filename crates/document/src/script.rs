@@ -62,12 +62,12 @@ impl Script {
     /// It is not valid JSON, has another version, or contains an unknown command or parameter.
     pub fn from_json(text: &str) -> Result<Self, EditError> {
         let script: Self = serde_json::from_str(text).map_err(|error| EditError::Script {
-            place: format!("line {}, column {}", error.line(), error.column()),
+            position: format!("line {}, column {}", error.line(), error.column()),
             what: error.to_string(),
         })?;
         if script.version != Self::VERSION {
             let what = format!("the version is {}, but only version 1 is known", script.version);
-            return Err(EditError::Script { place: "version".into(), what });
+            return Err(EditError::Script { position: "version".into(), what });
         }
         Ok(script)
     }
@@ -94,7 +94,7 @@ impl Script {
         for (index, command) in self.commands.iter().enumerate() {
             progress(ScriptProgress { index, count, command });
             let outcome = document.run(command.clone()).map_err(|error| EditError::Script {
-                place: format!("command {} of {count} ({})", index + 1, command.name()),
+                position: format!("command {} of {count} ({})", index + 1, command.name()),
                 what: error.to_string(),
             })?;
             outcomes.push(outcome);

@@ -32,7 +32,7 @@ impl Editor {
             objects: children.map(|&id| ObjectName::of(id)).collect(),
             parent: Some(ObjectName::of(parent)),
             keep_transform: keeps_place,
-            place: None,
+            index: None,
         };
         self.run(command.into());
     }

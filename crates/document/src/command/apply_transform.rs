@@ -33,7 +33,7 @@ impl Action for ApplyTransform {
             return Err(EditError::Editing(COMMAND));
         }
         let objects = named_or_selected(change, &[], COMMAND)?;
-        let kept = SetTransform {
+        let retained = SetTransform {
             object: None,
             space: TransformSpace::Local,
             location: self.location.then_some([0.0; 3]),
@@ -45,7 +45,7 @@ impl Action for ApplyTransform {
             let node = change.scene().node(id).expect("it was just found");
             let (Some(mesh), placed) = (node.mesh, node.transform) else { continue };
             check(change, mesh)?;
-            let rest = kept.placed(placed);
+            let rest = retained.placed(placed);
             let map = rest.to_affine().inverse() * placed.to_affine();
             if !map.is_finite() {
                 return Err(refused("its size is 0: give it a size first"));

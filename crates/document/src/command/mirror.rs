@@ -1,4 +1,4 @@
-//! Mirroring and symmetry.
+//! Mirroring and symmetry, the orientation of faces, and repairing faults found by inspection.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -91,5 +91,98 @@ impl Action for Symmetrize {
             Ok(AfterEdit::Select(Elements::Faces(faces)))
         })?;
         Ok(Outcome::silent())
+    }
+}
+
+const FACES: &str = "at least one selected face";
+
+/// Flips the selected faces.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct FlipNormals {}
+
+impl Action for FlipNormals {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        change.edit_selected_faces("flipping normals", FACES, |mesh, faces| mesh.flip_faces(faces))?;
+        Ok(Outcome::silent())
+    }
+}
+
+/// Flips the selected faces that point inwards.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RecalculateNormals {
+    /// Makes all point inwards instead.
+    pub inside: bool,
+}
+
+impl Action for RecalculateNormals {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let mut turned = 0;
+        change.edit_selected_faces("recalculating normals", FACES, |mesh, faces| {
+            turned += mesh.recalculate_normals(faces)?.turned.len();
+            if self.inside { mesh.flip_faces(faces) } else { Ok(()) }
+        })?;
+        Ok(Outcome::counted("turned over", turned, ["face", "faces"]))
+    }
+}
+
+/// Repairs the selected kinds of faults in the edited meshes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Repair {
+    /// Removes all but one of several faces on the same vertices.
+    pub doubled_faces: bool,
+    /// Removes edges without faces.
+    pub loose_edges: bool,
+    /// Removes vertices without edges.
+    pub loose_vertices: bool,
+    /// Collapses edges of at most this length, in metres.
+    pub zero_length: Option<f64>,
+    /// Merges faces of at most this area with their neighbours, in square metres.
+    pub zero_area: Option<f64>,
+}
+
+impl Default for Repair {
+    fn default() -> Self {
+        Self {
+            doubled_faces: true,
+            loose_edges: true,
+            loose_vertices: true,
+            zero_length: Some(0.0),
+            zero_area: Some(0.0),
+        }
+    }
+}
+
+impl Action for Repair {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        if !change.selection().is_editing() {
+            return Err(EditError::NotEditing("repairing"));
+        }
+        let ids: Vec<_> = change.selection().meshes().map(|(id, _)| id).collect();
+        let mut repaired = 0;
+        for id in ids {
+            repaired += change.edit(id, |mesh| {
+                let mut count = 0;
+                if let Some(most) = self.zero_length {
+                    count += mesh.collapse_zero_length_edges(most)?;
+                }
+                if let Some(most) = self.zero_area {
+                    count += mesh.dissolve_zero_area_faces(most)?;
+                }
+                if self.doubled_faces {
+                    count += mesh.remove_doubled_faces()?;
+                }
+                if self.loose_edges {
+                    count += mesh.remove_loose_edges()?;
+                }
+                if self.loose_vertices {
+                    count += mesh.remove_loose_vertices()?;
+                }
+                Ok(count)
+            })?;
+        }
+        Ok(Outcome::counted("repaired", repaired, ["element", "elements"]))
     }
 }

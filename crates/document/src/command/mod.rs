@@ -1,109 +1,74 @@
 //! Commands as data: an action with all its parameters, so that it can be recorded, run again, and
 //! adjusted.
 //!
-//! A command is one variant of [`Command`] and one file with its parameters and its implementation.
+//! A command is one variant of [`Command`]. A file has the parameters and the implementations of one family of commands.
 //! Its description in scripts and documentation is generated from the comments of its parameters.
 
 mod action;
 mod apply_transform;
-mod bevel;
-mod camera;
-mod clear_transform;
 mod cut;
 mod delete;
-mod dissolve;
 mod element_marks;
 mod extrude;
-mod grid_fill;
 mod hierarchy;
 mod import;
-mod join;
-mod knife;
+mod light;
 mod material;
-mod merge;
 mod mirror;
-mod mode;
-mod normals;
-mod objects;
-mod outcome;
 mod parts;
-mod place;
 mod reference;
-mod repair;
-mod rotation;
-mod scale;
 mod scene;
 mod select;
 mod select_elements;
-mod select_property;
 mod select_related;
-mod select_within;
-mod set_light;
 mod set_transform;
-mod shape;
 mod space;
-mod subdivision;
 mod surface;
 mod texture;
-mod texture_slot;
 mod transform;
-mod uvs;
-mod visibility;
-mod whole_meshes;
+mod translate;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use action::Action;
+pub use action::{ObjectName, Outcome};
 pub use apply_transform::ApplyTransform;
-pub use bevel::Bevel;
-pub use camera::AddCamera;
-pub use clear_transform::ClearTransform;
-pub use cut::{LoopCut, SlideEdges, SlideVertices, Subdivide, edge_towards};
-pub use delete::{Delete, DeleteObjects, Deleted};
-pub use dissolve::{Dissolve, DissolveFlat};
+pub use cut::{Knife, LoopCut, PathPoint, SlideEdges, SlideVertices, Subdivide, edge_towards};
+pub use delete::{Delete, DeleteObjects, Deleted, Dissolve, DissolveFlat, Merge, MergeAt};
 pub use element_marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
-pub use extrude::{Extrude, Inset, InsetMode};
-pub use grid_fill::GridFill;
-pub use hierarchy::{ReorderObject, SetParent};
+pub use extrude::{Bevel, Extrude, Inset, InsetMode};
+pub use hierarchy::{HideOthers, ReorderObject, RevealObjects, SetParent};
 pub use import::ImportFile;
-pub use join::JoinObjects;
-pub use knife::{Knife, PathPoint};
+pub use light::{AddCamera, SetLight};
 pub use material::{AddMaterial, MaterialName, SetMaterial, SetMaterialSlot, SurfaceAlpha, SurfaceShading};
-pub use merge::{Merge, MergeAt};
-pub use mirror::{Mirror, MirrorPlane, Symmetrize};
-pub use mode::{EditObjects, LeaveEditMode, SetElementKind};
-pub use normals::{FlipNormals, RecalculateNormals};
-pub use objects::ObjectName;
-pub use outcome::Outcome;
-pub use parts::{Duplicate, Rip, Separate, SplitOff};
-pub use place::{Rotate, Translate};
+pub use mirror::{FlipNormals, Mirror, MirrorPlane, RecalculateNormals, Repair, Symmetrize};
+pub use parts::{Duplicate, JoinObjects, Rip, Separate, SplitOff};
 pub use reference::{command_reference, command_schema};
-pub use repair::Repair;
-pub use rotation::Rotation;
-pub use scale::Scale;
-pub use scene::{AddEmpty, AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, ShowObjects};
-pub use select::{Select, SelectAction, SelectAll, SelectInverse, SelectNone};
-pub use select_elements::{ElementsOf, SelectElements};
-pub use select_property::{
-    SelectBorder, SelectByMaterial, SelectByNormal, SelectNonManifold, SelectSharp, SelectSimilar,
+pub use scene::{
+    AddEmpty, AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, Shape, ShowObjects,
 };
-pub use select_related::{SelectLess, SelectLinked, SelectLoop, SelectMore, SelectPath, SelectRing};
-pub use select_within::SelectWithin;
-pub use set_light::SetLight;
-pub use set_transform::SetTransform;
-pub use shape::Shape;
+pub use select::{
+    EditObjects, LeaveEditMode, Select, SelectAction, SelectAll, SelectInverse, SelectNone, SelectWithin,
+    SetElementKind,
+};
+pub use select_elements::{ElementsOf, SelectElements};
+pub use select_related::{
+    SelectBorder, SelectByMaterial, SelectByNormal, SelectLess, SelectLinked, SelectLoop, SelectMore,
+    SelectNonManifold, SelectPath, SelectRing, SelectSharp, SelectSimilar,
+};
+pub use set_transform::{ClearTransform, SetTransform};
 pub use space::TransformSpace;
-pub use subdivision::{ApplySubdivision, SetSubdivision};
-pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, Triangulate, TrisToQuads};
-pub use texture::{AssignTexture, TextureSource};
-pub use texture_slot::TextureSlot;
+pub use surface::{
+    ApplySubdivision, Bridge, CatmullClark, ConnectVertices, Fill, GridFill, SetSubdivision, Triangulate,
+    TrisToQuads,
+};
+pub use texture::{AssignTexture, ProjectUvs, ProjectUvsOnBox, TextureSlot, TextureSource};
 pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
+pub use translate::{Rotate, Rotation, Scale, Translate};
 pub use trigon_modelling::{BevelWidth, InnerMiter, OuterMiter};
-pub use uvs::{ProjectUvs, ProjectUvsOnBox};
-pub use visibility::{HideOthers, RevealObjects};
 
 /// Lists all commands: variant, type, display name.
 macro_rules! commands {

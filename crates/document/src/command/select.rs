@@ -1,16 +1,18 @@
-//! Selecting objects and elements by number or name; all, none, inverse.
+//! Selecting objects and elements by number, name or position; all, none, inverse; object mode, edit mode, and the kind of
+//! element that is selected. The boxes that users draw on the image are in `display/pick`.
 
 use std::collections::BTreeSet;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use trigon_mesh::math::DVec3;
 use trigon_modelling::EditMesh;
 use trigon_scene::MeshId;
 
 use super::select_related::change_selections;
 use super::{Action, ObjectName, Outcome};
 use crate::error::EditError;
-use crate::selection::ElementKind;
+use crate::selection::{ElementKind, ElementKinds};
 use crate::state::Change;
 
 /// How a selection combines with the previous one.
@@ -176,6 +178,109 @@ impl Action for SelectInverse {
             let mut rest = kind.visible(mesh);
             rest.difference_with(selection.bits());
             selection.set(rest);
+            Ok(())
+        })
+    }
+}
+
+/// Enters edit mode, in which vertices, edges and faces of the objects' meshes can be selected.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct EditObjects {
+    /// The objects. Default: the selected ones.
+    pub objects: Vec<ObjectName>,
+}
+
+impl Action for EditObjects {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let objects = if self.objects.is_empty() {
+            change.selection().objects.iter().copied().collect()
+        } else {
+            let found: Result<Vec<_>, _> =
+                self.objects.iter().map(|name| name.find(change.scene())).collect();
+            found?
+        };
+        let meshes = change.meshes_of(objects.iter().copied());
+        if meshes.is_empty() {
+            let needed = "at least one object with a mesh";
+            return Err(EditError::NothingSelected { command: "edit mode", needed });
+        }
+        for &mesh in &meshes {
+            change.mesh(mesh);
+            change.selection_mut().enter(mesh);
+        }
+        let selection = change.selection_mut();
+        selection.objects.extend(&objects);
+        selection.active = selection.active.or(objects.last().copied());
+        Ok(Outcome::silent())
+    }
+}
+
+/// Returns to object mode. The selection of elements is forgotten.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct LeaveEditMode {}
+
+impl Action for LeaveEditMode {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        change.selection_mut().leave();
+        Ok(Outcome::silent())
+    }
+}
+
+/// Sets which of vertices, edges and faces are selected. The current selection is converted. With several
+/// kinds, elements are numbered and selected as those of the first of them, and the others by their parts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SetElementKind {
+    /// Which kind.
+    pub kind: ElementKind,
+    /// Whether it is added to the kinds that are selected already, or removed from them if it is one of
+    /// several.
+    #[serde(default)]
+    pub extend: bool,
+}
+
+impl Action for SetElementKind {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let (selection, meshes) = change.selection_and_meshes();
+        let one = ElementKinds::one(self.kind);
+        selection.set_kinds(if self.extend { selection.kinds().toggled(self.kind) } else { one }, meshes);
+        Ok(Outcome::silent())
+    }
+}
+
+/// Selects the elements whose centre (the mean of their vertices) lies within a box, boundary included.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SelectWithin {
+    /// The smallest coordinates, in metres in the space of the mesh.
+    pub min: [f64; 3],
+    /// The largest coordinates, in metres in the space of the mesh.
+    pub max: [f64; 3],
+    /// Whether to add to the previous selection.
+    pub add: bool,
+}
+
+impl Default for SelectWithin {
+    fn default() -> Self {
+        Self { min: [-1e30; 3], max: [1e30; 3], add: false }
+    }
+}
+
+impl Action for SelectWithin {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let (min, max) = (DVec3::from(self.min), DVec3::from(self.max));
+        let is_within = |middle: DVec3| middle.cmpge(min).all() && middle.cmple(max).all();
+        change_selections(change, "select within a box", |mesh, kind, selection| {
+            let mut found = kind.visible(mesh);
+            let outside = found.ones().filter(|&index| !is_within(kind.middle_of(mesh, index as u32)));
+            let outside: Vec<usize> = outside.collect();
+            outside.into_iter().for_each(|index| found.remove(index));
+            if self.add {
+                found.union_with(selection.bits());
+            }
+            selection.set(found);
             Ok(())
         })
     }

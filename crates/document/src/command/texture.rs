@@ -1,14 +1,19 @@
-//! Textures of materials.
+//! Textures of materials, by their slots, and laying out texture coordinates.
 
 use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_io::{Limits, load_image};
-use trigon_scene::{Scene, Texture, TextureBinding, TextureFormat, TextureId};
+use trigon_mesh::math::DVec3;
+use trigon_modelling::{BoxProjection, PlanarProjection};
+use trigon_scene::{
+    Material, MetallicRoughness, NormalMap, Occlusion, Scene, Shading, Texture, TextureBinding,
+    TextureFormat, TextureId,
+};
 
 use super::material::named_or_first;
-use super::{Action, MaterialName, Outcome, TextureSlot};
+use super::{Action, MaterialName, Outcome};
 use crate::error::EditError;
 use crate::state::Change;
 
@@ -89,15 +94,161 @@ impl AssignTexture {
     }
 }
 
+/// The use of a texture in a material.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum TextureSlot {
+    /// Colour and alpha.
+    #[default]
+    BaseColor,
+    /// Green: roughness. Blue: metalness.
+    MetallicRoughness,
+    /// A normal map.
+    Normal,
+    /// Red: the fraction of ambient light that arrives.
+    Occlusion,
+    /// The colour of emitted light.
+    Emissive,
+}
+
+impl TextureSlot {
+    /// Whether its textures hold colours or data.
+    pub(super) fn format(self) -> TextureFormat {
+        match self {
+            Self::BaseColor | Self::Emissive => TextureFormat::Srgb,
+            Self::MetallicRoughness | Self::Normal | Self::Occlusion => TextureFormat::Linear,
+        }
+    }
+
+    /// The texture of a material in this slot.
+    #[must_use]
+    pub fn of(self, material: &Material) -> Option<TextureBinding> {
+        match self {
+            Self::BaseColor => material.base_color_texture,
+            Self::MetallicRoughness => match material.shading {
+                Shading::MetallicRoughness(model) => model.texture,
+                Shading::Unlit | Shading::Lambert | Shading::BlinnPhong { .. } => None,
+            },
+            Self::Normal => material.normal_map.map(|map| map.binding),
+            Self::Occlusion => material.occlusion.map(|map| map.binding),
+            Self::Emissive => material.emissive_texture,
+        }
+    }
+
+    pub(super) fn bind(self, material: &mut Material, binding: Option<TextureBinding>) {
+        match self {
+            Self::BaseColor => material.base_color_texture = binding,
+            Self::MetallicRoughness => bind_metallic_roughness(&mut material.shading, binding),
+            Self::Normal => {
+                let scale = material.normal_map.map_or(1.0, |map| map.scale);
+                material.normal_map = binding.map(|binding| NormalMap { binding, scale });
+            }
+            Self::Occlusion => {
+                let strength = material.occlusion.map_or(1.0, |map| map.strength);
+                material.occlusion = binding.map(|binding| Occlusion { binding, strength });
+            }
+            Self::Emissive => material.emissive_texture = binding,
+        }
+    }
+}
+
+fn bind_metallic_roughness(shading: &mut Shading, binding: Option<TextureBinding>) {
+    match shading {
+        Shading::MetallicRoughness(model) => model.texture = binding,
+        // The texture multiplies both.
+        _ if binding.is_some() => {
+            let model =
+                MetallicRoughness { metallic: 1.0, roughness: 1.0, texture: binding, ..Default::default() };
+            *shading = Shading::MetallicRoughness(model);
+        }
+        _ => {}
+    }
+}
+
+const FACES: &str = "at least one selected face";
+
+/// Projects texture coordinates onto the selected faces, from one side.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ProjectUvs {
+    /// The set of texture coordinates, from 0; the next one is added if it does not exist.
+    pub uv_set: u32,
+    /// The point at the centre of the image, in metres.
+    pub center: [f64; 3],
+    /// Towards the viewer.
+    pub normal: [f64; 3],
+    /// The upward direction in the image.
+    pub up: [f64; 3],
+    /// The height of the image, in metres.
+    pub height: f64,
+    /// Its aspect ratio, width divided by height.
+    pub aspect: f64,
+}
+
+impl Default for ProjectUvs {
+    fn default() -> Self {
+        let PlanarProjection { center, normal, up, height, aspect } = PlanarProjection::default();
+        Self { uv_set: 0, center: center.into(), normal: normal.into(), up: up.into(), height, aspect }
+    }
+}
+
+impl Action for ProjectUvs {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let projection = PlanarProjection {
+            center: DVec3::from(self.center),
+            normal: DVec3::from(self.normal),
+            up: DVec3::from(self.up),
+            height: self.height,
+            aspect: self.aspect,
+        };
+        change.edit_selected_faces("projecting texture coordinates", FACES, |mesh, faces| {
+            mesh.project_uvs(faces, self.uv_set as usize, &projection)
+        })?;
+        Ok(Outcome::silent())
+    }
+}
+
+/// Projects texture coordinates onto the selected faces from the six sides of a box, each face from the side
+/// that it faces most.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ProjectUvsOnBox {
+    /// The set of texture coordinates, from 0; the next one is added if it does not exist.
+    pub uv_set: u32,
+    /// The point at the centre of each image, in metres.
+    pub center: [f64; 3],
+    /// The height of the image, in metres.
+    pub height: f64,
+    /// Its aspect ratio, width divided by height.
+    pub aspect: f64,
+}
+
+impl Default for ProjectUvsOnBox {
+    fn default() -> Self {
+        let BoxProjection { center, height, aspect } = BoxProjection::default();
+        Self { uv_set: 0, center: center.into(), height, aspect }
+    }
+}
+
+impl Action for ProjectUvsOnBox {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let (center, height, aspect) = (DVec3::from(self.center), self.height, self.aspect);
+        let projection = BoxProjection { center, height, aspect };
+        change.edit_selected_faces("projecting texture coordinates", FACES, |mesh, faces| {
+            mesh.project_uvs_on_box(faces, self.uv_set as usize, &projection)
+        })?;
+        Ok(Outcome::silent())
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-    use trigon_mesh::primitives;
-    use trigon_scene::{AlphaMode, Material, Shading};
-
     use super::*;
     use crate::document::Document;
     use crate::tests::commands::try_run as run;
+    use serde_json::json;
+    use trigon_mesh::primitives;
+    use trigon_scene::{AlphaMode, Material, Scene, Shading, Texture};
 
     fn document() -> Document {
         let mut scene = Scene::new();
@@ -191,5 +342,23 @@ mod tests {
             "texture": { "from": "file", "path": "no/such/image.png" } });
         let refused = run(&mut document, missing).expect_err("there is none").to_string();
         assert!(refused.contains("image.png"), "{refused}");
+    }
+
+    #[test]
+    fn a_texture_of_metalness_leaves_the_factors_of_a_metal_as_they_are() {
+        let metal = MetallicRoughness { metallic: 0.25, roughness: 0.75, ..Default::default() };
+        let texture = Texture::new(1, 1, vec![[0, 128, 128, 255]], TextureFormat::Linear).expect("one texel");
+        let binding = TextureBinding::new(Scene::new().add_texture("metal", texture));
+        for (shading, factors) in
+            [(Shading::MetallicRoughness(metal), [0.25, 0.75]), (Shading::Lambert, [1.0, 1.0])]
+        {
+            let mut material = Material { shading, ..Material::default() };
+            TextureSlot::MetallicRoughness.bind(&mut material, Some(binding));
+            assert_eq!(TextureSlot::MetallicRoughness.of(&material), Some(binding), "{shading:?}");
+            let Shading::MetallicRoughness(model) = material.shading else {
+                panic!("{shading:?} has no metal")
+            };
+            assert_eq!([model.metallic, model.roughness], factors, "{shading:?}");
+        }
     }
 }

@@ -1,9 +1,13 @@
-//! The history: one entry for each action of a user, with the data to undo and redo it.
+//! The history: one entry for each action of a user, as recovery files record it, with the data to undo and redo it; and
+//! previews of a command, which a modal tool shows while it runs.
 
+use serde::{Deserialize, Serialize};
 use trigon_modelling::Difference;
 use trigon_scene::{MeshId, SceneParts};
 
-use crate::command::Command;
+use super::Document;
+use crate::command::{Command, Outcome};
+use crate::error::EditError;
 use crate::selection::Selection;
 
 /// One action: the command, and the data that leads to the state before it or after it again.
@@ -125,5 +129,74 @@ impl History {
         self.entries.drain(..gone);
         self.done -= gone;
         self.dropped += gone;
+    }
+}
+
+/// A user's action.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Event {
+    /// A command was run successfully.
+    Run(Box<Command>),
+    /// The last command was undone.
+    Undo,
+    /// An undone command was redone.
+    Redo,
+}
+
+impl Document {
+    /// Shows the effect of a command in place of the previous preview, which is undone first. There
+    /// is no entry in the history and nothing in the recovery file until [`Self::confirm`].
+    ///
+    /// During a preview the scene, the selection and the meshes are as after its command, and so is the
+    /// output of [`Self::to_native`]. Every other method that changes the document confirms the preview first,
+    /// as if [`Self::confirm`] had been called, so that nothing a user sees is lost. In particular
+    /// [`Self::undo`] undoes the previewed command, and [`Self::redo`] redoes it.
+    ///
+    /// Takes time proportional to what the commands change, plus one bit for each element of the
+    /// edited meshes. Meshes that a command adds to the scene stay there unused after it is undone,
+    /// as after [`Self::undo`].
+    ///
+    /// # Errors
+    /// The command failed. The previous preview stays, or the document as it was if there is none.
+    pub fn preview(&mut self, command: Command) -> Result<Outcome, EditError> {
+        let mut last = self.preview.take();
+        if let Some(entry) = &mut last {
+            self.exchange(entry);
+        }
+        match self.attempt(command) {
+            Ok((entry, outcome)) => {
+                self.preview = Some(entry);
+                Ok(outcome)
+            }
+            Err(refusal) => {
+                if let Some(entry) = &mut last {
+                    self.exchange(entry);
+                }
+                self.preview = last;
+                Err(refusal)
+            }
+        }
+    }
+
+    /// The previewed command; `None` if there is no preview.
+    #[must_use]
+    pub fn previewed(&self) -> Option<&Command> {
+        self.preview.as_ref().map(Entry::command)
+    }
+
+    /// Confirms the preview: one entry in the history, and one event for a recovery file. Returns
+    /// whether there was a preview.
+    pub fn confirm(&mut self) -> bool {
+        let Some(entry) = self.preview.take() else { return false };
+        self.enter(entry);
+        true
+    }
+
+    /// Cancels the preview and restores every byte. Returns whether there was a preview.
+    pub fn cancel(&mut self) -> bool {
+        let Some(mut entry) = self.preview.take() else { return false };
+        self.exchange(&mut entry);
+        true
     }
 }

@@ -1,8 +1,6 @@
 //! An open document: a scene, its edited meshes, the selection, the history.
 
-mod event;
 mod history;
-mod preview;
 mod scene;
 
 use std::path::{Path, PathBuf};
@@ -19,8 +17,7 @@ use crate::revision::next_revision;
 use crate::selection::Selection;
 use crate::state::{Change, State};
 
-pub use event::Event;
-pub use history::{Entry, History};
+pub use history::{Entry, Event, History};
 
 /// A scene that commands edit.
 ///

@@ -5,13 +5,9 @@
 //! | `mod` | the state |
 //! | `change` | a command's access to it |
 //! | `shown` | how the scene follows the edited meshes |
-//! | `visible` | what a view shows instead of a mesh of the scene |
-//! | `marked` | which elements of a mesh are marked |
-//! | `scene_change` | the changes that keep a copy of the scene equal to it |
+//! | `visible` | what a view shows instead of a mesh of the scene, which elements are marked, and the changes that keep a copy of the scene equal to it |
 
 mod change;
-mod marked;
-mod scene_change;
 mod shown;
 mod visible;
 
@@ -23,10 +19,9 @@ use crate::document_file::DocumentFile;
 use crate::selection::Selection;
 
 pub(crate) use change::{AfterEdit, Change};
-pub(crate) use marked::MarkedElements;
-pub use scene_change::SceneChange;
 pub(crate) use shown::{Outdated, Shown, Untold};
-pub(crate) use visible::shown_levels;
+pub use visible::SceneChange;
+pub(crate) use visible::{MarkedElements, shown_levels};
 
 /// What commands change of a document, and what its scene shows of it.
 #[derive(Debug, Default)]

@@ -69,8 +69,8 @@ pub fn save(storage: &mut dyn Storage, path: &Path, bytes: &[u8]) -> Result<(), 
     let target = storage.resolve(path);
     let new = write_new(storage, &target, bytes)?;
     if storage.exists(&target) {
-        let kept = storage.keep_permissions(&target, &new);
-        remove_on_failure(storage, &new, kept)
+        let copied = storage.keep_permissions(&target, &new);
+        remove_on_failure(storage, &new, copied)
             .map_err(failed(path, "taking over the old file's permissions"))?;
         keep_backup(storage, &target).map_err(failed(path, "keeping the old file as a backup"))?;
     }

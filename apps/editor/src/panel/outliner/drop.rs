@@ -70,7 +70,7 @@ fn dropped(document: &Document, dragged: NodeId, on: NodeId, place: Place, reque
         ReorderObject { object: Some(object), to }.into()
     } else {
         let parent = target.parent().map(ObjectName::of);
-        SetParent { objects: vec![object], parent, keep_transform: true, place: Some(to) }.into()
+        SetParent { objects: vec![object], parent, keep_transform: true, index: Some(to) }.into()
     };
     requests.push(Request::Run(command));
 }
@@ -93,7 +93,7 @@ fn objects(document: &Document, dragged: NodeId) -> Vec<NodeId> {
 pub(super) fn hang(objects: Vec<NodeId>, parent: Option<NodeId>) -> Request {
     let objects = objects.into_iter().map(ObjectName::of).collect();
     let parent = parent.map(ObjectName::of);
-    Request::Run(SetParent { objects, parent, keep_transform: true, place: None }.into())
+    Request::Run(SetParent { objects, parent, keep_transform: true, index: None }.into())
 }
 
 /// What is dropped below the last row hangs on nothing any more.

@@ -12,7 +12,7 @@ use trigon_scene::{
     ElementSet, Mark, Marks, MeshId, NodeId, Outline, Reach, RenderSettings, Style, VertexPoints,
 };
 
-use super::bits::{all, bits};
+use super::element::{all, bits};
 use super::selected::EditedMeshView;
 use crate::document::Document;
 use crate::selection::{ElementKind, MeshSelection, Selection};

@@ -200,8 +200,8 @@ impl<'p> Picks<'p> {
     /// The object visible at a point, or nearest to it.
     fn object(&self, point: DVec2, radius: f64) -> Option<NodeId> {
         let under = Region::Point(point);
-        let seen = self.picker.nodes(&under, Reach::Visible).into_iter().next();
-        seen.or_else(|| {
+        let visible = self.picker.nodes(&under, Reach::Visible).into_iter().next();
+        visible.or_else(|| {
             let nearest = self.picker.nearest(point, radius, self.reach);
             nearest.face.or(nearest.edge).or(nearest.vertex).map(|(node, _)| node)
         })

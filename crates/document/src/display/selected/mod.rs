@@ -5,7 +5,7 @@ use trigon_mesh::Mesh;
 use trigon_modelling::{EditMesh, ElementMap, ElementNumbers, FaceId};
 use trigon_scene::MeshId;
 
-use super::bits::{bits, bits_where};
+use super::element::{bits, bits_where};
 use crate::document::Document;
 use crate::selection::{ElementKind, MeshSelection};
 

@@ -12,7 +12,7 @@ use trigon_modelling::{ChangedValues, Difference, EditMesh, ElementMap, ElementN
 use trigon_scene::{MeshId, Scene};
 
 use super::MarkedElements;
-use super::scene_change::SceneChange;
+use super::visible::SceneChange;
 use super::visible::{Sight, VisibleMesh};
 use crate::revision::next_revision;
 use crate::selection::Selection;
