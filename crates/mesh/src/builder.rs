@@ -2,7 +2,7 @@
 
 use trigon_math::Vec3;
 
-use crate::face_starts::FaceStarts;
+use super::mesh::FaceStarts;
 use crate::mesh::Parts;
 use crate::{Mesh, MeshError};
 
@@ -29,7 +29,7 @@ pub struct MeshBuilder {
     positions: Vec<Vec3>,
     face_starts: FaceStarts,
     /// The number of faces that are expected.
-    face_room: usize,
+    expected_faces: usize,
     corner_vertices: Vec<u32>,
     loose_edges: Vec<[u32; 2]>,
     loose_points: Vec<u32>,
@@ -54,7 +54,7 @@ impl MeshBuilder {
         Self {
             positions: Vec::with_capacity(vertices),
             face_starts: FaceStarts::default(),
-            face_room: faces,
+            expected_faces: faces,
             corner_vertices: Vec::with_capacity(corners),
             loose_edges: Vec::new(),
             loose_points: Vec::new(),
@@ -110,9 +110,9 @@ impl MeshBuilder {
     pub fn push_face(&mut self, vertices: &[u32]) -> Result<u32, MeshError> {
         let face = self.face_count();
         check_face(face, vertices, self.positions.len())?;
-        self.check_room(vertices.len())?;
+        self.check_capacity(vertices.len())?;
         self.corner_vertices.extend_from_slice(vertices);
-        self.face_starts.push(vertices.len(), self.face_room);
+        self.face_starts.push(vertices.len(), self.expected_faces);
         Ok(face as u32)
     }
 
@@ -124,7 +124,7 @@ impl MeshBuilder {
     /// corners than indices can count. Nothing was added then.
     pub fn push_triangles(&mut self, triangles: &[[u32; 3]]) -> Result<(), MeshError> {
         check_triangles(triangles, self.face_count(), self.positions.len())?;
-        self.check_room(3 * triangles.len())?;
+        self.check_capacity(3 * triangles.len())?;
         self.corner_vertices.extend_from_slice(triangles.as_flattened());
         self.face_starts.push_triangles(triangles.len());
         Ok(())
@@ -144,7 +144,7 @@ impl MeshBuilder {
             let vertex = from;
             return Err(MeshError::EdgeWithoutLength { index, vertex });
         }
-        self.check_room(1)?;
+        self.check_capacity(1)?;
         self.loose_edges.push([from, to]);
         Ok(())
     }
@@ -163,8 +163,8 @@ impl MeshBuilder {
     /// Builds the mesh, without attributes yet (see [`Mesh::set_attributes`]).
     #[must_use]
     pub fn build(mut self) -> Mesh {
-        let mut seen = vec![false; self.positions.len()];
-        self.loose_points.retain(|&point| !std::mem::replace(&mut seen[point as usize], true));
+        let mut visited = vec![false; self.positions.len()];
+        self.loose_points.retain(|&point| !std::mem::replace(&mut visited[point as usize], true));
         Mesh::from_parts(Parts {
             positions: self.positions,
             face_starts: self.face_starts,
@@ -176,8 +176,8 @@ impl MeshBuilder {
 
     /// Half-edges (corners and loose edges) are numbered together while edges are searched, so one
     /// limit applies to both; faces are fewer.
-    fn check_room(&self, more: usize) -> Result<(), MeshError> {
-        check_room("corners and loose edges", self.corner_vertices.len() + self.loose_edges.len() + more)
+    fn check_capacity(&self, more: usize) -> Result<(), MeshError> {
+        check_capacity("corners and loose edges", self.corner_vertices.len() + self.loose_edges.len() + more)
     }
 }
 
@@ -222,7 +222,7 @@ pub(crate) fn check_triangles(
 }
 
 /// Whether so many elements of a kind can be numbered.
-pub(crate) fn check_room(what: &'static str, count: usize) -> Result<(), MeshError> {
+pub(crate) fn check_capacity(what: &'static str, count: usize) -> Result<(), MeshError> {
     if count > LIMIT as usize { Err(MeshError::TooMany { what, limit: LIMIT }) } else { Ok(()) }
 }
 
@@ -253,9 +253,9 @@ mod tests {
     fn as_many_as_can_be_numbered_are_not_too_many() {
         // 0xffff_ffff is no index, so the last one is 0xffff_fffd, and there are 0xffff_fffe.
         for (count, fits) in [(0, true), (0xffff_fffe, true), (0xffff_ffff, false), (usize::MAX, false)] {
-            assert_eq!(check_room("vertices", count).is_ok(), fits, "{count}");
+            assert_eq!(check_capacity("vertices", count).is_ok(), fits, "{count}");
         }
-        let message = check_room("vertices", usize::MAX).expect_err("too many").to_string();
+        let message = check_capacity("vertices", usize::MAX).expect_err("too many").to_string();
         assert!(message.contains("vertices") && message.contains("4294967294"), "{message}");
     }
 

@@ -1,12 +1,11 @@
-//! A mesh as plain lists, as in files. Columns are checked as a whole, so that millions of faces do not need one
-//! call each.
+//! A mesh as plain lists, as in files, and what an editor knows of a mesh besides. Columns are checked as a whole, so that
+//! millions of faces do not need one call each.
 
 use trigon_math::Vec3;
 
-use crate::builder::{check_face, check_room, check_triangles, check_vertices};
-use crate::face_starts::FaceStarts;
-use crate::mesh::Parts;
-use crate::{Mesh, MeshError};
+use super::builder::{check_capacity, check_face, check_triangles, check_vertices};
+use super::mesh::{FaceStarts, Parts};
+use super::{Mesh, MeshError};
 
 /// The elements of a mesh as lists. [`Mesh::from_columns`] checks them; attributes are set
 /// afterwards with [`Mesh::set_attributes`].
@@ -45,8 +44,8 @@ impl MeshColumns {
     /// The errors of [`Mesh::from_columns`].
     pub fn check(&self) -> Result<(), MeshError> {
         let Self { positions, face_sizes, corner_vertices, loose_edges, loose_points } = self;
-        check_room("corners and loose edges", corner_vertices.len() + loose_edges.len())?;
-        check_room("vertices", positions.len())?;
+        check_capacity("corners and loose edges", corner_vertices.len() + loose_edges.len())?;
+        check_capacity("vertices", positions.len())?;
         let expected = face_sizes.iter().map(|&size| u64::from(size)).sum();
         if expected != corner_vertices.len() as u64 {
             return Err(MeshError::CornerCount { expected, found: corner_vertices.len() });
@@ -92,8 +91,8 @@ impl Mesh {
         columns.check()?;
         let MeshColumns { positions, loose_points, .. } = &mut columns;
         if !loose_points.is_empty() {
-            let mut seen = vec![false; positions.len()];
-            loose_points.retain(|&point| !std::mem::replace(&mut seen[point as usize], true));
+            let mut visited = vec![false; positions.len()];
+            loose_points.retain(|&point| !std::mem::replace(&mut visited[point as usize], true));
         }
         Ok(Self::from_valid_columns(columns))
     }
@@ -108,6 +107,40 @@ impl Mesh {
         let face_starts = FaceStarts::of_sizes(&face_sizes);
         Self::from_parts(Parts { positions, face_starts, corner_vertices, loose_edges, loose_points })
     }
+}
+
+/// What an editor knows of a [`Mesh`](crate::Mesh) besides its elements and attributes: original positions,
+/// marks of edges, hidden elements. Elements are named by the mesh's indices. Nothing is drawn of them, and
+/// files keep them with the mesh.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct EditData {
+    /// To where each vertex can be reset, in metres; empty if each is where it was.
+    pub first_positions: Vec<Vec3>,
+    /// Edges with any mark, by their vertices.
+    pub edges: Vec<EdgeMark>,
+    /// Vertices that are hidden from the user.
+    pub hidden_vertices: Vec<u32>,
+    /// Faces that are hidden from the user.
+    pub hidden_faces: Vec<u32>,
+    /// Corners whose normal in the mesh was not given: sharp edges make it, and it follows them.
+    pub sharp_corners: Vec<u32>,
+    /// In how many Catmull-Clark levels the mesh is shown.
+    pub subdivision: u32,
+}
+
+/// The marks of one edge.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct EdgeMark {
+    /// Its two vertices, the smaller one first.
+    pub vertices: [u32; 2],
+    /// It stays sharp in smooth shading.
+    pub is_sharp: bool,
+    /// Texture coordinates are cut there when they are laid out.
+    pub is_seam: bool,
+    /// It is hidden from the user.
+    pub is_hidden: bool,
+    /// How sharp it stays in Catmull-Clark subdivision, 0 to 1.
+    pub crease: f32,
 }
 
 #[cfg(test)]

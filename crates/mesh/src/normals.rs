@@ -58,9 +58,9 @@ impl Mesh {
     /// The same, without a copy where all are used as they were given.
     pub(crate) fn shading_normals_or_given(&self) -> Cow<'_, [Vec3]> {
         // Without a way out after each normal, the compiler tests several at a time.
-        let are_kept = |some: &[Vec3]| some.iter().fold(true, |kept, &normal| kept & is_unit(normal));
+        let are_unit = |some: &[Vec3]| some.iter().fold(true, |so_far, &normal| so_far & is_unit(normal));
         match &self.attributes().corner_normals {
-            Some(given) if given.par_chunks(1024).with_min_len(16).all(are_kept) => Cow::Borrowed(given),
+            Some(given) if given.par_chunks(1024).with_min_len(16).all(are_unit) => Cow::Borrowed(given),
             _ => Cow::Owned(self.shading_normals()),
         }
     }

@@ -1,8 +1,9 @@
 //! The triangles of a whole mesh, and which face each one came from.
 
-use crate::Mesh;
-use crate::prefetch::prefetch;
-use crate::triangulate::Triangulator;
+use std::hint::black_box;
+
+use super::Mesh;
+use super::triangulate::Triangulator;
 
 /// A mesh's faces as triangles, in face order.
 ///
@@ -39,12 +40,12 @@ impl Mesh {
         self.triangulated(faces, most)
     }
 
-    /// Triangulates some faces, into about `room` triangles.
-    fn triangulated(&self, mut faces: impl Iterator<Item = u32> + Clone, room: usize) -> Triangulation {
+    /// Triangulates some faces, into about `capacity` triangles.
+    fn triangulated(&self, mut faces: impl Iterator<Item = u32> + Clone, capacity: usize) -> Triangulation {
         /// Faces whose corners are read ahead.
         const GROUP: usize = 256;
-        let mut triangles = Vec::with_capacity(room);
-        let mut triangle_faces = Vec::with_capacity(room);
+        let mut triangles = Vec::with_capacity(capacity);
+        let mut triangle_faces = Vec::with_capacity(capacity);
         let mut triangulator = Triangulator::default();
         let mut outline = Vec::new();
         for (number, face) in faces.clone().enumerate() {
@@ -73,4 +74,10 @@ impl Mesh {
             vertices.iter().map(|&vertex| self.positions()[vertex as usize].x.to_bits())
         }));
     }
+}
+
+/// Reads values that are needed soon, from places all over the memory. A processor waits for many of them at once if
+/// nothing else is done meanwhile, and finds them nearby afterwards; one after the other, each would take as long.
+pub(crate) fn prefetch(values: impl Iterator<Item = u32>) {
+    black_box(values.fold(0, |all, value| all ^ value));
 }

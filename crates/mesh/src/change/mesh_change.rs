@@ -1,4 +1,5 @@
-//! New values for some elements of a mesh.
+//! New values for some elements of a mesh, which are in the mesh itself once they are written, and the sets of elements that
+//! changed.
 
 use thiserror::Error;
 use trigon_math::{Vec2, Vec3, Vec4};
@@ -214,4 +215,166 @@ fn check_present<T>(
     is_present: bool,
 ) -> Result<(), ChangeError> {
     if values.is_empty() || is_present { Ok(()) } else { Err(ChangeError::NoSuchAttribute { attribute }) }
+}
+
+/// The vertices and corners of a mesh that one or several changes gave other values.
+/// It takes no more memory than a few numbers for each element, however many changes are
+/// added.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ChangedElements {
+    vertices: Elements,
+    corners: Elements,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+struct Elements {
+    /// Some more than once.
+    list: Vec<u32>,
+    /// How many there were when each was last there once.
+    distinct: usize,
+}
+
+impl ChangedElements {
+    /// Adds those of a change.
+    pub fn add(&mut self, change: &MeshChange) {
+        self.vertices.extend(change.positions.iter().map(|&(vertex, _)| vertex));
+        self.corners.extend(change.corners());
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.vertices.list.is_empty() && self.corners.list.is_empty()
+    }
+
+    /// A change that gives each of them the values that it has in a mesh.
+    ///
+    /// # Panics
+    ///
+    /// When the mesh has fewer elements than the one that was changed.
+    pub fn values_in(&self, mesh: &Mesh) -> MeshChange {
+        let (attributes, corners) = (mesh.attributes(), self.corners());
+        MeshChange {
+            positions: values(&self.vertices(), mesh.positions()),
+            corner_normals: values(&corners, attributes.corner_normals.as_deref().unwrap_or_default()),
+            uv_sets: attributes.uv_sets.iter().map(|set| values(&corners, set)).collect(),
+            corner_colors: values(&corners, attributes.corner_colors.as_deref().unwrap_or_default()),
+        }
+    }
+
+    /// The vertices, increasing.
+    #[must_use]
+    pub fn vertices(&self) -> Vec<u32> {
+        self.vertices.sorted()
+    }
+
+    /// The corners, increasing.
+    pub(super) fn corners(&self) -> Vec<u32> {
+        self.corners.sorted()
+    }
+}
+
+/// None of an attribute that the mesh does not have.
+fn values<T: Copy>(elements: &[u32], list: &[T]) -> Vec<(u32, T)> {
+    if list.is_empty() {
+        return Vec::new();
+    }
+    elements.iter().map(|&element| (element, list[element as usize])).collect()
+}
+
+impl Elements {
+    fn extend(&mut self, elements: impl Iterator<Item = u32>) {
+        /// Below this number nothing is gained by looking for what is there twice.
+        const FEW: usize = 4096;
+        self.list.extend(elements);
+        if self.list.len() > 2 * self.distinct + FEW {
+            self.list = self.sorted();
+            self.distinct = self.list.len();
+        }
+    }
+
+    fn sorted(&self) -> Vec<u32> {
+        let mut sorted = self.list.clone();
+        if !sorted.is_sorted() {
+            // Each change brings sorted elements as a rule, and a stable sort merges such runs: a
+            // quarter of the instructions for three changes of the same 10,000 elements.
+            sorted.sort();
+        }
+        sorted.dedup();
+        sorted
+    }
+}
+
+/// A bit for each element.
+pub(super) struct IndexSet(Vec<u64>);
+
+impl IndexSet {
+    pub(super) fn new(elements: usize) -> Self {
+        Self(vec![0; elements.div_ceil(64)])
+    }
+
+    pub(super) fn insert(&mut self, element: u32) {
+        self.0[element as usize / 64] |= 1 << (element % 64);
+    }
+
+    /// The elements, increasing: whoever follows them through the lists of a mesh finds them
+    /// in the order in which they lie in memory.
+    pub(super) fn into_sorted(self) -> Vec<u32> {
+        let mut sorted = Vec::with_capacity(self.0.iter().map(|word| word.count_ones() as usize).sum());
+        for (mut word, first) in self.0.into_iter().zip((0..).step_by(64)) {
+            while word != 0 {
+                sorted.push(first + word.trailing_zeros());
+                word &= word - 1;
+            }
+        }
+        sorted
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{IndexSet, *};
+    use crate::primitives;
+    use trigon_math::Vec3;
+
+    fn moves(vertices: impl IntoIterator<Item = u32>) -> MeshChange {
+        let positions = vertices.into_iter().map(|vertex| (vertex, Vec3::ZERO)).collect();
+        MeshChange { positions, ..MeshChange::default() }
+    }
+
+    #[test]
+    fn the_same_elements_again_and_again_take_no_more_memory() {
+        let mut changed = ChangedElements::default();
+        for _ in 0..100 {
+            changed.add(&moves((0..1000).rev()));
+        }
+        assert!(changed.vertices.list.len() < 10_000, "{} numbers", changed.vertices.list.len());
+        assert_eq!(changed.vertices(), (0..1000).collect::<Vec<_>>(), "each is known once, in order");
+    }
+
+    #[test]
+    fn values_are_those_of_the_mesh() {
+        let cube = primitives::cube(1.0);
+        let mut changed = ChangedElements::default();
+        assert!(changed.is_empty(), "nothing yet");
+        changed.add(&moves([7, 2, 7]));
+        changed.add(&MeshChange { corner_normals: vec![(3, Vec3::X)], ..MeshChange::default() });
+        let values = changed.values_in(&cube);
+        let at = |vertex: u32| (vertex, cube.positions()[vertex as usize]);
+        assert_eq!(values.positions, [at(2), at(7)], "not those of the changes");
+        assert_eq!(
+            values.corner_normals.len(),
+            cube.attributes().corner_normals.iter().len(),
+            "if it has any"
+        );
+        assert_eq!(values.uv_sets.len(), cube.attributes().uv_sets.len(), "all that a corner has");
+    }
+
+    #[test]
+    fn elements_are_listed_once_and_in_order() {
+        let mut set = IndexSet::new(130);
+        [129, 64, 0, 63, 64].into_iter().for_each(|element| set.insert(element));
+        assert_eq!(set.into_sorted(), [0, 63, 64, 129]);
+        assert_eq!(IndexSet::new(0).into_sorted(), [0_u32; 0], "of nothing");
+    }
 }

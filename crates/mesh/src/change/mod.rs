@@ -7,15 +7,11 @@
 //! neighbourhood and not on the whole mesh. The updated values are, to the bit, those of a
 //! [`RenderMesh`](crate::RenderMesh) made from the changed mesh.
 
-mod changed_elements;
-mod index_set;
 mod mesh_change;
 mod normals;
 mod render_links;
-mod vertex_values;
 
-pub use changed_elements::ChangedElements;
-pub use mesh_change::{ChangeError, MeshChange};
+pub use mesh_change::{ChangeError, ChangedElements, MeshChange};
 pub use render_links::{RenderLinks, RenderUpdate, UpdatedVertex};
 
 /// Faces or vertices per task: about a tenth of a millisecond's work, a few times what it takes to wake a thread.

@@ -10,43 +10,15 @@
 //! from outside. Curved surfaces carry exact corner normals and are marked
 //! smooth; the others are flat.
 
-mod circle;
-mod cone;
-mod cube;
-mod cylinder;
-mod disc;
-mod dodecahedron;
-mod icosahedron;
-mod icosphere;
-mod octahedron;
 mod plane;
-mod pyramid;
-mod ring;
+mod polyhedra;
+mod round;
 mod solid;
 mod teapot;
-mod teapot_table;
-mod tetrahedron;
-mod torus;
 mod torus_knot;
-mod uv_sphere;
-mod wires;
 
-pub use cube::cube;
-pub use dodecahedron::dodecahedron;
-pub use icosahedron::icosahedron;
-pub use octahedron::octahedron;
-pub use pyramid::pyramid;
-pub use tetrahedron::tetrahedron;
-
-pub use disc::disc;
-pub use plane::{grid, plane};
-
-pub use cone::cone;
-pub use cylinder::cylinder;
-pub use icosphere::icosphere;
+pub use plane::{grid, plane, polyline, ring, segment};
+pub use polyhedra::{cube, dodecahedron, icosahedron, octahedron, pyramid, tetrahedron};
+pub use round::{cone, cylinder, disc, icosphere, torus, uv_sphere};
 pub use teapot::teapot;
-pub use torus::torus;
 pub use torus_knot::{TorusKnot, torus_knot};
-pub use uv_sphere::uv_sphere;
-
-pub use wires::{polyline, ring, segment};

@@ -1,9 +1,10 @@
-//! Level rectangles, in one piece or in many.
+//! Level rectangles, in one piece or in many, and wire objects: points and edges without faces.
 
-use trigon_math::{DVec2, DVec3, Vec2};
+use trigon_math::{DVec2, DVec3, Vec2, Vec3};
 
+use super::round::{on_ground, turned};
 use super::solid::{MOST_PIECES, SQUARE, Solid, length};
-use crate::Mesh;
+use crate::{Mesh, MeshBuilder};
 
 /// A level rectangle that faces up: `width` metres along X, `depth` metres
 /// along Z. One quad with the whole image, whose top is at −Z.
@@ -34,8 +35,8 @@ pub fn grid(width: f32, depth: f32, columns: u32, rows: u32) -> Mesh {
     };
     for row in 0..=rows {
         for column in 0..=columns {
-            let place = (uv(column, row) - 0.5) * size;
-            solid.vertex(DVec3::new(place.x, 0.0, place.y).as_vec3());
+            let position = (uv(column, row) - 0.5) * size;
+            solid.vertex(DVec3::new(position.x, 0.0, position.y).as_vec3());
         }
     }
     for row in 0..rows {
@@ -46,4 +47,43 @@ pub fn grid(width: f32, depth: f32, columns: u32, rows: u32) -> Mesh {
         }
     }
     solid.build()
+}
+
+/// A line from one point to another.
+#[must_use]
+pub fn segment(from: Vec3, to: Vec3) -> Mesh {
+    polyline(&[from, to])
+}
+
+/// Lines from each point to the next. A single point is kept as a point.
+#[must_use]
+pub fn polyline(points: &[Vec3]) -> Mesh {
+    let mut builder = MeshBuilder::with_capacity(points.len(), 0, 0);
+    let vertices: Vec<u32> = points.iter().map(|&point| builder.push_vertex(point)).collect();
+    for ends in vertices.windows(2) {
+        connect(&mut builder, ends[0], ends[1]);
+    }
+    if let [single] = vertices[..] {
+        builder.push_loose_point(single).expect("the point was pushed just before");
+    }
+    builder.build()
+}
+
+/// A level circle of `segments` lines, 3 to 2048.
+#[must_use]
+pub fn ring(radius: f32, segments: u32) -> Mesh {
+    let segments = segments.clamp(3, MOST_PIECES);
+    let radius = f64::from(length(radius));
+    let mut builder = MeshBuilder::with_capacity(segments as usize, 0, 0);
+    for i in 0..segments {
+        builder.push_vertex((on_ground(turned(i, segments)) * radius).as_vec3());
+    }
+    for i in 0..segments {
+        connect(&mut builder, i, (i + 1) % segments);
+    }
+    builder.build()
+}
+
+fn connect(builder: &mut MeshBuilder, from: u32, to: u32) {
+    builder.push_loose_edge(from, to).expect("both points were pushed, as different vertices");
 }

@@ -2,8 +2,8 @@
 
 use trigon_math::DVec3;
 
-use super::circle::{on_ground, turned};
-use super::ring::{Ring, band};
+use super::round::{Ring, band};
+use super::round::{on_ground, turned};
 use super::solid::{MOST_PIECES, Solid, length};
 use crate::Mesh;
 
@@ -55,11 +55,11 @@ pub fn torus_knot(shape: &TorusKnot) -> Mesh {
     let faces = (segments * sides) as usize;
     let mut solid = Solid::with_capacity(faces, faces, 4 * faces);
     let mut ring = |i: u32| {
-        let [centre, right, up] = curve.frame(i, segments);
+        let [center, right, up] = curve.frame(i, segments);
         let points = (0..sides).map(|j| {
             let across = turned(j, sides);
             let normal = right * across.x + up * across.y;
-            (centre + normal * tube, normal)
+            (center + normal * tube, normal)
         });
         Ring::new(&mut solid, 1.0 - f64::from(i) / f64::from(segments), points)
     };
@@ -102,12 +102,12 @@ impl Curve {
         let onwards = on_ground(round.perp());
         let out = outwards * across.x + DVec3::Y * across.y;
         let over = DVec3::Y * across.x - outwards * across.y;
-        let centre = outwards * self.major + out * self.minor;
+        let center = outwards * self.major + out * self.minor;
         let [turns, loops] = [self.turns, self.loops].map(f64::from);
         let distance = self.major + self.minor * across.x;
         let along = onwards * (distance * turns) + over * (self.minor * loops);
         let left = along.cross(out).normalize();
-        [centre, out, left]
+        [center, out, left]
     }
 }
 
@@ -123,11 +123,11 @@ mod tests {
     fn frames_are_square_to_the_curve() {
         let curve = Curve::new(&TorusKnot::default());
         for i in 0..360 {
-            let [centre, out, left] = curve.frame(i, 360);
+            let [center, out, left] = curve.frame(i, 360);
             let ahead = curve.frame((i + 1) % 360, 360)[0] - curve.frame((i + 359) % 360, 360)[0];
             assert!(out.dot(left).abs() < 1e-12, "the frame at {i} is not square");
             let slant = ahead.normalize().dot(out).abs().max(ahead.normalize().dot(left).abs());
-            assert!(slant < 0.02, "the frame at {i} ({centre}) leans by {slant}");
+            assert!(slant < 0.02, "the frame at {i} ({center}) leans by {slant}");
             assert!(out.cross(left).dot(ahead) > 0.0, "the frame at {i} looks back");
         }
     }

@@ -66,7 +66,7 @@ pub(super) struct EarCutter {
     /// Corners that can be in the way: not convex at first, or not alone in
     /// their place. Cutting ears makes no corner less convex.
     blockers: Vec<u32>,
-    by_place: Vec<u32>,
+    by_position: Vec<u32>,
     /// Whether a corner is not alone in its place.
     shared: Vec<bool>,
     /// How many tests of such corners are left.
@@ -131,7 +131,7 @@ impl EarCutter {
     /// a hole in another.
     fn cut_loops(&mut self, points: &[DVec2], triangles: &mut Vec<[u32; 3]>) -> bool {
         let mut loops = std::mem::take(&mut self.loops);
-        loops.find(points, &self.by_place);
+        loops.find(points, &self.by_position);
         let are_outlines = loops.are_outlines(points);
         if are_outlines {
             let (mut own, mut cut) = (Vec::new(), Vec::new());
@@ -162,24 +162,24 @@ impl EarCutter {
     }
 
     fn find_blockers(&mut self, points: &[DVec2]) {
-        let place = |i: u32| points[i as usize];
-        refill(&mut self.by_place, 0..points.len() as u32);
-        self.by_place.sort_unstable_by(|&i, &j| {
-            let (a, b) = (place(i), place(j));
+        let position = |i: u32| points[i as usize];
+        refill(&mut self.by_position, 0..points.len() as u32);
+        self.by_position.sort_unstable_by(|&i, &j| {
+            let (a, b) = (position(i), position(j));
             let by_x = a.x.partial_cmp(&b.x);
             let by_y = a.y.partial_cmp(&b.y);
             let finite = "the caller has checked that points are finite";
             by_x.expect(finite).then(by_y.expect(finite)).then(i.cmp(&j))
         });
         refill(&mut self.shared, points.iter().map(|_| false));
-        for pair in self.by_place.windows(2).filter(|pair| place(pair[0]) == place(pair[1])) {
+        for pair in self.by_position.windows(2).filter(|pair| position(pair[0]) == position(pair[1])) {
             pair.iter().for_each(|&i| self.shared[i as usize] = true);
         }
         let all = 0..points.len() as u32;
         refill(&mut self.blockers, all.clone().filter(|&i| self.shared[i as usize]));
         for i in all {
             let (a, c) = (self.previous[i as usize], self.next[i as usize]);
-            let convex = is_left_turn(place(a), place(i), place(c));
+            let convex = is_left_turn(position(a), position(i), position(c));
             if !convex && !self.shared[i as usize] {
                 self.blockers.push(i);
             }
@@ -260,10 +260,10 @@ impl EarCutter {
     /// Whether nothing of the polygon enters the triangle of an ear or touches
     /// its third side.
     fn is_free(&self, points: &[DVec2], ear: [u32; 3]) -> bool {
-        let place = |i: u32| points[i as usize];
-        let triangle = Triangle(ear.map(place));
-        let before = place(self.previous[ear[0] as usize]);
-        let after = place(self.next[ear[2] as usize]);
+        let position = |i: u32| points[i as usize];
+        let triangle = Triangle(ear.map(position));
+        let before = position(self.previous[ear[0] as usize]);
+        let after = position(self.next[ear[2] as usize]);
         if triangle.is_entered_towards(before, AT_FIRST_CORNER)
             || triangle.is_entered_towards(after, AT_LAST_CORNER)
         {
@@ -275,12 +275,12 @@ impl EarCutter {
                 self.tests_left.set(self.tests_left.get().saturating_sub(1));
             }
             let around = [self.previous[i as usize], self.next[i as usize]];
-            let point = place(i);
+            let point = position(i);
             self.present[i as usize]
                 && !ear.contains(&i)
                 && low.cmple(point).all()
                 && high.cmpge(point).all()
-                && triangle.is_entered_at(point, around.map(place))
+                && triangle.is_entered_at(point, around.map(position))
         })
     }
 }

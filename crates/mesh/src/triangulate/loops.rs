@@ -19,23 +19,23 @@ pub(super) struct Loops {
     /// The way since the last loop was cut off.
     way: Vec<u32>,
     /// The number of the place of each corner.
-    places: Vec<u32>,
+    position_ids: Vec<u32>,
     /// For each place where on the way it is.
     on_way: Vec<u32>,
 }
 
 impl Loops {
     /// Finds those with at least three corners. `by_place` has all corners, those in one place next to each other.
-    pub(super) fn find(&mut self, points: &[DVec2], by_place: &[u32]) {
+    pub(super) fn find(&mut self, points: &[DVec2], by_position: &[u32]) {
         self.corners.clear();
         self.ends.clear();
         self.way.clear();
-        self.number_places(points, by_place);
+        self.number_positions(points, by_position);
         for corner in 0..points.len() as u32 {
-            let place = self.places[corner as usize] as usize;
-            match self.on_way[place] {
+            let position = self.position_ids[corner as usize] as usize;
+            match self.on_way[position] {
                 NOWHERE => {
-                    self.on_way[place] = self.way.len() as u32;
+                    self.on_way[position] = self.way.len() as u32;
                     self.way.push(corner);
                 }
                 start => self.cut_off(start as usize),
@@ -44,14 +44,14 @@ impl Loops {
         self.cut_off(0);
     }
 
-    fn number_places(&mut self, points: &[DVec2], by_place: &[u32]) {
-        self.places.clear();
-        self.places.resize(points.len(), 0);
+    fn number_positions(&mut self, points: &[DVec2], by_position: &[u32]) {
+        self.position_ids.clear();
+        self.position_ids.resize(points.len(), 0);
         let mut number = 0;
-        for (rank, &corner) in by_place.iter().enumerate() {
-            let is_new = rank > 0 && points[by_place[rank - 1] as usize] != points[corner as usize];
+        for (rank, &corner) in by_position.iter().enumerate() {
+            let is_new = rank > 0 && points[by_position[rank - 1] as usize] != points[corner as usize];
             number += u32::from(is_new);
-            self.places[corner as usize] = number;
+            self.position_ids[corner as usize] = number;
         }
         self.on_way.clear();
         self.on_way.resize(points.len(), NOWHERE);
@@ -65,7 +65,7 @@ impl Loops {
             self.ends.push(self.corners.len() as u32);
         }
         for &corner in found.iter().skip(1) {
-            self.on_way[self.places[corner as usize] as usize] = NOWHERE;
+            self.on_way[self.position_ids[corner as usize] as usize] = NOWHERE;
         }
         self.way.truncate(start + 1);
     }
@@ -88,11 +88,12 @@ impl Loops {
 
 /// An outline turns left at its first place from the left, or nowhere.
 fn is_outline(points: &[DVec2], corners: &[u32]) -> bool {
-    let place = |at: usize| points[corners[at % corners.len()] as usize];
+    let position = |at: usize| points[corners[at % corners.len()] as usize];
     let count = corners.len();
-    let turn_at = |at: usize| turn(place(at + count - 1), place(at), place(at + 1));
+    let turn_at = |at: usize| turn(position(at + count - 1), position(at), position(at + 1));
     let is_before = |a: DVec2, b: DVec2| a.x < b.x || (a.x == b.x && a.y < b.y);
-    let first = (1..count).fold(0, |first, at| if is_before(place(at), place(first)) { at } else { first });
+    let first =
+        (1..count).fold(0, |first, at| if is_before(position(at), position(first)) { at } else { first });
     match turn_at(first) {
         0 => (0..count).all(|at| turn_at(at) == 0),
         turn => turn > 0,
@@ -104,15 +105,15 @@ mod tests {
     use super::*;
     use crate::triangulate::ears::EarCutter;
 
-    fn points(places: &[[i32; 2]]) -> Vec<DVec2> {
-        places.iter().map(|&[x, y]| DVec2::new(x.into(), y.into())).collect()
+    fn points(position_ids: &[[i32; 2]]) -> Vec<DVec2> {
+        position_ids.iter().map(|&[x, y]| DVec2::new(x.into(), y.into())).collect()
     }
 
     fn loops(points: &[DVec2]) -> Loops {
-        let mut by_place: Vec<u32> = (0..points.len() as u32).collect();
-        by_place.sort_by_key(|&i| (points[i as usize].x as i64, points[i as usize].y as i64));
+        let mut by_position: Vec<u32> = (0..points.len() as u32).collect();
+        by_position.sort_by_key(|&i| (points[i as usize].x as i64, points[i as usize].y as i64));
         let mut loops = Loops::default();
-        loops.find(points, &by_place);
+        loops.find(points, &by_position);
         loops
     }
 
@@ -147,8 +148,8 @@ mod tests {
             assert!(triangles.len() <= corners.len() - 2, "{} triangles", triangles.len());
             assert!(count.is_none_or(|count| count == triangles.len()), "{} triangles", triangles.len());
             let area = |[a, b, c]: [u32; 3]| {
-                let place = |i: u32| corners[i as usize];
-                (place(b) - place(a)).perp_dot(place(c) - place(a))
+                let position = |i: u32| corners[i as usize];
+                (position(b) - position(a)).perp_dot(position(c) - position(a))
             };
             assert!(triangles.iter().all(|&triangle| area(triangle) > 0.0), "none is turned over");
         }
