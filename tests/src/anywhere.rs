@@ -11,7 +11,7 @@ use trigon_math::elementary::exp2;
 use trigon_raster::{Culling, Draw, ExecuteSettings, Output, Pass, Target, TargetImages, TileSize};
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::area::rational;
-use trigon_study::oracle::coverage::{centre, covers, doubled_area};
+use trigon_study::oracle::coverage::{covers, doubled_area, pixel_center};
 use trigon_study::oracle::depth::Plane;
 
 /// Width and height of the image.
@@ -73,7 +73,7 @@ proptest! {
         let points = moved(points, at);
         let ids = drawn(points, [[0.5, 1.0]; 3], tile_size).triangles.expect("asked for");
         for (pixel, index) in window(at) {
-            prop_assert_eq!(ids[index] == 0, covers(points, centre(pixel)), "{:?} at {:?}", points, pixel);
+            prop_assert_eq!(ids[index] == 0, covers(points, pixel_center(pixel)), "{:?} at {:?}", points, pixel);
         }
         let within = window(at).filter(|(_, index)| ids[*index] == 0).count();
         prop_assert_eq!(ids.iter().filter(|id| **id == 0).count(), within, "and nothing else is covered");
@@ -99,13 +99,13 @@ proptest! {
         let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(f64::from(value.abs())));
         // Rationals are slow: every seventh pixel.
         for (pixel, index) in window(at).filter(|(_, index)| ids[*index] == 0).step_by(7) {
-            let exact = plane.at(centre(pixel)).expect("what is seen has an area");
+            let exact = plane.at(pixel_center(pixel)).expect("what is seen has an area");
             let bound = rational(bound(&plane));
             // Half a unit of the last place of f32; less among the denormal ones.
             let rounded = rational(exp2(-24.0)) * (&exact + &bound) + rational(exp2(-150.0));
             let error = (rational(depth[index]) - exact).abs();
             prop_assert!(error <= bound + rounded, "{} of {plane:?} at {pixel:?}", depth[index]);
-            let error = (f64::from(colors[index].x) - value_at(points, values, centre(pixel))).abs();
+            let error = (f64::from(colors[index].x) - value_at(points, values, pixel_center(pixel))).abs();
             prop_assert!(error <= ROUNDED * largest, "{} of {values:?} at {pixel:?}", colors[index].x);
         }
     }

@@ -8,7 +8,7 @@ use trigon_math::glam::camera::rh::proj::directx::perspective_infinite_reverse;
 use trigon_math::{Mat4, Vec4, elementary};
 use trigon_raster::{BlendMode, Culling, Draw, Output, Pass, Rasterizer, Target};
 use trigon_study::oracle::GridPoint;
-use trigon_study::oracle::coverage::{centre, covers};
+use trigon_study::oracle::coverage::{covers, pixel_center};
 
 /// Points that meet pixel centres and each other often, anywhere in and around
 /// the image, or far out in the guard band.
@@ -43,7 +43,7 @@ fn check_against_oracle(points: [GridPoint; 3]) {
     pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &[[0, 1, 2]]) });
     let seen = draw(&pass).triangles.expect("asked for");
     for (index, (&count, &id)) in counts.iter().zip(&seen).enumerate() {
-        let expected = covers(points, centre(pixel(index)));
+        let expected = covers(points, pixel_center(pixel(index)));
         assert_eq!(count, u32::from(expected), "translucent {points:?} at {:?}", pixel(index));
         assert_eq!(id == 0, expected, "opaque {points:?} at {:?}", pixel(index));
     }
@@ -67,7 +67,7 @@ proptest! {
         let triangles = [[0, 1, 2], [0, 1, 3]];
         let counts = count(&Values::on_grid(&[a, b, c, d]), &triangles);
         for (index, &count) in counts.iter().enumerate() {
-            let expected = u32::from(covers([a, b, c], centre(pixel(index)))) + u32::from(covers([a, b, d], centre(pixel(index))));
+            let expected = u32::from(covers([a, b, c], pixel_center(pixel(index)))) + u32::from(covers([a, b, d], pixel_center(pixel(index))));
             prop_assert_eq!(count, expected);
             prop_assert!(count <= 1, "covered twice at {:?}", pixel(index));
         }
@@ -87,7 +87,7 @@ proptest! {
         prop_assert!(images[0] == images[2], "reversed");
         let triangles = images[0].triangles.as_ref().expect("asked for");
         for (index, &shown) in triangles.iter().enumerate() {
-            prop_assert_eq!(shown == 0, covers(points, centre(pixel(index))), "at {:?}", pixel(index));
+            prop_assert_eq!(shown == 0, covers(points, pixel_center(pixel(index))), "at {:?}", pixel(index));
         }
     }
 
@@ -97,8 +97,8 @@ proptest! {
         let [before, after] = [points, moved].map(|points| count(&Values::on_grid(&points), &[[0, 1, 2]]));
         for (index, &count) in before.iter().enumerate() {
             let [x, y] = pixel(index);
-            prop_assert_eq!(count, u32::from(covers(points, centre([x, y]))), "at {:?}", [x, y]);
-            prop_assert_eq!(after[index], u32::from(covers(moved, centre([x, y]))), "moved, at {:?}", [x, y]);
+            prop_assert_eq!(count, u32::from(covers(points, pixel_center([x, y]))), "at {:?}", [x, y]);
+            prop_assert_eq!(after[index], u32::from(covers(moved, pixel_center([x, y]))), "moved, at {:?}", [x, y]);
             if (0..SIDE).contains(&(x + dx)) && (0..SIDE).contains(&(y + dy)) {
                 prop_assert_eq!(count, after[((y + dy) * SIDE + x + dx) as usize]);
             }

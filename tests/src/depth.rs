@@ -10,7 +10,7 @@ use trigon_raster::{
     BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Output, Pass, Stats, TargetImages,
 };
 use trigon_study::oracle::GridPoint;
-use trigon_study::oracle::coverage::{centre, covers};
+use trigon_study::oracle::coverage::{covers, pixel_center};
 use trigon_study::oracle::depth::Plane;
 
 const QUAD: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
@@ -228,12 +228,12 @@ fn any_point() -> impl Strategy<Value = GridPoint> {
 
 /// The depth of a triangle at a pixel's centre, if it covers that.
 fn exact_depth(corners: [(GridPoint, f64); 3], pixel: [i32; 2]) -> Option<f64> {
-    let sample = centre(pixel).map(i64::from);
+    let sample = pixel_center(pixel).map(i64::from);
     let relative =
         corners.map(|(point, _)| [i64::from(point[0]) - sample[0], i64::from(point[1]) - sample[1]]);
     let cross = |i: usize, j: usize| relative[i][0] * relative[j][1] - relative[i][1] * relative[j][0];
     let edges = [cross(1, 2), cross(2, 0), cross(0, 1)];
     let area: i64 = edges.iter().sum();
-    let covered = covers(corners.map(|(point, _)| point), centre(pixel));
+    let covered = covers(corners.map(|(point, _)| point), pixel_center(pixel));
     covered.then(|| (0..3).map(|i| edges[i] as f64 / area as f64 * corners[i].1).sum())
 }

@@ -9,7 +9,7 @@ use trigon_raster::{
     BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, TargetImages, VertexOutput,
 };
 use trigon_study::oracle::GridPoint;
-use trigon_study::oracle::coverage::{centre, covers, sample_points};
+use trigon_study::oracle::coverage::{covers, pixel_center, sample_points};
 
 /// White on one side of a line across the screen: that on which a linear varying
 /// is positive.
@@ -98,7 +98,7 @@ proptest! {
             let covered: Vec<_> =
                 sample_points(samples, pixel(index)).filter(|&point| covers(shape.corners, point)).collect();
             let Some(&first) = covered.first() else { continue };
-            let centre = centre(pixel(index));
+            let centre = pixel_center(pixel(index));
             let place = if covers(shape.corners, centre) { centre } else { first };
             if is_close_to_the_line(&shape, place) {
                 continue;

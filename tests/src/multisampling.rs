@@ -9,7 +9,7 @@ use trigon_math::{UVec2, Vec4};
 use trigon_raster::{
     BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, TargetImages, VertexOutput,
 };
-use trigon_study::oracle::coverage::{centre, covers, mask, sample_points, standard_positions};
+use trigon_study::oracle::coverage::{covers, mask, pixel_center, sample_points, standard_positions};
 
 fn pattern() -> impl Strategy<Value = u32> {
     prop_oneof![Just(2_u32), Just(4), Just(8), Just(16)]
@@ -129,7 +129,7 @@ proptest! {
             let covered: Vec<_> =
                 sample_points(samples, pixel(index)).filter(|&point| covers(points, point)).collect();
             let Some(&lowest) = covered.first() else { continue };
-            let centre = centre(pixel(index));
+            let centre = pixel_center(pixel(index));
             let expected = if covers(points, centre) { centre } else { lowest };
             let share = covered.len() as f32 / samples as f32;
             let place = [color.x, color.y].map(|v| v / share * 256.0);

@@ -91,7 +91,7 @@ const MOST_JPEG: u32 = 65_535;
 const MOST_WEBP: u32 = 16_384;
 
 /// Writes a JPEG file of quality 90; `rgba` is sRGB with straight alpha, rows from the top. The
-/// file is written atomically, as with [`write_png`](crate::write_png).
+/// file is written atomically, as with [`write_png`].
 ///
 /// # Errors
 /// The sizes do not match, or the file cannot be written.
@@ -110,7 +110,7 @@ pub fn encode_jpeg(writer: impl Write, width: u32, height: u32, rgba: &[u8]) -> 
 }
 
 /// Writes a lossless WebP file; `rgba` is sRGB with straight alpha, rows from the top. The file is
-/// written atomically, as with [`write_png`](crate::write_png).
+/// written atomically, as with [`write_png`].
 ///
 /// # Errors
 /// The sizes do not match, or the file cannot be written.

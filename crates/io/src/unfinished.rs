@@ -13,7 +13,7 @@ fn list() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Creates a file that must not exist yet, not even as a link, and that [`end_on_signals`](crate::end_on_signals)
+/// Creates a file that must not exist yet, not even as a link, and that [`end_on_signals`]
 /// removes until [`forget_unfinished`] is called.
 ///
 /// # Errors

@@ -109,7 +109,7 @@ impl Mesh {
     }
 }
 
-/// What an editor knows of a [`Mesh`](crate::Mesh) besides its elements and attributes: original positions,
+/// What an editor knows of a [`Mesh`] besides its elements and attributes: original positions,
 /// marks of edges, hidden elements. Elements are named by the mesh's indices. Nothing is drawn of them, and
 /// files keep them with the mesh.
 #[derive(Debug, Clone, Default, PartialEq)]

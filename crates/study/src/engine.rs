@@ -47,7 +47,7 @@ impl Engine {
     }
 
     /// The triangle visible in each pixel, `u32::MAX` for none.
-    pub(crate) fn seen(&mut self, shape: &Corners, size: [usize; 2]) -> Field<u32> {
+    pub(crate) fn visible(&mut self, shape: &Corners, size: [usize; 2]) -> Field<u32> {
         let mut target = target(size, &[Output::Triangle]);
         self.draw(shape, &mut target);
         field(size, target.triangles()).map(|&triangle| triangle)

@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use trigon_math::Vec4;
 use trigon_raster::{BlendMode, Culling, Draw, ExecuteSettings, Pass};
 use trigon_study::oracle::GridPoint;
-use trigon_study::oracle::coverage::{centre, covers};
+use trigon_study::oracle::coverage::{covers, pixel_center};
 
 /// The four directions in which edges run through the centres of many pixels.
 const DIRECTIONS: [[i32; 2]; 4] = [[1, 0], [0, 1], [1, 1], [1, -1]];
@@ -34,7 +34,7 @@ proptest! {
         along in -3000..3000_i32,
         away in prop_oneof![-3000..-1_i32, 1..3000_i32],
     ) {
-        let sample = centre(at);
+        let sample = pixel_center(at);
         let moved = |steps: i32, [x, y]: [i32; 2]| [sample[0] + steps * x, sample[1] + steps * y];
         let across = [-direction[1], direction[0]];
         let apex = moved(along, direction);
@@ -63,7 +63,7 @@ proptest! {
         let snapped: [GridPoint; 3] = quarters.map(|corner| corner.map(nearest_even));
         let counts = count(&Values::ones(exact), &[[0, 1, 2]]);
         for (index, &count) in counts.iter().enumerate() {
-            prop_assert_eq!(count, u32::from(covers(snapped, centre(pixel(index)))), "at {:?}", pixel(index));
+            prop_assert_eq!(count, u32::from(covers(snapped, pixel_center(pixel(index)))), "at {:?}", pixel(index));
         }
     }
 }

@@ -10,7 +10,7 @@ use trigon_math::{Bounds3, DVec3, Vec4, elementary};
 use trigon_raster::{Culling, Draw, Pass, TargetImages};
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::area::rational;
-use trigon_study::oracle::coverage::{centre, covers};
+use trigon_study::oracle::coverage::{covers, pixel_center};
 use trigon_study::oracle::depth::Plane;
 
 fn images(vertices: Vec<Vec4>, triangles: &[[u32; 3]]) -> TargetImages {
@@ -53,7 +53,7 @@ proptest! {
             let images = images(vertices, &fan);
             let (ids, depths) = (images.triangles.expect("asked for"), images.depth.expect("asked for"));
             for (index, &found) in depths.iter().enumerate().filter(|&(index, _)| ids[index] != u32::MAX) {
-                let exact = f64::from(depth_at(centre(pixel(index)))) / f64::from(1 << 24);
+                let exact = f64::from(depth_at(pixel_center(pixel(index)))) / f64::from(1 << 24);
                 prop_assert_eq!(f64::from(found), exact, "at {:?}", pixel(index));
             }
         }
@@ -74,7 +74,7 @@ proptest! {
         let vertices = planes.iter().flat_map(|plane| [0, 1, 2].map(|i| clip_position(corners[i], plane.depths[i])));
         let ids = images(vertices.collect(), &[[0, 1, 2], [3, 4, 5]]).triangles.expect("asked for");
         for (index, &id) in ids.iter().enumerate().step_by(5) {
-            let sample = centre(pixel(index));
+            let sample = pixel_center(pixel(index));
             if !covers(corners, sample) {
                 continue;
             }

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use trigon_math::{Vec4, elementary};
 use trigon_raster::{Culling, Draw, Pass};
 use trigon_study::oracle::GridPoint;
-use trigon_study::oracle::coverage::{centre, covers, doubled_area, mask};
+use trigon_study::oracle::coverage::{covers, doubled_area, mask, pixel_center};
 
 /// A direction with no common divisor, so that the edge along it meets no points of
 /// the grid between its ends.
@@ -53,7 +53,7 @@ pub(crate) fn sliver() -> impl Strategy<Value = [GridPoint; 3]> {
     ([0..SIDE, 0..SIDE], direction(), [1..3_i32, 1..3], thickness, any::<bool>()).prop_map(
         |(at, direction, times, thickness, turned)| {
             let [a, b, c] =
-                at_sample(centre(at), direction, times, if thickness == 0 { 1 } else { thickness });
+                at_sample(pixel_center(at), direction, times, if thickness == 0 { 1 } else { thickness });
             if turned { [a, c, b] } else { [a, b, c] }
         },
     )
@@ -90,7 +90,7 @@ proptest! {
         let parts = [[0, 1, 2], [1, 3, 2], [3, 0, 2]];
         let counts = count(&Values::on_grid(&[a, b, c, apex]), &parts);
         for (index, &count) in counts.iter().enumerate() {
-            prop_assert_eq!(count, u32::from(covers(whole, centre(pixel(index)))), "at {:?}", pixel(index));
+            prop_assert_eq!(count, u32::from(covers(whole, pixel_center(pixel(index)))), "at {:?}", pixel(index));
         }
     }
 
@@ -132,7 +132,7 @@ fn slivers_are_thin_and_hold_samples() {
     let mut seen = 0;
     for direction in [[5807, 7919], [-7919, 5807], [9000, 1], [3, -8999]] {
         for thickness in [1, -1] {
-            let sample = centre([SIDE / 2; 2]);
+            let sample = pixel_center([SIDE / 2; 2]);
             let sliver = at_sample(sample, direction, [1, 1], thickness);
             // In square pixels: half of 2/65536.
             assert_eq!(doubled_area(sliver).abs(), 2, "{direction:?}: area 2^-16");

@@ -100,7 +100,7 @@ impl Document {
         self.state.file.clone()
     }
 
-    /// Adds the contents of a loaded file, as [`ImportFile`](crate::ImportFile) does with its path, without
+    /// Adds the contents of a loaded file, as [`ImportFile`] does with its path, without
     /// reading it again.
     ///
     /// # Errors

@@ -201,7 +201,7 @@ fn write_list(scene: &Scene, to: &mut Writer<'_>) {
     }
 }
 
-/// Reads what [`write`] wrote.
+/// Reads what [`write`](fn@write) wrote.
 pub(super) fn read(scene: &mut Scene, from: &mut Reader<'_>) -> Result<(), Damage> {
     while !from.is_at_end() {
         match u8::read(from)? {

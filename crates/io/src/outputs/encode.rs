@@ -23,7 +23,7 @@ const ALIGNMENT: usize = 64;
 /// of a pixel, bit for bit. Depth and ids have the shape (height, width), all else has
 /// the numbers of a pixel as a third axis. Ids are u4, colours u1, all else f4.
 ///
-/// As with [`write_png`](crate::write_png), an old file is replaced whole or not at all.
+/// As with [`write_png`], an old file is replaced whole or not at all.
 ///
 /// # Errors
 /// When the frame does not hold the output, or the file cannot be written.
@@ -108,7 +108,7 @@ type Channel = AnyChannel<FlatSamples>;
 /// | albedo | `albedo.R` `.G` `.B` |
 ///
 /// All but a colour is, bit for bit, what the frame holds. As with
-/// [`write_png`](crate::write_png), an old file is replaced whole or not at all.
+/// [`write_png`], an old file is replaced whole or not at all.
 ///
 /// # Errors
 /// When the frame holds nothing, or the file cannot be written.
@@ -231,7 +231,7 @@ const STEP: f32 = 1e-3;
 ///   background, which has none, is (32768, 32768, 32768).
 ///
 /// All other outputs are refused: colours have only 8 bits, which
-/// [`write_png`](crate::write_png) writes, and the rest has no range of its own.
+/// [`write_png`] writes, and the rest has no range of its own.
 ///
 /// # Errors
 /// When the frame does not hold the output, a value of it does not fit, or the file

@@ -13,7 +13,7 @@ use super::write::WriteError;
 
 pub use encode::{encode_exr, encode_npy, encode_png16, write_exr, write_npy, write_origin_npy, write_png16};
 
-/// One of the things that a [`Frame`](trigon_scene::Frame) can hold.
+/// One of the things that a [`Frame`] can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Output {
     /// [`Frame::color`](trigon_scene::Frame::color).

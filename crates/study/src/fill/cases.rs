@@ -6,7 +6,7 @@ use trigon_math::{DVec2, SplitMix64, Vec2, elementary};
 /// A tiling of the image. Its corners are multiples of 1/16384 pixel (of the fan's
 /// rim, of 1/512), which `f32` holds exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Case {
+pub enum Tiling {
     /// A grid of squares of about 16 pixels, its corners moved about, each square cut in
     /// two.
     Tiles,
@@ -17,7 +17,7 @@ pub enum Case {
     Fan,
 }
 
-impl Case {
+impl Tiling {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Tiles, Self::Lattice, Self::Fan];
 
@@ -49,9 +49,9 @@ pub fn tiles(side: usize, square: f64, unit: f64, seed: u64) -> Vec<Triangle> {
     let mut random = SplitMix64::new(seed);
     let count = (side as f64 / square).ceil() as usize + 3;
     let mut corner = |index: usize| {
-        let place = DVec2::new((index % count) as f64, (index / count) as f64) - 1.0;
+        let position = DVec2::new((index % count) as f64, (index / count) as f64) - 1.0;
         let moved = DVec2::new(random.between(-0.25, 0.25), random.between(-0.25, 0.25));
-        on_grid((place + moved) * square, unit)
+        on_grid((position + moved) * square, unit)
     };
     let corners: Vec<Vec2> = (0..count * count).map(&mut corner).collect();
     let squares = (0..count - 1).flat_map(|y| (0..count - 1).map(move |x| y * count + x));

@@ -2,27 +2,27 @@
 //! evaluated at the pixel's upper left corner, as in the source. So the image is off by half a pixel, and
 //! pixels on a shared edge are painted twice.
 
-use super::{Canvas, Triangle, range};
+use super::{FillCanvas, Triangle, range};
 use trigon_math::Vec2;
 
 /// At every pixel of the screen.
-pub(super) fn fill_on_screen(triangle: &Triangle, canvas: &mut Canvas) {
+pub(super) fn fill_on_screen(triangle: &Triangle, canvas: &mut FillCanvas) {
     let [width, height] = canvas.limits();
     test([[0, width - 1], [0, height - 1]], Vec2::ZERO, triangle, canvas);
 }
 
 /// At every pixel of the bounding box.
-pub(super) fn fill_in_box(triangle: &Triangle, canvas: &mut Canvas) {
+pub(super) fn fill_in_box(triangle: &Triangle, canvas: &mut FillCanvas) {
     test(bounding_box(triangle, canvas), Vec2::ZERO, triangle, canvas);
 }
 
 /// The same at the middle of each pixel.
-pub(super) fn fill_at_centers(triangle: &Triangle, canvas: &mut Canvas) {
+pub(super) fn fill_at_centers(triangle: &Triangle, canvas: &mut FillCanvas) {
     test(bounding_box(triangle, canvas), Vec2::splat(0.5), triangle, canvas);
 }
 
 /// The first and the last column and row that a triangle can reach in the image.
-pub(super) fn bounding_box(triangle: &Triangle, canvas: &Canvas) -> [[i32; 2]; 2] {
+pub(super) fn bounding_box(triangle: &Triangle, canvas: &FillCanvas) -> [[i32; 2]; 2] {
     let [width, height] = canvas.limits();
     let within = |values: [f32; 3], side: i32| {
         let [low, high] = range(values);
@@ -31,7 +31,7 @@ pub(super) fn bounding_box(triangle: &Triangle, canvas: &Canvas) -> [[i32; 2]; 2
     [within(triangle.map(|corner| corner.x), width), within(triangle.map(|corner| corner.y), height)]
 }
 
-fn test([columns, rows]: [[i32; 2]; 2], sample: Vec2, triangle: &Triangle, canvas: &mut Canvas) {
+fn test([columns, rows]: [[i32; 2]; 2], sample: Vec2, triangle: &Triangle, canvas: &mut FillCanvas) {
     let [a, b, c] = clockwise(*triangle);
     for y in rows[0]..=rows[1] {
         for x in columns[0]..=columns[1] {

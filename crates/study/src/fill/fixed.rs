@@ -1,10 +1,10 @@
 //! Corners are snapped to a sub-pixel grid; from there on, exact integers with the top-left rule.
 
-use super::{Canvas, Triangle};
+use super::{FillCanvas, Triangle};
 use trigon_classic::Edges;
 
 /// With `BITS` fractional bits.
-pub(super) fn fill<const BITS: u32>(triangle: &Triangle, canvas: &mut Canvas) {
+pub(super) fn fill<const BITS: u32>(triangle: &Triangle, canvas: &mut FillCanvas) {
     if let Some(edges) = edges(triangle, BITS) {
         fill_edges(&edges, canvas);
     }
@@ -19,7 +19,7 @@ pub(super) fn edges(triangle: &Triangle, bits: u32) -> Option<Edges> {
 }
 
 /// Pixel by pixel of the bounding box.
-pub(super) fn fill_edges(edges: &Edges, canvas: &mut Canvas) {
+pub(super) fn fill_edges(edges: &Edges, canvas: &mut FillCanvas) {
     let [columns, rows] = edges.bounding_box(canvas.limits());
     for y in rows {
         for x in columns.clone() {

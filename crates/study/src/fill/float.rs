@@ -8,12 +8,12 @@
 //! edge.
 
 use super::edges::{clockwise, edge};
-use super::{Canvas, Triangle, range};
+use super::{FillCanvas, Triangle, range};
 use std::ops::RangeInclusive;
 use trigon_math::Vec2;
 
 /// Each edge from its two corners in each pixel.
-pub(super) fn fill_from_corners(triangle: &Triangle, canvas: &mut Canvas) {
+pub(super) fn fill_from_corners(triangle: &Triangle, canvas: &mut FillCanvas) {
     let [a, b, c] = clockwise(*triangle);
     let [columns, rows] = bounding_box(triangle, canvas.limits());
     for y in rows {
@@ -39,7 +39,7 @@ fn has_border(from: Vec2, to: Vec2) -> bool {
 }
 
 /// Each edge as a function of the pixel, made once for a triangle.
-pub(super) fn fill_hoisted(triangle: &Triangle, canvas: &mut Canvas) {
+pub(super) fn fill_hoisted(triangle: &Triangle, canvas: &mut FillCanvas) {
     let edges = Edges::new(*triangle);
     let [columns, rows] = bounding_box(triangle, canvas.limits());
     for y in rows {

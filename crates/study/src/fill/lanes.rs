@@ -1,28 +1,28 @@
-//! Eight pixels of a row at a time: the same edges, boxes and pixels as [`float`](super::float) and
-//! [`fixed`](super::fixed), which take one pixel at a time.
+//! Eight pixels of a row at a time: the same edges, boxes and pixels as [`float`] and
+//! [`fixed`], which take one pixel at a time.
 
-use super::{Canvas, Triangle, fixed, float};
+use super::{FillCanvas, Triangle, fixed, float};
 use fearless_simd::{Level, Simd, dispatch};
 use std::ops::RangeInclusive;
 use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{F32, I32, LANES, inlined, lane_numbers};
 
 /// In `f32`, as [`float::fill_hoisted`].
-pub(super) fn fill_float(triangles: &[Triangle], canvas: &mut Canvas) {
+pub(super) fn fill_float(triangles: &[Triangle], canvas: &mut FillCanvas) {
     dispatch!(Level::new(), simd => canvas.each(triangles, #[inline(always)] |triangle, canvas| {
         float_edges(simd, triangle, canvas);
     }));
 }
 
 /// On a grid of 1/256 pixel, as [`fixed::fill`] with eight bits.
-pub(super) fn fill_fixed(triangles: &[Triangle], canvas: &mut Canvas) {
+pub(super) fn fill_fixed(triangles: &[Triangle], canvas: &mut FillCanvas) {
     dispatch!(Level::new(), simd => canvas.each(triangles, #[inline(always)] |triangle, canvas| {
         fixed_edges(simd, triangle, canvas);
     }));
 }
 
 #[inline(always)]
-fn float_edges<S: Simd>(simd: S, triangle: &Triangle, canvas: &mut Canvas) {
+fn float_edges<S: Simd>(simd: S, triangle: &Triangle, canvas: &mut FillCanvas) {
     let edges = float::Edges::new(*triangle);
     let [columns, rows] = float::bounding_box(triangle, canvas.limits());
     let numbers = lane_numbers(simd).to_float::<F32<S>>();
@@ -43,7 +43,7 @@ fn float_edges<S: Simd>(simd: S, triangle: &Triangle, canvas: &mut Canvas) {
 }
 
 #[inline(always)]
-fn fixed_edges<S: Simd>(simd: S, triangle: &Triangle, canvas: &mut Canvas) {
+fn fixed_edges<S: Simd>(simd: S, triangle: &Triangle, canvas: &mut FillCanvas) {
     let Some(edges) = fixed::edges(triangle, 8) else { return };
     let [columns, rows] = edges.bounding_box(canvas.limits());
     // Whole pixels change a value by multiples of 256, so dropping eight bits keeps its sign.
@@ -74,7 +74,7 @@ fn groups(columns: &RangeInclusive<i32>) -> impl Iterator<Item = i32> {
 
 /// Paints those of eight pixels whose bits are set in the mask.
 #[inline(always)]
-fn paint(canvas: &mut Canvas, [x, y]: [i32; 2], covered: u64) {
+fn paint(canvas: &mut FillCanvas, [x, y]: [i32; 2], covered: u64) {
     let mut covered = covered;
     while covered != 0 {
         canvas.paint(x + covered.trailing_zeros() as i32, y);

@@ -1,30 +1,26 @@
 //! Which pixels does a triangle cover, and what does it cost to know exactly?
 //!
-//! All algorithms take triangles in pixel coordinates and paint into a [`Canvas`] that counts. A pixel
+//! All algorithms take triangles in pixel coordinates and paint into a [`FillCanvas`] that counts. A pixel
 //! belongs to a triangle if its centre lies inside; every pixel on an edge that two triangles share should be
 //! painted once.
 
 mod canvas;
 mod cases;
 mod edges;
-mod engine;
-mod errors;
 mod fixed;
 mod float;
 mod lanes;
 mod scanlines;
 mod strips;
-mod triangle;
 
-#[cfg(test)]
-mod tests;
+use trigon_classic::Field;
 
-pub use canvas::{Canvas, Painted};
-pub use cases::{Case, tiles};
-pub use errors::{FillErrors, owners};
+use super::engine::{Corners, Engine};
+
+pub(crate) use canvas::range;
+pub use canvas::{FillCanvas, FillErrors, Painted, Triangle, owners};
+pub use cases::{Tiling, tiles};
 pub(crate) use scanlines::interpolate;
-pub use triangle::Triangle;
-pub(crate) use triangle::range;
 
 /// A method of filling triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -96,7 +92,7 @@ impl Fill {
     }
 
     /// Paints triangles one after the other; each is told by its number.
-    pub fn paint(self, triangles: &[Triangle], canvas: &mut Canvas) {
+    pub fn paint(self, triangles: &[Triangle], canvas: &mut FillCanvas) {
         match self {
             Self::Strips => canvas.each(triangles, strips::fill),
             Self::Scanlines => canvas.each(triangles, scanlines::fill),
@@ -110,7 +106,18 @@ impl Fill {
             Self::Fixed8 => canvas.each(triangles, fixed::fill::<8>),
             Self::Fixed12 => canvas.each(triangles, fixed::fill::<12>),
             Self::Fixed8Lanes => lanes::fill_fixed(triangles, canvas),
-            Self::Engine => engine::fill(triangles, canvas),
+            Self::Engine => fill_by_engine(triangles, canvas),
         }
     }
 }
+
+fn fill_by_engine(triangles: &[Triangle], canvas: &mut FillCanvas) {
+    let size = canvas.pixels.size();
+    let shape = Corners::flat(triangles, size);
+    let mut engine = Engine::default();
+    let (counts, visible) = (engine.counts(&shape, size), engine.visible(&shape, size));
+    canvas.pixels = Field::from_fn(size, |pixel| Painted { count: counts[pixel], last: visible[pixel] });
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,9 +1,9 @@
 //! Horizontal lines between interpolated sides (source row B2). As in the source, corners are rounded to
 //! pixels. The long side runs from the topmost to the lowest corner, with the two short ones opposite.
 
-use super::{Canvas, Triangle};
+use super::{FillCanvas, Triangle};
 
-pub(super) fn fill(triangle: &Triangle, canvas: &mut Canvas) {
+pub(super) fn fill(triangle: &Triangle, canvas: &mut FillCanvas) {
     let mut corners = triangle.map(|corner| [corner.x, corner.y].map(|part| part.floor() as i32));
     corners.sort_by_key(|corner| corner[1]);
     let [[x0, y0], [x1, y1], [x2, y2]] = corners;
@@ -36,7 +36,7 @@ pub(crate) fn interpolate(from: i32, first: f32, to: i32, last: f32) -> Vec<f32>
 }
 
 /// Whole steps from the left side to the right side. Pixels outside the image are skipped.
-fn line(left: f32, right: f32, y: i32, canvas: &mut Canvas) {
+fn line(left: f32, right: f32, y: i32, canvas: &mut FillCanvas) {
     let width = canvas.limits()[0] as f32;
     let mut x = if left < -1.0 { left + (-1.0 - left).floor() } else { left };
     while x <= right && x < width {

@@ -4,10 +4,10 @@
 //!
 //! In the source y points up; its order of the corners is used here unchanged, although y points down.
 
-use super::{Canvas, Triangle, range};
+use super::{FillCanvas, Triangle, range};
 use trigon_math::Vec2;
 
-pub(super) fn fill(triangle: &Triangle, canvas: &mut Canvas) {
+pub(super) fn fill(triangle: &Triangle, canvas: &mut FillCanvas) {
     let [a, b, c] = sorted(*triangle);
     let [left, right] = range([a.x, b.x, c.x]);
     let [width, height] = canvas.limits();

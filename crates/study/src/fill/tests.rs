@@ -7,13 +7,13 @@ use trigon_math::{Vec2, elementary};
 const SIDE: usize = 256;
 const SIZE: [usize; 2] = [SIDE; 2];
 
-fn painted(fill: Fill, triangles: &[Triangle]) -> Canvas {
-    let mut canvas = Canvas::new(SIZE);
+fn painted(fill: Fill, triangles: &[Triangle]) -> FillCanvas {
+    let mut canvas = FillCanvas::new(SIZE);
     fill.paint(triangles, &mut canvas);
     canvas
 }
 
-fn errors(fill: Fill, case: Case, seeds: u64) -> FillErrors {
+fn errors(fill: Fill, case: Tiling, seeds: u64) -> FillErrors {
     let mut sum = FillErrors::default();
     for seed in 0..seeds {
         let triangles = case.triangles(SIDE, seed);
@@ -24,7 +24,7 @@ fn errors(fill: Fill, case: Case, seeds: u64) -> FillErrors {
 
 /// The pixels of an 8 by 8 image as text.
 fn text(fill: Fill, triangle: Triangle) -> String {
-    let mut canvas = Canvas::new([8, 8]);
+    let mut canvas = FillCanvas::new([8, 8]);
     fill.paint(&[triangle], &mut canvas);
     let row = |y| (0..8).map(|x| if canvas.pixels()[[x, y]].count > 0 { '#' } else { '.' }).collect();
     (0..8).map(row).collect::<Vec<String>>().join(" ")
@@ -32,7 +32,7 @@ fn text(fill: Fill, triangle: Triangle) -> String {
 
 #[test]
 fn every_case_tiles_the_image() {
-    for case in Case::ALL {
+    for case in Tiling::ALL {
         let owners = owners(&case.triangles(SIDE, 3), SIZE);
         let orphans = owners.values().iter().filter(|&&owner| owner == u32::MAX).count();
         assert_eq!(orphans, 0, "{case:?}: pixels without an owner");
@@ -42,7 +42,7 @@ fn every_case_tiles_the_image() {
 #[test]
 fn a_grid_leaves_no_gap_and_paints_nothing_twice() {
     for fill in [Fill::Fixed4, Fill::Fixed8, Fill::Fixed12, Fill::Engine] {
-        for case in Case::ALL {
+        for case in Tiling::ALL {
             let FillErrors { gaps, doubles, .. } = errors(fill, case, 2);
             assert_eq!((gaps, doubles), (0, 0), "{fill:?} on {case:?}");
         }
@@ -51,7 +51,7 @@ fn a_grid_leaves_no_gap_and_paints_nothing_twice() {
 
 #[test]
 fn each_bit_of_a_grid_buys_accuracy() {
-    let wrong = [Fill::Fixed4, Fill::Fixed8, Fill::Fixed12].map(|fill| errors(fill, Case::Tiles, 8).wrong);
+    let wrong = [Fill::Fixed4, Fill::Fixed8, Fill::Fixed12].map(|fill| errors(fill, Tiling::Tiles, 8).wrong);
     // A corner moves by 1/16 of what it did, and so does the area that changes owners;
     // half of that leaves room for the count of a few pixels.
     assert!(wrong[0] > 8 * wrong[1] && wrong[1] > 8 * wrong[2], "wrong pixels with 4, 8, 12 bits: {wrong:?}");
@@ -61,31 +61,31 @@ fn each_bit_of_a_grid_buys_accuracy() {
 fn what_lies_on_the_grid_is_exact() {
     let floats = [Fill::FloatFromCorners, Fill::FloatHoisted];
     for fill in [Fill::Fixed4, Fill::Fixed8, Fill::Fixed12, Fill::Engine].into_iter().chain(floats) {
-        assert_eq!(errors(fill, Case::Lattice, 2).wrong, 0, "{fill:?}: corners on half pixels");
+        assert_eq!(errors(fill, Tiling::Lattice, 2).wrong, 0, "{fill:?}: corners on half pixels");
     }
 }
 
 #[test]
 fn inclusive_edges_paint_shared_pixels_twice() {
-    let FillErrors { gaps, doubles, wrong, .. } = errors(Fill::EdgesAtCenters, Case::Lattice, 1);
+    let FillErrors { gaps, doubles, wrong, .. } = errors(Fill::EdgesAtCenters, Tiling::Lattice, 1);
     assert!(doubles > 100 && gaps == 0 && wrong == doubles, "{doubles} doubles, {gaps} gaps, {wrong} wrong");
-    let strips = errors(Fill::Strips, Case::Tiles, 1);
+    let strips = errors(Fill::Strips, Tiling::Tiles, 1);
     assert!(strips.doubles > strips.edge_pixels / 2, "strips take in all pixels at their ends: {strips:?}");
 }
 
 #[test]
 fn float_edges_break_where_values_are_large() {
-    let far = errors(Fill::FloatFromCorners, Case::Fan, 4);
+    let far = errors(Fill::FloatFromCorners, Tiling::Fan, 4);
     assert!(far.gaps + far.doubles > 0, "needles of 12,000 pixels: {far:?}");
     assert!(
-        far.wrong < errors(Fill::Fixed4, Case::Fan, 4).wrong,
+        far.wrong < errors(Fill::Fixed4, Tiling::Fan, 4).wrong,
         "but corners stay nearer to the input than on a coarse grid"
     );
 }
 
 #[test]
 fn lanes_paint_the_pixels_of_one_at_a_time() {
-    for case in Case::ALL {
+    for case in Tiling::ALL {
         let triangles = case.triangles(SIDE, 6);
         for [lanes, single] in [[Fill::FloatLanes, Fill::FloatHoisted], [Fill::Fixed8Lanes, Fill::Fixed8]] {
             assert!(
@@ -109,7 +109,7 @@ fn lanes_do_not_overflow() {
 /// Neighbours get the same value with opposite signs, unlike from corners.
 #[test]
 fn hoisted_float_edges_neither_leave_gaps_nor_paint_twice() {
-    for case in Case::ALL {
+    for case in Tiling::ALL {
         let FillErrors { gaps, doubles, .. } = errors(Fill::FloatHoisted, case, 4);
         assert_eq!((gaps, doubles), (0, 0), "{case:?}");
     }
@@ -117,7 +117,7 @@ fn hoisted_float_edges_neither_leave_gaps_nor_paint_twice() {
 
 #[test]
 fn the_bounding_box_changes_no_pixel() {
-    let triangles = Case::Tiles.triangles(SIDE, 1);
+    let triangles = Tiling::Tiles.triangles(SIDE, 1);
     let [screen, inbox] = [Fill::EdgesOnScreen, Fill::EdgesInBox].map(|fill| painted(fill, &triangles));
     assert!(screen.pixels() == inbox.pixels(), "source rows C1 and C3");
 }
@@ -152,14 +152,14 @@ fn tiles_are_moved_squares_on_a_grid() {
         assert_eq!(triangles.len(), 2 * count * count, "two to a square, one square more on every side");
         let mut moved = 0.0_f64;
         for (number, halves) in triangles.chunks(2).enumerate() {
-            let [x, y] = [number % count, number / count].map(|place| place as f64 - 1.0);
-            let places = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[u, v]| [x + u, y + v]);
+            let [x, y] = [number % count, number / count].map(|position| position as f64 - 1.0);
+            let positions = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[u, v]| [x + u, y + v]);
             let [[a, b, c], [d, e, f]] = [halves[0], halves[1]];
             assert_eq!((a, c), (d, e), "both have the diagonal");
-            for (corner, place) in [a, b, c, f].into_iter().zip(places) {
-                for (found, place) in corner.to_array().map(f64::from).into_iter().zip(place) {
+            for (corner, position) in [a, b, c, f].into_iter().zip(positions) {
+                for (found, position) in corner.to_array().map(f64::from).into_iter().zip(position) {
                     assert_eq!((found / unit).fract(), 0.0, "{found} on a grid of {unit}");
-                    moved = moved.max((found - place * square).abs());
+                    moved = moved.max((found - position * square).abs());
                 }
             }
         }
@@ -171,7 +171,7 @@ fn tiles_are_moved_squares_on_a_grid() {
 #[test]
 fn needles_of_a_fan_go_round_once() {
     for seed in 0..3 {
-        let needles = Case::Fan.triangles(SIDE, seed);
+        let needles = Tiling::Fan.triangles(SIDE, seed);
         assert_eq!(needles.len(), 200);
         let center = needles[0][0];
         let range = 0.3 * SIDE as f32..0.7 * SIDE as f32;
@@ -193,7 +193,7 @@ fn needles_of_a_fan_go_round_once() {
 fn errors_are_counted_against_the_owners_and_told_for_a_thousand_edge_pixels() {
     let owners = Field::from_fn([4, 4], |[x, _]| u32::from(x >= 2));
     let [left, right] = [Vec2::ZERO, Vec2::X].map(|corner| [corner; 3]);
-    let mut canvas = Canvas::new([4, 4]);
+    let mut canvas = FillCanvas::new([4, 4]);
     canvas.each(&[left, right], |half, canvas| {
         let columns = if half == &left { 0..3 } else { 2..4 };
         let pixels = columns.flat_map(|x| (0..4).map(move |y| [x, y]));

@@ -1,17 +1,22 @@
 //! The scenes, and a flight past each.
 
 use trigon_io::LoadOptions;
+use trigon_math::color::srgb8_to_linear;
 use trigon_math::{DQuat, DVec3, Vec3};
-use trigon_mesh::Mesh;
-use trigon_mesh::primitives::{self, TorusKnot};
+use trigon_mesh::primitives::TorusKnot;
+use trigon_mesh::{Mesh, primitives};
 use trigon_scene::camera::Camera;
+use trigon_scene::quality::Preset;
 use trigon_scene::{
-    Light, Material, Node, RenderSettings, Scene, Shadows, Texture, TextureFormat, Transform, showcase,
+    Frame, Light, Material, Node, RenderError, RenderSettings, Scene, Shadows, Texture, TextureFormat,
+    Transform, showcase,
 };
+
+use super::Repeated;
 
 /// A scene and its camera path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Case {
+pub enum FrameCase {
     /// The built-in scene: some objects, many lights, fine wood.
     Showcase,
     /// Knots on a chequered floor, with shadows.
@@ -26,7 +31,7 @@ pub enum Case {
     Mug,
 }
 
-impl Case {
+impl FrameCase {
     /// All of them.
     pub const ALL: [Self; 6] =
         [Self::Showcase, Self::Shadows, Self::Dense, Self::Teapot, Self::Chair, Self::Mug];
@@ -97,9 +102,9 @@ fn standing(mesh: &Mesh, color: Vec3) -> Scene {
     scene.add_object("floor", primitives::plane(4.0, 4.0), Material::from_texture(pattern));
     let (mesh, material) =
         (scene.add_mesh("model", mesh.clone()), scene.add_material(Material::from_color(color)));
-    let place =
+    let spot =
         Transform::from_scale_rotation_translation(DVec3::splat(scale), DQuat::IDENTITY, -foot * scale);
-    scene.add(Node::from_mesh(mesh, material).with_transform(place));
+    scene.add(Node::from_mesh(mesh, material).with_transform(spot));
     add_sun(&mut scene);
     scene
 }
@@ -120,8 +125,8 @@ fn knots() -> Scene {
     let shape =
         TorusKnot { major_radius: 0.5, minor_radius: 0.22, tube_radius: 0.12, ..TorusKnot::default() };
     let mesh = scene.add_mesh("knot", primitives::torus_knot(&shape));
-    for place in 0..9 {
-        let [column, row] = [place % 3, place / 3].map(|step| f64::from(step - 1));
+    for spot in 0..9 {
+        let [column, row] = [spot % 3, spot / 3].map(|step| f64::from(step - 1));
         let color = Vec3::new(0.7 - 0.2 * row as f32, 0.4, 0.5 + 0.2 * column as f32);
         let material = scene.add_material(Material::from_color(color));
         scene.add(Node::from_mesh(mesh, material).at(DVec3::new(2.2 * column, 0.8, 2.2 * row)));
@@ -154,9 +159,60 @@ fn balls() -> Scene {
     let mut scene = Scene::new();
     let mesh = scene.add_mesh("ball", primitives::icosphere(0.45, 4));
     let material = scene.add_material(Material::from_color(Vec3::new(0.75, 0.55, 0.3)));
-    for place in 0..36 {
-        let [x, z] = [place % 6, place / 6].map(|step| f64::from(step) - 2.5);
+    for spot in 0..36 {
+        let [x, z] = [spot % 6, spot / 6].map(|step| f64::from(step) - 2.5);
         scene.add(Node::from_mesh(mesh, material).at(DVec3::new(x, 0.0, z)));
     }
     scene
+}
+
+/// The light of each pixel of a case's image: the mean of the four pixels that `reference` draws
+/// in its place at twice the size, 8×8 shaded places with 16 samples each.
+///
+/// The samples lie at odd sixteenths of a pixel. The samples of grids with 1, 2, 3 and 4 per row lie at
+/// halves, quarters, sixths and eighths, which are never odd sixteenths.
+pub struct Truth {
+    size: [usize; 2],
+    light: Vec<[f64; 3]>,
+}
+
+impl Truth {
+    /// At the start of a case's flight.
+    ///
+    /// # Errors
+    /// A size that cannot be drawn.
+    pub fn new(case: FrameCase, size: [u32; 2]) -> Result<Self, RenderError> {
+        let mut drawn = Repeated::new(case, size.map(|side| 2 * side), Preset::Reference.quality());
+        let frame = drawn.draw(0.0)?;
+        let [width, height] = size.map(|side| side as usize);
+        let mean = |pixel: usize| {
+            let [x, y] = [2 * (pixel % width), 2 * (pixel / width)];
+            let parts = [[x, y], [x + 1, y], [x, y + 1], [x + 1, y + 1]]
+                .map(|[x, y]| light(frame, y * 2 * width + x));
+            [0, 1, 2].map(|channel| parts.iter().map(|part| part[channel]).sum::<f64>() / 4.0)
+        };
+        Ok(Self { size: [width, height], light: (0..width * height).map(mean).collect() })
+    }
+
+    /// The root mean square difference of an image from it, in linear light, over red, green and blue.
+    #[must_use]
+    pub fn error(&self, frame: &Frame) -> f64 {
+        assert_eq!(
+            self.size,
+            [frame.width as usize, frame.height as usize],
+            "images of one size are compared"
+        );
+        let squares = self.light.iter().enumerate().map(|(pixel, right)| {
+            let found = light(frame, pixel);
+            (0..3)
+                .map(|channel| (found[channel] - right[channel]) * (found[channel] - right[channel]))
+                .sum::<f64>()
+        });
+        (squares.sum::<f64>() / (3 * self.light.len()) as f64).sqrt()
+    }
+}
+
+/// Red, green and blue of a pixel in linear light.
+fn light(frame: &Frame, pixel: usize) -> [f64; 3] {
+    [0, 1, 2].map(|channel| srgb8_to_linear(frame.color[4 * pixel + channel]).into())
 }

@@ -3,19 +3,14 @@
 
 mod cases;
 mod certified;
-mod flight;
-mod truth;
 
-#[cfg(test)]
-mod tests;
+use std::time::Duration;
 
-pub use cases::Case;
-pub use certified::{Certified, Prover};
-pub use flight::{Kept, Step, fly};
-pub use truth::Truth;
-
-use trigon_scene::quality::{Preset, Quality};
+use trigon_scene::quality::{Choice, Preset, Quality, TimeBudget, rmse};
 use trigon_scene::{Frame, RenderError, Renderer, Scene, ShadingModel, Shadows, SimdLevel};
+
+pub use cases::{FrameCase, Truth};
+pub use certified::{Certified, Prover};
 
 /// The variants of every case: all numbers of samples, with light once per triangle, per vertex and per
 /// pixel. The presets are among them.
@@ -58,7 +53,7 @@ fn sampled() -> Vec<Quality> {
 /// The name of a variant in tables and plots: its samples, what is unusual about it, and the preset if it is one.
 pub fn name(quality: Quality) -> String {
     let Quality { samples_per_axis: axis, samples, .. } = quality;
-    let places = match quality.shading {
+    let positions = match quality.shading {
         ShadingModel::Flat => ", flat",
         ShadingModel::Gouraud => ", Gouraud",
         ShadingModel::Phong => "",
@@ -70,12 +65,12 @@ pub fn name(quality: Quality) -> String {
     };
     let preset = Preset::ALL.into_iter().find(|preset| preset.quality() == quality);
     let preset = preset.map_or_else(String::new, |preset| format!(" ({preset})"));
-    format!("{axis}×{axis}×{samples}{places}{shadows}{preset}")
+    format!("{axis}×{axis}×{samples}{positions}{shadows}{preset}")
 }
 
 /// A case at a quality, drawn repeatedly.
 pub struct Repeated {
-    case: Case,
+    case: FrameCase,
     scene: Scene,
     renderer: Renderer,
     frame: Frame,
@@ -84,7 +79,7 @@ pub struct Repeated {
 impl Repeated {
     /// Nothing is drawn yet.
     #[must_use]
-    pub fn new(case: Case, size: [u32; 2], quality: Quality) -> Self {
+    pub fn new(case: FrameCase, size: [u32; 2], quality: Quality) -> Self {
         let mut settings = case.settings(size);
         quality.apply(&mut settings);
         Self { case, scene: case.scene(), renderer: Renderer::new(settings), frame: Frame::default() }
@@ -112,8 +107,92 @@ impl Repeated {
 ///
 /// # Errors
 /// A size that cannot be drawn.
-pub fn errors(case: Case, size: [u32; 2], qualities: &[Quality]) -> Result<Vec<f64>, RenderError> {
+pub fn errors(case: FrameCase, size: [u32; 2], qualities: &[Quality]) -> Result<Vec<f64>, RenderError> {
     let truth = Truth::new(case, size)?;
     let error = |&quality: &Quality| Ok(truth.error(Repeated::new(case, size, quality).draw(0.0)?));
     qualities.iter().map(error).collect()
 }
+
+/// One frame of a flight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// The choice and its predictions, before the frame was drawn.
+    pub choice: Choice,
+    /// The time to choose, draw and learn from the frame, which is the time that was predicted.
+    pub drawing: Duration,
+    /// The total time, including that of measuring a part of the image again.
+    pub time: Duration,
+    /// The error relative to the reference.
+    pub error: f64,
+}
+
+/// Draws the frames of a case's flight, each within a time, and measures their errors. The clock is stopped
+/// while errors are measured.
+///
+/// # Errors
+/// A size that cannot be drawn.
+pub fn fly(
+    case: FrameCase,
+    size: [u32; 2],
+    limit: Duration,
+    frames: usize,
+    clock: &mut dyn FnMut() -> Duration,
+) -> Result<Vec<Step>, RenderError> {
+    let (scene, settings) = (case.scene(), case.settings(size));
+    let camera = |frame: usize| case.camera(&scene, settings.aspect(), frame as f64 / frames as f64);
+    let mut best = Renderer::new(settings.clone());
+    Preset::Reference.apply(best.settings_mut());
+    let (mut renderer, mut budget) = (Renderer::new(settings.clone()), TimeBudget::new(limit));
+    budget.calibrate(&mut renderer, &scene, &camera(0), clock)?;
+    let (mut steps, mut image) = (Vec::new(), Frame::default());
+    for frame in 0..frames {
+        let (camera, start) = (camera(frame), clock());
+        let choice = budget.render_into(&mut renderer, &scene, &camera, clock, &mut image)?;
+        let drawing = clock().saturating_sub(start);
+        let spare = limit.saturating_sub(drawing);
+        budget.look_again(&mut renderer, &scene, &camera, spare, clock)?;
+        let time = clock().saturating_sub(start);
+        let error = rmse(&image, &best.render(&scene, &camera)?);
+        steps.push(Step { choice, drawing, time, error });
+    }
+    Ok(steps)
+}
+
+/// The results of a flight: fractions of all its frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlightSummary {
+    /// Frames that kept within the time.
+    pub in_time: f64,
+    /// Frames whose time was predicted within a fifth.
+    pub times: f64,
+    /// Frames whose error was predicted within a fifth. Frames without a prediction do not count.
+    pub errors: f64,
+    /// The largest relative difference between a predicted error and the measured one.
+    pub worst: f64,
+}
+
+impl FlightSummary {
+    /// Of the frames of a flight.
+    pub fn of(steps: &[Step]) -> Self {
+        const NEAR: f64 = 0.2;
+        let error = |step: &Step| Some(miss(step.choice.chosen.error?, step.error));
+        let time = |step: &Step| miss(step.choice.chosen.time.as_secs_f64(), step.drawing.as_secs_f64());
+        let share = |counts: &dyn Fn(&Step) -> bool| {
+            steps.iter().filter(|step| counts(step)).count() as f64 / steps.len().max(1) as f64
+        };
+        Self {
+            in_time: share(&|step| step.time <= step.choice.limit),
+            times: share(&|step| time(step) <= NEAR),
+            errors: share(&|step| error(step).is_some_and(|miss| miss <= NEAR)),
+            worst: steps.iter().filter_map(error).fold(0.0, f64::max),
+        }
+    }
+}
+
+/// The relative difference between prediction and measurement.
+fn miss(foreseen: f64, measured: f64) -> f64 {
+    if foreseen == measured { 0.0 } else { (foreseen - measured).abs() / measured }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,6 @@
 //! What the report says of whole frames, as far as it is about errors.
 
-use super::flight::miss;
+use super::miss;
 use super::*;
 use crate::workloads::Workload;
 use std::time::Duration;
@@ -10,7 +10,7 @@ const SIZE: [u32; 2] = [60, 36];
 #[test]
 fn each_preset_is_nearer_than_the_one_before() {
     let presets = Preset::ALL.map(Preset::quality);
-    for case in Case::ALL {
+    for case in FrameCase::ALL {
         let errors = errors(case, SIZE, &presets).unwrap();
         for pair in errors.windows(2) {
             assert!(pair[1] < pair[0], "{}: {errors:?}", case.name());
@@ -41,12 +41,12 @@ fn nothing_that_does_less_is_better_than_a_preset() {
     /// On so small images chance decides about so much.
     const CHANCE: f64 = 0.85;
     // Every second one: sixty images of each, and their truth, take long in a debug build.
-    for case in Case::ALL.into_iter().step_by(2) {
+    for case in FrameCase::ALL.into_iter().step_by(2) {
         let qualities = variants();
         let errors = errors(case, SIZE, &qualities).unwrap();
         let of = |preset: Preset| {
-            let place = qualities.iter().position(|quality| *quality == preset.quality());
-            errors[place.expect("presets are among them")]
+            let index = qualities.iter().position(|quality| *quality == preset.quality());
+            errors[index.expect("presets are among them")]
         };
         for preset in Preset::ALL {
             let less =
@@ -67,7 +67,7 @@ fn nothing_that_does_less_is_better_than_a_preset() {
 fn light_once_for_each_triangle_is_worse_than_at_its_corners() {
     let draft = Preset::Draft.quality();
     let qualities = [ShadingModel::Flat, ShadingModel::Gouraud].map(|shading| Quality { shading, ..draft });
-    let errors = errors(Case::Showcase, SIZE, &qualities).unwrap();
+    let errors = errors(FrameCase::Showcase, SIZE, &qualities).unwrap();
     assert!(errors[0] > errors[1], "flat, Gouraud: {errors:?}");
 }
 
@@ -79,27 +79,31 @@ fn flights_are_measured() {
         now += Duration::from_millis(100);
         now
     };
-    let steps = fly(Case::Showcase, [30, 18], Duration::from_millis(16), 6, &mut clock).unwrap();
+    let steps = fly(FrameCase::Showcase, [30, 18], Duration::from_millis(16), 6, &mut clock).unwrap();
     assert_eq!(steps.len(), 6, "every frame");
     assert!(steps.iter().all(|step| step.choice.chosen.quality.covered_samples() == 1), "the quickest");
     assert!(steps.iter().all(|step| step.drawing < step.time && step.error > 0.0), "{steps:?}");
-    let kept = Kept::of(&steps);
-    assert_eq!(kept.in_time, 0.0, "on a clock like that no frame is in time");
-    assert!(kept.worst > 0.0, "nothing is foreseen exactly: {kept:?}");
+    let summary = FlightSummary::of(&steps);
+    assert_eq!(summary.in_time, 0.0, "on a clock like that no frame is in time");
+    assert!(summary.worst > 0.0, "nothing is foreseen exactly: {summary:?}");
     let foreseen = |step: &Step| {
         let choice = step.choice.chosen;
         Step { drawing: choice.time, error: choice.error.unwrap(), ..*step }
     };
-    let kept = Kept::of(&steps.iter().map(foreseen).collect::<Vec<_>>());
-    assert_eq!((kept.times, kept.errors, kept.worst), (1.0, 1.0, 0.0), "unless it comes as foreseen");
+    let summary = FlightSummary::of(&steps.iter().map(foreseen).collect::<Vec<_>>());
+    assert_eq!(
+        (summary.times, summary.errors, summary.worst),
+        (1.0, 1.0, 0.0),
+        "unless it comes as foreseen"
+    );
 }
 
 #[test]
 fn models_stand_on_their_floor() {
-    for case in [Case::Teapot, Case::Chair, Case::Mug] {
+    for case in [FrameCase::Teapot, FrameCase::Chair, FrameCase::Mug] {
         let bounds = case.scene().bounds();
         // Vertices are f32.
-        let is_near = |place: f64, right: f64| (place - right).abs() < 1e-6;
+        let is_near = |index: f64, right: f64| (index - right).abs() < 1e-6;
         assert!(is_near(bounds.min.y, 0.0) && is_near(bounds.max.y, 1.0), "{}: {bounds:?}", case.name());
     }
 }

@@ -7,20 +7,20 @@ use trigon_math::DVec2;
 use trigon_raster::{Output, Smoothing, Target};
 
 /// Lines and what it takes to draw them again and again.
-pub(super) struct Drawer {
+pub(super) struct LineDrawer {
     engine: Engine,
     target: Target<'static>,
     ends: Corners,
     smoothing: Smoothing,
 }
 
-impl Drawer {
+impl LineDrawer {
     pub(super) fn new(segments: &[Segment], smoothing: Smoothing, size: [usize; 2]) -> Self {
-        let place = |[x, y]: [i32; 2]| {
+        let pixel = |[x, y]: [i32; 2]| {
             let center = DVec2::new(x.into(), y.into()) + 0.5;
             clip_position(center, 0.5, size)
         };
-        let ends = Corners::new(segments.as_flattened().iter().map(|&end| place(end)).collect());
+        let ends = Corners::new(segments.as_flattened().iter().map(|&end| pixel(end)).collect());
         Self { engine: Engine::default(), target: target(size, &[Output::Linear]), ends, smoothing }
     }
 

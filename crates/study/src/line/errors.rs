@@ -1,10 +1,14 @@
-//! The distance of drawn lines from the ideal one.
+//! The distance of drawn lines from the ideal one, and whether the outline of a triangle matches its fill (source row B3).
 
-use super::{Line, Segment};
-use crate::oracle::half_plane;
 use std::ops::AddAssign;
+
 use trigon_classic::Field;
-use trigon_math::DVec2;
+use trigon_math::{DVec2, Vec2};
+
+use super::{Line, Segment, algorithms};
+use crate::engine::{Corners, Engine};
+use crate::fill::{Fill, FillCanvas};
+use crate::oracle::half_plane;
 
 /// The errors of lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -91,9 +95,9 @@ fn column(
 ) -> impl Iterator<Item = ([i32; 2], i32)> {
     let rise = to[1 - along] - from[1 - along];
     let middle = from[1 - along] + (f64::from(rise * step) / f64::from(length)).round() as i32;
-    let place = from[along] + (to[along] - from[along]).signum() * step;
+    let position = from[along] + (to[along] - from[along]).signum() * step;
     (middle - 2..=middle + 2)
-        .map(move |across| (if along == 0 { [place, across] } else { [across, place] }, across))
+        .map(move |across| (if along == 0 { [position, across] } else { [across, position] }, across))
 }
 
 impl AddAssign for LineErrors {
@@ -104,6 +108,101 @@ impl AddAssign for LineErrors {
         self.squares += other.squares;
         self.pixels += other.pixels;
     }
+}
+
+/// A method of filling a triangle and drawing its outline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Outline {
+    /// As the source does: scanlines, and lines along the longer side.
+    Source,
+    /// The renderer's triangle, and the renderer's lines on it.
+    EngineLines,
+    /// The renderer's triangle, which paints its own edges.
+    EngineFaces,
+}
+
+/// Counts the pixels of outlines that lie outside their triangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OutlineErrors {
+    /// Pixels of outlines.
+    pub outline: usize,
+    /// Pixels of outlines that the fill does not cover.
+    pub outside: usize,
+}
+
+impl OutlineErrors {
+    /// Pixels beside the fill for a thousand of the outline.
+    #[must_use]
+    pub fn per_mille(&self) -> f64 {
+        1e3 * self.outside as f64 / self.outline as f64
+    }
+}
+
+impl AddAssign for OutlineErrors {
+    fn add_assign(&mut self, other: Self) {
+        self.outline += other.outline;
+        self.outside += other.outside;
+    }
+}
+
+impl Outline {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Source, Self::EngineLines, Self::EngineFaces];
+
+    /// The name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Source => "scanlines and DDA",
+            Self::EngineLines => "engine, lines over faces",
+            Self::EngineFaces => "engine, faces with edges",
+        }
+    }
+
+    /// Draws a triangle between the centres of pixels with its outline, and compares.
+    #[must_use]
+    pub fn errors(self, corners: [[i32; 2]; 3], size: [usize; 2]) -> OutlineErrors {
+        let (fill, outline) = self.draw(corners, size);
+        let pixels = || outline.pixels().filter(|(_, is_outline)| **is_outline);
+        OutlineErrors {
+            outline: pixels().count(),
+            outside: pixels().filter(|(position, _)| !fill[*position]).count(),
+        }
+    }
+
+    /// The pixels of the fill and of the outline.
+    #[must_use]
+    pub fn draw(self, corners: [[i32; 2]; 3], size: [usize; 2]) -> (Field<bool>, Field<bool>) {
+        let triangle = corners.map(|[x, y]| Vec2::new(x as f32 + 0.5, y as f32 + 0.5));
+        let sides = [0, 1, 2].map(|i| [corners[i], corners[(i + 1) % 3]]);
+        let filled = |fill: Fill| {
+            let mut canvas = FillCanvas::new(size);
+            fill.paint(&[triangle], &mut canvas);
+            canvas.pixels().map(|pixel| pixel.count > 0)
+        };
+        match self {
+            Self::Source => (filled(Fill::Scanlines), walked(&sides, size)),
+            Self::EngineLines => {
+                let mut ink = Field::new(size, 0.0);
+                Line::Engine.paint(&sides, &mut ink);
+                (filled(Fill::Engine), ink.map(|&ink| ink > 0.0))
+            }
+            Self::EngineFaces => {
+                let visible = Engine::default().edges(&Corners::flat(&[triangle], size), size);
+                (visible.map(|color| color.x > 0.0), visible.map(|color| color.y > 0.0))
+            }
+        }
+    }
+}
+
+fn walked(sides: &[Segment], size: [usize; 2]) -> Field<bool> {
+    let mut outline = Field::new(size, false);
+    for pixel in sides.iter().flat_map(|&side| algorithms::pixels(side)) {
+        if let Some(is_outline) = outline.get_mut(pixel) {
+            *is_outline = true;
+        }
+    }
+    outline
 }
 
 #[cfg(test)]

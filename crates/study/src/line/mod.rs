@@ -3,21 +3,15 @@
 //!
 //! Lines end at pixel centres, as in the classical algorithms.
 
-mod bresenham;
-mod dda;
+mod algorithms;
 mod engine;
 mod errors;
-mod naive;
-mod outline;
-mod segment;
-mod wu;
 
 #[cfg(test)]
 mod tests;
 
-pub use errors::LineErrors;
-pub use outline::{Outline, OutlineErrors};
-pub use segment::Segment;
+pub use algorithms::Segment;
+pub use errors::{LineErrors, Outline, OutlineErrors};
 
 use trigon_classic::Field;
 
@@ -59,7 +53,7 @@ impl Line {
     /// Draws segments; each adds how much of a pixel it covers.
     pub fn paint(self, segments: &[Segment], coverage: &mut Field<f32>) {
         if let Some(smoothing) = self.smoothing() {
-            let mut drawer = engine::Drawer::new(segments, smoothing, coverage.size());
+            let mut drawer = engine::LineDrawer::new(segments, smoothing, coverage.size());
             drawer.draw();
             *coverage = drawer.coverage();
         } else if let Some(draw) = self.classical() {
@@ -71,7 +65,7 @@ impl Line {
     #[must_use]
     pub fn repeated<'a>(self, segments: &'a [Segment], size: [usize; 2]) -> Box<dyn FnMut() + 'a> {
         if let Some(smoothing) = self.smoothing() {
-            let mut drawer = engine::Drawer::new(segments, smoothing, size);
+            let mut drawer = engine::LineDrawer::new(segments, smoothing, size);
             return Box::new(move || drawer.draw());
         }
         let mut coverage = Field::new(size, 0.0);
@@ -81,10 +75,10 @@ impl Line {
     /// The function of a classical algorithm.
     fn classical(self) -> Option<fn(Segment, &mut Field<f32>)> {
         match self {
-            Self::Naive => Some(naive::draw),
-            Self::Dda => Some(dda::draw),
-            Self::Bresenham => Some(bresenham::draw),
-            Self::Wu => Some(wu::draw),
+            Self::Naive => Some(algorithms::draw_naive),
+            Self::Dda => Some(algorithms::draw_dda),
+            Self::Bresenham => Some(algorithms::draw_bresenham),
+            Self::Wu => Some(algorithms::draw_wu),
             Self::Engine | Self::EngineSmooth => None,
         }
     }

@@ -8,7 +8,7 @@ use super::{GridPoint, STEPS};
 
 /// The centre of a pixel.
 #[must_use]
-pub fn centre(pixel: [i32; 2]) -> GridPoint {
+pub fn pixel_center(pixel: [i32; 2]) -> GridPoint {
     pixel.map(|coordinate| STEPS * coordinate + STEPS / 2)
 }
 
@@ -82,9 +82,9 @@ pub fn standard_positions(samples: u32) -> &'static [[i32; 2]] {
 /// Where the samples of a pixel lie, at the [`standard_positions`].
 pub fn sample_points(samples: u32, [x, y]: [i32; 2]) -> impl Iterator<Item = GridPoint> {
     const SIXTEENTH: i32 = STEPS / 16;
-    let place =
+    let position =
         move |offset: &[i32; 2]| [STEPS * x + SIXTEENTH * offset[0], STEPS * y + SIXTEENTH * offset[1]];
-    standard_positions(samples).iter().map(place)
+    standard_positions(samples).iter().map(position)
 }
 
 /// The samples of a pixel that a triangle covers, the first in the lowest bit.
@@ -102,7 +102,7 @@ mod tests {
     /// a left edge; where two meet, if both are.
     #[test]
     fn edges_and_corners_belong_as_the_specification_says() {
-        let sample = centre([0, 0]);
+        let sample = pixel_center([0, 0]);
         let [x, y] = sample;
         let triangles = [
             ("above a bottom edge", [[x - 256, y], [x, y - 256], [x + 256, y]], false),
@@ -114,9 +114,9 @@ mod tests {
             ("at a corner of left and bottom", [[x, y], [x, y - 256], [x + 256, y]], false),
             ("at a corner of two left edges", [[x, y], [x + 256, y - 256], [x + 256, y + 256]], true),
         ];
-        for (place, [a, b, c], expected) in triangles {
-            assert_eq!(covers([a, b, c], sample), expected, "{place}");
-            assert_eq!(covers([c, b, a], sample), expected, "{place}, reversed");
+        for (position, [a, b, c], expected) in triangles {
+            assert_eq!(covers([a, b, c], sample), expected, "{position}");
+            assert_eq!(covers([c, b, a], sample), expected, "{position}, reversed");
         }
     }
 
@@ -126,7 +126,7 @@ mod tests {
         let halves = [[0, 1, 2], [0, 2, 3]].map(|half| half.map(|i: usize| corners[i]));
         for y in -1..6 {
             for x in -1..6 {
-                let count = halves.iter().filter(|&&half| covers(half, centre([x, y]))).count();
+                let count = halves.iter().filter(|&&half| covers(half, pixel_center([x, y]))).count();
                 let inside = [x, y].iter().all(|v| (0..4).contains(v));
                 assert_eq!(count, usize::from(inside), "at {x}, {y}");
             }
@@ -163,7 +163,7 @@ mod tests {
         for samples in [1, 2, 4, 8, 16] {
             let positions = standard_positions(samples);
             assert_eq!(positions.len(), samples as usize, "{samples} samples");
-            let sum = |axis: usize| positions.iter().map(|place| place[axis]).sum::<i32>();
+            let sum = |axis: usize| positions.iter().map(|position| position[axis]).sum::<i32>();
             // The 16 lie half a sixteenth off the middle, all others around it.
             let middle = if samples == 16 { [120, 120] } else { [8 * samples as i32; 2] };
             assert_eq!([sum(0), sum(1)], middle, "{samples} samples are balanced");

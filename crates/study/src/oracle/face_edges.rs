@@ -33,9 +33,9 @@ pub struct View {
 
 /// A corner on the image.
 #[derive(Clone, Copy, Debug)]
-struct Corner {
+struct FaceCorner {
     /// In pixels, x to the right, y down.
-    place: DVec2,
+    index: DVec2,
     /// One over the distance along the line of sight.
     nearness: f64,
     vertex: u32,
@@ -43,14 +43,14 @@ struct Corner {
 
 /// A face on the image.
 struct Face {
-    corners: Vec<Corner>,
+    corners: Vec<FaceCorner>,
     /// Nearness at the origin, and its steps to the right and down.
     plane: DVec3,
     half_width: f64,
 }
 
 impl View {
-    fn corner(&self, position: DVec3, vertex: u32) -> Corner {
+    fn corner(&self, position: DVec3, vertex: u32) -> FaceCorner {
         let forward = (self.target - self.eye).normalize();
         let right = forward.cross(DVec3::Y).normalize();
         let up = right.cross(forward);
@@ -58,28 +58,28 @@ impl View {
         let nearness = 1.0 / way.dot(forward);
         let scale = self.size[1] as f64 / (2.0 * self.half_height);
         let middle = DVec2::new(self.size[0] as f64, self.size[1] as f64) * 0.5;
-        let place = middle + DVec2::new(way.dot(right), -way.dot(up)) * (nearness * scale);
-        Corner { place, nearness, vertex }
+        let index = middle + DVec2::new(way.dot(right), -way.dot(up)) * (nearness * scale);
+        FaceCorner { index, nearness, vertex }
     }
 }
 
 impl Face {
     /// `None` for a face that is seen edge-on.
-    fn new(corners: Vec<Corner>, width: f64) -> Option<Self> {
+    fn new(corners: Vec<FaceCorner>, width: f64) -> Option<Self> {
         let sides = || corners.iter().zip(corners.iter().cycle().skip(1));
-        let doubled: f64 = sides().map(|(a, b)| a.place.perp_dot(b.place)).sum();
-        let perimeter: f64 = sides().map(|(a, b)| a.place.distance(b.place)).sum();
+        let doubled: f64 = sides().map(|(a, b)| a.index.perp_dot(b.index)).sum();
+        let perimeter: f64 = sides().map(|(a, b)| a.index.distance(b.index)).sum();
         let radius = doubled.abs() / perimeter;
         let half_width = (width * 0.5).min(radius / 3.0).min(radius * radius / 4.5);
         // Nearness is linear on the image. The area vector of its graph is its normal.
-        let lifted = |corner: &Corner| corner.place.extend(corner.nearness);
+        let lifted = |corner: &FaceCorner| corner.index.extend(corner.nearness);
         let normal: DVec3 = sides().map(|(a, b)| lifted(a).cross(lifted(b))).sum();
         if normal.z == 0.0 {
             return None;
         }
         let steps = DVec2::new(-normal.x, -normal.y) / normal.z;
         let first = corners[0];
-        let origin = first.nearness - steps.dot(first.place);
+        let origin = first.nearness - steps.dot(first.index);
         Some(Self { corners, plane: DVec3::new(origin, steps.x, steps.y), half_width })
     }
 
@@ -87,7 +87,7 @@ impl Face {
         self.plane.dot(DVec3::new(1.0, at.x, at.y))
     }
 
-    fn sides(&self) -> impl Iterator<Item = (&Corner, &Corner)> {
+    fn sides(&self) -> impl Iterator<Item = (&FaceCorner, &FaceCorner)> {
         self.corners.iter().zip(self.corners.iter().cycle().skip(1))
     }
 
@@ -95,7 +95,7 @@ impl Face {
         let crosses = |a: DVec2, b: DVec2| {
             (a.y > at.y) != (b.y > at.y) && at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)
         };
-        self.sides().filter(|(a, b)| crosses(a.place, b.place)).count() % 2 == 1
+        self.sides().filter(|(a, b)| crosses(a.index, b.index)).count() % 2 == 1
     }
 
     fn shares_a_corner(&self, other: &Self) -> bool {
@@ -110,7 +110,7 @@ impl Face {
     /// The pixels within this distance of it.
     fn pixels(&self, size: [usize; 2], beyond: f64) -> [Range<usize>; 2] {
         [0, 1].map(|axis| {
-            let along = || self.corners.iter().map(|corner| corner.place[axis]);
+            let along = || self.corners.iter().map(|corner| corner.index[axis]);
             let low = along().fold(f64::INFINITY, f64::min) - beyond;
             let high = along().fold(f64::NEG_INFINITY, f64::max) + beyond;
             let within = |at: f64| at.max(0.0).min(size[axis] as f64) as usize;
@@ -148,8 +148,8 @@ pub fn coverage(view: &View, positions: &[DVec3], faces: &[Vec<u32>], width: f64
 
 /// Whether an edge covers a point.
 fn is_inked(faces: &[&Face], at: DVec2) -> bool {
-    let seen = faces.iter().filter(|face| face.contains(at));
-    let ground = seen.max_by(|a, b| a.nearness(at).total_cmp(&b.nearness(at)));
+    let visible = faces.iter().filter(|face| face.contains(at));
+    let ground = visible.max_by(|a, b| a.nearness(at).total_cmp(&b.nearness(at)));
     faces.iter().any(|face| {
         let is_own = ground.is_some_and(|ground| std::ptr::eq(*ground, *face));
         let is_joined = ground.is_some_and(|ground| ground.shares_a_corner(face));
@@ -158,9 +158,9 @@ fn is_inked(faces: &[&Face], at: DVec2) -> bool {
             _ => face.half_width,
         };
         face.sides().any(|(a, b)| {
-            let way = b.place - a.place;
-            let share = ((at - a.place).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-            let point = a.place + way * share;
+            let way = b.index - a.index;
+            let share = ((at - a.index).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+            let point = a.index + way * share;
             let nearness = a.nearness + (b.nearness - a.nearness) * share;
             if at.distance(point) > half_width {
                 return false;
@@ -207,16 +207,16 @@ mod tests {
         /// Exactly the points that lie on the same side of all three lines.
         #[test]
         fn a_triangle_contains_what_lies_between_its_sides(
-            places in prop::array::uniform3(prop::array::uniform2(-9.0..9.0_f64)),
+            slots in prop::array::uniform3(prop::array::uniform2(-9.0..9.0_f64)),
             at in prop::array::uniform2(-9.0..9.0_f64),
         ) {
-            let (places, at) = (places.map(DVec2::from_array), DVec2::from_array(at));
-            let corners = places.map(|place| Corner { place, nearness: 1.0, vertex: 0 }).to_vec();
+            let (slots, at) = (slots.map(DVec2::from_array), DVec2::from_array(at));
+            let corners = slots.map(|index| FaceCorner { index, nearness: 1.0, vertex: 0 }).to_vec();
             let face = Face { corners, plane: DVec3::X, half_width: 0.0 };
-            let sides = [0, 1, 2].map(|i| (places[(i + 1) % 3] - places[i]).perp_dot(at - places[i]));
+            let sides = [0, 1, 2].map(|i| (slots[(i + 1) % 3] - slots[i]).perp_dot(at - slots[i]));
             prop_assume!(sides.iter().all(|side| side.abs() > 1e-6));
             let is_inside = sides.iter().all(|side| *side > 0.0) || sides.iter().all(|side| *side < 0.0);
-            prop_assert_eq!(face.contains(at), is_inside, "{} in {:?}", at, places);
+            prop_assert_eq!(face.contains(at), is_inside, "{} in {:?}", at, slots);
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Nothing here shares a line with the engine: coverage by displaced samples instead of biased edge functions
 //! ([`coverage`]), depth and areas in rational numbers ([`depth`], [`area`]), depth order by integer
-//! fractions ([`nearness`]), and visibility by rays instead of projection, clipping and snapping ([`ray`]).
+//! fractions ([`depth`]), and visibility by rays instead of projection, clipping and snapping ([`ray`]).
 //! Where a result is not exact, its documentation states the bound.
 //!
 //! A snapped triangle is given by its corners on the sub-pixel grid. From there on, only one answer is
@@ -31,8 +31,6 @@ pub mod depth;
 mod double_double;
 pub mod face_edges;
 pub mod half_plane;
-pub mod nearness;
-pub mod perspective;
 pub mod ray;
 
 pub use double_double::DoubleDouble;

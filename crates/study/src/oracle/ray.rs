@@ -22,7 +22,7 @@ pub struct Facet {
     /// The depth z/w of the hit.
     depth: Linear,
     is_cut: bool,
-    is_seen: bool,
+    is_visible: bool,
 }
 
 impl Facet {
@@ -33,15 +33,15 @@ impl Facet {
     pub fn new(corners: [Vec4; 3], size: UVec2) -> Self {
         let [a, b, c] = corners.map(|v| [v.x, v.y, v.w].map(DoubleDouble::from));
         let volume = dot(a, cross(b, c));
-        let is_seen = volume != DoubleDouble::ZERO;
-        let share = |u, v| cross(u, v).map(|term| if is_seen { term / volume } else { term });
+        let is_visible = volume != DoubleDouble::ZERO;
+        let share = |u, v| cross(u, v).map(|term| if is_visible { term / volume } else { term });
         let shares = [share(b, c), share(c, a), share(a, b)].map(|share| in_pixels(share, size));
         let of_axis = |axis: usize| {
             let terms = (0..3).map(|i| shares[i][axis] * corners[i].z.into());
             terms.fold(DoubleDouble::ZERO, |sum, term| sum + term)
         };
-        let is_cut = is_seen && corners.iter().any(|corner| corner.z > corner.w);
-        Self { shares, depth: [0, 1, 2].map(of_axis), is_cut, is_seen }
+        let is_cut = is_visible && corners.iter().any(|corner| corner.z > corner.w);
+        Self { shares, depth: [0, 1, 2].map(of_axis), is_cut, is_visible }
     }
 
     /// The depth z/w where the ray through a point in pixels hits the triangle, between the near plane and
@@ -50,7 +50,7 @@ impl Facet {
     pub fn meets(&self, point: DVec2) -> Option<f64> {
         let depth = at(self.depth, point);
         let inside = self.shares.iter().all(|&share| at(share, point) >= DoubleDouble::ZERO);
-        (self.is_seen && inside && depth <= DoubleDouble::from(1.0_f64)).then(|| depth.to_f64())
+        (self.is_visible && inside && depth <= DoubleDouble::from(1.0_f64)).then(|| depth.to_f64())
     }
 
     /// The distance of a point from the lines through the triangle's edges and from the line where the near
@@ -193,15 +193,15 @@ mod tests {
         let [near, far] = [1.0, 2.0].map(|w| Facet::new(facing(full, w), SIZE));
         let small = Facet::new(facing([[8.0, 4.0], [16.0, 4.0], [8.0, 12.0]], 0.5), SIZE);
         let facets = [far, near, small];
-        let seen = |x, y, tolerance| first_met(&facets, DVec2::new(x, y), tolerance);
-        assert_eq!(seen(20.0, 20.0, EXACT), Sight::Triangle(1), "the nearer of two");
-        assert_eq!(seen(9.0, 5.0, EXACT), Sight::Triangle(2), "the nearest of three");
+        let visible = |x, y, tolerance| first_met(&facets, DVec2::new(x, y), tolerance);
+        assert_eq!(visible(20.0, 20.0, EXACT), Sight::Triangle(1), "the nearer of two");
+        assert_eq!(visible(9.0, 5.0, EXACT), Sight::Triangle(2), "the nearest of three");
         assert_eq!(
-            seen(9.0, 5.0, Tolerance { depth: 0.2, ..EXACT }),
+            visible(9.0, 5.0, Tolerance { depth: 0.2, ..EXACT }),
             Sight::Unclear,
             "1/2 and 1/4 are 0.25 apart"
         );
-        assert_eq!(seen(8.01, 5.0, Tolerance { outline: 0.02, ..EXACT }), Sight::Unclear, "at an edge");
+        assert_eq!(visible(8.01, 5.0, Tolerance { outline: 0.02, ..EXACT }), Sight::Unclear, "at an edge");
         assert_eq!(first_met(&[], DVec2::ZERO, EXACT), Sight::Nothing, "no triangles");
     }
 

@@ -3,7 +3,7 @@
 //! A chapter names the two rows and the compared column; words and numbers follow from the rows. So a
 //! sentence cannot divide by a row that it does not name, or hide a second difference.
 
-use super::figures::{Conditions, Row, number};
+use super::chapter::{Conditions, Row, number};
 
 /// Ratios this near to 1 say nothing: times vary by as much from run to run.
 const SAME: f64 = 0.15;
@@ -89,7 +89,7 @@ impl Headline {
         let [index] = differing[..] else { panic!("{self:?} compares rows that differ in {differing:?}") };
         let [what, instead] = [above, below].map(|row| row.conditions.words()[index].clone());
         let words = below.conditions.words();
-        let same = words.iter().enumerate().filter(|(place, word)| *place != index && !word.is_empty());
+        let same = words.iter().enumerate().filter(|(pixel, word)| *pixel != index && !word.is_empty());
         let same: Vec<&str> = same.map(|(_, word)| word.as_str()).collect();
         let compared = self.quantities.iter().map(|quantity| {
             let [a, b] = [above, below].map(|row| {

@@ -5,10 +5,7 @@
 
 mod chapter;
 mod chapters;
-mod figures;
 mod headline;
-mod image_row;
-mod labels;
 mod markdown;
 mod plot;
 

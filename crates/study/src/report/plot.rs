@@ -1,14 +1,15 @@
 //! Plots with logarithmic axes.
 
-use super::figures::Row;
-use super::labels;
-use plotters::coord::cartesian::Cartesian2d;
-use plotters::coord::combinators::LogCoord;
-use plotters::prelude::*;
 use std::error::Error;
 use std::io;
 use std::path::Path;
+
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::coord::combinators::LogCoord;
+use plotters::prelude::*;
 use trigon_math::elementary;
+
+use super::chapter::Row;
 
 /// Width and height in pixels.
 const SIZE: (i32, i32) = (840, 540);
@@ -118,7 +119,7 @@ fn power(value: f64) -> String {
 }
 
 /// Where labels may be.
-const WITHIN_AXES: labels::Area = labels::Area { left: 82, top: 42, right: SIZE.0 - 18, bottom: SIZE.1 - 62 };
+const WITHIN_AXES: LabelBox = LabelBox { left: 82, top: 42, right: SIZE.0 - 18, bottom: SIZE.1 - 62 };
 
 type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
 type Area<'b> = DrawingArea<SVGBackend<'b>, plotters::coord::Shift>;
@@ -129,19 +130,19 @@ fn draw_trade(
     points: &[(String, [f64; 2])],
     lowest: f64,
 ) -> Result<(), Box<dyn Error>> {
-    let place = |[x, y]: [f64; 2]| (x, if y > 0.0 { y } else { lowest });
+    let pixel = |[x, y]: [f64; 2]| (x, if y > 0.0 { y } else { lowest });
     let mut best: Vec<(f64, f64)> =
-        points.iter().filter(|(_, point)| is_best(*point, points)).map(|(_, point)| place(*point)).collect();
+        points.iter().filter(|(_, point)| is_best(*point, points)).map(|(_, point)| pixel(*point)).collect();
     best.sort_by(|a, b| a.0.total_cmp(&b.0));
     chart.draw_series(LineSeries::new(best, BLUE.mix(0.4)))?;
     let mut labels = Vec::new();
     let mut centres = Vec::new();
     for (name, point) in points {
         let color = if is_best(*point, points) { BLUE } else { BLACK };
-        chart.draw_series([Circle::new(place(*point), 4, color.filled())])?;
+        chart.draw_series([Circle::new(pixel(*point), 4, color.filled())])?;
         let zero = if point[1] > 0.0 { "" } else { " (0)" };
         labels.push(format!("{name}{zero}"));
-        centres.push(<[i32; 2]>::from(chart.backend_coord(&place(*point))));
+        centres.push(<[i32; 2]>::from(chart.backend_coord(&pixel(*point))));
     }
     draw_labels(root, &labels, &centres)
 }
@@ -154,13 +155,13 @@ fn draw_labels(root: &Area<'_>, labels: &[String], centres: &[[i32; 2]]) -> Resu
     /// From where a line says whose label it is.
     const FAR: i32 = 12;
     let widths: Vec<i32> = labels.iter().map(|label| label.chars().count() as i32 * LETTER).collect();
-    let places = labels::place(centres, &widths, HEIGHT, WITHIN_AXES);
-    for ((label, place), &[x, y]) in labels.iter().zip(places).zip(centres) {
-        let [u, v] = place.nearest([x, y]);
+    let positions = label_boxes(centres, &widths, HEIGHT, WITHIN_AXES);
+    for ((label, pixel), &[x, y]) in labels.iter().zip(positions).zip(centres) {
+        let [u, v] = pixel.nearest([x, y]);
         if (u - x).pow(2) + (v - y).pow(2) > FAR.pow(2) {
             root.draw(&PathElement::new([(x, y), (u, v)], BLACK.mix(0.4)))?;
         }
-        root.draw(&Text::new(label.as_str(), (place.left, place.top), ("sans-serif", 13)))?;
+        root.draw(&Text::new(label.as_str(), (pixel.left, pixel.top), ("sans-serif", 13)))?;
     }
     Ok(())
 }
@@ -201,9 +202,94 @@ fn is_near(line: &[[f64; 2]], other: &[[f64; 2]]) -> bool {
         && line.iter().zip(other).all(|(a, b)| (0..2).all(|axis| is_near(a[axis], b[axis])))
 }
 
+/// A rectangle in whole pixels: its left, top, right and lower edge, the last two outside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct LabelBox {
+    pub(super) left: i32,
+    pub(super) top: i32,
+    pub(super) right: i32,
+    pub(super) bottom: i32,
+}
+
+impl LabelBox {
+    fn overlaps(&self, other: &Self) -> bool {
+        self.left < other.right
+            && other.left < self.right
+            && self.top < other.bottom
+            && other.top < self.bottom
+    }
+
+    fn contains(&self, other: &Self) -> bool {
+        self.left <= other.left
+            && other.right <= self.right
+            && self.top <= other.top
+            && other.bottom <= self.bottom
+    }
+
+    /// The pixel in it that is nearest to a point.
+    pub(super) fn nearest(&self, [x, y]: [i32; 2]) -> [i32; 2] {
+        [x.clamp(self.left, self.right - 1), y.clamp(self.top, self.bottom - 1)]
+    }
+
+    /// The square of the distance to a point.
+    fn distance(&self, [x, y]: [i32; 2]) -> i32 {
+        let [u, v] = self.nearest([x, y]);
+        (u - x).pow(2) + (v - y).pow(2)
+    }
+}
+
+/// How far a point reaches from its centre, with some air.
+const REACH: i32 = 6;
+
+/// How much farther, as a square of pixels, the usual place may be than another one: what
+/// most labels keep to is found at a glance.
+const ELSEWHERE: i32 = 100;
+
+/// The places of labels of these widths and this height beside their points, in the order of
+/// the points: for each, from left to right, the nearest place in `area` that is clear of all
+/// points and of the labels before.
+///
+/// Where there is no such place the label goes to the right of its point.
+pub(super) fn label_boxes(points: &[[i32; 2]], widths: &[i32], height: i32, area: LabelBox) -> Vec<LabelBox> {
+    let around = |[x, y]: [i32; 2]| LabelBox {
+        left: x - REACH,
+        top: y - REACH,
+        right: x + REACH + 1,
+        bottom: y + REACH + 1,
+    };
+    let obstacles: Vec<LabelBox> = points.iter().map(|&point| around(point)).collect();
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by_key(|&index| points[index]);
+    let mut positions: Vec<Option<LabelBox>> = vec![None; points.len()];
+    for index in order {
+        let (point, width) = (points[index], widths[index]);
+        let label = |left: i32, top: i32| LabelBox { left, top, right: left + width, bottom: top + height };
+        let is_free = |label: &LabelBox| {
+            area.contains(label)
+                && !obstacles.iter().chain(positions.iter().flatten()).any(|other| other.overlaps(label))
+        };
+        let beside = label(point[0] + REACH + 2, point[1] - height / 2);
+        let rows = (area.top..area.bottom).step_by(3);
+        let columns = [beside.left, point[0] - REACH - 2 - width, point[0] - width / 2];
+        let shifted = (area.left..area.right).step_by(9);
+        let best = rows
+            .flat_map(|top| columns.into_iter().chain(shifted.clone()).map(move |left| (left, top)))
+            .map(|(left, top)| label(left, top))
+            .chain([beside])
+            .filter(is_free)
+            .min_by_key(|label| {
+                let elsewhere = if *label == beside { 0 } else { ELSEWHERE };
+                (label.distance(point) + elsewhere, label.top, label.left)
+            });
+        positions[index] = Some(best.unwrap_or(beside));
+    }
+    positions.into_iter().flatten().collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     fn trade(points: &[[f64; 2]]) -> Plot {
         let row = |(number, [time, error]): (usize, &[f64; 2])| {
@@ -276,5 +362,36 @@ mod tests {
     fn numbers_at_axes_are_short() {
         let written = [0.001, 0.02, 1.0, 20.0, 50000.0, 1e5, 5e-4].map(power);
         assert_eq!(written, ["0.001", "0.02", "1", "20", "50000", "1e5", "5e-4"]);
+    }
+
+    const AREA: LabelBox = LabelBox { left: 80, top: 40, right: 750, bottom: 420 };
+
+    proptest! {
+        /// Sixteen variants are more than any plot has; they may lie all in one place.
+        #[test]
+        fn no_label_covers_a_label_or_a_point(
+            points in prop::collection::vec([80..750, 40..420], 1..16),
+            gathered in any::<bool>(),
+            widths in prop::collection::vec(20..170, 16),
+        ) {
+            let near = |[x, y]: [i32; 2]| if gathered { [400 + x % 20, 200 + y % 20] } else { [x, y] };
+            let points: Vec<[i32; 2]> = points.into_iter().map(near).collect();
+            let positions = label_boxes(&points, &widths, 14, AREA);
+            prop_assert_eq!(positions.len(), points.len());
+            for (index, label) in positions.iter().enumerate() {
+                prop_assert!(AREA.contains(label), "{:?}", label);
+                prop_assert_eq!(label.right - label.left, widths[index]);
+                let covers = |[x, y]: [i32; 2]| label.distance([x, y]) == 0;
+                prop_assert!(!points.iter().any(|&point| covers(point)), "{:?} covers a point", label);
+                let others = positions[..index].iter();
+                prop_assert!(!others.clone().any(|other| other.overlaps(label)), "{:?} covers a label", label);
+            }
+        }
+    }
+
+    #[test]
+    fn a_label_with_room_is_to_the_right_of_its_point() {
+        let positions = label_boxes(&[[300, 200]], &[60], 14, AREA);
+        assert_eq!(positions, [LabelBox { left: 308, top: 193, right: 368, bottom: 207 }]);
     }
 }

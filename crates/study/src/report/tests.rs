@@ -1,6 +1,6 @@
 //! The report is whole: every chapter answers, and every file that the text names is there.
 
-use super::figures::number;
+use super::chapter::number;
 use super::*;
 
 #[test]

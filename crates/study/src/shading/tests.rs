@@ -6,14 +6,14 @@ use super::*;
 fn each_method_is_nearer_to_the_ball_than_the_one_before() {
     for subdivisions in [1, 2, 3] {
         let ball = Ball::new(128, subdivisions);
-        let [flat, gouraud, phong] = Shading::ALL.map(|shading| shading.error(&ball).rmse());
+        let [flat, gouraud, phong] = BallShading::ALL.map(|shading| shading.error(&ball).rmse());
         assert!(flat > 1.5 * gouraud && gouraud > 1.5 * phong, "{flat}, {gouraud}, {phong}");
     }
 }
 
 #[test]
 fn finer_triangles_make_all_of_them_better() {
-    for shading in Shading::ALL {
+    for shading in BallShading::ALL {
         let errors = [1, 2, 3].map(|subdivisions| shading.error(&Ball::new(128, subdivisions)).rmse());
         assert!(errors[0] > 1.5 * errors[1] && errors[1] > 1.5 * errors[2], "{shading:?}: {errors:?}");
     }
@@ -21,7 +21,7 @@ fn finer_triangles_make_all_of_them_better() {
 
 #[test]
 fn the_ball_covers_what_it_should() {
-    let drawn = Shading::Flat.draw(&Ball::new(128, 3));
+    let drawn = BallShading::Flat.draw(&Ball::new(128, 3));
     let covered = drawn.values().iter().flatten().count() as f64;
     let disc = std::f64::consts::PI * 64.0 * 64.0;
     // The outline is inside the ball by at most (1 - cos of half an edge's angle, 0.07 of

@@ -20,7 +20,7 @@ fn larger_maps_and_filters_bring_edges_nearer() {
 #[test]
 fn rays_are_right_up_to_rounding() {
     let (drawn, right) = (draw(256, &*Shadow::Rays.ready()), exact(256));
-    let wrong = right.pixels().filter(|(place, light)| drawn[*place] != **light).count();
+    let wrong = right.pixels().filter(|(pixel, light)| drawn[*pixel] != **light).count();
     // Corners round to f32, by 1e-7 of a metre: a pixel is 0.016 metres wide, and the edge some
     // 850 pixels long.
     assert!(wrong <= 1, "{wrong} pixels");
@@ -40,14 +40,14 @@ fn the_shadow_is_nearly_an_ellipse() {
 #[test]
 fn the_engines_rays_are_those_of_the_study() {
     let light = |shadows: Shadows| {
-        let mut drawer = Drawer::new(shadows, 256);
+        let mut drawer = ShadowDrawer::new(shadows, 256);
         drawer.draw();
         drawer.light()
     };
     let right = exact(256);
     assert!(light(Shadows::Off).values().iter().all(|&light| light == 1.0), "without shadows all is lit");
     let rays = light(Shadows::Rays);
-    let wrong = right.pixels().filter(|(place, light)| rays[*place] != **light).count();
+    let wrong = right.pixels().filter(|(pixel, light)| rays[*pixel] != **light).count();
     // As above; and pixels lie where the camera's matrix puts them, rounded to f32.
     assert!(wrong <= 3, "{wrong} pixels");
     let [coarse, fine] =

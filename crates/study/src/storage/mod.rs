@@ -3,25 +3,13 @@
 //! moves, and visit the neighbours of a vertex.
 
 mod answer;
-mod corner_table;
-mod face_list;
-mod groups;
-mod own;
-mod reads;
-mod triangles;
-mod vertex_list;
-mod winged_edge;
+mod representations;
 
 #[cfg(test)]
 mod tests;
 
-pub use answer::Storage;
-pub use corner_table::CornerTable;
-pub use face_list::FaceList;
-pub use own::Own;
-pub use triangles::Triangles;
-pub use vertex_list::VertexList;
-pub use winged_edge::WingedEdge;
+pub use answer::{Storage, Triangles};
+pub use representations::{CornerTable, FaceList, Own, VertexList, WingedEdge};
 
 /// Makes a representation.
 pub type Maker = fn(&Triangles) -> Box<dyn Storage>;

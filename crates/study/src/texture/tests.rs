@@ -32,9 +32,9 @@ fn the_engine_looks_up_where_the_closed_form_does() {
     let inside =
         right.pixels().filter(|([_, y], light)| *y > 48 && [20.0, 230.0].contains(&(*light * 255.0).round()));
     let (mut count, mut wrong) = (0, 0);
-    for (place, light) in inside {
+    for (pixel, light) in inside {
         count += 1;
-        wrong += usize::from((drawn[place] - light).abs() > 1e-3);
+        wrong += usize::from((drawn[pixel] - light).abs() > 1e-3);
     }
     assert!(count > 1000 && wrong == 0, "{wrong} of {count} pixels inside of squares");
 }
@@ -43,7 +43,7 @@ fn the_engine_looks_up_where_the_closed_form_does() {
 #[test]
 fn the_plain_floor_has_its_coordinates_as_colours() {
     let ground = Ground::new(96);
-    let mut drawer = Drawer::new(&ground);
+    let mut drawer = FloorDrawer::new(&ground);
     drawer.draw_plain();
     for ([x, y], found) in drawer.light().pixels() {
         let [right, _] = ground.coordinates([x as f64 + 0.5, y as f64 + 0.5]);

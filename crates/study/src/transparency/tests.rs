@@ -1,11 +1,11 @@
 //! What the report claims of transparency.
 
 use super::*;
-use crate::visibility::Case;
+use crate::visibility::VisibilityCase;
 
 #[test]
 fn finer_sorting_is_nearer_and_fragments_are_right() {
-    let scene = Case::Crossing.scene(128);
+    let scene = VisibilityCase::Crossing.scene(128);
     let right = exact(&scene);
     let [unsorted, body, face, fragment, engine] =
         Transparency::ALL.map(|way| way.error(&scene, &right).rmse());
@@ -34,7 +34,7 @@ fn one_face_lets_half_of_the_light_through() {
 /// The memory of an image is that of the one before.
 #[test]
 fn what_is_drawn_twice_is_the_same() {
-    let scene = Case::Balls.scene(64);
+    let scene = VisibilityCase::Balls.scene(64);
     for way in Transparency::ALL {
         let mut drawn = way.way(&scene);
         drawn.draw(&scene);
@@ -56,8 +56,8 @@ fn faces_are_sorted_by_their_middle_and_bodies_by_theirs() {
         ])
     };
     let scene = Scene::new([4; 2], vec![body([3, 6, 9, 30]), body([-8, -4, 0, 4])]);
-    let faces: Vec<i64> = (0..8).map(|number| faces::depth_of_face(&scene, number)).collect();
+    let faces: Vec<i64> = (0..8).map(|number| depth_of_face(&scene, number)).collect();
     assert_eq!(faces, [18, 39, 42, 45, -12, -8, -4, 0], "three times the middle");
-    let bodies: Vec<i64> = (0..8).map(|number| faces::depth_of_body(&scene, number)).collect();
+    let bodies: Vec<i64> = (0..8).map(|number| depth_of_body(&scene, number)).collect();
     assert_eq!(bodies, [12, 12, 12, 12, -2, -2, -2, -2]);
 }

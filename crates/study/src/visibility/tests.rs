@@ -5,11 +5,11 @@ use trigon_classic::{Body, Surface, visible_lines};
 
 const SIDE: usize = 128;
 
-fn misordered(visibility: Visibility, case: Case) -> usize {
+fn misordered(visibility: Visibility, case: VisibilityCase) -> usize {
     let scene = case.scene(SIDE);
     let drawing = visibility.draw(&scene).unwrap();
-    let OrderErrors { seen, misordered } = OrderErrors::of(&scene, &drawing.faces);
-    assert!(seen > SIDE * SIDE / 10, "{case:?} fills a part of the image: {seen} pixels");
+    let OrderErrors { visible, misordered } = OrderErrors::of(&scene, &drawing.faces);
+    assert!(visible > SIDE * SIDE / 10, "{case:?} fills a part of the image: {visible} pixels");
     misordered
 }
 
@@ -20,7 +20,7 @@ fn tests(visibility: Visibility, scene: &Scene) -> f64 {
 #[test]
 fn what_looks_at_every_depth_is_right() {
     for visibility in [Visibility::Classic(Method::Warnock), Visibility::Classic(Method::AllRays)] {
-        for case in Case::ALL {
+        for case in VisibilityCase::ALL {
             assert_eq!(misordered(visibility, case), 0, "{visibility:?}, {case:?}");
         }
     }
@@ -31,7 +31,7 @@ fn depths_in_f32_are_wrong_at_most_where_faces_meet() {
     for visibility in
         [Visibility::Classic(Method::ZBuffer), Visibility::Classic(Method::TreeRays), Visibility::Engine]
     {
-        for case in Case::ALL {
+        for case in VisibilityCase::ALL {
             // Depths of up to 2¹⁶ steps round to 2⁻⁸ of a step: faces as near to each
             // other are rare, and along lines only.
             let wrong = misordered(visibility, case);
@@ -42,10 +42,10 @@ fn depths_in_f32_are_wrong_at_most_where_faces_meet() {
 
 #[test]
 fn roberts_is_right_about_convex_bodies_and_refuses_others() {
-    for case in [Case::Balls, Case::Ring, Case::Crossing] {
+    for case in [VisibilityCase::Balls, VisibilityCase::Ring, VisibilityCase::Crossing] {
         assert_eq!(misordered(Visibility::Classic(Method::Roberts), case), 0, "{case:?}");
     }
-    for case in [Case::Torus, Case::Teapot] {
+    for case in [VisibilityCase::Torus, VisibilityCase::Teapot] {
         let refusal = Visibility::Classic(Method::Roberts).draw(&case.scene(SIDE)).unwrap_err();
         assert!(refusal.to_string().contains("is not convex"), "{case:?}: {refusal}");
     }
@@ -53,7 +53,7 @@ fn roberts_is_right_about_convex_bodies_and_refuses_others() {
 
 #[test]
 fn the_painter_fails_at_rings_and_crossings() {
-    for case in [Case::Ring, Case::Crossing] {
+    for case in [VisibilityCase::Ring, VisibilityCase::Crossing] {
         let wrong = misordered(Visibility::Classic(Method::Painter), case);
         // Several times what depths in f32 are allowed above.
         assert!(wrong > SIDE / 2, "{case:?}: {wrong} pixels");

@@ -4,7 +4,7 @@
 
 use trigon_math::{DVec3, Vec3, elementary};
 
-use super::shading;
+use super::pipelines;
 use std::f64::consts::TAU;
 
 /// Indexed triangles; counter-clockwise seen from outside.
@@ -86,11 +86,11 @@ pub(super) fn off_screen() -> Mesh {
 
 /// Quads over the whole screen, in clip space with w = 1; `places` counts from
 /// the eye, in the order of drawing.
-pub(super) fn layers(places: impl ExactSizeIterator<Item = u32>) -> Mesh {
+pub(super) fn layers(slots: impl ExactSizeIterator<Item = u32>) -> Mesh {
     let mut mesh = Mesh::default();
-    let count = places.len() as u32;
-    for (i, place) in (0..count).zip(places) {
-        let depth = 1.0 - (place + 1) as f32 / (count + 1) as f32;
+    let count = slots.len() as u32;
+    for (i, spot) in (0..count).zip(slots) {
+        let depth = 1.0 - (spot + 1) as f32 / (count + 1) as f32;
         let corner = |x, y| Vec3::new(x, y, depth);
         let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
         mesh.push_quad(corners, [i * 3, 255 - i * 2, i * 37 % 256, 255].map(|channel| channel as u8));
@@ -186,7 +186,7 @@ fn push_cube(mesh: &mut Mesh, center: Vec3, color: Vec3) {
             let turned = if normal[axis] > 0.0 { [first, second] } else { [second, first] };
             let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
             let corner = |[p, q]: [f32; 2]| center + HALF_EDGE * (normal + turned[0] * p + turned[1] * q);
-            let [r, g, b] = (color * shading::lambert(normal, 0.2)).to_array();
+            let [r, g, b] = (color * pipelines::lambert(normal, 0.2)).to_array();
             mesh.push_quad(signs.map(corner), [r as u8, g as u8, b as u8, 255]);
         }
     }

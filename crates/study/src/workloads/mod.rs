@@ -8,14 +8,13 @@ mod canvas;
 mod geometry;
 mod pipelines;
 mod scene;
-mod shading;
 mod texture;
 mod timings;
 
 pub use canvas::Canvas;
 pub use geometry::{Grid, Mesh};
+pub use pipelines::{blinn_phong, lambert_lanes};
 pub use scene::{Scene, Shading};
-pub use shading::{blinn_phong, lambert_lanes};
 pub use texture::knot_surface;
 pub use timings::Timings;
 
@@ -88,7 +87,7 @@ impl Workload {
             Self::KnotTextured => Scene::knot(Shading::Textured(Box::new(knot_surface()))),
             Self::Cubes => Scene {
                 culling: Culling::Back,
-                ..Scene::flat(geometry::cubes()).seen_from(Vec3::new(30.0, 20.0, 36.0), [1.0, 200.0])
+                ..Scene::flat(geometry::cubes()).viewed_from(Vec3::new(30.0, 20.0, 36.0), [1.0, 200.0])
             },
             Self::KnotMultisampled => Scene { samples: 4, ..Scene::knot(Shading::BlinnPhong) },
         }

@@ -78,19 +78,19 @@ impl Scene {
     pub fn torus(grid: Grid) -> Self {
         let scene =
             Self { shading: Shading::Gouraud, culling: Culling::Back, ..Self::flat(geometry::torus(grid)) };
-        scene.seen_from(Vec3::new(0.0, 2.1, 3.0), [0.5, 10.0])
+        scene.viewed_from(Vec3::new(0.0, 2.1, 3.0), [0.5, 10.0])
     }
 
     /// A torus knot of 70,000 triangles.
     #[must_use]
     pub fn knot(shading: Shading) -> Self {
         let scene = Self { shading, culling: Culling::Back, ..Self::flat(geometry::knot()) };
-        scene.seen_from(Vec3::new(0.3, 0.4, 4.6), [1.0, 20.0])
+        scene.viewed_from(Vec3::new(0.3, 0.4, 4.6), [1.0, 20.0])
     }
 
     /// The same, seen in perspective, 45 degrees high, towards the origin; the
     /// image shows what lies between the planes at distances `near` and `far`.
-    pub(super) fn seen_from(self, eye: Vec3, [near, far]: [f64; 2]) -> Self {
+    pub(super) fn viewed_from(self, eye: Vec3, [near, far]: [f64; 2]) -> Self {
         let aspect = f64::from(self.size.x) / f64::from(self.size.y);
         // With the planes exchanged, depth is reversed.
         let projection = directx::perspective(TAU / 8.0, aspect, far, near);

@@ -175,18 +175,21 @@ fn a_knot_is_a_tube_around_its_line() {
 fn layers_fill_the_screen_at_depths_of_their_own() {
     let Mesh { positions, colors, triangles, .. } = &Workload::FillPass.scene().mesh;
     let depths: Vec<f32> = positions[2].chunks(4).map(|quad| quad[0]).collect();
-    for (place, quad) in positions[2].chunks(4).enumerate() {
-        assert!(quad.iter().all(|depth| *depth == quad[0] && (0.0..1.0).contains(depth)), "layer {place}");
+    for (position, quad) in positions[2].chunks(4).enumerate() {
+        assert!(quad.iter().all(|depth| *depth == quad[0] && (0.0..1.0).contains(depth)), "layer {position}");
         let corners: Vec<[f32; 2]> =
-            (4 * place..4 * place + 4).map(|i| [positions[0][i], positions[1][i]]).collect();
-        assert_eq!(corners, [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]], "layer {place}");
-        let first = 4 * place as u32;
+            (4 * position..4 * position + 4).map(|i| [positions[0][i], positions[1][i]]).collect();
+        assert_eq!(corners, [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]], "layer {position}");
+        let first = 4 * position as u32;
         assert_eq!(
-            triangles[2 * place..][..2],
+            triangles[2 * position..][..2],
             [[first, first + 1, first + 2], [first, first + 2, first + 3]]
         );
-        assert_eq!(colors[2 * place], colors[2 * place + 1]);
-        assert!(place == 0 || colors[2 * place] != colors[2 * place - 1], "layer {place} has its own colour");
+        assert_eq!(colors[2 * position], colors[2 * position + 1]);
+        assert!(
+            position == 0 || colors[2 * position] != colors[2 * position - 1],
+            "layer {position} has its own colour"
+        );
     }
     let step = depths[1] - depths[0];
     assert!(depths.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-6), "all alike: {step}");

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::engine::{Corners, Engine, target};
-use crate::fill::{Canvas, Case, Fill, FillErrors, Painted, Triangle, owners, tiles};
+use crate::fill::{Fill, FillCanvas, FillErrors, Painted, Tiling, Triangle, owners, tiles};
 use trigon_classic::Field;
 use trigon_raster::Output;
 
@@ -13,11 +13,11 @@ const TIME: &str = "ns per triangle";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
     let mut rows = Vec::new();
-    for case in Case::ALL {
+    for case in Tiling::ALL {
         rows.extend(of_case(case, effort));
     }
     let growth = growth(effort);
-    let tiles = Case::Tiles.name();
+    let tiles = Tiling::Tiles.name();
     let plots = vec![
         Plot::trade("tiles", &rows, tiles, [TIME, WRONG]),
         Plot::growth(
@@ -41,7 +41,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     }
 }
 
-fn of_case(case: Case, effort: Effort) -> Vec<Row> {
+fn of_case(case: Tiling, effort: Effort) -> Vec<Row> {
     const SIDE: usize = 256;
     let triangles = case.triangles(SIDE, 0);
     let times = times_of(&Fill::ALL, &triangles, SIDE, effort);
@@ -55,7 +55,7 @@ fn of_case(case: Case, effort: Effort) -> Vec<Row> {
     let row = |(&fill, time): (&Fill, Spread)| {
         let mut errors = FillErrors::default();
         for (triangles, owners) in &tilings {
-            let mut canvas = Canvas::new([SIDE; 2]);
+            let mut canvas = FillCanvas::new([SIDE; 2]);
             fill.paint(triangles, &mut canvas);
             errors += FillErrors::of(&canvas, owners);
         }
@@ -73,7 +73,7 @@ fn of_case(case: Case, effort: Effort) -> Vec<Row> {
 /// Nanoseconds for all triangles. The engine draws and stores one image, as the others do.
 fn times_of(fills: &[Fill], triangles: &[Triangle], side: usize, effort: Effort) -> Vec<Spread> {
     nanoseconds(effort.rounds(), fills, |fill| -> Box<dyn FnMut()> {
-        let mut canvas = Canvas::new([side; 2]);
+        let mut canvas = FillCanvas::new([side; 2]);
         if fill != Fill::Engine {
             return Box::new(move || fill.paint(triangles, &mut canvas));
         }
@@ -102,14 +102,14 @@ fn growth(effort: Effort) -> Vec<(String, Vec<[f64; 2]>)> {
 /// Errors: a gap is white, a pixel painted twice red, a neighbour's pixel yellow.
 fn image() -> ImageRow {
     const SIZE: [usize; 2] = [64; 2];
-    let triangles = Case::Lattice.triangles(SIZE[0], 2);
+    let triangles = Tiling::Lattice.triangles(SIZE[0], 2);
     let owners = owners(&triangles, SIZE);
     let panel = |fill: Fill| {
-        let mut canvas = Canvas::new(SIZE);
+        let mut canvas = FillCanvas::new(SIZE);
         fill.paint(&triangles, &mut canvas);
-        let color = |place: [usize; 2]| match canvas.pixels()[place] {
+        let color = |position: [usize; 2]| match canvas.pixels()[position] {
             Painted { count: 0, .. } => [255; 3],
-            Painted { count: 1, last } if last == owners[place] => tint(last).map(|part| part / 3),
+            Painted { count: 1, last } if last == owners[position] => tint(last).map(|part| part / 3),
             Painted { count: 1, .. } => [240, 200, 40],
             _ => [230, 50, 40],
         };
@@ -122,7 +122,7 @@ fn image() -> ImageRow {
 }
 
 pub(super) fn findings(rows: &[Row]) -> Vec<String> {
-    let [tiles, fan, lattice] = [Case::Tiles, Case::Fan, Case::Lattice].map(Case::name);
+    let [tiles, fan, lattice] = [Tiling::Tiles, Tiling::Fan, Tiling::Lattice].map(Tiling::name);
     let of = |case: &str, fill: Fill, quantity: &str| value(rows, case, fill.name(), quantity);
     let [float, exact] = [Fill::FloatFromCorners, Fill::Fixed8];
     vec![
@@ -147,7 +147,8 @@ pub(super) fn findings(rows: &[Row]) -> Vec<String> {
 }
 
 pub(super) fn headlines() -> Vec<Headline> {
-    let tiles = |fills: [Fill; 2]| Headline::within(Case::Tiles.name(), fills.map(Fill::name), [TIME, WRONG]);
+    let tiles =
+        |fills: [Fill; 2]| Headline::within(Tiling::Tiles.name(), fills.map(Fill::name), [TIME, WRONG]);
     vec![
         tiles([Fill::Fixed8, Fill::FloatHoisted]),
         tiles([Fill::Fixed8Lanes, Fill::FloatLanes])
@@ -165,12 +166,12 @@ mod tests {
     /// Corners are on half pixels, so the engine is exact: each pixel has its owner's colour, darker.
     #[test]
     fn what_was_painted_by_its_owner_is_dark() {
-        let triangles = Case::Lattice.triangles(64, 2);
+        let triangles = Tiling::Lattice.triangles(64, 2);
         let owners = owners(&triangles, [64; 2]);
         let panels = image().panels;
         let engine = panels.last().expect("the engine's");
-        for (place, &owner) in owners.pixels() {
-            assert_eq!(engine[place], tint(owner).map(|part| part / 3), "{place:?}");
+        for (position, &owner) in owners.pixels() {
+            assert_eq!(engine[position], tint(owner).map(|part| part / 3), "{position:?}");
         }
         let count = |panel: usize, color: [u8; 3]| {
             panels[panel].values().iter().filter(|&&found| found == color).count()

@@ -1,7 +1,9 @@
 //! What does a whole image's accuracy cost?
 
 use super::*;
-use crate::frames::{Case, Kept, Prover, Repeated, Step, errors, fly, name, other_shadows, variants};
+use crate::frames::{
+    FlightSummary, FrameCase, Prover, Repeated, Step, errors, fly, name, other_shadows, variants,
+};
 use crate::workloads::Workload;
 use std::time::{Duration, Instant};
 use trigon_classic::Field;
@@ -29,13 +31,13 @@ const MEANS: &str = "all scenes, geometric means";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
     let size = effort.pick([120, 72], [480, 288]);
-    let mut rows: Vec<Row> = Case::ALL.into_iter().flat_map(|case| front(case, size, effort)).collect();
+    let mut rows: Vec<Row> = FrameCase::ALL.into_iter().flat_map(|case| front(case, size, effort)).collect();
     rows.extend(means(&rows, size));
     leave_out_what_is_beaten(&mut rows);
-    rows.extend(Case::ALL.map(|case| flight(case, size, effort)));
+    rows.extend(FrameCase::ALL.map(|case| flight(case, size, effort)));
     rows.extend(levels(size, effort));
     rows.extend(proofs(effort));
-    let plot = |(name, case): (&'static str, Case)| Plot::trade(name, &rows, case.name(), [TIME, RMSE]);
+    let plot = |(name, case): (&'static str, FrameCase)| Plot::trade(name, &rows, case.name(), [TIME, RMSE]);
     Chapter {
         name: "frames",
         title: "Which preset should one use?",
@@ -50,7 +52,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         findings: findings(&rows),
         plots: ["showcase", "shadows", "dense", "teapot", "chair", "mug"]
             .into_iter()
-            .zip(Case::ALL)
+            .zip(FrameCase::ALL)
             .map(plot)
             .collect(),
         images: vec![heat_image([256, 160])],
@@ -59,7 +61,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
 }
 
 /// All qualities of a case.
-fn front(case: Case, size: [u32; 2], effort: Effort) -> Vec<Row> {
+fn front(case: FrameCase, size: [u32; 2], effort: Effort) -> Vec<Row> {
     let mut variants = variants();
     if case.has_shadows() {
         variants.extend(other_shadows());
@@ -80,7 +82,7 @@ fn front(case: Case, size: [u32; 2], effort: Effort) -> Vec<Row> {
 /// Keeps only qualities on the front of each scene and presets in tables and plots.
 pub(super) fn leave_out_what_is_beaten(rows: &mut [Row]) {
     let point = |row: &Row| Some([row.value(TIME)?, row.value(RMSE)?]);
-    for case in Case::ALL.into_iter().map(Case::name).chain([MEANS]) {
+    for case in FrameCase::ALL.into_iter().map(FrameCase::name).chain([MEANS]) {
         let points: Vec<[f64; 2]> = rows.iter().filter(|row| row.case == case).filter_map(point).collect();
         let is_beaten = |[x, y]: [f64; 2]| points.iter().any(|&[u, v]| u <= x && v <= y && [u, v] != [x, y]);
         for row in rows.iter_mut().filter(|row| row.case == case) {
@@ -99,7 +101,7 @@ fn whole(case: &str, variant: impl Into<String>, size: [u32; 2]) -> Row {
 /// Each quality over all scenes.
 pub(super) fn means(rows: &[Row], size: [u32; 2]) -> Vec<Row> {
     let mean = |variant: &str, quantity: &str| {
-        let values = Case::ALL.map(|case| value(rows, case.name(), variant, quantity));
+        let values = FrameCase::ALL.map(|case| value(rows, case.name(), variant, quantity));
         elementary::pow(values.iter().product(), 1.0 / values.len() as f64)
     };
     let row = |&quality: &Quality| {
@@ -111,10 +113,10 @@ pub(super) fn means(rows: &[Row], size: [u32; 2]) -> Vec<Row> {
 }
 
 /// The budget on a case's flight.
-fn flight(case: Case, size: [u32; 2], effort: Effort) -> Row {
+fn flight(case: FrameCase, size: [u32; 2], effort: Effort) -> Row {
     let (start, frames) = (Instant::now(), effort.pick(24, 60));
     let steps = fly(case, size, LIMIT, frames, &mut || start.elapsed()).expect("the size is in range");
-    let kept = Kept::of(&steps);
+    let summary = FlightSummary::of(&steps);
     let mut times: Vec<f64> = steps.iter().map(|step: &Step| step.time.as_secs_f64() * 1e3).collect();
     times.sort_by(f64::total_cmp);
     let at = |part: usize| times[(times.len() - 1) * part / 4];
@@ -122,16 +124,16 @@ fn flight(case: Case, size: [u32; 2], effort: Effort) -> Row {
         .by("a budget of 16 ms")
         .of(case.name())
         .timed(TIME, Spread { low: at(1), median: at(2), high: at(3) })
-        .with(IN_TIME, kept.in_time * 100.0)
-        .with(TIMES, kept.times * 100.0)
-        .with(FORESEEN, kept.errors * 100.0)
-        .with(WORST, kept.worst * 100.0)
+        .with(IN_TIME, summary.in_time * 100.0)
+        .with(TIMES, summary.times * 100.0)
+        .with(FORESEEN, summary.errors * 100.0)
+        .with(WORST, summary.worst * 100.0)
 }
 
 /// The same image at each level of vector instructions that is there.
 fn levels(size: [u32; 2], effort: Effort) -> Vec<Row> {
     let levels: Vec<SimdLevel> = SimdLevel::ALL.into_iter().filter(|level| level.is_supported()).collect();
-    let at = |level| Repeated::new(Case::Showcase, size, Preset::Standard.quality()).at_level(level);
+    let at = |level| Repeated::new(FrameCase::Showcase, size, Preset::Standard.quality()).at_level(level);
     let times = nanoseconds(effort.rounds().div_ceil(3), &levels, |level| -> Box<dyn FnMut()> {
         let mut repeated = at(level);
         Box::new(move || {
@@ -143,7 +145,7 @@ fn levels(size: [u32; 2], effort: Effort) -> Vec<Row> {
     let row = |(&level, time): (&SimdLevel, Spread)| {
         let differ = bytes(level).iter().zip(&first).filter(|(a, b)| a != b).count();
         whole(LEVELS, level.to_string(), size)
-            .of(Case::Showcase.name())
+            .of(FrameCase::Showcase.name())
             .timed(TIME, time.scaled(1e-6))
             .with(OTHER, differ as f64)
     };
@@ -185,7 +187,7 @@ fn proofs(effort: Effort) -> Vec<Row> {
 /// The presets on the scene with shadows, and where each is wrong.
 fn heat_image(size: [u32; 2]) -> ImageRow {
     let draw = |preset: Preset| {
-        let mut repeated = Repeated::new(Case::Shadows, size, preset.quality());
+        let mut repeated = Repeated::new(FrameCase::Shadows, size, preset.quality());
         repeated.draw(0.0).map(|frame| frame.color.clone()).unwrap_or_default()
     };
     let best = draw(Preset::Reference);
@@ -208,8 +210,8 @@ fn heat_image(size: [u32; 2]) -> ImageRow {
 }
 
 pub(super) fn findings(rows: &[Row]) -> Vec<String> {
-    let flight = |case: Case, quantity: &str| number(value(rows, FLIGHT, case.name(), quantity));
-    let list = |quantity: &str| Case::ALL.map(|case| flight(case, quantity)).join(", ");
+    let flight = |case: FrameCase, quantity: &str| number(value(rows, FLIGHT, case.name(), quantity));
+    let list = |quantity: &str| FrameCase::ALL.map(|case| flight(case, quantity)).join(", ");
     let certified = [Workload::KnotPhong, Workload::Cubes]
         .map(|workload| {
             let share = value(rows, PROOFS, &format!("{}, {PROVEN}", workload.name()), CERTIFIED);
@@ -269,7 +271,7 @@ mod tests {
 
     /// An image of a preset, drawn on its own.
     fn drawn(preset: Preset, size: [u32; 2]) -> Vec<u8> {
-        let mut repeated = Repeated::new(Case::Shadows, size, preset.quality());
+        let mut repeated = Repeated::new(FrameCase::Shadows, size, preset.quality());
         repeated.draw(0.0).expect("the size is in range").color.clone()
     }
 
@@ -286,12 +288,12 @@ mod tests {
         for (preset, panel) in [Preset::Draft, Preset::Standard, Preset::High].into_iter().zip(&panels[1..]) {
             let color = drawn(preset, [12, 8]);
             for (i, (found, right)) in color.chunks(4).zip(best.chunks(4)).enumerate() {
-                let place = [i % 12, i / 12];
-                assert_eq!(panels[0][place], right[..3], "the reference at {place:?}");
+                let position = [i % 12, i / 12];
+                assert_eq!(panels[0][position], right[..3], "the reference at {position:?}");
                 let error = (light(found) - light(right)).abs() / 3.0;
-                let differs = panel[place].into_iter().zip(heat(5.0 * error)).map(|(a, b)| a.abs_diff(b));
-                assert!(differs.max() <= Some(1), "{preset:?} at {place:?}");
-                wrong += usize::from(panel[place] != [0; 3]);
+                let differs = panel[position].into_iter().zip(heat(5.0 * error)).map(|(a, b)| a.abs_diff(b));
+                assert!(differs.max() <= Some(1), "{preset:?} at {position:?}");
+                wrong += usize::from(panel[position] != [0; 3]);
             }
         }
         assert!(wrong > 10, "no preset is the reference: {wrong} pixels");

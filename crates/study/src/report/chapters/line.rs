@@ -69,7 +69,7 @@ fn image() -> ImageRow {
         })
         .to_vec();
     let (fill, outline) = Outline::Source.draw([[4, 4], [44, 17], [15, 43]], SIZE);
-    panels.push(Field::from_fn(SIZE, |place| match (fill[place], outline[place]) {
+    panels.push(Field::from_fn(SIZE, |position| match (fill[position], outline[position]) {
         (false, true) => [230, 50, 40],
         (true, true) => [240, 200, 40],
         (true, false) => [60, 90, 140],

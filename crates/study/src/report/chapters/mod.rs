@@ -16,9 +16,9 @@ mod transparency;
 mod visibility;
 
 use super::chapter::{Chapter, Effort, Question};
-use super::figures::{Row, number, value};
+use super::chapter::{Row, number, value};
 use super::headline::Headline;
-use super::image_row::{ImageRow, grey, heat, tint, tinted};
+use super::markdown::{ImageRow, grey, heat, tint, tinted};
 use super::plot::Plot;
 use crate::measure::{Spread, interleaved, nanoseconds};
 

@@ -1,7 +1,7 @@
 //! What do normals in each pixel buy?
 
 use super::*;
-use crate::shading::{Ball, Shading, error_at};
+use crate::shading::{Ball, BallShading, error_at};
 use trigon_classic::Field;
 
 const RMSE: &str = "RMSE, linear light";
@@ -15,9 +15,9 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         (1..=4).map(|subdivisions| (case(subdivisions), Ball::new(side, subdivisions))).collect();
     let mut rows = Vec::new();
     for (name, ball) in &cases {
-        let pixels = Shading::Flat.draw(ball).values().iter().flatten().count();
-        let times = nanoseconds(effort.rounds(), &Shading::ALL, |shading| shading.repeated(ball));
-        for (shading, time) in Shading::ALL.into_iter().zip(times) {
+        let pixels = BallShading::Flat.draw(ball).values().iter().flatten().count();
+        let times = nanoseconds(effort.rounds(), &BallShading::ALL, |shading| shading.repeated(ball));
+        for (shading, time) in BallShading::ALL.into_iter().zip(times) {
             let error = shading.error(ball);
             let row = Row::new(name, shading.name())
                 .sized([side; 2])
@@ -40,12 +40,12 @@ pub(super) fn measure(effort: Effort) -> Chapter {
 
 fn image() -> ImageRow {
     let ball = Ball::new(256, 2);
-    let light = |shading: Shading| shading.draw(&ball).map(|light| light.map_or([0; 3], grey));
-    let error = |shading: Shading| {
+    let light = |shading: BallShading| shading.draw(&ball).map(|light| light.map_or([0; 3], grey));
+    let error = |shading: BallShading| {
         let drawn = shading.draw(&ball);
-        Field::from_fn([256; 2], |place| heat(error_at(&ball, &drawn, place) * 5.0))
+        Field::from_fn([256; 2], |position| heat(error_at(&ball, &drawn, position) * 5.0))
     };
-    let panels = Shading::ALL.map(light).into_iter().chain(Shading::ALL.map(error));
+    let panels = BallShading::ALL.map(light).into_iter().chain(BallShading::ALL.map(error));
     let caption =
         "Flat, Gouraud and Phong on 320 triangles, then their errors in linear light, five times as bright";
     ImageRow::new("balls", caption, panels.collect())
@@ -56,7 +56,7 @@ fn case(subdivisions: u32) -> String {
 }
 
 pub(super) fn headlines() -> Vec<Headline> {
-    let [flat, gouraud, phong] = Shading::ALL.map(Shading::name);
+    let [flat, gouraud, phong] = BallShading::ALL.map(BallShading::name);
     let of_320 = |ways: [&'static str; 2]| Headline::within(case(2), ways, [TIME, RMSE]);
     vec![
         of_320([phong, gouraud]),

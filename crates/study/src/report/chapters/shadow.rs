@@ -1,7 +1,7 @@
 //! What does a shadow's edge cost?
 
 use super::*;
-use crate::shadow::{Drawer, MapFilter, Shadow, draw, draw_into, error, exact};
+use crate::shadow::{MapFilter, Shadow, ShadowDrawer, draw, draw_into, error, exact};
 use trigon_classic::Field;
 use trigon_scene::Shadows;
 
@@ -55,11 +55,11 @@ const ENGINE: [(&str, Shadows); 5] = [
 
 fn of_engine(side: usize, right: &Field<f64>, effort: Effort) -> Vec<Row> {
     let times = nanoseconds(effort.rounds(), &ENGINE, |(_, shadows)| -> Box<dyn FnMut()> {
-        let mut drawer = Drawer::new(shadows, side);
+        let mut drawer = ShadowDrawer::new(shadows, side);
         Box::new(move || drawer.draw())
     });
     let row = |((name, shadows), time): ((&str, Shadows), Spread)| {
-        let mut drawer = Drawer::new(shadows, side);
+        let mut drawer = ShadowDrawer::new(shadows, side);
         drawer.draw();
         let row = Row::new(CASE, name).sized([side; 2]);
         row.with(RMSE, error(&drawer.light(), right).rmse()).timed(TIME, time.per(side * side))

@@ -44,9 +44,9 @@ fn of_ball(ball: &Triangles, effort: Effort) -> Vec<Row> {
     let mut rows: Vec<Row> = REPRESENTATIONS.iter().zip(bytes).map(row).collect();
     for (task, time_name, reads_name) in TASKS {
         // Elements all over the mesh.
-        let asked: Vec<u32> = (0..32).map(|i| i * (ball.positions.len() as u32 - 1) / 31).collect();
-        let asked = &asked;
-        let ask = |storage: &dyn Storage| asked.iter().for_each(|&element| task(storage, ball, element));
+        let queried: Vec<u32> = (0..32).map(|i| i * (ball.positions.len() as u32 - 1) / 31).collect();
+        let queried = &queried;
+        let ask = |storage: &dyn Storage| queried.iter().for_each(|&element| task(storage, ball, element));
         let reads: Vec<u64> = REPRESENTATIONS
             .iter()
             .map(|way| {
@@ -61,8 +61,8 @@ fn of_ball(ball: &Triangles, effort: Effort) -> Vec<Row> {
             Box::new(move || (0..repeats).for_each(|_| ask(storage)))
         });
         for ((row, time), reads) in rows.iter_mut().zip(times).zip(reads) {
-            let time = time.per(asked.len() * repeats(reads) as usize);
-            *row = row.clone().timed(time_name, time).with(reads_name, reads as f64 / asked.len() as f64);
+            let time = time.per(queried.len() * repeats(reads) as usize);
+            *row = row.clone().timed(time_name, time).with(reads_name, reads as f64 / queried.len() as f64);
         }
     }
     rows

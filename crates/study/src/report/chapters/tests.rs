@@ -84,8 +84,8 @@ fn tables_and_sentences_are_those_of_the_rows() {
 #[test]
 fn findings_are_those_of_the_rows() {
     let said = |question: &str, found: &[String]| {
-        let place = CHAPTERS.iter().position(|known| known.name == question).unwrap();
-        let published = chapter(&titles()[place]);
+        let pixel = CHAPTERS.iter().position(|known| known.name == question).unwrap();
+        let published = chapter(&titles()[pixel]);
         for sentence in found {
             assert!(published.contains(&format!("- {sentence}\n")), "{question} says: {sentence}");
         }

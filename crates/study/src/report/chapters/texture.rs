@@ -1,7 +1,7 @@
 //! How many texels does a pixel need?
 
 use super::*;
-use crate::texture::{Drawer, Ground, TextureFilter, exact};
+use crate::texture::{FloorDrawer, Ground, TextureFilter, exact};
 
 const RMSE: &str = "RMSE, linear light";
 const WORST: &str = "worst pixel";
@@ -19,7 +19,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     // The floor without its texture comes first.
     let ways: Vec<Option<TextureFilter>> = [None].into_iter().chain(TextureFilter::ALL.map(Some)).collect();
     let times = nanoseconds(effort.rounds(), &ways, |way| -> Box<dyn FnMut()> {
-        let mut drawer = Drawer::new(ground);
+        let mut drawer = FloorDrawer::new(ground);
         Box::new(move || match way {
             Some(filter) => drawer.draw(filter),
             None => drawer.draw_plain(),

@@ -28,9 +28,14 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         Box::new(move || shared.draw())
     });
     let line = |threads: &[usize], times: &[Spread]| {
-        threads.iter().zip(times).map(|(&threads, time)| [place(threads), time.median * 1e-3]).collect()
+        threads
+            .iter()
+            .zip(times)
+            .map(|(&threads, time)| [log_position(threads), time.median * 1e-3])
+            .collect()
     };
-    let published = THREADS.iter().zip(TIMES_OF_THE_SOURCE).map(|(&threads, time)| [place(threads), time]);
+    let published =
+        THREADS.iter().zip(TIMES_OF_THE_SOURCE).map(|(&threads, time)| [log_position(threads), time]);
     let lines = vec![
         ("source D's table 4.1, its machine".to_owned(), published.collect()),
         ("source D's way, here".to_owned(), line(&THREADS, &theirs)),
@@ -94,7 +99,7 @@ fn canvas(scene: &Scene, threads: usize) -> Canvas<'static> {
 }
 
 /// Where a number of threads lies on a logarithmic axis; none, left of one.
-fn place(threads: usize) -> f64 {
+fn log_position(threads: usize) -> f64 {
     if threads == 0 { 0.5 } else { threads as f64 }
 }
 
@@ -134,7 +139,7 @@ mod tests {
                 format!("with {} threads, the engine with {}.", THREADS[fastest + 1], OUR_THREADS[fastest]);
             assert!(said.contains(&expected), "{said}");
         }
-        assert_eq!([0, 1, 4].map(place), [0.5, 1.0, 4.0], "on a logarithmic axis none is left of one");
+        assert_eq!([0, 1, 4].map(log_position), [0.5, 1.0, 4.0], "on a logarithmic axis none is left of one");
     }
 
     #[test]

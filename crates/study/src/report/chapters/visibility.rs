@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::line::Line;
-use crate::visibility::{Case, OrderErrors, Visibility, balls, sheets};
+use crate::visibility::{OrderErrors, Visibility, VisibilityCase, balls, sheets};
 use trigon_classic::{Field, Method, Scene, visible_lines};
 
 const WRONG: &str = "misordered pixels, ‰";
@@ -18,7 +18,7 @@ const CROSSING: &str = "16 sheets that cross";
 pub(super) fn measure(effort: Effort) -> Chapter {
     let side = effort.pick(128, 256);
     let mut rows = Vec::new();
-    for case in Case::ALL {
+    for case in VisibilityCase::ALL {
         rows.extend(of_scene(case.name(), &case.scene(side), effort));
     }
     for (name, tilt) in [(PARALLEL, 0), (CROSSING, side as i32)] {
@@ -27,11 +27,11 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     let counts: &[usize] = effort.pick(&[10, 20, 40], &[10, 20, 40, 80, 160, 320, 640, 1280]);
     let (by_time, by_tests) = growth(side, counts, effort);
     let findings = findings(&rows, &by_time);
-    let balls = Case::Balls.name();
+    let balls = VisibilityCase::Balls.name();
     let axis = "balls of 80 faces, of the same size";
     let plots = vec![
         Plot::trade("balls", &rows, balls, [TIME, WRONG]),
-        Plot::trade("crossing", &rows, Case::Crossing.name(), [TIME, WRONG]),
+        Plot::trade("crossing", &rows, VisibilityCase::Crossing.name(), [TIME, WRONG]),
         Plot::growth("time", "Time of a frame by the number of bodies", [axis, TIME], by_time),
         Plot::growth(
             "tests",
@@ -57,8 +57,8 @@ pub(super) fn measure(effort: Effort) -> Chapter {
 
 /// All algorithms, those that refuse the scene without numbers; then rays with a new tree.
 fn of_scene(name: &str, scene: &Scene, effort: Effort) -> Vec<Row> {
-    let kept = Visibility::ALL.map(|way| (way, way.name()));
-    let ways: Vec<_> = kept.into_iter().chain([(Visibility::Classic(Method::TreeRays), ANEW)]).collect();
+    let cached = Visibility::ALL.map(|way| (way, way.name()));
+    let ways: Vec<_> = cached.into_iter().chain([(Visibility::Classic(Method::TreeRays), ANEW)]).collect();
     let times = nanoseconds(effort.rounds().div_ceil(2), &ways, |(way, name)| {
         if name == ANEW { way.repeated_anew(scene) } else { way.repeated(scene) }
     });
@@ -109,13 +109,14 @@ fn growth(side: usize, counts: &[usize], effort: Effort) -> (Lines, Lines) {
 
 /// The ring as each algorithm shows it, then where the painter is wrong.
 fn errors_image() -> ImageRow {
-    let scene = Case::Crossing.scene(256);
+    let scene = VisibilityCase::Crossing.scene(256);
     let faces = |way: Visibility| {
         way.draw(&scene).map_or_else(|_| Field::new([256; 2], u32::MAX), |drawing| drawing.faces)
     };
     let (painter, engine) = (faces(Visibility::Classic(Method::Painter)), faces(Visibility::Engine));
-    let wrong =
-        Field::from_fn([256; 2], |place| heat(if painter[place] == engine[place] { 0.0 } else { 0.5 }));
+    let wrong = Field::from_fn([256; 2], |position| {
+        heat(if painter[position] == engine[position] { 0.0 } else { 0.5 })
+    });
     let caption =
         "Balls that stick in each other: the painter's algorithm, the engine, and where they differ";
     ImageRow::new("errors", caption, vec![tinted(&painter), tinted(&engine), wrong])
@@ -123,10 +124,15 @@ fn errors_image() -> ImageRow {
 
 /// Hidden lines by Roberts.
 fn lines_image() -> ImageRow {
-    let panel =
-        |case: Case| drawn(visible_lines(&case.scene(256)).map(|lines| lines.lines).unwrap_or_default());
+    let panel = |case: VisibilityCase| {
+        drawn(visible_lines(&case.scene(256)).map(|lines| lines.lines).unwrap_or_default())
+    };
     let caption = "Hidden lines by Roberts' algorithm: 40 balls, three bodies in a ring, balls that stick in each other";
-    ImageRow::new("lines", caption, [Case::Balls, Case::Ring, Case::Crossing].map(panel).to_vec())
+    ImageRow::new(
+        "lines",
+        caption,
+        [VisibilityCase::Balls, VisibilityCase::Ring, VisibilityCase::Crossing].map(panel).to_vec(),
+    )
 }
 
 /// Lines between points in 1/256 pixel, black on white.
@@ -139,16 +145,17 @@ fn drawn(lines: Vec<[[f64; 3]; 2]>) -> Field<[u8; 3]> {
 }
 
 pub(super) fn findings(rows: &[Row], by_time: &Lines) -> Vec<String> {
-    let painter =
-        |case: Case| number(value(rows, case.name(), Visibility::Classic(Method::Painter).name(), WRONG));
+    let painter = |case: VisibilityCase| {
+        number(value(rows, case.name(), Visibility::Classic(Method::Painter).name(), WRONG))
+    };
     vec![
         crossover(by_time),
         format!(
             "The painter is right while there is an order: {} ‰ wrong on a torus, {} ‰ where balls stick in each other, {} ‰ in a \
              ring.",
-            painter(Case::Torus),
-            painter(Case::Crossing),
-            painter(Case::Ring),
+            painter(VisibilityCase::Torus),
+            painter(VisibilityCase::Crossing),
+            painter(VisibilityCase::Ring),
         ),
         "Source D's claims hold: Roberts' work is quadratic in the number of bodies, and the z-buffer's linear (twice the bodies, \
          four and two times the tests: see the plot); Warnock's follows what overlaps."
@@ -157,16 +164,29 @@ pub(super) fn findings(rows: &[Row], by_time: &Lines) -> Vec<String> {
 }
 
 pub(super) fn headlines() -> Vec<Headline> {
-    let of = |case: Case, ways: [Visibility; 2]| {
+    let of = |case: VisibilityCase, ways: [Visibility; 2]| {
         Headline::within(case.name(), ways.map(Visibility::name), [TIME, WRONG])
     };
     let crossing = |way: Visibility| Headline::between([CROSSING, PARALLEL], way.name(), [TESTS]);
     vec![
-        of(Case::Balls, [Visibility::Classic(Method::TreeRays), Visibility::Classic(Method::ZBuffer)]),
-        of(Case::Balls, [Visibility::Classic(Method::AllRays), Visibility::Classic(Method::TreeRays)]),
-        Headline::within(Case::Balls.name(), [ANEW, Visibility::Classic(Method::TreeRays).name()], [TIME]),
-        of(Case::Balls, [Visibility::Engine, Visibility::Classic(Method::ZBuffer)]),
-        of(Case::Crossing, [Visibility::Classic(Method::Painter), Visibility::Classic(Method::ZBuffer)]),
+        of(
+            VisibilityCase::Balls,
+            [Visibility::Classic(Method::TreeRays), Visibility::Classic(Method::ZBuffer)],
+        ),
+        of(
+            VisibilityCase::Balls,
+            [Visibility::Classic(Method::AllRays), Visibility::Classic(Method::TreeRays)],
+        ),
+        Headline::within(
+            VisibilityCase::Balls.name(),
+            [ANEW, Visibility::Classic(Method::TreeRays).name()],
+            [TIME],
+        ),
+        of(VisibilityCase::Balls, [Visibility::Engine, Visibility::Classic(Method::ZBuffer)]),
+        of(
+            VisibilityCase::Crossing,
+            [Visibility::Classic(Method::Painter), Visibility::Classic(Method::ZBuffer)],
+        ),
         crossing(Visibility::Classic(Method::Warnock)),
         crossing(Visibility::Classic(Method::ZBuffer)),
     ]
@@ -202,9 +222,9 @@ mod tests {
         let found = drawn(vec![
             [[10.5, 20.25, 3.0], [70.0, 20.75, -5.0]].map(|point| point.map(|part| part * 256.0)),
         ]);
-        for (place, &color) in found.pixels() {
-            let is_line = place[1] == 20 && (10..=70).contains(&place[0]);
-            assert_eq!(color, if is_line { [0; 3] } else { [255; 3] }, "{place:?}");
+        for (position, &color) in found.pixels() {
+            let is_line = position[1] == 20 && (10..=70).contains(&position[0]);
+            assert_eq!(color, if is_line { [0; 3] } else { [255; 3] }, "{position:?}");
         }
     }
 

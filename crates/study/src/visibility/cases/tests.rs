@@ -57,7 +57,7 @@ fn balls_lie_at_chance_places_within_the_image() {
         assert!(middles.windows(2).all(|pair| (pair[0] - pair[1]).abs().min_element() > 0.0));
         assert_ne!(scene.bodies(), balls(SIDE, count, radius, seed + 1).bodies(), "another seed");
     }
-    assert_eq!(Case::Balls.scene(SIDE).bodies().len(), 40);
+    assert_eq!(VisibilityCase::Balls.scene(SIDE).bodies().len(), 40);
 }
 
 #[test]
@@ -86,7 +86,7 @@ fn sheets_cover_the_image_one_behind_the_other() {
 
 #[test]
 fn crossing_balls_stick_in_their_neighbours() {
-    let scene = Case::Crossing.scene(SIDE);
+    let scene = VisibilityCase::Crossing.scene(SIDE);
     let middles: Vec<DVec3> = scene.bodies().iter().map(middle).collect();
     assert_eq!(middles.len(), 12, "two rows of six");
     let radius = SIZE / 9.0;
@@ -109,7 +109,7 @@ fn crossing_balls_stick_in_their_neighbours() {
 
 #[test]
 fn each_bar_of_the_ring_has_its_far_end_under_the_one_before_it() {
-    let scene = Case::Ring.scene(SIDE);
+    let scene = VisibilityCase::Ring.scene(SIDE);
     let ends = [[0.1, 0.2], [0.9, 0.3], [0.4, 0.9]].map(|end| DVec2::from_array(end) * SIZE);
     let drawn = Method::Warnock.draw(&scene).unwrap().faces;
     for (i, body) in scene.bodies().iter().enumerate() {
@@ -135,8 +135,8 @@ fn each_bar_of_the_ring_has_its_far_end_under_the_one_before_it() {
 #[test]
 fn a_mesh_stands_in_the_middle_of_the_image() {
     for (case, mesh, scale) in [
-        (Case::Torus, primitives::torus(1.0, 0.4, 48, 24), SIZE / 3.2),
-        (Case::Teapot, primitives::teapot(6), SIZE / 7.0),
+        (VisibilityCase::Torus, primitives::torus(1.0, 0.4, 48, 24), SIZE / 3.2),
+        (VisibilityCase::Teapot, primitives::teapot(6), SIZE / 7.0),
     ] {
         let scene = case.scene(SIDE);
         let [body] = scene.bodies() else { panic!("one body") };
@@ -145,8 +145,8 @@ fn a_mesh_stands_in_the_middle_of_the_image() {
         let turn = Pose::new(0.7, 0.5, 1.0, DVec3::ZERO).turn;
         assert_eq!(body.corners.len(), mesh.positions().len());
         for (position, found) in mesh.positions().iter().zip(points(body)) {
-            let seen = turn * (position.as_dvec3() - center) * scale;
-            let expected = DVec3::splat(SIZE / 2.0) + DVec3::new(seen.x, -seen.y, seen.z);
+            let visible = turn * (position.as_dvec3() - center) * scale;
+            let expected = DVec3::splat(SIZE / 2.0) + DVec3::new(visible.x, -visible.y, visible.z);
             assert!(found.distance(expected) < 0.01, "{case:?}: {found}, not {expected}");
             assert!(found.min_element() >= 0.0 && found.truncate().max_element() < SIZE, "{found}");
         }

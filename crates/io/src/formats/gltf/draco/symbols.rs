@@ -262,7 +262,7 @@ pub(crate) enum Failure {
     Broken(Broken),
     /// It is of a kind that is not read.
     Foreign(&'static str),
-    /// It stands for more than the [`Budget`](super::Budget) allows.
+    /// It stands for more than the [`Budget`] allows.
     TooLarge,
 }
 

@@ -6,7 +6,7 @@ use trigon_mesh::{Mesh, primitives};
 
 /// A scene that asks one question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Case {
+pub enum VisibilityCase {
     /// 40 balls of 80 faces all over the image: what is usual.
     Balls,
     /// Three long bodies that overlap in a ring: no order from back to front is right.
@@ -19,7 +19,7 @@ pub enum Case {
     Teapot,
 }
 
-impl Case {
+impl VisibilityCase {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::Balls, Self::Ring, Self::Crossing, Self::Torus, Self::Teapot];
 
@@ -53,11 +53,11 @@ impl Case {
 #[must_use]
 pub fn balls(side: usize, count: usize, radius: f64, seed: u64) -> Scene {
     let mut random = SplitMix64::new(seed);
-    let mut place = || {
+    let mut pixel = || {
         let mut across = || random.between(radius, side as f64 - radius);
         DVec3::new(across(), across(), across())
     };
-    let bodies = (0..count).map(|_| ball(radius, place())).collect();
+    let bodies = (0..count).map(|_| ball(radius, pixel())).collect();
     Scene::new([side; 2], bodies)
 }
 
@@ -86,11 +86,11 @@ fn ball(radius: f64, middle: DVec3) -> Body {
 /// Two rows of balls, each of which sticks in its neighbours. None is farther from the eye than the first.
 fn crossing(side: usize) -> Scene {
     let size = side as f64;
-    let place = |i: usize| {
+    let pixel = |i: usize| {
         let (row, column) = ((i / 6) as f64, (i % 6) as f64);
         DVec3::new(0.15 + 0.14 * column, 0.35 + 0.3 * row, 0.3 + 0.02 * ((i * 5) % 7) as f64) * size
     };
-    Scene::new([side; 2], (0..12).map(|i| ball(size / 9.0, place(i))).collect())
+    Scene::new([side; 2], (0..12).map(|i| ball(size / 9.0, pixel(i))).collect())
 }
 
 /// Three tetrahedra, each with its far end under the one before it.
