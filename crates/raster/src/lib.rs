@@ -93,8 +93,6 @@ mod blend;
 mod cancel;
 mod certify;
 mod clip;
-mod clock;
-mod counts;
 mod draw;
 mod draw_view;
 mod explain;
@@ -104,7 +102,6 @@ mod frame;
 mod geometry;
 mod ink;
 mod line;
-mod marks;
 mod outer_ink;
 pub mod paint2d;
 mod pass;
@@ -114,8 +111,6 @@ mod pool;
 mod primitive;
 mod rasterizer;
 mod resolve;
-mod samples;
-mod settings;
 mod setup;
 mod shade;
 pub mod simd;
@@ -125,34 +120,32 @@ mod texture;
 mod tile;
 mod tile_buffer;
 mod ulps;
-mod varyings;
 mod vertex;
 mod view;
 mod viewport;
 
 pub use cancel::Cancel;
 pub use certify::{Certainty, Certificate, Tolerance};
-pub use draw::{BlendMode, Culling, Draw, Lines, MarkedPoints, PointShape, Points, Smoothing};
+pub use draw::{
+    BlendMode, Culling, Draw, Lines, MarkColors, MarkedPoints, Marks, PointShape, Points, Smoothing,
+};
 pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
 };
-pub use fragment::{EdgeFlags, Fragment};
+pub use fragment::{EdgeFlags, Fragment, MAX_VARYINGS, Varyings};
 pub use fragments::FragmentLanes;
 pub use frame::{DrawChange, Redraw};
 pub use ink::FaceEdges;
-pub use marks::{MarkColors, Marks};
 pub use paint2d::Rect;
 pub use pass::{Background, Pass};
 pub use pipeline::{LanePipeline, Pipeline, VertexOutput};
-pub use rasterizer::{Rasterizer, Threads};
-pub use settings::{DepthTest, ExecuteSettings, TileSize};
+pub use rasterizer::{DepthTest, ExecuteSettings, Rasterizer, Threads, TileSize};
 pub use stats::{StageTimes, Stats};
 pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Target, TargetError, TargetImages};
 pub use texture::{
     Dual, Filter, MAX_ANISOTROPY, MAX_TEXTURE_SIZE, MipFilter, Sampler, Texture, TextureError, TextureFormat,
     Wrap,
 };
-pub use varyings::{MAX_VARYINGS, Varyings};
 pub use vertex::VertexLanes;
 
 /// The set that [`MarkedPoints`] takes.

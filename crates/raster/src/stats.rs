@@ -1,8 +1,7 @@
-//! Counts and times of a frame.
+//! Counts and times of a frame, the clock that measures stages if times are requested, and the counts of a worker.
 
-use crate::counts::Counts;
 use std::ops::AddAssign;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Counts of one executed pass, and its times. A line or a point counts as one
 /// triangle.
@@ -131,6 +130,35 @@ impl AddAssign for StageTimes {
         self.blending += other.blending;
         self.resolve += other.resolve;
     }
+}
+
+/// Measures laps, or nothing.
+pub(crate) struct Clock(Option<Instant>);
+
+impl Clock {
+    pub(crate) fn new(is_timed: bool) -> Self {
+        Self(is_timed.then(Instant::now))
+    }
+
+    /// The time since the last lap.
+    pub(crate) fn lap(&mut self) -> Duration {
+        let Some(last) = &mut self.0 else {
+            return Duration::ZERO;
+        };
+        let now = Instant::now();
+        now - std::mem::replace(last, now)
+    }
+}
+
+/// Counts of blocks and samples.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Counts {
+    pub(crate) tiles_rejected: u64,
+    pub(crate) tiles_filled: u64,
+    pub(crate) blocks_rejected: u64,
+    pub(crate) blocks_accepted: u64,
+    pub(crate) groups: u64,
+    pub(crate) tiles_reordered: u64,
 }
 
 #[cfg(test)]

@@ -1,9 +1,8 @@
 //! The tiles of a frame, and which of them a triangle may have samples in.
 
 use crate::primitive::{Edge, SetupTriangle};
-use crate::samples::SamplePattern;
 use crate::simd::{F32, I32, Simd, prelude::*};
-use crate::viewport::Viewport;
+use crate::viewport::{SamplePattern, Viewport};
 use std::ops::Range;
 
 /// `columns * rows` squares of `size` pixels, numbered row by row. Each also reads a margin of `apron` pixels

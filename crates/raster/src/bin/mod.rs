@@ -5,10 +5,8 @@
 
 mod chunk;
 mod grid;
-mod moving;
 mod triangle_ref;
 
-pub(crate) use chunk::Chunk;
+pub(crate) use chunk::{Chunk, MovingChunk};
 pub(crate) use grid::{Grid, TileRange};
-pub(crate) use moving::MovingChunk;
 pub(crate) use triangle_ref::{Entry, TriangleRef};

@@ -16,13 +16,9 @@
 //! blended over each sample that it covers and where nothing hides it. It stores no depth and no ids.
 
 mod gather;
-mod joints;
-mod list;
-mod order;
 mod runs;
-mod samples;
 
-pub(crate) use joints::{SampleShare, leaves};
+pub(crate) use gather::{SampleShare, leaves};
 
 use crate::resolve::saturated;
 use crate::shade::{JobList, Shading, shade_jobs};
@@ -30,11 +26,8 @@ use crate::simd::LANES;
 use crate::tile::{Blocks, TileState, TileView};
 use crate::tile_buffer::TileArea;
 use crate::view::FrameView;
-use gather::JoinedTriangle;
-use joints::Joints;
-use list::Fragments;
-use order::DepthOrder;
-use runs::{CAPACITY, Layer, Runs};
+use gather::{JoinedTriangle, Joints};
+use runs::{CAPACITY, DepthOrder, Fragments, Layer, Runs};
 use std::ops::Range;
 use trigon_math::Vec4;
 
@@ -99,9 +92,9 @@ pub(crate) fn blend_translucent(
 ) -> u64 {
     let buffer = &state.buffer;
     let mut samples = std::mem::take(&mut layers.samples);
-    samples::expand(frame, area, buffer, shading, &mut samples);
+    runs::expand(frame, area, buffer, shading, &mut samples);
     let shaded = layers.blend(state.view(frame, area), triangles, shading, &mut samples);
-    samples::collapse(frame, buffer, shading, &samples);
+    runs::collapse(frame, buffer, shading, &samples);
     layers.samples = samples;
     shaded
 }

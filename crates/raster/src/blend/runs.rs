@@ -4,11 +4,23 @@
 //! layers in front of the last one. Layers are therefore blended from back to front however many fit at a time,
 //! and the result does not depend on that number.
 //!
-//! When a sample's room is full, its layers are sorted and the nearer half is dropped. From then on the first half
+//! When the memory of a sample is full, its layers are sorted and the nearer half is dropped. From then on the first half
 //! is the sorted set of the farthest, and any layer in front of its last is dropped at once. The other half of the
-//! room collects candidates until it is full again. So each layer takes a constant amount of work on average.
+//! memory collects candidates until it is full again. So each layer takes a constant amount of work on average.
+//!
+//! [`DepthOrder`] is the order in which layers are blended. [`Fragments`] are what shading needs of some layers: one
+//! fragment for each triangle and pixel, sorted by triangle. Where translucent fragments are blended over single
+//! samples, the colours of pixels are first copied to their samples.
 
+use crate::fragments::{Job, ShadePoint};
+use crate::resolve::mean;
+use crate::shade::{BEHIND, Shading};
+use crate::simd::LANES;
+use crate::tile::TileView;
+use crate::tile_buffer::{NO_TRIANGLE, TileArea, VisibilityBuffer};
+use crate::view::FrameView;
 use std::cmp::Ordering;
+use trigon_math::Vec4;
 
 /// Layers that all samples together have room for: three quarters of a megabyte
 /// with what is held beside each, and eight for every sample of the largest tile.
@@ -125,6 +137,157 @@ impl Runs {
     #[inline(always)]
     pub(super) fn waiting(&self, sample: usize) -> usize {
         self.runs[sample].waiting as usize
+    }
+}
+
+/// The order of layers: a total key.
+#[derive(Clone, Copy)]
+pub(super) struct DepthOrder<'t>(pub(super) TileView<'t>);
+
+impl Order for DepthOrder<'_> {
+    #[inline(always)]
+    fn compare(&self, a: &Layer, b: &Layer) -> Ordering {
+        // Depths are numbers.
+        match a.depth.partial_cmp(&b.depth) {
+            Some(Ordering::Equal) | None => self.compare_keys(a, b),
+            Some(order) => order,
+        }
+    }
+}
+
+impl DepthOrder<'_> {
+    /// Of equal depths the smaller (object, face) is in front. Parts of one
+    /// primitive, which may meet in a sample after snapping, go by their number.
+    #[inline]
+    fn compare_keys(&self, a: &Layer, b: &Layer) -> Ordering {
+        let TileView { frame, triangles, ties, .. } = self.0;
+        let part = |layer: &Layer| triangles[layer.triangle as usize].part();
+        ties.compare(frame, triangles, [b.triangle, a.triangle]).then_with(|| part(b).cmp(&part(a)))
+    }
+}
+
+/// Fragments that are to be shaded.
+#[derive(Default)]
+pub(super) struct Fragments {
+    /// Triangle and pixel of each, in the order of the colours.
+    listed: Vec<(u32, u32)>,
+    /// For each triangle the last fragment that was listed.
+    latest: Vec<u32>,
+    /// For each triangle how many fragments it has; then where its next one goes.
+    counts: Vec<u32>,
+    pub(super) jobs: Vec<Job>,
+    pub(super) points: Vec<ShadePoint>,
+}
+
+impl Fragments {
+    /// Empties the list for a tile with this many triangles.
+    pub(super) fn reset(&mut self, triangle_count: usize) {
+        self.listed.clear();
+        self.counts.clear();
+        self.counts.resize(triangle_count, 0);
+        if self.latest.len() < triangle_count {
+            self.latest.resize(triangle_count, 0);
+        }
+    }
+
+    /// Gives layers of a pixel's samples their colours' numbers; `first` is that of
+    /// the pixel's first colour.
+    #[inline(always)]
+    pub(super) fn name(&mut self, pixel: usize, first: usize, layers: &mut [Layer]) {
+        for layer in layers {
+            let triangle = layer.triangle as usize;
+            let latest = self.latest[triangle] as usize;
+            // Another sample of the pixel may have named it already.
+            let named = latest >= first && self.listed.get(latest).is_some_and(|at| at.0 == layer.triangle);
+            layer.color = if named { latest as u32 } else { self.list(pixel, layer.triangle) };
+        }
+    }
+
+    #[inline(always)]
+    fn list(&mut self, pixel: usize, triangle: u32) -> u32 {
+        let color = self.listed.len() as u32;
+        self.listed.push((triangle, pixel as u32));
+        self.latest[triangle as usize] = color;
+        self.counts[triangle as usize] += 1;
+        color
+    }
+
+    /// How many are listed.
+    pub(super) fn len(&self) -> usize {
+        self.listed.len()
+    }
+
+    /// Sorts them by triangle, by counting.
+    pub(super) fn sort(&mut self, partly: bool) {
+        self.jobs.clear();
+        let mut start = 0;
+        for (triangle, count) in self.counts.iter_mut().enumerate().filter(|(_, count)| **count > 0) {
+            let end = start + *count as usize;
+            self.jobs.push(Job { triangle: triangle as u32, points: start..end });
+            *count = start as u32;
+            start = end;
+        }
+        if self.points.len() < start {
+            self.points.resize(start, ShadePoint::default());
+        }
+        for (color, &(triangle, pixel)) in self.listed.iter().enumerate() {
+            let next = &mut self.counts[triangle as usize];
+            self.points[*next as usize] = ShadePoint::anywhere(pixel as usize, partly, color);
+            *next += 1;
+        }
+    }
+}
+
+/// Gives every sample the colour of its visible triangle.
+pub(super) fn expand(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    buffer: &VisibilityBuffer,
+    shading: &Shading,
+    samples: &mut Vec<Vec4>,
+) {
+    let count = buffer.samples;
+    samples.clear();
+    samples.resize(buffer.span() * count, Vec4::ZERO);
+    for (pixel, color) in shading.colors.iter().enumerate().take(buffer.span()) {
+        let position = TileArea::pixel_at(pixel);
+        if !area.contains(position) {
+            continue;
+        }
+        let background = || frame.lined_background_at(area, position, &shading.outer);
+        for sample in 0..count {
+            let index = buffer.index(pixel, sample);
+            samples[index] = match buffer.visible[index] {
+                NO_TRIANGLE => background(),
+                _ => Vec4::from_array(*color),
+            };
+        }
+    }
+    for (group, names) in shading.edges.iter() {
+        for (sample, names) in names.iter().enumerate() {
+            for lane in group.lanes().filter(|&lane| names[lane] as usize != BEHIND) {
+                let index = buffer.index(group.number as usize * LANES + lane, sample);
+                samples[index] = Vec4::from_array(shading.colors[names[lane] as usize]);
+            }
+        }
+    }
+}
+
+/// Gives every pixel the mean of its samples. All of the tile's pixels have a
+/// colour then, and none is an edge pixel.
+pub(super) fn collapse(
+    frame: &FrameView<'_>,
+    buffer: &VisibilityBuffer,
+    shading: &mut Shading,
+    samples: &[Vec4],
+) {
+    let Shading { colors, edges, .. } = shading;
+    let count = frame.grid.pattern.count();
+    edges.forget();
+    for (pixel, color) in colors.iter_mut().enumerate().take(buffer.span()) {
+        let first = buffer.index(pixel, 0);
+        let of_pixel = (0..count).map(|sample| samples[first + sample * LANES]);
+        *color = mean(of_pixel, count).to_array();
     }
 }
 

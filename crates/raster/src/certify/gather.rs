@@ -1,8 +1,10 @@
 //! Lists every primitive that may be visible if vertices are off, also those that the frame itself has dropped.
+//!
+//! Such a primitive is a [`Contender`], with the bounds of its position. [`Bins`] lists for each tile the contenders
+//! that may be visible there.
 
-use super::contender::{Contender, Contenders, Corner};
-use super::outline::{area_slack, doubled_area};
-use super::tolerance::Tolerance;
+use super::certificate::Tolerance;
+use super::outline::{Outline, area_slack, doubled_area};
 use crate::geometry::Shape;
 use crate::line::half_size;
 use crate::vertex::{DrawVertices, ScreenVertex, nearer};
@@ -178,6 +180,106 @@ impl Gather<'_> {
 /// and the square root of 2 for the cut ends; then they are rounded.
 fn reach_of_line(half_width: f64) -> i32 {
     (2.5 * half_width).ceil() as i32 + 1
+}
+
+/// A corner of a primitive's outline on the screen.
+#[derive(Clone, Copy)]
+pub(super) struct Corner {
+    pub(super) vertex: ScreenVertex,
+    /// The range of its depth.
+    pub(super) low: f32,
+    pub(super) high: f32,
+}
+
+/// A primitive that may be visible: a closed outline, each corner of which may be displaced.
+#[derive(Clone, Copy)]
+pub(super) struct Contender {
+    /// Its corners among those of all.
+    pub(super) first: u32,
+    pub(super) count: u32,
+    /// How far the corners may be off on each axis, in units of the grid.
+    pub(super) drift: i32,
+    pub(super) blend_mode: BlendMode,
+    /// Whether it is certainly drawn. If not, it may hide something, but is never itself certain.
+    pub(super) is_sure: bool,
+    /// Whether only the disc in its square is drawn.
+    pub(super) is_disc: bool,
+}
+
+/// All of a frame.
+#[derive(Default)]
+pub(super) struct Contenders {
+    pub(super) list: Vec<Contender>,
+    pub(super) corners: Vec<Corner>,
+}
+
+impl Contenders {
+    pub(super) fn push(&mut self, corners: &[Corner], contender: Contender) {
+        let (first, count) = (self.corners.len() as u32, corners.len() as u32);
+        self.corners.extend_from_slice(corners);
+        self.list.push(Contender { first, count, ..contender });
+    }
+
+    pub(super) fn corners_of(&self, contender: &Contender) -> &[Corner] {
+        &self.corners[contender.first as usize..(contender.first + contender.count) as usize]
+    }
+
+    /// What can be said of the contender with this number at any sample.
+    pub(super) fn outline(&self, number: usize) -> Outline {
+        let contender = self.list[number];
+        Outline::new(contender, self.corners_of(&contender))
+    }
+}
+
+/// The smallest rectangle around corners that may be off, by axis, in units of
+/// the grid.
+pub(super) fn extent(corners: &[Corner], drift: i32) -> [[i32; 2]; 2] {
+    [0, 1].map(|axis| {
+        let coordinates = || corners.iter().map(|corner| corner.vertex.raw()[axis]);
+        let least = coordinates().min().unwrap_or(0);
+        let greatest = coordinates().max().unwrap_or(0);
+        [least.saturating_sub(drift), greatest.saturating_add(drift)]
+    })
+}
+
+/// Numbers of contenders, sorted by tile.
+pub(super) struct Bins {
+    columns: u32,
+    /// (tile, contender), ascending.
+    pairs: Vec<(u32, u32)>,
+}
+
+impl Bins {
+    /// Lists each contender in the tiles that its rectangle overlaps.
+    pub(super) fn new(frame: &FrameView<'_>, contenders: &Contenders) -> Self {
+        let grid = &frame.grid;
+        let sides = [grid.viewport.width, grid.viewport.height].map(|side| side as i32);
+        let mut pairs = Vec::new();
+        for (number, contender) in contenders.list.iter().enumerate() {
+            let extent = extent(contenders.corners_of(contender), contender.drift);
+            let [Some(columns), Some(rows)] = extent.map(|range| grid.pattern.pixels_between(range)) else {
+                continue;
+            };
+            if columns[1] < 0 || rows[1] < 0 || columns[0] >= sides[0] || rows[0] >= sides[1] {
+                continue;
+            }
+            let tiles = grid.tiles_that_see(columns, rows);
+            for row in tiles.rows {
+                pairs
+                    .extend(tiles.columns.clone().map(|column| (row * grid.columns + column, number as u32)));
+            }
+        }
+        pairs.sort_unstable();
+        Self { columns: grid.columns, pairs }
+    }
+
+    /// The contenders of a tile.
+    pub(super) fn of(&self, [column, row]: [u32; 2]) -> impl Iterator<Item = &u32> {
+        let tile = row * self.columns + column;
+        let start = self.pairs.partition_point(|pair| pair.0 < tile);
+        let end = self.pairs.partition_point(|pair| pair.0 <= tile);
+        self.pairs[start..end].iter().map(|(_, contender)| contender)
+    }
 }
 
 #[cfg(test)]

@@ -48,21 +48,16 @@
 //! - pixels with a sample near an edge that may be visible, also an edge between two triangles of one face,
 //! - pixels where surfaces intersect or coincide.
 
-mod bins;
 mod certificate;
-mod codes;
-mod contender;
 mod gather;
 mod outline;
 mod tile;
-mod tolerance;
 
-pub use certificate::{Certainty, Certificate};
-pub use tolerance::Tolerance;
+pub use certificate::{Certainty, Certificate, Tolerance};
 
 use crate::{Output, Pass, Rasterizer, Target, TargetError};
-use bins::Bins;
-use codes::TargetCodes;
+use certificate::TargetCodes;
+use gather::Bins;
 use tile::TileCertainty;
 
 impl Rasterizer {

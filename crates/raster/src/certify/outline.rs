@@ -1,6 +1,6 @@
 //! What is certain about a primitive at a sample if its corners are off. The proofs are in the module above.
 
-use super::contender::{Contender, Corner, extent};
+use super::gather::{Contender, Corner, extent};
 use crate::BlendMode;
 use crate::primitive::{DepthPlane, SetupTriangle};
 

@@ -5,14 +5,10 @@
 //! the order of layers. Only the comparison of depths is repeated, sample by sample, so that its outcome can be
 //! reported.
 
-mod ask;
-mod display;
 mod fragment;
-mod sample;
 mod trial;
 
-pub use fragment::{EdgeExplanation, FragmentExplanation, PrimitiveKind, Verdict};
-pub use sample::SampleExplanation;
+pub use fragment::{EdgeExplanation, FragmentExplanation, PrimitiveKind, SampleExplanation, Verdict};
 
 use crate::resolve::mean;
 use crate::{Pass, Rasterizer, Target};

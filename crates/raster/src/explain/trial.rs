@@ -1,15 +1,17 @@
-//! The comparison of all triangles at a sample, with every step recorded.
+//! The comparison of all triangles at a sample, with every step recorded. For colours and masks a triangle's pipeline
+//! runs for one pixel.
 
-use super::ask::{self, PixelInTile};
 use super::{EdgeExplanation, FragmentExplanation, PrimitiveKind, SampleExplanation, Verdict};
 use crate::bin::TriangleRef;
 use crate::blend::{SampleShare, leaves};
+use crate::fragments::{Job, ShadePoint};
 use crate::frame::outer_ink;
 use crate::outer_ink::OuterInk;
 use crate::primitive::{Corners, Edge, Form, Kind, SetupTriangle, Stroke};
 use crate::resolve::saturated;
+use crate::shade::{JobList, Shading, mask_jobs, shade_jobs_with};
 use crate::tile::TileTriangle;
-use crate::tile_buffer::BEHIND_ALL;
+use crate::tile_buffer::{BEHIND_ALL, TileArea};
 use crate::view::FrameView;
 use crate::{BlendMode, ulps};
 use std::cmp::Ordering;
@@ -78,7 +80,7 @@ impl<'f> Trial<'f> {
             if matches!(entrant.fragment.verdict, Verdict::Visible | Verdict::Layer(_)) {
                 // Over translucent faces no edges of others are laid.
                 let outer = if entrant.is(Verdict::Visible) { &outer } else { &OuterInk::default() };
-                let color = ask::color(frame, pixel, entrant.triangle_ref, outer);
+                let color = color_of(frame, pixel, entrant.triangle_ref, outer);
                 entrant.fragment.color = Some(color * entrant.coverage);
             }
         }
@@ -115,8 +117,8 @@ impl<'f> Trial<'f> {
             fragment.depth = Some(covering.depth.at(point));
             let is_there = match fragment.blend_mode {
                 BlendMode::Opaque | BlendMode::Overlay | BlendMode::Translucent => true,
-                BlendMode::Masked => ask::mask(self.frame, pixel, None, triangle_ref),
-                BlendMode::MaskedPerSample => ask::mask(self.frame, pixel, Some(number), triangle_ref),
+                BlendMode::Masked => passes_mask(self.frame, pixel, None, triangle_ref),
+                BlendMode::MaskedPerSample => passes_mask(self.frame, pixel, Some(number), triangle_ref),
             };
             fragment.verdict = if is_there { Verdict::Hidden } else { Verdict::MaskedAway };
         }
@@ -305,4 +307,45 @@ fn shut_out(edges: &[EdgeExplanation; 3]) -> Verdict {
     outside
         .min_by(|&a, &b| edges[a].distance.total_cmp(&edges[b].distance))
         .map_or(Verdict::OutsideDisc, Verdict::OutsideEdge)
+}
+
+/// A pixel in its tile.
+#[derive(Clone, Copy)]
+struct PixelInTile {
+    area: TileArea,
+    at: [usize; 2],
+}
+
+impl PixelInTile {
+    /// The pixel alone, as fragments of one triangle are shaded.
+    fn alone(&self, frame: &FrameView<'_>) -> (Job, ShadePoint) {
+        let point = ShadePoint::anywhere(TileArea::index_of(self.at), frame.is_multisampled(), 0);
+        (Job { triangle: 0, points: 0..1 }, point)
+    }
+}
+
+/// Whether a masked triangle exists at a pixel that it covers, or at one of the
+/// pixel's samples.
+fn passes_mask(
+    frame: &FrameView<'_>,
+    pixel: PixelInTile,
+    sample: Option<usize>,
+    triangle: TriangleRef,
+) -> bool {
+    let (job, point) = pixel.alone(frame);
+    let at = |sample| ShadePoint::at_sample(TileArea::index_of(pixel.at), sample, 0);
+    let point = sample.map_or(point, at);
+    let mut passed = [0];
+    let list = JobList { triangles: &[triangle], jobs: &[job], points: &[point] };
+    mask_jobs(frame, &pixel.area, &mut Shading::new(), list, &mut passed);
+    passed != [0]
+}
+
+/// The colour of a triangle at a pixel that it covers, with edges that others paint there.
+fn color_of(frame: &FrameView<'_>, pixel: PixelInTile, triangle: TriangleRef, outer: &OuterInk) -> Vec4 {
+    let (job, point) = pixel.alone(frame);
+    let mut colors = [[0.0; 4]];
+    let list = JobList { triangles: &[triangle], jobs: &[job], points: &[point] };
+    shade_jobs_with(frame, &pixel.area, &mut Shading::new(), list, &mut colors, outer.covered());
+    Vec4::from_array(colors[0])
 }

@@ -13,7 +13,7 @@
 //! Shading", 1991.)
 
 use super::layout::cold;
-use super::placed::WeightedPoints;
+use super::perspective::WeightedPoints;
 use super::triangle_lanes::TriangleLanes;
 use crate::simd::{F32, I32, InlineMap, Row, Simd, greater, inlined, lesser, prelude::*};
 

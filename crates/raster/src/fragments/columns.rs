@@ -6,7 +6,7 @@
 
 use super::context::ShadeContext;
 use super::layout::{CutColumns, RecordShape, cold, hot, lined};
-use super::placed::WeightedPoints;
+use super::perspective::WeightedPoints;
 use super::records::Records;
 use super::task::FragmentBatch;
 use crate::MAX_VARYINGS;
@@ -279,7 +279,7 @@ impl SpecialColumns {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fragments::list::FragmentSlice;
+    use crate::fragments::task::FragmentSlice;
     use crate::simd::{SimdLevel, at_level};
 
     /// How many records are told apart, and the record of each lane by the masks.

@@ -2,14 +2,14 @@
 
 use crate::BlendMode;
 use crate::bin::TriangleRef;
+use crate::draw::{Marks, Overlap};
 use crate::draw_view::DrawView;
 use crate::geometry::{Geometry, Shape};
 use crate::ink::Ink;
-use crate::marks::{Marks, Overlap};
-use crate::samples::SamplePattern;
 use crate::simd::{I32, Mask, Simd, U32, prelude::*};
 use crate::tile_buffer::TileArea;
 use crate::vertex::Slots;
+use crate::viewport::SamplePattern;
 use std::ops::Range;
 
 /// What shading needs of one draw in one tile.

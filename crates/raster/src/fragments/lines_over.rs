@@ -5,8 +5,8 @@ use super::context::{ShadeContext, ShadePoint};
 use super::layout::lined;
 use super::records::Records;
 use super::triangle_lanes::TriangleLanes;
+use crate::draw::Overlap;
 use crate::ink::Ink;
-use crate::marks::Overlap;
 use crate::simd::{F32, I32, InlineMap, LANES, Row, Simd, U32, greater, lesser, prelude::*};
 
 /// The inputs. Nothing that shading has computed is among them: its results stay in registers, and

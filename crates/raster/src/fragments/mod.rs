@@ -6,40 +6,34 @@
 //! | file | what it does |
 //! |---|---|
 //! | `context` | the draw and the tile; the pixels to be shaded |
-//! | `layout`, `sorted`, `small`, `perspective`, `lines`, `records` | **records**: what shading needs of each visible triangle, made eight triangles at a time |
-//! | `list`, `task` | fragments in a list; groups of pixels and lists that are to be shaded |
+//! | `layout`, `sorted`, `perspective`, `lines`, `records` | **records**: what shading needs of each visible triangle, made eight triangles at a time |
+//! | `task` | fragments in a list; groups of pixels and lists that are to be shaded |
 //! | `columns` | the records of eight pixels, transposed: one pixel in each lane |
-//! | `triangle_lanes`, `barycentrics`, `placed` | edge functions and **perspective-correct weights** at the pixels |
+//! | `triangle_lanes`, `barycentrics` | edge functions and **perspective-correct weights** at the pixels |
 //! | `fragment_lanes` | the input of a pipeline's shading function: **interpolated varyings** and their gradients |
 //! | `lines_over` | blends edges and marks of faces over the colours |
-//! | `output`, `encode` | where colours go; linear light to sRGB bytes |
+//! | `output` | where colours go; linear light to sRGB bytes |
 
 mod barycentrics;
 mod columns;
 mod context;
-mod encode;
 mod fragment_lanes;
 mod layout;
 mod lines;
 mod lines_over;
-mod list;
 mod output;
 mod perspective;
-mod placed;
 mod records;
-mod small;
 mod sorted;
 mod task;
 mod triangle_lanes;
 
 pub(crate) use columns::Columns;
 pub(crate) use context::{DrawVaryings, Job, ShadeContext, ShadePoint, Spots};
-pub(crate) use encode::Encoding;
 pub use fragment_lanes::FragmentLanes;
 pub(crate) use fragment_lanes::RawFragment;
 pub(crate) use layout::RecordShape;
-pub(crate) use list::{FragmentList, FragmentSlice};
-pub(crate) use output::{Codes, ShadeOutput, finite};
+pub(crate) use output::{Codes, Encoding, ShadeOutput, finite};
 pub(crate) use records::Records;
-pub(crate) use task::{FragmentBatch, Group, Task, VisibleTriangles};
+pub(crate) use task::{FragmentBatch, FragmentList, FragmentSlice, Group, Task, VisibleTriangles};
 pub(crate) use triangle_lanes::TriangleLanes;

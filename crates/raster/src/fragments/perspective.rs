@@ -1,6 +1,7 @@
-//! The factors that make weights perspective-correct.
+//! The factors that make weights perspective-correct, and the weights of eight pixels in their triangles. Weights are
+//! computed before the pixels are shaded.
 
-use crate::simd::{F32, InlineMap, Simd, U32, greater, prelude::*};
+use crate::simd::{F32, I32, InlineMap, Row, Simd, U32, greater, prelude::*};
 
 /// Bounds the ratio of w within a triangle: the 1/w of a vertex is clamped to at least the largest
 /// power of two not above the greatest one, divided by this. Keeps all quotients finite.
@@ -28,4 +29,25 @@ pub(crate) fn perspective<S: Simd>(simd: S, inverse_w: [F32<S>; 3]) -> ([F32<S>;
 fn power_of_two<S: Simd>(simd: S, value: F32<S>) -> F32<S> {
     let bits: U32<S> = value.bitcast();
     (bits & U32::splat(simd, 0x7f80_0000)).bitcast()
+}
+
+/// Eight points with the results that take longest to compute. They are computed for the next
+/// eight pixels before the current eight are shaded, so that shading does not wait for them.
+#[derive(Clone, Default)]
+#[repr(align(64))]
+pub(crate) struct WeightedPoints {
+    /// In 1/256 pixel from the tile's corner.
+    pub(crate) point: [Row; 2],
+    /// Perspective-correct weights of the corners, and one over the sum of the raw weights: bits of
+    /// f32.
+    pub(crate) weights: [Row; 3],
+    pub(crate) inverse: Row,
+}
+
+impl WeightedPoints {
+    #[inline(always)]
+    pub(crate) fn point<S: Simd>(&self, simd: S) -> [I32<S>; 2] {
+        let [x, y] = self.point;
+        [I32::simd_from(simd, x), I32::simd_from(simd, y)]
+    }
 }

@@ -10,8 +10,8 @@ use super::layout::{RecordShape, cold, hot};
 use super::lines::FaceLines;
 use super::sorted::SortedTriangles;
 use crate::bin::TriangleRef;
+use crate::draw::Marks;
 use crate::ink::VisibleFaces;
-use crate::marks::Marks;
 use crate::simd::{InlineMap, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
 /// What few pipelines read of a triangle.

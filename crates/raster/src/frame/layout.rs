@@ -1,15 +1,17 @@
-//! The parts of a frame that are known before any vertex runs: tiles, grid, ink.
+//! What is known of a frame before any vertex runs: options, outputs, tiles, grid, and ink. No option changes a byte of
+//! the frame.
 
-use super::options::FrameOptions;
-use crate::Target;
 use crate::bin::Grid;
 use crate::fragments::Encoding;
 use crate::geometry::Geometry;
 use crate::ink::Ink;
 use crate::pass::Pass;
+use crate::pool::Workers;
+use crate::simd::Token;
 use crate::tile_buffer::MAX_SIDE;
 use crate::view::RequestedOutputs;
 use crate::viewport::Viewport;
+use crate::{Cancel, Target};
 
 /// How a target is cut into tiles, and what is wanted of it.
 pub(super) struct Layout {
@@ -56,4 +58,27 @@ fn wants(target: &Target<'_>) -> RequestedOutputs {
     };
     let ids = target.objects().is_some() || target.faces().is_some() || target.triangles().is_some();
     RequestedOutputs { color: srgb8 || unorm8 || linear, depth: target.depth().is_some(), ids, bytes }
+}
+
+/// How many vertices a worker runs at a time.
+pub(super) const VERTICES: usize = 2048;
+
+/// How a frame is drawn.
+#[derive(Clone, Copy)]
+pub(crate) struct FrameOptions<'w> {
+    pub(crate) token: Token,
+    pub(crate) workers: &'w Workers,
+    pub(crate) tile_size: u32,
+    pub(crate) hierarchical: bool,
+    pub(crate) timed: bool,
+    /// Whether colours are found, whatever the target keeps.
+    pub(crate) finds_colors: bool,
+    pub(crate) cancel: Option<&'w Cancel>,
+}
+
+impl FrameOptions<'_> {
+    /// Whether no more work is to be begun.
+    pub(super) fn is_cancelled(self) -> bool {
+        self.cancel.is_some_and(Cancel::is_cancelled)
+    }
 }

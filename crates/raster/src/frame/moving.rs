@@ -5,10 +5,8 @@
 //! their edges are painted together.
 
 use super::DrawChange;
-use super::affected_primitives::AffectedPrimitives;
-use super::bits::{are_among, is_set, reset, set};
-use super::changed_vertices::ChangedVertices;
-use super::tile_cache::TileCache;
+use super::changed_vertices::{AffectedPrimitives, ChangedVertices, are_among, is_set, reset, set};
+use super::tiles::TileCache;
 use crate::BlendMode;
 use crate::bin::{Chunk, Grid, MovingChunk};
 use crate::geometry::Shape;

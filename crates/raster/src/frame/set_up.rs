@@ -1,9 +1,7 @@
 //! The stage that sets primitives up and bins them: chunk by chunk.
 
-use super::options::FrameOptions;
-use crate::Culling;
+use super::layout::FrameOptions;
 use crate::bin::{Chunk, Grid, MovingChunk};
-use crate::clip;
 use crate::geometry::{PointSizes, Shape};
 use crate::line::LineStyle;
 use crate::pass::RecordedDraw;
@@ -12,6 +10,7 @@ use crate::setup::{EightPrimitives, Setup};
 use crate::simd::{LANES, Simd, Token, at_level};
 use crate::vertex::{DrawVertices, ScreenVertex};
 use crate::view::{DrawPlan, Plan};
+use crate::{Culling, clip};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 

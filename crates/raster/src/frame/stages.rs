@@ -3,17 +3,15 @@
 
 use super::FrameOptions;
 use super::change::Signature;
-use super::changed_vertices::ChangedVertices;
-use super::layout::Layout;
+use super::changed_vertices::{ChangedVertices, VertexValues};
+use super::layout::{Layout, VERTICES};
 use super::moving::MovingPrimitives;
-use super::options::VERTICES;
 use super::set_up::SetUpContext;
-use super::tile_cache::TileCache;
-use super::tiles::{Scratch, draw_tile};
+use super::tiles::{Scratch, TileCache, draw_tile};
 use crate::bin::Chunk;
-use crate::clock::Clock;
 use crate::pass::{Pass, RecordedDraw};
 use crate::resolve::Strip;
+use crate::stats::Clock;
 use crate::target::Bands;
 use crate::vertex::{ScreenVertex, VertexDestination};
 use crate::view::{BackgroundRow, FrameView, Plan};
@@ -149,12 +147,6 @@ fn count(view: &FrameView<'_>) -> Stats {
         stats += chunk.stats;
     }
     stats
-}
-
-/// What the vertices of a frame become.
-pub(super) struct VertexValues<'a> {
-    pub(super) screen_vertices: &'a mut [ScreenVertex],
-    pub(super) varyings: &'a mut [f32],
 }
 
 /// The vertex stage: every worker takes some vertices at a time.

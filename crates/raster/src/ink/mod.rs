@@ -11,15 +11,13 @@
 //! Both have the coverage of an anti-aliased line ([`crate::line`]): at a distance of d from a line of width w,
 //! `min(w, 1, w/2 + 1/2 - d)` of a pixel. A pixel shows the larger of the two.
 
-mod line_width;
+mod face_lines;
 #[cfg(test)]
 mod tests;
-mod visible_faces;
 
-pub(crate) use line_width::{EdgePoint, FaceLine, LineColumns};
-pub(crate) use visible_faces::{LARGE, VisibleFaces};
+pub(crate) use face_lines::{EdgePoint, FaceLine, LARGE, LineColumns, VisibleFaces};
 
-use crate::marks::{MarkColors, Overlap};
+use crate::draw::{MarkColors, Overlap};
 use crate::simd::{F32, InlineMap, LANES, Simd, U32, prelude::*};
 use trigon_math::{Vec3, Vec4};
 

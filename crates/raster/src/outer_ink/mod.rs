@@ -21,17 +21,14 @@ mod visible_rows;
 pub(crate) use edged_face::{parts, slots};
 
 use crate::bin::TriangleRef;
+use crate::draw::Overlap;
 use crate::ink::{Ink, LARGE, VisibleFaces};
-use crate::marks::Overlap;
 use crate::simd::{F32, InlineMap, LANES, Simd, U32, at_level, inlined, prelude::*, unzipped};
-use crate::tile_buffer::{MAX_SIDE, NO_TRIANGLE, PIXELS, TileArea, VisibilityBuffer};
+use crate::tile_buffer::{MAX_SIDE, NO_TRIANGLE, PIXELS, TileArea, TileRows, VisibilityBuffer};
 use crate::view::{FrameView, VisibleTile};
 use edged_face::EdgedFace;
 use std::ops::Range;
 use visible_rows::{VisibleRows, beside_large, in_front};
-
-/// A bit for each column of each row of a tile.
-type RowBits = [u64; MAX_SIDE];
 
 /// Triangles that are kept ready: neighbouring pixels ask for the same ones.
 const READY: usize = 16;
@@ -115,7 +112,7 @@ impl OuterInk {
         frame: &FrameView<'_>,
         ink: &Ink,
         tile: VisibleTile<'_>,
-        requested: Option<[&RowBits; 2]>,
+        requested: Option<[&TileRows; 2]>,
     ) {
         if !self.faces.has_lines {
             return;
@@ -123,7 +120,7 @@ impl OuterInk {
         self.own_lanes(frame, tile.area);
         let reach = ink.reach() as usize;
         let mut rows = self.rows.take().unwrap_or_else(VisibleRows::new);
-        const ALL: RowBits = [u64::MAX; MAX_SIDE];
+        const ALL: TileRows = [u64::MAX; MAX_SIDE];
         let [requested, near] = requested.unwrap_or([&ALL; 2]);
         let found = at_level!(frame.token, simd => {
             self.spread(simd, tile, near, &mut rows);
@@ -148,9 +145,9 @@ impl OuterInk {
         simd: S,
         area: &TileArea,
         visible: &VisibleRows,
-        requested: &RowBits,
+        requested: &TileRows,
         reach: usize,
-    ) -> RowBits {
+    ) -> TileRows {
         let [columns, rows] = self.own_part.clone();
         let own = (u64::MAX >> (MAX_SIDE - columns.len())) << columns.start;
         let mut found = [0; MAX_SIDE];
@@ -167,7 +164,7 @@ impl OuterInk {
 
     /// Lays what pixels see out in rows. Where no column of a group is `near` what is asked for, anything may stay.
     #[inline(always)]
-    fn spread<S: Simd>(&self, simd: S, tile: VisibleTile<'_>, near: &RowBits, rows: &mut VisibleRows) {
+    fn spread<S: Simd>(&self, simd: S, tile: VisibleTile<'_>, near: &TileRows, rows: &mut VisibleRows) {
         let area = tile.area;
         if area.padded() != [MAX_SIDE; 2] {
             rows.least.fill([f32::NEG_INFINITY; MAX_SIDE]);

@@ -57,23 +57,13 @@
 //! These paths give the same bytes as the general one.
 
 mod blend;
-mod blit;
 mod canvas;
-mod corner;
-mod coverage;
-mod eight;
-mod flat;
-mod gradient;
 mod image;
-mod mesh;
 mod painter;
-mod rect;
-mod rectangle;
 mod source;
-mod texel;
+mod triangle;
 
-pub use canvas::{Canvas, MAX_SIZE, SizeError};
+pub use canvas::{Canvas, MAX_SIZE, Rect, SizeError};
 pub use image::Image;
-pub use mesh::{Mesh, Vertex};
 pub use painter::{Painted, Painter};
-pub use rect::Rect;
+pub use source::{Mesh, Vertex};

@@ -1,11 +1,12 @@
-//! The source colours of a triangle, divided by what varies across it.
+//! Meshes to paint, their triangles on the sub-pixel grid, and the source colours of a triangle, divided by what varies
+//! across the triangle.
 
-use super::Image;
-use super::corner::SnappedVertex;
-use super::flat::Flat;
-use super::gradient::TriangleTexture;
-use super::texel::{FURTHEST, TexelPosition};
+use super::blend::Flat;
+use super::image::{FURTHEST, TexelPosition};
+use super::triangle::TriangleTexture;
+use super::{Image, Rect};
 use crate::simd::prelude::*;
+use trigon_math::{Fixed, FixedPoint};
 
 /// What a triangle is painted with.
 pub(super) enum Source<'a> {
@@ -89,4 +90,65 @@ fn texel_positions(image: &Image, uvs: [[f32; 2]; 3]) -> Option<[[f64; 2]; 3]> {
     let [width, height] = image.size().map(f64::from);
     let texel_positions = uvs.map(|[u, v]| [f64::from(u) * width, f64::from(v) * height]);
     texel_positions.iter().flatten().all(|position| position.abs() <= FURTHEST).then_some(texel_positions)
+}
+
+/// A vertex whose position is on the grid.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SnappedVertex {
+    pub(super) point: FixedPoint,
+    pub(super) uv: [f32; 2],
+    pub(super) color: [u8; 4],
+}
+
+/// The vertex's point; `None` if it has none: not a number, or out of range.
+#[inline(always)]
+pub(super) fn snap(vertex: &Vertex) -> Option<FixedPoint> {
+    let [x, y] = vertex.position;
+    Some(FixedPoint::new(Fixed::from_f32(x)?, Fixed::from_f32(y)?))
+}
+
+/// All triangles of a mesh whose vertices are snapped to `points`; `None` for
+/// those with an index or a point missing.
+#[inline(always)]
+pub(super) fn triangles<'a>(
+    mesh: &'a Mesh<'a>,
+    points: &'a [Option<FixedPoint>],
+) -> impl Iterator<Item = Option<[SnappedVertex; 3]>> {
+    let corner = |index: u32| {
+        let vertex = mesh.vertices.get(index as usize)?;
+        let point = (*points.get(index as usize)?)?;
+        Some(SnappedVertex { point, uv: vertex.uv, color: vertex.color })
+    };
+    mesh.indices.chunks(3).map(move |indices| {
+        let &[a, b, c] = indices.first_chunk::<3>()?;
+        Some([corner(a)?, corner(b)?, corner(c)?])
+    })
+}
+
+/// A corner of triangles.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Vertex {
+    /// In pixels from the top left, y down; the middle of the first pixel is at
+    /// (0.5, 0.5).
+    pub position: [f32; 2],
+    /// The position in the image: (0, 0) is its top left corner, (1, 1) its bottom
+    /// right one. Without an image it does not matter.
+    pub uv: [f32; 2],
+    /// Gamma space, premultiplied by alpha, which comes last. Channels above
+    /// alpha add light; with alpha 0 they do nothing else.
+    pub color: [u8; 4],
+}
+
+/// Triangles that share an image and a scissor; neither their winding nor the
+/// order of a triangle's vertices matters.
+#[derive(Clone, Copy, Debug)]
+pub struct Mesh<'a> {
+    /// Only these pixels are touched.
+    pub scissor: Rect,
+    /// The corners.
+    pub vertices: &'a [Vertex],
+    /// Three indices of `vertices` for each triangle, painted in this order.
+    pub indices: &'a [u32],
+    /// What the vertices' colours are multiplied with; `None` for white.
+    pub image: Option<&'a Image>,
 }

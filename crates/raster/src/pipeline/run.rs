@@ -2,13 +2,19 @@
 //!
 //! The weights of the next eight pixels are computed before the current eight are shaded: the longest chain of
 //! dependent instructions begins with them (`docs/performance-notebook.md`, "Dependency stalls in shading").
+//!
+//! Pipelines of different types lie side by side: the type is erased once per draw ([`AnyPipeline`]). A virtual call
+//! restores it, once for all pixels of a draw in a tile. Shading for pipelines that shade one fragment at a time is
+//! compiled once for all of them, and not for each at every level.
 
+use super::traits::ScalarPipeline;
 use crate::LanePipeline;
 use crate::fragments::{
     Columns, FragmentBatch, FragmentLanes, Records, ShadeContext, ShadeOutput, ShadePoint, Spots, Task,
     TriangleLanes, finite,
 };
-use crate::simd::{I32, InlineMap, Simd, U32, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Simd, Token, U32, at_level, prelude::*};
+use crate::vertex::VertexProgram;
 
 /// Writes the colours of all pixels.
 #[inline(always)]
@@ -57,7 +63,7 @@ pub(super) fn mask<S: Simd, P: LanePipeline>(
 
 /// Calls `visit` with vectors that cover all pixels.
 #[inline(always)]
-pub(super) fn for_each_vector<S: Simd>(
+fn for_each_vector<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
     task: &Task<'_>,
@@ -175,4 +181,136 @@ fn sample_points<S: Simd>(
         pending &= !here;
     }
     points
+}
+
+/// Writes the colours of all pixels.
+pub(super) fn shade_scalar(
+    token: Token,
+    pipeline: &dyn ScalarPipeline,
+    context: &ShadeContext<'_>,
+    task: &Task<'_>,
+    columns: &mut [Columns; 2],
+    output: &mut ShadeOutput<'_>,
+) {
+    at_level!(token, simd => shade_lanes(simd, pipeline, context, task, columns, output));
+}
+
+#[inline(always)]
+fn shade_lanes<S: Simd>(
+    simd: S,
+    pipeline: &dyn ScalarPipeline,
+    context: &ShadeContext<'_>,
+    task: &Task<'_>,
+    columns: &mut [Columns; 2],
+    output: &mut ShadeOutput<'_>,
+) {
+    for_each_vector(
+        simd,
+        context,
+        task,
+        columns,
+        #[inline(always)]
+        |fragments, _| {
+            let mut colors = [[0.0; LANES]; 4];
+            fragments.for_each(|lane, fragment| {
+                for (column, value) in colors.iter_mut().zip(pipeline.run_fragment(&fragment)) {
+                    column[lane] = value;
+                }
+            });
+            let color = colors.each(
+                #[inline(always)]
+                |column| F32::simd_from(simd, column),
+            );
+            output.write(fragments, finite(simd, color));
+        },
+    );
+}
+
+/// Writes for each fragment of a list whether it exists.
+pub(super) fn mask_scalar(
+    token: Token,
+    pipeline: &dyn ScalarPipeline,
+    context: &ShadeContext<'_>,
+    task: &Task<'_>,
+    columns: &mut [Columns; 2],
+    passed: &mut [u8],
+) {
+    at_level!(token, simd => for_each_vector(simd, context, task, columns, #[inline(always)] |fragments, vector| {
+        fragments.for_each(|lane, fragment| {
+            passed[vector.outputs()[lane] as usize] = u8::from(pipeline.run_mask(&fragment));
+        });
+    }));
+}
+
+/// A pipeline without its type.
+pub(crate) trait AnyPipeline: VertexProgram {
+    /// Whether it reads the whole fragment, depth and 1/w included.
+    fn reads_all(&self) -> bool;
+
+    /// Whether a triangle has the same colour all over.
+    fn is_flat(&self) -> bool;
+
+    /// Shades pixels of the draw; of a flat one, one of each triangle.
+    fn shade(
+        &self,
+        token: Token,
+        context: &ShadeContext<'_>,
+        task: &Task<'_>,
+        columns: &mut [Columns; 2],
+        output: &mut ShadeOutput<'_>,
+    );
+
+    /// Evaluates the masks of a list of fragments: 1 or 0 for each, at its output's index.
+    fn mask(
+        &self,
+        token: Token,
+        context: &ShadeContext<'_>,
+        task: &Task<'_>,
+        columns: &mut [Columns; 2],
+        passed: &mut [u8],
+    );
+}
+
+impl<P: LanePipeline> AnyPipeline for P {
+    fn reads_all(&self) -> bool {
+        P::SCALAR
+    }
+
+    fn is_flat(&self) -> bool {
+        P::FLAT
+    }
+
+    fn shade(
+        &self,
+        token: Token,
+        context: &ShadeContext<'_>,
+        task: &Task<'_>,
+        columns: &mut [Columns; 2],
+        output: &mut ShadeOutput<'_>,
+    ) {
+        if P::SCALAR {
+            let pipeline = self.as_scalar().expect("a scalar pipeline");
+            shade_scalar(token, pipeline, context, task, columns, output);
+        } else {
+            at_level!(token, simd => shade(simd, self, context, task, columns, output));
+        }
+    }
+
+    fn mask(
+        &self,
+        token: Token,
+        context: &ShadeContext<'_>,
+        task: &Task<'_>,
+        columns: &mut [Columns; 2],
+        passed: &mut [u8],
+    ) {
+        if P::SCALAR {
+            let pipeline = self.as_scalar().expect("a scalar pipeline");
+            mask_scalar(token, pipeline, context, task, columns, passed);
+        } else if P::MASKED {
+            at_level!(token, simd => mask(simd, self, context, task, columns, passed));
+        } else {
+            passed.fill(1);
+        }
+    }
 }

@@ -2,26 +2,19 @@
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `triangle` | the record of a triangle |
-//! | `quad` | the record of a line or a point: a quadrilateral of two triangles |
-//! | `columns` | eight triangles in lanes, their vertices sorted; the limit of small triangles |
-//! | `stroke` | how much of a pixel an anti-aliased line or point covers |
-//! | `edge` | edge functions in i64, and **the top-left rule** (`Edge::bias`, `owns_boundary`) |
-//! | `depth` | the plane of a triangle's depths |
+//! | `triangle` | the record of a triangle; eight triangles in lanes, their vertices sorted; the limit of small triangles |
+//! | `quad` | the record of a line or a point: a quadrilateral of two triangles; how much of a pixel it covers if it is anti-aliased |
+//! | `planes` | edge functions in i64, and **the top-left rule** (`Edge::bias`, `owns_boundary`); the plane of a triangle's depths |
 //!
-//! `triangle`, and `columns` for eight at a time, sort the vertices of a triangle by (y, x) before anything is
+//! `triangle` sorts the vertices of a triangle by (y, x) before anything is
 //! computed from them. So no result depends on the order in which corners are listed.
 
-mod columns;
-mod depth;
-mod edge;
+mod planes;
 mod quad;
-mod stroke;
 mod triangle;
 
-pub(crate) use columns::{Column, SMALL, small_lanes, sorted_columns};
-pub(crate) use depth::DepthPlane;
-pub(crate) use edge::{Edge, owns_boundary};
-pub(crate) use quad::{DetailIndex, Ends, Quad, QuadDetail};
-pub(crate) use stroke::{Form, Stroke};
-pub(crate) use triangle::{Corners, CutWeights, Kind, SetupTriangle, sorted};
+pub(crate) use planes::{DepthPlane, Edge, owns_boundary};
+pub(crate) use quad::{DetailIndex, Ends, Form, Quad, QuadDetail, Stroke};
+pub(crate) use triangle::{
+    Column, Corners, CutWeights, Kind, SMALL, SetupTriangle, small_lanes, sorted, sorted_columns,
+};

@@ -2,19 +2,17 @@
 
 mod background;
 mod edges;
-mod mean;
-mod some;
 mod strip;
 
-pub(crate) use mean::{mean, saturated};
+pub(crate) use edges::{mean, saturated};
 pub(crate) use strip::Strip;
 
 use crate::fragments::Encoding;
-use crate::shade::{Shading, TileRows};
+use crate::shade::Shading;
 use crate::simd::at_level;
 use crate::target::{Band, Bands};
 use crate::tile::TileState;
-use crate::tile_buffer::{NO_TRIANGLE, TileArea};
+use crate::tile_buffer::{NO_TRIANGLE, TileArea, TileRows};
 use crate::view::FrameView;
 use background::fill_background;
 use trigon_math::Vec4;
@@ -49,7 +47,7 @@ pub(crate) fn resolve(
         }
         TileColors::PartlyEncoded(encoding, requested) => {
             background::lay_codes(frame, area, shading, encoding);
-            return some::write_some(frame, area, requested, &shading.codes, bands);
+            return strip::write_some(frame, area, requested, &shading.codes, bands);
         }
         TileColors::Shaded => {
             background::lay_colors(frame, area, shading);

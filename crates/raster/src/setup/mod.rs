@@ -1,7 +1,7 @@
 //! Set-up: primitives become triangles that are ready for the tiles. Triangles are culled and entered in the bins
 //! of the tiles that they touch.
 //!
-//! Vertices come snapped from the vertex stage (`vertex/snap.rs`). A vertex has no point on the grid if its w is
+//! Vertices come snapped from the vertex stage (`vertex/screen.rs`). A vertex has no point on the grid if its w is
 //! below `W_MIN`, or if it lies on the eye's side of the near plane or outside the guard band. Nor has an invalid
 //! vertex: a coordinate is NaN or beyond `COORDINATE_MAX`. Triangles with an invalid vertex, and those that lie
 //! beyond one plane as a whole, are dropped. Other triangles that have a vertex without a point are cut here, and
@@ -13,7 +13,6 @@
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `eight_primitives` | eight primitives of a draw, consecutive or listed |
 //! | `eight` | culls and bins whole triangles, eight at a time; most triangles need only this file |
 //! | `mod` | one triangle at a time ([`Setup::triangle`]): cuts it, snaps the result, culls, bins |
 //! | `ears` | cuts the snapped polygon into triangles |
@@ -23,12 +22,11 @@
 
 mod ears;
 mod eight;
-mod eight_primitives;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use ears::{cut_ears, doubled_area};
-pub(crate) use eight_primitives::EightPrimitives;
+pub(crate) use eight::EightPrimitives;
 
 use crate::bin::{Chunk, Entry, Grid};
 use crate::primitive::{Corners, CutWeights, Kind, Quad, SetupTriangle, sorted};
@@ -129,7 +127,7 @@ impl Setup<'_> {
     }
 
     /// Snaps the corners of a cut triangle to the sub-pixel grid, the original corners among them
-    /// too. Those get the same bits as in the vertex stage (`snap` in `vertex/snap.rs` says why), so
+    /// too. Those get the same bits as in the vertex stage (`snap` in `vertex/screen.rs` says why), so
     /// that no gap opens to a neighbour that is not cut. `None` if nothing is left, or a corner lies
     /// outside the grid.
     fn snap<'p>(

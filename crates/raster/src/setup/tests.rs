@@ -2,8 +2,7 @@
 
 use crate::bin::Grid;
 use crate::primitive::{Edge, SMALL, SetupTriangle};
-use crate::samples::SamplePattern;
-use crate::viewport::Viewport;
+use crate::viewport::{SamplePattern, Viewport};
 use crate::{
     Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rasterizer, Stats, Target, TileSize,
     VertexOutput,

@@ -3,18 +3,20 @@
 //! Groups of 4×2 pixels are shaded in tile order, whichever triangles of a draw they show. Two kinds of pixels go
 //! into a list instead: pixels of groups that show several draws, and, with multisampling, pixels that show several
 //! triangles. A lane depends on its own triangle and pixel alone, so groups and lists give the same result.
+//!
+//! Lists of fragments that are sorted by triangle are shaded here, too: masks to be evaluated, and layers to be blended.
 
-use super::pixels_to_shade::PartialTile;
-use super::shading::{DrawRun, Shading};
-use super::tile_bits::GROUP_COUNT;
+use super::shading::{DrawRun, PartialTile, Shading};
 use super::visible::{SomeLanes, divide, list};
 use crate::bin::TriangleRef;
+use crate::draw::Overlap;
 use crate::fragments::{
-    Codes, Encoding, FragmentSlice, Records, ShadeContext, ShadeOutput, ShadePoint, Task, VisibleTriangles,
+    Codes, Encoding, FragmentSlice, Job, Records, ShadeContext, ShadeOutput, ShadePoint, Task,
+    VisibleTriangles,
 };
 use crate::ink::VisibleFaces;
 use crate::simd::{LANES, at_level};
-use crate::tile_buffer::TileArea;
+use crate::tile_buffer::{GROUP_COUNT, TileArea};
 use crate::view::{FrameView, VisibleTile};
 
 /// Shades the pixels of a tile, or those that are asked for: to bytes if an encoding is given, else in linear
@@ -229,5 +231,94 @@ fn shade_triangles(
     frame.pipeline(draw).shade(frame.token, context, &task, columns, &mut output);
     if let Some(encoding) = encoding {
         at_level!(frame.token, simd => encoding.encode_all(simd, &flat_colors[..whole], flat_codes));
+    }
+}
+
+/// So many triangles at most are ready at a time, to bound memory.
+const READY: usize = 1024;
+
+/// Triangles of a tile to be shaded, each at some of its pixels.
+#[derive(Clone, Copy)]
+pub(crate) struct JobList<'l> {
+    /// The tile's triangles.
+    pub(crate) triangles: &'l [TriangleRef],
+    pub(crate) jobs: &'l [Job],
+    /// The pixels that the jobs refer to.
+    pub(crate) points: &'l [ShadePoint],
+}
+
+/// Shades jobs in the order of their draws.
+pub(crate) fn shade_jobs(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    shading: &mut Shading,
+    list: JobList<'_>,
+    colors: &mut [[f32; 4]],
+) {
+    // Edges of other faces are not painted over translucent ones.
+    shade_jobs_with(frame, area, shading, list, colors, None);
+}
+
+/// [`shade_jobs`], with what edges of other faces cover.
+pub(crate) fn shade_jobs_with(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    shading: &mut Shading,
+    list: JobList<'_>,
+    colors: &mut [[f32; 4]],
+    outer: Option<&[Overlap]>,
+) {
+    for_each_part(frame, area, shading, list, |draw, context, shading| {
+        let context = &ShadeContext { outer, ..*context };
+        let Shading { records, columns, fragments, .. } = shading;
+        let task = Task::of_fragments(records, 0, fragments.all());
+        let mut output = ShadeOutput::colors(colors).with_ink(context.ink_over());
+        frame.pipeline(draw).shade(frame.token, context, &task, columns, &mut output);
+    });
+}
+
+/// Evaluates the masks of jobs: 1 or 0 at each output's index.
+pub(crate) fn mask_jobs(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    shading: &mut Shading,
+    list: JobList<'_>,
+    passed: &mut [u8],
+) {
+    for_each_part(frame, area, shading, list, |draw, context, shading| {
+        let Shading { records, columns, fragments, .. } = shading;
+        let task = Task::of_fragments(records, 0, fragments.all());
+        frame.pipeline(draw).mask(frame.token, context, &task, columns, passed);
+    });
+}
+
+/// Visits the jobs, some of one draw at a time, their triangles and fragments made
+/// ready in `shading`.
+fn for_each_part(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    shading: &mut Shading,
+    list: JobList<'_>,
+    mut visit: impl FnMut(usize, &ShadeContext<'_>, &mut Shading),
+) {
+    let JobList { triangles, jobs, points } = list;
+    let mut rest = jobs;
+    while let Some(first) = rest.first() {
+        let draw = frame.draw_of(triangles[first.triangle as usize]);
+        let end = frame.plan.draws[draw].ordinals.end;
+        let same = rest.partition_point(|job| triangles[job.triangle as usize].ordinal < end);
+        let (part, after) = rest.split_at(same.min(READY));
+        shading.visible_triangles.clear();
+        shading.visible_triangles.extend(part.iter().map(|job| job.triangle));
+        shading.fragments.clear();
+        for (slot, job) in part.iter().enumerate() {
+            for &point in &points[job.points.clone()] {
+                shading.fragments.push(slot as u32, point);
+            }
+        }
+        let context = frame.shade_context(area, triangles, draw);
+        shading.records.fill(frame.token, &context, &shading.visible_triangles);
+        visit(draw, &context, shading);
+        rest = after;
     }
 }

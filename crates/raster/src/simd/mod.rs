@@ -4,16 +4,16 @@
 //! A vector has eight lanes on every machine; narrow levels use two registers
 //! for it. No result can therefore depend on the lane width.
 
-mod each;
-mod gather;
+mod lanes;
 mod level;
 
-pub use each::{InlineMap, inlined, lanes_of};
-pub use fearless_simd::Simd;
-pub use fearless_simd::prelude;
-pub(crate) use gather::{Row, append, channels, colors_of, transpose, transposed, unzipped};
+pub use fearless_simd::{Simd, prelude};
+pub use lanes::{InlineMap, inlined, lanes_of};
+pub(crate) use lanes::{Row, append, channels, colors_of, transpose, transposed, unzipped};
 pub use level::{SimdLevel, SimdLevelError};
 pub(crate) use level::{Token, at_level};
+
+use fearless_simd::prelude::*;
 
 /// Lanes of a vector.
 pub const LANES: usize = 8;
@@ -26,8 +26,6 @@ pub type I32<S> = fearless_simd::i32x8<S>;
 pub type U32<S> = fearless_simd::u32x8<S>;
 /// Eight truth values.
 pub type Mask<S> = fearless_simd::mask32x8<S>;
-
-use fearless_simd::prelude::*;
 
 /// The smaller of two; the second where they are equal or one is no number.
 /// (`min` leaves the sign of zero and the fate of a NaN to the machine: where that

@@ -1,5 +1,7 @@
 //! Cuts a target into bands of rows: disjoint mutable slices, each behind a lock that is held only while a finished tile
 //! is copied in. Tiles can thus be drawn in any order on any thread, without `unsafe`.
+//!
+//! An image of a target is a [`Plane`]: absent, owned by the target, or borrowed from the caller.
 
 use super::Target;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -68,6 +70,46 @@ impl<'t> Bands<'t> {
     /// Pixels in a row.
     pub(crate) fn width(&self) -> usize {
         self.width as usize
+    }
+}
+
+/// An image, row-major.
+pub(super) enum Plane<'a, T> {
+    Owned(Vec<T>),
+    Borrowed(&'a mut [T]),
+}
+
+impl<T: Clone> Plane<'_, T> {
+    /// An owned image, without pixels if it is empty. `None` if there is not enough memory.
+    pub(super) fn owned(pixels: usize, value: T) -> Option<Self> {
+        let mut image = Vec::new();
+        image.try_reserve_exact(pixels).ok()?;
+        image.resize(pixels, value);
+        Some(Self::Owned(image))
+    }
+}
+
+impl<T> Plane<'_, T> {
+    pub(super) fn pixels(&self) -> Option<&[T]> {
+        let pixels = match self {
+            Self::Owned(image) => image.as_slice(),
+            Self::Borrowed(image) => image,
+        };
+        (!pixels.is_empty()).then_some(pixels)
+    }
+
+    fn pixels_mut(&mut self) -> &mut [T] {
+        match self {
+            Self::Owned(image) => image,
+            Self::Borrowed(image) => image,
+        }
+    }
+
+    pub(super) fn into_owned(self) -> Option<Vec<T>> {
+        match self {
+            Self::Owned(image) => (!image.is_empty()).then_some(image),
+            Self::Borrowed(_) => None,
+        }
     }
 }
 

@@ -1,12 +1,11 @@
 //! The target of a pass: row-major images, one for each requested output.
 
 mod bands;
-mod plane;
 
 pub(crate) use bands::{Band, Bands};
 
-use crate::samples::SamplePattern;
-use plane::Plane;
+use crate::viewport::SamplePattern;
+use bands::Plane;
 use thiserror::Error;
 use trigon_math::Vec4;
 

@@ -6,12 +6,10 @@
 //! channel after it: the filter's arithmetic needs no shuffle.
 
 use super::axis::{Filters, reduced_lanes, texel_lanes};
-use super::channels::{ALPHA, Channels, Color, Data, Texels, mix};
 use super::detail::{FootprintLanes, log2_of_root_lanes};
-use super::strips::{COLUMNS, PITCH, Strips, TexelQuad};
+use super::strips::{ALPHA, COLUMNS, Channels, Color, Data, PITCH, Strips, TexelQuad, Texels, mix};
 use super::{MipFilter, Sampler, Texture, TextureFormat};
-use crate::simd::prelude::*;
-use crate::simd::{F32, I32, InlineMap, LANES, Simd, U32, lanes_of, transposed, unzipped};
+use crate::simd::{F32, I32, InlineMap, LANES, Simd, U32, lanes_of, prelude::*, transposed, unzipped};
 
 impl Texture {
     /// [`Self::sample`] for eight points: red, green, blue and alpha, in each

@@ -4,23 +4,18 @@
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `sampler` | the settings of a look-up: wrap modes, filters |
+//! | `sampler` | the settings of a look-up: wrap modes, filters; what the bytes of texels mean |
 //! | `dual` | computed texture coordinates with their derivatives |
 //! | `detail` | the footprint of a fragment: **which mip level**, how many anisotropic probes |
 //! | `axis` | wraps a coordinate and finds the texel and the weight of the next one, on one axis |
-//! | `strips` | where texels lie in memory: **the address** of a texel |
-//! | `format`, `channels` | what the bytes of texels mean; bytes to channels in lanes |
+//! | `strips` | makes the mip levels; where texels lie in memory: **the address** of a texel; bytes to channels in lanes |
 //! | `sample` | **the look-up for one point**, filter included: the definition |
 //! | `lanes` | the same for eight points, bit for bit |
-//! | `mips` | makes the mip levels |
 
 mod axis;
-mod channels;
 mod detail;
 mod dual;
-mod format;
 mod lanes;
-mod mips;
 #[cfg(test)]
 mod same_bits;
 mod sample;
@@ -28,11 +23,9 @@ mod sampler;
 mod strips;
 
 pub use dual::Dual;
-pub use format::TextureFormat;
-pub use sampler::{Filter, MAX_ANISOTROPY, MipFilter, Sampler, Wrap};
+pub use sampler::{Filter, MAX_ANISOTROPY, MipFilter, Sampler, TextureFormat, Wrap};
 
-use mips::LevelRows;
-use strips::Strips;
+use strips::{LevelRows, Strips};
 use thiserror::Error;
 
 /// The largest width and height of a texture.
@@ -96,7 +89,7 @@ impl Texture {
         }
         let opaque = texels.iter().all(|&[.., alpha]| alpha == u8::MAX);
         let base = LevelRows { width, height, texels };
-        Ok(Self { format, strips: Strips::new(base, |rows| mips::halved(rows, format)), opaque })
+        Ok(Self { format, strips: Strips::new(base, |rows| strips::halved(rows, format)), opaque })
     }
 
     /// Width of the base level in texels.

@@ -6,7 +6,7 @@
 
 use super::axis::{reduced, texel};
 use super::detail::{Footprint, log2_of_root};
-use super::format::{decode, full_scale};
+use super::sampler::{decode, full_scale};
 use super::strips::Strips;
 use super::{Filter, MipFilter, Sampler, Texture};
 use trigon_math::{Vec2, Vec4};

@@ -5,7 +5,7 @@
 //! kept counts only the triangles that are visible somewhere, so the tile's list is short.
 
 use super::TileState;
-use super::surfaces::{Listing, Surfaces};
+use super::state::{Listing, Surfaces};
 use super::visibility::{cover_more, cover_overlay, resolve_visibility};
 use crate::Stats;
 use crate::bin::TriangleRef;

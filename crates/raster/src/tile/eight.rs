@@ -5,10 +5,10 @@
 
 use super::TileTriangle;
 use crate::primitive::{Column, DepthPlane, owns_boundary, small_lanes, sorted_columns};
-use crate::samples::{MAX_SAMPLES, SamplePattern};
 use crate::simd::{F32, I32, InlineMap, LANES, Mask, Simd, greater, inlined, lesser, prelude::*, widened};
 use crate::tile_buffer::TileArea;
 use crate::vertex::ScreenVertex;
+use crate::viewport::{MAX_SAMPLES, SamplePattern};
 use fearless_simd::f64x4;
 
 /// What [`TileTriangle`] needs, for eight small triangles.
@@ -279,7 +279,7 @@ fn range<S: Simd>(
 }
 
 /// The steps of the planes of depth, by the formula of
-/// `slopes` in `primitive/depth.rs`. The sides of small triangles are exact in
+/// `slopes` in `primitive/planes.rs`. The sides of small triangles are exact in
 /// f32, so converting them to f64 by way of f32 is exact.
 #[inline(always)]
 fn depth_slopes<S: Simd>(simd: S, [a, b, c]: [Column<S>; 3]) -> [[f64; LANES]; 2] {

@@ -2,9 +2,8 @@
 //! mask is evaluated, then depth is tested again.
 
 use super::TileState;
-use super::blocks::Blocks;
-use super::depth_query::{Candidate, TileView};
-use super::single::single;
+use super::depth_query::{Blocks, Candidate, TileView};
+use super::triangle::single;
 use crate::fragments::{Job, ShadePoint};
 use crate::shade::{JobList, Shading, mask_jobs};
 use crate::simd::{LANES, Simd, at_level, prelude::*};

@@ -16,37 +16,28 @@
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `surfaces` | lists the tile's triangles: opaque, masked, overlay, translucent |
-//! | `state` | what a worker keeps from tile to tile |
-//! | `blocks` | sets of a tile's blocks |
+//! | `state` | what a worker holds from tile to tile: the lists of the tile's triangles by kind of surface, the budget for equal depths, the order of keys |
 //! | `visibility` | **the order of the kinds of surface, and which kernel draws a triangle** |
 //! | `eight` | eight small triangles prepared together, and the limits of the kernels |
-//! | `edge_origins` | for the triangles that `eight` prepares: the edge functions of each at its first 4×2 group; for `tiny` and `multisample` |
-//! | `triangle`, `single` | one triangle prepared for the tile, whatever its size |
-//! | `micro` | kernel: up to eight small triangles of at most 4×4 pixels each, one sample per pixel; a lane is a triangle |
+//! | `triangle` | one triangle prepared for the tile, whatever its size |
+//! | `micro` | kernel: up to eight small triangles of at most 4×4 pixels each, one sample per pixel; a lane is a triangle; also the list of pixels that `micro` and `sliver` find, and the test of their depths |
 //! | `tiny` | kernel: one small triangle of at most 24×24 pixels, one sample per pixel |
-//! | `multisample` | the same with several samples per pixel |
+//! | `multisample` | the same with several samples per pixel; also, for `tiny` too, the edge functions of each prepared triangle at its first 4×2 group |
 //! | `sliver` | kernel: one small triangle at most two pixels wide along an axis, one sample per pixel; a lane is a column of pixels |
-//! | `covered` | the list of pixels that `micro` and `sliver` find, and the test of their depths |
 //! | `rasterizer` | kernel: any other triangle (the *general* kernel); also **the depth test**, of which the other kernels have versions |
 //! | `quad` | kernel: opaque lines and points less than 32 pixels wide, both triangles at once |
 //! | `points` | kernel: plain points, from their vertices, without edge functions |
-//! | `masked`, `depth_query` | masked triangles; where a masked or translucent triangle would be visible |
-//! | `cached` | what still triangles show, kept while others move |
-//! | `store` | writing to the visibility buffer |
-//! | `ties`, `key_order` | the tile's budget for equal depths; its triangles sorted by key |
+//! | `sides` | which blocks and groups lie on which side of a triangle's edges, for `rasterizer` |
+//! | `masked`, `depth_query` | masked triangles; where a masked or translucent triangle would be visible, and sets of blocks |
+//! | `cached` | what still triangles show, cached while others move |
 //!
 //! The sizes in pixels count the part of a triangle's bounding box that lies in the tile. In the other kernels a lane is
 //! a pixel of a group. All kernels make the same decisions with the same integers and depths, so the choice of a
 //! kernel never changes a byte.
 
-mod blocks;
 mod cached;
-mod covered;
 mod depth_query;
-mod edge_origins;
 mod eight;
-mod key_order;
 mod masked;
 mod micro;
 mod multisample;
@@ -54,24 +45,16 @@ mod points;
 mod quad;
 mod rasterizer;
 mod sides;
-mod single;
 mod sliver;
 mod state;
-mod store;
-mod surfaces;
 #[cfg(test)]
 mod tests;
-mod ties;
 mod tiny;
 mod triangle;
 mod visibility;
 
-pub(crate) use blocks::Blocks;
 pub(crate) use cached::{CachedTile, MovingRanges};
-pub(crate) use depth_query::{Candidate, SampleGroup, TileView};
-pub(crate) use single::single;
-pub(crate) use state::TileState;
-pub(crate) use surfaces::{Listing, Surfaces};
-pub(crate) use ties::Ties;
-pub(crate) use triangle::TileTriangle;
+pub(crate) use depth_query::{Blocks, Candidate, SampleGroup, TileView};
+pub(crate) use state::{Listing, Surfaces, Ties, TileState};
+pub(crate) use triangle::{TileTriangle, single};
 pub(crate) use visibility::{cover_overlay, resolve_visibility};

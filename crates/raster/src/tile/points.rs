@@ -5,17 +5,16 @@
 //! near enough to its centre, so no edge functions are needed.
 
 use super::rasterizer::{GroupSamples, TileRasterizer};
-use super::store::store_where;
 use crate::bin::TriangleRef;
-use crate::counts::Counts;
 use crate::geometry::Shape;
 use crate::point::{PlainPoints, sampled_pixels};
 use crate::primitive::Column;
-use crate::samples::SamplePattern;
 use crate::simd::{F32, I32, InlineMap, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
-use crate::tile_buffer::{GROUPS, TileArea, VisibilityBuffer};
+use crate::stats::Counts;
+use crate::tile_buffer::{GROUPS, TileArea, VisibilityBuffer, store_where};
 use crate::vertex::nearer_lanes;
 use crate::view::FrameView;
+use crate::viewport::SamplePattern;
 
 /// What the kernel needs of eight points of one draw.
 pub(super) struct EightPoints {

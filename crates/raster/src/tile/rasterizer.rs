@@ -17,12 +17,11 @@
 //! `multisample`, the list of `covered` pixels and the queries of `depth_query` repeat it in the form that suits them.
 
 use super::sides::{ALL, Sides, steps};
-use super::store::{store, store_where};
-use super::ties::Ties;
+use super::state::Ties;
 use super::triangle::TileTriangle;
-use crate::counts::Counts;
 use crate::simd::{F32, I32, InlineMap, LANES, Mask, Simd, lane_numbers, prelude::*};
-use crate::tile_buffer::{BLOCKS, NO_TRIANGLE, TileArea, VisibilityBuffer};
+use crate::stats::Counts;
+use crate::tile_buffer::{BLOCKS, NO_TRIANGLE, TileArea, VisibilityBuffer, store, store_where};
 use crate::view::FrameView;
 
 /// What all triangles of a tile have in common, for all coverage kernels.

@@ -6,13 +6,13 @@
 //! of eight columns side by side: the first one inside of that edge, then, if the triangle may be that wide, the
 //! second one. Edge functions decide exactly which are covered; the position of the edge is only estimated.
 //! Covered pixels are appended to a list, and their depths tested at the end of the eight triangles
-//! ([`covered`](super::covered)).
+//! ([`Covered`]).
 
-use super::covered::{Covered, index_of};
 use super::eight::{EightTriangles, Slivers};
+use super::micro::{Covered, index_of};
 use super::rasterizer::TileRasterizer;
-use crate::counts::Counts;
 use crate::simd::{F32, I32, InlineMap, LANES, Simd, greater, lane_numbers, lesser, prelude::*, widened};
+use crate::stats::Counts;
 use crate::tile_buffer::{BLOCKS, VisibilityBuffer};
 use fearless_simd::f64x4;
 

@@ -16,16 +16,15 @@
 //!
 //! With several samples per pixel, the same steps use the loops of `multisample`.
 
-use super::edge_origins::EdgeOrigins;
 use super::eight::EightTriangles;
 use super::multisample;
+use super::multisample::EdgeOrigins;
 use super::rasterizer::TileRasterizer;
-use super::store::name_where;
-use crate::counts::Counts;
 use crate::simd::{
     F32, I32, InlineMap, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser, prelude::*,
 };
-use crate::tile_buffer::{BLOCKS, NO_TRIANGLE, TileArea, VisibilityBuffer};
+use crate::stats::Counts;
+use crate::tile_buffer::{BLOCKS, NO_TRIANGLE, TileArea, VisibilityBuffer, name_where};
 use fearless_simd::f64x4;
 
 /// The farthest depth of a block is computed again after this many writes to it

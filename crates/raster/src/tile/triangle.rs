@@ -1,10 +1,11 @@
 //! A triangle prepared for one tile: which samples it covers, and at which depths.
 
-use crate::bin::Grid;
+use crate::bin::{Grid, TriangleRef};
 use crate::primitive::{DepthPlane, Edge, Kind, SetupTriangle};
-use crate::samples::MAX_SAMPLES;
 use crate::simd::{I32, LANES, Mask, Simd, lanes_of, prelude::*};
 use crate::tile_buffer::{MAX_SIDE, TileArea, lane_point};
+use crate::view::FrameView;
+use crate::viewport::MAX_SAMPLES;
 
 /// What coverage needs of a triangle in one tile.
 ///
@@ -177,12 +178,27 @@ impl TileTriangle {
     }
 }
 
+/// One triangle of the tile.
+pub(crate) fn single(frame: &FrameView<'_>, area: &TileArea, triangle: TriangleRef) -> Option<TileTriangle> {
+    covering_apart(frame, area, &frame.triangle(triangle))
+}
+
+/// Not inlined, so that it is compiled once.
+#[inline(never)]
+pub(super) fn covering_apart(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    triangle: &SetupTriangle,
+) -> Option<TileTriangle> {
+    TileTriangle::new(triangle, &frame.grid, area)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples::SamplePattern;
     use crate::simd::{SimdLevel, at_level};
     use crate::tile::sides::Sides;
+    use crate::viewport::SamplePattern;
     use crate::viewport::Viewport;
     use proptest::prelude::*;
 

@@ -4,21 +4,21 @@
 //! kernel. (`tiny` uses the loops of `multisample` if pixels have several samples.) Masked triangles go
 //! through `masked` and `depth_query`.
 
-use super::covered::Covered;
-use super::edge_origins::EdgeOrigins;
 use super::eight::{EightTriangles, Slivers};
+use super::micro::Covered;
+use super::multisample::EdgeOrigins;
 use super::points::EightPoints;
 use super::quad::{IndexedQuad, QuadEdges};
 use super::rasterizer::TileRasterizer;
-use super::single::covering_apart;
-use super::ties::COMPARISON;
+use super::state::COMPARISON;
 use super::tiny::PreparedTriangle;
+use super::triangle::covering_apart;
 use super::{Surfaces, TileState, masked};
 use crate::Stats;
 use crate::bin::TriangleRef;
-use crate::counts::Counts;
 use crate::shade::Shading;
 use crate::simd::{InlineMap, LANES, Simd, at_level, lanes_of};
+use crate::stats::Counts;
 use crate::tile_buffer::{NO_TRIANGLE, TileArea, VisibilityBuffer};
 use crate::vertex::ScreenVertex;
 use crate::view::FrameView;

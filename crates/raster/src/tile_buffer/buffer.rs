@@ -5,9 +5,11 @@
 //! the block would have to be read. The general kernel reads them before it uses the bound. The kernels of small
 //! triangles do so only after several writes, and only if something in the block is nearer than their triangle. The
 //! other kernels use an outdated bound, which hides less and is never wrong.
+//!
+//! Kernels write eight lanes at a time: [`store`], [`store_where`], [`store_each_where`].
 
 use super::area::{BLOCKS, GROUPS, TileArea};
-use crate::simd::{F32, LANES, Simd, lesser, prelude::*};
+use crate::simd::{F32, LANES, Mask, Simd, U32, blended, lesser, prelude::*};
 
 /// No triangle: the background.
 pub(crate) const NO_TRIANGLE: u32 = u32::MAX;
@@ -252,4 +254,55 @@ fn least_of([a, b, c, d, e, f, g, h]: [f32; LANES]) -> f32 {
     let lesser = |a: f32, b: f32| if a < b { a } else { b };
     let [a, b, c, d] = [lesser(a, e), lesser(b, f), lesser(c, g), lesser(d, h)];
     lesser(lesser(a, c), lesser(b, d))
+}
+
+/// Writes one triangle to all lanes.
+#[inline(always)]
+pub(crate) fn store<S: Simd>(
+    simd: S,
+    triangle: u32,
+    depth: F32<S>,
+    buffer: &mut VisibilityBuffer,
+    at: usize,
+) {
+    depth.store_slice(&mut buffer.depth[at..at + LANES]);
+    U32::splat(simd, triangle).store_slice(&mut buffer.visible[at..at + LANES]);
+}
+
+/// Writes one triangle to some lanes.
+#[inline(always)]
+pub(crate) fn store_where<S: Simd>(
+    simd: S,
+    mask: Mask<S>,
+    triangle: u32,
+    depth: F32<S>,
+    buffer: &mut VisibilityBuffer,
+    at: usize,
+) {
+    store_each_where(simd, mask, U32::splat(simd, triangle), depth, buffer, at);
+}
+
+/// Writes some lanes, each with its own triangle.
+#[inline(always)]
+pub(crate) fn store_each_where<S: Simd>(
+    simd: S,
+    mask: Mask<S>,
+    triangles: U32<S>,
+    depth: F32<S>,
+    buffer: &mut VisibilityBuffer,
+    at: usize,
+) {
+    let bits = mask.select(U32::splat(simd, u32::MAX), U32::splat(simd, 0));
+    let there = F32::from_slice(simd, &buffer.depth[at..at + LANES]);
+    let depth: F32<S> = blended(bits, there.bitcast(), depth.bitcast()).bitcast();
+    depth.store_slice(&mut buffer.depth[at..at + LANES]);
+    let visible = buffer.visible[at..].first_chunk_mut().expect("groups are whole");
+    *visible = blended(bits, U32::simd_from(simd, *visible), triangles).into();
+}
+
+/// Makes a triangle the visible one in some lanes, without writing its depth.
+#[inline(always)]
+pub(crate) fn name_where<S: Simd>(simd: S, mask: Mask<S>, triangle: u32, visible: &mut [u32; LANES]) {
+    let bits = mask.select(U32::splat(simd, u32::MAX), U32::splat(simd, 0));
+    *visible = blended(bits, U32::simd_from(simd, *visible), U32::splat(simd, triangle)).into();
 }

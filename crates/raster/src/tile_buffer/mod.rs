@@ -3,5 +3,10 @@
 mod area;
 mod buffer;
 
-pub(crate) use area::{BLOCKS, GROUPS, MAX_SIDE, PIXELS, TileArea, lane_point};
-pub(crate) use buffer::{BEHIND_ALL, BlockBounds, NO_TRIANGLE, VisibilityBuffer};
+pub(crate) use area::{
+    BLOCKS, GROUP_COUNT, GROUPS, MAX_SIDE, PIXELS, TileArea, TileLanes, TileRows, lane_point, lanes_of,
+    rows_of, rows_of_either,
+};
+pub(crate) use buffer::{
+    BEHIND_ALL, BlockBounds, NO_TRIANGLE, VisibilityBuffer, name_where, store, store_each_where, store_where,
+};

@@ -5,27 +5,14 @@
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `used` | which vertices of a draw are run, and their slots |
-//! | `program`, `lanes` | a pipeline without its type; the vertices that it runs at once |
-//! | `snap` | **snaps** eight vertices at a time; `pipeline/vertices.rs` runs the pipeline for them |
-//! | `screen` | the result: [`ScreenVertex`], a position on the grid with depth and 1/w, or an outcode |
-//! | `depth` | the same for a single vertex ([`ScreenVertex::of`]), which set-up needs for corners of cut triangles; the range of depths |
-//! | `draw` | looks up the vertices of a draw |
+//! | `program` | which vertices of a draw are run, and their slots; a pipeline without its type; looks up the vertices of a draw |
+//! | `screen` | **snaps** eight vertices at a time (`pipeline/vertices.rs` runs the pipeline for them), or one ([`ScreenVertex::of`]), which set-up needs for corners of cut triangles. The result is [`ScreenVertex`]: a position on the grid with depth and 1/w, or an outcode |
 //!
 //! Vertices that must be cut are not snapped here: see [`Setup::snap`](crate::setup::Setup).
 
-mod depth;
-mod draw;
-mod lanes;
 mod program;
 mod screen;
-mod snap;
-mod used;
 
-pub(crate) use depth::{nearer, nearer_lanes};
-pub(crate) use draw::DrawVertices;
-pub use lanes::VertexLanes;
-pub(crate) use program::{VertexDestination, VertexProgram};
-pub(crate) use screen::ScreenVertex;
-pub(crate) use snap::to_screen;
-pub(crate) use used::{Slots, UsedVertices};
+pub use program::VertexLanes;
+pub(crate) use program::{DrawVertices, Slots, UsedVertices, VertexDestination, VertexProgram};
+pub(crate) use screen::{ScreenVertex, nearer, nearer_lanes, to_screen};

@@ -1,20 +1,22 @@
-//! A frame before its tiles are drawn: everything that the earlier stages have produced for the tiles.
+//! A frame before its tiles are drawn: everything that the earlier stages have produced for the tiles, which outputs the
+//! frame is to have, and what a tile shows.
 
-use super::background_row::BackgroundRow;
-use super::{Plan, RequestedOutputs};
+use super::Plan;
 use crate::StageTimes;
 use crate::bin::{Chunk, Grid, MovingChunk, TileRange, TriangleRef};
 use crate::draw_view::DrawView;
+use crate::fragments::Encoding;
 use crate::ink::Ink;
 use crate::paint2d::Rect;
 use crate::pass::{Background, RecordedDraw};
 use crate::pipeline::AnyPipeline;
 use crate::primitive::SetupTriangle;
 use crate::simd::Token;
-use crate::tile_buffer::TileArea;
+use crate::tile_buffer::{TileArea, VisibilityBuffer};
 use crate::vertex::{DrawVertices, ScreenVertex};
 use std::cmp::Ordering;
 use std::ops::Range;
+use trigon_math::Vec4;
 
 /// Everything that tiles read.
 pub(crate) struct FrameView<'f> {
@@ -185,4 +187,54 @@ impl<'f> FrameView<'f> {
     pub(crate) fn precedes(&self, a: TriangleRef, b: TriangleRef) -> bool {
         self.compare(a, b).is_lt()
     }
+}
+
+/// A row of a background that has one colour in each row.
+#[derive(Clone, Copy)]
+pub(crate) struct BackgroundRow {
+    pub(crate) color: Vec4,
+    /// The colour as bytes, in frames that keep bytes of one kind and nothing else of colour.
+    pub(crate) code: u32,
+}
+
+impl BackgroundRow {
+    /// Lists the rows of a target of this height; none if the background has none.
+    pub(crate) fn list(
+        background: Background<'_>,
+        height: u32,
+        bytes: Option<Encoding>,
+        rows: &mut Vec<Self>,
+    ) {
+        rows.clear();
+        if let Background::PerRow(function) = background {
+            rows.extend((0..height).map(|y| {
+                let color = finite_color(function(y));
+                let code = bytes.map_or(0, |encoding| u32::from_le_bytes(encoding.encode(color)));
+                Self { color, code }
+            }));
+        }
+    }
+}
+
+pub(crate) fn finite_color(color: Vec4) -> Vec4 {
+    if color.is_finite() { color } else { Vec4::ZERO }
+}
+
+/// What a frame is to leave behind.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) struct RequestedOutputs {
+    pub(crate) color: bool,
+    pub(crate) depth: bool,
+    pub(crate) ids: bool,
+    /// The encoding, if bytes of one kind are the only output of colour and there is no
+    /// supersampling.
+    pub(crate) bytes: Option<Encoding>,
+}
+
+/// What a tile shows: the visible triangle at each sample, by its index among the tile's.
+#[derive(Clone, Copy)]
+pub(crate) struct VisibleTile<'t> {
+    pub(crate) area: &'t TileArea,
+    pub(crate) buffer: &'t VisibilityBuffer,
+    pub(crate) triangles: &'t [TriangleRef],
 }

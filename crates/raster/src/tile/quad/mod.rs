@@ -10,19 +10,16 @@
 //! triangles a sample belongs to, because that triangle gives its depth and colour.
 
 mod edges;
-mod strip;
 
 pub(super) use edges::QuadEdges;
 
 use super::rasterizer::{GroupSamples, TileRasterizer};
-use super::store::store_each_where;
-use crate::counts::Counts;
 use crate::primitive::{DepthPlane, Kind, Quad};
-use crate::samples::SamplePattern;
 use crate::simd::{F32, I32, InlineMap, LANES, Mask, Row, Simd, U32, inlined, lane_numbers, prelude::*};
-use crate::tile_buffer::{GROUPS, TileArea, VisibilityBuffer};
-use edges::{DIAGONAL, EDGES, QuadPosition};
-use strip::{OutlineStrip, SHIFT};
+use crate::stats::Counts;
+use crate::tile_buffer::{GROUPS, TileArea, VisibilityBuffer, store_each_where};
+use crate::viewport::SamplePattern;
+use edges::{DIAGONAL, EDGES, OutlineStrip, QuadPosition, SHIFT};
 
 /// From this width on, in 1/256 pixel, testing whole blocks first pays, so the two triangles are
 /// drawn as such.

@@ -4,10 +4,9 @@
 use super::{Rasterizer, SIZE, settings};
 use crate::clip::{self, Outcode};
 use crate::primitive::{DepthPlane, SetupTriangle};
-use crate::samples::SamplePattern;
 use crate::tile_buffer::BEHIND_ALL;
 use crate::vertex::{ScreenVertex, nearer};
-use crate::viewport::Viewport;
+use crate::viewport::{SamplePattern, Viewport};
 use crate::{
     BlendMode, ExecuteSettings, FixedBitSet, Fragment, Lines, MarkedPoints, Output, Pass, Pipeline,
     PointShape, Points, Smoothing, Target, TargetImages, VertexOutput,
