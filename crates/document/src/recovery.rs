@@ -41,6 +41,12 @@ const MAGIC: &[u8; 8] = b"TRGNREC1";
 /// Length and checksum.
 const HEADER: usize = 16;
 
+/// The format of recovery files.
+///
+/// Eight bytes `TRGNREC1`; then records: the length of the payload (eight bytes, little-endian), its checksum
+/// (eight bytes), the payload. The payload of the first record is the document as it was opened; those of the
+/// others are events as JSON.
+///
 /// The contents of a recovery file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecoveryLog {

@@ -111,6 +111,11 @@ fn share_of(stage: LoadStage) -> (f32, f32) {
     }
 }
 
+/// Resource limits.
+///
+/// A file is untrusted: a few bytes can claim billions of vertices. Sizes are checked with checked arithmetic
+/// before anything is allocated; these limits bound what a valid but huge file may use.
+///
 /// Upper bounds on what a load may read and allocate. The defaults fit large
 /// real models on an ordinary machine.
 #[derive(Clone, Debug, PartialEq, Eq)]

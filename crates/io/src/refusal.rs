@@ -1,4 +1,5 @@
-//! Why a file is not opened, and which names are always refused.
+//! Why a file is not opened, and which names are always refused. Git LFS pointers, which stand for a large
+//! file until it is fetched, have a message of their own.
 
 use std::io;
 use std::path::{Component, Path, PathBuf};

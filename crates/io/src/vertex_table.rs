@@ -1,5 +1,6 @@
-//! A table of vertices by what tells them apart, such as their places. It holds their numbers alone, 8 to 16 bytes
-//! for each; a `HashMap` with the places as keys would take several times as much, while a large file is read.
+//! A table of vertices by what tells them apart, such as their places. It holds their numbers alone, 8 to 16
+//! bytes for each; a `HashMap` with the places as keys would take several times as much, while a large file
+//! is read. Equal keys among many, such as the positions of corners, are found by all threads.
 
 use std::hash::{BuildHasher, Hash};
 use std::hint::black_box;

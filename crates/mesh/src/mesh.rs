@@ -1,4 +1,4 @@
-//! The mesh: vertices, edges and faces as modelled.
+//! The mesh: vertices, edges and faces as modelled. Here is also where the corners of each face begin.
 //!
 //! Everything that a renderer needs is derived from it (the triangulation, the welded
 //! [`RenderMesh`](crate::RenderMesh)); none of that is stored here, so it cannot become stale.

@@ -1,4 +1,5 @@
-//! How the faces of a mesh join at their edges: where a surface is open, turned or not a surface.
+//! How the faces of a mesh join at their edges: where a surface is open, turned or not a surface. Here are
+//! also its topology (what stays the same when a surface is bent) and its size.
 
 use std::collections::HashMap;
 

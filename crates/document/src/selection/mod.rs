@@ -1,4 +1,5 @@
-//! The selection: objects, and within them vertices, edges or faces.
+//! The selection: objects, and within them vertices, edges or faces. Clicks and regions select one kind of
+//! element, or several at once.
 
 mod convert;
 mod loops;

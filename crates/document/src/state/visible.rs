@@ -1,5 +1,6 @@
 //! What a view shows instead of a mesh of the document's scene: the mesh without its hidden elements, or its
-//! subdivision surface.
+//! subdivision surface. Here is also which edges have marks, computed once after a change of marks, and the
+//! changes that keep a copy of the scene equal to it.
 //!
 //! The document's scene always has the mesh with all elements, so that saved files are complete; a displayed copy
 //! gets another mesh.

@@ -1,4 +1,5 @@
-//! Materials, textures and lights, field by field.
+//! Materials, textures and lights, field by field. Parameters of materials beyond the fixed list follow at
+//! the end of the capture, by their names in glTF.
 
 use trigon_camera::UpAxis;
 use trigon_math::Vec3;
@@ -164,6 +165,10 @@ fn listed() -> impl Iterator<Item = &'static ExtensionParameter> {
     Material::EXTENSION_PARAMETERS.iter().filter(|row| !FIXED.contains(&row.extension))
 }
 
+/// The up axis, and parameters of materials beyond the fixed list of a material, by their names in glTF.
+/// Parameters follow at the end of a capture, and only where they are not the default, so that a further
+/// parameter is no new version of the format.
+///
 /// Writes what is not the default, if there is anything.
 pub(super) fn write(scene: &Scene, to: &mut Writer<'_>) {
     if scene.up != UpAxis::default() {

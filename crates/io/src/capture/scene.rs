@@ -1,6 +1,6 @@
-//! The scene: its parts at their indices, so that nothing that depends on the order of nodes
-//! changes. References come after their targets; since skins and nodes refer to each other, the
-//! slots of skins come first and their joints last.
+//! The scene: its parts at their indices, so that nothing that depends on the order of nodes changes.
+//! References come after their targets; since skins and nodes refer to each other, the slots of skins come
+//! first and their joints last. The node hierarchy comes at the end.
 
 use std::sync::Arc;
 

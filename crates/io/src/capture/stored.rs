@@ -1,5 +1,7 @@
-//! The encoding of captured values: one after the other, in the order in which they are listed, with nothing between
-//! them. Numbers are little-endian, floats their bits. The lists in this folder are the file format.
+//! The encoding of captured values: one after the other, in the order in which they are listed, with nothing
+//! between them. Numbers are little-endian, floats their bits. The lists in this folder are the file format.
+//! An id in a capture becomes the item of that index after reading; an id of a removed item becomes one that
+//! finds nothing.
 
 use std::io::{BufRead, BufReader, Read};
 use std::sync::Arc;

@@ -183,6 +183,11 @@ impl<'a> Object<'a> {
     }
 }
 
+/// Converts corner values to vertex values, for formats without corner values.
+///
+/// A vertex whose corners agree keeps its number. Where they differ, as at a seam or a sharp edge, additional
+/// vertices at the same position follow after those of the object.
+///
 /// The values that vertices need.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Columns {

@@ -111,6 +111,8 @@ impl Fill {
     }
 }
 
+/// The engine behind the canvas: one pass counts how many triangles cover each pixel, another stores which
+/// one is visible. The two agree wherever only one triangle covers a pixel.
 fn fill_by_engine(triangles: &[Triangle], canvas: &mut FillCanvas) {
     let size = canvas.pixels.size();
     let shape = Corners::flat(triangles, size);

@@ -1,4 +1,5 @@
-//! The scenes, and a flight past each.
+//! The scenes, and a flight past each. The reference image has more samples than any quality has, at
+//! positions that none of them uses.
 
 use trigon_io::LoadOptions;
 use trigon_math::color::srgb8_to_linear;

@@ -101,6 +101,8 @@ pub struct TexelErrors {
     pub worst: f64,
 }
 
+/// A division in each pixel (J. F. Blinn, "Hyperbolic interpolation", IEEE CG&A, 1992; source row D10 does
+/// the same for depth).
 #[inline]
 fn perspective_row(row: &WallRow, pixels: &mut [Option<Texel>]) {
     for (x, pixel) in pixels.iter_mut().enumerate() {
@@ -108,6 +110,8 @@ fn perspective_row(row: &WallRow, pixels: &mut [Option<Texel>]) {
     }
 }
 
+/// Linear on the screen (source row B4): correct for surfaces that face the camera, wrong for surfaces that
+/// recede.
 #[inline]
 fn affine_row(row: &WallRow, pixels: &mut [Option<Texel>]) {
     for (x, pixel) in pixels.iter_mut().enumerate() {
@@ -117,6 +121,8 @@ fn affine_row(row: &WallRow, pixels: &mut [Option<Texel>]) {
 
 const STEP: usize = 16;
 
+/// A division at every 16th pixel of a row and at its end, and linear steps in between (M. Abrash, "Graphics
+/// Programming Black Book", 1997, chapter 70, on Quake).
 #[inline]
 fn row_of_spans(row: &WallRow, pixels: &mut [Option<Texel>]) {
     let last = pixels.len() - 1;

@@ -4,6 +4,8 @@ use trigon_classic::Field;
 
 use crate::fill::interpolate;
 
+/// The equation y = a x + b, evaluated for each column (the first form of source row B1): steep lines have
+/// gaps, and vertical ones are not drawn.
 pub(super) fn draw_naive([from, to]: Segment, coverage: &mut Field<f32>) {
     let ([x0, y0], [x1, y1]) = if from[0] < to[0] { (from, to) } else { (to, from) };
     if x0 == x1 {
@@ -17,6 +19,8 @@ pub(super) fn draw_naive([from, to]: Segment, coverage: &mut Field<f32>) {
     }
 }
 
+/// The incremental form (the last one of source row B1): the slope is added at each step along the longer
+/// side. There are no gaps, but rounding errors accumulate.
 pub(super) fn draw_dda(segment: Segment, coverage: &mut Field<f32>) {
     for pixel in pixels(segment) {
         paint(coverage, pixel, 1.0);
@@ -35,6 +39,8 @@ pub(super) fn pixels([from, to]: Segment) -> Vec<[i32; 2]> {
     (first[along]..).zip(across).map(pixel).collect()
 }
 
+/// J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Systems Journal 4(1), 1965,
+/// for all eight directions: integers only, so no error accumulates.
 pub(super) fn draw_bresenham([from, to]: Segment, coverage: &mut Field<f32>) {
     let distance = [0, 1].map(|axis| (to[axis] - from[axis]).abs());
     let step = [0, 1].map(|axis| (to[axis] - from[axis]).signum());
@@ -55,6 +61,8 @@ pub(super) fn draw_bresenham([from, to]: Segment, coverage: &mut Field<f32>) {
     }
 }
 
+/// X. Wu, "An efficient antialiasing technique", SIGGRAPH 1991: the two pixels above and below the line share
+/// the ink of one pixel, in proportion to their distances.
 pub(super) fn draw_wu([from, to]: Segment, coverage: &mut Field<f32>) {
     let along = usize::from((to[0] - from[0]).abs() < (to[1] - from[1]).abs());
     let (first, last) = if from[along] < to[along] { (from, to) } else { (to, from) };

@@ -1,4 +1,5 @@
-//! A chapter of the report: a question, and its text, tables and plots.
+//! A chapter of the report: a question, and its text, tables and plots. Measured values have a form from
+//! which tables, plots and files are made.
 
 use super::headline::Headline;
 use super::markdown::ImageRow;

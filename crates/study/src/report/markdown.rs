@@ -1,4 +1,4 @@
-//! Writes the report as Markdown, and its numbers as CSV.
+//! Writes the report as Markdown, and its numbers as CSV. Images lie side by side.
 
 use std::fmt::Write as _;
 use std::fs::File;

@@ -1,4 +1,4 @@
-//! Plots with logarithmic axes.
+//! Plots with logarithmic axes. Labels lie next to their points, without overlapping each other or any point.
 
 use std::error::Error;
 use std::io;

@@ -1,4 +1,5 @@
-//! The exact image of a workload, computed from its definition by rays in `f64`.
+//! The exact image of a workload, computed from its definition by rays in `f64`. The workloads' lighting,
+//! colours, texture and its filtering are implemented here from their definition.
 //!
 //! The ray through the image at (X, Y) hits a triangle where (X, Y, 1) is a weighted sum of its corners' (x,
 //! y, w); the weights are linear in X and Y, and their sum is 1/w (M. Olano and T. Greer, *Triangle scan

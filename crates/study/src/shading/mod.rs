@@ -172,17 +172,23 @@ impl Ball {
     }
 }
 
+/// Flat shading (W. J. Bouknight, "A procedure for generation of three-dimensional half-toned computer
+/// graphics presentations", 1970): one light value per face.
 fn draw_flat(face: &BallFacet, image: &mut BallImage) {
     let [a, b, c] = face.normals;
     let light = light_of((b - a).cross(c - a).normalize());
     face.paint(image, |_| light);
 }
 
+/// H. Gouraud, "Continuous shading of curved surfaces", IEEE Transactions on Computers, 1971: light is
+/// computed at the corners and interpolated.
 fn draw_gouraud(face: &BallFacet, image: &mut BallImage) {
     let lights = face.shares(face.normals.map(light_of));
     face.paint(image, |weights| weighted(&lights, weights));
 }
 
+/// B. T. Phong, "Illumination for computer generated pictures", CACM 18(6), 1975: normals are interpolated,
+/// and light is computed in each pixel.
 fn draw_phong(face: &BallFacet, image: &mut BallImage) {
     let normals = [0, 1, 2].map(|axis| face.shares(face.normals.map(|normal| normal[axis])));
     face.paint(image, |weights| {

@@ -235,6 +235,11 @@ fn camera() -> Camera {
     Camera { projection, ..Camera::look_at(eye, DVec3::ZERO, DVec3::NEG_Z) }
 }
 
+/// Shadow maps (L. Williams, "Casting curved shadows on curved surfaces", SIGGRAPH 1978): the map stores the
+/// depth nearest to the light. Filtering is percentage-closer (W. T. Reeves, D. H. Salesin and R. L. Cook,
+/// "Rendering antialiased shadows with depth maps", SIGGRAPH 1987): results of comparisons are averaged, not
+/// depths.
+///
 /// The distance of the nearest triangle from the light's plane through the origin, by texel; minus
 /// infinity where there is none.
 pub struct ShadowMap {
@@ -299,6 +304,9 @@ impl ShadowMap {
     }
 }
 
+/// A ray from each point to the light (T. Whitted, "An improved illumination model for shaded display", CACM
+/// 23(6), 1980), tested against a tree of triangles.
+///
 /// A ball of 5,120 triangles in a tree.
 pub struct ShadowRays {
     tree: Bvh,

@@ -1,6 +1,5 @@
-//! The representations of a mesh: lists of faces, lists of vertices, the corner table (J. Rossignac, A. Safonova and
-//! A. Szymczak, "3D compression made simple: Edgebreaker on a corner table", 2001), winged edges (B. G. Baumgart, Stanford
-//! STAN-CS-320, 1972), and faces with explicit edges as the engine has them.
+//! The representations of a mesh, a struct for each: lists of faces, lists of vertices, the corner table, winged
+//! edges, and faces with explicit edges as the engine has them.
 
 use std::collections::BTreeMap;
 
@@ -113,6 +112,10 @@ impl<const COUNTED: bool> Storage for VertexList<COUNTED> {
     }
 }
 
+/// The corner table (J. Rossignac, A. Safonova and A. Szymczak, "3D compression made simple: Edgebreaker on a
+/// corner table", 2001): for each corner its vertex and the opposite corner in the neighbouring triangle.
+/// Everything else follows from the corner's number.
+///
 /// Two numbers for each corner, and one corner for each vertex.
 pub struct CornerTable<const COUNTED: bool> {
     positions: Vec<Vec3>,
@@ -204,6 +207,10 @@ struct Wings {
     wings: [u32; 4],
 }
 
+/// Winged edges (B. G. Baumgart, "Winged edge polyhedron representation", Stanford STAN-CS-320, 1972) as in
+/// source D. Vertices and faces store the edges around them, and an edge stores its two vertices, its two
+/// faces and its four neighbouring edges.
+///
 /// Vertices, edges and faces that know each other.
 pub struct WingedEdge<const COUNTED: bool> {
     positions: Vec<Vec3>,
@@ -290,6 +297,10 @@ impl<const COUNTED: bool> Storage for WingedEdge<COUNTED> {
     }
 }
 
+/// Faces with explicit edges, as source D finally stores them, and as the engine's [`Mesh`] does: faces store
+/// their vertices and edges, edges their vertices, and nothing leads from a vertex to its faces. Finding
+/// these reads the whole list of corners.
+///
 /// The engine's mesh.
 pub struct Own<const COUNTED: bool> {
     mesh: Mesh,

@@ -79,6 +79,9 @@ struct SourcePixel {
     model: u32,
 }
 
+/// The source's method: a bounding box, barycentric coordinates from areas, perspective depth (formulas 2.8
+/// to 2.12), buffers for colour, depth, face and model. For each face it starts as many new threads as
+/// requested, each with some rows of the box.
 fn draw(faces: &[[ScreenCorner; 3]], size: [usize; 2], threads: usize) -> Field<u32> {
     let empty = SourcePixel { color: [0; 4], depth: f64::INFINITY, face: u32::MAX, model: u32::MAX };
     let mut buffers = Field::new(size, empty);

@@ -189,6 +189,9 @@ impl Way for TranslucentDrawer {
 /// What faces are sorted by, in ascending order.
 type Key = fn(&Scene, u32) -> i64;
 
+/// Whole faces blended one after the other, the farthest first (T. Porter and T. Duff, "Compositing digital
+/// images", SIGGRAPH 1984).
+///
 /// Faces in the order of a key; equal ones as they come.
 struct Faces {
     key: Key,
@@ -236,6 +239,9 @@ fn depth_of_body(scene: &Scene, number: u32) -> i64 {
     corners.iter().map(|corner| i64::from(corner[2])).sum::<i64>() / corners.len() as i64
 }
 
+/// Fragments are stored and sorted in each pixel (L. Carpenter, "The A-buffer, an antialiased hidden surface
+/// method", SIGGRAPH 1984, without its masks).
+///
 /// The fragments of all pixels, in lists that keep their memory.
 struct Fragments {
     /// The depth and the face of each.

@@ -1,4 +1,5 @@
-//! The four shading methods as pipelines of the rasterizer.
+//! The four shading methods as pipelines of the rasterizer. Here are also the light and the two reflection
+//! models.
 
 use trigon_math::Vec3;
 use trigon_raster::simd::prelude::*;

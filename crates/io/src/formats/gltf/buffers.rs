@@ -1,6 +1,5 @@
-//! The bytes behind a document: from the GLB, from data URIs, from files in
-//! the model's folder. Each buffer is read when the first accessor or image
-//! needs it.
+//! The bytes behind a document: from the GLB, from data URIs, from files in the model's folder. Each buffer
+//! is read when the first accessor or image needs it. A buffer view may be compressed by an extension.
 
 use std::collections::HashMap;
 use std::ops::Range;

@@ -1,5 +1,6 @@
 //! The formats that glTF allows for each kind of accessor (glTF 2.0 specification, sections 3.7.2, 3.7.3 and
-//! 3.11; KHR_mesh_quantization).
+//! 3.11; KHR_mesh_quantization). Accessors of these formats are read once the meshes are built: for
+//! instances, skins and animations.
 //!
 //! Other formats are read as plain numbers, with a warning: other programs refuse them or read them
 //! differently.

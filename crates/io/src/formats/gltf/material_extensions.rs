@@ -1,5 +1,5 @@
 //! Reads the extensions of materials whose parameters are plain numbers, colours and textures.
-//! [`Material::EXTENSION_PARAMETERS`] lists them.
+//! [`Material::EXTENSION_PARAMETERS`] lists them. Factors have valid ranges.
 
 use gltf::json::extensions::material::Material as Extensions;
 use gltf::json::texture;

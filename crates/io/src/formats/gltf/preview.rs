@@ -1,6 +1,7 @@
-//! What can be said about a document before it is parsed completely: its version, the extensions of its objects,
-//! and whether its indices fit into 32 bits. `gltf::json` truncates larger indices, which would refer to another
-//! object. One pass finds all this and stores nothing else.
+//! What can be said about a document before it is parsed completely: its version, the extensions of its
+//! objects, and whether its indices fit into 32 bits. `gltf::json` truncates larger indices, which would
+//! refer to another object. One pass finds all this and stores nothing else. Extensions are listed here:
+//! which are read, and the messages about the others.
 
 use std::collections::BTreeSet;
 use std::fmt;

@@ -1,5 +1,6 @@
-//! The hash of a mesh's triangles in a file: all accessors of all primitives, in a form that does
-//! not change if a program only renumbers or moves them.
+//! The hash of a mesh's triangles in a file: all accessors of all primitives, in a form that does not change
+//! if a program only renumbers or moves them. It is XXH64 (Yann Collet, "xxHash fast digest algorithm",
+//! specification 0.1.1).
 
 use gltf::json::accessor::{ComponentType, Type};
 

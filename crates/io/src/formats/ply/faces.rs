@@ -1,4 +1,4 @@
-//! The faces and edges of a PLY.
+//! The faces and edges of a PLY. Triangle strips lie in one list, separated by −1, as in the Stanford scans.
 
 use trigon_math::Vec2;
 

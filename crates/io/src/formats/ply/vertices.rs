@@ -1,4 +1,5 @@
-//! The vertices of a PLY: positions, normals, colours and texture coordinates.
+//! The vertices of a PLY: positions, normals, colours and texture coordinates. Integer colours say by their
+//! type what is full light; most programs write float colours from 0 to 1.
 
 use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 
@@ -135,6 +136,9 @@ pub(super) fn read_vertices<V: Values>(
     Ok(())
 }
 
+/// The colours of vertices and faces. Integers say what is full light by their type; of floats, which most
+/// programs write from 0 to 1 and some from 0 to 255, the whole file tells.
+///
 /// The colours of an element while they are read.
 pub(super) struct Channels {
     /// What stands for 1, for red, green, blue and alpha.

@@ -130,6 +130,15 @@ const FILLED: u16 = 0xffff;
 
 const AGAIN: &str = "export the model again, or as PLY or GLB if its colours matter";
 
+/// The colours of a binary STL: one for all triangles in the header, and one in the attribute of each.
+///
+/// Programs disagree about both, so their bytes are believed only where they make a picture. Materialise
+/// Magics writes `COLOR=` and four bytes, and `MATERIAL=` and three times four. The first four of `MATERIAL`
+/// are the colour of diffuse light and come before `COLOR`. In attributes bit 15 is set where a triangle has
+/// no colour of its own, and red is in the lowest bits. VisCAM and SolidView write no header, set bit 15
+/// where there is a colour, and put blue into the lowest bits. MeshLab writes the header of Magics with
+/// spaces instead of alpha, no attributes or, with red in the lowest bits, those with bit 15 set.
+///
 /// The attributes of triangles.
 #[derive(Default)]
 pub(super) struct Attributes {

@@ -1,4 +1,5 @@
-//! Attributes: positions, normals and whatever else points have.
+//! Attributes: positions, normals and whatever else points have. The vertices of the mesh are split into
+//! points wherever an attribute has a seam.
 
 use gltf::json::accessor::ComponentType;
 

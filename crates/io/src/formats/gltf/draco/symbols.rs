@@ -1,4 +1,6 @@
-//! Lists of numbers, of which some are more likely.
+//! Lists of numbers, of which some are more likely. They are coded by range asymmetric numeral systems (Duda
+//! 2013), in a fractional number of bits, or as numbers of any number of bits. A budget bounds what decoding
+//! may cost, and a failure says why a mesh is not decoded.
 
 use crate::formats::gltf::stream::Broken;
 use crate::formats::gltf::stream::Stream;
@@ -123,6 +125,11 @@ fn read_share(stream: &mut Stream<'_>, first: u8) -> Result<u32, Broken> {
     Ok(share)
 }
 
+/// Range asymmetric numeral systems (Duda 2013): numbers in a fractional number of bits.
+///
+/// The state is a large number whose lower part names the next symbol. Bytes are read from the end to the
+/// front. When they run out the state only shrinks, so that decoding never fails.
+///
 /// The state.
 pub(super) struct Rans<'b> {
     state: u32,

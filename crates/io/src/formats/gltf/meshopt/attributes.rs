@@ -187,6 +187,11 @@ fn add_up(deltas: &[u8], elements: usize, channels: &[Channel], previous: &mut [
     }
 }
 
+/// Filters: from decoded attributes to the values that accessors describe.
+///
+/// Where the specification leaves a result open (an invalid encoding of 1), it is the result of the formula,
+/// without a division by zero.
+///
 /// A filter of the extension.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Filter {

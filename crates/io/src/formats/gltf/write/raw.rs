@@ -155,6 +155,12 @@ struct Moved {
     offset: usize,
 }
 
+/// The document that a scene came from, as the start of the one being written: everything that is not changed
+/// afterwards stays as it was, to the byte.
+///
+/// Only external parts have to change: buffers are merged into one, and images in separate files move into
+/// it.
+///
 /// A document with the contents of the file.
 pub(super) fn draft_of(source: &GltfSource) -> Draft<'_> {
     let mut draft = Draft::from_top(RawObject::parse(source.json()));

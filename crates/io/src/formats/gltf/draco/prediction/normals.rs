@@ -61,6 +61,11 @@ fn cross(a: [i64; 3], b: [i64; 3]) -> [i64; 3] {
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
+/// Normals as points of a square: the faces of an octahedron, unfolded (Meyer and others 2010).
+///
+/// A correction is turned and mirrored into a sector that all normals share, where likely ones are close to
+/// zero.
+///
 /// The square.
 #[derive(Clone, Copy)]
 pub(super) struct Octahedron {
