@@ -172,7 +172,7 @@ pub(crate) enum UiRequest {
     /// Hangs the selected objects on the active one.
     Parent {
         /// Whether they stay where they are in the world.
-        keeps_place: bool,
+        keeps_transform: bool,
     },
     /// Selects what hangs together with what is under the pointer.
     LinkedAtPointer,

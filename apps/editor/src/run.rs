@@ -90,10 +90,10 @@ fn run_script(script: &Script, document: &mut Document, quiet: bool) -> Result<(
 /// The messages of the commands, each with its position in the script.
 fn tell(script: &Script, outcomes: &[Outcome]) {
     for (index, (command, outcome)) in script.commands.iter().zip(outcomes).enumerate() {
-        let place = format!("command {} ({})", index + 1, command.name());
+        let position = format!("command {} ({})", index + 1, command.name());
         if !outcome.message.is_empty() {
-            report(&place, &outcome.message);
+            report(&position, &outcome.message);
         }
-        outcome.warnings.iter().for_each(|warning| report("warning", &format!("{place}: {warning}")));
+        outcome.warnings.iter().for_each(|warning| report("warning", &format!("{position}: {warning}")));
     }
 }

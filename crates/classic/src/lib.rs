@@ -24,7 +24,6 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "tests may"))]
 
-mod drawing;
 mod edges;
 mod field;
 mod painter;
@@ -40,9 +39,8 @@ mod tests;
 
 pub use trigon_mesh as mesh;
 
-pub use drawing::Drawing;
 pub use edges::{Edges, weighted};
-pub use field::Field;
+pub use field::{Drawing, Field};
 pub use roberts::{Line, Lines, visible_lines};
 pub use scene::{Body, Corner, DEPTH_LIMIT, Face, NotConvex, Pose, STEPS_PER_PIXEL, Scene};
 pub use surface::Surface;

@@ -1,12 +1,13 @@
-//! The axes in the corner: they show the directions of x, y and z, and a click on one looks along
-//! it.
+//! The axes in the corner: they show the directions of x, y and z, and a click on one looks along it. Here
+//! are also the 3D cursor and the origins of selected objects.
 
+use trigon_document::Document;
 use trigon_document::scene::camera::AxisView;
 use trigon_document::scene::math::DVec3;
 use trigon_window::egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, vec2};
 
 use super::view::OverlayView;
-use super::{AXIS_COLORS, AXIS_NAMES};
+use super::{AXIS_COLORS, AXIS_NAMES, SELECTED};
 
 /// From the middle to the balls, in logical pixels.
 const ARM: f32 = 34.0;
@@ -29,9 +30,9 @@ fn ends(view: &OverlayView, center: Pos2) -> Vec<End> {
         .map(|index| {
             let (axis, is_positive) = (index / 2, index % 2 == 0);
             let direction = DVec3::AXES[axis] * if is_positive { 1.0 } else { -1.0 };
-            let seen = camera.orientation.conjugate() * direction;
-            let at = center + ARM * vec2(seen.x as f32, -seen.y as f32);
-            End { at, axis, is_positive, nearness: seen.z }
+            let in_view = camera.orientation.conjugate() * direction;
+            let at = center + ARM * vec2(in_view.x as f32, -in_view.y as f32);
+            End { at, axis, is_positive, nearness: in_view.z }
         })
         .collect();
     ends.sort_by(|a, b| a.nearness.total_cmp(&b.nearness));
@@ -65,6 +66,44 @@ pub(crate) fn axis_view_at(view: &OverlayView, center: Pos2, pointer: Pos2) -> O
         (_, true) => AxisView::Front,
         (_, false) => AxisView::Back,
     })
+}
+
+/// Of the cursor's ring, in logical pixels.
+const RADIUS: f32 = 10.0;
+/// Pieces of the ring, which change their colour.
+const PIECES: usize = 16;
+/// Of an origin, in logical pixels.
+const DOT: f32 = 3.0;
+
+/// Draws the 3D cursor: a ring of red and white with a cross, readable on any image.
+pub(crate) fn draw_cursor(painter: &Painter, view: &OverlayView, cursor: DVec3) {
+    let Some(center) = view.point(cursor) else { return };
+    let at = |piece: usize| {
+        let turn = piece as f32 / PIECES as f32 * std::f32::consts::TAU;
+        center + RADIUS * trigon_window::egui::Vec2::angled(turn)
+    };
+    for piece in 0..PIECES {
+        let color = if piece % 2 == 0 { Color32::from_rgb(230, 40, 40) } else { Color32::WHITE };
+        painter.line_segment([at(piece), at(piece + 1)], Stroke::new(1.5, color));
+    }
+    for direction in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)] {
+        let ends = [center + direction * (RADIUS * 0.5), center + direction * (RADIUS * 1.5)];
+        painter.line_segment(ends, Stroke::new(1.0, Color32::from_gray(20)));
+    }
+}
+
+/// Draws a dot at the origin of each selected object, the active one's brighter.
+pub(crate) fn draw_origins(painter: &Painter, document: &Document, view: &OverlayView) {
+    let selection = document.selection();
+    let transforms = document.nodes().visible_transforms();
+    for &id in &selection.objects {
+        let Some(world) = transforms.get(id.index()).copied().flatten() else { continue };
+        if let Some(center) = view.point(world.translation) {
+            let color = if selection.active == Some(id) { Color32::WHITE } else { SELECTED };
+            painter.circle_filled(center, DOT, color);
+            painter.circle_stroke(center, DOT, Stroke::new(1.0, Color32::BLACK));
+        }
+    }
 }
 
 #[cfg(test)]

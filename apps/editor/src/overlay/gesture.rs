@@ -4,7 +4,7 @@ use trigon_window::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKin
 
 /// What is drawn while a region is chosen, in logical pixels.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Gesture {
+pub(crate) enum GestureOutline {
     /// From one corner to the opposite one.
     Box([Pos2; 2]),
     /// A brush around the pointer.
@@ -20,9 +20,9 @@ const FILL: Color32 = Color32::from_rgba_premultiplied(24, 24, 24, 24);
 const DASH: f32 = 5.0;
 
 /// Draws white dashes on a dark line, readable on any image.
-pub(crate) fn draw_gesture(painter: &Painter, gesture: &Gesture) {
+pub(crate) fn draw_gesture(painter: &Painter, gesture: &GestureOutline) {
     match gesture {
-        Gesture::Box([from, to]) => {
+        GestureOutline::Box([from, to]) => {
             let area = Rect::from_two_pos(*from, *to);
             // Of a rectangle without an area egui makes places that are no numbers.
             if area.is_positive() {
@@ -32,11 +32,11 @@ pub(crate) fn draw_gesture(painter: &Painter, gesture: &Gesture) {
             let corners = [area.left_top(), area.right_top(), area.right_bottom(), area.left_bottom()];
             draw_closed(painter, &corners);
         }
-        Gesture::Circle { center, radius } => {
+        GestureOutline::Circle { center, radius } => {
             painter.circle_stroke(*center, *radius, Stroke::new(2.0, SHADE));
             painter.circle_stroke(*center, *radius, Stroke::new(1.0, INK));
         }
-        Gesture::Lasso(points) => draw_closed(painter, points),
+        GestureOutline::Lasso(points) => draw_closed(painter, points),
     }
 }
 
@@ -61,10 +61,10 @@ mod tests {
     fn regions_without_a_size_have_places_that_are_numbers() {
         let at = pos2(300.0, 150.0);
         let beside = [pos2(301.0, 150.0), pos2(300.0, 151.0), pos2(300.000_03, 150.0), at];
-        let boxes = beside.into_iter().map(|to| Gesture::Box([at, to]));
-        let lassos = beside.into_iter().map(|to| Gesture::Lasso(vec![at, to, at]));
-        let circle = Gesture::Circle { center: at, radius: 0.0 };
-        for gesture in boxes.chain(lassos).chain([circle, Gesture::Lasso(vec![at])]) {
+        let boxes = beside.into_iter().map(|to| GestureOutline::Box([at, to]));
+        let lassos = beside.into_iter().map(|to| GestureOutline::Lasso(vec![at, to, at]));
+        let circle = GestureOutline::Circle { center: at, radius: 0.0 };
+        for gesture in boxes.chain(lassos).chain([circle, GestureOutline::Lasso(vec![at])]) {
             let context = Context::default();
             let mut output = context.run_ui(RawInput::default(), |ui| draw_gesture(ui.painter(), &gesture));
             output.textures_delta.clear();

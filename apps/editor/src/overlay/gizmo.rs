@@ -165,12 +165,13 @@ impl Gizmo {
         let [right, up] = [1, 2].map(|next| self.axes.col((axis + next) % 3) * size);
         let [low, high] = PLANE;
         let corners = [(low, low), (high, low), (high, high), (low, high)];
-        let places = corners.map(|(x, y)| view.point(self.center + right * x + up * y));
-        let places: Vec<Pos2> = places.into_iter().collect::<Option<_>>()?;
+        let corners_on_screen = corners.map(|(x, y)| view.point(self.center + right * x + up * y));
+        let corners_on_screen: Vec<Pos2> = corners_on_screen.into_iter().collect::<Option<_>>()?;
         // Seen edge-on, its outline has no direction, and its corners would be NaN.
-        let (one, other) = (places[2] - places[0], places[3] - places[1]);
+        let (one, other) =
+            (corners_on_screen[2] - corners_on_screen[0], corners_on_screen[3] - corners_on_screen[1]);
         let area = 0.5 * (one.x * other.y - one.y * other.x).abs();
-        (area >= LEAST_AREA).then_some(places)
+        (area >= LEAST_AREA).then_some(corners_on_screen)
     }
 
     /// The end of an arm.

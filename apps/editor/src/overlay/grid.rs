@@ -121,16 +121,16 @@ fn visible(view: &OverlayView, line: [DVec3; 2], floor: &FloorDepth, depths: Dep
     let at = |index: usize| from.lerp(to, index as f32 / count as f32);
     let middle = |index: usize| view.physical(at(index).lerp(at(index + 1), 0.5));
     let middles: Vec<DVec2> = (0..count).map(middle).collect();
-    let seen = middles.iter().zip(depths(&middles)).map(|(&pixel, depth)| !floor.is_hidden(pixel, depth));
+    let visible = middles.iter().zip(depths(&middles)).map(|(&pixel, depth)| !floor.is_hidden(pixel, depth));
     let mut pieces: Vec<[Pos2; 2]> = Vec::new();
-    let mut was_seen = false;
-    for (index, seen) in seen.enumerate() {
+    let mut was_visible = false;
+    for (index, visible) in visible.enumerate() {
         match pieces.last_mut() {
-            Some([_, end]) if seen && was_seen => *end = at(index + 1),
-            _ if seen => pieces.push([at(index), at(index + 1)]),
+            Some([_, end]) if visible && was_visible => *end = at(index + 1),
+            _ if visible => pieces.push([at(index), at(index + 1)]),
             _ => {}
         }
-        was_seen = seen;
+        was_visible = visible;
     }
     pieces
 }
@@ -171,8 +171,8 @@ impl FloorDepth {
     /// depth is NaN, as seen edge-on, nothing hides it.
     fn is_hidden(&self, pixel: DVec2, depth: Option<f64>) -> bool {
         let floor = self.corner + self.growth.dot(pixel);
-        depth.is_some_and(|seen| {
-            let hides = seen * BEHIND;
+        depth.is_some_and(|visible| {
+            let hides = visible * BEHIND;
             if self.is_parallel { floor > hides } else { floor > 0.0 && floor * hides < 1.0 }
         })
     }

@@ -6,21 +6,17 @@
 //! Nothing here changes the document.
 
 mod axes;
-mod cameras;
-mod cursor;
 mod gesture;
 mod gizmo;
 mod grid;
 mod lights;
 mod view;
 
-pub(crate) use axes::{axis_view_at, draw_axes};
-pub(crate) use cameras::{camera_at, draw_cameras};
-pub(crate) use cursor::{draw_cursor, draw_origins};
-pub(crate) use gesture::{Gesture, draw_gesture};
+pub(crate) use axes::{axis_view_at, draw_axes, draw_cursor, draw_origins};
+pub(crate) use gesture::{GestureOutline, draw_gesture};
 pub(crate) use gizmo::{Gizmo, GizmoKind, Handle};
 pub(crate) use grid::draw_grid;
-pub(crate) use lights::{draw_lights, light_at};
+pub(crate) use lights::{camera_at, draw_cameras, draw_lights, light_at};
 pub(crate) use view::OverlayView;
 
 use trigon_window::egui::Color32;
@@ -77,9 +73,9 @@ mod tests {
             gizmo.draw(painter, view, gizmo.handle_at(view, pos2(100.0, 100.0)));
         }
         for gesture in [
-            Gesture::Box([pos2(10.0, 90.0), pos2(80.0, 20.0)]),
-            Gesture::Circle { center: pos2(40.0, 40.0), radius: 25.0 },
-            Gesture::Lasso(vec![pos2(1.0, 1.0), pos2(90.0, 5.0), pos2(40.0, 80.0)]),
+            GestureOutline::Box([pos2(10.0, 90.0), pos2(80.0, 20.0)]),
+            GestureOutline::Circle { center: pos2(40.0, 40.0), radius: 25.0 },
+            GestureOutline::Lasso(vec![pos2(1.0, 1.0), pos2(90.0, 5.0), pos2(40.0, 80.0)]),
         ] {
             draw_gesture(painter, &gesture);
         }

@@ -37,8 +37,8 @@ impl OverlayView {
 
     /// Where a point is drawn; `None` behind the eye.
     pub(crate) fn point(&self, point: DVec3) -> Option<Pos2> {
-        let is_seen = self.distance(point) >= self.nearest();
-        self.projector.to_screen(point).filter(|_| is_seen).map(|at| self.logical(at))
+        let is_visible = self.distance(point) >= self.nearest();
+        self.projector.to_screen(point).filter(|_| is_visible).map(|at| self.logical(at))
     }
 
     /// How many metres a logical pixel is at a point's distance.

@@ -1,11 +1,12 @@
-//! The panel for adjusting the last command (F9).
+//! The panel for adjusting the last command (F9), and the history list, latest entry first: a click undoes or redoes up to an
+//! entry.
 
-use trigon_document::{Command, Document};
-use trigon_window::egui::{self, Ui};
+use trigon_document::{Command, Document, Entry};
+use trigon_window::egui;
+use trigon_window::egui::Ui;
 
-use super::form;
-use super::key_order::KeyOrder;
-use super::parameters;
+use super::form::KeyOrder;
+use super::{form, parameters};
 use crate::request::Request;
 
 /// Shows the last command with its parameters. A change requests the same command with other parameters
@@ -18,8 +19,8 @@ pub(crate) fn adjust(ui: &mut Ui, document: &Document, requests: &mut Vec<Reques
     let command = entry.command();
     ui.add(egui::Label::new(egui::RichText::new(command.name()).strong()).wrap());
     // Positions in the history: another command is no edit of the one before.
-    let place = document.history().done().len() + document.history().dropped();
-    ui.push_id((command.name(), place), |ui| {
+    let entry_index = document.history().done().len() + document.history().dropped();
+    ui.push_id((command.name(), entry_index), |ui| {
         requests.extend(changed(ui, document, command).map(Request::Adjust));
     });
 }
@@ -33,16 +34,47 @@ pub(super) fn changed(ui: &mut Ui, document: &Document, command: &Command) -> Op
     serde_json::from_value(value).ok().filter(|_| is_changed)
 }
 
+/// The maximum number of entries listed on each side of the current one.
+const MOST: usize = 50;
+
+/// Shows the list. A click requests as many undos or redos as lead to that entry.
+pub(crate) fn history(ui: &mut Ui, document: &Document, requests: &mut Vec<Request>) {
+    let history = document.history();
+    let (done, undone) = (history.done(), history.undone());
+    for (index, entry) in undone.iter().enumerate().take(MOST).rev() {
+        if line(ui, entry, false).on_hover_text("Redoes everything up to here").clicked() {
+            requests.extend(std::iter::repeat_n(Request::Redo, index + 1));
+        }
+    }
+    for (undos, entry) in done.iter().rev().enumerate().take(MOST) {
+        if line(ui, entry, undos == 0).on_hover_text("Undoes everything after this").clicked() {
+            requests.extend(std::iter::repeat_n(Request::Undo, undos));
+        }
+    }
+    let more = done.len().saturating_sub(MOST) + history.dropped();
+    match (done.len(), more) {
+        (0, 0) => drop(ui.weak("Nothing was done yet.")),
+        (_, 0) if ui.selectable_label(false, "Start").clicked() => {
+            requests.extend(std::iter::repeat_n(Request::Undo, done.len()));
+        }
+        (_, 0) => {}
+        _ => drop(ui.weak(format!("and {more} before"))),
+    }
+}
+
+fn line(ui: &mut Ui, entry: &Entry, is_now: bool) -> egui::Response {
+    ui.selectable_label(is_now, entry.command().name())
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::testing::Case;
+    use super::super::unit::Unit;
+    use super::*;
     use egui_kittest::kittest::Queryable;
     use serde_json::{Value, json};
     use trigon_document::mesh::primitives;
     use trigon_document::scene::{Material, Scene};
-
-    use super::super::testing::Case;
-    use super::super::unit::Unit;
-    use super::*;
 
     fn document() -> Document {
         let mut scene = Scene::new();
@@ -187,5 +219,24 @@ mod tests {
             ],
         );
         assert!(case.harness.query_by_label("3 faces").is_some(), "what kind, and how many");
+    }
+
+    #[test]
+    fn a_click_leads_back_and_forth() {
+        let document = Document::new(Scene::new());
+        let mut case = Case::new([260.0, 400.0], document, (), |ui, document, (), requests| {
+            history(ui, document, requests);
+        });
+        for op in ["add_empty", "add_light", "select_all", "delete_objects"] {
+            case.command(json!({ "op": op }));
+        }
+        case.click("Add Light");
+        assert_eq!(case.take_requests(), [Request::Undo, Request::Undo], "what came after it");
+        assert_eq!(case.document().nodes().nodes().len(), 2, "before they were deleted");
+        case.click("Start");
+        assert_eq!(case.document().nodes().nodes().len(), 0, "before all");
+        case.click("Delete Objects");
+        assert_eq!(case.document().history().done().len(), 4, "all again");
+        case.image("history");
     }
 }

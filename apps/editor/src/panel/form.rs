@@ -1,9 +1,13 @@
-//! Chooses the widget of a parameter from the commands' schema.
+//! Chooses the widget of a parameter from the commands' schema. The schema sorts parameters by name; here
+//! they have the order of their declaration, the most important first.
 
+use std::fmt;
 use std::sync::OnceLock;
 
+use serde::Deserialize;
+use serde::de::{Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
-use trigon_document::command_schema;
+use trigon_document::{Command, command_schema};
 
 use super::unit::Unit;
 
@@ -78,9 +82,9 @@ pub(super) fn description(property: &'static Value) -> &'static str {
 
 /// The unit stated in the comment on a parameter, or on its type.
 pub(super) fn unit(property: &'static Value) -> Unit {
-    let told = |value: &Value| Unit::of_comment(value["description"].as_str().unwrap_or_default());
-    match told(property) {
-        Unit::None => told(resolve(property)),
+    let unit_of = |value: &Value| Unit::of_comment(value["description"].as_str().unwrap_or_default());
+    match unit_of(property) {
+        Unit::None => unit_of(resolve(property)),
         unit => unit,
     }
 }
@@ -208,4 +212,95 @@ pub(super) fn initial_variant(tag: &str, variant: &Variant<'static>) -> Value {
 pub(super) fn number_value(number: f64, form: &NumberForm) -> Value {
     let number = number.clamp(form.least, form.most);
     if form.is_integer { (number.round() as i64).into() } else { number.into() }
+}
+
+/// The keys of a JSON object in the order of its text, each with those of its own value.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct KeyOrder(Vec<(String, KeyOrder)>);
+
+impl KeyOrder {
+    /// Of a command's parameters.
+    pub(super) fn of(command: &Command) -> Self {
+        let text = serde_json::to_string(command).expect("commands have string keys");
+        serde_json::from_str(&text).expect("it was just written")
+    }
+
+    /// The position of a key; missing keys come last.
+    pub(super) fn index_of(&self, key: &str) -> usize {
+        self.0.iter().position(|(name, _)| name == key).unwrap_or(usize::MAX)
+    }
+
+    /// The order within the value of a key.
+    pub(super) fn within(&self, key: &str) -> &Self {
+        static EMPTY: KeyOrder = KeyOrder(Vec::new());
+        self.0.iter().find(|(name, _)| name == key).map_or(&EMPTY, |(_, order)| order)
+    }
+}
+
+impl<'de> Deserialize<'de> for KeyOrder {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(KeyOrderVisitor)
+    }
+}
+
+struct KeyOrderVisitor;
+
+impl<'de> Visitor<'de> for KeyOrderVisitor {
+    type Value = KeyOrder;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("any value")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<KeyOrder, A::Error> {
+        let mut keys = Vec::new();
+        while let Some(entry) = map.next_entry()? {
+            keys.push(entry);
+        }
+        Ok(KeyOrder(keys))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<KeyOrder, A::Error> {
+        while list.next_element::<IgnoredAny>()?.is_some() {}
+        Ok(KeyOrder::default())
+    }
+
+    fn visit_bool<E>(self, _: bool) -> Result<KeyOrder, E> {
+        Ok(KeyOrder::default())
+    }
+
+    fn visit_i64<E>(self, _: i64) -> Result<KeyOrder, E> {
+        Ok(KeyOrder::default())
+    }
+
+    fn visit_u64<E>(self, _: u64) -> Result<KeyOrder, E> {
+        Ok(KeyOrder::default())
+    }
+
+    fn visit_f64<E>(self, _: f64) -> Result<KeyOrder, E> {
+        Ok(KeyOrder::default())
+    }
+
+    fn visit_str<E>(self, _: &str) -> Result<KeyOrder, E> {
+        Ok(KeyOrder::default())
+    }
+
+    fn visit_unit<E>(self) -> Result<KeyOrder, E> {
+        Ok(KeyOrder::default())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use trigon_document::Bevel;
+
+    use super::*;
+
+    #[test]
+    fn parameters_are_in_the_order_of_their_declaration() {
+        let order = KeyOrder::of(&Bevel::default().into());
+        assert!(order.index_of("width") < order.index_of("segments"), "the width is the first");
+        assert!(order.index_of("segments") < order.index_of("clamp_overlap"), "not by the alphabet");
+        assert_eq!(order.index_of("none"), usize::MAX, "there is no such key");
+    }
 }

@@ -1,8 +1,8 @@
 //! The panels: functions of the document and their own state, which change nothing and return
 //! requests.
 //!
-//! `outliner` lists the objects. `properties`, `information`, `add` and `development` are the tabs; `history`
-//! is part of the second. `adjust` shows the parameters of the last command; its widgets are generated from
+//! `outliner` lists the objects. `properties`, `information`, `add` and `development` are the tabs; the
+//! history is part of the second. `adjust` shows it, and the parameters of the last command; their widgets are generated from
 //! the schema of the commands (`form` describes them, `parameters` shows them), so a new command needs no
 //! code here for its panel.
 
@@ -10,22 +10,18 @@ mod add;
 mod adjust;
 mod development;
 mod form;
-mod history;
 mod information;
-mod key_order;
 mod outliner;
 mod parameters;
 mod properties;
 mod row;
-mod submit;
 #[cfg(test)]
 mod testing;
 mod unit;
 
 pub(crate) use add::{AddState, add};
-pub(crate) use adjust::adjust;
+pub(crate) use adjust::{adjust, history};
 pub(crate) use development::{DevelopmentState, DrawnView, development};
-pub(crate) use history::history;
 pub(crate) use information::{InformationState, information};
 pub(crate) use outliner::{OutlinerState, outliner};
 pub(crate) use properties::{PropertiesState, properties};

@@ -4,8 +4,8 @@ use serde_json::Value;
 use trigon_document::{Document, ElementKind};
 use trigon_window::egui::{self, Response, Ui};
 
+use super::form::KeyOrder;
 use super::form::{self, Form, NumberForm, Variant};
-use super::key_order::KeyOrder;
 use super::row::{hovered, number, row, text, vector};
 use super::unit::Unit;
 
@@ -30,7 +30,7 @@ fn group_in(
 ) -> bool {
     let properties = schema["properties"].as_object().into_iter().flatten();
     let mut properties: Vec<_> = properties.filter(|(_, property)| property["const"].is_null()).collect();
-    properties.sort_by_key(|(name, _)| order.place(name));
+    properties.sort_by_key(|(name, _)| order.index_of(name));
     let mut is_changed = false;
     for (name, property) in properties {
         let parameter = Parameter { name, property, document, order: order.within(name) };

@@ -1,9 +1,13 @@
-//! Rows of a panel: a label and a widget, side by side or, in a narrow panel, one above the other.
+//! Rows of a panel: a label and a widget, side by side or, in a narrow panel, one above the other. A changed
+//! widget becomes a request.
 
-use trigon_window::egui::{self, DragValue, Response, Ui};
+use trigon_document::{Command, Document};
+use trigon_window::egui;
+use trigon_window::egui::{DragValue, Response, Ui};
 
 use super::form::NumberForm;
 use super::unit::Unit;
+use crate::request::Request;
 
 /// Below this width, in points, labels stand above their widgets.
 const NARROW: f32 = 230.0;
@@ -197,6 +201,36 @@ pub(super) fn color(ui: &mut Ui, label: &str, hover: &str, value: &mut [f32; 3])
         egui::color_picker::color_edit_button_rgb(ui, value)
     });
     response.changed().then_some(response)
+}
+
+/// Requests a command. While a value is dragged, each command replaces the one before, so that the whole drag
+/// is undone as one.
+pub(super) fn submit(
+    ui: &Ui,
+    document: &Document,
+    response: &Response,
+    command: Command,
+    requests: &mut Vec<Request>,
+) {
+    let last = document.history().done().last();
+    // A command that was refused has left no entry that could be replaced.
+    let is_last = last.is_some_and(|entry| entry.command().name() == command.name());
+    let replaces = is_last && is_same_drag(ui, response);
+    let pressed = press(ui);
+    ui.data_mut(|data| data.insert_temp(response.id, pressed));
+    requests.push(if replaces { Request::Adjust(command) } else { Request::Run(command) });
+}
+
+/// Whether the button of the pointer has been down since the last change of this widget.
+pub(super) fn is_same_drag(ui: &Ui, response: &Response) -> bool {
+    let pressed = press(ui);
+    pressed.is_some() && ui.data(|data| data.get_temp::<Option<f64>>(response.id)) == Some(pressed)
+}
+
+/// When the button that is down was pressed. The widget of a colour opens others, so that it
+/// is not dragged itself.
+fn press(ui: &Ui) -> Option<f64> {
+    ui.input(|input| input.pointer.press_start_time().filter(|_| input.pointer.any_down()))
 }
 
 #[cfg(test)]

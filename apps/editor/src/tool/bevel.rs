@@ -1,15 +1,14 @@
-//! Ctrl+B: bevels the selected edges or vertices. The width grows with the distance of the pointer from their
-//! centre; the wheel changes the number of segments, and keys change everything else.
+//! Bevel (Ctrl+B) and inset (I), and what both have in common with extrude: each previews one command, which follows the
+//! pointer and typed numbers.
 
 use trigon_document::mesh::math::{DVec2, DVec3};
-use trigon_document::{Bevel, BevelWidth, Command, Document, InnerMiter, OuterMiter};
+use trigon_document::{Bevel, BevelWidth, Command, Document, InnerMiter, Inset, InsetMode, OuterMiter};
 use trigon_window::{Hands, Input};
 
 use super::expression::Quantity;
 use super::extrude::on;
 use super::modal::{Modal, Step};
 use super::numeric::NumericEntry;
-use super::preview::PreviewTool;
 use super::selected::Selected;
 use super::view::ToolView;
 use super::{Tool, ToolState};
@@ -54,7 +53,7 @@ impl BevelTool {
         let selected = Selected::of(document).filter(|selected| selected.is_editing)?;
         let modal = Modal::new(hands, NumericEntry::new(Quantity::Length, 1));
         let command = Bevel { width: 0.0, vertices, clamp_overlap: false, ..Bevel::default() };
-        let (middle, from, before) = (selected.median(), modal.pointer.place(), command.clone());
+        let (middle, from, before) = (selected.median(), modal.pointer.position(), command.clone());
         let adjusting = Adjusting::Width;
         let mut tool = Self { modal, middle, command, adjusting, from, before };
         tool.update(document, view);
@@ -62,10 +61,10 @@ impl BevelTool {
     }
 
     fn follow(&mut self, view: &ToolView) -> Result<(), String> {
-        let place = self.modal.pointer.place();
+        let position = self.modal.pointer.position();
         let center = view.screen(self.middle).unwrap_or(DVec2::ZERO);
-        let away = place.distance(center) - self.from.distance(center);
-        let across = (place.x - self.from.x) / view.scale;
+        let away = position.distance(center) - self.from.distance(center);
+        let across = (position.x - self.from.x) / view.scale;
         let typed = self.modal.numeric.value_or(0.0).map_err(|error| error.to_string())?;
         match self.adjusting {
             Adjusting::Width => {
@@ -114,7 +113,7 @@ impl BevelTool {
         let quantity = if is_length { Quantity::Length } else { Quantity::Factor };
         self.modal.numeric = NumericEntry::new(quantity, 1);
         self.adjusting = adjusting;
-        self.from = self.modal.pointer.place();
+        self.from = self.modal.pointer.position();
         self.before = self.command.clone();
     }
 }
@@ -200,4 +199,130 @@ impl Tool for BevelTool {
 /// The name of a choice, as the status line shows it.
 fn name(choice: impl std::fmt::Debug) -> String {
     format!("{choice:?}").to_lowercase()
+}
+
+/// An inset that runs.
+#[derive(Debug)]
+pub(crate) struct InsetTool {
+    modal: Modal,
+    /// The middle of what is selected.
+    middle: DVec3,
+    command: Inset,
+    /// Where the pointer was when Ctrl went down, and how deep the faces were: Ctrl changes the depth
+    /// instead of the thickness.
+    deepening: Option<(DVec2, f64)>,
+    /// How far the pointer went meanwhile, which counts for nothing else.
+    spent: DVec2,
+}
+
+impl InsetTool {
+    /// Starts on the faces that are selected in edit mode; `None` where nothing is.
+    pub(crate) fn start(document: &mut Document, hands: Hands, view: &ToolView) -> Option<Self> {
+        let selected = Selected::of(document).filter(|selected| selected.is_editing)?;
+        let modal = Modal::new(hands, NumericEntry::new(Quantity::Length, 2));
+        let command = Inset { thickness: 0.0, ..Inset::default() };
+        let middle = selected.median();
+        let mut tool = Self { modal, middle, command, deepening: None, spent: DVec2::ZERO };
+        tool.update(document, view);
+        Some(tool)
+    }
+
+    fn follow(&mut self, view: &ToolView) -> Result<(), String> {
+        let (position, size) = (self.modal.pointer.position(), view.metres_per_pixel(self.middle));
+        match (self.modal.inverts_snapping(), self.deepening) {
+            (true, None) => self.deepening = Some((position, self.command.depth)),
+            (true, Some((from, depth))) => self.command.depth = depth + (from.y - position.y) * size,
+            (false, Some((from, _))) => {
+                self.spent += position - from;
+                self.deepening = None;
+            }
+            (false, None) => {
+                let center = view.screen(self.middle).unwrap_or(DVec2::ZERO);
+                let way =
+                    self.modal.pointer.start().distance(center) - (position - self.spent).distance(center);
+                self.command.thickness = (way * size).max(0.0);
+            }
+        }
+        if self.modal.numeric.is_active() {
+            let values = self.modal.numeric.values().map_err(|error| error.to_string())?;
+            let value = |index: usize| values.get(index).copied().flatten();
+            self.command.thickness = value(0).unwrap_or(0.0);
+            self.command.depth = value(1).unwrap_or(self.command.depth);
+        }
+        Ok(())
+    }
+}
+
+impl PreviewTool for InsetTool {
+    fn command(&mut self, view: &ToolView) -> Result<Command, String> {
+        self.follow(view)?;
+        Ok(self.command.clone().into())
+    }
+
+    fn key(&mut self, key: char, document: &mut Document, view: &ToolView) -> ToolState {
+        let toggled = |mode| if self.command.mode == mode { InsetMode::Region } else { mode };
+        match key {
+            'o' => self.command.mode = toggled(InsetMode::Outset),
+            'i' => self.command.mode = toggled(InsetMode::Individual),
+            'b' => self.command.open_borders = !self.command.open_borders,
+            _ => return ToolState::Running,
+        }
+        self.update(document, view)
+    }
+}
+
+impl Tool for InsetTool {
+    fn input(&mut self, input: &Input, hands: Hands, view: &ToolView, document: &mut Document) -> ToolState {
+        let step = self.modal.step(input, hands);
+        self.step(step, document, view)
+    }
+
+    fn status(&self) -> String {
+        let Inset { thickness, depth, mode, open_borders } = &self.command;
+        let typed = self.modal.typed();
+        self.modal.status(format!(
+            "Inset {thickness:.4} m, depth {depth:.4} m {} Ctrl: depth, O: outset ({}), I: individual ({}), \
+             B: boundary ({})",
+            typed,
+            on(*mode == InsetMode::Outset),
+            on(*mode == InsetMode::Individual),
+            on(*open_borders),
+        ))
+    }
+
+    fn modal(&mut self) -> &mut Modal {
+        &mut self.modal
+    }
+}
+
+/// A tool that previews one command.
+pub(super) trait PreviewTool: Tool {
+    /// The command for the pointer and the typed numbers as they are now, or why there is none.
+    fn command(&mut self, view: &ToolView) -> Result<Command, String>;
+
+    /// Takes a key of the tool's own.
+    fn key(&mut self, key: char, document: &mut Document, view: &ToolView) -> ToolState;
+
+    /// Shows the command, or why there is none.
+    fn update(&mut self, document: &mut Document, view: &ToolView) -> ToolState {
+        match self.command(view) {
+            Ok(command) => self.modal().show(document, command),
+            Err(why) => self.modal().refuse(why),
+        }
+    }
+
+    /// Handles a step for which the tool has no behaviour of its own.
+    fn step(&mut self, step: Step, document: &mut Document, view: &ToolView) -> ToolState {
+        match step {
+            Step::Update => self.update(document, view),
+            Step::Confirm => Modal::confirm(document),
+            Step::Cancel => Modal::cancel(document),
+            Step::Key(key) => self.key(key, document, view),
+            Step::MiddlePressed
+            | Step::MiddleReleased
+            | Step::ToggleSnapping
+            | Step::Wheel(_)
+            | Step::Nothing => ToolState::Running,
+        }
+    }
 }

@@ -1,5 +1,5 @@
-//! Axis and plane locks, as in Blender: X, Shift+X, the key once more for other axes and once more
-//! for none, C for none, the middle button for the nearest axis.
+//! Axis and plane locks, as in Blender: X, Shift+X, the key once more for other axes and once more for none,
+//! C for none, the middle button for the nearest axis. Here are also the kinds of transforms.
 
 use trigon_document::mesh::math::{DMat3, DVec2, DVec3};
 
@@ -165,6 +165,38 @@ pub(crate) fn nearest_axis(view: &ToolView, point: DVec3, axes: &DMat3, way: DVe
         end.map_or(0.0, |end| (end - center).dot(way).abs())
     };
     Axis::ALL.into_iter().max_by(|a, b| alike(a).total_cmp(&alike(b)))
+}
+
+/// What a transform does to the selection.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TransformKind {
+    Translate,
+    Rotate,
+    /// Turns about both axes of the image.
+    Trackball,
+    Scale,
+    ShrinkFatten,
+    /// Away from the middle.
+    PushPull,
+    ToSphere,
+    /// Along edges; a tool that starts so needs [`TransformTool::sliding`](super::TransformTool::sliding).
+    Slide,
+}
+
+impl TransformKind {
+    /// In the status line before anything has moved.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Translate => "Move",
+            Self::Rotate => "Rotate",
+            Self::Trackball => "Trackball",
+            Self::Scale => "Scale",
+            Self::ShrinkFatten => "Shrink/Fatten",
+            Self::PushPull => "Push/Pull",
+            Self::ToSphere => "To Sphere",
+            Self::Slide => "Slide",
+        }
+    }
 }
 
 #[cfg(test)]

@@ -5,11 +5,11 @@ use trigon_document::mesh::math::{DMat3, DVec3};
 use trigon_document::{Command, Document, ElementKind, Extrude, TransformSpace};
 use trigon_window::{Hands, Input, Modifiers};
 
+use super::bevel::PreviewTool;
 use super::constraint::{Axis, Constraint, Frames, Freedom, Orientation};
 use super::expression::Quantity;
 use super::modal::{Modal, Step};
 use super::numeric::NumericEntry;
-use super::preview::PreviewTool;
 use super::selected::Selected;
 use super::snap::{SnapSettings, rounded, rounded_along};
 use super::translate::typed_offset;
@@ -87,7 +87,7 @@ impl ExtrudeTool {
     }
 
     /// E S and E R: what is extruded stays where it is, and is scaled or turned.
-    fn confirm_in_place(&mut self, key: char, document: &mut Document) -> ToolState {
+    fn confirm_unmoved(&mut self, key: char, document: &mut Document) -> ToolState {
         self.modal.show(document, self.extrusion(0.0, DVec3::ZERO));
         document.confirm();
         ToolState::ConfirmedThen(if key == 's' { TransformKind::Scale } else { TransformKind::Rotate })
@@ -127,7 +127,7 @@ impl PreviewTool for ExtrudeTool {
             }
             ('c', _) => self.constraint.clear(),
             ('i', _) => self.individual = !self.individual,
-            ('s' | 'r', _) => return self.confirm_in_place(key, document),
+            ('s' | 'r', _) => return self.confirm_unmoved(key, document),
             _ => return ToolState::Running,
         }
         let count = match self.constraint.freedom() {

@@ -57,8 +57,8 @@ impl LoopCutTool {
         if self.sliding.is_some() {
             return;
         }
-        let place = self.modal.pointer.in_window().unwrap_or_default();
-        self.hovered = face.and_then(|(id, face)| Some((id, nearest_side(document, view, id, face, place)?)));
+        let point = self.modal.pointer.in_window().unwrap_or_default();
+        self.hovered = face.and_then(|(id, face)| Some((id, nearest_side(document, view, id, face, point)?)));
         self.show_ring(document);
     }
 
@@ -144,21 +144,21 @@ fn nearest_side(
     view: &ToolView,
     id: MeshId,
     face: FaceId,
-    place: DVec2,
+    point: DVec2,
 ) -> Option<EdgeId> {
     let mesh = document.mesh(id).filter(|mesh| mesh.has_face(face))?;
     let to_world = document.mesh_transform(id);
     let drawn = mesh.face_edges(face).filter_map(|edge| {
         let [a, b] = mesh.edge_vertices(edge).map(|end| view.screen(placed(mesh, end, &to_world)));
-        Some((distance_to_segment(place, a?, b?), edge))
+        Some((distance_to_segment(point, a?, b?), edge))
     });
     drawn.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, edge)| edge)
 }
 
-fn distance_to_segment(place: DVec2, a: DVec2, b: DVec2) -> f64 {
-    let along = ((place - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+fn distance_to_segment(point: DVec2, a: DVec2, b: DVec2) -> f64 {
+    let along = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
     let nearest = if along.is_finite() { a + (b - a) * along } else { a };
-    nearest.distance(place)
+    nearest.distance(point)
 }
 
 /// The lines that cuts across the ring of an edge would make, in the world.
@@ -169,16 +169,16 @@ fn ring_lines(mesh: &EditMesh, edge: EdgeId, cuts: u32, to_world: &DAffine3) -> 
     let mut lines = Vec::new();
     for face in face_loop(mesh, edge) {
         let corners: Vec<_> = mesh.face_corners(face).collect();
-        let places: Vec<DVec3> =
+        let corner_points: Vec<DVec3> =
             corners.iter().map(|&corner| placed(mesh, mesh.corner_vertex(corner), to_world)).collect();
         for side in 0..2 {
             if !is_cut(mesh.corner_edge(corners[side])) || !is_cut(mesh.corner_edge(corners[side + 2])) {
                 continue;
             }
-            let place = |index: usize| places[(side + index) % 4];
+            let point = |index: usize| corner_points[(side + index) % 4];
             lines.extend((1..=cuts).map(|cut| {
                 let t = f64::from(cut) / f64::from(cuts + 1);
-                [place(0).lerp(place(1), t), place(3).lerp(place(2), t)]
+                [point(0).lerp(point(1), t), point(3).lerp(point(2), t)]
             }));
         }
     }

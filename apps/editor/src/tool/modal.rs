@@ -1,13 +1,14 @@
 //! The common part of modal tools: keys that confirm and cancel, the pointer, typed numbers, and the preview
-//! of a command.
+//! of a command. Here is also what all tools are to the window: they take inputs, report their state, and say
+//! what is drawn over the image.
 
-use trigon_document::mesh::math::DVec2;
+use trigon_document::mesh::math::{DVec2, DVec3};
 use trigon_document::{Command, Document};
 use trigon_window::{Hands, Input, Key, Modifiers, PointerButton};
 
-use super::ToolState;
+use super::constraint::TransformKind;
 use super::numeric::NumericEntry;
-use super::pointer::VirtualPointer;
+use super::view::ToolView;
 
 /// The state that every modal tool holds.
 #[derive(Debug, Clone)]
@@ -152,6 +153,125 @@ impl Modal {
 
     /// The distance of the pointer from a position in the image, now and at the start.
     pub(crate) fn distances(&self, from: DVec2) -> [f64; 2] {
-        [self.pointer.place().distance(from), self.pointer.start().distance(from)]
+        [self.pointer.position().distance(from), self.pointer.start().distance(from)]
+    }
+}
+
+/// A tool that runs.
+pub(crate) trait Tool {
+    /// Takes an input.
+    fn input(&mut self, input: &Input, hands: Hands, view: &ToolView, document: &mut Document) -> ToolState;
+
+    /// Keys and numbers for the status line.
+    fn status(&self) -> String;
+
+    /// The state that it shares with all modal tools.
+    fn modal(&mut self) -> &mut Modal;
+
+    /// The window put its pointer somewhere else, as at the borders of endless drags: that was no
+    /// movement.
+    fn pointer_jumped(&mut self, to: DVec2) {
+        self.modal().pointer.jumped(to);
+    }
+
+    /// What is to be drawn over the image.
+    fn marks(&self) -> ToolMarks {
+        ToolMarks::default()
+    }
+}
+
+/// Whether a tool continues.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ToolState {
+    /// It waits for more input.
+    Running,
+    /// It is over: what it showed is done.
+    Confirmed,
+    /// As [`Confirmed`](Self::Confirmed), and what it made is turned or scaled next.
+    ConfirmedThen(TransformKind),
+    /// It is over: the document is as it was.
+    Cancelled,
+}
+
+/// What a tool draws, in the world.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct ToolMarks {
+    /// Axes of locks, cuts to come.
+    pub(crate) lines: Vec<[DVec3; 2]>,
+    /// The reach of proportional editing: a centre and a radius in metres.
+    pub(crate) circle: Option<(DVec3, f64)>,
+    /// What something snapped to.
+    pub(crate) point: Option<DVec3>,
+}
+
+/// How much slower the pointer is while Shift is held.
+const PRECISE: f64 = 0.1;
+
+/// A pointer that only knows how far it went.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct VirtualPointer {
+    /// Where the window's pointer was last.
+    last: Option<DVec2>,
+    /// Where it was first.
+    start: Option<DVec2>,
+    /// How far it went since, in physical pixels; precise moves count less.
+    way: DVec2,
+}
+
+impl VirtualPointer {
+    /// The window's pointer moved. Whether that changes anything.
+    pub(crate) fn moved(&mut self, to: Option<DVec2>, is_precise: bool) -> bool {
+        let Some(to) = to else { return false };
+        let Some(last) = self.last.replace(to) else {
+            self.start = Some(to);
+            return false;
+        };
+        self.way += (to - last) * if is_precise { PRECISE } else { 1.0 };
+        to != last
+    }
+
+    /// The window put its pointer somewhere else: that was no movement.
+    pub(crate) fn jumped(&mut self, to: DVec2) {
+        self.last = Some(to);
+    }
+
+    /// How far it went, in physical pixels.
+    pub(crate) fn way(&self) -> DVec2 {
+        self.way
+    }
+
+    /// Where it was first; the origin until it was seen.
+    pub(crate) fn start(&self) -> DVec2 {
+        self.start.unwrap_or(DVec2::ZERO)
+    }
+
+    /// Where it is, as if it had never jumped or slowed down.
+    pub(crate) fn position(&self) -> DVec2 {
+        self.start() + self.way
+    }
+
+    /// Where the window's pointer is.
+    pub(crate) fn in_window(&self) -> Option<DVec2> {
+        self.last
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn jumps_do_not_count_and_precise_moves_count_a_tenth() {
+        let mut pointer = VirtualPointer::default();
+        let at = |x| Some(DVec2::new(x, 5.0));
+        assert!(!pointer.moved(None, false) && !pointer.moved(at(10.0), false), "its first place is no move");
+        pointer.moved(at(30.0), false);
+        pointer.jumped(DVec2::new(700.0, 5.0));
+        pointer.moved(at(710.0), true);
+        assert_eq!(
+            (pointer.way(), pointer.position()),
+            (DVec2::new(21.0, 0.0), DVec2::new(31.0, 5.0)),
+            "20 and 10 / 10"
+        );
     }
 }

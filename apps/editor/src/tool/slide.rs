@@ -22,10 +22,10 @@ pub(crate) struct Slide {
 
 impl Slide {
     /// For what is selected, which is where it was at the start.
-    pub(crate) fn of(document: &mut Document, view: &ToolView, place: DVec2) -> Self {
+    pub(crate) fn of(document: &mut Document, view: &ToolView, position: DVec2) -> Self {
         let edges = document.selection().kind() != ElementKind::Vertex;
         let none = Self { edges, ways: [DVec2::ZERO; 2], directions: Vec::new() };
-        let Some((id, vertex)) = nearest_vertex(document, view, place) else { return none };
+        let Some((id, vertex)) = nearest_vertex(document, view, position) else { return none };
         let to_world = document.mesh_transform(id);
         if edges {
             return Self { ways: both_ways(document, id, vertex, view, &to_world), ..none };
@@ -56,7 +56,7 @@ fn part(way: DVec2, end: DVec2) -> f64 {
     if part.is_finite() { part.max(0.0) } else { 0.0 }
 }
 
-fn nearest_vertex(document: &Document, view: &ToolView, place: DVec2) -> Option<(MeshId, VertexId)> {
+fn nearest_vertex(document: &Document, view: &ToolView, position: DVec2) -> Option<(MeshId, VertexId)> {
     let kind = document.selection().kind();
     let mut nearest: Option<(f64, MeshId, VertexId)> = None;
     for (id, selection) in document.selection().meshes() {
@@ -64,7 +64,7 @@ fn nearest_vertex(document: &Document, view: &ToolView, place: DVec2) -> Option<
         let to_world = document.mesh_transform(id);
         for vertex in selection.vertices(mesh, kind) {
             let Some(screen) = view.screen(placed(mesh, vertex, &to_world)) else { continue };
-            let distance = screen.distance(place);
+            let distance = screen.distance(position);
             if nearest.is_none_or(|(least, ..)| distance < least) {
                 nearest = Some((distance, id, vertex));
             }

@@ -131,16 +131,18 @@ pub(in crate::tool) mod tests {
 
     /// Cameras that see the origin from all sides, in both projections.
     pub(in crate::tool) fn views() -> impl Strategy<Value = ToolView> {
-        let place = vector(1.0).prop_filter("a direction", |place| place.length() > 0.1);
-        (place, 5.0f64..50.0, 0.2f64..2.0, any::<bool>()).prop_map(|(place, distance, fov, parallel)| {
-            let camera = Camera::look_at(place.normalize() * distance, DVec3::ZERO, DVec3::Y);
-            let projection = match parallel {
-                true => Projection::orthographic(distance, 0.01, 1000.0),
-                false => Projection::perspective(fov, 0.01, None),
-            };
-            let camera = camera.with_projection(projection.expect("valid"));
-            ToolView { camera, viewport: Viewport { width: 1280, height: 720 }, scale: 1.0 }
-        })
+        let position = vector(1.0).prop_filter("a direction", |position| position.length() > 0.1);
+        (position, 5.0f64..50.0, 0.2f64..2.0, any::<bool>()).prop_map(
+            |(position, distance, fov, parallel)| {
+                let camera = Camera::look_at(position.normalize() * distance, DVec3::ZERO, DVec3::Y);
+                let projection = match parallel {
+                    true => Projection::orthographic(distance, 0.01, 1000.0),
+                    false => Projection::perspective(fov, 0.01, None),
+                };
+                let camera = camera.with_projection(projection.expect("valid"));
+                ToolView { camera, viewport: Viewport { width: 1280, height: 720 }, scale: 1.0 }
+            },
+        )
     }
 
     proptest! {

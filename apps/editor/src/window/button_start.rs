@@ -1,11 +1,9 @@
 //! Tools started from a button or a menu: the way from there to the model must not count as movement, so they
 //! wait for a press in the view. A drag from there is the whole tool; after a click it follows the pointer,
-//! as when started by its key.
+//! as when started by its key. A press of the left button may become a click.
 
 use trigon_window::scene::math::DVec2;
 use trigon_window::{Hands, Input, Modifiers, PointerButton};
-
-use super::click::Click;
 
 /// Where a tool is between the button that started it and the movement that counts.
 #[derive(Debug, Clone, Copy)]
@@ -62,5 +60,26 @@ impl ButtonStart {
             }
             _ => Passed::On,
         }
+    }
+}
+
+/// A press that moves further than this many logical pixels is no click.
+const SLOP: f64 = 4.0;
+
+/// The left button is down.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Click {
+    pub(crate) at: DVec2,
+    pub(crate) modifiers: Modifiers,
+}
+
+impl Click {
+    pub(crate) fn new(hands: Hands) -> Option<Self> {
+        hands.pointer.map(|at| Self { at, modifiers: hands.modifiers })
+    }
+
+    /// Whether the pointer has moved too far for a click.
+    pub(crate) fn is_drag(&self, hands: Hands, scale: f64) -> bool {
+        hands.pointer.is_some_and(|to| to.distance(self.at) > SLOP * scale)
     }
 }

@@ -11,18 +11,18 @@ use trigon_window::scene::math::DVec2;
 use trigon_window::{RecentFiles, Stage};
 
 use super::actions;
-use super::click::Click;
+use super::button_start::Click;
 use super::dialog::{FileWindow, Purpose};
 use super::gizmo_cache::GizmoCache;
 use super::keys::Keys;
 use super::loading::Loading;
-use super::look::Look;
+use super::loading::{SaveOrder, Saving};
 use super::open_file::{Next, OpenFile, Question};
 use super::panels::{Panels, Popup, Rename, Search};
 use super::pointing::Pointing;
 use super::recovery::Recovery;
 use super::running::Running;
-use super::saving::{SaveOrder, Saving};
+use super::settings::Look;
 use super::settings::{self, Layout, ToolSettings, ViewState};
 use crate::request::{Request, ToolKind, UiRequest};
 
@@ -252,7 +252,7 @@ impl Editor {
             UiRequest::Gizmo(kind) => self.tools.gizmo = kind,
             UiRequest::Orientation(orientation) => self.tools.orientation = orientation,
             UiRequest::LinkedAtPointer => self.select_linked(stage),
-            UiRequest::Parent { keeps_place } => self.set_parent(keeps_place),
+            UiRequest::Parent { keeps_transform } => self.set_parent(keeps_transform),
             UiRequest::Rename => self.rename = Rename::of_active(&self.document),
             UiRequest::LargerText => stage.text_scale = (stage.text_scale * 1.25).min(4.0),
             UiRequest::SmallerText => stage.text_scale = (stage.text_scale / 1.25).max(0.5),

@@ -11,11 +11,11 @@ use trigon_window::scene::mesh::primitives;
 use super::dialog::Purpose;
 use super::editor::{Editor, Message, WELCOME};
 use super::loading::{Found, LoadPurpose, Loading, Outcome};
-use super::look::Look;
+use super::loading::{SaveOrder, Saved, Saving};
 use super::navigation;
 use super::open_file::{Answer, Next, OpenFile, Question};
 use super::recovery::{Left, Recovery};
-use super::saving::{SaveOrder, Saved, Saving};
+use super::settings::Look;
 use crate::export;
 use crate::request::{FileAction, FileRequest};
 

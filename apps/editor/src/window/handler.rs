@@ -7,15 +7,15 @@ use trigon_window::scene::math::DVec2;
 use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton, Stage, Taken, egui};
 
 use super::actions::CONTEXT_MENU;
-use super::click::Click;
+use super::button_start::Click;
 use super::editor::Editor;
 use super::loading::Loading;
+use super::loading::Saving;
 use super::open_file::{Answer, Next};
 use super::panels::Popup;
 use super::panes::pane_of;
 use super::pointing::Prefetch;
 use super::running::Running;
-use super::saving::Saving;
 use super::{files, interface, pick};
 use crate::request::{FileAction, FileRequest, Request};
 
@@ -208,8 +208,10 @@ impl Editor {
             let projector = Projector::new(&stage.camera_of(&pane), pane.area.size);
             projector.at_distance(at - pane.area.origin(), stage.orbit.distance())
         };
-        let Some(place) = stage.pick(at).map(|(_, place)| place).or_else(beside) else { return Taken::No };
-        self.tools.cursor = place;
+        let Some(position) = stage.pick(at).map(|(_, position)| position).or_else(beside) else {
+            return Taken::No;
+        };
+        self.tools.cursor = position;
         Taken::Yes
     }
 }

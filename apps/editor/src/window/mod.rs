@@ -5,19 +5,14 @@
 
 mod actions;
 mod button_start;
-mod click;
 mod dialog;
 mod editor;
-mod exchange;
 mod files;
-mod four_views;
-mod gizmo;
 mod gizmo_cache;
 mod handler;
 mod interface;
 mod keys;
 mod loading;
-mod look;
 mod modal;
 mod navigation;
 mod onto_stage;
@@ -28,9 +23,7 @@ mod pick;
 mod placing;
 mod pointing;
 mod recovery;
-mod rip;
 mod running;
-mod saving;
 mod settings;
 mod surfaces;
 #[cfg(test)]
@@ -41,9 +34,9 @@ use std::path::PathBuf;
 use trigon_document::Document;
 use trigon_window::{Application, Handler, Stage, WindowError, state_folder};
 
+use self::dialog::Exchange;
 use crate::arguments::Arguments;
 use editor::Editor;
-use exchange::Exchange;
 use keys::Keys;
 
 /// The default keymap, as a file that users may change.

@@ -5,8 +5,8 @@ use trigon_document::scene::{Reach, Region};
 use trigon_document::{ElementKind, SelectAction, Shear};
 use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, Pane, PointerButton, Stage, Taken};
 
+use super::button_start::Click;
 use super::button_start::{ButtonStart, Passed};
-use super::click::Click;
 use super::editor::{Editor, Message};
 use super::panes::{in_pane, pane_of, tool_view};
 use super::pointing::Prefetch;
@@ -233,9 +233,9 @@ impl Editor {
             RegionMode::Intersect => SelectAction::Intersect,
         };
         let (reach, pane) = (self.reach(), pane_of(stage, side));
-        let asked =
+        let requested =
             self.pointing.ask(&self.document, stage, &pane, reach, |picks| picks.region(region, action));
-        let command = asked.flatten();
+        let command = requested.flatten();
         if let Some(command) = command {
             self.perform(stage, Request::Run(command));
         }

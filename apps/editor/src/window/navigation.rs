@@ -79,14 +79,14 @@ fn frame(editor: &Editor, stage: &mut Stage, points: &[DVec3]) {
     }
     let points_to_pixels = stage.scale() * f64::from(stage.text_scale);
     let (size, viewport) = (stage.viewport().size() / points_to_pixels, stage.viewport());
-    let room = editor.free.map_or(USUAL, |free| {
+    let free_share = editor.free.map_or(USUAL, |free| {
         let (min, max) = (DVec2::new(free.min.x.into(), free.min.y.into()), free.max);
         let max = DVec2::new(max.x.into(), max.y.into());
         (size * 0.5 - min).min(max - size * 0.5) / (size * 0.5)
     });
-    let room = room.clamp(DVec2::splat(LEAST), DVec2::ONE);
-    stage.orbit.fit_points(points, viewport.aspect() * room.x / room.y, DEFAULT_MARGIN);
-    stage.orbit.zoom(room.y);
+    let free_share = free_share.clamp(DVec2::splat(LEAST), DVec2::ONE);
+    stage.orbit.fit_points(points, viewport.aspect() * free_share.x / free_share.y, DEFAULT_MARGIN);
+    stage.orbit.zoom(free_share.y);
 }
 
 /// The places of all selected vertices in the world; of objects those of all their vertices, or their origins.
@@ -95,7 +95,7 @@ fn selected_points(document: &Document) -> Vec<DVec3> {
     let mut points = Vec::new();
     for (id, node) in scene.nodes().iter() {
         let world = scene.world_transform(id);
-        let mut add = |place: Vec3| points.push(world.transform_point3(place.as_dvec3()));
+        let mut add = |position: Vec3| points.push(world.transform_point3(position.as_dvec3()));
         match node.mesh {
             Some(mesh) if selection.is_editing() => {
                 if let (Some(elements), Some(edited)) = (selection.of(mesh), document.mesh(mesh)) {
@@ -105,7 +105,10 @@ fn selected_points(document: &Document) -> Vec<DVec3> {
             }
             Some(mesh) if selection.objects.contains(&id) => {
                 let asset = scene.meshes().get(mesh);
-                asset.into_iter().flat_map(|asset| asset.mesh().positions()).for_each(|place| add(*place));
+                asset
+                    .into_iter()
+                    .flat_map(|asset| asset.mesh().positions())
+                    .for_each(|position| add(*position));
             }
             None if selection.objects.contains(&id) => add(Vec3::ZERO),
             _ => {}
@@ -153,12 +156,12 @@ fn camera_to_view(editor: &mut Editor, stage: &mut Stage) {
         editor.message = Message::Refusal("Camera to View: the scene has no camera; Add has one".into());
         return;
     };
-    let seen = stage.camera();
+    let camera_now = stage.camera();
     let command = SetTransform {
         object: Some(ObjectName::of(id)),
         space: TransformSpace::World,
-        location: Some(seen.position.to_array()),
-        rotation: Some(Rotation::Quaternion { xyzw: seen.orientation.to_array() }),
+        location: Some(camera_now.position.to_array()),
+        rotation: Some(Rotation::Quaternion { xyzw: camera_now.orientation.to_array() }),
         scale: None,
     };
     editor.run(command.into());

@@ -3,11 +3,12 @@
 //! The window has one scene and one camera; `trigon_window::Pane` says where its views are. A tool stays in
 //! the view in which it was started, and uses that view's own pixels.
 
-use trigon_window::egui::{Align2, FontId, Painter, Pos2, Stroke, Visuals, pos2, vec2};
-use trigon_window::scene::camera::AxisView;
+use trigon_window::egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, Visuals, pos2, vec2};
+use trigon_window::scene::camera::{AxisView, Viewport};
 use trigon_window::scene::math::DVec2;
-use trigon_window::{Hands, Pane, Stage};
+use trigon_window::{Area, Hands, Pane, Stage};
 
+use super::editor::Editor;
 use crate::overlay::OverlayView;
 use crate::tool::ToolView;
 
@@ -60,4 +61,36 @@ pub(crate) fn draw_name(painter: &Painter, visuals: &Visuals, view: &OverlayView
     let stroke = Stroke::new(1.0, visuals.window_stroke.color);
     painter.rect_stroke(rect, 0.0, stroke, trigon_window::egui::StrokeKind::Inside);
     painter.text(rect.min + vec2(8.0, 6.0), Align2::LEFT_TOP, name, FontId::proportional(NAME), color);
+}
+
+impl Editor {
+    /// Shows four views, or one again.
+    pub(crate) fn toggle_four_views(&mut self, stage: &mut Stage) {
+        stage.four_views = match stage.four_views {
+            Some(_) => None,
+            None => Some(area(stage, self.free)),
+        };
+    }
+
+    /// Whether the pointer is on the image, beside all panels.
+    pub(super) fn is_in_view(&self, stage: &Stage, hands: Hands) -> bool {
+        let Some((free, at)) = self.free.zip(hands.pointer) else { return true };
+        free.contains(point(stage, at))
+    }
+
+    /// Four views fill what no panel covers.
+    pub(crate) fn fit_four_views(&self, stage: &mut Stage) {
+        if stage.four_views.is_some() {
+            stage.four_views = Some(area(stage, self.free));
+        }
+    }
+}
+
+fn area(stage: &Stage, free: Option<Rect>) -> Area {
+    let Some(free) = free else { return Area { min: [0, 0], size: stage.viewport() } };
+    let pixels = |points_of: f32| (f64::from(points_of.max(0.0)) * points(stage)).round() as u32;
+    let (min, max) = (free.min, free.max);
+    let [left, top] = [pixels(min.x), pixels(min.y)];
+    let (width, height) = (pixels(max.x).saturating_sub(left), pixels(max.y).saturating_sub(top));
+    Area { min: [left, top], size: Viewport { width, height } }
 }

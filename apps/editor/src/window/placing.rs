@@ -8,19 +8,19 @@ use super::editor::{Editor, Message};
 impl Editor {
     /// A command of the menu Add that puts its object beside the 3D cursor as its own place is beside the origin.
     pub(super) fn at_cursor(&self, mut command: Command) -> Command {
-        let place = match &mut command {
+        let position = match &mut command {
             Command::AddObject(add) => &mut add.position,
             Command::AddLight(add) => &mut add.position,
             Command::AddEmpty(add) => &mut add.position,
             Command::AddCamera(add) => &mut add.position,
             _ => return command,
         };
-        *place = (DVec3::from(*place) + self.tools.cursor).to_array();
+        *position = (DVec3::from(*position) + self.tools.cursor).to_array();
         command
     }
 
     /// Hangs the selected objects on the active one.
-    pub(crate) fn set_parent(&mut self, keeps_place: bool) {
+    pub(crate) fn set_parent(&mut self, keeps_transform: bool) {
         let selection = self.document.selection();
         let Some(parent) = selection.active.filter(|active| selection.objects.contains(active)) else {
             self.message =
@@ -31,7 +31,7 @@ impl Editor {
         let command = SetParent {
             objects: children.map(|&id| ObjectName::of(id)).collect(),
             parent: Some(ObjectName::of(parent)),
-            keep_transform: keeps_place,
+            keep_transform: keeps_transform,
             index: None,
         };
         self.run(command.into());

@@ -91,9 +91,9 @@ impl Pointing {
         }
         let (mut lookup, scene) = (std::mem::take(lookup), Scene::clone(&stage.scene));
         let finds_vertices = Arc::new(AtomicBool::new(what == Prefetch::VisibleVertices));
-        let asked = Arc::clone(&finds_vertices);
+        let requested = Arc::clone(&finds_vertices);
         let work = move || {
-            lookup.prefetch(&scene, camera, viewport, || asked.load(Ordering::Relaxed));
+            lookup.prefetch(&scene, camera, viewport, || requested.load(Ordering::Relaxed));
             lookup
         };
         // Without a thread the question itself finds out.

@@ -22,7 +22,7 @@ pub(crate) struct Recovery {
     events: usize,
     in_save: usize,
     /// Whether somebody was told that nothing is written any more.
-    has_told: bool,
+    has_reported: bool,
 }
 
 /// A document that was open when the editor ended without closing it.
@@ -68,7 +68,7 @@ impl Recovery {
         let file = folder.join(format!("{name}.recovery"));
         let writer = RecoveryWriter::start(Box::new(Disk), &file, log.base);
         log.events.into_iter().for_each(|event| writer.add(event));
-        Some(Self { writer: Some(writer), lock, held, events, in_save: 0, has_told: false })
+        Some(Self { writer: Some(writer), lock, held, events, in_save: 0, has_reported: false })
     }
 
     /// Writes down what was done since the last call. Returns what a user has to know, once.
@@ -78,8 +78,8 @@ impl Recovery {
             writer.add(event);
             self.events += 1;
         }
-        let error = writer.status().error.filter(|_| !self.has_told)?;
-        self.has_told = true;
+        let error = writer.status().error.filter(|_| !self.has_reported)?;
+        self.has_reported = true;
         Some(error)
     }
 

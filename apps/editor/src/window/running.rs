@@ -6,7 +6,7 @@ use trigon_document::scene::camera::AxisView;
 use trigon_window::{Hands, Input, Modifiers, Pane, PointerButton};
 
 use super::button_start::ButtonStart;
-use super::click::Click;
+use super::button_start::Click;
 use crate::request::ToolKind;
 use crate::tool::{Gesture, GestureKind, LoopCutTool, Tool, ToolMarks, TransformKind};
 

@@ -1,16 +1,18 @@
-//! Settings of the window and its tools, independent of the document.
+//! Settings of the window and its tools, independent of the document. Here is also what the stage shows of a
+//! document.
 
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-use trigon_document::Proportional;
 use trigon_document::scene::{NodeId, Reach};
+use trigon_document::{DisplayMarks, Proportional};
 use trigon_window::scene::camera::{Orbit, Viewport};
 use trigon_window::scene::math::DVec3;
 use trigon_window::{
     Action, DragAction, DragBinding, Key, Keymap, Modifiers, PointerButton, Refinement, Stage,
 };
 
+use super::surfaces::Surfaces;
 use crate::request::{DisplayMode, GizmoKind, Orientation, Pivot, SnapSource, SnapTarget};
 use crate::tool::{SnapSettings, TransformSettings};
 
@@ -134,4 +136,13 @@ pub(crate) fn drags(emulates_mouse: bool) -> Keymap {
         }
     }
     keymap
+}
+
+/// What the stage shows, as far as the document does not tell.
+#[derive(Debug, Default)]
+pub(crate) struct Look {
+    pub(super) marks: DisplayMarks,
+    /// The only objects that the stage shows.
+    pub(super) local: Option<BTreeSet<NodeId>>,
+    pub(super) surfaces: Surfaces,
 }

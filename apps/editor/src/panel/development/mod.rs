@@ -4,7 +4,6 @@
 //! Stage statistics need a separate frame, which is drawn on request.
 
 mod buffer;
-mod pixel;
 mod report;
 #[cfg(test)]
 mod tests;
@@ -143,7 +142,7 @@ fn buffers(ui: &mut Ui, view: &DrawnView<'_>, inspected: &mut Inspected, chosen:
         inspected.pixel = Some([pixel(share.x, width), pixel(share.y, height)]);
     }
     match inspected.pixel {
-        Some(at) => pixel::explain(ui, view.scene, &inspected.frame, at),
+        Some(at) => report::explain(ui, view.scene, &inspected.frame, at),
         None => drop(ui.add(egui::Label::new("Click a pixel of the image to explain it.").wrap())),
     }
 }

@@ -62,7 +62,7 @@ fn buffers_show_what_they_hold() {
         // The middle of the ball, and background.
         assert_ne!(image.pixels[4 * 16 + 8], image.pixels[0], "{}", buffer.name());
     }
-    let lines = pixel::lines(&scene, &frame, [0, 0]);
+    let lines = report::lines(&scene, &frame, [0, 0]);
     assert_eq!(lines[2], "Background", "nothing is there");
 }
 

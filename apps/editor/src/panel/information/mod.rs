@@ -17,7 +17,7 @@ use measures::{Finding, measured};
 pub(crate) struct InformationState {
     counts: Option<(u64, Counts)>,
     /// The revision in the last pass.
-    seen: u64,
+    shown_revision: u64,
     measures: Option<(u64, Vec<Finding>)>,
 }
 
@@ -31,7 +31,7 @@ pub(crate) fn information(
     let revision = document.revision();
     if state.counts.as_ref().is_none_or(|(known, _)| *known != revision) {
         // While something is dragged, each pass has another revision: counted is when it rests.
-        if std::mem::replace(&mut state.seen, revision) == revision || state.counts.is_none() {
+        if std::mem::replace(&mut state.shown_revision, revision) == revision || state.counts.is_none() {
             state.counts = Some((revision, counted(document)));
         } else {
             ui.ctx().request_repaint();

@@ -1,26 +1,32 @@
-//! Dragging rows: onto another row to set the parent, between rows to reorder.
+//! What can be done to a row of the outliner: dragging it onto another row to set the parent or between rows to reorder, and
+//! its menu.
 
 use trigon_document::scene::{NodeId, Scene};
-use trigon_document::{Command, Document, ObjectName, ReorderObject, SetParent};
-use trigon_window::egui::{self, DragAndDrop, Rect, Response, Ui};
+use trigon_document::{
+    Command, DeleteObjects, Document, DuplicateObjects, ObjectName, ReorderObject, SelectAction, SetParent,
+    ShowObjects,
+};
+use trigon_window::egui;
+use trigon_window::egui::{DragAndDrop, Rect, Response, Ui};
 
+use super::{OutlinerState, select};
 use crate::request::Request;
 
 /// Where a row is dropped on another one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Place {
+enum DropZone {
     Before,
     On,
     After,
 }
 
 /// The upper and the lower quarter of a row mean between rows.
-fn place(rect: Rect, pointer: egui::Pos2) -> Place {
+fn drop_zone(rect: Rect, pointer: egui::Pos2) -> DropZone {
     let share = (pointer.y - rect.top()) / rect.height();
     match share {
-        share if share < 0.25 => Place::Before,
-        share if share > 0.75 => Place::After,
-        _ => Place::On,
+        share if share < 0.25 => DropZone::Before,
+        share if share > 0.75 => DropZone::After,
+        _ => DropZone::On,
     }
 }
 
@@ -34,28 +40,28 @@ pub(super) fn on_row(
 ) {
     response.dnd_set_drag_payload(id);
     let Some(pointer) = response.hover_pos().or_else(|| ui.ctx().pointer_latest_pos()) else { return };
-    let place = place(response.rect, pointer);
+    let zone = drop_zone(response.rect, pointer);
     if response.dnd_hover_payload::<NodeId>().is_some_and(|dragged| *dragged != id) {
-        mark(ui, response.rect, place);
+        mark(ui, response.rect, zone);
     }
     if let Some(dragged) = response.dnd_release_payload::<NodeId>().filter(|dragged| **dragged != id) {
-        dropped(document, *dragged, id, place, requests);
+        dropped(document, *dragged, id, zone, requests);
     }
 }
 
 /// A line between rows, or a frame around the one.
-fn mark(ui: &Ui, rect: Rect, place: Place) {
+fn mark(ui: &Ui, rect: Rect, zone: DropZone) {
     let stroke = ui.visuals().selection.stroke;
     let painter = ui.painter();
-    match place {
-        Place::Before => painter.hline(rect.x_range(), rect.top(), stroke),
-        Place::After => painter.hline(rect.x_range(), rect.bottom(), stroke),
-        Place::On => painter.rect_stroke(rect, 2.0, stroke, egui::StrokeKind::Inside),
+    match zone {
+        DropZone::Before => painter.hline(rect.x_range(), rect.top(), stroke),
+        DropZone::After => painter.hline(rect.x_range(), rect.bottom(), stroke),
+        DropZone::On => painter.rect_stroke(rect, 2.0, stroke, egui::StrokeKind::Inside),
     };
 }
 
-fn dropped(document: &Document, dragged: NodeId, on: NodeId, place: Place, requests: &mut Vec<Request>) {
-    if place == Place::On {
+fn dropped(document: &Document, dragged: NodeId, on: NodeId, zone: DropZone, requests: &mut Vec<Request>) {
+    if zone == DropZone::On {
         return requests.push(hang(objects(document, dragged), Some(on)));
     }
     let scene = document.nodes();
@@ -64,7 +70,7 @@ fn dropped(document: &Document, dragged: NodeId, on: NodeId, place: Place, reque
     let siblings = siblings(scene, on);
     let mut others = siblings.iter().filter(|&&sibling| sibling != dragged);
     let Some(at) = others.position(|&sibling| sibling == on) else { return };
-    let to = at as u32 + u32::from(place == Place::After);
+    let to = at as u32 + u32::from(zone == DropZone::After);
     let object = ObjectName::of(dragged);
     let command: Command = if node.parent() == target.parent() {
         ReorderObject { object: Some(object), to }.into()
@@ -105,5 +111,75 @@ pub(super) fn below_all(ui: &Ui, area: Rect, document: &Document, requests: &mut
     // Rows have taken theirs by now.
     if let Some(dragged) = DragAndDrop::take_payload::<NodeId>(ui.ctx()) {
         requests.push(hang(objects(document, *dragged), None));
+    }
+}
+
+/// Opens with the right button, which also selects the row if it is not.
+pub(super) fn menu(
+    response: &Response,
+    document: &Document,
+    state: &mut OutlinerState,
+    id: NodeId,
+    requests: &mut Vec<Request>,
+) {
+    let is_selected = document.selection().objects.contains(&id);
+    if response.secondary_clicked() && (!is_selected || document.selection().is_editing()) {
+        select(document, vec![id], SelectAction::Replace, requests);
+    }
+    response.context_menu(|ui| {
+        if ui.button("Rename").clicked() {
+            state.rename(document, id);
+        }
+        commands(ui, document, id, requests);
+        order(ui, document, id, requests);
+        parents(ui, document, id, requests);
+    });
+}
+
+fn commands(ui: &mut Ui, document: &Document, id: NodeId, requests: &mut Vec<Request>) {
+    let visible = document.nodes().node(id).is_some_and(|node| node.visible);
+    let offered: [(&str, Command); 4] = [
+        (
+            if visible { "Hide" } else { "Show" },
+            ShowObjects { objects: Vec::new(), visible: !visible }.into(),
+        ),
+        ("Duplicate", DuplicateObjects::default().into()),
+        ("Duplicate linked", DuplicateObjects { linked: true, ..DuplicateObjects::default() }.into()),
+        ("Delete", DeleteObjects {}.into()),
+    ];
+    for (name, command) in offered {
+        if ui.button(name).clicked() {
+            requests.push(Request::Run(command));
+        }
+    }
+}
+
+fn order(ui: &mut Ui, document: &Document, id: NodeId, requests: &mut Vec<Request>) {
+    let siblings = siblings(document.nodes(), id);
+    let Some(at) = siblings.iter().position(|&sibling| sibling == id) else { return };
+    ui.separator();
+    let mut move_to = |ui: &mut Ui, name: &str, to: Option<usize>| {
+        let button = ui.add_enabled(to.is_some(), egui::Button::new(name));
+        if let Some(to) = to.filter(|_| button.clicked()) {
+            let object = Some(ObjectName::of(id));
+            requests.push(Request::Run(ReorderObject { object, to: to as u32 }.into()));
+        }
+    };
+    move_to(ui, "Move up", at.checked_sub(1));
+    move_to(ui, "Move down", (at + 1 < siblings.len()).then_some(at + 1));
+}
+
+/// Hanging all that is selected on the active object, or on nothing.
+fn parents(ui: &mut Ui, document: &Document, id: NodeId, requests: &mut Vec<Request>) {
+    let selected = &document.selection().objects;
+    let others: Vec<NodeId> = selected.iter().copied().filter(|&other| other != id).collect();
+    ui.separator();
+    let button = egui::Button::new("Parent the other selected here");
+    if ui.add_enabled(!others.is_empty(), button).clicked() {
+        requests.push(hang(others, Some(id)));
+    }
+    let has_parent = document.nodes().node(id).is_some_and(|node| node.parent().is_some());
+    if ui.add_enabled(has_parent, egui::Button::new("Clear parent")).clicked() {
+        requests.push(hang(vec![id], None));
     }
 }

@@ -2,9 +2,7 @@
 //! However many there are, only the rows in view are laid out.
 
 mod drop;
-mod icon;
 mod line;
-mod menu;
 mod rows;
 #[cfg(test)]
 mod tests;

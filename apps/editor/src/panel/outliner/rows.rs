@@ -57,8 +57,8 @@ impl Rows {
 
     /// The objects from one row to another, the second one last; that alone if the first is not there.
     pub(super) fn range(&self, from: NodeId, to: NodeId) -> Vec<NodeId> {
-        let place = |id: NodeId| self.rows.iter().position(|row| row.id == id);
-        let (Some(a), Some(b)) = (place(from), place(to)) else { return vec![to] };
+        let index_of = |id: NodeId| self.rows.iter().position(|row| row.id == id);
+        let (Some(a), Some(b)) = (index_of(from), index_of(to)) else { return vec![to] };
         let ids = |range: &[Row]| range.iter().map(|row| row.id).collect::<Vec<_>>();
         if a <= b {
             ids(&self.rows[a..=b])

@@ -6,8 +6,8 @@ use trigon_document::{Command, Crease, Document, MeshSelection, ResetVertices, S
 use trigon_window::egui::{self, Response, Ui};
 
 use super::super::row::{number, plain, positive, row, vector};
-use super::super::submit::{is_same_drag, submit};
 use super::super::unit::Unit;
+use crate::panel::row::{is_same_drag, submit};
 use crate::request::Request;
 
 /// Above so many selected elements their values are not computed: it would take longer than a frame.

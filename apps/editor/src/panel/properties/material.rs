@@ -9,9 +9,9 @@ use trigon_window::egui::{self, Ui};
 
 use super::super::parameters::check_box;
 use super::super::row::{choice, color, number, positive, row, text};
-use super::super::submit::submit;
 use super::super::unit::Unit;
 use super::ShownObject;
+use crate::panel::row::submit;
 use crate::request::Request;
 
 /// Shows the slots and the material of the chosen one.

@@ -1,7 +1,6 @@
 //! The tab *Properties*: exact values of the active object, or of selected elements.
 
 mod elements;
-mod light;
 mod material;
 #[cfg(test)]
 mod tests;
@@ -59,7 +58,7 @@ pub(crate) fn properties(
             transform::transform(ui, object, &mut state.transform, requests);
         });
         if let Some(light) = node.light {
-            section(ui, "Light", |ui| light::light(ui, object, light, requests));
+            section(ui, "Light", |ui| transform::light(ui, object, light, requests));
         }
         if node.mesh.is_some() {
             section(ui, "Material", |ui| {

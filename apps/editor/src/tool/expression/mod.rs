@@ -24,10 +24,10 @@ pub(crate) enum Quantity {
 
 /// Why a text is no number.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("{what} at character {place}")]
+#[error("{what} at character {index}")]
 pub(crate) struct ExpressionError {
     /// From 1.
-    pub(crate) place: usize,
+    pub(crate) index: usize,
     /// As "a number is missing".
     pub(crate) what: String,
 }
@@ -87,7 +87,7 @@ struct Parser<'t> {
 
 impl<'t> Parser<'t> {
     fn fail<T>(&self, what: impl Into<String>) -> Result<T, ExpressionError> {
-        Err(ExpressionError { place: self.length - self.rest.chars().count() + 1, what: what.into() })
+        Err(ExpressionError { index: self.length - self.rest.chars().count() + 1, what: what.into() })
     }
 
     fn skip_space(&mut self) {

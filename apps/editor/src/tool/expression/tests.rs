@@ -76,7 +76,7 @@ proptest! {
         for quantity in [Quantity::Length, Quantity::Angle, Quantity::Factor] {
             match evaluate(&text, quantity) {
                 Ok(value) => prop_assert!(value.is_finite()),
-                Err(error) => prop_assert!((1..=text.chars().count() + 1).contains(&error.place)),
+                Err(error) => prop_assert!((1..=text.chars().count() + 1).contains(&error.index)),
             }
         }
     }

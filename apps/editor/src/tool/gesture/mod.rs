@@ -47,7 +47,7 @@ pub(crate) enum GestureState {
 pub(crate) struct Gesture {
     kind: GestureKind,
     /// Where the pointer is.
-    place: DVec2,
+    position: DVec2,
     /// The button that draws, and how it selects.
     drawing: Option<(PointerButton, RegionMode)>,
     /// Where a box began, or all places of a lasso.
@@ -68,9 +68,9 @@ const LASSO_POINTS: usize = 20_000;
 impl Gesture {
     /// Starts to wait for a press. `scale` is physical pixels per logical one.
     pub(crate) fn waiting(kind: GestureKind, hands: Hands, scale: f64) -> Self {
-        let place = hands.pointer.unwrap_or(DVec2::ZERO);
+        let position = hands.pointer.unwrap_or(DVec2::ZERO);
         let (points, radius) = (Vec::new(), RADIUS * scale);
-        Self { kind, place, drawing: None, points, radius, is_moving: false }
+        Self { kind, position, drawing: None, points, radius, is_moving: false }
     }
 
     /// Starts with a button that is held already: dragged without a key before.
@@ -85,7 +85,7 @@ impl Gesture {
 
     fn press(&mut self, button: PointerButton, mode: RegionMode) {
         self.drawing = Some((button, mode));
-        self.points = vec![self.place];
+        self.points = vec![self.position];
     }
 
     /// Takes an input.
@@ -125,7 +125,7 @@ impl Gesture {
 
     fn moved(&mut self, to: Option<DVec2>) -> GestureState {
         let Some(to) = to else { return GestureState::Running };
-        let from = std::mem::replace(&mut self.place, to);
+        let from = std::mem::replace(&mut self.position, to);
         if self.drawing.is_none() {
             return GestureState::Running;
         }
@@ -142,9 +142,9 @@ impl Gesture {
     }
 
     fn extend_lasso(&mut self) {
-        let is_far = self.points.last().is_none_or(|last| last.distance(self.place) >= LASSO_STEP);
+        let is_far = self.points.last().is_none_or(|last| last.distance(self.position) >= LASSO_STEP);
         if is_far && self.points.len() < LASSO_POINTS {
-            self.points.push(self.place);
+            self.points.push(self.position);
         }
     }
 
@@ -167,10 +167,12 @@ impl Gesture {
 
     /// The region as it is now.
     fn region(&self) -> Region {
-        let start = self.points.first().copied().unwrap_or(self.place);
+        let start = self.points.first().copied().unwrap_or(self.position);
         match self.kind {
-            GestureKind::Box => Region::Rectangle { min: start.min(self.place), max: start.max(self.place) },
-            GestureKind::Circle => Region::Circle { center: self.place, radius: self.radius },
+            GestureKind::Box => {
+                Region::Rectangle { min: start.min(self.position), max: start.max(self.position) }
+            }
+            GestureKind::Circle => Region::Circle { center: self.position, radius: self.radius },
             GestureKind::Lasso => Region::Lasso(self.points.clone()),
         }
     }

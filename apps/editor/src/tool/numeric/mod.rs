@@ -162,10 +162,10 @@ impl NumericEntry {
 
     /// For the status line: as `[-2.5] m`, with the component that is being typed in brackets.
     pub(crate) fn status(&self) -> String {
-        let shown = self.components.iter().enumerate().map(|(place, component)| {
+        let shown = self.components.iter().enumerate().map(|(index, component)| {
             let text = component.written();
             let text = if text.is_empty() { "–".to_owned() } else { text };
-            if place == self.current { format!("[{text}]") } else { text }
+            if index == self.current { format!("[{text}]") } else { text }
         });
         let all = shown.collect::<Vec<_>>().join(", ");
         match self.values() {
@@ -184,7 +184,7 @@ impl Component {
         let value = if self.text == "." { 0.0 } else { evaluate(&self.text, quantity)? };
         let value = if self.reciprocal { 1.0 / value } else { value };
         if !value.is_finite() {
-            return Err(ExpressionError { place: 1, what: "zero has no reciprocal".into() });
+            return Err(ExpressionError { index: 1, what: "zero has no reciprocal".into() });
         }
         Ok(Some(if self.negated { -value } else { value }))
     }

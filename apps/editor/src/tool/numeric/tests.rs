@@ -101,9 +101,9 @@ proptest! {
     #[test]
     fn no_keys_break_it(keys in "[-=./*<> 0-9a-z()^+]{0,300}", count in 0usize..4) {
         let mut entry = NumericEntry::new(Quantity::Angle, count);
-        for (place, key) in keys.chars().enumerate() {
+        for (index, key) in keys.chars().enumerate() {
             typing(&mut entry, &key.to_string());
-            if place == 100 {
+            if index == 100 {
                 entry.set_count(1);
             }
             if let Ok(values) = entry.values() {

@@ -10,10 +10,10 @@ use super::super::expression::Quantity;
 use super::super::numeric::NumericEntry;
 use super::super::slide::Slide;
 use super::super::snap::{SnapTarget, nearest_on_screen};
-use super::super::targets::SnapTargets;
 use super::super::view::ToolView;
 use super::TransformTool;
 use crate::tool::TransformKind;
+use crate::tool::snap::SnapTargets;
 
 impl TransformTool {
     /// The same as a slide along edges, from the beginning.
@@ -28,7 +28,7 @@ impl TransformTool {
         self.modal.numeric = NumericEntry::new(Quantity::Length, 1);
         (self.turn, self.slide) = (0.0, None);
         if kind == TransformKind::Slide {
-            self.slide = Some(Slide::of(document, view, self.modal.pointer.place()));
+            self.slide = Some(Slide::of(document, view, self.modal.pointer.position()));
         }
         self.renew_numbers();
     }
@@ -73,11 +73,11 @@ impl TransformTool {
 
     /// Adds up how far the pointer went around the pivot, so that it may go round more than once.
     fn follow_turn(&mut self, view: &ToolView) {
-        let place = self.modal.pointer.place();
-        let from = std::mem::replace(&mut self.turned_from, place);
+        let position = self.modal.pointer.position();
+        let from = std::mem::replace(&mut self.turned_from, position);
         if let Some(center) = view.screen(self.pivot()) {
             // y points down in images, so this is counter-clockwise on the screen.
-            let (a, b) = (from - center, place - center);
+            let (a, b) = (from - center, position - center);
             let turn = elementary::atan2(b.x * a.y - b.y * a.x, a.dot(b));
             self.turn += turn.to_degrees();
         }
@@ -106,7 +106,7 @@ impl TransformTool {
             }
             ('o', ..) if self.selected.is_editing => self.toggle_proportional(),
             ('a', ..) if self.kind == TransformKind::Translate && self.snaps() => {
-                self.kept.extend(self.snapped);
+                self.retained.extend(self.snapped);
             }
             ('b', ..) if self.kind == TransformKind::Translate => {
                 document.cancel();
@@ -128,15 +128,15 @@ impl TransformTool {
 
     /// The nearest of all selected points becomes the one that follows the pointer.
     pub(super) fn choose_source(&mut self, document: &mut Document, view: &ToolView) -> ToolState {
-        let place = self.modal.pointer.in_window().unwrap_or(DVec2::ZERO);
+        let position = self.modal.pointer.in_window().unwrap_or(DVec2::ZERO);
         let projector = view.projector();
         let screen = |point| projector.to_screen(point);
-        self.source = nearest_on_screen(&self.selected.points, screen, place, f64::INFINITY);
+        self.source = nearest_on_screen(&self.selected.points, screen, position, f64::INFINITY);
         self.is_choosing_source = false;
         // From now on the point is under the pointer.
         self.modal.pointer = Default::default();
         self.modal.pointer.moved(self.source.and_then(screen), false);
-        self.modal.pointer.moved(Some(place), false);
+        self.modal.pointer.moved(Some(position), false);
         self.settings.snap.is_on = true;
         if matches!(self.settings.snap.target, SnapTarget::Increment | SnapTarget::Grid) {
             self.settings.snap.target = SnapTarget::Vertex;

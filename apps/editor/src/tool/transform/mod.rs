@@ -1,24 +1,25 @@
 //! Move, rotate, scale, shrink and fatten, and slide: one tool, because each turns into another by
 //! its key.
 
-mod deform;
 mod input;
-mod slide;
 
 use trigon_document::mesh::math::{DVec2, DVec3};
-use trigon_document::{Document, Proportional};
+use trigon_document::{
+    Command, Document, Proportional, PushPull, ShrinkFatten, SlideEdges, SlideVertices, ToSphere,
+    TransformSpace,
+};
 use trigon_window::{Hands, Input};
 
+use super::constraint::TransformKind;
 use super::constraint::{Axis, Constraint, Frames, Freedom, Orientation};
 use super::expression::Quantity;
 use super::modal::{Modal, Step};
 use super::numeric::NumericEntry;
-use super::pivot::Pivot;
+use super::selected::Pivot;
 use super::selected::Selected;
 use super::slide::Slide;
-use super::snap::SnapSettings;
-use super::targets::SnapTargets;
-use super::transform_kind::TransformKind;
+use super::snap::SnapTargets;
+use super::snap::{SnapSettings, rounded};
 use super::view::ToolView;
 use super::{Tool, ToolMarks, ToolState};
 
@@ -55,7 +56,7 @@ pub(crate) struct TransformTool {
     /// The last target that something snapped to.
     pub(super) snapped: Option<DVec3>,
     /// Targets that a user kept: what is snapped goes to the middle of these and the next one.
-    pub(super) kept: Vec<DVec3>,
+    pub(super) retained: Vec<DVec3>,
     /// Whether the next click chooses the source.
     is_choosing_source: bool,
     /// Whether the middle button is down: the movement chooses the axis.
@@ -87,7 +88,7 @@ impl TransformTool {
             targets: None,
             source: None,
             snapped: None,
-            kept: Vec::new(),
+            retained: Vec::new(),
             is_choosing_source: false,
             is_choosing_axis: false,
             slide: None,
@@ -189,8 +190,8 @@ impl Tool for TransformTool {
         if let Some(near) = self.proportional() {
             text += &format!(" proportional {:.3} m", near.radius);
         }
-        if !self.kept.is_empty() {
-            text += &format!(" to the middle of {} points", self.kept.len() + 1);
+        if !self.retained.is_empty() {
+            text += &format!(" to the middle of {} points", self.retained.len() + 1);
         }
         let keys = match self.kind {
             TransformKind::Translate if self.snapped.is_some() => ", A: one more point, B: source",
@@ -219,5 +220,59 @@ impl Tool for TransformTool {
             circle: self.proportional().map(|near| (pivot, near.radius)),
             point: self.snapped.filter(|_| self.snaps()),
         }
+    }
+}
+
+/// Logical pixels from 0 to a whole sphere.
+const WHOLE_SPHERE: f64 = 200.0;
+
+impl TransformTool {
+    /// The command that deforms the selection by what the pointer or the numbers say.
+    fn deform(&mut self, view: &ToolView) -> Result<Command, String> {
+        let way = self.modal.pointer.way();
+        let (dragged, step) = if self.kind == TransformKind::ToSphere {
+            let factor = (way.x / (WHOLE_SPHERE * view.scale)).clamp(0.0, 1.0);
+            (factor, self.settings.snap.factor_step(self.modal.is_precise()))
+        } else {
+            let up = -way.y * view.metres_per_pixel(self.pivot());
+            (up, self.settings.snap.length_step(self.modal.is_precise()))
+        };
+        let typed = self.modal.numeric.value_or(0.0).map_err(|error| error.to_string())?;
+        let amount = typed.unwrap_or(if self.snaps() { rounded(dragged, step) } else { dragged });
+        let proportional = self.proportional();
+        let (text, command) = match self.kind {
+            TransformKind::ToSphere => (
+                format!("To Sphere {amount:.4}"),
+                ToSphere { factor: amount, center: None, proportional }.into(),
+            ),
+            TransformKind::PushPull => {
+                let command = PushPull { distance: amount, center: None, proportional };
+                (format!("Push/Pull {amount:.4} m"), command.into())
+            }
+            _ => {
+                let command = ShrinkFatten { distance: amount, proportional };
+                (format!("Shrink/Fatten {amount:.4} m"), command.into())
+            }
+        };
+        self.text = text;
+        Ok(command)
+    }
+}
+
+impl TransformTool {
+    /// The command that slides what is selected.
+    fn slide_along(&mut self) -> Result<Command, String> {
+        let Some(slide) = &self.slide else { return Err("nothing is selected that could slide".into()) };
+        let (dragged, direction) = slide.follow(self.modal.pointer.way());
+        let step = self.settings.snap.factor_step(self.modal.is_precise());
+        let dragged = if self.snaps() { rounded(dragged, step) } else { dragged };
+        let typed = self.modal.numeric.value_or(0.0).map_err(|error| error.to_string())?;
+        let factor = typed.unwrap_or(dragged);
+        self.text = format!("Slide {factor:.4}");
+        Ok(if slide.edges {
+            SlideEdges { factor }.into()
+        } else {
+            SlideVertices { factor, direction: direction.to_array(), space: TransformSpace::World }.into()
+        })
     }
 }

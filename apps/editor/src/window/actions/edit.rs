@@ -30,8 +30,8 @@ actions! {
     "Edit" "edit.duplicate_linked" "Duplicate Linked" "Alt+D" Objects Run(r#"{"op":"duplicate_objects","linked":true}"#) => "Copies objects that go on sharing their meshes.";
     "Edit" "edit.join" "Join Objects" "Ctrl+J" TwoObjects Run(r#"{"op":"join_objects"}"#) => "Puts the selected objects into the active one.";
     "Edit/Parent" "parent.menu" "Parent Menu" "Ctrl+P" Objects Ui(UiRequest::Popup("Edit/Parent")) => "Chooses how objects hang on the active one.";
-    "Edit/Parent" "parent.keep" "Object, Stay in Place" "" TwoObjects Ui(UiRequest::Parent { keeps_place: true }) => "Hangs the selected objects on the active one; they stay where they are.";
-    "Edit/Parent" "parent.take" "Object, Take Its Space" "" TwoObjects Ui(UiRequest::Parent { keeps_place: false }) => "Hangs the selected objects on the active one; their values count from there, so that they move.";
+    "Edit/Parent" "parent.keep" "Object, Stay in Place" "" TwoObjects Ui(UiRequest::Parent { keeps_transform: true }) => "Hangs the selected objects on the active one; they stay where they are.";
+    "Edit/Parent" "parent.take" "Object, Take Its Space" "" TwoObjects Ui(UiRequest::Parent { keeps_transform: false }) => "Hangs the selected objects on the active one; their values count from there, so that they move.";
     "Edit/Clear Parent" "parent.clear_menu" "Clear Parent Menu" "Alt+P" Objects Ui(UiRequest::Popup("Edit/Clear Parent")) => "Chooses how objects are taken off what they hang on.";
     "Edit/Clear Parent" "edit.parent_clear" "Clear Parent, Stay in Place" "" Objects Run(r#"{"op":"set_parent","keep_transform":true}"#) => "Takes objects off what they hang on; they stay where they are.";
     "Edit/Clear Parent" "parent.clear" "Clear Parent, Keep Values" "" Objects Run(r#"{"op":"set_parent"}"#) => "Takes objects off what they hang on; their values count from the world, so that they move.";

@@ -1,10 +1,9 @@
 //! The top bar with modes and settings, and the tools on the left.
 
 use trigon_document::ElementKind;
-use trigon_window::Stage;
-use trigon_window::egui::{self, Button, Ui};
+use trigon_window::egui::{Button, Ui};
+use trigon_window::{Stage, egui};
 
-use super::widgets::label;
 use crate::request::{
     DisplayMode, GizmoKind, Orientation, Pivot, Request, SnapSource, SnapTarget, UiRequest, ViewRequest,
 };
@@ -152,4 +151,16 @@ pub(super) fn tools(ui: &mut Ui, editor: &mut Editor, stage: &mut Stage) {
         editor.choose(stage, action);
         ui.ctx().request_repaint();
     }
+}
+
+/// Gives the keyboard to a widget if no other has it.
+pub(super) fn focus_first(widget: &egui::Response) {
+    if widget.ctx.memory(|memory| memory.focused().is_none()) {
+        widget.request_focus();
+    }
+}
+
+/// A label for those who use a screen reader, and for tests.
+pub(super) fn label(response: &egui::Response, text: &str) {
+    response.ctx.accesskit_node_builder(response.id, |node| node.set_label(text));
 }

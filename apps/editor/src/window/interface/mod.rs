@@ -4,12 +4,8 @@
 mod bars;
 mod menu;
 mod overlays;
-mod questions;
-mod search;
 mod side;
-mod status;
 mod view;
-mod widgets;
 
 use trigon_window::Stage;
 use trigon_window::egui::{Panel, Ui};
@@ -20,10 +16,10 @@ use crate::request::Request;
 /// Shows all of it; returns what is to be done.
 pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<Request> {
     let mut requests = Vec::new();
-    view::show(ui, editor, stage);
+    view::show_view(ui, editor, stage);
     Panel::top("menus").show(ui, |ui| menu::bar(ui, editor, stage));
     Panel::top("modes").show(ui, |ui| bars::top(ui, editor, stage, &mut requests));
-    Panel::bottom("status").show(ui, |ui| status::line(ui, editor));
+    Panel::bottom("status").show(ui, |ui| side::line(ui, editor));
     if editor.layout.tool_bar {
         Panel::left("tools").resizable(false).exact_size(132.0).show(ui, |ui| bars::tools(ui, editor, stage));
     }
@@ -34,15 +30,15 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
     editor.free = Some(free);
     editor.fit_four_views(stage);
     side::adjust(ui.ctx(), editor, free, &mut requests);
-    search::show(ui.ctx(), editor, stage);
+    menu::show_search(ui.ctx(), editor, stage);
     menu::popup(ui.ctx(), editor, stage);
     overlays::help(ui.ctx(), editor);
     overlays::rename(ui.ctx(), editor, &mut requests);
     let waker = stage.waker();
     let chosen = editor.dialog.show(ui.ctx(), &editor.recent, move || waker.wake());
     requests.extend(chosen.map(Request::File));
-    questions::loading(ui.ctx(), editor, stage);
-    questions::saving(ui.ctx(), editor);
-    questions::show(ui.ctx(), editor, stage);
+    overlays::loading(ui.ctx(), editor, stage);
+    overlays::saving(ui.ctx(), editor);
+    overlays::show_questions(ui.ctx(), editor, stage);
     requests
 }

@@ -6,7 +6,7 @@ use trigon_window::egui::{Color32, Painter, Shape, Stroke, Ui};
 use trigon_window::{Pane, Stage};
 
 use crate::overlay::{
-    Gesture, OverlayView, draw_axes, draw_cameras, draw_cursor, draw_gesture, draw_grid, draw_lights,
+    GestureOutline, OverlayView, draw_axes, draw_cameras, draw_cursor, draw_gesture, draw_grid, draw_lights,
     draw_origins,
 };
 use crate::tool::ToolMarks;
@@ -19,7 +19,7 @@ const INK: Color32 = Color32::from_rgb(255, 240, 120);
 const SNAPPED: f32 = 7.0;
 
 /// Draws it, before the panels: they lie over it.
-pub(super) fn show(ui: &Ui, editor: &mut Editor, stage: &Stage) {
+pub(super) fn show_view(ui: &Ui, editor: &mut Editor, stage: &Stage) {
     let panes = stage.panes();
     for pane in &panes {
         let view = overlay_view(stage, pane);
@@ -75,15 +75,15 @@ fn draw_marks(painter: &Painter, view: &OverlayView, marks: &ToolMarks) {
 }
 
 /// A region in physical pixels as it is drawn.
-fn outline(view: &OverlayView, region: &Region) -> Gesture {
+fn outline(view: &OverlayView, region: &Region) -> GestureOutline {
     match region {
-        Region::Rectangle { min, max } => Gesture::Box([view.logical(*min), view.logical(*max)]),
+        Region::Rectangle { min, max } => GestureOutline::Box([view.logical(*min), view.logical(*max)]),
         Region::Circle { center, radius } => {
             let center = view.logical(*center);
             let right = view.logical(view.physical(center) + trigon_window::scene::math::DVec2::X * *radius);
-            Gesture::Circle { center, radius: right.x - center.x }
+            GestureOutline::Circle { center, radius: right.x - center.x }
         }
-        Region::Lasso(points) => Gesture::Lasso(points.iter().map(|at| view.logical(*at)).collect()),
-        _ => Gesture::Lasso(Vec::new()),
+        Region::Lasso(points) => GestureOutline::Lasso(points.iter().map(|at| view.logical(*at)).collect()),
+        _ => GestureOutline::Lasso(Vec::new()),
     }
 }

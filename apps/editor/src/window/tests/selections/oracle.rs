@@ -23,7 +23,7 @@ const CELL: usize = 16;
 /// A point of a vertex or an edge, and whether no other face hides it.
 struct OwnPoint {
     seen: Seen,
-    is_seen: Answer,
+    is_visible: Answer,
 }
 
 /// What is asked for of an element.
@@ -120,7 +120,7 @@ impl Oracle {
     }
 
     /// Whether no other face than its own hides a point.
-    fn is_seen(&self, seen: Seen, is_own: impl Fn(Key) -> bool) -> Answer {
+    fn is_visible(&self, seen: Seen, is_own: impl Fn(Key) -> bool) -> Answer {
         let touching = self.lens.touching(seen.distance);
         let hides =
             self.near(seen.at).filter(|triangle| triangle.is_drawn && !is_own(triangle.face)).map(|other| {
@@ -136,15 +136,15 @@ impl Oracle {
             let seen = self.lens.seen(points[vertex]);
             let own =
                 |(of, face): Key| of == id && mesh.face_vertices(face as usize).contains(&(vertex as u32));
-            let is_seen = self.is_seen(seen, own);
-            self.vertices.push(((id, vertex as u32), OwnPoint { seen, is_seen }));
+            let is_visible = self.is_visible(seen, own);
+            self.vertices.push(((id, vertex as u32), OwnPoint { seen, is_visible }));
         }
         for (edge, ends) in mesh.edges().iter().enumerate() {
             let own = |(of, face): Key| of == id && has_side(mesh.face_vertices(face as usize), *ends);
             let line = line(ends.map(|end| self.lens.seen(points[end as usize])), self.lens.size);
             let of_line = line.into_iter().map(|(seen, exists)| {
-                let is_seen = self.is_seen(seen, own).min(exists);
-                OwnPoint { seen, is_seen }
+                let is_visible = self.is_visible(seen, own).min(exists);
+                OwnPoint { seen, is_visible }
             });
             let of_line = of_line.collect();
             self.edges.push(((id, edge as u32), of_line));
@@ -154,9 +154,9 @@ impl Oracle {
     /// For each element that may be in a region, whether it is; with `through` whatever hides it.
     pub(super) fn region(&self, kind: Kind, shape: &Shape, through: bool) -> BTreeMap<Key, Answer> {
         let mut answers: BTreeMap<Key, Answer> = BTreeMap::new();
-        for (key, at, is_seen, is_there) in self.points(kind) {
+        for (key, at, is_visible, is_there) in self.points(kind) {
             let inside = shape.contains(at).min(self.is_in_image(at));
-            let answer = inside.min(if through { is_there } else { is_seen });
+            let answer = inside.min(if through { is_there } else { is_visible });
             let known = answers.entry(key).or_insert(Answer::No);
             *known = answer.max(*known);
         }
@@ -166,8 +166,8 @@ impl Oracle {
 
     /// The elements that may be nearest to a place within a radius: more than one where roundings decide.
     pub(super) fn nearest(&self, kind: Kind, place: DVec2, radius: f64, through: bool) -> Vec<Key> {
-        let candidates = self.points(kind).filter_map(|(key, at, is_seen, is_there)| {
-            let answer = if through { is_there } else { is_seen }.min(self.is_in_image(at));
+        let candidates = self.points(kind).filter_map(|(key, at, is_visible, is_there)| {
+            let answer = if through { is_there } else { is_visible }.min(self.is_in_image(at));
             let distance = at.distance(place);
             (answer != Answer::No && distance <= radius + ROUNDING).then_some((key, distance, answer))
         });
@@ -184,7 +184,7 @@ impl Oracle {
 
     /// All points by which elements of a kind are found: whether they are seen, and whether they are there at all.
     fn points(&self, kind: Kind) -> Box<dyn Iterator<Item = (Key, DVec2, Answer, Answer)> + '_> {
-        let own = |key: Key, point: &OwnPoint| (key, point.seen.at, point.is_seen, Answer::Yes);
+        let own = |key: Key, point: &OwnPoint| (key, point.seen.at, point.is_visible, Answer::Yes);
         match kind {
             Kind::Vertex => Box::new(self.vertices.iter().map(move |(key, point)| own(*key, point))),
             Kind::Edge => Box::new(

@@ -89,12 +89,12 @@ impl User<'_> {
         let (seen, expected) = match verb {
             "see" => {
                 let texts: Vec<_> = shown().into_iter().map(|widget| widget.label).collect();
-                let is_seen = texts.iter().any(|text| text.contains(rest));
-                return if is_seen { Ok(()) } else { Err(format!("there is only {texts:?}")) };
+                let is_visible = texts.iter().any(|text| text.contains(rest));
+                return if is_visible { Ok(()) } else { Err(format!("there is only {texts:?}")) };
             }
             "hidden" => {
-                let is_seen = shown().iter().any(|widget| widget.label == rest);
-                return if is_seen { Err("it is there".into()) } else { Ok(()) };
+                let is_visible = shown().iter().any(|widget| widget.label == rest);
+                return if is_visible { Err("it is there".into()) } else { Ok(()) };
             }
             "title" => {
                 self.wait_for_title(rest);
