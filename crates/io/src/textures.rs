@@ -26,7 +26,7 @@ pub(crate) fn add_textures(
     let done = AtomicUsize::new(0);
     let (path, options) = (import.path, import.options);
     let fits = within_budget(requests, &options.limits);
-    let make = |(request, fits): (&Request, Result<(), Fault>)| {
+    let make = |(request, fits): (&Request, Result<(), ImageFault>)| {
         options.report(
             path,
             LoadStage::Textures,
@@ -35,7 +35,7 @@ pub(crate) fn add_textures(
         let image = fits.and_then(|()| decode(request, &options.limits));
         Ok(image.and_then(|image| to_texture(image, request.purpose).map_err(broken)))
     };
-    let decoded: Vec<Result<Texture, Fault>> =
+    let decoded: Vec<Result<Texture, ImageFault>> =
         requests.par_iter().zip(fits).map(make).collect::<Result<_, LoadError>>()?;
     let mut ids = Vec::with_capacity(requests.len());
     let mut stand_in = None;
@@ -62,7 +62,7 @@ pub(crate) fn add_textures(
     Ok(ids)
 }
 
-fn decode(request: &Request, limits: &Limits) -> Result<RgbaImage, Fault> {
+fn decode(request: &Request, limits: &Limits) -> Result<RgbaImage, ImageFault> {
     let layer = |(role, bytes): &(Role, ImageBytes)| Ok((*role, decode_image(bytes.get(), limits)?));
     let layers = request.layers.iter().map(layer).collect::<Result<_, String>>().map_err(broken)?;
     merge(layers).map_err(|HeightMap| {
@@ -72,15 +72,15 @@ fn decode(request: &Request, limits: &Limits) -> Result<RgbaImage, Fault> {
 }
 
 /// Why an image is not shown, and a remedy.
-type Fault = (String, &'static str);
+type ImageFault = (String, &'static str);
 
-fn broken(why: String) -> Fault {
+fn broken(why: String) -> ImageFault {
     (why, "save it as PNG, JPEG or WebP")
 }
 
 /// Which images are decoded, based on the sizes in their headers: in order, until the total would
 /// be too many pixels.
-fn within_budget(requests: &[Request], limits: &Limits) -> Vec<Result<(), Fault>> {
+fn within_budget(requests: &[Request], limits: &Limits) -> Vec<Result<(), ImageFault>> {
     let mut left = limits.total_pixels;
     let mut admit = |request: &Request| {
         for (_, bytes) in &request.layers {

@@ -111,13 +111,13 @@ pub(crate) struct EqualKeys<K> {
     /// Has a random seed, as in [`VertexTable`].
     hasher: RandomState,
     /// As many as there are threads: each has the keys whose hashes have its number in their uppermost bits.
-    parts: Vec<Part<K>>,
+    parts: Vec<TablePart<K>>,
     /// The number of keys so far.
     count: u32,
 }
 
 /// The different keys with some hashes.
-struct Part<K> {
+struct TablePart<K> {
     table: VertexTable,
     keys: Vec<K>,
     /// The number of each of them among all keys.
@@ -128,7 +128,7 @@ impl<K: Copy + Eq + Hash + Send + Sync> EqualKeys<K> {
     /// No keys, and room for so many different ones.
     pub(crate) fn with_capacity(different: usize) -> Self {
         let (hasher, parts) = (RandomState::default(), rayon::current_num_threads().max(1));
-        let part = |_| Part {
+        let part = |_| TablePart {
             table: VertexTable::with_hasher(different / parts, hasher.clone()),
             keys: Vec::new(),
             numbers: Vec::new(),
@@ -157,7 +157,7 @@ fn part_of(hash: u64, parts: usize) -> usize {
     (((hash >> 32) * parts as u64) >> 32) as usize
 }
 
-impl<K: Copy + Eq + Hash> Part<K> {
+impl<K: Copy + Eq + Hash> TablePart<K> {
     /// Adds those of some keys that are its own.
     fn add(
         &mut self,

@@ -9,18 +9,18 @@ use trigon_math::{DMat3, DQuat, DVec2, DVec3};
 
 use super::entry::pixels;
 use super::pose::{Axes, Direction, Pose, unit};
-use super::{CameraView, Draft, UNPLACED_NEAR};
+use super::{CameraDraft, CameraView, UNPLACED_NEAR};
 use crate::error::{LoadError, LoadErrorKind, Location};
 
 /// A lens, and the image that it makes.
 #[derive(Clone, Copy)]
-struct Lens {
+struct ColmapLens {
     projection: Projection,
     image: Viewport,
 }
 
 /// Reads the model in a folder.
-pub(super) fn read(folder: &Path, draft: &mut Draft<'_>) -> Result<(), LoadError> {
+pub(super) fn read(folder: &Path, draft: &mut CameraDraft<'_>) -> Result<(), LoadError> {
     let [cameras, images] = ["cameras.txt", "images.txt"].map(|name| folder.join(name));
     if !cameras.is_file() && folder.join("cameras.bin").is_file() {
         return Err(LoadError::new(
@@ -66,7 +66,7 @@ fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
 }
 
 /// A line `CAMERA_ID MODEL WIDTH HEIGHT PARAMETERS…`, and whether the lens distorts.
-fn lens(line: &str) -> Result<(u64, Lens, bool), String> {
+fn lens(line: &str) -> Result<(u64, ColmapLens, bool), String> {
     let words: Vec<&str> = line.split_whitespace().collect();
     let [id, model, width, height, parameters @ ..] = &words[..] else {
         return Err("a camera has an id, a model, a width, a height and parameters".to_owned());
@@ -98,11 +98,11 @@ fn lens(line: &str) -> Result<(u64, Lens, bool), String> {
     let center = DVec2::new(center[0], center[1]);
     let projection = Projection::pinhole(focal, center, image, PixelCenters::AtHalves, UNPLACED_NEAR);
     let projection = projection.map_err(|error| error.to_string())?;
-    Ok((id, Lens { projection, image }, distortion.iter().any(|parameter| *parameter != 0.0)))
+    Ok((id, ColmapLens { projection, image }, distortion.iter().any(|parameter| *parameter != 0.0)))
 }
 
 /// A line `IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME`.
-fn view(line: &str, lenses: &HashMap<u64, Lens>) -> Result<CameraView, String> {
+fn view(line: &str, lenses: &HashMap<u64, ColmapLens>) -> Result<CameraView, String> {
     // A name may contain spaces.
     let words: Vec<&str> = line.split_whitespace().collect();
     let [_, pose @ .., _, _] = words.get(..10).unwrap_or_default() else {

@@ -5,7 +5,7 @@ use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Viewport};
 use trigon_math::{DVec2, DVec3};
 
 use super::pose::{Axes, Direction, Pose};
-use super::{CameraView, Draft, UNPLACED_NEAR};
+use super::{CameraDraft, CameraView, UNPLACED_NEAR};
 use crate::error::Location;
 
 /// The members of a camera; others are told of.
@@ -30,7 +30,11 @@ const MEMBERS: [&str; 17] = [
 ];
 
 /// Reads the cameras of a file. An error has the number of its camera.
-pub(super) fn read(file: &Value, cameras: &[Value], draft: &mut Draft<'_>) -> Result<(), (usize, String)> {
+pub(super) fn read(
+    file: &Value,
+    cameras: &[Value],
+    draft: &mut CameraDraft<'_>,
+) -> Result<(), (usize, String)> {
     for (index, camera) in cameras.iter().enumerate() {
         // What `--json` writes says much about an image besides its camera.
         let members = camera.as_object().filter(|members| !members.contains_key("camera"));

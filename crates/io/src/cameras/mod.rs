@@ -69,7 +69,7 @@ pub fn load_cameras(
         path.file_name().is_some_and(|name| name == "images.txt" || name == "cameras.txt");
     let folder = path.parent().filter(|_| named_after_colmap);
     let mut draft =
-        Draft { image, limits, warnings: Warnings::about(path), views: Vec::new(), files: Vec::new() };
+        CameraDraft { image, limits, warnings: Warnings::about(path), views: Vec::new(), files: Vec::new() };
     match folder.or(path.is_dir().then_some(path)) {
         Some(folder) => colmap::read(folder, &mut draft)?,
         None => json(path, &mut draft)?,
@@ -84,7 +84,7 @@ pub fn load_cameras(
 }
 
 /// What was read so far.
-struct Draft<'a> {
+struct CameraDraft<'a> {
     /// The size of images that have none in the file.
     image: Viewport,
     limits: &'a Limits,
@@ -93,7 +93,7 @@ struct Draft<'a> {
     files: Vec<PathBuf>,
 }
 
-impl Draft<'_> {
+impl CameraDraft<'_> {
     /// The text of a file.
     fn text(&mut self, path: &Path) -> Result<String, LoadError> {
         let bytes = Folder::none(self.limits).read_model(path, &to_the_end)?;
@@ -103,7 +103,7 @@ impl Draft<'_> {
 }
 
 /// Reads a JSON file: `frames` are NeRF's, `cameras` or `views` ours.
-fn json(path: &Path, draft: &mut Draft<'_>) -> Result<(), LoadError> {
+fn json(path: &Path, draft: &mut CameraDraft<'_>) -> Result<(), LoadError> {
     const FORMS: &str = "write a list `cameras` (docs/cameras.md has the members), NeRF's `frames`, or name a folder with COLMAP's cameras.txt and images.txt";
     let text = draft.text(path)?;
     let file: Value = serde_json::from_str(&text)

@@ -7,11 +7,15 @@ use trigon_math::{DVec2, elementary};
 
 use super::entry::pixels;
 use super::pose::{Axes, Direction, Pose};
-use super::{CameraView, Draft, UNPLACED_NEAR};
+use super::{CameraDraft, CameraView, UNPLACED_NEAR};
 use crate::error::Location;
 
 /// Reads the frames of a file. An error has the number of its frame.
-pub(super) fn read(file: &Value, frames: &[Value], draft: &mut Draft<'_>) -> Result<(), (usize, String)> {
+pub(super) fn read(
+    file: &Value,
+    frames: &[Value],
+    draft: &mut CameraDraft<'_>,
+) -> Result<(), (usize, String)> {
     for (index, frame) in frames.iter().enumerate() {
         let lens = Lens { frame, file };
         let view = lens.view(draft.image).map_err(|what| (index, what))?;

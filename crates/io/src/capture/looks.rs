@@ -9,11 +9,11 @@ use trigon_scene::{
     TextureFormat, Wrap,
 };
 
-use super::stored::{Damage, Reader, Stored, Writer, choice, record};
+use super::stored::{CaptureReader, CaptureWriter, Damage, Stored, choice, record};
 
 /// Later parameters follow at the end of the capture.
 impl Stored for Material {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         self.name.write(to);
         self.base_color.write(to);
         self.base_color_texture.write(to);
@@ -29,7 +29,7 @@ impl Stored for Material {
         self.ior.write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         Ok(Self {
             name: Stored::read(from)?,
             base_color: Stored::read(from)?,
@@ -78,7 +78,7 @@ record!(Light { kind, color, intensity, range });
 choice!(LightKind { 0 => Ambient, 1 => Directional, 2 => Point, 3 => Spot { inner, outer } });
 
 impl Stored for TextureBinding {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         let Self { texture, uv_set, transform, sampler } = self;
         texture.write(to);
         (*uv_set as u64).write(to);
@@ -86,7 +86,7 @@ impl Stored for TextureBinding {
         sampler.write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let texture = Stored::read(from)?;
         let uv_set = usize::try_from(u64::read(from)?);
         let uv_set = uv_set.map_err(|_| Damage::malformed("there is no UV set of such a number"))?;
@@ -96,14 +96,14 @@ impl Stored for TextureBinding {
 
 /// The base level; the smaller ones are recomputed.
 impl Stored for Texture {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         self.format().write(to);
         self.width().write(to);
         self.height().write(to);
         self.texels().collect::<Vec<_>>().write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let (format, width, height) = (Stored::read(from)?, u32::read(from)?, u32::read(from)?);
         let pixels = u64::from(width) * u64::from(height);
         if pixels > from.limits.image_pixels {
@@ -126,15 +126,15 @@ const UP: u8 = 2;
 
 /// What a parameter is set to.
 #[derive(Clone, Copy, PartialEq)]
-enum Value {
+enum ParameterValue {
     Number(f32),
     Color(Vec3),
     Texture(Option<TextureBinding>),
 }
 
-choice!(Value { 0 => Number(number), 1 => Color(color), 2 => Texture(binding) });
+choice!(ParameterValue { 0 => Number(number), 1 => Color(color), 2 => Texture(binding) });
 
-impl Value {
+impl ParameterValue {
     /// What a material has; `None` where its shading model does not have the parameter.
     fn of(field: ParameterField, material: &mut Material) -> Option<Self> {
         match field {
@@ -170,7 +170,7 @@ fn listed() -> impl Iterator<Item = &'static ExtensionParameter> {
 /// parameter is no new version of the format.
 ///
 /// Writes what is not the default, if there is anything.
-pub(super) fn write(scene: &Scene, to: &mut Writer<'_>) {
+pub(super) fn write(scene: &Scene, to: &mut CaptureWriter<'_>) {
     if scene.up != UpAxis::default() {
         UP.write(to);
         // An axis made from its direction has the same bits.
@@ -179,18 +179,18 @@ pub(super) fn write(scene: &Scene, to: &mut Writer<'_>) {
     write_list(scene, to);
 }
 
-fn write_list(scene: &Scene, to: &mut Writer<'_>) {
+fn write_list(scene: &Scene, to: &mut CaptureWriter<'_>) {
     let mut count = 0_u64;
-    let mut listing = Writer { bytes: Vec::new(), scene };
+    let mut listing = CaptureWriter { bytes: Vec::new(), scene };
     for (id, material) in scene.materials.iter() {
         let mut plain = Material { shading: material.shading, ..Material::default() };
         if let Some(model) = plain.shading.metallic_roughness_mut() {
             *model = MetallicRoughness::default();
         }
         for row in listed() {
-            let value = Value::of(row.field, &mut material.clone());
+            let value = ParameterValue::of(row.field, &mut material.clone());
             if let Some(value) =
-                value.filter(|&value| Value::of(row.field, &mut plain.clone()) != Some(value))
+                value.filter(|&value| ParameterValue::of(row.field, &mut plain.clone()) != Some(value))
             {
                 count += 1;
                 id.write(&mut listing);
@@ -207,7 +207,7 @@ fn write_list(scene: &Scene, to: &mut Writer<'_>) {
 }
 
 /// Reads what [`write`](fn@write) wrote.
-pub(super) fn read(scene: &mut Scene, from: &mut Reader<'_>) -> Result<(), Damage> {
+pub(super) fn read(scene: &mut Scene, from: &mut CaptureReader<'_>) -> Result<(), Damage> {
     while !from.is_at_end() {
         match u8::read(from)? {
             UP => scene.up = UpAxis::new(Stored::read(from)?),
@@ -218,11 +218,11 @@ pub(super) fn read(scene: &mut Scene, from: &mut Reader<'_>) -> Result<(), Damag
     Ok(())
 }
 
-fn read_list(scene: &mut Scene, from: &mut Reader<'_>) -> Result<(), Damage> {
-    for _ in 0..from.count(size_of::<Value>())? {
+fn read_list(scene: &mut Scene, from: &mut CaptureReader<'_>) -> Result<(), Damage> {
+    for _ in 0..from.count(size_of::<ParameterValue>())? {
         let id = Stored::read(from)?;
         let (extension, name) = <(String, String)>::read(from)?;
-        let value = Value::read(from)?;
+        let value = ParameterValue::read(from)?;
         let row = listed().find(|row| (row.extension, row.name) == (&extension, &name));
         let row = row.ok_or_else(|| {
             Damage::malformed(format!("this version of trigon does not know {name} of {extension}"))

@@ -4,7 +4,7 @@
 use trigon_mesh::{Attributes, Deltas, Mesh, MeshBuilder, MeshError, MorphTarget, SkinWeights};
 use trigon_scene::{ElementSet, FixedBitSet, Mark, Marks, NodeId, VertexPoints};
 
-use super::stored::{Damage, Reader, Stored, Writer, record};
+use super::stored::{CaptureReader, CaptureWriter, Damage, Stored, record};
 
 record!(Attributes {
     corner_normals,
@@ -20,7 +20,7 @@ record!(Attributes {
 record!(MorphTarget { name, positions, normals, tangents });
 
 impl Stored for Mesh {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         self.positions().to_vec().write(to);
         self.faces().map(|corners| corners.len() as u32).collect::<Vec<_>>().write(to);
         self.corner_vertices().to_vec().write(to);
@@ -29,7 +29,7 @@ impl Stored for Mesh {
         self.attributes().write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let mut builder = MeshBuilder::new();
         for position in Vec::read(from)? {
             builder.push_vertex(position);
@@ -60,23 +60,23 @@ fn broken(error: MeshError) -> Damage {
 }
 
 impl Stored for Deltas {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         self.iter().collect::<Vec<_>>().write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         Stored::read(from).map(Self::new)
     }
 }
 
 impl Stored for SkinWeights {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         (self.per_vertex() as u32).write(to);
         self.joints().to_vec().write(to);
         self.weights().to_vec().write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let per_vertex = u32::read(from)?;
         let (joints, weights) = (Stored::read(from)?, Stored::read(from)?);
         let skin = Self::from_normalized(per_vertex as usize, joints, weights);
@@ -93,12 +93,12 @@ record!(VertexPoints { size, marked_size, color });
 
 /// For each node its number of elements, and a bit for each, from the lowest of a word on.
 impl Stored for ElementSet {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         let of_nodes = self.nodes().map(|(node, bits)| (node, (bits.len() as u32, words(bits))));
         of_nodes.collect::<Vec<_>>().write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let mut set = Self::default();
         for (node, (count, words)) in Vec::<(NodeId, (u32, Vec<u32>))>::read(from)? {
             set.add(node, bits(count as usize, &words)?);

@@ -34,7 +34,7 @@ use stored::Stored;
 use trigon_camera::Camera;
 use trigon_scene::{Frame, RenderSettings, Scene};
 
-use self::stored::{Damage, Reader, Writer};
+use self::stored::{CaptureReader, CaptureWriter, Damage};
 use super::error::{LoadError, LoadErrorKind};
 use super::folder::{Folder, to_the_end};
 use super::options::Limits;
@@ -107,7 +107,7 @@ impl Capture {
     /// The file.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut to = Writer { bytes: Vec::new(), scene: &self.scene };
+        let mut to = CaptureWriter { bytes: Vec::new(), scene: &self.scene };
         self.scene.write(&mut to);
         self.settings.write(&mut to);
         self.camera.write(&mut to);
@@ -142,13 +142,13 @@ impl Capture {
     pub fn from_bytes(name: impl AsRef<Path>, bytes: &[u8], limits: &Limits) -> Result<Self, LoadError> {
         let name = name.as_ref();
         let (program, compressed) = opened(name, bytes)?;
-        Self::read_parts(program, Reader::new(compressed, limits)).map_err(|damage| match damage {
+        Self::read_parts(program, CaptureReader::new(compressed, limits)).map_err(|damage| match damage {
             Damage::Malformed(what) => LoadError::malformed(name, what, CAPTURE_AGAIN),
             Damage::Limit(what) => LoadError::limit(name, what),
         })
     }
 
-    fn read_parts(program: String, mut from: Reader<'_>) -> Result<Self, Damage> {
+    fn read_parts(program: String, mut from: CaptureReader<'_>) -> Result<Self, Damage> {
         let (mut scene, settings) = (Scene::read(&mut from)?, RenderSettings::read(&mut from)?);
         let (camera, color) = (Camera::read(&mut from)?, Vec::<u8>::read(&mut from)?);
         let pixels = u64::from(settings.width) * u64::from(settings.height);

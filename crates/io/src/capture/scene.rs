@@ -11,7 +11,7 @@ use trigon_scene::{
 };
 
 use super::stored::Table;
-use super::stored::{Damage, Reader, Stored, Writer, choice, record};
+use super::stored::{CaptureReader, CaptureWriter, Damage, Stored, choice, record};
 
 record!(Skin { name, joints, inverse_bind_matrices });
 record!(Animation { name, channels });
@@ -21,7 +21,7 @@ choice!(Interpolation { 0 => Step, 1 => Linear, 2 => CubicSpline });
 choice!(Transform { 0 => Decomposed { translation, rotation, scale }, 1 => Affine(affine) });
 
 impl Stored for Scene {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         write_slots(to, &self.textures, Stored::write);
         (self.meshes().len() as u64).write(to);
         for (_, asset) in self.meshes().iter() {
@@ -40,7 +40,7 @@ impl Stored for Scene {
         self.animations.write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let mut scene = Self::new();
         from.ids.textures = read_arena(from, &mut scene.textures, one_texel)?;
         for _ in 0..part_count::<MeshAsset>(from)? {
@@ -67,7 +67,7 @@ impl Stored for Scene {
 
 /// Everything except parent and children, which are restored at the end.
 impl Stored for Node {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         let Self { name, transform, mesh, materials, skin, morph_weights, light, camera, visible, .. } = self;
         name.write(to);
         transform.write(to);
@@ -80,7 +80,7 @@ impl Stored for Node {
         visible.write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let mut node = Self::default();
         node.name = Stored::read(from)?;
         node.transform = Stored::read(from)?;
@@ -96,14 +96,14 @@ impl Stored for Node {
 }
 
 impl Stored for Curve {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         self.interpolation().write(to);
         (self.width() as u32).write(to);
         self.times().to_vec().write(to);
         self.values().to_vec().write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let (interpolation, width) = (Stored::read(from)?, u32::read(from)?);
         let curve = Self::new(interpolation, width as usize, Stored::read(from)?, Stored::read(from)?);
         curve.ok_or_else(|| Damage::malformed("the keyframes of a curve do not fit each other"))
@@ -111,7 +111,7 @@ impl Stored for Curve {
 }
 
 /// The items of an arena up to the last one, and which slots are empty.
-fn write_slots<T>(to: &mut Writer<'_>, arena: &Arena<T>, write: impl Fn(&T, &mut Writer<'_>)) {
+fn write_slots<T>(to: &mut CaptureWriter<'_>, arena: &Arena<T>, write: impl Fn(&T, &mut CaptureWriter<'_>)) {
     let count = arena.iter().last().map_or(0, |(id, _)| id.index() + 1);
     (count as u64).write(to);
     for index in 0..count {
@@ -122,7 +122,7 @@ fn write_slots<T>(to: &mut Writer<'_>, arena: &Arena<T>, write: impl Fn(&T, &mut
 }
 
 /// The number of parts of a kind that follow.
-fn part_count<T>(from: &mut Reader<'_>) -> Result<usize, Damage> {
+fn part_count<T>(from: &mut CaptureReader<'_>) -> Result<usize, Damage> {
     let (count, allowed) = (from.count(size_of::<T>())?, from.limits.nodes);
     if count > allowed {
         return Err(Damage::Limit(format!("a scene has {count} parts of a kind, {allowed} are allowed")));
@@ -139,7 +139,7 @@ struct Slots<T> {
 
 /// The ids that `insert` returns for the content of each slot, and for placeholders.
 fn read_slots<T, I: Stored>(
-    from: &mut Reader<'_>,
+    from: &mut CaptureReader<'_>,
     mut insert: impl FnMut(Option<I>) -> Id<T>,
 ) -> Result<Slots<T>, Damage> {
     let mut slots = Slots { ids: Vec::new(), stand_ins: Vec::new() };
@@ -164,7 +164,7 @@ impl<T> Slots<T> {
 }
 
 fn read_arena<T: Stored>(
-    from: &mut Reader<'_>,
+    from: &mut CaptureReader<'_>,
     arena: &mut Arena<T>,
     stand_in: impl Fn() -> T,
 ) -> Result<Table<T>, Damage> {
@@ -178,7 +178,7 @@ fn one_texel() -> TextureAsset {
 }
 
 /// Reads the children of every node and sets their parents.
-pub(super) fn read(from: &mut Reader<'_>, scene: &mut Scene) -> Result<(), Damage> {
+pub(super) fn read(from: &mut CaptureReader<'_>, scene: &mut Scene) -> Result<(), Damage> {
     let nodes: Vec<NodeId> = scene.nodes().iter().map(|(id, _)| id).collect();
     let mut children = vec![Vec::<NodeId>::new(); scene.nodes().index_bound()];
     let mut is_root = vec![true; scene.nodes().index_bound()];

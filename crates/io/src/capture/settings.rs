@@ -8,7 +8,7 @@ use trigon_scene::{
     Style, ToneMapping,
 };
 
-use super::stored::{Damage, Reader, Writer};
+use super::stored::{CaptureReader, CaptureWriter, Damage};
 use super::stored::{Stored, choice, record};
 
 record!(EffectSettings {
@@ -25,7 +25,7 @@ record!(EffectSettings {
 
 /// As a number of bounces, of which the largest bit says that glass alone has them.
 impl Stored for SightRays {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         match *self {
             Self::Off => 0,
             Self::Glass { bounces } => bounces | GLASS_ALONE,
@@ -34,7 +34,7 @@ impl Stored for SightRays {
         .write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let number = u32::read(from)?;
         let bounces = number & !GLASS_ALONE;
         Ok(if number == bounces { Self::all(bounces) } else { Self::Glass { bounces } })
@@ -74,7 +74,7 @@ choice!(Reflection { 0 => Material, 1 => Lambert, 2 => BlinnPhong, 3 => Metallic
 /// A sky's colours after a side of 0, or the map of directions. What follows from them is
 /// recomputed.
 impl Stored for Environment {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         if let Some(Sky { zenith, horizon, ground }) = self.sky() {
             0_u32.write(to);
             return [*zenith, *horizon, *ground].iter().for_each(|color| color.write(to));
@@ -84,7 +84,7 @@ impl Stored for Environment {
         texels.write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let side = u32::read(from)?;
         if side == 0 {
             let [zenith, horizon, ground] = [Stored::read(from)?, Stored::read(from)?, Stored::read(from)?];
@@ -96,7 +96,7 @@ impl Stored for Environment {
 }
 
 impl Stored for RenderSettings {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         let Self { width, height, samples_per_axis, samples, background, style, line_width, .. } = self;
         [*width, *height, *samples_per_axis, *samples].write(to);
         background.write(to);
@@ -119,7 +119,7 @@ impl Stored for RenderSettings {
         effects.write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let [width, height, samples_per_axis, samples] = Stored::read(from)?;
         Ok(Self {
             width,
@@ -150,14 +150,14 @@ impl Stored for RenderSettings {
 }
 
 impl Stored for Camera {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         let Self { position, orientation, projection } = self;
         position.write(to);
         orientation.write(to);
         projection.write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let (position, orientation): (DVec3, DQuat) = (Stored::read(from)?, Stored::read(from)?);
         if !position.is_finite() || !orientation.is_normalized() {
             return Err(Damage::malformed("the camera has no valid position or rotation"));
@@ -173,7 +173,7 @@ struct Planes {
 }
 
 impl Stored for Projection {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         let (kind, shape): (u8, Vec<f64>) = match *self {
             Self::Perspective { vertical_fov, .. } => (0, vec![vertical_fov]),
             Self::Orthographic { height, .. } => (1, vec![height]),
@@ -188,7 +188,7 @@ impl Stored for Projection {
         self.far().write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let kind = u8::read(from)?;
         let made = match kind {
             0 => {
@@ -213,7 +213,7 @@ impl Stored for Projection {
     }
 }
 
-fn parts<const N: usize>(from: &mut Reader<'_>) -> Result<([f64; N], Planes), Damage> {
+fn parts<const N: usize>(from: &mut CaptureReader<'_>) -> Result<([f64; N], Planes), Damage> {
     Ok((Stored::read(from)?, Planes { near: Stored::read(from)?, far: Stored::read(from)? }))
 }
 

@@ -18,20 +18,20 @@ use crate::options::Limits;
 
 /// A value that a capture can contain.
 pub(super) trait Stored: Sized {
-    fn write(&self, to: &mut Writer<'_>);
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage>;
+    fn write(&self, to: &mut CaptureWriter<'_>);
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage>;
 }
 
 /// A struct with all its fields. Omitting one does not compile.
 macro_rules! record {
     ($type:ty { $($field:ident),+ $(,)? }) => {
         impl Stored for $type {
-            fn write(&self, to: &mut Writer<'_>) {
+            fn write(&self, to: &mut CaptureWriter<'_>) {
                 let Self { $($field),+ } = self;
                 $($field.write(to);)+
             }
 
-            fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+            fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
                 Ok(Self { $($field: Stored::read(from)?),+ })
             }
         }
@@ -43,7 +43,7 @@ pub(super) use record;
 macro_rules! choice {
     ($type:ty { $($number:literal => $variant:ident $({ $($field:ident),+ })? $(($inner:ident))?),+ $(,)? }) => {
         impl Stored for $type {
-            fn write(&self, to: &mut Writer<'_>) {
+            fn write(&self, to: &mut CaptureWriter<'_>) {
                 match self {
                     $(Self::$variant $({ $($field),+ })? $(($inner))? => {
                         to.bytes.push($number);
@@ -53,7 +53,7 @@ macro_rules! choice {
                 }
             }
 
-            fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+            fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
                 Ok(match u8::read(from)? {
                     $($number => {
                         $(let $inner = Stored::read(from)?;)?
@@ -73,11 +73,11 @@ pub(super) use choice;
 macro_rules! number {
     ($($type:ty),+) => {$(
         impl Stored for $type {
-            fn write(&self, to: &mut Writer<'_>) {
+            fn write(&self, to: &mut CaptureWriter<'_>) {
                 to.bytes.extend(self.to_le_bytes());
             }
 
-            fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+            fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
                 from.bytes().map(Self::from_le_bytes)
             }
         }
@@ -89,11 +89,11 @@ number!(u8, u16, u32, u64, f32, f64);
 macro_rules! vector {
     ($($type:ty: $to:ident, $from:ident, $array:ty;)+) => {$(
         impl Stored for $type {
-            fn write(&self, to: &mut Writer<'_>) {
+            fn write(&self, to: &mut CaptureWriter<'_>) {
                 self.$to().write(to);
             }
 
-            fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+            fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
                 <$array>::read(from).map(Self::$from)
             }
         }
@@ -112,11 +112,11 @@ record!(DMat3 { x_axis, y_axis, z_axis });
 record!(DAffine3 { matrix3, translation });
 
 impl<T: Stored, const N: usize> Stored for [T; N] {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         self.iter().for_each(|item| item.write(to));
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let mut items = Vec::with_capacity(N);
         for _ in 0..N {
             items.push(T::read(from)?);
@@ -126,30 +126,30 @@ impl<T: Stored, const N: usize> Stored for [T; N] {
 }
 
 impl<A: Stored, B: Stored> Stored for (A, B) {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         self.0.write(to);
         self.1.write(to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         Ok((A::read(from)?, B::read(from)?))
     }
 }
 
 impl Stored for () {
-    fn write(&self, _: &mut Writer<'_>) {}
+    fn write(&self, _: &mut CaptureWriter<'_>) {}
 
-    fn read(_: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(_: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         Ok(())
     }
 }
 
 impl Stored for bool {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         to.bytes.push(u8::from(*self));
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         match u8::read(from)? {
             0 => Ok(false),
             1 => Ok(true),
@@ -159,59 +159,59 @@ impl Stored for bool {
 }
 
 impl<T: Stored> Stored for Option<T> {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         self.is_some().write(to);
         self.iter().for_each(|item| item.write(to));
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         bool::read(from)?.then(|| T::read(from)).transpose()
     }
 }
 
 impl<T: Stored> Stored for Arc<T> {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         T::write(self, to);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         T::read(from).map(Self::new)
     }
 }
 
 impl<T: Stored> Stored for Vec<T> {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         (self.len() as u64).write(to);
         self.iter().for_each(|item| item.write(to));
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         // Not reserved: a length is trusted only as far as its items arrive.
         (0..from.count(size_of::<T>())?).map(|_| T::read(from)).collect()
     }
 }
 
 impl Stored for String {
-    fn write(&self, to: &mut Writer<'_>) {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
         (self.len() as u64).write(to);
         to.bytes.extend(self.as_bytes());
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let length = from.count(1)?;
         Self::from_utf8(from.run(length)?).map_err(|_| Damage::malformed("a name is not text"))
     }
 }
 
 /// Receives the parts of a capture, uncompressed.
-pub(super) struct Writer<'a> {
+pub(super) struct CaptureWriter<'a> {
     pub(super) bytes: Vec<u8>,
     /// Ids are written relative to the existing items of this.
     pub(super) scene: &'a Scene,
 }
 
 /// Returns them.
-pub(super) struct Reader<'a> {
+pub(super) struct CaptureReader<'a> {
     stream: BufReader<ZlibDecoder<&'a [u8]>>,
     /// The remaining memory budget in bytes.
     left: u64,
@@ -235,7 +235,7 @@ impl Damage {
     }
 }
 
-impl<'a> Reader<'a> {
+impl<'a> CaptureReader<'a> {
     /// Reads compressed parts. Their memory is limited by that for all files of a model.
     pub(super) fn new(compressed: &'a [u8], limits: &'a Limits) -> Self {
         let stream = BufReader::new(ZlibDecoder::new(compressed));
@@ -312,13 +312,13 @@ pub(super) struct Ids {
 macro_rules! id {
     ($($type:ty: $table:ident, $arena:expr;)+) => {$(
         impl Stored for $type {
-            fn write(&self, to: &mut Writer<'_>) {
+            fn write(&self, to: &mut CaptureWriter<'_>) {
                 let arena: fn(&Scene) -> &Arena<_> = $arena;
                 let is_alive = arena(to.scene).get(*self).is_some();
                 if is_alive { self.index() as u32 } else { GONE }.write(to);
             }
 
-            fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+            fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
                 let index = u32::read(from)?;
                 let table = &from.ids.$table;
                 let found = if index == GONE { table.gone } else { table.ids.get(index as usize).copied() };

@@ -190,13 +190,13 @@ impl<'a> Object<'a> {
 ///
 /// The values that vertices need.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Columns {
+pub(crate) struct VertexColumns {
     pub(crate) normals: bool,
     pub(crate) uvs: bool,
     pub(crate) colors: bool,
 }
 
-impl Columns {
+impl VertexColumns {
     /// Those of these that any object has.
     pub(crate) fn found(self, gathered: &Gathered<'_>) -> Self {
         let any = |has: fn(&Object<'_>) -> bool| gathered.objects.iter().any(has);
@@ -210,22 +210,22 @@ impl Columns {
 
 /// The values of a vertex. Values that are not requested keep those of `Default`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Values {
+pub(crate) struct VertexValues {
     pub(crate) normal: Vec3,
     pub(crate) uv: Vec2,
     /// Linear, with alpha.
     pub(crate) color: Vec4,
 }
 
-impl Default for Values {
+impl Default for VertexValues {
     fn default() -> Self {
         Self { normal: Vec3::ZERO, uv: Vec2::ZERO, color: Vec4::ONE }
     }
 }
 
-impl Values {
+impl VertexValues {
     /// `normals` are those of the mesh's corners, or none of them.
-    fn of(object: &Object<'_>, corner: u32, columns: Columns, normals: &[Vec3]) -> Self {
+    fn of(object: &Object<'_>, corner: u32, columns: VertexColumns, normals: &[Vec3]) -> Self {
         let (attributes, mut values) = (object.mesh.attributes(), Self::default());
         if let Some(&normal) = normals.get(corner as usize) {
             values.normal = object.turned(normal);
@@ -250,9 +250,9 @@ type Others = HashMap<(u32, [u32; 9]), u32>;
 
 /// The vertices of all objects, one object after the other.
 #[derive(Default)]
-pub(crate) struct VertexTable {
+pub(crate) struct ExportedVertices {
     pub(crate) positions: Vec<DVec3>,
-    pub(crate) values: Vec<Values>,
+    pub(crate) values: Vec<VertexValues>,
     /// The vertices of all faces.
     pub(crate) corner_vertices: Vec<u32>,
     pub(crate) edges: Vec<[u32; 2]>,
@@ -260,8 +260,8 @@ pub(crate) struct VertexTable {
     pub(crate) split: usize,
 }
 
-impl VertexTable {
-    pub(crate) fn new(gathered: &Gathered<'_>, columns: Columns) -> Self {
+impl ExportedVertices {
+    pub(crate) fn new(gathered: &Gathered<'_>, columns: VertexColumns) -> Self {
         let mut table = Self::default();
         for object in &gathered.objects {
             table.add(gathered, object, columns);
@@ -269,11 +269,11 @@ impl VertexTable {
         table
     }
 
-    fn add(&mut self, gathered: &Gathered<'_>, object: &Object<'_>, columns: Columns) {
+    fn add(&mut self, gathered: &Gathered<'_>, object: &Object<'_>, columns: VertexColumns) {
         let base = self.positions.len();
         let count = object.mesh.vertex_count();
         self.positions.extend((0..count as u32).map(|vertex| gathered.position(object, vertex)));
-        self.values.resize(base + count, Values::default());
+        self.values.resize(base + count, VertexValues::default());
         let mut is_known = vec![false; count];
         // Such files know no smooth faces: their normals say it.
         let has_normals = columns.normals && object.is_shaded();
@@ -281,7 +281,7 @@ impl VertexTable {
         let mut others = Others::new();
         for &corner in &object.corners {
             let vertex = object.vertex(corner);
-            let values = Values::of(object, corner, columns, &normals);
+            let values = VertexValues::of(object, corner, columns, &normals);
             if !std::mem::replace(&mut is_known[vertex as usize], true) {
                 self.values[base + vertex as usize] = values;
             }
@@ -298,14 +298,14 @@ impl VertexTable {
             let edge = edge.map(|end| {
                 let values = self.values[base + end as usize];
                 let color = colors.map_or(values.color, |colors| colors[end as usize]);
-                self.number(base, end, Values { color, ..values }, &mut others)
+                self.number(base, end, VertexValues { color, ..values }, &mut others)
             });
             self.edges.push(edge);
         }
     }
 
     /// The number of a vertex of an object with some values: its own if it has them, else that of a copy.
-    fn number(&mut self, base: usize, vertex: u32, values: Values, others: &mut Others) -> u32 {
+    fn number(&mut self, base: usize, vertex: u32, values: VertexValues, others: &mut Others) -> u32 {
         let own = base + vertex as usize;
         if self.values[own].bits() == values.bits() {
             return own as u32;

@@ -18,7 +18,7 @@ use super::gltf_source::GltfSource;
 use super::write::{WriteError, write_atomically};
 
 pub(crate) use super::numbers::{Precision, number_text, push_number};
-pub(crate) use gather::{Columns, Gathered, Object, VertexTable};
+pub(crate) use gather::{ExportedVertices, Gathered, Object, VertexColumns};
 
 /// The faces of a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

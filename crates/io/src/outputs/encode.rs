@@ -12,7 +12,7 @@ use exr::prelude::{
 use trigon_math::color;
 use trigon_scene::Frame;
 
-use super::{Output, Values};
+use super::{Output, OutputValues};
 use crate::encode_image::{Pixels, encode_png, write_png};
 use crate::write::{WriteError, write_atomically};
 
@@ -28,7 +28,7 @@ const ALIGNMENT: usize = 64;
 /// # Errors
 /// When the frame does not hold the output, or the file cannot be written.
 pub fn write_npy(path: impl AsRef<Path>, frame: &Frame, output: Output) -> Result<(), WriteError> {
-    let values = Values::checked(frame, output)?;
+    let values = OutputValues::checked(frame, output)?;
     write_atomically(path.as_ref(), |file| npy_bytes(file, frame, values))
 }
 
@@ -37,7 +37,7 @@ pub fn write_npy(path: impl AsRef<Path>, frame: &Frame, output: Output) -> Resul
 /// # Errors
 /// When the frame does not hold the output, or the writer fails.
 pub fn encode_npy(writer: impl Write, frame: &Frame, output: Output) -> Result<(), WriteError> {
-    let values = Values::checked(frame, output)?;
+    let values = OutputValues::checked(frame, output)?;
     let mut writer = BufWriter::new(writer);
     npy_bytes(&mut writer, frame, values)?;
     Ok(writer.flush()?)
@@ -54,28 +54,31 @@ pub fn write_origin_npy(path: impl AsRef<Path>, frame: &Frame) -> Result<(), Wri
     })
 }
 
-fn npy_bytes(writer: &mut dyn Write, frame: &Frame, values: Values<'_>) -> io::Result<()> {
+fn npy_bytes(writer: &mut dyn Write, frame: &Frame, values: OutputValues<'_>) -> io::Result<()> {
     let last = values.per_pixel().map(|numbers| format!(", {numbers}")).unwrap_or_default();
     let shape = format!("{}, {}{last}", frame.height, frame.width);
     writer.write_all(&npy_header(kind(values), &shape))?;
     let mut floats =
         |numbers: &[f32]| numbers.iter().try_for_each(|number| writer.write_all(&number.to_le_bytes()));
     match values {
-        Values::Colors(bytes) => writer.write_all(bytes),
-        Values::Floats(numbers) => floats(numbers),
-        Values::Pairs(pairs) => pairs.iter().try_for_each(|pair| floats(&pair.to_array())),
-        Values::Vectors(vectors) => vectors.iter().try_for_each(|vector| floats(&vector.to_array())),
-        Values::Lights(lights) => lights.iter().try_for_each(|light| floats(&light.to_array())),
-        Values::Ids(ids) => ids.iter().try_for_each(|id| writer.write_all(&id.to_le_bytes())),
+        OutputValues::Colors(bytes) => writer.write_all(bytes),
+        OutputValues::Floats(numbers) => floats(numbers),
+        OutputValues::Pairs(pairs) => pairs.iter().try_for_each(|pair| floats(&pair.to_array())),
+        OutputValues::Vectors(vectors) => vectors.iter().try_for_each(|vector| floats(&vector.to_array())),
+        OutputValues::Lights(lights) => lights.iter().try_for_each(|light| floats(&light.to_array())),
+        OutputValues::Ids(ids) => ids.iter().try_for_each(|id| writer.write_all(&id.to_le_bytes())),
     }
 }
 
 /// What the numbers are.
-fn kind(values: Values<'_>) -> &'static str {
+fn kind(values: OutputValues<'_>) -> &'static str {
     match values {
-        Values::Colors(_) => "|u1",
-        Values::Ids(_) => "<u4",
-        Values::Floats(_) | Values::Pairs(_) | Values::Vectors(_) | Values::Lights(_) => "<f4",
+        OutputValues::Colors(_) => "|u1",
+        OutputValues::Ids(_) => "<u4",
+        OutputValues::Floats(_)
+        | OutputValues::Pairs(_)
+        | OutputValues::Vectors(_)
+        | OutputValues::Lights(_) => "<f4",
     }
 }
 
@@ -128,7 +131,7 @@ pub fn encode_exr(mut writer: impl Write, frame: &Frame) -> Result<(), WriteErro
 /// The file. It is put together in memory, because its table of offsets at the front
 /// is known last.
 fn exr_bytes(frame: &Frame) -> Result<Vec<u8>, WriteError> {
-    let values = Values::all(frame)?;
+    let values = OutputValues::all(frame)?;
     let shown = |output| output != Output::Color || frame.radiance.is_none();
     let values = values.into_iter().filter(|&(output, _)| shown(output));
     let channels = values.flat_map(|(output, values)| channels(output, values)).collect();
@@ -158,21 +161,23 @@ fn attributes(frame: &Frame) -> LayerAttributes {
     attributes
 }
 
-fn channels(output: Output, values: Values<'_>) -> Vec<Channel> {
+fn channels(output: Output, values: OutputValues<'_>) -> Vec<Channel> {
     match values {
-        Values::Colors(bytes) => colors(bytes),
-        Values::Floats(numbers) => vec![channel(channel_name(output), FlatSamples::F32(numbers.to_vec()))],
-        Values::Ids(ids) => vec![channel(channel_name(output), FlatSamples::U32(ids.to_vec()))],
-        Values::Pairs(pairs) => {
+        OutputValues::Colors(bytes) => colors(bytes),
+        OutputValues::Floats(numbers) => {
+            vec![channel(channel_name(output), FlatSamples::F32(numbers.to_vec()))]
+        }
+        OutputValues::Ids(ids) => vec![channel(channel_name(output), FlatSamples::U32(ids.to_vec()))],
+        OutputValues::Pairs(pairs) => {
             let axis = |axis: usize| FlatSamples::F32(pairs.iter().map(|pair| pair[axis]).collect());
             vec![channel("U", axis(0)), channel("V", axis(1))]
         }
-        Values::Lights(lights) => {
+        OutputValues::Lights(lights) => {
             let column = |at: usize| FlatSamples::F32(lights.iter().map(|light| light[at]).collect());
             let channels = ["R", "G", "B", "A"].into_iter().enumerate();
             channels.map(|(at, axis)| channel(axis, column(at))).collect()
         }
-        Values::Vectors(vectors) => {
+        OutputValues::Vectors(vectors) => {
             let axes = if output == Output::Albedo { ["R", "G", "B"] } else { ["X", "Y", "Z"] };
             let column = |axis: usize| FlatSamples::F32(vectors.iter().map(|vector| vector[axis]).collect());
             (0..3)
@@ -237,7 +242,7 @@ const STEP: f32 = 1e-3;
 /// When the frame does not hold the output, a value of it does not fit, or the file
 /// cannot be written. Nothing is cut off silently.
 pub fn write_png16(path: impl AsRef<Path>, frame: &Frame, output: Output) -> Result<(), WriteError> {
-    let numbers = Numbers::new(frame, output)?;
+    let numbers = EncodedNumbers::new(frame, output)?;
     write_png(path, frame.width, frame.height, numbers.pixels())
 }
 
@@ -246,26 +251,26 @@ pub fn write_png16(path: impl AsRef<Path>, frame: &Frame, output: Output) -> Res
 /// # Errors
 /// As [`write_png16`].
 pub fn encode_png16(writer: impl Write, frame: &Frame, output: Output) -> Result<(), WriteError> {
-    let numbers = Numbers::new(frame, output)?;
+    let numbers = EncodedNumbers::new(frame, output)?;
     encode_png(writer, frame.width, frame.height, numbers.pixels())
 }
 
-enum Numbers {
+enum EncodedNumbers {
     Gray(Vec<u16>),
     Rgb(Vec<u16>),
 }
 
-impl Numbers {
+impl EncodedNumbers {
     fn new(frame: &Frame, output: Output) -> Result<Self, WriteError> {
-        let values = Values::checked(frame, output)?;
+        let values = OutputValues::checked(frame, output)?;
         match (output, values) {
-            (Output::Depth, Values::Floats(depths)) => {
+            (Output::Depth, OutputValues::Floats(depths)) => {
                 Ok(Self::Gray(depths.iter().map(|&depth| millimetres(depth)).collect::<Result<_, _>>()?))
             }
-            (_, Values::Ids(ids)) => {
+            (_, OutputValues::Ids(ids)) => {
                 Ok(Self::Gray(ids.iter().map(|&id| short(output, id)).collect::<Result<_, _>>()?))
             }
-            (Output::Normals | Output::GeometricNormals, Values::Vectors(normals)) => {
+            (Output::Normals | Output::GeometricNormals, OutputValues::Vectors(normals)) => {
                 Ok(Self::Rgb(normals.iter().flat_map(|normal| normal.to_array().map(direction)).collect()))
             }
             _ => Err(WriteError::Unfit {

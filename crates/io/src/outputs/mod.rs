@@ -140,7 +140,7 @@ impl FromStr for Output {
 
 /// The numbers of an output, pixel by pixel.
 #[derive(Clone, Copy, Debug)]
-enum Values<'a> {
+enum OutputValues<'a> {
     /// Red, green, blue and alpha.
     Colors(&'a [u8]),
     Floats(&'a [f32]),
@@ -151,7 +151,7 @@ enum Values<'a> {
     Lights(&'a [Vec4]),
 }
 
-impl<'a> Values<'a> {
+impl<'a> OutputValues<'a> {
     /// What the frame holds of an output; `None` when that was not asked for.
     fn of(frame: &'a Frame, output: Output) -> Option<Self> {
         let vectors = |list: &'a Option<Vec<Vec3>>| list.as_deref().map(Self::Vectors);

@@ -11,7 +11,7 @@ use gltf::json::Root;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::validation::Checked;
 
-use super::buffers::{Buffers, Bytes, Unplaced, Unread};
+use super::buffers::{Buffers, Bytes, Unplaced, UnreadReason};
 use super::packed::{Unpacked, UnpackedAttribute};
 use crate::error::{LoadErrorKind, Location};
 use crate::folder::Folder;
@@ -71,7 +71,7 @@ const ALL_TYPES: &[Type] =
 
 /// The location of an accessor's elements in the bytes of a view.
 #[derive(Clone, Copy)]
-struct Layout {
+struct AccessorLayout {
     count: usize,
     /// Bytes from one element to the next.
     stride: usize,
@@ -100,7 +100,7 @@ impl Accessors<'_> {
         }
         let what = format!("the primitives up to here make more than {most} corners of what the file holds");
         let remedy = "let nodes share a mesh instead of repeating its primitives";
-        Err(Unplaced(location.clone(), Unread { kind: LoadErrorKind::Limit, what, remedy }))
+        Err(Unplaced(location.clone(), UnreadReason { kind: LoadErrorKind::Limit, what, remedy }))
     }
 
     /// Decodes an accessor of a vector type to f32. `allowed` are the valid types; `N` is the size
@@ -126,7 +126,7 @@ impl Accessors<'_> {
                 let one = &values.0[at..at + layout.stride];
                 read_vectors(
                     one,
-                    &Layout { count: 1, start: 0, ..layout },
+                    &AccessorLayout { count: 1, start: 0, ..layout },
                     std::iter::once(&mut elements[target]),
                 );
                 at += layout.stride;
@@ -146,7 +146,7 @@ impl Accessors<'_> {
         let size = layout.component.size() * layout.components;
         let (Some((buffer, range)), Some(kind)) = (bytes, valid(&accessor.type_)) else { return Ok(None) };
         let start = range.start + layout.start;
-        let Layout { count, component, normalized, .. } = layout;
+        let AccessorLayout { count, component, normalized, .. } = layout;
         let bytes = (buffer, start..start + count * size);
         Ok((layout.stride == size).then_some(TightBytes { bytes, component, kind, normalized, count }))
     }
@@ -180,7 +180,8 @@ impl Accessors<'_> {
             None => vec![0; layout.count],
         };
         if let Some((targets, start, values)) = self.sparse(index, &layout)? {
-            let tight = Layout { count: targets.len(), stride: layout.component.size(), start, ..layout };
+            let tight =
+                AccessorLayout { count: targets.len(), stride: layout.component.size(), start, ..layout };
             for (target, value) in targets.into_iter().zip(read_indices(&values.0[values.1], &tight)) {
                 indices[target] = value;
             }
@@ -190,7 +191,7 @@ impl Accessors<'_> {
 
     /// Checks an accessor against its view; the bytes are `None` if it has no view and so is all
     /// zero.
-    fn open(&mut self, index: usize, allowed: &[Type]) -> Result<(Layout, Option<Bytes>), Unplaced> {
+    fn open(&mut self, index: usize, allowed: &[Type]) -> Result<(AccessorLayout, Option<Bytes>), Unplaced> {
         let accessor = &self.root.accessors[index];
         let type_ = valid(&accessor.type_).filter(|type_| allowed.contains(type_));
         let type_ =
@@ -202,12 +203,13 @@ impl Accessors<'_> {
         if let Some(unpacked) = self.unpacked.as_ref().and_then(|unpacked| unpacked.attribute(index)) {
             let UnpackedAttribute { bytes, count, component, normalized } = unpacked;
             let (&component, &normalized, stride) = (component, normalized, component.size() * components);
-            let layout = Layout { count: *count, stride, start: 0, component, components, normalized };
+            let layout =
+                AccessorLayout { count: *count, stride, start: 0, component, components, normalized };
             return Ok((layout, Some((bytes.clone(), 0..bytes.len()))));
         }
         let count = self.checked_count(index)?;
         let size = component.size() * components;
-        let layout = |start, stride| Layout {
+        let layout = |start, stride| AccessorLayout {
             count,
             stride,
             start,
@@ -258,7 +260,7 @@ impl Accessors<'_> {
                 let remedy = "raise the limit if you trust the file";
                 Err(Unplaced(
                     Location::Item("accessor", index),
-                    Unread { kind: LoadErrorKind::Limit, what, remedy },
+                    UnreadReason { kind: LoadErrorKind::Limit, what, remedy },
                 ))
             }
         }
@@ -269,7 +271,7 @@ impl Accessors<'_> {
     fn sparse(
         &mut self,
         index: usize,
-        layout: &Layout,
+        layout: &AccessorLayout,
     ) -> Result<Option<(Vec<usize>, usize, Bytes)>, Unplaced> {
         let Some(sparse) = &self.root.accessors[index].sparse else { return Ok(None) };
         let count = usize::try_from(sparse.count.0).ok().filter(|&count| count <= layout.count);
@@ -285,7 +287,7 @@ impl Accessors<'_> {
             count,
             component.size(),
         )?;
-        let tight = Layout {
+        let tight = AccessorLayout {
             count,
             stride: component.size(),
             start: sparse.indices.byte_offset.0 as usize,
@@ -346,7 +348,7 @@ impl Accessors<'_> {
 fn malformed(index: usize, what: String) -> Unplaced {
     Unplaced(
         Location::Item("accessor", index),
-        Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" },
+        UnreadReason { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" },
     )
 }
 
@@ -384,7 +386,7 @@ fn components_of(type_: Type) -> usize {
 
 fn read_vectors<'e, const N: usize>(
     bytes: &[u8],
-    layout: &Layout,
+    layout: &AccessorLayout,
     elements: impl Iterator<Item = &'e mut [f32; N]>,
 ) {
     let size = layout.component.size();
@@ -397,7 +399,7 @@ fn read_vectors<'e, const N: usize>(
     }
 }
 
-fn read_indices(bytes: &[u8], layout: &Layout) -> Vec<u32> {
+fn read_indices(bytes: &[u8], layout: &AccessorLayout) -> Vec<u32> {
     match layout.component.size() {
         1 => read_each(bytes, layout, |[byte]| u32::from(byte)),
         2 => read_each(bytes, layout, |bytes| u32::from(u16::from_le_bytes(bytes))),
@@ -406,7 +408,7 @@ fn read_indices(bytes: &[u8], layout: &Layout) -> Vec<u32> {
 }
 
 /// Numbers of `N` bytes.
-fn read_each<const N: usize>(bytes: &[u8], layout: &Layout, number: fn([u8; N]) -> u32) -> Vec<u32> {
+fn read_each<const N: usize>(bytes: &[u8], layout: &AccessorLayout, number: fn([u8; N]) -> u32) -> Vec<u32> {
     let one = |index: usize| {
         let start = layout.start + index * layout.stride;
         number(*bytes[start..].first_chunk().expect("checked against the view"))

@@ -7,7 +7,7 @@ use trigon_scene::{Animation, Channel, Curve, Interpolation, Property};
 
 use super::accessor::{Accessors, valid};
 use super::buffers::Unplaced;
-use super::formats::Reader;
+use super::formats::AccessorReader;
 use super::formats::{MORPH_WEIGHTS, ROTATIONS, TIMES, Usage, VECTORS};
 use super::nodes::{Placed, ROTATION_TOLERANCE};
 use crate::error::{LoadError, LoadErrorKind, Location};
@@ -20,7 +20,7 @@ const REMEDY: &str = "export the animation again";
 /// Adds the animations that move something in the scene.
 pub(crate) fn add_animations(
     import: &mut Import<'_>,
-    reader: &mut Reader<'_>,
+    reader: &mut AccessorReader<'_>,
     placed: &Placed<'_>,
 ) -> Result<(), LoadError> {
     for index in 0..reader.root.animations.len() {

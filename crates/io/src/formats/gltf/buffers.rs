@@ -19,7 +19,7 @@ use crate::refusal::Refusal;
 use crate::uri::{FileNames, Reference, parse_reference, quotable};
 
 /// What went wrong with a reference, before it has a place.
-pub(crate) struct Unread {
+pub(crate) struct UnreadReason {
     pub(crate) kind: LoadErrorKind,
     pub(crate) what: String,
     pub(crate) remedy: &'static str,
@@ -82,8 +82,9 @@ impl Buffers {
         if let Some(bytes) = self.decoded.get(&index) {
             return Ok(Some(bytes.clone()));
         }
-        let broken =
-            |kind, what, remedy| Unplaced(Location::Item("bufferView", index), Unread { kind, what, remedy });
+        let broken = |kind, what, remedy| {
+            Unplaced(Location::Item("bufferView", index), UnreadReason { kind, what, remedy })
+        };
         let malformed = |what| broken(LoadErrorKind::Malformed, what, "compress or export the model again");
         let Some(view) = compressed_view(root, index).map_err(malformed)? else { return Ok(None) };
         folder
@@ -119,7 +120,11 @@ impl Buffers {
                 let what = "the buffer has no data".to_owned();
                 return Err(Unplaced(
                     location,
-                    Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again, as GLB" },
+                    UnreadReason {
+                        kind: LoadErrorKind::Malformed,
+                        what,
+                        remedy: "export the model again, as GLB",
+                    },
                 ));
             }
         };
@@ -127,7 +132,11 @@ impl Buffers {
             let what = format!("the buffer has {} bytes and should have {claim}", bytes.len());
             return Err(Unplaced(
                 location,
-                Unread { kind: LoadErrorKind::Malformed, what, remedy: "export or download the model again" },
+                UnreadReason {
+                    kind: LoadErrorKind::Malformed,
+                    what,
+                    remedy: "export or download the model again",
+                },
             ));
         }
         self.read[index] = Some(bytes.clone());
@@ -136,7 +145,7 @@ impl Buffers {
 }
 
 /// Something unread, with its place in the document.
-pub(crate) struct Unplaced(pub(crate) Location, pub(crate) Unread);
+pub(crate) struct Unplaced(pub(crate) Location, pub(crate) UnreadReason);
 
 impl Unplaced {
     pub(crate) fn into_error(self, path: &Path) -> LoadError {
@@ -150,9 +159,9 @@ pub(crate) fn read_reference(
     uri: &str,
     folder: &mut Folder,
     lookup: Lookup,
-) -> Result<(Vec<u8>, Option<String>), Unread> {
+) -> Result<(Vec<u8>, Option<String>), UnreadReason> {
     let quoted = quotable(uri);
-    let unread = |kind, why: &dyn std::fmt::Display, remedy| Unread {
+    let unread = |kind, why: &dyn std::fmt::Display, remedy| UnreadReason {
         kind,
         what: format!("{quoted} is not read: {why}"),
         remedy,
@@ -214,7 +223,7 @@ impl CompressedView {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct Extension {
+struct ViewExtension {
     buffer: usize,
     #[serde(default)]
     byte_offset: u64,
@@ -236,7 +245,7 @@ pub(crate) fn compressed_view(root: &Root, index: usize) -> Result<Option<Compre
 }
 
 fn read(root: &Root, value: Value, plain_length: u64) -> Result<CompressedView, String> {
-    let from: Extension = serde_json::from_value(value)
+    let from: ViewExtension = serde_json::from_value(value)
         .map_err(|error| format!("its compression is not described: {error}"))?;
     let mode = match from.mode.as_str() {
         "ATTRIBUTES" => Mode::Attributes,

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use super::native::{Extras, Header, MaterialExtras, NodeExtras};
+use super::native::{Extras, MaterialExtras, NativeHeader, NodeExtras};
 use super::preview::Preview;
 use super::primitive::{ForeignAttribute, RawPrimitive, foreign_attributes};
 use crate::error::{LoadError, LoadErrorKind, Location};
@@ -31,7 +31,7 @@ pub(crate) struct Document {
     /// The extensions that any object of the document has.
     pub(crate) extensions: BTreeSet<String>,
     /// What a native file says of each mesh.
-    pub(crate) native_meshes: Vec<Extras<Header>>,
+    pub(crate) native_meshes: Vec<Extras<NativeHeader>>,
     /// What it says of each material.
     pub(crate) native_materials: Vec<Extras<MaterialExtras>>,
 }
@@ -83,7 +83,7 @@ impl RawMesh {
         names.into_iter().map(|name| name.as_str().unwrap_or_default().to_owned()).collect()
     }
 
-    fn native(&self) -> Extras<Header> {
+    fn native(&self) -> Extras<NativeHeader> {
         let extras = self.extras.as_ref().and_then(|text| serde_json::from_str(text.get()).ok());
         extras.unwrap_or_default()
     }

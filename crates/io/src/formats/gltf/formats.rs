@@ -20,36 +20,36 @@ pub(crate) struct Usage {
     pub(crate) name: &'static str,
     /// All that are read.
     pub(crate) types: &'static [Type],
-    plain: &'static [Format],
+    plain: &'static [AccessorFormat],
     /// With KHR_mesh_quantization besides.
-    quantized: &'static [Format],
+    quantized: &'static [AccessorFormat],
 }
 
 /// A component type, and whether its integers are normalized.
-type Format = (ComponentType, bool);
+type AccessorFormat = (ComponentType, bool);
 
-const F32: Format = (ComponentType::F32, false);
-const U8: Format = (ComponentType::U8, false);
-const U8_NORMALIZED: Format = (ComponentType::U8, true);
-const I8: Format = (ComponentType::I8, false);
-const I8_NORMALIZED: Format = (ComponentType::I8, true);
-const U16: Format = (ComponentType::U16, false);
-const U16_NORMALIZED: Format = (ComponentType::U16, true);
-const I16: Format = (ComponentType::I16, false);
-const I16_NORMALIZED: Format = (ComponentType::I16, true);
+const F32: AccessorFormat = (ComponentType::F32, false);
+const U8: AccessorFormat = (ComponentType::U8, false);
+const U8_NORMALIZED: AccessorFormat = (ComponentType::U8, true);
+const I8: AccessorFormat = (ComponentType::I8, false);
+const I8_NORMALIZED: AccessorFormat = (ComponentType::I8, true);
+const U16: AccessorFormat = (ComponentType::U16, false);
+const U16_NORMALIZED: AccessorFormat = (ComponentType::U16, true);
+const I16: AccessorFormat = (ComponentType::I16, false);
+const I16_NORMALIZED: AccessorFormat = (ComponentType::I16, true);
 
-const SHARES: &[Format] = &[F32, U8_NORMALIZED, U16_NORMALIZED];
-const TURNS: &[Format] = &[F32, I8_NORMALIZED, U8_NORMALIZED, I16_NORMALIZED, U16_NORMALIZED];
-const DIRECTIONS: &[Format] = &[I8_NORMALIZED, I16_NORMALIZED];
-const DELTAS: &[Format] = &[I8, I8_NORMALIZED, I16, I16_NORMALIZED];
-const ALL_SMALL: &[Format] =
+const SHARES: &[AccessorFormat] = &[F32, U8_NORMALIZED, U16_NORMALIZED];
+const TURNS: &[AccessorFormat] = &[F32, I8_NORMALIZED, U8_NORMALIZED, I16_NORMALIZED, U16_NORMALIZED];
+const DIRECTIONS: &[AccessorFormat] = &[I8_NORMALIZED, I16_NORMALIZED];
+const DELTAS: &[AccessorFormat] = &[I8, I8_NORMALIZED, I16, I16_NORMALIZED];
+const ALL_SMALL: &[AccessorFormat] =
     &[I8, I8_NORMALIZED, U8, U8_NORMALIZED, I16, I16_NORMALIZED, U16, U16_NORMALIZED];
 
 const fn usage(
     name: &'static str,
     types: &'static [Type],
-    plain: &'static [Format],
-    quantized: &'static [Format],
+    plain: &'static [AccessorFormat],
+    quantized: &'static [AccessorFormat],
 ) -> Usage {
     Usage { name, types, plain, quantized }
 }
@@ -104,14 +104,14 @@ fn is_quantized(root: &Root) -> bool {
 }
 
 /// What accessors are read from.
-pub(crate) struct Reader<'r> {
+pub(crate) struct AccessorReader<'r> {
     pub(crate) root: &'r Root,
     pub(crate) buffers: Buffers,
     /// See [`Accessors::spent`].
     pub(crate) spent: usize,
 }
 
-impl Reader<'_> {
+impl AccessorReader<'_> {
     /// Calls back with accessors, and with the warnings to add to.
     pub(crate) fn read<T>(
         &mut self,

@@ -10,7 +10,7 @@ use trigon_math::{DQuat, DVec3};
 use trigon_scene::Transform;
 
 use super::accessor::Accessors;
-use super::buffers::{Unplaced, Unread};
+use super::buffers::{Unplaced, UnreadReason};
 use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::options::{LoadOptions, SceneChoice};
 use crate::warning::Warnings;
@@ -210,7 +210,7 @@ pub(crate) fn read_instances(
         let remedy = "export the model again";
         return Err(Unplaced(
             Location::Item("node", node),
-            Unread { kind: LoadErrorKind::Malformed, what, remedy },
+            UnreadReason { kind: LoadErrorKind::Malformed, what, remedy },
         ));
     }
     let vectors = translations.iter().chain(&scales).flatten().flatten();

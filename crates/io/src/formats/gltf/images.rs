@@ -10,7 +10,7 @@ use trigon_raster::{Filter, MipFilter, Sampler, TextureFormat, Wrap};
 use trigon_scene::TextureId;
 
 use super::accessor::valid;
-use super::buffers::{Buffers, Unread, read_reference};
+use super::buffers::{Buffers, UnreadReason, read_reference};
 use super::references::source_of;
 use super::slots::{SlotTexture, purpose_of};
 use crate::error::{LoadError, LoadErrorKind, Location};
@@ -148,7 +148,7 @@ fn read_image(
             }
             Some(bytes)
         }
-        Err(Unread { what, remedy, .. }) => {
+        Err(UnreadReason { what, remedy, .. }) => {
             let what = format!("the image is not drawn: {what}");
             let tried = tried_for(&mut import.folder, root, image);
             import.warnings.push_unusable(import.path, location, what, remedy, tried);
@@ -176,7 +176,7 @@ pub(crate) fn fetch_image(
     buffers: &mut Buffers,
     folder: &mut Folder,
     image: usize,
-) -> Result<(ImageBytes, Option<String>), Unread> {
+) -> Result<(ImageBytes, Option<String>), UnreadReason> {
     let from = &root.images[image];
     match (&from.uri, from.buffer_view) {
         (Some(uri), _) => {
@@ -189,7 +189,7 @@ pub(crate) fn fetch_image(
         }
         (None, None) => {
             let what = "it has neither a URI nor a bufferView".to_owned();
-            Err(Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" })
+            Err(UnreadReason { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" })
         }
     }
 }

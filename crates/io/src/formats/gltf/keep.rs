@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use gltf::json::Root;
 use trigon_scene::MaterialId;
 
-use super::buffers::{Buffers, Unread};
+use super::buffers::{Buffers, UnreadReason};
 use super::images::fetch_image;
 use super::lights::light_index;
 use super::mesh::BuiltMesh;
@@ -120,7 +120,7 @@ fn keep_buffers(draft: &mut SourceDraft, import: &mut Import<'_>, root: &Root, b
     }
 }
 
-fn warn(warnings: &mut Warnings, location: Location, unread: &Unread) {
+fn warn(warnings: &mut Warnings, location: Location, unread: &UnreadReason) {
     warnings.push(location, format!("it is not kept to be written back: {}", unread.what), unread.remedy);
 }
 

@@ -51,7 +51,7 @@ use std::sync::Arc;
 use gltf::json::Root;
 use trigon_mesh::Mesh;
 
-use self::formats::Reader;
+use self::formats::AccessorReader;
 use accessor::{Accessors, Doubts};
 use buffers::{Buffers, Unplaced};
 use document::Document;
@@ -108,7 +108,7 @@ fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<Arc<[u8]>>)
     let placed = nodes::add_nodes(import, &document, &hierarchy, meshes, &materials);
     keep::keep_placed(import, &placed, primitives, &materials);
     keep::keep_scene(import, hierarchy.scene);
-    let mut reader = Reader { root, buffers, spent };
+    let mut reader = AccessorReader { root, buffers, spent };
     nodes::add_instances(import, &mut reader, &placed)?;
     skins::add_skins(import, &mut reader, &placed)?;
     animations::add_animations(import, &mut reader, &placed)?;
@@ -186,7 +186,7 @@ fn build_meshes(
 fn native_mesh(
     accessors: &mut Accessors<'_>,
     index: usize,
-    extras: &Extras<native::Header>,
+    extras: &Extras<native::NativeHeader>,
     target_names: &[String],
     warnings: &mut Warnings,
 ) -> Result<Option<BuiltMesh>, Unplaced> {

@@ -7,7 +7,7 @@ use trigon_math::{DAffine3, DMat4, DQuat, DVec3};
 use trigon_scene::{Light, MaterialId, MeshId, Node, NodeId, Transform};
 
 use super::document::{Document, RawTransform};
-use super::formats::Reader;
+use super::formats::AccessorReader;
 use super::hierarchy::Hierarchy;
 use super::hierarchy::{has_instances, read_instances};
 use super::lights::convert_camera;
@@ -80,7 +80,7 @@ pub(crate) fn add_nodes<'d>(
 /// nothing. Copies come after all nodes of the file, whose indices stay theirs.
 pub(crate) fn add_instances(
     import: &mut Import<'_>,
-    reader: &mut Reader<'_>,
+    reader: &mut AccessorReader<'_>,
     placed: &Placed<'_>,
 ) -> Result<(), LoadError> {
     let root = &placed.document.root;

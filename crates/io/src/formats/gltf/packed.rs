@@ -11,7 +11,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::accessor::{Accessors, valid};
-use super::buffers::{Unplaced, Unread};
+use super::buffers::{Unplaced, UnreadReason};
 use super::draco::{self, DecodedAttribute, DecodedMesh, Failure};
 use crate::error::{LoadErrorKind, Location};
 use crate::warning::Warnings;
@@ -21,7 +21,7 @@ pub(super) const DRACO: &str = "KHR_draco_mesh_compression";
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct Extension {
+struct DracoExtension {
     buffer_view: usize,
     /// The number of each attribute in the stream.
     attributes: BTreeMap<String, u32>,
@@ -89,8 +89,8 @@ impl Accessors<'_> {
         value: &Value,
         location: &Location,
         warnings: &mut Warnings,
-    ) -> Result<Unpacked, Unread> {
-        let extension = Extension::deserialize(value)
+    ) -> Result<Unpacked, UnreadReason> {
+        let extension = DracoExtension::deserialize(value)
             .map_err(|error| malformed(format!("its Draco compression is not described: {error}")))?;
         let mesh = self.decode_view(extension.buffer_view)?;
         let mut warn = |what: String| warnings.push(location.clone(), what, "export the model again");
@@ -125,7 +125,7 @@ impl Accessors<'_> {
         Ok(Unpacked { triangles, attributes })
     }
 
-    fn decode_view(&mut self, view: usize) -> Result<DecodedMesh, Unread> {
+    fn decode_view(&mut self, view: usize) -> Result<DecodedMesh, UnreadReason> {
         if view >= self.root.buffer_views.len() {
             return Err(malformed(format!("its Draco data are in bufferView {view}, which does not exist")));
         }
@@ -138,7 +138,7 @@ impl Accessors<'_> {
         let bytes = |attribute: &DecodedAttribute| attribute.values.bytes.len();
         let bytes = 4 * mesh.triangles.len() + mesh.attributes.iter().map(bytes).sum::<usize>();
         self.buffers.unpacked += bytes;
-        self.folder.account(bytes as u64).map_err(|refusal| Unread {
+        self.folder.account(bytes as u64).map_err(|refusal| UnreadReason {
             kind: LoadErrorKind::Limit,
             what: refusal.to_string(),
             remedy: refusal.remedy(),
@@ -146,7 +146,7 @@ impl Accessors<'_> {
         if mesh.points > self.most || mesh.triangles.len() > self.most {
             let what =
                 format!("its Draco data have more than the limit of {} vertices or corners", self.most);
-            return Err(Unread {
+            return Err(UnreadReason {
                 kind: LoadErrorKind::Limit,
                 what,
                 remedy: "raise the limit if you trust the file",
@@ -161,7 +161,7 @@ impl Accessors<'_> {
         name: &str,
         count: usize,
         found: &DecodedAttribute,
-    ) -> Result<UnpackedAttribute, Unread> {
+    ) -> Result<UnpackedAttribute, UnreadReason> {
         let accessor = &self.root.accessors[accessor];
         let components = valid(&accessor.type_).map(|kind| kind.multiplicity());
         let values = &found.values;
@@ -189,21 +189,21 @@ fn accessor_of(primitive: &Primitive, name: &str) -> Option<usize> {
     Some(primitive.attributes.iter().find(|(key, _)| is_named(key))?.1.value())
 }
 
-fn malformed(what: String) -> Unread {
-    Unread { kind: LoadErrorKind::Malformed, what, remedy: "compress or export the model again" }
+fn malformed(what: String) -> UnreadReason {
+    UnreadReason { kind: LoadErrorKind::Malformed, what, remedy: "compress or export the model again" }
 }
 
-fn failed(failure: Failure) -> Unread {
+fn failed(failure: Failure) -> UnreadReason {
     let remedy = "export the model without Draco compression";
     match failure {
         Failure::Broken(why) => malformed(format!("its Draco data are invalid: {why}")),
         Failure::Foreign(what) => {
             let what = format!("its Draco data have {what}, which trigon does not read");
-            Unread { kind: LoadErrorKind::Unsupported, what, remedy }
+            UnreadReason { kind: LoadErrorKind::Unsupported, what, remedy }
         }
         Failure::TooLarge => {
             let what = "its Draco data stand for much more than such a file can hold".to_owned();
-            Unread { kind: LoadErrorKind::Limit, what, remedy }
+            UnreadReason { kind: LoadErrorKind::Limit, what, remedy }
         }
     }
 }

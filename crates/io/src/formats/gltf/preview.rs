@@ -45,7 +45,7 @@ impl<'de> Deserialize<'de> for Preview {
                 let mut preview = Preview::default();
                 while let Some(key) = map.next_key_seed(KeyKind { keeps_names: false })? {
                     match key {
-                        Key::Asset => preview.asset = map.next_value()?,
+                        MemberKey::Asset => preview.asset = map.next_value()?,
                         key => search_value(&key, Inside::Anything, &mut preview.extensions, &mut map)?,
                     }
                 }
@@ -57,7 +57,7 @@ impl<'de> Deserialize<'de> for Preview {
 }
 
 /// What a key says of its value.
-enum Key {
+enum MemberKey {
     Asset,
     Extensions,
     Extras,
@@ -109,48 +109,48 @@ struct KeyKind {
 }
 
 impl<'de> DeserializeSeed<'de> for KeyKind {
-    type Value = Key;
+    type Value = MemberKey;
 
-    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Key, D::Error> {
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<MemberKey, D::Error> {
         deserializer.deserialize_identifier(self)
     }
 }
 
 impl Visitor<'_> for KeyKind {
-    type Value = Key;
+    type Value = MemberKey;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a key")
     }
 
-    fn visit_str<E: Error>(self, key: &str) -> Result<Key, E> {
+    fn visit_str<E: Error>(self, key: &str) -> Result<MemberKey, E> {
         Ok(match key {
-            name if self.keeps_names => Key::Other(Some(name.to_owned())),
-            "asset" => Key::Asset,
-            "extensions" => Key::Extensions,
-            "extras" => Key::Extras,
-            "attributes" | "targets" => Key::NamedIndices,
-            key if INDICES.contains(&key) => Key::Indices,
-            _ => Key::Other(None),
+            name if self.keeps_names => MemberKey::Other(Some(name.to_owned())),
+            "asset" => MemberKey::Asset,
+            "extensions" => MemberKey::Extensions,
+            "extras" => MemberKey::Extras,
+            "attributes" | "targets" => MemberKey::NamedIndices,
+            key if INDICES.contains(&key) => MemberKey::Indices,
+            _ => MemberKey::Other(None),
         })
     }
 }
 
 /// Looks through the value of a key that is found in `object`.
 fn search_value<'de, A: MapAccess<'de>>(
-    key: &Key,
+    key: &MemberKey,
     object: Inside,
     names: &mut BTreeSet<String>,
     map: &mut A,
 ) -> Result<(), A::Error> {
     let inside = match key {
-        Key::Extras => return map.next_value::<IgnoredAny>().map(|_| ()),
-        Key::Extensions => Inside::Extensions,
-        Key::Indices => Inside::Indices,
-        Key::NamedIndices => Inside::NamedIndices,
+        MemberKey::Extras => return map.next_value::<IgnoredAny>().map(|_| ()),
+        MemberKey::Extensions => Inside::Extensions,
+        MemberKey::Indices => Inside::Indices,
+        MemberKey::NamedIndices => Inside::NamedIndices,
         // What an attribute is called does not matter.
-        Key::Asset | Key::Other(_) if object == Inside::NamedIndices => Inside::Indices,
-        Key::Asset | Key::Other(_) => Inside::Anything,
+        MemberKey::Asset | MemberKey::Other(_) if object == Inside::NamedIndices => Inside::Indices,
+        MemberKey::Asset | MemberKey::Other(_) => Inside::Anything,
     };
     map.next_value_seed(Search { names, inside })
 }
@@ -189,7 +189,7 @@ impl<'de> Visitor<'de> for Search<'_> {
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
         let keeps_names = self.inside == Inside::Extensions;
         while let Some(mut key) = map.next_key_seed(KeyKind { keeps_names })? {
-            if let Key::Other(Some(name)) = &mut key {
+            if let MemberKey::Other(Some(name)) = &mut key {
                 self.names.insert(std::mem::take(name));
             }
             search_value(&key, self.inside, self.names, &mut map)?;

@@ -17,9 +17,9 @@ pub(crate) fn check_references(path: &Path, root: &Root) -> Result<(), LoadError
         .map_err(|(location, what)| LoadError::malformed(path, what, "export the model again").at(location))
 }
 
-type Fault = (Location, String);
+type ReferenceFault = (Location, String);
 
-fn check(root: &Root) -> Result<(), Fault> {
+fn check(root: &Root) -> Result<(), ReferenceFault> {
     for (index, view) in root.buffer_views.iter().enumerate() {
         check_view(root, view, Location::Item("bufferView", index))?;
     }
@@ -43,7 +43,7 @@ fn within(
     kind: &str,
     index: Option<usize>,
     length: usize,
-) -> Result<(), Fault> {
+) -> Result<(), ReferenceFault> {
     match index {
         Some(index) if index >= length => {
             Err((location(), format!("{kind} {index} does not exist; there are {length}")))
@@ -52,7 +52,7 @@ fn within(
     }
 }
 
-fn check_view(root: &Root, view: &buffer::View, location: Location) -> Result<(), Fault> {
+fn check_view(root: &Root, view: &buffer::View, location: Location) -> Result<(), ReferenceFault> {
     within(|| location.clone(), "buffer", Some(view.buffer.value()), root.buffers.len())?;
     let buffer = &root.buffers[view.buffer.value()];
     let (offset, length) = (view.byte_offset.unwrap_or(USize64(0)).0, view.byte_length.0);
@@ -67,7 +67,7 @@ fn check_view(root: &Root, view: &buffer::View, location: Location) -> Result<()
     Ok(())
 }
 
-fn check_meshes(root: &Root) -> Result<(), Fault> {
+fn check_meshes(root: &Root) -> Result<(), ReferenceFault> {
     for (mesh_index, mesh) in root.meshes.iter().enumerate() {
         for (index, primitive) in mesh.primitives.iter().enumerate() {
             let location = || Location::Named(format!("mesh {mesh_index}, primitive {index}"));
@@ -91,7 +91,7 @@ fn check_meshes(root: &Root) -> Result<(), Fault> {
     Ok(())
 }
 
-fn check_nodes(root: &Root) -> Result<(), Fault> {
+fn check_nodes(root: &Root) -> Result<(), ReferenceFault> {
     for (index, node) in root.nodes.iter().enumerate() {
         let location = || Location::Item("node", index);
         within(location, "mesh", node.mesh.map(|mesh| mesh.value()), root.meshes.len())?;
@@ -110,7 +110,7 @@ fn check_nodes(root: &Root) -> Result<(), Fault> {
     within(|| Location::Whole, "scene", root.scene.map(|scene| scene.value()), root.scenes.len())
 }
 
-fn check_movements(root: &Root) -> Result<(), Fault> {
+fn check_movements(root: &Root) -> Result<(), ReferenceFault> {
     let (nodes, accessors) = (root.nodes.len(), root.accessors.len());
     for (index, skin) in root.skins.iter().enumerate() {
         let location = || Location::Item("skin", index);
@@ -133,7 +133,7 @@ fn check_movements(root: &Root) -> Result<(), Fault> {
     Ok(())
 }
 
-fn check_appearance(root: &Root) -> Result<(), Fault> {
+fn check_appearance(root: &Root) -> Result<(), ReferenceFault> {
     for (index, material) in root.materials.iter().enumerate() {
         for from in slot_textures(material) {
             let location = || Location::Item("material", index);

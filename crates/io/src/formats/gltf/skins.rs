@@ -8,8 +8,8 @@ use trigon_scene::{Node, NodeId, Skin, SkinId};
 
 use super::accessor::Accessors;
 use super::buffers::Unplaced;
+use super::formats::AccessorReader;
 use super::formats::BIND_MATRIX;
-use super::formats::Reader;
 use super::nodes::Placed;
 use crate::error::{LoadError, Location};
 use crate::import::Import;
@@ -52,7 +52,7 @@ fn read_bind_matrices(
 /// Adds the skins that placed nodes use, and hands them to these nodes.
 pub(crate) fn add_skins(
     import: &mut Import<'_>,
-    reader: &mut Reader<'_>,
+    reader: &mut AccessorReader<'_>,
     placed: &Placed<'_>,
 ) -> Result<(), LoadError> {
     let root = &placed.document.root;

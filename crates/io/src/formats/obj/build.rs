@@ -16,7 +16,7 @@ use crate::rebase::offset_for;
 use crate::warning::Warnings;
 
 /// One object or group.
-pub(crate) struct Part {
+pub(crate) struct ObjPart {
     pub(crate) name: String,
     pub(crate) mesh: Mesh,
     /// The materials of its slots: indices of the record's names.
@@ -38,8 +38,8 @@ struct Span {
 pub(crate) fn build_parts(
     parsed: &Parsed,
     warnings: &mut Warnings,
-    follow: Follow<'_>,
-) -> Result<(Vec<Part>, DVec3), LoadError> {
+    follow: BuildProgress<'_>,
+) -> Result<(Vec<ObjPart>, DVec3), LoadError> {
     let content = &parsed.content;
     follow(0.0)?;
     let used = used_vertices(content);
@@ -99,11 +99,11 @@ fn spans_by_part(parsed: &Parsed) -> Vec<Vec<Span>> {
 struct Cutter<'a> {
     content: &'a Content,
     offset: DVec3,
-    follow: Follow<'a>,
+    follow: BuildProgress<'a>,
 }
 
 /// A part under construction.
-struct Draft {
+struct PartDraft {
     builder: MeshBuilder,
     /// For each corner of the accepted faces, its corner in the file's lists.
     sources: Vec<u32>,
@@ -127,9 +127,9 @@ impl Cutter<'_> {
         spans: &[Span],
         local: &mut [u32],
         passed: &mut Passed,
-    ) -> Result<Part, LoadError> {
+    ) -> Result<ObjPart, LoadError> {
         let faces = spans.iter().map(|span| span.elements.1 - span.elements.0).sum();
-        let mut draft = Draft::with_capacity(faces);
+        let mut draft = PartDraft::with_capacity(faces);
         // Lines and points are drawn in the material of the first slot.
         let has_wires = |span: &&Span| {
             self.content.arities[span.elements.0..span.elements.1].iter().any(|&arity| arity < 3)
@@ -143,8 +143,9 @@ impl Cutter<'_> {
         for &vertex in &draft.used {
             local[vertex as usize] = NOT_YET;
         }
-        let Draft { builder, sources, face_slots, face_groups, mut materials, mut bare, lines, used, .. } =
-            draft;
+        let PartDraft {
+            builder, sources, face_slots, face_groups, mut materials, mut bare, lines, used, ..
+        } = draft;
         let mut mesh = builder.build();
         passed.note_covered(lines, &mesh);
         self.go_on(passed)?;
@@ -161,7 +162,7 @@ impl Cutter<'_> {
             materials.push(None);
             bare.push(false);
         }
-        Ok(Part { name: name.to_owned(), mesh, materials, bare })
+        Ok(ObjPart { name: name.to_owned(), mesh, materials, bare })
     }
 
     fn go_on(&self, passed: &Passed) -> Result<(), LoadError> {
@@ -171,7 +172,7 @@ impl Cutter<'_> {
     fn span(
         &self,
         span: &Span,
-        draft: &mut Draft,
+        draft: &mut PartDraft,
         local: &mut [u32],
         passed: &mut Passed,
     ) -> Result<(), LoadError> {
@@ -205,7 +206,7 @@ impl Cutter<'_> {
     }
 
     /// The part's own index of a vertex; `None` when it has no finite place.
-    fn vertex(&self, vertex: u32, draft: &mut Draft, local: &mut [u32]) -> Option<u32> {
+    fn vertex(&self, vertex: u32, draft: &mut PartDraft, local: &mut [u32]) -> Option<u32> {
         let known = &mut local[vertex as usize];
         if *known != NOT_YET {
             return Some(*known);
@@ -291,7 +292,7 @@ fn has_several_groups(face_groups: &[u32]) -> bool {
     groups.any(|group| Some(group) != first)
 }
 
-impl Draft {
+impl PartDraft {
     /// An empty one with room for so many faces.
     fn with_capacity(faces: usize) -> Self {
         Self {
@@ -338,9 +339,9 @@ impl Draft {
 }
 
 /// Is told which share of the elements has been built, and may end it.
-pub(super) type Follow<'a> = &'a dyn Fn(f32) -> Result<(), LoadError>;
+pub(super) type BuildProgress<'a> = &'a dyn Fn(f32) -> Result<(), LoadError>;
 
-/// So many elements are built before [`Follow`] is asked again: some milliseconds.
+/// So many elements are built before [`BuildProgress`] is asked again: some milliseconds.
 pub(super) const STRIDE: usize = 1 << 17;
 
 /// Fills in the normals of smooth faces where none is given (zero). Faces of

@@ -68,7 +68,7 @@ pub(crate) fn add_materials(
         let what = "every material is invisible (d 0 or Tr 1), and all are drawn opaque";
         import.warnings.push_about(&first.file, Location::Line(first.line), what, "write d 1");
     }
-    let textures = Textures::read(import, wanted.iter().map(|(_, material)| *material))?;
+    let textures = LibraryTextures::read(import, wanted.iter().map(|(_, material)| *material))?;
     let mut ids = vec![None; used.len()];
     for (index, from) in wanted {
         let mut material = from.material.clone();
@@ -225,7 +225,7 @@ impl Slot {
 type Recipe = (Vec<(Role, PathBuf)>, Purpose);
 
 /// The textures of all wanted materials, each read and decoded once.
-pub(super) struct Textures {
+pub(super) struct LibraryTextures {
     ids: HashMap<(PathBuf, String, Slot), TextureId>,
 }
 
@@ -234,12 +234,12 @@ fn user(material: &MtlMaterial, slot: Slot) -> (PathBuf, String, Slot) {
     (material.file.clone(), material.material.name.clone(), slot)
 }
 
-impl Textures {
+impl LibraryTextures {
     pub(super) fn read<'m>(
         import: &mut Import<'_>,
         materials: impl Iterator<Item = &'m MtlMaterial>,
     ) -> Result<Self, LoadError> {
-        let mut images = Images::default();
+        let mut images = LibraryImages::default();
         let (mut requests, mut known, mut users) = (Vec::new(), HashMap::<Recipe, usize>::new(), Vec::new());
         for (material, slot) in materials.flat_map(|material| SLOTS.map(|slot| (material, slot))) {
             let layers = slot.layers(material);
@@ -296,13 +296,13 @@ fn placed(texture: TextureId, map: &MapStatement) -> TextureBinding {
 
 /// The image files, each searched and read once.
 #[derive(Default)]
-struct Images {
+struct LibraryImages {
     /// By library and by the name that is used there.
     searched: HashMap<(PathBuf, String), Option<PathBuf>>,
     bytes: HashMap<PathBuf, Arc<[u8]>>,
 }
 
-impl Images {
+impl LibraryImages {
     fn find(&mut self, import: &mut Import<'_>, material: &MtlMaterial, map: &Map) -> Option<PathBuf> {
         let name = (material.file.clone(), map.statement.file.clone());
         if let Some(known) = self.searched.get(&name) {

@@ -29,7 +29,7 @@ use std::borrow::Cow;
 use trigon_mesh::Mesh;
 use trigon_scene::{Material, MaterialId, Node, Transform};
 
-use self::build::Part;
+use self::build::ObjPart;
 use self::library::Added;
 use self::record::Record;
 use crate::error::{LoadError, Location};
@@ -86,7 +86,7 @@ pub(crate) fn import_obj(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
 }
 
 /// A texture is placed by texture coordinates, and some faces have none.
-fn warn_of_bare_faces(import: &mut Import<'_>, record: &Record, part: &Part, added: &[Option<Added>]) {
+fn warn_of_bare_faces(import: &mut Import<'_>, record: &Record, part: &ObjPart, added: &[Option<Added>]) {
     for ((added, &is_bare), material) in added.iter().zip(&part.bare).zip(&part.materials) {
         if let (true, Some(index), Some(Added { is_textured: true, .. })) = (is_bare, material, added) {
             import.warnings.push(

@@ -8,7 +8,7 @@ use trigon_scene::Material;
 
 use super::convert::convert;
 use super::lines::{Lines, decode_name, split_keyword};
-use super::mtl_reader::Reader;
+use super::mtl_reader::MtlReader;
 use super::mtl_reader::Stated;
 use crate::rows::plain_text;
 use crate::warning::Warnings;
@@ -140,7 +140,7 @@ impl Fields {
 /// Reads a library. What is malformed in it becomes a warning.
 pub(crate) fn parse_mtl(file: &Path, bytes: &[u8], warnings: &mut Warnings) -> Vec<MtlMaterial> {
     let text = plain_text(bytes);
-    let mut reader = Reader::new(file, warnings);
+    let mut reader = MtlReader::new(file, warnings);
     for (number, line) in Lines::new(&text) {
         if let Some((keyword, rest)) = split_keyword(&line) {
             reader.statement(number, &decode_name(keyword), rest);

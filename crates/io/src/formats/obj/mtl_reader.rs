@@ -10,7 +10,7 @@ use crate::error::Location;
 use crate::warning::Warnings;
 
 /// Reads the statements of a library.
-pub(super) struct Reader<'a> {
+pub(super) struct MtlReader<'a> {
     file: &'a Path,
     warnings: &'a mut Warnings,
     materials: Vec<Fields>,
@@ -35,7 +35,7 @@ const ANY: RangeInclusive<f32> = f32::MIN..=f32::MAX;
 
 pub(super) const MEND: &str = "fix the line, or export the material again";
 
-impl<'a> Reader<'a> {
+impl<'a> MtlReader<'a> {
     pub(super) fn new(file: &'a Path, warnings: &'a mut Warnings) -> Self {
         Self { file, warnings, materials: Vec::new(), state: State::BeforeFirst }
     }
@@ -219,7 +219,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-impl Reader<'_> {
+impl MtlReader<'_> {
     pub(super) fn map(&mut self, line: u64, keyword: &str, kind: MapKind, rest: &[u8]) {
         let statement = parse_map(&decode_name(rest), kind.holds_colors());
         let file = &statement.file;

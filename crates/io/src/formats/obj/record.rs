@@ -26,12 +26,12 @@ pub(crate) struct Run {
 
 /// A list of names without repetition, in the order of their first use.
 #[derive(Debug, Default)]
-pub(crate) struct Names {
+pub(crate) struct NameList {
     list: Vec<String>,
     known: BTreeMap<String, u32>,
 }
 
-impl Names {
+impl NameList {
     fn index(&mut self, name: String) -> u32 {
         if let Some(&index) = self.known.get(&name) {
             return index;
@@ -55,9 +55,9 @@ const MOST_LIBRARIES: usize = 256;
 #[derive(Debug, Default)]
 pub(crate) struct Record {
     /// Objects and groups, each named as a node will be.
-    pub(crate) parts: Names,
+    pub(crate) parts: NameList,
     /// Names of materials, as `usemtl` wrote them.
-    pub(crate) materials: Names,
+    pub(crate) materials: NameList,
     /// The first line that asked for each material.
     pub(crate) material_lines: Vec<u64>,
     /// The arguments of `mtllib` with their lines.

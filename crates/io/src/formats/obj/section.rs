@@ -52,14 +52,15 @@ pub(crate) struct Stop {
 /// Reads a piece up to its end, the first malformed line, or the line that has
 /// more than so many corners.
 pub(crate) fn read_section(chunk: &Chunk<'_>, total: Counts, most_corners: usize) -> Section {
-    let mut reader = Reader { section: Section::default(), before: chunk.before, total, corners: Vec::new() };
+    let mut reader =
+        SectionReader { section: Section::default(), before: chunk.before, total, corners: Vec::new() };
     let mut lines = Lines::new(chunk.text);
     loop {
         let at = lines.position();
         let Some((line, text)) = lines.next() else { break };
         let line = chunk.lines_before + line;
         if let Err(fault) = reader.line(line, at, &text) {
-            let Fault { what, remedy } = fault;
+            let StatementFault { what, remedy } = fault;
             reader.section.stop = Some(Stop { line, what, remedy });
             break;
         }
@@ -71,18 +72,18 @@ pub(crate) fn read_section(chunk: &Chunk<'_>, total: Counts, most_corners: usize
 }
 
 /// What is wrong with a line and what to do about it.
-struct Fault {
+struct StatementFault {
     what: String,
     remedy: &'static str,
 }
 
-impl Fault {
+impl StatementFault {
     fn new(what: impl Into<String>, remedy: &'static str) -> Self {
         Self { what: what.into(), remedy }
     }
 }
 
-struct Reader {
+struct SectionReader {
     section: Section,
     before: Counts,
     total: Counts,
@@ -90,8 +91,8 @@ struct Reader {
     corners: Vec<Corner>,
 }
 
-impl Reader {
-    fn line(&mut self, line: u64, at: usize, text: &[u8]) -> Result<(), Fault> {
+impl SectionReader {
+    fn line(&mut self, line: u64, at: usize, text: &[u8]) -> Result<(), StatementFault> {
         let Some((keyword, rest)) = split_keyword(text) else { return Ok(()) };
         match keyword {
             b"v" => self.position(line, rest),
@@ -121,17 +122,17 @@ impl Reader {
     }
 
     /// x, y, z; then nothing, or a weight, or a colour.
-    fn position(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
+    fn position(&mut self, line: u64, rest: &[u8]) -> Result<(), StatementFault> {
         self.before.positions += 1;
         let Numbers { values, count, surplus } = numbers::<6>(rest)?;
         if count < 3 {
             let what = format!("a vertex has {count} numbers and needs 3");
-            return Err(Fault::new(what, EXPORT_AGAIN));
+            return Err(StatementFault::new(what, EXPORT_AGAIN));
         }
         let mut position = DVec3::new(values[0], values[1], values[2]);
         if count == 4 {
             if values[3] == 0.0 {
-                return Err(Fault::new("a vertex has the weight 0", EXPORT_AGAIN));
+                return Err(StatementFault::new("a vertex has the weight 0", EXPORT_AGAIN));
             }
             position /= values[3];
         }
@@ -159,11 +160,11 @@ impl Reader {
     }
 
     /// u and v; v may be missing, and a third number is for images of three dimensions.
-    fn coordinate(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
+    fn coordinate(&mut self, line: u64, rest: &[u8]) -> Result<(), StatementFault> {
         self.before.coordinates += 1;
         let Numbers { values: [u, v, _], count, surplus } = numbers::<3>(rest)?;
         if count == 0 {
-            return Err(Fault::new("a vt line has 0 numbers and needs 2", EXPORT_AGAIN));
+            return Err(StatementFault::new("a vt line has 0 numbers and needs 2", EXPORT_AGAIN));
         }
         // OBJ counts from the lower left of the image.
         let coordinate = Vec2::new(u as f32, (1.0 - v) as f32);
@@ -177,12 +178,12 @@ impl Reader {
         Ok(())
     }
 
-    fn normal(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
+    fn normal(&mut self, line: u64, rest: &[u8]) -> Result<(), StatementFault> {
         self.before.normals += 1;
         let Numbers { values, count, surplus } = numbers::<3>(rest)?;
         if count < 3 {
             let what = format!("a vn line has {count} numbers and needs 3");
-            return Err(Fault::new(what, EXPORT_AGAIN));
+            return Err(StatementFault::new(what, EXPORT_AGAIN));
         }
         let normal = DVec3::from(values).as_vec3();
         if surplus {
@@ -195,7 +196,7 @@ impl Reader {
         Ok(())
     }
 
-    fn face(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
+    fn face(&mut self, line: u64, rest: &[u8]) -> Result<(), StatementFault> {
         let Corners { count, coordinates, normals, dropped } = self.read_corners(line, rest)?;
         if count < 3 {
             self.note(Oddity::ShortFace, line);
@@ -214,7 +215,7 @@ impl Reader {
         Ok(())
     }
 
-    fn polyline(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
+    fn polyline(&mut self, line: u64, rest: &[u8]) -> Result<(), StatementFault> {
         let count = self.read_wire(line, rest, 2)?;
         for end in 1..count {
             self.push_element(end - 1, 2);
@@ -222,7 +223,7 @@ impl Reader {
         Ok(())
     }
 
-    fn points(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
+    fn points(&mut self, line: u64, rest: &[u8]) -> Result<(), StatementFault> {
         for point in 0..self.read_wire(line, rest, 1)? {
             self.push_element(point, 1);
         }
@@ -230,7 +231,7 @@ impl Reader {
     }
 
     /// Reads the corners of lines or points, and says how many there are.
-    fn read_wire(&mut self, line: u64, rest: &[u8], fewest: usize) -> Result<usize, Fault> {
+    fn read_wire(&mut self, line: u64, rest: &[u8], fewest: usize) -> Result<usize, StatementFault> {
         let Corners { count, coordinates, .. } = self.read_corners(line, rest)?;
         if count < fewest {
             self.note(Oddity::ShortLine, line);
@@ -243,9 +244,9 @@ impl Reader {
     }
 
     /// Reads the corners of an element.
-    fn read_corners(&mut self, line: u64, rest: &[u8]) -> Result<Corners, Fault> {
+    fn read_corners(&mut self, line: u64, rest: &[u8]) -> Result<Corners, StatementFault> {
         let found = read_corners(rest, self.before, self.total, &mut self.corners)
-            .map_err(|what| Fault::new(what, "export the model again, or fix the line"))?;
+            .map_err(|what| StatementFault::new(what, "export the model again, or fix the line"))?;
         for _ in 0..found.dropped {
             self.note(Oddity::IndexDropped, line);
         }
@@ -270,6 +271,6 @@ impl Reader {
 
 const EXPORT_AGAIN: &str = "export the model again";
 
-fn numbers<const MOST: usize>(rest: &[u8]) -> Result<Numbers<MOST>, Fault> {
-    read_numbers(rest).map_err(|what| Fault::new(what, "write plain decimal numbers"))
+fn numbers<const MOST: usize>(rest: &[u8]) -> Result<Numbers<MOST>, StatementFault> {
+    read_numbers(rest).map_err(|what| StatementFault::new(what, "write plain decimal numbers"))
 }

@@ -4,7 +4,7 @@
 
 use trigon_math::{DVec3, Vec2};
 
-use super::reader::Numbers;
+use super::reader::RowNumbers;
 use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::import::Import;
 use crate::polygons::{Polygons, RawColors};
@@ -14,7 +14,7 @@ use crate::rows::{Rows, Words, quoted, words};
 pub(super) const REMEDY: &str = "fix the line, or export the model again";
 
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Header {
+pub(super) struct OffHeader {
     pub(super) has_normals: bool,
     pub(super) has_colors: bool,
     pub(super) has_uvs: bool,
@@ -22,7 +22,7 @@ pub(super) struct Header {
     pub(super) faces: u64,
 }
 
-impl Header {
+impl OffHeader {
     /// How many numbers a vertex has at least.
     pub(super) fn least_numbers(&self) -> usize {
         let count = |is_there: bool, numbers: usize| if is_there { numbers } else { 0 };
@@ -55,14 +55,14 @@ fn split_keyword(line: &[u8]) -> Option<(Vec<u8>, usize)> {
     (is_end && prefix.iter().all(|byte| b"STCN4n".contains(byte))).then_some((prefix, at + 3))
 }
 
-pub(super) fn read_header(import: &Import<'_>, text: &mut Words<'_>) -> Result<Header, LoadError> {
+pub(super) fn read_header(import: &Import<'_>, text: &mut Words<'_>) -> Result<OffHeader, LoadError> {
     let path = import.path;
     let first = text.line_ahead();
     if first.is_empty() {
         let remedy = "export the model again";
         return Err(LoadError::new(LoadErrorKind::Empty, path, "the file is empty", remedy));
     }
-    let mut header = Header::default();
+    let mut header = OffHeader::default();
     // The keyword may be left out.
     if let Some((prefix, length)) = split_keyword(first) {
         text.pass_in_line(length);
@@ -154,20 +154,20 @@ impl Looks {
 
 impl Columns {
     /// As the keyword says.
-    pub(super) fn of(header: &Header) -> Self {
-        let &Header { has_normals, has_colors, has_uvs, .. } = header;
+    pub(super) fn of(header: &OffHeader) -> Self {
+        let &OffHeader { has_normals, has_colors, has_uvs, .. } = header;
         Self { has_normals, has_colors, has_uvs, ..Self::default() }
     }
 
     /// As the rows ahead say, of which there are so many.
-    pub(super) fn find(header: &Header, mut text: Words<'_>, rows: u64) -> Self {
+    pub(super) fn find(header: &OffHeader, mut text: Words<'_>, rows: u64) -> Self {
         let columns = Self::of(header);
         let is_plain = header.least_numbers() == 3;
         let is_open = header.has_normals && header.has_colors && !header.has_uvs;
         if !is_plain && !is_open {
             return columns;
         }
-        let (mut numbers, mut width, mut is_uneven) = (Numbers::default(), None, false);
+        let (mut numbers, mut width, mut is_uneven) = (RowNumbers::default(), None, false);
         let (mut first, mut last) = (Looks::ALL, Looks::ALL);
         for _ in 0..rows {
             let Some(line) = text.take_line() else { break };

@@ -18,9 +18,11 @@ use std::borrow::Cow;
 use trigon_math::color::linear_to_srgba8;
 
 use self::header::read_header;
-use self::reader::{Layout, Reader};
+use self::reader::{LineLayout, OffReader};
 use crate::error::{LoadError, LoadErrorKind};
-use crate::export::{Columns, ExportOptions, ExportedFile, Gathered, VertexTable, number_text, push_number};
+use crate::export::{
+    ExportOptions, ExportedFile, ExportedVertices, Gathered, VertexColumns, number_text, push_number,
+};
 use crate::import::Import;
 use crate::options::LoadStage;
 use crate::polygons::{add_polygons, check_vertices};
@@ -37,12 +39,12 @@ pub(crate) fn import_off(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
     let mut words = Words::of(Rows::without_comments(&text));
     let header = read_header(import, &mut words)?;
     check_vertices(import, header.vertices)?;
-    let mut lines = Reader::new(header, words.clone(), Layout::Lines);
+    let mut lines = OffReader::new(header, words.clone(), LineLayout::Lines);
     let mut found = lines.read(import);
     let is_final = |error: &LoadError| matches!(error.kind, LoadErrorKind::Limit | LoadErrorKind::Cancelled);
     if found.as_ref().map_or_else(|error| !is_final(error), |found| found.is_doubtful) {
-        let mut free = [Layout::Free, Layout::FreeWithColors].into_iter();
-        let read = |layout| Reader::new(header, words.clone(), layout).read(import).ok();
+        let mut free = [LineLayout::Free, LineLayout::FreeWithColors].into_iter();
+        let read = |layout| OffReader::new(header, words.clone(), layout).read(import).ok();
         if let Some(free) = free.find_map(read) {
             let before = std::mem::replace(&mut found, Ok(free));
             if let Some(error) = before.err().filter(|_| lines.is_within_vertices()) {
@@ -66,8 +68,8 @@ pub(crate) fn write_off(
     gathered: &mut Gathered<'_>,
     _: &ExportOptions<'_>,
 ) -> Result<Vec<ExportedFile>, WriteError> {
-    let columns = Columns { normals: false, uvs: false, colors: true }.found(gathered);
-    let table = VertexTable::new(gathered, columns);
+    let columns = VertexColumns { normals: false, uvs: false, colors: true }.found(gathered);
+    let table = ExportedVertices::new(gathered, columns);
     let sizes = || gathered.objects.iter().flat_map(|object| object.face_sizes.iter().copied());
     let faces = sizes().count() + table.edges.len();
     let keyword = if columns.colors { "COFF" } else { "OFF" };

@@ -6,7 +6,7 @@ use std::mem::take;
 use trigon_math::{DVec3, Vec4};
 
 use super::header::Columns;
-use super::header::{Header, REMEDY};
+use super::header::{OffHeader, REMEDY};
 use super::plain;
 use super::plain::Piece;
 use crate::error::{LoadError, Location};
@@ -21,7 +21,7 @@ const STRIDE: u64 = 1 << 16;
 
 /// How a file is laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Layout {
+pub(super) enum LineLayout {
     /// A line for each vertex.
     Lines,
     /// One list of numbers.
@@ -31,22 +31,22 @@ pub(super) enum Layout {
 }
 
 /// A file while it is read.
-pub(super) struct Reader<'a> {
-    header: Header,
-    layout: Layout,
+pub(super) struct OffReader<'a> {
+    header: OffHeader,
+    layout: LineLayout,
     text: Words<'a>,
     columns: Columns,
-    numbers: Numbers,
+    numbers: RowNumbers,
     polygons: Polygons,
     /// Of vertices.
     colors: RawColors,
     face_colors: RawColors,
-    found: Found,
+    found: FoundRows,
 }
 
 /// What was read.
 #[derive(Default)]
-pub(super) struct Found {
+pub(super) struct FoundRows {
     pub(super) polygons: Polygons,
     /// Each with its remedy.
     pub(super) warnings: Vec<(Location, String, &'static str)>,
@@ -54,23 +54,23 @@ pub(super) struct Found {
     pub(super) is_doubtful: bool,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> OffReader<'a> {
     /// Reads on after the header.
-    pub(super) fn new(header: Header, text: Words<'a>, layout: Layout) -> Self {
+    pub(super) fn new(header: OffHeader, text: Words<'a>, layout: LineLayout) -> Self {
         Self {
             header,
             layout,
             text,
             columns: Columns::of(&header),
-            numbers: Numbers::default(),
+            numbers: RowNumbers::default(),
             polygons: Polygons::default(),
             colors: RawColors::default(),
             face_colors: RawColors::default(),
-            found: Found::default(),
+            found: FoundRows::default(),
         }
     }
 
-    pub(super) fn read(&mut self, import: &Import<'_>) -> Result<Found, LoadError> {
+    pub(super) fn read(&mut self, import: &Import<'_>) -> Result<FoundRows, LoadError> {
         self.vertices(import)?;
         self.faces(import)?;
         let mut polygons = take(&mut self.polygons);
@@ -78,7 +78,7 @@ impl<'a> Reader<'a> {
             polygons.colors = self.finished(|reader| &mut reader.colors);
         }
         polygons.face_colors = self.finished(|reader| &mut reader.face_colors);
-        Ok(Found { polygons, ..take(&mut self.found) })
+        Ok(FoundRows { polygons, ..take(&mut self.found) })
     }
 
     /// Colours as linear light.
@@ -115,7 +115,7 @@ impl<'a> Reader<'a> {
 
     fn vertices(&mut self, import: &Import<'_>) -> Result<(), LoadError> {
         let count = self.header.vertices;
-        if self.layout == Layout::Lines {
+        if self.layout == LineLayout::Lines {
             if self.header.least_numbers() == 3 {
                 self.plain_positions(import)?;
             }
@@ -162,11 +162,11 @@ impl<'a> Reader<'a> {
     /// Reads the numbers of a vertex; false at the end of the file.
     fn vertex_row(&mut self) -> Result<bool, String> {
         match self.layout {
-            Layout::Lines => match self.text.take_line() {
+            LineLayout::Lines => match self.text.take_line() {
                 Some(line) => self.numbers.read(line).map(|()| true),
                 None => Ok(false),
             },
-            Layout::Free | Layout::FreeWithColors => {
+            LineLayout::Free | LineLayout::FreeWithColors => {
                 self.numbers.values.clear();
                 let count = self.header.all_numbers();
                 self.numbers.read_on(&mut self.text, count).map(|read| read == count)
@@ -221,7 +221,7 @@ impl<'a> Reader<'a> {
                 .map_err(|what| self.malformed(import, format!("face {row}: {what}")))?
             {
                 let what = format!("the header claims {count} faces, and the file ends after {row}");
-                if self.layout != Layout::Lines {
+                if self.layout != LineLayout::Lines {
                     return Err(self.malformed(import, what));
                 }
                 self.found.is_doubtful = true;
@@ -230,7 +230,7 @@ impl<'a> Reader<'a> {
             }
             self.face(import, row)?;
         }
-        if self.layout != Layout::Lines && self.text.next().is_some() {
+        if self.layout != LineLayout::Lines && self.text.next().is_some() {
             return Err(self.malformed(import, "there is more than the header claims".to_owned()));
         }
         Ok(())
@@ -252,7 +252,7 @@ impl<'a> Reader<'a> {
     /// Reads the numbers of a face: how many vertices, these, and its colour; false at the end of the file.
     fn face_row(&mut self, faces_on_lines: Ordering) -> Result<bool, String> {
         let Self { numbers, text, .. } = self;
-        if self.layout == Layout::Lines && faces_on_lines.is_eq() {
+        if self.layout == LineLayout::Lines && faces_on_lines.is_eq() {
             let Some(line) = text.take_line() else { return Ok(false) };
             return numbers.read(line).map(|()| true);
         }
@@ -261,16 +261,16 @@ impl<'a> Reader<'a> {
             return Ok(false);
         }
         let corners = numbers.values[0];
-        if self.layout != Layout::Lines && corners < 1.0 {
+        if self.layout != LineLayout::Lines && corners < 1.0 {
             return Err("has no vertices".to_owned());
         }
         // What is no count has no corners; the face says so.
         numbers.read_on(text, if corners >= 0.0 { corners as usize } else { 0 })?;
         // Where faces share lines, what follows is the next one.
         let has_colors = match self.layout {
-            Layout::Lines => faces_on_lines.is_lt(),
-            Layout::Free => false,
-            Layout::FreeWithColors => true,
+            LineLayout::Lines => faces_on_lines.is_lt(),
+            LineLayout::Free => false,
+            LineLayout::FreeWithColors => true,
         };
         if has_colors {
             numbers.add(text.rest_of_line())?;
@@ -294,7 +294,7 @@ impl<'a> Reader<'a> {
     }
 
     fn plain_faces(&mut self, import: &Import<'_>) -> Result<(), LoadError> {
-        let (Header { vertices, faces, .. }, most) = (self.header, most_corners(import));
+        let (OffHeader { vertices, faces, .. }, most) = (self.header, most_corners(import));
         let read = |text: &[u8]| plain::faces(text, vertices);
         self.plain_rows(import, read, |polygons, more| {
             let fits = (polygons.face_sizes.len() + more.sizes.len()) as u64 <= faces
@@ -333,11 +333,11 @@ impl<'a> Reader<'a> {
 
 /// The numbers of a row.
 #[derive(Default)]
-pub(super) struct Numbers {
+pub(super) struct RowNumbers {
     pub(super) values: Vec<f64>,
 }
 
-impl Numbers {
+impl RowNumbers {
     pub(super) fn read(&mut self, line: &[u8]) -> Result<(), String> {
         self.values.clear();
         self.add(line)

@@ -60,7 +60,7 @@ struct Face {
 }
 
 /// Where the values of faces go.
-struct Sink<'p> {
+struct FaceSink<'p> {
     polygons: &'p mut Polygons,
     colors: Channels,
 }
@@ -108,7 +108,7 @@ impl Face {
         Ok(())
     }
 
-    fn push(&self, roles: &Roles, Sink { polygons, colors }: &mut Sink<'_>) {
+    fn push(&self, roles: &Roles, FaceSink { polygons, colors }: &mut FaceSink<'_>) {
         polygons.face_sizes.push(self.vertices.len() as u32);
         polygons.corner_vertices.extend_from_slice(&self.vertices);
         if roles.has_color() {
@@ -168,7 +168,7 @@ pub(super) fn read_faces<V: Values>(
         polygons.corner_vertices.reserve(element.count.saturating_mul(3).min(most) as usize);
     }
     let mut face = Face::default();
-    let mut sink = Sink { polygons, colors: Channels::new(element, roles.color) };
+    let mut sink = FaceSink { polygons, colors: Channels::new(element, roles.color) };
     let mut outcome = Ok(());
     for row in 0..element.count {
         report(import, row, values)?;

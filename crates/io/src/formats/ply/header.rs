@@ -6,7 +6,7 @@ use crate::polygons::check_vertices;
 use crate::rows::{quoted, words};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Encoding {
+pub(super) enum PlyEncoding {
     Text,
     Binary(ByteOrder),
 }
@@ -40,8 +40,8 @@ impl Element {
 }
 
 #[derive(Debug)]
-pub(super) struct Header {
-    pub(super) encoding: Encoding,
+pub(super) struct PlyHeader {
+    pub(super) encoding: PlyEncoding,
     pub(super) elements: Vec<Element>,
     /// The names of images in comments, with their lines.
     pub(super) textures: Vec<(u64, String)>,
@@ -51,7 +51,7 @@ pub(super) struct Header {
     pub(super) data: usize,
 }
 
-impl Header {
+impl PlyHeader {
     /// How many vertices there are, within the limits.
     pub(super) fn vertex_count(&self, import: &Import<'_>) -> Result<u32, LoadError> {
         let vertices = self.elements.iter().find(|element| element.name == "vertex");
@@ -62,14 +62,14 @@ impl Header {
 }
 
 /// The lines of a header. What ends the first ends all: `\r` before a byte of data may be either.
-struct Lines<'a> {
+struct HeaderLines<'a> {
     bytes: &'a [u8],
     ending: u8,
     at: usize,
     number: u64,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> HeaderLines<'a> {
     fn new(bytes: &'a [u8]) -> Self {
         let first = memchr::memchr2(b'\n', b'\r', bytes).unwrap_or(bytes.len());
         let is_bare = bytes[first..].starts_with(b"\r") && !bytes[first..].starts_with(b"\r\n");
@@ -87,8 +87,8 @@ impl<'a> Lines<'a> {
 
 /// The header while it is read.
 #[derive(Default)]
-struct Draft {
-    encoding: Option<Encoding>,
+struct HeaderDraft {
+    encoding: Option<PlyEncoding>,
     elements: Vec<Element>,
     textures: Vec<(u64, String)>,
 }
@@ -96,19 +96,19 @@ struct Draft {
 /// So many images are told apart.
 const MOST_TEXTURES: usize = 1 << 12;
 
-pub(super) fn read_header(import: &mut Import<'_>, bytes: &[u8]) -> Result<Header, LoadError> {
+pub(super) fn read_header(import: &mut Import<'_>, bytes: &[u8]) -> Result<PlyHeader, LoadError> {
     const REMEDY: &str = "export the model again";
     let path = import.path;
     let malformed =
         |line: u64, what: String| LoadError::malformed(path, what, REMEDY).at(Location::Line(line));
-    let mut lines = Lines::new(bytes);
+    let mut lines = HeaderLines::new(bytes);
     if lines.next() != Some(b"ply") {
         return Err(malformed(
             1,
             "it does not begin with a line \"ply\", so it is not a PLY file".to_owned(),
         ));
     }
-    let mut draft = Draft::default();
+    let mut draft = HeaderDraft::default();
     loop {
         let Some(line) = lines.next() else {
             return Err(malformed(lines.number, "the header has no end_header".to_owned()));
@@ -134,8 +134,8 @@ pub(super) fn read_header(import: &mut Import<'_>, bytes: &[u8]) -> Result<Heade
     let Some(encoding) = draft.encoding else {
         return Err(malformed(lines.number, "the header has no format statement".to_owned()));
     };
-    let Draft { elements, textures, .. } = draft;
-    Ok(Header { encoding, elements, textures, lines: lines.number, data: lines.at })
+    let HeaderDraft { elements, textures, .. } = draft;
+    Ok(PlyHeader { encoding, elements, textures, lines: lines.number, data: lines.at })
 }
 
 /// The name of an image, which MeshLab and others write as `comment TextureFile wood.png`.
@@ -153,7 +153,7 @@ fn first_word(line: &[u8]) -> String {
     quoted(words(line).next().unwrap_or_default())
 }
 
-impl Draft {
+impl HeaderDraft {
     /// Takes in a line; false if it is none of the format.
     fn statement(&mut self, line: &[u8]) -> Result<bool, String> {
         let mut words = words(line);
@@ -175,11 +175,11 @@ impl Draft {
     }
 }
 
-fn encoding(name: &[u8]) -> Result<Encoding, String> {
+fn encoding(name: &[u8]) -> Result<PlyEncoding, String> {
     match name {
-        b"ascii" => Ok(Encoding::Text),
-        b"binary_little_endian" => Ok(Encoding::Binary(ByteOrder::Little)),
-        b"binary_big_endian" => Ok(Encoding::Binary(ByteOrder::Big)),
+        b"ascii" => Ok(PlyEncoding::Text),
+        b"binary_little_endian" => Ok(PlyEncoding::Binary(ByteOrder::Little)),
+        b"binary_big_endian" => Ok(PlyEncoding::Binary(ByteOrder::Big)),
         _ => Err(format!(
             "the format {} is unknown; it must be ascii, binary_little_endian or binary_big_endian",
             quoted(name)

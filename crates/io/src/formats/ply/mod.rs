@@ -18,7 +18,7 @@ use std::borrow::Cow;
 
 use self::faces::read_strips;
 use self::faces::{read_edges, read_faces};
-use self::header::{Encoding, Header, read_header};
+use self::header::{PlyEncoding, PlyHeader, read_header};
 use self::values::skip;
 use self::values::{Binary, Ended, Text, Values};
 use self::vertices::read_vertices;
@@ -42,10 +42,10 @@ pub(crate) fn import_ply(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
     let textures = NamedTextures { names: header.textures.clone(), of_faces: Vec::new() };
     let mut polygons = Polygons { textures, ..Polygons::default() };
     match header.encoding {
-        Encoding::Text => {
+        PlyEncoding::Text => {
             read_elements(import, &header, &mut Text::new(header.lines, data), &mut polygons)?;
         }
-        Encoding::Binary(order) => {
+        PlyEncoding::Binary(order) => {
             let mut values = Binary::new(order, header.data as u64, data);
             read_elements(import, &header, &mut values, &mut polygons)?;
         }
@@ -56,7 +56,7 @@ pub(crate) fn import_ply(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
 
 fn read_elements<V: Values>(
     import: &mut Import<'_>,
-    header: &Header,
+    header: &PlyHeader,
     values: &mut V,
     polygons: &mut Polygons,
 ) -> Result<(), LoadError> {

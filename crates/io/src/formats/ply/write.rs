@@ -5,7 +5,7 @@ use trigon_math::color::{linear_to_srgba8, srgba8_to_linear};
 
 use crate::export::Loss;
 use crate::export::{
-    Columns, Encoding, ExportOptions, ExportedFile, Gathered, Precision, VertexTable, push_number,
+    Encoding, ExportOptions, ExportedFile, ExportedVertices, Gathered, Precision, VertexColumns, push_number,
 };
 use crate::write::WriteError;
 
@@ -67,8 +67,8 @@ impl Sink {
 }
 
 /// What the header tells.
-struct Layout {
-    columns: Columns,
+struct RowLayout {
+    columns: VertexColumns,
     position: Precision,
     /// v is turned round: where that needs more digits than an f32 has, it gets those of an f64.
     uv: Precision,
@@ -82,11 +82,11 @@ pub(crate) fn write_ply(
     gathered: &mut Gathered<'_>,
     options: &ExportOptions<'_>,
 ) -> Result<Vec<ExportedFile>, WriteError> {
-    let columns = Columns { normals: true, uvs: true, colors: true }.found(gathered);
-    let table = VertexTable::new(gathered, columns);
+    let columns = VertexColumns { normals: true, uvs: true, colors: true }.found(gathered);
+    let table = ExportedVertices::new(gathered, columns);
     note_losses(gathered, &table, columns);
     let sizes = || gathered.objects.iter().flat_map(|object| object.face_sizes.iter().copied());
-    let layout = Layout {
+    let layout = RowLayout {
         columns,
         position: gathered.precision,
         uv: uv_precision(&table),
@@ -106,7 +106,7 @@ pub(crate) fn write_ply(
     Ok(vec![ExportedFile { name: name.to_owned(), bytes: sink.into_bytes() }])
 }
 
-fn note_losses(gathered: &mut Gathered<'_>, table: &VertexTable, columns: Columns) {
+fn note_losses(gathered: &mut Gathered<'_>, table: &ExportedVertices, columns: VertexColumns) {
     if table.split > 0 {
         let what = format!(
             "that {} at seams and sharp edges are one: they are written again for other normals, colours or texture coordinates",
@@ -125,7 +125,7 @@ fn upwards(v: f32) -> f64 {
     1.0 - f64::from(v)
 }
 
-fn uv_precision(table: &VertexTable) -> Precision {
+fn uv_precision(table: &ExportedVertices) -> Precision {
     let comes_back = |v: f32| ((1.0 - f64::from(upwards(v) as f32)) as f32).to_bits() == v.to_bits();
     if table.values.iter().all(|values| comes_back(values.uv.y)) {
         Precision::Single
@@ -134,7 +134,7 @@ fn uv_precision(table: &VertexTable) -> Precision {
     }
 }
 
-fn header(layout: &Layout, table: &VertexTable, faces: usize, encoding: Encoding) -> String {
+fn header(layout: &RowLayout, table: &ExportedVertices, faces: usize, encoding: Encoding) -> String {
     let kind = |precision| if precision == Precision::Single { "float" } else { "double" };
     let encoding = match encoding {
         Encoding::Text => "ascii",
@@ -167,7 +167,7 @@ fn header(layout: &Layout, table: &VertexTable, faces: usize, encoding: Encoding
     text + "end_header\n"
 }
 
-fn write_vertices(sink: &mut Sink, layout: &Layout, table: &VertexTable) {
+fn write_vertices(sink: &mut Sink, layout: &RowLayout, table: &ExportedVertices) {
     for (position, values) in table.positions.iter().zip(&table.values) {
         position.to_array().iter().for_each(|&value| sink.float(value, layout.position));
         if layout.columns.normals {
@@ -184,7 +184,12 @@ fn write_vertices(sink: &mut Sink, layout: &Layout, table: &VertexTable) {
     }
 }
 
-fn write_faces(sink: &mut Sink, layout: &Layout, table: &VertexTable, sizes: impl Iterator<Item = u32>) {
+fn write_faces(
+    sink: &mut Sink,
+    layout: &RowLayout,
+    table: &ExportedVertices,
+    sizes: impl Iterator<Item = u32>,
+) {
     let mut rest = table.corner_vertices.as_slice();
     for size in sizes {
         let (face, after) = rest.split_at(size as usize);

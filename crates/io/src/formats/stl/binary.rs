@@ -50,7 +50,7 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
     // Half as many vertices as triangles, as in a closed surface.
     let mut equal = EqualKeys::with_capacity(length / 2);
     let (triangles, _) = bytes[HEADER..][..length * TRIANGLE].as_chunks::<TRIANGLE>();
-    let mut found = Corners::default();
+    let mut found = StlCorners::default();
     for some in triangles.chunks(AT_ONCE) {
         let share = polygons.corner_vertices.len() as f32 / (3 * length) as f32;
         import.options.report(import.path, LoadStage::Geometry, 0.9 * share)?;
@@ -60,7 +60,7 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
                 .for_each(|triangle| attributes.push(u16::from_le_bytes([triangle[48], triangle[49]])));
             push_corners(&mut polygons, &found);
         };
-        let ((), more) = rayon::join(add, || Corners::find(some, &mut equal));
+        let ((), more) = rayon::join(add, || StlCorners::find(some, &mut equal));
         found = more;
         check_vertices(import, polygons.positions.len() as u64)?;
     }
@@ -72,14 +72,14 @@ pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, Lo
 
 /// Corners of triangles.
 #[derive(Default)]
-struct Corners {
+struct StlCorners {
     /// As the bits of their coordinates.
     positions: Vec<[[u32; 3]; 3]>,
     /// For each the number of the first corner at its place.
     firsts: Vec<u32>,
 }
 
-impl Corners {
+impl StlCorners {
     fn find(triangles: &[[u8; TRIANGLE]], equal: &mut EqualKeys<[u32; 3]>) -> Self {
         let positions: Vec<[[u32; 3]; 3]> = triangles.par_iter().map(corners).collect();
         let firsts = equal.add(positions.as_flattened());
@@ -97,7 +97,7 @@ fn corners(triangle: &[u8; TRIANGLE]) -> [[u32; 3]; 3] {
 }
 
 /// Adds corners, each new place among them as a vertex.
-fn push_corners(polygons: &mut Polygons, corners: &Corners) {
+fn push_corners(polygons: &mut Polygons, corners: &StlCorners) {
     let Polygons { positions, corner_vertices, .. } = polygons;
     for (&first, corner) in corners.firsts.iter().zip(corners.positions.as_flattened()) {
         if first as usize == corner_vertices.len() {
@@ -228,12 +228,13 @@ impl Attributes {
 /// The colour that the header gives to all triangles.
 fn color_of_all(header: &[u8], warnings: &mut Warnings) -> Option<Vec4> {
     let mut warn = |what: &str| warnings.push(Location::Whole, what, AGAIN);
-    let (color, diffuse) = (Stated::after(header, b"COLOR="), Stated::after(header, b"MATERIAL="));
+    let (color, diffuse) =
+        (StatedColors::after(header, b"COLOR="), StatedColors::after(header, b"MATERIAL="));
     let diffuse = diffuse.filter(|diffuse| diffuse.rgb != [0; 3]);
     if color.is_some_and(|color| diffuse.is_some_and(|diffuse| diffuse.rgb != color.rgb)) {
         warn("COLOR and MATERIAL in the header contradict each other, and MATERIAL counts");
     }
-    let Stated { rgb, .. } = diffuse.or(color)?;
+    let StatedColors { rgb, .. } = diffuse.or(color)?;
     let alpha = color.or(diffuse).map_or(Alpha::Given(u8::MAX), |stated| stated.alpha);
     let alpha = match alpha {
         Alpha::Given(alpha) => alpha,
@@ -252,7 +253,7 @@ fn color_of_all(header: &[u8], warnings: &mut Warnings) -> Option<Vec4> {
 
 /// A colour as a header has it.
 #[derive(Clone, Copy)]
-struct Stated {
+struct StatedColors {
     rgb: [u8; 3],
     alpha: Alpha,
 }
@@ -265,7 +266,7 @@ enum Alpha {
     Invisible,
 }
 
-impl Stated {
+impl StatedColors {
     /// What follows a word; nothing where only the filling of the header does.
     fn after(header: &[u8], word: &[u8]) -> Option<Self> {
         let start = header.windows(word.len()).position(|window| window == word)? + word.len();

@@ -71,7 +71,7 @@ fn is_comment(row: &[u8]) -> bool {
 const COMMENTS: [&[u8]; 4] = [b"#", b"//", b";", b"!"];
 
 /// The solids while they are read.
-struct Reader<'a> {
+struct StlReader<'a> {
     words: Words<'a>,
     done: Vec<Polygons>,
     /// The one that facets go to.
@@ -85,7 +85,7 @@ struct Reader<'a> {
 pub(super) fn read(import: &mut Import<'_>, text: &[u8]) -> Result<Vec<Polygons>, LoadError> {
     let words = Words::of(Rows::after(0, text));
     let mut reader =
-        Reader { words, done: Vec::new(), solid: Solid::default(), corner_count: 0, corners: Vec::new() };
+        StlReader { words, done: Vec::new(), solid: Solid::default(), corner_count: 0, corners: Vec::new() };
     let mut statements = 0_u64;
     while reader.statement(import)? {
         statements += 1;
@@ -106,7 +106,7 @@ pub(super) fn read(import: &mut Import<'_>, text: &[u8]) -> Result<Vec<Polygons>
     Ok(reader.done)
 }
 
-impl Reader<'_> {
+impl StlReader<'_> {
     /// Reads a statement; false at the end of the file.
     fn statement(&mut self, import: &mut Import<'_>) -> Result<bool, LoadError> {
         let line_before = self.words.line();

@@ -8,7 +8,7 @@ use super::corners::{CornerTable, NONE};
 use super::order::{Order, Visit, find_order};
 use super::prediction::{Neighbours, Positions, read_integers};
 use super::symbols::{Budget, Failure};
-use super::values::{Number, Values};
+use super::values::{AttributeValues, Number};
 use crate::formats::gltf::stream::Broken;
 
 /// The kind of an attribute by which others are predicted.
@@ -18,7 +18,7 @@ const POSITION: u8 = 0;
 pub(crate) struct DecodedAttribute {
     /// The number by which the file refers to it.
     pub(crate) id: u32,
-    pub(crate) values: Values,
+    pub(crate) values: AttributeValues,
 }
 
 /// Attributes that are stored in the same order.
@@ -37,12 +37,12 @@ struct Attribute {
     number: Number,
     components: usize,
     normalized: bool,
-    encoding: Encoding,
+    encoding: ValueEncoding,
 }
 
 /// How values become the integers that are stored.
 #[derive(Clone, Copy)]
-enum Encoding {
+enum ValueEncoding {
     /// They are stored as they are.
     Plain,
     /// They are integers.
@@ -53,7 +53,7 @@ enum Encoding {
     Normals,
 }
 
-impl Encoding {
+impl ValueEncoding {
     fn from_code(code: u8) -> Result<Self, Failure> {
         match code {
             0 => Ok(Self::Plain),
@@ -67,18 +67,18 @@ impl Encoding {
 
 pub(super) fn read_attributes(
     stream: &mut Stream<'_>,
-    shape: &Shape,
+    shape: &MeshShape,
     budget: &mut Budget,
 ) -> Result<Vec<DecodedAttribute>, Failure> {
     let groups = read_groups(stream, shape)?;
-    let mut reader = Reader { stream, shape, budget, positions: None, found: Vec::new() };
+    let mut reader = AttributeReader { stream, shape, budget, positions: None, found: Vec::new() };
     for group in groups {
         reader.read_group(group)?;
     }
     Ok(reader.found)
 }
 
-fn read_groups(stream: &mut Stream<'_>, shape: &Shape) -> Result<Vec<Group>, Failure> {
+fn read_groups(stream: &mut Stream<'_>, shape: &MeshShape) -> Result<Vec<Group>, Failure> {
     let count = stream.byte()?;
     let mut groups = Vec::new();
     for _ in 0..count {
@@ -96,7 +96,7 @@ fn read_groups(stream: &mut Stream<'_>, shape: &Shape) -> Result<Vec<Group>, Fai
             group.attributes.push(attribute);
         }
         for attribute in &mut group.attributes {
-            attribute.encoding = Encoding::from_code(stream.byte()?)?;
+            attribute.encoding = ValueEncoding::from_code(stream.byte()?)?;
         }
     }
     Ok(groups)
@@ -128,27 +128,27 @@ fn read_attribute(stream: &mut Stream<'_>, may_be_position: bool) -> Result<Attr
         number: Number::from_code(number)?,
         components: usize::from(components),
         normalized: normalized > 0,
-        encoding: Encoding::Plain,
+        encoding: ValueEncoding::Plain,
     })
 }
 
 /// The values of an attribute in the stream, in their order.
-enum Stored {
+enum StoredAttribute {
     Plain(Vec<u8>),
     Integers(Vec<i32>),
 }
 
-struct Reader<'r, 'b> {
+struct AttributeReader<'r, 'b> {
     stream: &'r mut Stream<'b>,
-    shape: &'r Shape,
+    shape: &'r MeshShape,
     budget: &'r mut Budget,
     positions: Option<Positions>,
     found: Vec<DecodedAttribute>,
 }
 
-impl Reader<'_, '_> {
+impl AttributeReader<'_, '_> {
     fn read_group(&mut self, group: Group) -> Result<(), Failure> {
-        let Shape { triangles, points, tables } = self.shape;
+        let MeshShape { triangles, points, tables } = self.shape;
         self.budget.spend(points.saturating_add(triangles.len()))?;
         let table = tables.as_ref().map(|tables| match group.seams {
             Some(kind) => &tables.attributes[kind],
@@ -167,7 +167,8 @@ impl Reader<'_, '_> {
                 Neighbours { table, order, points: triangles, positions }
             });
             let values = read_stored(self.stream, attribute, count, neighbours, self.budget)?;
-            if let (true, 3, Stored::Integers(list)) = (attribute.is_position, attribute.components, &values)
+            if let (true, 3, StoredAttribute::Integers(list)) =
+                (attribute.is_position, attribute.components, &values)
             {
                 self.budget.spend(list.len() + of_points.len())?;
                 self.positions = Some(Positions { values: list.clone(), of_points: of_points.clone() });
@@ -185,7 +186,7 @@ impl Reader<'_, '_> {
 }
 
 /// The value of each point.
-fn values_of_points(shape: &Shape, vertices: &[u32], order: &Order) -> Vec<u32> {
+fn values_of_points(shape: &MeshShape, vertices: &[u32], order: &Order) -> Vec<u32> {
     let mut values = vec![NONE; shape.points];
     for (&point, &vertex) in shape.triangles.iter().zip(vertices) {
         if let (Some(to), Some(&value)) = (values.get_mut(point as usize), order.values.get(vertex as usize))
@@ -202,40 +203,40 @@ fn read_stored(
     count: usize,
     neighbours: Option<Neighbours<'_>>,
     budget: &mut Budget,
-) -> Result<Stored, Failure> {
+) -> Result<StoredAttribute, Failure> {
     let components = match attribute.encoding {
-        Encoding::Plain => {
+        ValueEncoding::Plain => {
             let size = attribute.number.size() * attribute.components;
             let bytes = stream.take(count.checked_mul(size).ok_or(Failure::TooLarge)?)?;
             budget.spend(bytes.len() / 4)?;
-            return Ok(Stored::Plain(attribute.number.converted(bytes)));
+            return Ok(StoredAttribute::Plain(attribute.number.converted(bytes)));
         }
-        Encoding::Integers => attribute.components,
-        Encoding::Steps if attribute.number == Number::F32 => attribute.components,
-        Encoding::Normals if attribute.number == Number::F32 && attribute.components == 3 => 2,
+        ValueEncoding::Integers => attribute.components,
+        ValueEncoding::Steps if attribute.number == Number::F32 => attribute.components,
+        ValueEncoding::Normals if attribute.number == Number::F32 && attribute.components == 3 => 2,
         _ => return Err("an attribute has the wrong type for its encoding".into()),
     };
-    Ok(Stored::Integers(read_integers(stream, count, components, neighbours, budget)?))
+    Ok(StoredAttribute::Integers(read_integers(stream, count, components, neighbours, budget)?))
 }
 
 impl Attribute {
     /// Turns what is stored into values.
-    fn finish(&self, stream: &mut Stream<'_>, stored: Stored) -> Result<Values, Failure> {
+    fn finish(&self, stream: &mut Stream<'_>, stored: StoredAttribute) -> Result<AttributeValues, Failure> {
         let floats = |floats: &mut dyn Iterator<Item = f32>| floats.flat_map(f32::to_le_bytes).collect();
         let (component, bytes) = match (stored, self.encoding) {
-            (Stored::Plain(bytes), _) => (self.number.component(), bytes),
-            (Stored::Integers(list), Encoding::Steps) => {
+            (StoredAttribute::Plain(bytes), _) => (self.number.component(), bytes),
+            (StoredAttribute::Integers(list), ValueEncoding::Steps) => {
                 let steps = Steps::read(stream, self.components)?;
                 (ComponentType::F32, floats(&mut steps.values(&list)))
             }
-            (Stored::Integers(list), Encoding::Normals) => {
+            (StoredAttribute::Integers(list), ValueEncoding::Normals) => {
                 let step = read_normal_step(stream)?;
                 let normals = list.as_chunks().0.iter().flat_map(|&point| normal(point, step));
                 (ComponentType::F32, floats(&mut { normals }))
             }
-            (Stored::Integers(list), _) => (self.number.component(), self.number.narrowed(&list)?),
+            (StoredAttribute::Integers(list), _) => (self.number.component(), self.number.narrowed(&list)?),
         };
-        Ok(Values { component, components: self.components, normalized: self.normalized, bytes })
+        Ok(AttributeValues { component, components: self.components, normalized: self.normalized, bytes })
     }
 }
 
@@ -287,7 +288,7 @@ fn normal(point: [i32; 2], step: f32) -> [f32; 3] {
 }
 
 /// The triangles of a mesh, before its attributes are known.
-pub(super) struct Shape {
+pub(super) struct MeshShape {
     pub(super) points: usize,
     /// Three points each.
     pub(super) triangles: Vec<u32>,

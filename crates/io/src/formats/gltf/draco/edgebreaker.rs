@@ -4,18 +4,18 @@
 use std::collections::HashMap;
 
 use super::Stream;
+use super::attributes::{MeshShape, Tables};
 use super::attributes::{Numbered, number_points};
-use super::attributes::{Shape, Tables};
 use super::corners::{CornerTable, NONE, next, previous};
 use super::corners::{read_seams, split_at_seams};
 use super::symbols::Bits;
 use super::symbols::Budget;
 use super::symbols::Failure;
-use super::walk::{Header, Symbol, Walk};
+use super::walk::{Symbol, Walk, WalkHeader};
 use crate::formats::gltf::stream::Broken;
 
-pub(super) fn read_triangles(stream: &mut Stream<'_>, budget: &mut Budget) -> Result<Shape, Failure> {
-    let header = Header::read(stream)?;
+pub(super) fn read_triangles(stream: &mut Stream<'_>, budget: &mut Budget) -> Result<MeshShape, Failure> {
+    let header = WalkHeader::read(stream)?;
     // The table, the points, and a table for each kind of attribute.
     budget.spend(header.faces.saturating_mul(12))?;
     budget.spend(header.faces.saturating_mul(7 * usize::from(header.seam_kinds)))?;
@@ -36,7 +36,7 @@ pub(super) fn read_triangles(stream: &mut Stream<'_>, budget: &mut Budget) -> Re
     let attributes = seams.into_iter().map(|seams| split_at_seams(&positions, seams)).collect();
     let tables = Tables { positions, attributes };
     let Numbered { points, triangles } = number_points(&tables, &is_closed)?;
-    Ok(Shape { points, triangles, tables: Some(tables) })
+    Ok(MeshShape { points, triangles, tables: Some(tables) })
 }
 
 /// A place where the walk split, so that two parts join when it is rebuilt.
@@ -48,7 +48,11 @@ struct Join {
     is_right: bool,
 }
 
-fn read_joins(stream: &mut Stream<'_>, header: &Header, budget: &mut Budget) -> Result<Vec<Join>, Failure> {
+fn read_joins(
+    stream: &mut Stream<'_>,
+    header: &WalkHeader,
+    budget: &mut Budget,
+) -> Result<Vec<Join>, Failure> {
     let count = stream.varint()? as usize;
     if count > header.faces {
         return Err("its walk splits too often".into());
@@ -95,7 +99,7 @@ struct Builder {
 }
 
 impl Builder {
-    fn new(header: &Header, joins: Vec<Join>) -> Self {
+    fn new(header: &WalkHeader, joins: Vec<Join>) -> Self {
         Self {
             table: CornerTable::with_triangles(header.faces),
             is_closed: vec![false; header.most_vertices],

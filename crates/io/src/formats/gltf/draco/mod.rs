@@ -26,7 +26,7 @@ mod symbols;
 mod values;
 mod walk;
 
-use self::attributes::Shape;
+use self::attributes::MeshShape;
 use self::symbols::read_symbols;
 use super::stream::Broken;
 use super::stream::Stream;
@@ -55,7 +55,7 @@ pub(crate) fn decode(bytes: &[u8], budget: &mut Budget) -> Result<DecodedMesh, F
     Ok(DecodedMesh { points: shape.points, triangles: shape.triangles, attributes })
 }
 
-fn read_triangles(stream: &mut Stream<'_>, budget: &mut Budget) -> Result<Shape, Failure> {
+fn read_triangles(stream: &mut Stream<'_>, budget: &mut Budget) -> Result<MeshShape, Failure> {
     let (faces, points) = (stream.varint()? as usize, stream.varint()?);
     // The smallest index takes a byte, compressed ones less.
     let corners = faces.checked_mul(3).ok_or("it has too many triangles")?;
@@ -69,7 +69,7 @@ fn read_triangles(stream: &mut Stream<'_>, budget: &mut Budget) -> Result<Shape,
     if triangles.iter().any(|&point| point >= points) {
         return Err("an index is beyond its points".into());
     }
-    Ok(Shape { points: points as usize, triangles, tables: None })
+    Ok(MeshShape { points: points as usize, triangles, tables: None })
 }
 
 /// Indices of which each is stored as the difference to the one before, with its sign in the

@@ -6,7 +6,7 @@ use super::symbols::Failure;
 use crate::formats::gltf::stream::Broken;
 
 /// The values of an attribute, one after the other as in an accessor.
-pub(crate) struct Values {
+pub(crate) struct AttributeValues {
     pub(crate) component: ComponentType,
     /// Per value.
     pub(crate) components: usize,
@@ -15,7 +15,7 @@ pub(crate) struct Values {
     pub(crate) bytes: Vec<u8>,
 }
 
-impl Values {
+impl AttributeValues {
     /// The values that points have.
     pub(super) fn of_points(self, points: &[u32]) -> Result<Self, Broken> {
         let size = self.component.size() * self.components;

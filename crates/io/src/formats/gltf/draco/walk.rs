@@ -32,7 +32,7 @@ const FEWEST_NEIGHBOURS: u32 = 2;
 const MOST_NEIGHBOURS: u32 = 7;
 
 /// The numbers before a walk.
-pub(super) struct Header {
+pub(super) struct WalkHeader {
     /// How symbols are stored.
     pub(super) walk_kind: u8,
     pub(super) faces: usize,
@@ -43,7 +43,7 @@ pub(super) struct Header {
     pub(super) most_vertices: usize,
 }
 
-impl Header {
+impl WalkHeader {
     pub(super) fn read(stream: &mut Stream<'_>) -> Result<Self, Broken> {
         let walk_kind = stream.byte()?;
         let (vertices, faces) = (stream.varint()?, stream.varint()?);
@@ -90,7 +90,7 @@ struct ByNeighbours {
 impl<'b> Walk<'b> {
     pub(super) fn read(
         stream: &mut Stream<'b>,
-        header: &Header,
+        header: &WalkHeader,
         budget: &mut Budget,
     ) -> Result<Self, Failure> {
         let plain = match header.walk_kind {
@@ -133,7 +133,7 @@ impl<'b> Walk<'b> {
 }
 
 impl ByNeighbours {
-    fn read(stream: &mut Stream<'_>, header: &Header, budget: &mut Budget) -> Result<Self, Failure> {
+    fn read(stream: &mut Stream<'_>, header: &WalkHeader, budget: &mut Budget) -> Result<Self, Failure> {
         budget.spend(header.most_vertices)?;
         let mut lists = Vec::new();
         for _ in FEWEST_NEIGHBOURS..=MOST_NEIGHBOURS {

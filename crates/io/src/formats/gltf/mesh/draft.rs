@@ -19,7 +19,7 @@ use crate::vertex_table::{AT_ONCE, VertexTable};
 const FACES_AT_ONCE: usize = 1 << 10;
 
 /// The mesh under construction.
-pub(super) struct Draft {
+pub(super) struct MeshDraft {
     builder: MeshBuilder,
     /// The vertices by position and movement.
     welded: VertexTable,
@@ -37,7 +37,7 @@ pub(super) struct Draft {
     pub(super) non_finite: usize,
 }
 
-impl Draft {
+impl MeshDraft {
     pub(super) fn new(parts: &[Part], target_names: &[String]) -> Self {
         let sum = |count: fn(&Part) -> usize| parts.iter().map(count).sum::<usize>();
         let (vertices, faces) =
@@ -157,7 +157,7 @@ impl Draft {
         if self.vertex_colors.is_some() {
             self.weld_by::<ColoredKey>(part)
         } else {
-            self.weld_by::<Key>(part)
+            self.weld_by::<WeldKey>(part)
         }
     }
 
@@ -168,7 +168,7 @@ impl Draft {
             let first = vertices.len();
             let key = |(vertex, &position)| {
                 let way = self.movements.way(part, vertex);
-                K::new(Key::new(position, way), || wire_color(part, vertex))
+                K::new(WeldKey::new(position, way), || wire_color(part, vertex))
             };
             keys.clear();
             keys.extend((first..).zip(positions).map(key));
@@ -187,7 +187,7 @@ impl Draft {
         let colors = self.vertex_colors.as_deref().unwrap_or_default();
         let known = |vertex: u32| {
             let way = ways.get(vertex as usize).copied().unwrap_or(0);
-            K::new(Key::new(positions[vertex as usize], way), || colors[vertex as usize])
+            K::new(WeldKey::new(positions[vertex as usize], way), || colors[vertex as usize])
         };
         self.welded.number(&key, hash, known).unwrap_or_else(|new| {
             self.builder.push_vertex(part.positions[vertex]);
@@ -235,7 +235,7 @@ impl Draft {
 /// What tells the vertices of a mesh apart.
 trait VertexKey: Copy + Eq + Hash {
     /// `color` is that of its vertex.
-    fn new(key: Key, color: impl FnOnce() -> Vec4) -> Self;
+    fn new(key: WeldKey, color: impl FnOnce() -> Vec4) -> Self;
 
     /// The number of its movement.
     fn way(&self) -> u32;
@@ -243,20 +243,20 @@ trait VertexKey: Copy + Eq + Hash {
 
 /// What tells vertices apart where lines and points have no colours.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-struct Key {
+struct WeldKey {
     position: [u32; 3],
     /// The number of its movement.
     way: u32,
 }
 
-impl Key {
+impl WeldKey {
     fn new(position: Vec3, way: u32) -> Self {
         Self { position: position.to_array().map(bits), way }
     }
 }
 
-impl VertexKey for Key {
-    fn new(key: Key, _: impl FnOnce() -> Vec4) -> Self {
+impl VertexKey for WeldKey {
+    fn new(key: WeldKey, _: impl FnOnce() -> Vec4) -> Self {
         key
     }
 
@@ -268,12 +268,12 @@ impl VertexKey for Key {
 /// What tells vertices apart where they do: three axes that begin at one place keep their colours.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct ColoredKey {
-    key: Key,
+    key: WeldKey,
     color: [u32; 4],
 }
 
 impl VertexKey for ColoredKey {
-    fn new(key: Key, color: impl FnOnce() -> Vec4) -> Self {
+    fn new(key: WeldKey, color: impl FnOnce() -> Vec4) -> Self {
         Self { key, color: color().to_array().map(bits) }
     }
 

@@ -14,7 +14,7 @@ mod part;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use draft::Draft;
+use draft::MeshDraft;
 use gltf::json::Root;
 use part::{Part, read_primitive};
 use trigon_math::{Vec3, Vec4};
@@ -50,7 +50,7 @@ pub(crate) fn build_mesh(
     if wires == WireMaterials::Several {
         tint_wires(accessors.root, &mut parts, index, warnings);
     }
-    let mut draft = Draft::new(&parts, target_names);
+    let mut draft = MeshDraft::new(&parts, target_names);
     if let Some(material) = wires.first_slot() {
         draft.slot(material);
     }

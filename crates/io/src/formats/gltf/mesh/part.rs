@@ -9,7 +9,7 @@ use super::movement::{PartSkin, PartTarget, read_skin, read_targets};
 use super::{Needs, WireTint};
 use crate::error::{LoadErrorKind, Location};
 use crate::formats::gltf::accessor::{Accessors, valid};
-use crate::formats::gltf::buffers::{Unplaced, Unread};
+use crate::formats::gltf::buffers::{Unplaced, UnreadReason};
 use crate::formats::gltf::formats;
 use crate::formats::gltf::formats::Usage;
 use crate::formats::gltf::primitive::{Elements, corner_count, elements};
@@ -127,7 +127,7 @@ fn check_bounds(accessors: &Accessors<'_>, index: usize) -> Result<(), Unplaced>
 
 fn malformed(location: Location, what: String) -> Unplaced {
     let remedy = "export the model again";
-    Unplaced(location, Unread { kind: LoadErrorKind::Malformed, what, remedy })
+    Unplaced(location, UnreadReason { kind: LoadErrorKind::Malformed, what, remedy })
 }
 
 /// The triangles, edges and points, all of whose indices exist.

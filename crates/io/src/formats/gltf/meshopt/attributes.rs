@@ -41,9 +41,9 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
     let (_, mut stream, tail) = Stream::open(bytes, tail_length)?;
     let (_, tail) = tail.split_at(tail.len() - stride - channel_bytes);
     let (baseline, modes) = tail.split_at(stride);
-    let channels: Vec<Channel> = match version {
-        Version::Zero => vec![Channel::Bytes; stride / 4],
-        Version::One => modes.iter().map(|&mode| Channel::new(mode)).collect::<Result<_, _>>()?,
+    let channels: Vec<ChannelMode> = match version {
+        Version::Zero => vec![ChannelMode::Bytes; stride / 4],
+        Version::One => modes.iter().map(|&mode| ChannelMode::new(mode)).collect::<Result<_, _>>()?,
     };
     let most = ((BLOCK_BYTES / stride) & !(GROUP - 1)).min(BLOCK);
     let mut previous = baseline.to_vec();
@@ -126,7 +126,7 @@ fn unpacked<const WIDTH: usize>(packed: &[u8]) -> [u8; GROUP] {
 
 /// How four bytes of an element follow from those of the previous one.
 #[derive(Clone, Copy)]
-enum Channel {
+enum ChannelMode {
     /// Differences of bytes.
     Bytes,
     /// Differences of two 16-bit numbers.
@@ -135,7 +135,7 @@ enum Channel {
     Bits(u32),
 }
 
-impl Channel {
+impl ChannelMode {
     fn new(mode: u8) -> Result<Self, Broken> {
         match (mode & 0xf, mode >> 4) {
             (0, 0) => Ok(Self::Bytes),
@@ -173,7 +173,13 @@ fn unzigzag_word(value: u16) -> u16 {
 }
 
 /// Converts the deltas of a block to elements, channel by channel.
-fn add_up(deltas: &[u8], elements: usize, channels: &[Channel], previous: &mut [u8], decoded: &mut Vec<u8>) {
+fn add_up(
+    deltas: &[u8],
+    elements: usize,
+    channels: &[ChannelMode],
+    previous: &mut [u8],
+    decoded: &mut Vec<u8>,
+) {
     let (pitch, stride, start) = (elements.div_ceil(GROUP) * GROUP, previous.len(), decoded.len());
     decoded.resize(start + elements * stride, 0);
     for (index, (channel, last)) in channels.iter().zip(previous.chunks_exact_mut(4)).enumerate() {

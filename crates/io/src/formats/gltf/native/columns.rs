@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Deltas, EdgeMark, EditData, Mesh, MeshColumns, MorphTarget, SkinWeights};
 
-use super::Header;
+use super::NativeHeader;
 use crate::formats::gltf::triangle_hash::xxh64;
 
 const SHARP: u32 = 1;
@@ -75,7 +75,7 @@ fn hash_column(hashed: &mut Vec<u8>, name: &str, bytes: &[u8]) {
 pub(in crate::formats::gltf) fn columns_of_mesh(
     mesh: &Mesh,
     edit_data: Option<&EditData>,
-) -> (ColumnWriter, Header) {
+) -> (ColumnWriter, NativeHeader) {
     let mut writer = ColumnWriter::default();
     let attributes = mesh.attributes();
     writer.floats("positions", mesh.positions().iter().map(|position| position.to_array()));
@@ -117,7 +117,7 @@ pub(in crate::formats::gltf) fn columns_of_mesh(
     if let Some(data) = edit_data {
         write_edit_data(&mut writer, data);
     }
-    let header = Header {
+    let header = NativeHeader {
         version: super::VERSION,
         data: writer.hash(),
         joints_per_vertex: attributes.skin.as_ref().map(SkinWeights::per_vertex),
@@ -125,7 +125,7 @@ pub(in crate::formats::gltf) fn columns_of_mesh(
         edited: edit_data.is_some(),
         subdivision: edit_data.map_or(0, |data| data.subdivision),
         empty: if mesh.face_count() == 0 { optional_columns(attributes) } else { BTreeSet::new() },
-        ..Header::default()
+        ..NativeHeader::default()
     };
     (writer, header)
 }
@@ -172,7 +172,7 @@ pub(in crate::formats::gltf) struct ColumnReader<'b> {
 
 impl<'b> ColumnReader<'b> {
     pub(in crate::formats::gltf) fn new(
-        header: &'b Header,
+        header: &'b NativeHeader,
         find: &'b dyn Fn(&str) -> Option<&'b [u8]>,
     ) -> Self {
         Self { empty: &header.empty, find, hashed: Vec::new() }
@@ -230,7 +230,7 @@ fn vec3(name: &str, bytes: &[u8]) -> Result<Vec<Vec3>, String> {
 /// The contradiction, in words.
 pub(in crate::formats::gltf) fn mesh_from_columns(
     reader: &mut ColumnReader<'_>,
-    header: &Header,
+    header: &NativeHeader,
 ) -> Result<(Mesh, Option<EditData>), String> {
     let positions = reader.column("positions");
     let columns = MeshColumns {
@@ -251,7 +251,7 @@ pub(in crate::formats::gltf) fn mesh_from_columns(
     Ok((mesh, edit_data))
 }
 
-fn read_attributes(reader: &mut ColumnReader<'_>, header: &Header) -> Result<Attributes, String> {
+fn read_attributes(reader: &mut ColumnReader<'_>, header: &NativeHeader) -> Result<Attributes, String> {
     let mut attributes = Attributes::default();
     if let Some(bytes) = reader.optional("faceMaterials") {
         attributes.face_materials = Some(words("faceMaterials", bytes)?);

@@ -1,6 +1,6 @@
 //! The editor's additions to a standard glTF file: `extras.trigon` of meshes, nodes and materials.
 //!
-//! A mesh names buffer views with its polygons, its exact values and its marks ([`Header`]), and
+//! A mesh names buffer views with its polygons, its exact values and its marks ([`NativeHeader`]), and
 //! the hash of the triangles that represent them. If another program changed the triangles, the
 //! hash differs, and the triangles are used. Transforms need nothing here: numbers in glTF are
 //! decimal, so a node's own members hold all digits of an f64.
@@ -44,7 +44,7 @@ pub(super) struct NativeMesh {
 pub(super) fn read_native_mesh(
     accessors: &mut Accessors<'_>,
     index: usize,
-    header: &Header,
+    header: &NativeHeader,
 ) -> Result<Result<NativeMesh, String>, Unplaced> {
     let root = accessors.root;
     let primitives = &root.meshes[index].primitives;
@@ -137,7 +137,7 @@ fn hash_triangles(primitives: &[Primitive], bytes: &HashMap<usize, TightBytes>) 
 fn fetch_columns(
     accessors: &mut Accessors<'_>,
     index: usize,
-    header: &Header,
+    header: &NativeHeader,
 ) -> Result<Result<BTreeMap<String, Bytes>, String>, Unplaced> {
     let root = accessors.root;
     let mut columns = BTreeMap::new();
@@ -153,7 +153,10 @@ fn fetch_columns(
     Ok(Ok(columns))
 }
 
-fn build(header: &Header, columns: &BTreeMap<String, Bytes>) -> Result<(Mesh, Option<EditData>), String> {
+fn build(
+    header: &NativeHeader,
+    columns: &BTreeMap<String, Bytes>,
+) -> Result<(Mesh, Option<EditData>), String> {
     let find = |name: &str| columns.get(name).map(|(buffer, range)| &buffer[range.clone()]);
     let mut reader = ColumnReader::new(header, &find);
     let built = mesh_from_columns(&mut reader, header)?;
@@ -165,7 +168,7 @@ fn build(header: &Header, columns: &BTreeMap<String, Bytes>) -> Result<(Mesh, Op
 }
 
 /// The material of each slot: the current one of its primitive, or otherwise the stored one.
-fn slot_materials(header: &Header, primitives: &[Primitive], count: usize) -> Vec<Option<usize>> {
+fn slot_materials(header: &NativeHeader, primitives: &[Primitive], count: usize) -> Vec<Option<usize>> {
     let known = |material: &Option<usize>| material.filter(|&material| material < count);
     let mut materials: Vec<Option<usize>> = header.materials.iter().map(known).collect();
     for (&slot, primitive) in header.slots.iter().zip(primitives) {
@@ -214,7 +217,7 @@ impl<'de, T: DeserializeOwned> Deserialize<'de> for Extras<T> {
 /// Of a mesh.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Header {
+pub(super) struct NativeHeader {
     pub(super) version: u32,
     /// The hash of the triangles; see `triangle_hash`.
     pub(super) triangles: String,

@@ -20,7 +20,7 @@ pub(super) const ALIGNMENT: usize = 8;
 
 /// The WebGL target of a buffer view.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Target {
+pub(super) enum BufferTarget {
     Vertices = 34962,
     Indices = 34963,
 }
@@ -193,7 +193,7 @@ impl<'a> Draft<'a> {
     }
 
     /// Adds bytes, at least one, as a view.
-    pub(super) fn view(&mut self, bytes: Cow<'a, [u8]>, target: Option<Target>) -> usize {
+    pub(super) fn view(&mut self, bytes: Cow<'a, [u8]>, target: Option<BufferTarget>) -> usize {
         let byte_length = bytes.len();
         let byte_offset = self.append(bytes);
         let target = target.map(|target| target as u32);
@@ -204,7 +204,7 @@ impl<'a> Draft<'a> {
     pub(super) fn floats<const N: usize>(
         &mut self,
         values: &[[f32; N]],
-        target: Option<Target>,
+        target: Option<BufferTarget>,
         bounded: Bounded,
     ) -> usize {
         let (kind, name) = match N {
@@ -232,7 +232,7 @@ impl<'a> Draft<'a> {
     }
 
     /// Adds integers, at least one.
-    pub(super) fn integers(&mut self, values: Integers<'_>, target: Option<Target>) -> usize {
+    pub(super) fn integers(&mut self, values: Integers<'_>, target: Option<BufferTarget>) -> usize {
         let (component, bytes, kind, name, count) = match values {
             Integers::Indices(list, limit) if limit <= u32::from(u16::MAX) => {
                 let bytes = list.iter().flat_map(|&value| (value as u16).to_le_bytes()).collect();

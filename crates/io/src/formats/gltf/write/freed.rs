@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 
 use super::draft::{ALIGNMENT, Draft};
 use super::raw::RawObject;
-use crate::formats::gltf::native::{Header, MEMBER};
+use crate::formats::gltf::native::{MEMBER, NativeHeader};
 use crate::formats::gltf::packed::DRACO;
 
 /// Accessors, views and declarations that may be unused now.
@@ -30,7 +30,8 @@ impl Replaced {
     pub(super) fn note(&mut self, mesh: &RawObject) {
         self.was_packed |= is_packed(mesh);
         let own = mesh.object("extras");
-        let Some(header) = own.get(MEMBER).and_then(|own| serde_json::from_str::<Header>(own).ok()) else {
+        let Some(header) = own.get(MEMBER).and_then(|own| serde_json::from_str::<NativeHeader>(own).ok())
+        else {
             return;
         };
         self.views.extend(header.columns.values());

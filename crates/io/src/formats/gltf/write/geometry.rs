@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Deltas, Mesh, RenderMesh, SkinWeights};
 
-use super::draft::{Bounded, Draft, Integers, Target};
+use super::draft::{Bounded, BufferTarget, Draft, Integers};
 
 const POINTS: u32 = 0;
 const LINES: u32 = 1;
@@ -18,7 +18,7 @@ const TRIANGLES: u32 = 4;
 
 /// A primitive without its material.
 #[derive(Clone)]
-pub(super) struct Part {
+pub(super) struct GeometryPart {
     /// The material slot of its faces.
     pub(super) slot: u32,
     pub(super) mode: u32,
@@ -30,7 +30,7 @@ pub(super) struct Part {
 }
 
 /// Writes a mesh; no parts if it has no vertex that could be shown.
-pub(super) fn write_geometry(draft: &mut Draft<'_>, mesh: &Mesh, render: &RenderMesh) -> Vec<Part> {
+pub(super) fn write_geometry(draft: &mut Draft<'_>, mesh: &Mesh, render: &RenderMesh) -> Vec<GeometryPart> {
     let mut parts = write_triangles(draft, render);
     let position = |vertex: &u32| mesh.positions()[*vertex as usize];
     let is_finite = |vertex: &u32| position(vertex).is_finite();
@@ -50,12 +50,12 @@ pub(super) fn write_geometry(draft: &mut Draft<'_>, mesh: &Mesh, render: &Render
     parts
 }
 
-fn write_triangles(draft: &mut Draft<'_>, render: &RenderMesh) -> Vec<Part> {
+fn write_triangles(draft: &mut Draft<'_>, render: &RenderMesh) -> Vec<GeometryPart> {
     let slots = sort_by_slot(render);
     if slots.is_empty() {
         return Vec::new();
     }
-    let vertices = Some(Target::Vertices);
+    let vertices = Some(BufferTarget::Vertices);
     let mut attributes = BTreeMap::new();
     let positions: Vec<[f32; 3]> = render.positions.iter().map(|&position| finite(position)).collect();
     attributes.insert("POSITION".to_owned(), draft.floats(&positions, vertices, Bounded::Yes));
@@ -87,8 +87,8 @@ fn write_triangles(draft: &mut Draft<'_>, render: &RenderMesh) -> Vec<Part> {
             attributes.insert("TANGENT".to_owned(), tangent);
         }
         let list = Integers::Indices(&indices, positions.len() as u32);
-        let indices = Some(draft.integers(list, Some(Target::Indices)));
-        Part { slot, mode: TRIANGLES, attributes, indices, targets: targets.clone() }
+        let indices = Some(draft.integers(list, Some(BufferTarget::Indices)));
+        GeometryPart { slot, mode: TRIANGLES, attributes, indices, targets: targets.clone() }
     };
     slots.into_iter().map(part).collect()
 }
@@ -122,7 +122,7 @@ fn write_targets(
     let with_normals = targets.iter().any(|target| !target.normals.is_empty());
     let with_tangents = render.tangents.is_some() && targets.iter().any(|target| !target.tangents.is_empty());
     let mut write =
-        |deltas: &Deltas, bounded| draft.floats(&dense(deltas, count), Some(Target::Vertices), bounded);
+        |deltas: &Deltas, bounded| draft.floats(&dense(deltas, count), Some(BufferTarget::Vertices), bounded);
     let mut all = Vec::new();
     for target in targets {
         let mut of_target = BTreeMap::from([("POSITION", write(&target.positions, Bounded::Yes))]);
@@ -138,7 +138,7 @@ fn write_targets(
 }
 
 /// Lines or points: they have no face attributes, but the colours of their vertices, and move with the others.
-fn write_loose(draft: &mut Draft<'_>, mesh: &Mesh, mode: u32, vertices: &[u32]) -> Part {
+fn write_loose(draft: &mut Draft<'_>, mesh: &Mesh, mode: u32, vertices: &[u32]) -> GeometryPart {
     let mut used = vertices.to_vec();
     used.sort_unstable();
     used.dedup();
@@ -146,7 +146,7 @@ fn write_loose(draft: &mut Draft<'_>, mesh: &Mesh, mode: u32, vertices: &[u32]) 
     let positions: Vec<[f32; 3]> =
         used.iter().map(|&vertex| mesh.positions()[vertex as usize].to_array()).collect();
     let mut attributes = BTreeMap::new();
-    let target = Some(Target::Vertices);
+    let target = Some(BufferTarget::Vertices);
     attributes.insert("POSITION".to_owned(), draft.floats(&positions, target, Bounded::Yes));
     if let Some(colors) = &mesh.attributes().vertex_colors {
         let colors: Vec<[f32; 4]> = used.iter().map(|&vertex| clamped(colors[vertex as usize])).collect();
@@ -163,8 +163,8 @@ fn write_loose(draft: &mut Draft<'_>, mesh: &Mesh, mode: u32, vertices: &[u32]) 
     }
     let indices: Vec<u32> = vertices.iter().map(number).collect();
     let list = Integers::Indices(&indices, used.len() as u32);
-    let indices = Some(draft.integers(list, Some(Target::Indices)));
-    Part { slot: 0, mode, attributes, indices, targets }
+    let indices = Some(draft.integers(list, Some(BufferTarget::Indices)));
+    GeometryPart { slot: 0, mode, attributes, indices, targets }
 }
 
 /// Joints and weights, in sets of four.
@@ -187,7 +187,7 @@ fn write_skin(
             joints.push(of_joints);
             weights.push(of_weights);
         }
-        let target = Some(Target::Vertices);
+        let target = Some(BufferTarget::Vertices);
         attributes.insert(format!("JOINTS_{set}"), draft.integers(Integers::Joints(&joints), target));
         attributes.insert(format!("WEIGHTS_{set}"), draft.floats(&weights, target, Bounded::No));
     }

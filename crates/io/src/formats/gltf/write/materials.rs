@@ -33,7 +33,7 @@ pub(super) fn write_material<'a>(
     now: &Material,
 ) {
     let was = &without_specular_glossiness(object, was);
-    let mut writer = Writer { draft, textures, object };
+    let mut writer = MaterialWriter { draft, textures, object };
     if now.name != was.name {
         writer.object.set("name", &now.name);
     }
@@ -59,13 +59,13 @@ fn without_specular_glossiness(object: &mut RawObject, was: &Material) -> Materi
     Material { base_color, base_color_texture, shading, ior, ..was.clone() }
 }
 
-struct Writer<'w, 'd, 'a> {
+struct MaterialWriter<'w, 'd, 'a> {
     draft: &'w mut Draft<'a>,
     textures: &'w mut Textures<'a>,
     object: &'d mut RawObject,
 }
 
-impl Writer<'_, '_, '_> {
+impl MaterialWriter<'_, '_, '_> {
     fn base(&mut self, was: &Material, now: &Material) {
         let (old, new) = (model(was), model(now));
         let mut pbr = self.object.object("pbrMetallicRoughness");

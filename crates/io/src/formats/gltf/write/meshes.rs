@@ -12,13 +12,13 @@ use trigon_mesh::{EditData, Mesh, RenderMesh};
 use trigon_scene::MeshId;
 
 use super::draft::Draft;
-use super::geometry::{Part, write_geometry};
+use super::geometry::{GeometryPart, write_geometry};
 use super::raw::RetainedFile;
 use super::raw::{RawObject, raw};
 use crate::error::Location;
 use crate::export::Loss;
 use crate::formats::gltf::mesh::WireMaterials;
-use crate::formats::gltf::native::{self, Header, columns_of_mesh};
+use crate::formats::gltf::native::{self, NativeHeader, columns_of_mesh};
 use crate::formats::gltf::packed::DRACO;
 use crate::formats::gltf::triangle_hash::TriangleHash;
 
@@ -62,12 +62,12 @@ pub(super) struct Written {
     /// The part that does not depend on materials.
     object: RawObject,
     form: Form,
-    header: Option<Header>,
+    header: Option<NativeHeader>,
 }
 
 enum Form {
     /// Written anew.
-    Parts(Vec<Part>),
+    Parts(Vec<GeometryPart>),
     /// As the file has them, with the slot of each.
     Retained(Vec<(Box<RawValue>, Option<u32>)>),
 }
@@ -148,7 +148,7 @@ impl Written {
         let mut extras = object.object("extras");
         match &self.header {
             Some(header) => {
-                let header = Header { materials: materials.to_vec(), ..header.clone() };
+                let header = NativeHeader { materials: materials.to_vec(), ..header.clone() };
                 extras.set(native::MEMBER, &header);
                 object.set("extras", &extras);
             }
@@ -162,12 +162,12 @@ impl Written {
     }
 }
 
-fn primitive(part: &Part, material: Option<usize>) -> Primitive<'_> {
-    let Part { mode, attributes, indices, targets, .. } = part;
+fn primitive(part: &GeometryPart, material: Option<usize>) -> Primitive<'_> {
+    let GeometryPart { mode, attributes, indices, targets, .. } = part;
     Primitive { attributes, indices: *indices, material, mode: *mode, targets }
 }
 
-fn hash_parts(draft: &Draft<'_>, parts: &[Part]) -> String {
+fn hash_parts(draft: &Draft<'_>, parts: &[GeometryPart]) -> String {
     let mut hash = TriangleHash::default();
     for part in parts {
         hash.primitive(part.mode);
@@ -185,7 +185,7 @@ fn hash_parts(draft: &Draft<'_>, parts: &[Part]) -> String {
 }
 
 /// The native file's header of a mesh.
-fn native_header(mesh: &RawObject) -> Option<Header> {
+fn native_header(mesh: &RawObject) -> Option<NativeHeader> {
     serde_json::from_str(mesh.object("extras").get(native::MEMBER)?).ok()
 }
 

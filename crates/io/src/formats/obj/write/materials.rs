@@ -7,7 +7,7 @@ use trigon_math::Vec3;
 use trigon_math::color::linear_to_srgb;
 use trigon_scene::{AlphaMode, Material, MaterialTexture, Scene, Shading, TextureBinding, TextureId, Wrap};
 
-use super::{MaterialNames, Names};
+use super::{MaterialNames, UniqueNames};
 use crate::encode_image::{Pixels, encode_png};
 use crate::error::Location;
 use crate::export::Loss;
@@ -161,7 +161,7 @@ pub(super) struct ImageFiles<'a> {
     stem: &'a str,
     scene: &'a Scene,
     source: Option<&'a GltfSource>,
-    names: Names,
+    names: UniqueNames,
     known: BTreeMap<TextureId, String>,
     files: Vec<ExportedFile>,
 }

@@ -28,8 +28,8 @@ pub(crate) fn write_obj(
     if !materials.is_empty() {
         text += &format!("mtllib {library}\n");
     }
-    let mut names = Names::default();
-    let mut elements = Elements::new(text);
+    let mut names = UniqueNames::default();
+    let mut elements = ElementWriter::new(text);
     for object in &gathered.objects {
         elements.object(gathered, object, &names.unique(&object.node.name, "object"), &materials);
     }
@@ -50,11 +50,11 @@ pub(crate) fn write_obj(
 
 /// Names that are each used once: readers unite what has the same.
 #[derive(Default)]
-struct Names {
+struct UniqueNames {
     known: BTreeSet<String>,
 }
 
-impl Names {
+impl UniqueNames {
     fn unique(&mut self, name: &str, otherwise: &str) -> String {
         let plain = plain_name(name, otherwise);
         let mut unique = plain.clone();
@@ -71,7 +71,7 @@ impl Names {
 type MaterialNames = BTreeMap<Option<MaterialId>, String>;
 
 fn name_materials(gathered: &Gathered<'_>) -> MaterialNames {
-    let (mut names, mut materials) = (Names::default(), BTreeMap::new());
+    let (mut names, mut materials) = (UniqueNames::default(), BTreeMap::new());
     for object in &gathered.objects {
         for &face in &object.sources {
             let id = object.material(face);
@@ -84,7 +84,7 @@ fn name_materials(gathered: &Gathered<'_>) -> MaterialNames {
 }
 
 /// The text so far, and how many of each kind there are: indices count through the whole file.
-struct Elements {
+struct ElementWriter {
     text: String,
     /// Whether a vertex has several colours, of which the first is written.
     has_varying_colors: bool,
@@ -97,13 +97,13 @@ struct Elements {
 }
 
 /// The numbers of values that are written once each.
-struct Numbers<const N: usize> {
+struct WrittenNumbers<const N: usize> {
     known: HashMap<[u32; N], usize>,
     /// Of each corner of the object's faces, in order.
     of_corners: Vec<usize>,
 }
 
-impl<const N: usize> Numbers<N> {
+impl<const N: usize> WrittenNumbers<N> {
     fn new() -> Self {
         Self { known: HashMap::new(), of_corners: Vec::new() }
     }
@@ -118,7 +118,7 @@ impl<const N: usize> Numbers<N> {
     }
 }
 
-impl Elements {
+impl ElementWriter {
     fn new(text: String) -> Self {
         Self {
             text,
@@ -143,7 +143,7 @@ impl Elements {
         self.positions(gathered, object);
         let coordinates = self.coordinates(object);
         let normals = self.normals(object);
-        self.faces(object, materials, |at, vertex| Corner {
+        self.faces(object, materials, |at, vertex| WrittenCorner {
             vertex: base + vertex as usize + 1,
             coordinate: coordinates.as_ref().map(|numbers| numbers.of_corners[at]),
             normal: normals.as_ref().map(|numbers| numbers.of_corners[at]),
@@ -201,9 +201,9 @@ impl Elements {
         Some(colors.into_iter().map(|color| color.unwrap_or(Vec4::ONE)).collect())
     }
 
-    fn coordinates(&mut self, object: &Object<'_>) -> Option<Numbers<2>> {
+    fn coordinates(&mut self, object: &Object<'_>) -> Option<WrittenNumbers<2>> {
         let uvs = object.mesh.attributes().uv_sets.first()?;
-        let mut numbers = Numbers::new();
+        let mut numbers = WrittenNumbers::new();
         for &corner in &object.corners {
             let uv = Some(uvs[corner as usize]).filter(|uv| uv.is_finite()).unwrap_or(Vec2::ZERO);
             if numbers.push(uv.to_array().map(f32::to_bits), &mut self.coordinates) {
@@ -215,13 +215,13 @@ impl Elements {
         Some(numbers)
     }
 
-    fn normals(&mut self, object: &Object<'_>) -> Option<Numbers<3>> {
+    fn normals(&mut self, object: &Object<'_>) -> Option<WrittenNumbers<3>> {
         let given = object.mesh.attributes().corner_normals.as_ref()?;
         // Where there is none, the reader is to find none either, and OBJ has it for whole faces only.
         if given.iter().all(|&normal| normal == Vec3::ZERO) {
             return None;
         }
-        let mut numbers = Numbers::new();
+        let mut numbers = WrittenNumbers::new();
         for &corner in &object.corners {
             let normal = object.normal(corner).to_array();
             if numbers.push(normal.map(f32::to_bits), &mut self.normals) {
@@ -236,7 +236,7 @@ impl Elements {
         &mut self,
         object: &Object<'_>,
         materials: &MaterialNames,
-        corner: impl Fn(usize, u32) -> Corner,
+        corner: impl Fn(usize, u32) -> WrittenCorner,
     ) {
         let mut at = 0;
         for (face, &source) in object.faces().zip(&object.sources) {
@@ -251,7 +251,7 @@ impl Elements {
     }
 }
 
-impl Elements {
+impl ElementWriter {
     /// Says what changes with a face: its material, and whether it is smooth.
     fn state(&mut self, object: &Object<'_>, face: u32, materials: &MaterialNames) {
         let material = object.material(face);
@@ -271,13 +271,13 @@ impl Elements {
 }
 
 /// The indices of a corner, counted from 1.
-struct Corner {
+struct WrittenCorner {
     vertex: usize,
     coordinate: Option<usize>,
     normal: Option<usize>,
 }
 
-impl Corner {
+impl WrittenCorner {
     fn push(&self, text: &mut String) {
         *text += &match (self.coordinate, self.normal) {
             (None, None) => format!(" {}", self.vertex),
