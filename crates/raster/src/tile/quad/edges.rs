@@ -14,7 +14,7 @@ pub(super) const EDGES: usize = 5;
 /// How a line or a point lies in a tile.
 pub(super) enum QuadPosition {
     /// It has no sample in it.
-    JoinedTriangle,
+    Beside,
     Within,
     /// Its edge functions do not fit 32 bits there.
     TooLong,
@@ -96,7 +96,7 @@ impl QuadEdges {
             let fall = steps[0].min(0) * span[0] + steps[1].min(0) * span[1];
             let is_outside = value + rise < 0;
             if is_outside && k != DIAGONAL {
-                return QuadPosition::JoinedTriangle;
+                return QuadPosition::Beside;
             }
             if is_outside || value + fall >= 0 {
                 // All of the tile lies on one side of the edge, so a constant with the right sign is

@@ -115,7 +115,7 @@ impl TileRasterizer<'_> {
         }
         let Some(pixels) = pixels_in(quad, edges.pattern, &self.area) else { return true };
         match edges.find(simd, quad, &self.area) {
-            QuadPosition::JoinedTriangle => return true,
+            QuadPosition::Beside => return true,
             QuadPosition::TooLong => return false,
             QuadPosition::Within => {}
         }
