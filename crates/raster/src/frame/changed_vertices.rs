@@ -27,7 +27,7 @@ pub(super) struct ChangedVertices {
     draws: Vec<ChangedOfDraw>,
     /// The vertices that may have other values.
     changed: Vec<u64>,
-    /// The vertices among them that lie elsewhere, or nowhere.
+    /// The vertices among `changed` that lie elsewhere, or nowhere.
     moved: Vec<u64>,
 }
 
@@ -55,7 +55,7 @@ impl ChangedVertices {
         &self.changed
     }
 
-    /// The vertices among them that lie elsewhere, or nowhere.
+    /// The vertices among `changed` that lie elsewhere, or nowhere.
     pub(super) fn moved(&self) -> &[u64] {
         &self.moved
     }
@@ -123,7 +123,7 @@ impl ChangedVertices {
                     tasks.push(task);
                 }
             }
-            // That of vertices that do not exist.
+            // The slot of vertices that do not exist.
             split_mut(&mut screen_vertices, 1);
         }
         let shared = tasks.len() > 1;
@@ -220,9 +220,9 @@ const BLOCK: usize = 64;
 /// What was found out about each primitive of a chunk.
 #[derive(Default)]
 pub(super) struct AffectedPrimitives {
-    /// Whether it looks different.
+    /// Whether the primitive looks different.
     pub(super) differs: Vec<bool>,
-    /// Whether it lies elsewhere.
+    /// Whether the primitive lies elsewhere.
     pub(super) is_moved: Vec<bool>,
     /// Whether any does.
     pub(super) any_differs: bool,
@@ -299,12 +299,12 @@ struct DrawSearch<'a> {
     vertices: VertexBits<'a>,
     /// The primitives of the draw that are examined.
     range: Range<u32>,
-    /// The index of the first of them in the chunk.
+    /// The index of the first of these primitives in the chunk.
     first: usize,
 }
 
 impl DrawSearch<'_> {
-    /// Flags triangles, and the others of their faces if these have edges.
+    /// Flags triangles, and if faces have edges the other triangles of their faces.
     fn find_triangles(&self, triangles: &[[u32; 3]], has_edges: bool, affected: &mut AffectedPrimitives) {
         if !has_edges {
             return self.find_others(triangles, affected);
@@ -327,7 +327,7 @@ impl DrawSearch<'_> {
         }
     }
 
-    /// Flags primitives that have nothing to do with others.
+    /// Flags primitives, each by itself.
     fn find_others<const N: usize>(&self, primitives: &[[u32; N]], affected: &mut AffectedPrimitives) {
         self.for_each_changed(primitives, |primitive, is_moved| match is_moved {
             true => affected.note_moved(self.index(primitive)),
@@ -385,7 +385,7 @@ impl DrawSearch<'_> {
     }
 }
 
-/// Those of some increasing numbers that lie in a range.
+/// The part of an increasing list of numbers that lies in a range.
 fn within<'a>(list: &'a [u32], range: &Range<u32>) -> &'a [u32] {
     let at = |at: u32| list.partition_point(|&number| number < at);
     &list[at(range.start)..at(range.end)]

@@ -1,8 +1,8 @@
 //! Frames in which the same vertices change again and again, as in a drag.
 //!
-//! From the second such frame on, the primitives that move are set up and listed apart, and tiles keep what the others
-//! show ([`TileCache`]). Whole faces move: where one of its triangles does, the others may be cut in another way, and
-//! their edges are painted together.
+//! From the second such frame on, moving primitives are set up and listed apart from still ones, and a cache holds what
+//! still primitives show in each tile ([`TileCache`]). Faces move as a whole: if one triangle of a face moves, the face may
+//! be cut into other triangles, and the edges of all its triangles are painted together.
 
 use super::DrawChange;
 use super::changed_vertices::{AffectedPrimitives, ChangedVertices, are_among, is_set, reset, set};
@@ -14,7 +14,7 @@ use crate::outer_ink::slots;
 use crate::pass::RecordedDraw;
 use crate::view::{DrawPlan, Plan};
 
-/// If more than one in so many primitives moves, listing them apart is not worth it.
+/// If more than one in so many primitives moves, moving primitives are not listed apart: that would not pay.
 const MANY: usize = 4;
 
 /// What moves from frame to frame.
@@ -24,7 +24,7 @@ pub(super) struct MovingPrimitives {
     is_apart: bool,
     /// The vertices that may have other values in frames such as this: [`ChangedVertices::changed`].
     changed: Vec<u64>,
-    /// Those of them that may move.
+    /// The vertices among `changed` that may move.
     moved: Vec<u64>,
     /// The primitives that may move: a bit for each of the frame.
     primitives: Vec<u64>,
@@ -36,7 +36,7 @@ pub(super) struct MovingPrimitives {
 }
 
 impl MovingPrimitives {
-    /// What is kept of tiles, if primitives are listed apart.
+    /// The cached tiles, if primitives are listed apart.
     pub(super) fn cache(&self) -> Option<&TileCache> {
         self.is_apart.then_some(&self.cache)
     }
@@ -79,9 +79,8 @@ impl MovingPrimitives {
         is_same
     }
 
-    /// Finds which primitives move, and which look different, from what was found in each chunk; then which of
-    /// each chunk's primitives those are that move, by their indices. `None` if they cannot be listed apart, or are
-    /// not worth it.
+    /// Finds which primitives move and which look different, from what was found in each chunk. Returns the indices
+    /// of the moving primitives in each chunk; `None` if too many primitives move.
     pub(super) fn find(
         &mut self,
         pass: &[RecordedDraw<'_>],
@@ -91,7 +90,7 @@ impl MovingPrimitives {
         affected: &[AffectedPrimitives],
     ) -> Option<Vec<Vec<u32>>> {
         let count = chunks.last()?.ordinals.end as usize;
-        // Those of an earlier frame of the drag count as well: a vertex may rest for a moment.
+        // Vertices that moved in an earlier frame of the drag count as well: a vertex may rest for a moment.
         let is_continued = self.is_apart && self.moved.len() == vertices.moved().len();
         if !is_continued {
             reset(&mut self.moved, 64 * vertices.moved().len());

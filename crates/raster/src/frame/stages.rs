@@ -20,7 +20,7 @@ use crate::{StageTimes, Stats, Target};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// What is kept from frame to frame, so that a warm frame allocates nothing.
+/// What is held from frame to frame, so that a warm frame allocates nothing.
 #[derive(Default)]
 pub(crate) struct Arena {
     pub(super) plan: Plan,
@@ -29,7 +29,7 @@ pub(crate) struct Arena {
     pub(super) chunks: Vec<Chunk>,
     background_rows: Vec<BackgroundRow>,
     pub(super) scratches: Vec<Scratch>,
-    /// What the last frame was, if the next one may follow it.
+    /// The signature of the last frame, if the next frame may follow from it.
     pub(super) last_signature: Option<Signature>,
     pub(super) changed_vertices: ChangedVertices,
     pub(super) moving: MovingPrimitives,
@@ -66,7 +66,7 @@ pub(super) fn finish(
 ) -> Stats {
     let mut stats = Stats { times: view.times, ..count(view) };
     let bands = Bands::new(target, view.grid.size / view.supersampling);
-    // Those of workers that rest in this frame are kept.
+    // The memory of workers that rest in this frame is held for the next one.
     scratches.resize_with(options.workers.count().max(scratches.len()), Scratch::new);
     draw_tiles(view, tiles, &bands, options, scratches);
     for scratch in scratches {

@@ -125,7 +125,7 @@ pub(crate) fn outer_ink(frame: &FrameView<'_>, index: u32) -> OuterInk {
     shading.outer
 }
 
-/// The tiles of a frame of which some primitives are listed apart, as far as they were drawn since.
+/// What still primitives show in each tile, for the tiles that were drawn since primitives were listed apart.
 #[derive(Default)]
 pub(super) struct TileCache {
     tiles: Vec<Mutex<Option<Box<TileCacheEntry>>>>,
@@ -136,16 +136,16 @@ pub(super) struct TileCache {
 /// All lanes.
 const ALL: [TileLanes; 2] = [[u8::MAX; GROUP_COUNT]; 2];
 
-/// What is kept of a tile.
+/// What is cached of a tile.
 struct TileCacheEntry {
-    /// `None` if it cannot be kept.
+    /// What still triangles show; `None` if the tile cannot be cached.
     still: Option<CachedTile>,
     /// The still triangles as the search for outer halves of lines needs them, if there are lines.
     faces: VisibleFaces,
     /// The pixels that show still triangles whose values change in every frame.
     look: TileRows,
-    /// The lanes that showed moving triangles in the last frame, without overlays, if depths or ids are written, and with
-    /// them.
+    /// The lanes that showed moving triangles in the last frame: without overlays, if depths or ids are written, and with
+    /// overlays.
     shown: [TileLanes; 2],
 }
 

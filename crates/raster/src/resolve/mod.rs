@@ -1,6 +1,4 @@
 //! Writes the pixels of a tile to the target: averages samples in linear light, encodes colours, writes ids.
-//!
-//! The mean colours of pixels whose samples show different triangles.
 
 mod background;
 mod strip;

@@ -17,7 +17,7 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `state` | what a worker holds from tile to tile: the lists of the tile's triangles by kind of surface, the budget for equal depths, the order of keys |
-//! | `visibility` | **the order of the kinds of surface, and which kernel draws a triangle** |
+//! | `visibility` | **the order of the kinds of surface, and the table of which kernel draws a triangle** |
 //! | `eight` | eight small triangles prepared together, and the limits of the kernels |
 //! | `triangle` | one triangle prepared for the tile, whatever its size |
 //! | `micro` | kernel: up to eight small triangles of at most 4×4 pixels each, one sample per pixel; a lane is a triangle; also the list of pixels that `micro` and `sliver` find, and the test of their depths |

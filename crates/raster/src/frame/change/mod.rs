@@ -108,7 +108,7 @@ impl DirtyTiles {
         Self((0..count).map(|_| AtomicBool::new(false)).collect())
     }
 
-    /// Adds those that list primitives of a chunk for which a test of their indices in the chunk holds.
+    /// Adds the tiles that list primitives of a chunk for which a test of their indices in the chunk holds.
     pub(super) fn add(&self, grid: &Grid, chunk: &Chunk, is_one: impl Fn(u32) -> bool) {
         chunk.for_each_tile_of(grid, is_one, |tile| self.add_tile(tile));
     }
