@@ -1,6 +1,6 @@
 //! A camera: an eye, an orientation, and a projection.
 
-use trigon_math::{DAffine3, DMat3, DMat4, DQuat, DVec3};
+use trigon_math::{DAffine3, DMat4, DQuat, DVec3};
 
 use crate::{Projection, orientation_looking};
 
@@ -44,19 +44,6 @@ impl Camera {
     #[must_use]
     pub fn with_projection(self, projection: Projection) -> Self {
         Self { projection, ..self }
-    }
-
-    /// A camera from the extrinsic matrix of computer vision: `world_to_camera` is `[R | t]` into
-    /// axes x right, y down, z forward. R must be a rotation; scale or shear in it is dropped.
-    #[must_use]
-    pub fn from_opencv(world_to_camera: &DAffine3, projection: Projection) -> Self {
-        let rows = world_to_camera.matrix3.transpose();
-        let axes = DMat3::from_cols(rows.x_axis, -rows.y_axis, -rows.z_axis);
-        Self {
-            position: -(rows * world_to_camera.translation),
-            orientation: DQuat::from_mat3(&axes).normalize(),
-            projection,
-        }
     }
 
     /// World to camera space. Far from the origin prefer [`Camera::to_camera`], which subtracts

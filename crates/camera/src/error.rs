@@ -29,6 +29,15 @@ pub enum CameraError {
         /// Its value.
         high: f64,
     },
+    /// A pose that is not a rotation and a translation.
+    #[error("the pose is no rotation and translation: its columns have the lengths {}, {}, {}, or are not square to each other, or a number is not finite", lengths[0], lengths[1], lengths[2])]
+    NoRotation {
+        /// The lengths of the columns, which are 1 in a rotation.
+        lengths: [f64; 3],
+    },
+    /// A pose that exchanges left and right.
+    #[error("the pose is a mirror image; negate one axis, or name the other convention")]
+    Mirrored,
     /// A text that is neither an axis nor a direction.
     #[error("write +X, -X, +Y, -Y, +Z, -Z or a direction such as 0,1,0.5")]
     UnknownAxis,

@@ -41,7 +41,7 @@ pub struct Intrinsics {
 impl Projection {
     /// A pinhole camera without skew or lens distortion:
     /// `u = fx · X / Z + cx`, `v = fy · Y / Z + cy` with Z forward and Y *down*,
-    /// as computer vision has it; [`crate::Camera::from_opencv`] turns a pose of
+    /// as computer vision has it; [`crate::Camera::from_extrinsics`] takes a pose of
     /// that convention into ours.
     ///
     /// `focal` is `(fx, fy)` and `center` is `(cx, cy)`, in pixels of an image of size `image`. An

@@ -1,7 +1,7 @@
 //! What each projection means, checked against its textbook formula.
 
-use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Projector, Viewport};
-use trigon_math::{DAffine3, DMat3, DVec2, DVec3};
+use trigon_camera::{Camera, CameraAxes, CameraError, PixelCenters, Projection, Projector, Viewport};
+use trigon_math::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 
 const IMAGE: Viewport = Viewport { width: 640, height: 480 };
 
@@ -56,7 +56,9 @@ fn pinhole_follows_computer_vision() {
     let (focal, center) = (DVec2::new(500.0, 510.0), DVec2::new(310.0, 250.0));
     for (pixel_centers, offset) in [(PixelCenters::AtHalves, 0.0), (PixelCenters::AtIntegers, 0.5)] {
         let k = Projection::pinhole(focal, center, IMAGE, pixel_centers, 0.1).expect("a sound K");
-        let camera = Camera::from_opencv(&pose, k);
+        let camera = Camera::from_extrinsics(&pose, CameraAxes::OpenCv, k).expect("a rotation");
+        let back = camera.extrinsics(CameraAxes::OpenCv);
+        assert!(back.abs_diff_eq(pose, 1e-14), "and back: {back}");
         let point = DVec3::new(0.4, 0.3, -0.5);
         let p = pose.transform_point3(point);
         let uv = focal * DVec2::new(p.x / p.z, p.y / p.z) + center;
@@ -65,6 +67,55 @@ fn pinhole_follows_computer_vision() {
         let double = Viewport { width: 1280, height: 960 };
         let scaled = Projector::new(&camera, double).to_screen(point).expect("before the eye");
         assert_near(scaled, (uv + DVec2::splat(offset)) * 2.0, "a larger image shows the same view");
+    }
+}
+
+/// Four kinds of matrices for one camera, each with its way back.
+#[test]
+fn poses_of_either_convention_are_one_camera() {
+    let orientation = DQuat::from_xyzw(0.1, -0.5, 0.3, 0.8).normalize();
+    let camera = Camera { position: DVec3::new(3.0, -2.0, 1e6), orientation, ..Camera::default() };
+    for axes in [CameraAxes::OpenGl, CameraAxes::OpenCv] {
+        let [pose, extrinsics] = [camera.pose(axes), camera.extrinsics(axes)];
+        // 1e6 m leave 2⁻³³ m in f64.
+        assert!((pose * extrinsics).abs_diff_eq(DAffine3::IDENTITY, 1e-9), "one is the inverse of the other");
+        let ahead = if axes == CameraAxes::OpenGl { DVec3::NEG_Z } else { DVec3::Z };
+        assert!(
+            pose.transform_vector3(ahead).abs_diff_eq(camera.forward(), 1e-15),
+            "{axes:?} looks along {ahead}"
+        );
+        for again in [
+            Camera::from_pose(&pose, axes, camera.projection),
+            Camera::from_extrinsics(&extrinsics, axes, camera.projection),
+        ] {
+            let again = again.expect("a rotation");
+            assert!(again.position.abs_diff_eq(camera.position, 1e-9), "{axes:?}: at {}", again.position);
+            let turn = again.orientation.dot(orientation).abs();
+            assert!((turn - 1.0).abs() < 1e-15, "{axes:?}: turned by {turn}");
+        }
+    }
+}
+
+#[test]
+fn rounded_rotations_are_made_exact_and_others_refused() {
+    let exact = DMat3::from_quat(DQuat::from_xyzw(0.1, -0.5, 0.3, 0.8).normalize());
+    let pose = |matrix3: DMat3| {
+        let pose = DAffine3 { matrix3, translation: DVec3::ONE };
+        Camera::from_pose(&pose, CameraAxes::OpenGl, Projection::default())
+    };
+    let digits = DMat3::from_cols_array(&exact.to_cols_array().map(|v| (v * 1e4).round() / 1e4));
+    let rounded = pose(digits).expect("four digits are enough");
+    let error = DMat3::from_quat(rounded.orientation) - exact;
+    let error = error.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
+    assert!(error < 1e-4, "within the last digit, not {error}");
+    for (matrix, word) in [
+        (exact * 2.0, "lengths"),
+        (DMat3::from_cols(exact.x_axis, exact.x_axis, exact.z_axis), "square"),
+        (DMat3::from_cols(-exact.x_axis, exact.y_axis, exact.z_axis), "mirror"),
+        (DMat3::from_cols(DVec3::NAN, exact.y_axis, exact.z_axis), "finite"),
+    ] {
+        let error = pose(matrix).expect_err("refused").to_string();
+        assert!(error.contains(word), "{word}: {error}");
     }
 }
 

@@ -4,11 +4,11 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use trigon_camera::{Camera, PixelCenters, Projection, Viewport};
-use trigon_math::{DMat3, DQuat, DVec2, DVec3};
+use trigon_camera::{Camera, CameraAxes, PixelCenters, Projection, Viewport};
+use trigon_math::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 
 use super::entry::pixels;
-use super::pose::{Axes, Direction, Pose, unit};
+use super::pose::unit;
 use super::{CameraDraft, CameraView, UNPLACED_NEAR};
 use crate::error::{LoadError, LoadErrorKind, Location};
 
@@ -114,14 +114,14 @@ fn view(line: &str, lenses: &HashMap<u64, ColmapLens>) -> Result<CameraView, Str
     }
     let [w, x, y, z, translation @ ..] = numbers;
     let rotation = DMat3::from_quat(unit(DQuat::from_xyzw(x, y, z, w))?);
-    let pose = Pose::new(rotation, DVec3::from_array(translation), Direction::ToCamera, Axes::OpenCv)?;
+    let pose = DAffine3 { matrix3: rotation, translation: DVec3::from_array(translation) };
     let id = words[8];
     let lens = id.parse().ok().and_then(|id: u64| lenses.get(&id));
     let lens = lens.ok_or_else(|| format!("there is no camera \"{id}\" in cameras.txt"))?;
-    let Pose { position, orientation } = pose;
+    let camera = Camera::from_extrinsics(&pose, CameraAxes::OpenCv, lens.projection);
     Ok(CameraView {
         name: words[9..].join(" "),
-        camera: Camera { position, orientation, projection: lens.projection },
+        camera: camera.map_err(|error| error.to_string())?,
         image: lens.image,
         has_own_size: true,
         has_clip_planes: false,

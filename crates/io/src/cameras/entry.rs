@@ -1,10 +1,10 @@
 //! Trigon's own camera files, and what `--json` of the viewer writes.
 
 use serde_json::Value;
-use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Viewport};
-use trigon_math::{DVec2, DVec3};
+use trigon_camera::{Camera, CameraAxes, CameraError, PixelCenters, Projection, Viewport};
+use trigon_math::{DQuat, DVec2, DVec3};
 
-use super::pose::{Axes, Direction, Pose};
+use super::pose::{affine, unit};
 use super::{CameraDraft, CameraView, UNPLACED_NEAR};
 use crate::error::Location;
 
@@ -103,33 +103,47 @@ impl Entry<'_> {
             (None, None) => (usual, false),
             _ => return Err("it has one of `width` and `height`, but not both".to_owned()),
         };
-        let axes = if self.word("convention", ["opengl", "opencv"])? { Axes::OpenCv } else { Axes::OpenGl };
-        let Pose { position, orientation } = self.pose(axes)?;
+        let axes = match self.word("convention", ["opengl", "opencv"])? {
+            true => CameraAxes::OpenCv,
+            false => CameraAxes::OpenGl,
+        };
         let (near, far) = (self.number("near")?, self.number("far")?);
         let projection = self.projection(image, axes)?;
         let projection = match near {
             None => projection,
             Some(near) => projection.with_planes(near, far).map_err(|error| error.to_string())?,
         };
+        let camera = self.camera(axes, projection)?;
         let name = self.outer.get("name").and_then(Value::as_str).unwrap_or_default().to_owned();
-        let camera = Camera { position, orientation, projection };
         Ok(CameraView { name, camera, image, has_own_size, has_clip_planes: near.is_some() })
     }
 
-    fn pose(&self, axes: Axes) -> Result<Pose, String> {
+    fn camera(&self, axes: CameraAxes, projection: Projection) -> Result<Camera, String> {
         let (position, rotation) = (self.numbers("position")?, self.numbers("rotation")?);
-        match (self.member("pose"), self.member("world_to_camera"), position, rotation) {
-            (Some(pose), None, None, None) => Pose::from_rows(pose, Direction::ToWorld, axes),
-            (None, Some(pose), None, None) => Pose::from_rows(pose, Direction::ToCamera, axes),
+        let camera = match (self.member("pose"), self.member("world_to_camera"), position, rotation) {
+            (Some(pose), None, None, None) => Camera::from_pose(&affine(pose)?, axes, projection),
+            (None, Some(pose), None, None) => Camera::from_extrinsics(&affine(pose)?, axes, projection),
             (None, None, Some(position), Some(rotation)) => {
-                Pose::from_quaternion(DVec3::from_array(position), rotation, axes)
+                let (position, orientation) =
+                    (DVec3::from_array(position), unit(DQuat::from_array(rotation))?);
+                let orientation = match axes {
+                    CameraAxes::OpenGl => orientation,
+                    // Half a turn about X exchanges the conventions.
+                    CameraAxes::OpenCv => orientation * DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0),
+                };
+                Ok(Camera { position, orientation, projection })
             }
-            _ => Err("it needs one of `pose`, `world_to_camera`, or `position` with `rotation`".to_owned()),
-        }
+            _ => {
+                return Err(
+                    "it needs one of `pose`, `world_to_camera`, or `position` with `rotation`".to_owned()
+                );
+            }
+        };
+        camera.map_err(|error| error.to_string())
     }
 
     /// The projection; with near and far planes of no meaning, but for a frustum.
-    fn projection(&self, image: Viewport, axes: Axes) -> Result<Projection, String> {
+    fn projection(&self, image: Viewport, axes: CameraAxes) -> Result<Projection, String> {
         let projection = match () {
             () if let Some(angle) = self.number("vertical_fov_radians")? => {
                 Projection::perspective(angle, UNPLACED_NEAR, None)
@@ -155,7 +169,7 @@ impl Entry<'_> {
         &self,
         matrix: &Value,
         image: Viewport,
-        axes: Axes,
+        axes: CameraAxes,
     ) -> Result<Result<Projection, CameraError>, String> {
         let rows: Option<Vec<Vec<f64>>> = matrix.as_array().and_then(|rows| {
             rows.iter().map(|row| row.as_array()?.iter().map(Value::as_f64).collect()).collect()
@@ -167,8 +181,8 @@ impl Entry<'_> {
             return Err("its `K` is not [fx 0 cx, 0 fy cy, 0 0 1]; skew is not supported".to_owned());
         }
         let words = match axes {
-            Axes::OpenGl => self.word("pixel_centers", ["halves", "integers"])?,
-            Axes::OpenCv => !self.word("pixel_centers", ["integers", "halves"])?,
+            CameraAxes::OpenGl => self.word("pixel_centers", ["halves", "integers"])?,
+            CameraAxes::OpenCv => !self.word("pixel_centers", ["integers", "halves"])?,
         };
         let centers = if words { PixelCenters::AtIntegers } else { PixelCenters::AtHalves };
         Ok(Projection::pinhole(DVec2::new(fx, fy), DVec2::new(cx, cy), image, centers, UNPLACED_NEAR))

@@ -2,11 +2,11 @@
 //! convention, and one lens for all frames or one for each.
 
 use serde_json::Value;
-use trigon_camera::{Camera, PixelCenters, Projection, Viewport};
+use trigon_camera::{Camera, CameraAxes, PixelCenters, Projection, Viewport};
 use trigon_math::{DVec2, elementary};
 
 use super::entry::pixels;
-use super::pose::{Axes, Direction, Pose};
+use super::pose::affine;
 use super::{CameraDraft, CameraView, UNPLACED_NEAR};
 use crate::error::Location;
 
@@ -58,7 +58,7 @@ impl Lens<'_> {
             return Err(format!("the lens \"{model}\" is not supported: only pinhole cameras are"));
         }
         let matrix = self.frame.get("transform_matrix").ok_or("it has no `transform_matrix`")?;
-        let Pose { position, orientation } = Pose::from_rows(matrix, Direction::ToWorld, Axes::OpenGl)?;
+        let pose = affine(matrix)?;
         let size = (pixels("w", self.number("w")?)?, pixels("h", self.number("h")?)?);
         let (image, has_own_size) = match size {
             (Some(width), Some(height)) => (Viewport { width, height }, true),
@@ -66,7 +66,8 @@ impl Lens<'_> {
         };
         let projection = self.projection(image)?;
         let name = self.frame.get("file_path").and_then(Value::as_str).unwrap_or_default().to_owned();
-        let camera = Camera { position, orientation, projection };
+        let camera = Camera::from_pose(&pose, CameraAxes::OpenGl, projection);
+        let camera = camera.map_err(|error| error.to_string())?;
         Ok(CameraView { name, camera, image, has_own_size, has_clip_planes: false })
     }
 
