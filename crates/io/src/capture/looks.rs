@@ -126,15 +126,15 @@ const UP: u8 = 2;
 
 /// What a parameter is set to.
 #[derive(Clone, Copy, PartialEq)]
-enum ParameterValue {
+enum Value {
     Number(f32),
     Color(Vec3),
     Texture(Option<TextureBinding>),
 }
 
-choice!(ParameterValue { 0 => Number(number), 1 => Color(color), 2 => Texture(binding) });
+choice!(Value { 0 => Number(number), 1 => Color(color), 2 => Texture(binding) });
 
-impl ParameterValue {
+impl Value {
     /// What a material has; `None` where its shading model does not have the parameter.
     fn of(field: ParameterField, material: &mut Material) -> Option<Self> {
         match field {
@@ -188,9 +188,9 @@ fn write_list(scene: &Scene, to: &mut CaptureWriter<'_>) {
             *model = MetallicRoughness::default();
         }
         for row in listed() {
-            let value = ParameterValue::of(row.field, &mut material.clone());
+            let value = Value::of(row.field, &mut material.clone());
             if let Some(value) =
-                value.filter(|&value| ParameterValue::of(row.field, &mut plain.clone()) != Some(value))
+                value.filter(|&value| Value::of(row.field, &mut plain.clone()) != Some(value))
             {
                 count += 1;
                 id.write(&mut listing);
@@ -219,10 +219,10 @@ pub(super) fn read(scene: &mut Scene, from: &mut CaptureReader<'_>) -> Result<()
 }
 
 fn read_list(scene: &mut Scene, from: &mut CaptureReader<'_>) -> Result<(), Damage> {
-    for _ in 0..from.count(size_of::<ParameterValue>())? {
+    for _ in 0..from.count(size_of::<Value>())? {
         let id = Stored::read(from)?;
         let (extension, name) = <(String, String)>::read(from)?;
-        let value = ParameterValue::read(from)?;
+        let value = Value::read(from)?;
         let row = listed().find(|row| (row.extension, row.name) == (&extension, &name));
         let row = row.ok_or_else(|| {
             Damage::malformed(format!("this version of trigon does not know {name} of {extension}"))

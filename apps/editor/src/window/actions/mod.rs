@@ -1,12 +1,7 @@
 //! Every user action, in one table: menus, keys, the command search and the key list are all generated from
 //! it, so that they always agree.
 
-mod add;
-mod edit;
-mod file;
-mod mesh;
-mod select;
-mod view;
+mod table;
 
 use trigon_document::Document;
 
@@ -84,8 +79,7 @@ use actions;
 
 /// All actions, menu by menu.
 pub(crate) fn all() -> impl Iterator<Item = &'static Action> {
-    let tables = [file::ACTIONS, edit::ACTIONS, add::ACTIONS, select::ACTIONS, mesh::ACTIONS, view::ACTIONS];
-    tables.into_iter().flatten()
+    table::ACTIONS.iter()
 }
 
 /// The action of this name.

@@ -155,7 +155,7 @@ impl MaterialWriter<'_, '_, '_> {
             let (mut is_changed, mut is_needed) = (false, false);
             for row in material_extensions::parameters(name) {
                 let values =
-                    [&mut was, &mut now, &mut default].map(|material| Value::of(row.field, material));
+                    [&mut was, &mut now, &mut default].map(|material| MaterialValue::of(row.field, material));
                 let [old, new, plain] = values;
                 is_needed |= new != plain;
                 if new != old {
@@ -169,14 +169,16 @@ impl MaterialWriter<'_, '_, '_> {
         }
     }
 
-    fn parameter(&mut self, object: &mut RawObject, name: &str, was: &Value, now: &Value) {
+    fn parameter(&mut self, object: &mut RawObject, name: &str, was: &MaterialValue, now: &MaterialValue) {
         match (was, now) {
-            (_, Value::Number(number)) if !number.is_finite() => object.remove(name),
-            (_, Value::Number(number)) => object.set(name, &number),
-            (_, Value::Color(color)) => object.set(name, &color),
-            (Value::Texture(old), Value::Texture(new)) => self.texture(object, name, old, new),
-            (_, Value::Texture(new)) => self.texture(object, name, &None, new),
-            (_, Value::Missing) => object.remove(name),
+            (_, MaterialValue::Number(number)) if !number.is_finite() => object.remove(name),
+            (_, MaterialValue::Number(number)) => object.set(name, &number),
+            (_, MaterialValue::Color(color)) => object.set(name, &color),
+            (MaterialValue::Texture(old), MaterialValue::Texture(new)) => {
+                self.texture(object, name, old, new);
+            }
+            (_, MaterialValue::Texture(new)) => self.texture(object, name, &None, new),
+            (_, MaterialValue::Missing) => object.remove(name),
         }
     }
 
@@ -248,7 +250,7 @@ impl MaterialWriter<'_, '_, '_> {
 
 /// What a material has in a field.
 #[derive(Clone, Copy, PartialEq)]
-enum Value {
+enum MaterialValue {
     /// The shading model does not have the field.
     Missing,
     Number(f32),
@@ -256,7 +258,7 @@ enum Value {
     Texture(Option<TextureBinding>),
 }
 
-impl Value {
+impl MaterialValue {
     fn of(field: ParameterField, material: &mut Material) -> Self {
         match field {
             ParameterField::Share(field) => {
