@@ -2,9 +2,9 @@
 //! Radiance HDR. It writes OBJ, GLB, PLY, STL, OFF, PNG, JPEG, WebP, OpenEXR and NumPy arrays, and sequences of
 //! images as APNG and GIF. A capture stores everything that a frame was drawn from, and its image, in one file.
 //!
-//! A file becomes a [`Scene`](trigon_scene::Scene) and a list of warnings; an unusable file is an
-//! error. Warnings and errors are one line each, with the file, the location in it, and a remedy. Files are untrusted:
-//! nothing outside the model's folder is opened, every size is checked before memory is allocated
+//! A file becomes a [`Scene`](trigon_scene::Scene) and a list of warnings; an unusable file is an error.
+//! Warnings and errors are one line each, with the file, the location in it, and a remedy. Files are
+//! untrusted: nothing outside the model's folder is opened, every size is checked before memory is allocated
 //! for it, and no file makes the loader panic. This crate never draws and never prints.
 //!
 //! ```

@@ -1,5 +1,5 @@
-//! Textures that a model needs, before their images are decoded, and the images that are combined into one: MTL stores
-//! colour and opacity, or roughness and metalness, in separate files.
+//! Textures that a model needs, before their images are decoded, and the images that are combined into one:
+//! MTL stores colour and opacity, or roughness and metalness, in separate files.
 
 use std::ops::Range;
 use std::path::PathBuf;

@@ -1,5 +1,5 @@
-//! Files that are written under a temporary name, so that a program that is told to end leaves none of them; and whether
-//! two names are the same file.
+//! Files that are written under a temporary name, so that a program that is told to end leaves none of them;
+//! and whether two names are the same file.
 
 use std::fs::{File, OpenOptions};
 use std::hash::{BuildHasher, RandomState};

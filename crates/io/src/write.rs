@@ -1,7 +1,8 @@
 //! Atomic writing of files that can be made again: images, outputs, captures, exported models.
 //!
-//! The editor's documents are saved by `trigon_document::save` instead. It keeps a backup and the permissions,
-//! and goes through a trait, so that tests can make a disk lose what was not synced. Here the contents are streamed into a temporary file and never held in memory as a whole.
+//! The editor's documents are saved by `trigon_document::save` instead. It keeps a backup and the
+//! permissions, and goes through a trait, so that tests can make a disk lose what was not synced. Here the
+//! contents are streamed into a temporary file and never held in memory as a whole.
 
 use std::fs;
 use std::io::{self, BufWriter, Write};

@@ -1,5 +1,5 @@
-//! A mesh as plain lists, as in files, and what an editor knows of a mesh besides. Columns are checked as a whole, so that
-//! millions of faces do not need one call each.
+//! A mesh as plain lists, as in files, and what an editor knows of a mesh besides. Columns are checked as a
+//! whole, so that millions of faces do not need one call each.
 
 use trigon_math::Vec3;
 

@@ -1,9 +1,9 @@
-//! A mesh in a pose: morph targets first, then the skin, as glTF orders them (glTF 2.0 specification, sections 3.7.2.2
-//! and 3.7.3).
+//! A mesh in a pose: morph targets first, then the skin, as glTF orders them (glTF 2.0 specification,
+//! sections 3.7.2.2 and 3.7.3).
 //!
-//! A mesh stores the joints and weights of each vertex ([`SkinWeights`]) and how its vertices move for each morph target
-//! ([`MorphTarget`]). The scene decides which pose it is in. Here a pose becomes positions, normals and tangents; renderers
-//! that compute the same in vectors are tested against it.
+//! A mesh stores the joints and weights of each vertex ([`SkinWeights`]) and how its vertices move for each
+//! morph target ([`MorphTarget`]). The scene decides which pose it is in. Here a pose becomes positions,
+//! normals and tangents; renderers that compute the same in vectors are tested against it.
 
 use trigon_math::glam::Affine3;
 use trigon_math::{Mat3, Vec3, Vec4};

@@ -1,5 +1,6 @@
-//! Smooth and flat shading: corner normals that are smooth across flat edges and split at sharp ones; and polygons that are
-//! shaded flat. In a pose their normals are those of the posed polygons: transforming the old ones would be wrong.
+//! Smooth and flat shading: corner normals that are smooth across flat edges and split at sharp ones; and
+//! polygons that are shaded flat. In a pose their normals are those of the posed polygons: transforming the
+//! old ones would be wrong.
 
 use std::ops::Range;
 

@@ -1,5 +1,5 @@
-//! Lights as a few concentric circles with their names and a line in the direction in which they shine, and cameras as
-//! their view pyramids.
+//! Lights as a few concentric circles with their names and a line in the direction in which they shine, and
+//! cameras as their view pyramids.
 
 use trigon_document::Document;
 use trigon_document::scene::camera::{Camera, Projector, Viewport};

@@ -1,5 +1,5 @@
-//! The panel for adjusting the last command (F9), and the history list, latest entry first: a click undoes or redoes up to an
-//! entry.
+//! The panel for adjusting the last command (F9), and the history list, latest entry first: a click undoes or
+//! redoes up to an entry.
 
 use trigon_document::{Command, Document, Entry};
 use trigon_window::egui;

@@ -2,9 +2,9 @@
 //! requests.
 //!
 //! `outliner` lists the objects. `properties`, `information`, `add` and `development` are the tabs; the
-//! history is part of the second. `adjust` shows it, and the parameters of the last command; their widgets are generated from
-//! the schema of the commands (`form` describes them, `parameters` shows them), so a new command needs no
-//! code here for its panel.
+//! history is part of the second. `adjust` shows it, and the parameters of the last command; their widgets
+//! are generated from the schema of the commands (`form` describes them, `parameters` shows them), so a new
+//! command needs no code here for its panel.
 
 mod add;
 mod adjust;

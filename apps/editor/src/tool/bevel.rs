@@ -1,5 +1,5 @@
-//! Bevel (Ctrl+B) and inset (I), and what both have in common with extrude: each previews one command, which follows the
-//! pointer and typed numbers.
+//! Bevel (Ctrl+B) and inset (I), and what both have in common with extrude: each previews one command, which
+//! follows the pointer and typed numbers.
 
 use trigon_document::mesh::math::{DVec2, DVec3};
 use trigon_document::{Bevel, BevelWidth, Command, Document, InnerMiter, Inset, InsetMode, OuterMiter};

@@ -1,5 +1,5 @@
-//! The start of a transform: the world positions of the selection, its axes, and the pivot, which is the fixed point of
-//! rotations and scales.
+//! The start of a transform: the world positions of the selection, its axes, and the pivot, which is the
+//! fixed point of rotations and scales.
 
 use trigon_document::mesh::math::{DAffine3, DMat3, DVec3};
 use trigon_document::modelling::{EdgeId, EditMesh, FaceId, VertexId};

@@ -1,4 +1,5 @@
-//! Snapping to increments, to the grid, and to vertices, edges and faces of elements that do not move with the selection.
+//! Snapping to increments, to the grid, and to vertices, edges and faces of elements that do not move with
+//! the selection.
 
 use trigon_document::mesh::Mesh;
 use trigon_document::mesh::math::{DAffine3, DMat3, DVec2, DVec3, Vec3};

@@ -1,5 +1,5 @@
-//! Moving, rotating and scaling: from the pointer or typed numbers to the offset, to axis and angle, and to factors along
-//! axes.
+//! Moving, rotating and scaling: from the pointer or typed numbers to the offset, to axis and angle, and to
+//! factors along axes.
 
 use trigon_document::mesh::math::{DMat3, DVec3};
 use trigon_document::{Command, Rotate, Scale, TransformSpace, Translate};

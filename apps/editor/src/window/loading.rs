@@ -1,5 +1,5 @@
-//! Loading and saving on threads of their own, so that the window stays responsive. An abandoned load ends early; the document
-//! is written as it was when saving began.
+//! Loading and saving on threads of their own, so that the window stays responsive. An abandoned load ends
+//! early; the document is written as it was when saving began.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

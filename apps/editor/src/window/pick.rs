@@ -1,5 +1,5 @@
-//! Presses on the view: clicks that select, the gizmo and the axes in the corner, and V and Alt+V, which open the mesh on the
-//! pointer's side of the selection.
+//! Presses on the view: clicks that select, the gizmo and the axes in the corner, and V and Alt+V, which open
+//! the mesh on the pointer's side of the selection.
 
 use trigon_document::scene::NodeId;
 use trigon_document::{Command, ObjectName, PICK_RADIUS, Picks, Rip, Select, SelectAction, TransformSpace};

@@ -1,4 +1,5 @@
-//! Copying, separating and joining parts of meshes: duplicate, split off, rip, separate, and several objects into one.
+//! Copying, separating and joining parts of meshes: duplicate, split off, rip, separate, and several objects
+//! into one.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

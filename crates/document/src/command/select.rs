@@ -1,5 +1,5 @@
-//! Selecting objects and elements by number, name or position; all, none, inverse; object mode, edit mode, and the kind of
-//! element that is selected. The boxes that users draw on the image are in `display/pick`.
+//! Selecting objects and elements by number, name or position; all, none, inverse; object mode, edit mode,
+//! and the kind of element that is selected. The boxes that users draw on the image are in `display/pick`.
 
 use std::collections::BTreeSet;
 

@@ -1,5 +1,5 @@
-//! Other faces for the same surface: Catmull-Clark, triangles, quads; filling holes and loops; and the subdivision surface of
-//! a mesh while it is edited.
+//! Other faces for the same surface: Catmull-Clark, triangles, quads; filling holes and loops; and the
+//! subdivision surface of a mesh while it is edited.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

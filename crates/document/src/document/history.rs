@@ -1,5 +1,5 @@
-//! The history: one entry for each action of a user, as recovery files record it, with the data to undo and redo it; and
-//! previews of a command, which a modal tool shows while it runs.
+//! The history: one entry for each action of a user, as recovery files record it, with the data to undo and
+//! redo it; and previews of a command, which a modal tool shows while it runs.
 //!
 //! Each preview starts from the document as it was before the first one, so a drag of a thousand steps ends where
 //! one step would. History and recovery file do not see it until it is confirmed.

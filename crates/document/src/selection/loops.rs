@@ -1,5 +1,5 @@
-//! Selections along a surface: edge loops and rings of quad meshes, the shortest path from one element to another, and
-//! growing and shrinking: linked, more, less.
+//! Selections along a surface: edge loops and rings of quad meshes, the shortest path from one element to
+//! another, and growing and shrinking: linked, more, less.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;

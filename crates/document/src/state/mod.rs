@@ -5,7 +5,7 @@
 //! | `mod` | the state |
 //! | `change` | a command's access to it |
 //! | `shown` | how the scene follows the edited meshes |
-//! | `visible` | what a view shows instead of a mesh of the scene, which elements are marked, and the changes that keep a copy of the scene equal to it |
+//! | `visible` | what a view shows instead of a mesh of the scene; marked elements; changes for a copy of it |
 
 mod change;
 mod shown;

@@ -5,8 +5,8 @@
 //! read, objects that nothing uses, numbers with more digits than an f64 has. An editor takes all
 //! of these from here, as text and bytes, so that nothing is rounded, sorted or lost.
 //!
-//! A load collects it (`keep` of the reader fills the draft), and `text` finds parts of the JSON. None of it runs without
-//! [`LoadOptions::keep_source`](crate::LoadOptions::keep_source).
+//! A load collects it (`keep` of the reader fills the draft), and `text` finds parts of the JSON. None of it
+//! runs without [`LoadOptions::keep_source`](crate::LoadOptions::keep_source).
 
 mod text;
 

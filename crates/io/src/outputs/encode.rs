@@ -1,5 +1,5 @@
-//! Encodes the outputs of a frame as NumPy's format 1.0 (`numpy.lib.format` in NumPy's documentation), as OpenEXR with one
-//! channel for each number, and as PNG with 16 bits for each channel.
+//! Encodes the outputs of a frame as NumPy's format 1.0 (`numpy.lib.format` in NumPy's documentation), as
+//! OpenEXR with one channel for each number, and as PNG with 16 bits for each channel.
 
 use std::io;
 use std::io::{BufWriter, Cursor, Write};

@@ -1,5 +1,5 @@
-//! The materials of a mesh without a library of them: its colours, whose range only the whole file tells, and the images
-//! that it names.
+//! The materials of a mesh without a library of them: its colours, whose range only the whole file tells, and
+//! the images that it names.
 
 use std::collections::HashMap;
 

@@ -1,5 +1,5 @@
-//! New values for some elements of a mesh, which are in the mesh itself once they are written, and the sets of elements that
-//! changed.
+//! New values for some elements of a mesh, which are in the mesh itself once they are written, and the sets
+//! of elements that changed.
 
 use thiserror::Error;
 use trigon_math::{Vec2, Vec3, Vec4};

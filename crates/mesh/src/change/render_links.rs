@@ -1,5 +1,5 @@
-//! The links between the vertices of a render mesh and its mesh, kept so that changes can be followed, and the values of the
-//! corners at a vertex, some of which can still be one render vertex.
+//! The links between the vertices of a render mesh and its mesh, kept so that changes can be followed, and
+//! the values of the corners at a vertex, some of which can still be one render vertex.
 
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Cuts a polygon that comes back to a place into loops that are in each place once.
 //!
-//! A polygon that touches itself in corners, and whose loops all run counter-clockwise, is these loops side by side. One that
-//! runs clockwise is a hole, which belongs to the loop around it.
+//! A polygon that touches itself in corners, and whose loops all run counter-clockwise, is these loops side
+//! by side. One that runs clockwise is a hole, which belongs to the loop around it.
 
 use trigon_math::DVec2;
 

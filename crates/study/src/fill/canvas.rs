@@ -1,5 +1,5 @@
-//! The image into which triangles are painted: it counts how often each pixel is painted, and says how it differs from the
-//! exact image of a tiling.
+//! The image into which triangles are painted: it counts how often each pixel is painted, and says how it
+//! differs from the exact image of a tiling.
 
 use std::ops::AddAssign;
 

@@ -1,4 +1,5 @@
-//! The distance of drawn lines from the ideal one, and whether the outline of a triangle matches its fill (source row B3).
+//! The distance of drawn lines from the ideal one, and whether the outline of a triangle matches its fill
+//! (source row B3).
 
 use std::ops::AddAssign;
 

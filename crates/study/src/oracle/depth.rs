@@ -1,6 +1,6 @@
-//! The exact depth of a triangle (the plane through its snapped corners, in rational numbers), which of several triangles is
-//! nearest in a pixel (by integer fractions), and perspective-correct interpolation of a value that is linear on a
-//! triangle in space.
+//! The exact depth of a triangle (the plane through its snapped corners, in rational numbers), which of
+//! several triangles is nearest in a pixel (by integer fractions), and perspective-correct interpolation of a
+//! value that is linear on a triangle in space.
 
 use std::cmp::Ordering;
 use std::ops::Range;

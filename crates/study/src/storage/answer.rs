@@ -1,5 +1,5 @@
-//! The tasks that each representation performs, the mesh from which all are built, and the lists that count the indices that
-//! are read from them.
+//! The tasks that each representation performs, the mesh from which all are built, and the lists that count
+//! the indices that are read from them.
 
 use std::cell::Cell;
 

@@ -1,5 +1,5 @@
-//! What can be done to a row of the outliner: dragging it onto another row to set the parent or between rows to reorder, and
-//! its menu.
+//! What can be done to a row of the outliner: dragging it onto another row to set the parent or between rows
+//! to reorder, and its menu.
 
 use trigon_document::scene::{NodeId, Scene};
 use trigon_document::{

@@ -1,4 +1,5 @@
-//! What covers the view: the list of keys, the rename field, and questions that must be answered before anything else.
+//! What covers the view: the list of keys, the rename field, and questions that must be answered before
+//! anything else.
 
 use trigon_document::RenameObject;
 use trigon_window::egui::{Align2, Context, Grid, Id, Key, Modal, RichText, ScrollArea, TextEdit, Ui};

@@ -1,5 +1,6 @@
-//! The panels on the right (the outliner above, tabs below), the panel of the last operation at the lower left of the view, and
-//! the status line: the keys and numbers of the active tool, results and errors, and the selection.
+//! The panels on the right (the outliner above, tabs below), the panel of the last operation at the lower
+//! left of the view, and the status line: the keys and numbers of the active tool, results and errors, and
+//! the selection.
 
 use trigon_document::{Document, ElementKind};
 use trigon_window::egui::{

@@ -1,6 +1,6 @@
-//! The start of an OFF: the attributes of vertices, the numbers of vertices and faces, and what the numbers in a row of
-//! a vertex mean. The keyword tells, but MeshLab writes colours before normals, and others write colours without
-//! saying so.
+//! The start of an OFF: the attributes of vertices, the numbers of vertices and faces, and what the numbers
+//! in a row of a vertex mean. The keyword tells, but MeshLab writes colours before normals, and others write
+//! colours without saying so.
 
 use trigon_math::{DVec3, Vec2};
 

@@ -1,9 +1,9 @@
 //! OFF, the object file format of Geomview (University of Minnesota, 1991), as text: with normals (NOFF),
 //! colours (COFF) and texture coordinates (STOFF) of vertices, and colours of faces.
 //!
-//! The format is free: only the colour of a face ends with its line. But nearly all files have a line for each vertex and
-//! each face, and only so a number that is missing can be told from the next one. A file is read by its lines first, and
-//! as one list of numbers if these make no sense.
+//! The format is free: only the colour of a face ends with its line. But nearly all files have a line for
+//! each vertex and each face, and only so a number that is missing can be told from the next one. A file is
+//! read by its lines first, and as one list of numbers if these make no sense.
 //!
 //! The crate `off-rs` 2.0 has limits and names lines in errors, but it reads neither normals nor texture
 //! coordinates, and no file with a face of two vertices. It reads colours only of a kind that the caller knows

@@ -1,6 +1,6 @@
-//! Plain rows, as nearly all are: places of vertices, and faces without colours, nothing else on the line. All threads read
-//! them, a piece of the text each. A piece with any other row is left to the reader of single rows, which
-//! knows all kinds and all faults.
+//! Plain rows, as nearly all are: places of vertices, and faces without colours, nothing else on the line.
+//! All threads read them, a piece of the text each. A piece with any other row is left to the reader of
+//! single rows, which knows all kinds and all faults.
 
 use rayon::prelude::*;
 use trigon_math::DVec3;

@@ -1,5 +1,5 @@
-//! Binary STL: a header of 80 bytes, the number of triangles, and 50 bytes for each. The header has one colour for all
-//! triangles, and the attribute of a triangle one of its own.
+//! Binary STL: a header of 80 bytes, the number of triangles, and 50 bytes for each. The header has one
+//! colour for all triangles, and the attribute of a triangle one of its own.
 
 use rayon::prelude::*;
 use trigon_math::color::srgb_to_linear;

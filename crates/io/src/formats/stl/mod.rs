@@ -1,9 +1,10 @@
 //! STL, the format of stereolithography (3D Systems, 1988), as text and binary, with the colours that
 //! VisCAM, SolidView and Materialise Magics put into its attribute bytes.
 //!
-//! Text files begin with the word "solid", but so do many binary ones, and some text begins with a comment: the size
-//! of a file decides, and the zeros in it. Vertices are corners of single triangles; those with bit-identical coordinates are merged. Normals follow from the
-//! order of the vertices; those in the file are ignored, because many files contain zeros.
+//! Text files begin with the word "solid", but so do many binary ones, and some text begins with a comment:
+//! the size of a file decides, and the zeros in it. Vertices are corners of single triangles; those with
+//! bit-identical coordinates are merged. Normals follow from the order of the vertices; those in the file are
+//! ignored, because many files contain zeros.
 //!
 //! The crate `stl_io` 0.11 decides by the first line alone, drops the attributes, reads only the first of
 //! several solids, and rejects a file for one line without saying which.

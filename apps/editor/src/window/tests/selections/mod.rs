@@ -1,6 +1,7 @@
-//! Selecting by mouse on models that somebody else made: clicks, boxes, circles, lassos, loops, rings and paths, of
-//! vertices, edges and faces, visible only and through, each judged by an oracle of rays and polygons. Here on Newell's
-//! teapot; `TRIGON_SELECTIONS=FOLDER` does it on the models of a folder instead and tells how many agree.
+//! Selecting by mouse on models that somebody else made: clicks, boxes, circles, lassos, loops, rings and
+//! paths, of vertices, edges and faces, visible only and through, each judged by an oracle of rays and
+//! polygons. Here on Newell's teapot; `TRIGON_SELECTIONS=FOLDER` does it on the models of a folder instead
+//! and tells how many agree.
 
 mod lens;
 mod oracle;

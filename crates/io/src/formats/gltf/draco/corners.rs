@@ -1,5 +1,5 @@
-//! The corners of triangles and how they hang together, and the seams at which an attribute has different values on both
-//! sides of an edge.
+//! The corners of triangles and how they hang together, and the seams at which an attribute has different
+//! values on both sides of an edge.
 
 use super::symbols::LikelyBits;
 

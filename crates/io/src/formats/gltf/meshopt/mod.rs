@@ -2,10 +2,12 @@
 //! bytes are compressed. Written from the specification of the latter (Khronos,
 //! draft of 2025), which includes the former.
 //!
-//! `attributes` has the first of its three modes with the optional filters, `triangles` the other two. Every read is checked, and memory grows with the decoded data, never with claimed sizes.
+//! `attributes` has the first of its three modes with the optional filters, `triangles` the other two. Every
+//! read is checked, and memory grows with the decoded data, never with claimed sizes.
 //!
-//! The tests use the crate `meshoptimizer-rs` as an oracle. The product does not use it, although it is 1.5 to 4 times
-//! as fast: it accepts what the specification calls invalid, and its errors do not say what is wrong.
+//! The tests use the crate `meshoptimizer-rs` as an oracle. The product does not use it, although it is 1.5
+//! to 4 times as fast: it accepts what the specification calls invalid, and its errors do not say what is
+//! wrong.
 
 mod attributes;
 mod triangles;

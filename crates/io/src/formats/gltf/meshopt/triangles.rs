@@ -1,5 +1,5 @@
-//! Modes 1 and 2: triangles, each a byte that refers to a recent edge and a recent vertex, plus a few bytes where that
-//! is not enough; and lists of indices, each a difference from one of two previous ones.
+//! Modes 1 and 2: triangles, each a byte that refers to a recent edge and a recent vertex, plus a few bytes
+//! where that is not enough; and lists of indices, each a difference from one of two previous ones.
 
 use crate::formats::gltf::stream::Broken;
 use crate::formats::gltf::stream::{Stream, unzigzag};

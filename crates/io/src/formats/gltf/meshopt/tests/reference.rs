@@ -1,5 +1,5 @@
-//! Streams of another implementation: `meshoptimizer-rs`, a port of meshoptimizer 1.3. It shares nothing with our decoder or
-//! with the encoder of these tests.
+//! Streams of another implementation: `meshoptimizer-rs`, a port of meshoptimizer 1.3. It shares nothing with
+//! our decoder or with the encoder of these tests.
 
 use meshoptimizer_rs::codec::{
     ExpMode, IndexEncoding, VertexEncoding, decode_filter_color, decode_filter_exp, decode_filter_oct,
