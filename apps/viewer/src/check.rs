@@ -114,7 +114,7 @@ impl Fault {
     }
 
     fn of_scene(finding: Finding) -> Self {
-        let Finding { severity, fault, place: location, what, remedy } = finding;
+        let Finding { severity, fault, location, what, remedy } = finding;
         Self { severity, name: fault, location, what, remedy: remedy.to_owned() }
     }
 

@@ -72,7 +72,7 @@ pub(crate) fn draw(
 /// Glass that is drawn as if it were opaque looks like china.
 pub(crate) fn warn_of_opaque_glass(renderer: &Renderer, title: &str, reporter: Reporter) {
     let decision = renderer.plan().map(|plan| plan.decision(Effect::Refraction));
-    if let Some(Decision::Off(absence @ (Absence::GlassNotAsked(_) | Absence::GlassLitOtherwise(_)))) =
+    if let Some(Decision::Off(absence @ (Absence::GlassNotRequested(_) | Absence::GlassLitOtherwise(_)))) =
         decision
     {
         reporter.warning(format_args!(

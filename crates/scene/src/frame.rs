@@ -113,7 +113,7 @@ impl Frame {
     }
 
     /// Allocates the requested outputs, reusing existing memory.
-    pub(crate) fn make_room(&mut self, settings: &RenderSettings) -> Result<(), TargetError> {
+    pub(crate) fn allocate(&mut self, settings: &RenderSettings) -> Result<(), TargetError> {
         let RenderSettings { width, height, outputs, .. } = *settings;
         (self.width, self.height, self.origin) = (width, height, outputs.origin);
         let pixels = width as usize * height as usize;

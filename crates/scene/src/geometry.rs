@@ -74,7 +74,7 @@ pub(crate) struct Geometry {
     /// The same with normals of vertices, if it has those of polygons and a draw needs the others.
     split: OnceLock<Box<Geometry>>,
     /// How a posed mesh without tangents was deformed, to compute them later.
-    pose: Option<Pose>,
+    pose: Option<GeometryPose>,
     /// The data needed to follow changes of the mesh; `None` until the first one.
     links: Option<RenderLinks>,
     still_bounds: StillBounds,
@@ -108,7 +108,7 @@ impl PartialEq for GeometryState {
 
 /// A mesh at rest and how it was deformed.
 #[derive(Debug)]
-struct Pose {
+struct GeometryPose {
     rest: Arc<Geometry>,
     weights: Vec<f32>,
     palette: Vec<Affine3>,
@@ -122,7 +122,7 @@ pub(crate) struct Run {
 }
 
 /// The triangles of a mesh, in the order of its polygons.
-struct Triangles {
+struct MaterialTriangles {
     triangles: Vec<[u32; 3]>,
     /// The polygon of each.
     faces: Vec<u32>,
@@ -130,7 +130,7 @@ struct Triangles {
     slots: Vec<u32>,
 }
 
-impl Triangles {
+impl MaterialTriangles {
     /// Takes those of a welded mesh from it.
     fn of_welded(mesh: &mut WeldedMesh) -> Self {
         Self::taken(&mut mesh.triangles, &mut mesh.triangle_faces, &mut mesh.triangle_materials)
@@ -163,18 +163,18 @@ impl Geometry {
     }
 
     fn of_welded(mut mesh: WeldedMesh, columns: impl FnOnce(WeldedMesh) -> Columns) -> Self {
-        let triangles = Triangles::of_welded(&mut mesh);
+        let triangles = MaterialTriangles::of_welded(&mut mesh);
         Self::with(triangles, || columns(mesh), None)
     }
 
     fn of(mut mesh: RenderMesh) -> Self {
-        let triangles = Triangles::of_render_mesh(&mut mesh);
+        let triangles = MaterialTriangles::of_render_mesh(&mut mesh);
         let rest = mesh.is_deformable().then(|| Box::new(mesh.clone()));
         Self::with(triangles, || Columns::new(mesh), rest)
     }
 
     fn with(
-        Triangles { mut triangles, mut faces, mut slots }: Triangles,
+        MaterialTriangles { mut triangles, mut faces, mut slots }: MaterialTriangles,
         columns: impl FnOnce() -> Columns,
         rest: Option<Box<RenderMesh>>,
     ) -> Self {
@@ -190,7 +190,7 @@ impl Geometry {
         drop(slots);
         let columns = columns();
         Self {
-            tangential: places_for(&columns),
+            tangential: empty_slots(&columns),
             columns,
             runs,
             triangles,
@@ -215,7 +215,8 @@ impl Geometry {
     /// The mesh in a pose; see [`RenderMesh::deform`]. `None` if no pose can change it.
     pub(crate) fn posed(self: &Arc<Self>, weights: &[f32], palette: &[Affine3]) -> Option<Self> {
         let posed = self.deformed(weights, palette)?;
-        let pose = || Pose { rest: Arc::clone(self), weights: weights.to_vec(), palette: palette.to_vec() };
+        let pose =
+            || GeometryPose { rest: Arc::clone(self), weights: weights.to_vec(), palette: palette.to_vec() };
         Some(Self { pose: self.columns.tangents.is_none().then(pose), ..posed })
     }
 
@@ -242,7 +243,7 @@ impl Geometry {
             edge_flags: self.edge_flags.clone(),
             side_edges: self.side_edges.clone(),
             rest: None,
-            tangential: places_for(&columns),
+            tangential: empty_slots(&columns),
             split: OnceLock::new(),
             columns,
             pose: None,
@@ -266,25 +267,25 @@ impl Geometry {
 
     /// The index in the mesh's triangulation of a triangle of this list.
     pub(crate) fn triangulated(&self, triangle: usize) -> u32 {
-        let place = self.place_in_triangulation(triangle);
-        place - self.fillers.partition_point(|&filler| filler < place) as u32
+        let index = self.index_with_fillers(triangle);
+        index - self.fillers.partition_point(|&filler| filler < index) as u32
     }
 
     /// The same, fillers included.
-    fn place_in_triangulation(&self, triangle: usize) -> u32 {
+    fn index_with_fillers(&self, triangle: usize) -> u32 {
         self.order.as_ref().map_or(triangle as u32, |order| order[triangle])
     }
 
     /// Whether a triangle is a filler.
     fn is_filler(&self, triangle: usize) -> bool {
-        self.fillers.binary_search(&self.place_in_triangulation(triangle)).is_ok()
+        self.fillers.binary_search(&self.index_with_fillers(triangle)).is_ok()
     }
 
     /// Per-triangle data of the triangulation, extended by a value for each filler.
     fn with_fillers<T: Copy>(&self, made: Vec<T>, filler: T) -> Vec<T> {
         let mut fillers = self.fillers.iter().peekable();
         let (count, mut made) = (made.len() + self.fillers.len(), made.into_iter());
-        let of = |place: usize| match fillers.next_if(|&&next| next as usize == place) {
+        let of = |index: usize| match fillers.next_if(|&&next| next as usize == index) {
             Some(_) => filler,
             None => made.next().unwrap_or(filler),
         };
@@ -295,7 +296,7 @@ impl Geometry {
     fn filled_like(mut self, other: &Self) -> Self {
         if !other.fillers.is_empty() {
             let mut own = take(&mut self.triangles).into_iter();
-            let of = |place| if other.is_filler(place) { None } else { own.next() };
+            let of = |index| if other.is_filler(index) { None } else { own.next() };
             self.triangles = (0..other.triangles.len()).map(of).map(Option::unwrap_or_default).collect();
             self.faces.clone_from(&other.faces);
             self.runs.clone_from(&other.runs);
@@ -329,7 +330,7 @@ impl Geometry {
             return self;
         };
         made_once::<Box<Self>>(tangential, || {
-            if let Some(Pose { rest, weights, palette }) = &self.pose {
+            if let Some(GeometryPose { rest, weights, palette }) = &self.pose {
                 let posed = rest.with_tangents(source, uv_set).deformed(weights, palette);
                 return Box::new(posed.expect("tangents take no pose away"));
             }
@@ -389,15 +390,15 @@ fn large_flat<T>(mesh: &Mesh, make: impl FnOnce(&Mesh) -> Option<T>) -> Option<T
 /// What is in a place, made now if nothing is. All threads may work on it, so there is no lock: while a thread waits for
 /// the others, it may be given work that needs the same. Another caller may make its own at the same time; the first one
 /// stays.
-pub(crate) fn made_once<T>(place: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
-    if place.get().is_none() {
-        let _ = place.set(make());
+pub(crate) fn made_once<T>(slot: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
+    if slot.get().is_none() {
+        let _ = slot.set(make());
     }
-    place.get().expect("it was just made")
+    slot.get().expect("it was just made")
 }
 
 /// An empty slot for each UV set that can have tangents.
-fn places_for(columns: &Columns) -> Vec<OnceLock<Box<Geometry>>> {
+fn empty_slots(columns: &Columns) -> Vec<OnceLock<Box<Geometry>>> {
     columns.uv_sets.iter().take(MOST_TANGENT_SETS).map(|_| OnceLock::new()).collect()
 }
 

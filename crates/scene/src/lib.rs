@@ -95,7 +95,7 @@ pub use material::{
 };
 pub use mesh_asset::{MeshAsset, MeshId};
 pub use node::{Node, NodeId, Skin, SkinId};
-pub use pick::{KeptPoints, Nearest, Pick, Picker, Reach, Region, Snap, SnapElement};
+pub use pick::{CachedPoints, Nearest, Pick, Picker, Reach, Region, Snap, SnapElement};
 pub use plan::{Absence, Cause, Decision, EffectPlan, Invisible, Named};
 pub use render::{RenderError, Renderer, RendererBuilder, render};
 pub use scene::{NodePose, Pose, Scene, SceneError, SceneParts, SkinPose};

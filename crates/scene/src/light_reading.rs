@@ -56,24 +56,24 @@ pub(crate) fn short(value: f64) -> String {
 
 /// The reading that a scene keeps until its nodes or meshes change. Poses leave it as it is.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct KeptReading(OnceLock<Kept>);
+pub(crate) struct CachedReading(OnceLock<Measured>);
 
 #[derive(Clone, Debug)]
-struct Kept {
+struct Measured {
     reading: Option<LightReading>,
     /// The number of animated properties: a scene does not notice when they are added.
     channels: usize,
 }
 
-impl KeptReading {
+impl CachedReading {
     /// The kept reading, or a new one. `channels` is the number of animated properties now.
     pub(crate) fn get(
         &self,
         channels: usize,
         measure: impl Fn() -> Option<LightReading>,
     ) -> Option<LightReading> {
-        let kept = self.0.get_or_init(|| Kept { reading: measure(), channels });
-        if kept.channels == channels { kept.reading } else { measure() }
+        let cached = self.0.get_or_init(|| Measured { reading: measure(), channels });
+        if cached.channels == channels { cached.reading } else { measure() }
     }
 
     /// Something has changed.

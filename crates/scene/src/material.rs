@@ -145,28 +145,28 @@ impl Material {
 
     /// The texture in one of its places.
     #[must_use]
-    pub fn texture(&self, place: MaterialTexture) -> Option<TextureBinding> {
-        (place.row().get)(self)
+    pub fn texture(&self, slot: MaterialTexture) -> Option<TextureBinding> {
+        (slot.row().get)(self)
     }
 
     /// Sets or removes the texture in one of its places. A place that the shading model does not have
     /// is left as it is.
-    pub fn set_texture(&mut self, place: MaterialTexture, binding: Option<TextureBinding>) {
-        (place.row().set)(self, binding);
+    pub fn set_texture(&mut self, slot: MaterialTexture, binding: Option<TextureBinding>) {
+        (slot.row().set)(self, binding);
     }
 
     /// All its textures.
     pub fn textures(&self) -> impl Iterator<Item = (MaterialTexture, TextureBinding)> {
-        MaterialTexture::ALL.into_iter().filter_map(|place| Some((place, self.texture(place)?)))
+        MaterialTexture::ALL.into_iter().filter_map(|slot| Some((slot, self.texture(slot)?)))
     }
 
     /// Replaces every texture by the one that `replace` returns for it, and removes those for which it
     /// returns none.
     pub(crate) fn replace_textures(&mut self, replace: impl Fn(TextureId) -> Option<TextureId>) {
-        for place in MaterialTexture::ALL {
-            if let Some(binding) = self.texture(place) {
+        for slot in MaterialTexture::ALL {
+            if let Some(binding) = self.texture(slot) {
                 let replaced = replace(binding.texture);
-                self.set_texture(place, replaced.map(|texture| TextureBinding { texture, ..binding }));
+                self.set_texture(slot, replaced.map(|texture| TextureBinding { texture, ..binding }));
             }
         }
     }

@@ -129,8 +129,8 @@ impl MeshAsset {
         let (bounds, used) = (self.derived.bounds.get().copied(), Arc::clone(self.used_vertices()));
         let positions = self.mesh.positions();
         let moved = change.positions.iter().map(|&(vertex, _)| vertex);
-        let place = |vertex: u32| used[vertex as usize].then_some(positions[vertex as usize]);
-        self.still_bounds.without(bounds, moved, place, |moved| {
+        let position = |vertex: u32| used[vertex as usize].then_some(positions[vertex as usize]);
+        self.still_bounds.without(bounds, moved, position, |moved| {
             let still = runs_without(positions.len(), moved).flatten();
             box_around(still.filter(|&vertex| used[vertex]).map(|vertex| positions[vertex]))
         })
@@ -171,10 +171,10 @@ mod tests {
     /// A triangle, perhaps an edge and a point beside it, and a vertex that nothing uses.
     fn asset(has_edge: bool, has_point: bool) -> MeshAsset {
         let mut builder = MeshBuilder::new();
-        for place in
+        for position in
             [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 7.0], [-5.0, 0.0, 0.0], [99.0; 3]]
         {
-            builder.push_vertex(Vec3::from_array(place));
+            builder.push_vertex(Vec3::from_array(position));
         }
         builder.push_face(&[0, 1, 2]).expect("three vertices");
         if has_edge {
@@ -211,8 +211,8 @@ mod tests {
             let drags: [&[u32]; 5] = [&[1], &[3, 1], &[5, 0], &[0], &[2, 4]];
             for (drag, vertices) in drags.into_iter().enumerate() {
                 for step in [3.0_f32, -4.0, 0.5, 0.25] {
-                    let place = |vertex: u32| Vec3::new(step, vertex as f32 - step, step * drag as f32);
-                    let positions = vertices.iter().map(|&vertex| (vertex, place(vertex))).collect();
+                    let position = |vertex: u32| Vec3::new(step, vertex as f32 - step, step * drag as f32);
+                    let positions = vertices.iter().map(|&vertex| (vertex, position(vertex))).collect();
                     asset.change(&MeshChange { positions, ..MeshChange::default() }).expect("they exist");
                     let mut fresh = asset.clone();
                     fresh.replace(asset.mesh().clone());

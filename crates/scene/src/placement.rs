@@ -6,7 +6,7 @@ use trigon_raster::Culling;
 use trigon_raster::simd::{F32, Simd};
 
 use crate::lanes::{V3, difference, mapped, moved, splat};
-use crate::scene::Place;
+use crate::scene::NodePlacement;
 
 /// The transforms of one node, ready for the vertex stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,8 +105,8 @@ impl Eye {
     }
 
     /// `bounds` is a box around the mesh in its own space.
-    pub(crate) fn place(&self, place: &Place, bounds: &Bounds3) -> Placement {
-        let to_camera = self.to_camera(&place.world);
+    pub(crate) fn placement(&self, node: &NodePlacement, bounds: &Bounds3) -> Placement {
+        let to_camera = self.to_camera(&node.world);
         let anchor = anchor(&to_camera, bounds);
         let from_anchor =
             DAffine3 { translation: to_camera.transform_point3(anchor.as_dvec3()), ..to_camera };
@@ -114,9 +114,9 @@ impl Eye {
             anchor,
             to_clip: (self.projection * DMat4::from(from_anchor)).as_mat4(),
             to_camera: DMat4::from(from_anchor).as_mat4(),
-            normal_to_camera: normal_matrix(&to_camera.matrix3, place.is_mirrored),
-            cull_back: if place.is_mirrored { Culling::Front } else { Culling::Back },
-            front: if place.is_mirrored { Side::Back } else { Side::Front },
+            normal_to_camera: normal_matrix(&to_camera.matrix3, node.is_mirrored),
+            cull_back: if node.is_mirrored { Culling::Front } else { Culling::Back },
+            front: if node.is_mirrored { Side::Back } else { Side::Front },
         }
     }
 }

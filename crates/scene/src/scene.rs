@@ -18,7 +18,7 @@ use trigon_raster::Texture;
 
 use crate::animation::Animation;
 use crate::arena::Arena;
-use crate::light_reading::KeptReading;
+use crate::light_reading::CachedReading;
 use crate::material::{Material, MaterialId};
 use crate::mesh_asset::{MeshAsset, MeshId};
 use crate::node::{Node, NodeId, Skin};
@@ -30,7 +30,7 @@ pub use skin_pose::SkinPose;
 
 /// The placement of a node in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Place {
+pub(crate) struct NodePlacement {
     pub(crate) world: DAffine3,
     /// Whether an odd number of the transforms from the root mirror. The determinant of a nearly
     /// flat product would be dominated by rounding.
@@ -85,7 +85,7 @@ pub struct Scene {
     /// Roots listed first; some may have been removed, or have a parent now.
     root_order: Vec<NodeId>,
     /// What a light meter reads; see [`Scene::light_reading`].
-    pub(crate) reading: KeptReading,
+    pub(crate) reading: CachedReading,
 }
 
 impl Scene {
@@ -295,22 +295,23 @@ impl Scene {
     /// removed. Visits each node once, whatever the depth.
     #[must_use]
     pub fn visible_transforms(&self) -> Vec<Option<DAffine3>> {
-        self.visible_places().into_iter().map(|place| Some(place?.world)).collect()
+        self.visible_placements().into_iter().map(|placement| Some(placement?.world)).collect()
     }
 
     /// The same, and whether the transforms mirror.
-    pub(crate) fn visible_places(&self) -> Vec<Option<Place>> {
+    pub(crate) fn visible_placements(&self) -> Vec<Option<NodePlacement>> {
         let mut table = vec![None; self.nodes.index_bound()];
         let roots = self.nodes.iter().filter(|(_, node)| node.parent.is_none());
-        let mut waiting: Vec<(NodeId, Place)> = roots.map(|(id, _)| (id, Place::default())).collect();
+        let mut waiting: Vec<(NodeId, NodePlacement)> =
+            roots.map(|(id, _)| (id, NodePlacement::default())).collect();
         while let Some((id, outer)) = waiting.pop() {
             let Some(node) = self.nodes.get(id).filter(|node| node.visible) else { continue };
-            let place = Place {
+            let placement = NodePlacement {
                 world: outer.world * node.transform.to_affine(),
                 is_mirrored: outer.is_mirrored != node.transform.is_mirroring(),
             };
-            table[id.index()] = Some(place);
-            waiting.extend(node.children.iter().map(|&child| (child, place)));
+            table[id.index()] = Some(placement);
+            waiting.extend(node.children.iter().map(|&child| (child, placement)));
         }
         table
     }

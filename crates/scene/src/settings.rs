@@ -271,7 +271,7 @@ impl RenderSettings {
     }
 
     /// What shows through faces, if anything.
-    pub(crate) fn share_through_faces(&self) -> Option<f32> {
+    pub(crate) fn xray_opacity(&self) -> Option<f32> {
         let shows_edges = matches!(self.style, Style::SurfaceWithEdges | Style::HiddenLine);
         (shows_edges && self.x_ray > 0.0).then(|| self.x_ray.min(1.0))
     }

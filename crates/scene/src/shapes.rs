@@ -12,13 +12,13 @@ use crate::geometry::Geometry;
 use crate::mesh_asset::MeshAsset;
 use crate::node::{Node, NodeId};
 use crate::placement::Eye;
-use crate::scene::{Place, Scene};
+use crate::scene::{NodePlacement, Scene};
 
 /// A placed mesh.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     pub(crate) geometry: Arc<Geometry>,
-    pub(crate) place: Place,
+    pub(crate) placement: NodePlacement,
     /// Whether a pose changed it.
     pub(crate) is_posed: bool,
 }
@@ -37,13 +37,13 @@ pub(crate) enum Onlookers<'a> {
 }
 
 impl Shapes {
-    /// `places` is the scene's table of visible nodes.
-    pub(crate) fn new(scene: &Scene, places: &[Option<Place>], onlookers: Onlookers<'_>) -> Self {
-        let mut shapes = vec![None; places.len()];
+    /// `placements` is the scene's table of visible nodes.
+    pub(crate) fn new(scene: &Scene, placements: &[Option<NodePlacement>], onlookers: Onlookers<'_>) -> Self {
+        let mut shapes = vec![None; placements.len()];
         for (id, node) in scene.nodes().iter() {
-            let (Some(place), Some(mesh)) = (places[id.index()], node.mesh) else { continue };
+            let (Some(placement), Some(mesh)) = (placements[id.index()], node.mesh) else { continue };
             let Some(asset) = scene.meshes().get(mesh) else { continue };
-            shapes[id.index()] = shape(scene, id, node, asset, place, onlookers);
+            shapes[id.index()] = shape(scene, id, node, asset, placement, onlookers);
         }
         Self(shapes)
     }
@@ -70,23 +70,23 @@ fn shape(
     id: NodeId,
     node: &Node,
     asset: &MeshAsset,
-    place: Place,
+    placement: NodePlacement,
     onlookers: Onlookers<'_>,
 ) -> Option<Shape> {
-    let rest = Shape { geometry: Arc::clone(asset.geometry()), place, is_posed: false };
+    let rest = Shape { geometry: Arc::clone(asset.geometry()), placement, is_posed: false };
     let Some(bend) = scene.bend(id, asset) else { return Some(rest) };
     // Joints may have moved the mesh elsewhere.
-    let place = bend
-        .joints
-        .as_ref()
-        .map_or(place, |pose| Place { world: pose.world, is_mirrored: is_mirroring(&pose.world.matrix3) });
+    let placement = bend.joints.as_ref().map_or(placement, |pose| NodePlacement {
+        world: pose.world,
+        is_mirrored: is_mirroring(&pose.world.matrix3),
+    });
     if let (Onlookers::Camera(eye), false) = (onlookers, bend.is_morphed)
-        && !eye.may_see(&reach(&asset.bounds(), bend.palette()), &place.world)
+        && !eye.may_see(&reach(&asset.bounds(), bend.palette()), &placement.world)
     {
         return None;
     }
     let geometry = asset.geometry().posed(&node.morph_weights, bend.palette());
-    let posed = geometry.map(|geometry| Shape { geometry: Arc::new(geometry), place, is_posed: true });
+    let posed = geometry.map(|geometry| Shape { geometry: Arc::new(geometry), placement, is_posed: true });
     Some(posed.unwrap_or(rest))
 }
 

@@ -23,12 +23,12 @@ impl Canvas<'_> {
     /// The alpha mode of a material as far as it can be seen: a mask that hides nothing and blending with an alpha of 1
     /// everywhere are opaque.
     pub(crate) fn visible_alpha(&self, material: &Material) -> AlphaMode {
-        let is_seen = match material.alpha_mode {
+        let is_visible = match material.alpha_mode {
             AlphaMode::Opaque => false,
             AlphaMode::Mask { cutoff } => !self.reaches(material, cutoff),
             AlphaMode::Blend => !self.reaches(material, 1.0),
         };
-        if is_seen || keeps_unseen() { material.alpha_mode } else { AlphaMode::Opaque }
+        if is_visible || keeps_unseen() { material.alpha_mode } else { AlphaMode::Opaque }
     }
 
     /// Whether alpha is at least so large everywhere. It is the product of the factor, the texture and the vertex colour.

@@ -11,7 +11,7 @@ use std::thread::{self, JoinHandle};
 use trigon_document::modelling::FaceId;
 use trigon_document::scene::camera::{Camera, Projector, Viewport};
 use trigon_document::scene::{
-    Frame, KeptPoints, MeshId, Outputs, Picker, Reach, RenderSettings, Renderer, Scene,
+    CachedPoints, Frame, MeshId, Outputs, Picker, Reach, RenderSettings, Renderer, Scene,
 };
 use trigon_document::{Document, Picks};
 use trigon_window::scene::math::DVec2;
@@ -52,7 +52,7 @@ struct Known {
     viewport: Viewport,
     frame: Frame,
     /// What is known of points in it, as far as somebody asked.
-    points: KeptPoints,
+    points: CachedPoints,
     /// Whether the visible vertices are among that, if they can be kept.
     knows_visible_vertices: bool,
 }
@@ -180,7 +180,7 @@ impl Lookup {
             let settings = self.renderer.settings_mut();
             (settings.width, settings.height) = (viewport.width, viewport.height);
             let frame = self.renderer.render(scene, &camera).ok();
-            let points = KeptPoints::default();
+            let points = CachedPoints::default();
             self.known =
                 frame.map(|frame| Known { camera, viewport, frame, points, knows_visible_vertices: false });
         }

@@ -29,7 +29,7 @@ pub struct Curve {
 
 /// The position of a time among the keyframes.
 #[derive(Clone, Copy)]
-enum Place {
+enum CurvePosition {
     /// At a keyframe, or before the first or after the last.
     At(usize),
     /// Between two keyframes.
@@ -98,14 +98,14 @@ impl Curve {
     /// as keyframes are, so that a keyframe written for the time k / 24 is reached at k / 24 in f64.
     #[must_use]
     pub fn at(&self, time: f64) -> Vec<f64> {
-        let place = self.locate(time);
-        (0..self.width).map(|channel| self.component(place, channel)).collect()
+        let position = self.locate(time);
+        (0..self.width).map(|channel| self.component(position, channel)).collect()
     }
 
     /// [`Self::at`] for vectors of three numbers; missing ones are 0.
     pub(crate) fn vector(&self, time: f64) -> [f64; 3] {
-        let place = self.locate(time);
-        [0, 1, 2].map(|channel| if channel < self.width { self.component(place, channel) } else { 0.0 })
+        let position = self.locate(time);
+        [0, 1, 2].map(|channel| if channel < self.width { self.component(position, channel) } else { 0.0 })
     }
 
     /// The curve as a rotation, its vectors as quaternions (x, y, z, w): linear ones rotate about
@@ -115,23 +115,24 @@ impl Curve {
         if self.width != 4 {
             return None;
         }
-        let place = self.locate(time);
-        match (self.interpolation, place) {
-            (Interpolation::Linear, Place::Between { from, share, .. }) => {
-                slerp(self.quaternion(Place::At(from))?, self.quaternion(Place::At(from + 1))?, share)
-            }
-            (Interpolation::Linear, Place::At(_)) | (Interpolation::Step | Interpolation::CubicSpline, _) => {
-                self.quaternion(place)
-            }
+        let position = self.locate(time);
+        match (self.interpolation, position) {
+            (Interpolation::Linear, CurvePosition::Between { from, share, .. }) => slerp(
+                self.quaternion(CurvePosition::At(from))?,
+                self.quaternion(CurvePosition::At(from + 1))?,
+                share,
+            ),
+            (Interpolation::Linear, CurvePosition::At(_))
+            | (Interpolation::Step | Interpolation::CubicSpline, _) => self.quaternion(position),
         }
     }
 
-    fn quaternion(&self, place: Place) -> Option<DQuat> {
-        let [x, y, z, w] = [0, 1, 2, 3].map(|channel| self.component(place, channel));
+    fn quaternion(&self, position: CurvePosition) -> Option<DQuat> {
+        let [x, y, z, w] = [0, 1, 2, 3].map(|channel| self.component(position, channel));
         unit(DQuat::from_xyzw(x, y, z, w))
     }
 
-    fn locate(&self, time: f64) -> Place {
+    fn locate(&self, time: f64) -> CurvePosition {
         // Keyframes are numbers of f32. The time k / fps in f64 lies before its own keyframe, wherever f32
         // rounds that up: a step would show the value before. Rounded to f32, both are the same number.
         // Between other keyframes nothing jumps, and the time stays as precise as it is.
@@ -139,20 +140,20 @@ impl Curve {
         // The number of keyframes at or before the time.
         let passed = self.times.partition_point(|&key| f64::from(key) <= time);
         if passed == 0 || passed == self.times.len() {
-            return Place::At(passed.saturating_sub(1));
+            return CurvePosition::At(passed.saturating_sub(1));
         }
         let (start, end) = (f64::from(self.times[passed - 1]), f64::from(self.times[passed]));
         let seconds = end - start;
-        Place::Between { from: passed - 1, share: (time - start) / seconds, seconds }
+        CurvePosition::Between { from: passed - 1, share: (time - start) / seconds, seconds }
     }
 
-    fn component(&self, place: Place, channel: usize) -> f64 {
+    fn component(&self, position: CurvePosition, channel: usize) -> f64 {
         let (each, middle) = if self.interpolation == Interpolation::CubicSpline { (3, 1) } else { (1, 0) };
         let number =
             |key: usize, part: usize| f64::from(self.values[(key * each + part) * self.width + channel]);
-        let (from, t, seconds) = match place {
-            Place::At(key) => return number(key, middle),
-            Place::Between { from, share, seconds } => (from, share, seconds),
+        let (from, t, seconds) = match position {
+            CurvePosition::At(key) => return number(key, middle),
+            CurvePosition::Between { from, share, seconds } => (from, share, seconds),
         };
         let (start, end) = (number(from, middle), number(from + 1, middle));
         match self.interpolation {

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Finding, Severity, place};
+use super::{Finding, Severity, locate};
 use crate::light_meter::ExposureFault;
 use crate::material::{AlphaMode, Material, MaterialId, Shading};
 use crate::scene::Scene;
@@ -16,29 +16,29 @@ const BLACK: f32 = 1.0 / 255.0 / 12.92;
 const INVISIBLE: f32 = 1.0 / 255.0;
 
 pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
-    let seen = seen_materials(scene);
-    for &id in &seen {
+    let visible = visible_materials(scene);
+    for &id in &visible {
         let Some(material) = scene.materials.get(id) else { continue };
-        one(material, &place("material", &material.name, id.index()), findings);
+        one(material, &locate("material", &material.name, id.index()), findings);
     }
-    all_metal(scene, &seen, findings);
+    all_metal(scene, &visible, findings);
     lights(scene, findings);
     exposure(scene, findings);
     meshes(scene, findings);
 }
 
 /// The materials of visible nodes.
-fn seen_materials(scene: &Scene) -> BTreeSet<MaterialId> {
+fn visible_materials(scene: &Scene) -> BTreeSet<MaterialId> {
     let visible = scene.visible_transforms();
     let nodes =
         scene.nodes().iter().filter(|(id, node)| visible[id.index()].is_some() && node.mesh.is_some());
     nodes.flat_map(|(_, node)| node.materials.iter().copied()).collect()
 }
 
-fn one(material: &Material, place: &str, findings: &mut Vec<Finding>) {
+fn one(material: &Material, location: &str, findings: &mut Vec<Finding>) {
     let mut found = |severity, fault, what: &str, remedy| {
-        let (place, what) = (place.to_owned(), what.to_owned());
-        findings.push(Finding { severity, fault, place, what, remedy });
+        let (location, what) = (location.to_owned(), what.to_owned());
+        findings.push(Finding { severity, fault, location, what, remedy });
     };
     let color = material.base_color;
     if material.alpha_mode == AlphaMode::Blend && color.w < INVISIBLE && material.transmission == 0.0 {
@@ -54,8 +54,8 @@ fn one(material: &Material, place: &str, findings: &mut Vec<Finding>) {
 
 /// Metal shows only what it mirrors. Here that is a studio if there is nothing else, and polished metal is as good as any
 /// other material: a note.
-fn all_metal(scene: &Scene, seen: &BTreeSet<MaterialId>, findings: &mut Vec<Finding>) {
-    let materials: Vec<&Material> = seen.iter().filter_map(|&id| scene.materials.get(id)).collect();
+fn all_metal(scene: &Scene, visible: &BTreeSet<MaterialId>, findings: &mut Vec<Finding>) {
+    let materials: Vec<&Material> = visible.iter().filter_map(|&id| scene.materials.get(id)).collect();
     let is_mirror = |material: &&Material| match &material.shading {
         Shading::MetallicRoughness(surface) => {
             surface.metallic > 0.95 && surface.texture.is_none() && surface.roughness < 0.3
@@ -66,7 +66,7 @@ fn all_metal(scene: &Scene, seen: &BTreeSet<MaterialId>, findings: &mut Vec<Find
         findings.push(Finding {
             severity: Severity::Note,
             fault: "metal-without-environment",
-            place: "scene".to_owned(),
+            location: "scene".to_owned(),
             what: "everything is polished metal, which is black in programs without an environment to mirror"
                 .to_owned(),
             remedy: "show it with an environment image (--hdri-file), or set metallic to 0",
@@ -80,7 +80,7 @@ fn lights(scene: &Scene, findings: &mut Vec<Finding>) {
         findings.push(Finding {
             severity: Severity::Error,
             fault: "no-light",
-            place: "scene".to_owned(),
+            location: "scene".to_owned(),
             what: "its lights give no light".to_owned(),
             remedy: "raise their intensity, or leave them out of the export",
         });
@@ -95,7 +95,7 @@ fn exposure(scene: &Scene, findings: &mut Vec<Finding>) {
         findings.push(Finding {
             severity: Severity::Note,
             fault: "lamps-out-of-range",
-            place: "scene".to_owned(),
+            location: "scene".to_owned(),
             what: format!(
                 "white in the light of its lamps has {} times a display's white, so they are exposed by {} stops",
                 reading.white_text(),
@@ -116,7 +116,7 @@ fn exposure(scene: &Scene, findings: &mut Vec<Finding>) {
         findings.push(Finding {
             severity: Severity::Warning,
             fault,
-            place: "scene".to_owned(),
+            location: "scene".to_owned(),
             what,
             remedy,
         });
@@ -136,14 +136,14 @@ fn meshes(scene: &Scene, findings: &mut Vec<Finding>) {
             continue;
         }
         let attributes = asset.mesh().attributes();
-        let place = place("mesh", &asset.name, id.index());
+        let location = locate("mesh", &asset.name, id.index());
         let materials = node.materials.iter().filter_map(|&id| scene.materials.get(id));
         let mut textures = materials.flat_map(Material::textures);
         if textures.any(|(_, binding)| binding.uv_set >= attributes.uv_sets.len()) {
             findings.push(Finding {
                 severity: Severity::Error,
                 fault: "no-texture-coordinates",
-                place: place.clone(),
+                location: location.clone(),
                 what: "its material has a texture, but the mesh has no coordinates for it".to_owned(),
                 remedy: "unwrap it and export UV coordinates, or take the texture off",
             });
@@ -153,7 +153,7 @@ fn meshes(scene: &Scene, findings: &mut Vec<Finding>) {
             findings.push(Finding {
                 severity: Severity::Error,
                 fault: "black",
-                place,
+                location,
                 what: "the colours of all its vertices are black".to_owned(),
                 remedy: "export it without vertex colours",
             });

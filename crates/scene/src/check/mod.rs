@@ -30,7 +30,7 @@ pub struct Finding {
     /// A short name of the fault for programs, such as `inside-out`.
     pub fault: &'static str,
     /// The mesh, the material or the node, by its kind and name.
-    pub place: String,
+    pub location: String,
     /// What was found.
     pub what: String,
     /// A remedy for people.
@@ -44,7 +44,7 @@ impl fmt::Display for Finding {
             Severity::Warning => "warning",
             Severity::Error => "error",
         };
-        write!(f, "{severity}: {}: {} ({}); {}", self.place, self.what, self.fault, self.remedy)
+        write!(f, "{severity}: {}: {} ({}); {}", self.location, self.what, self.fault, self.remedy)
     }
 }
 
@@ -103,7 +103,7 @@ impl Scene {
 }
 
 /// `mesh "wheel"`, or its number if it has no name.
-fn place(kind: &str, name: &str, index: usize) -> String {
+fn locate(kind: &str, name: &str, index: usize) -> String {
     if name.is_empty() { format!("{kind} {index}") } else { format!("{kind} {name:?}") }
 }
 

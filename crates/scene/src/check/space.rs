@@ -2,7 +2,7 @@
 
 use trigon_math::{Bounds3, DVec3};
 
-use super::{Finding, Severity, counted, place};
+use super::{Finding, Severity, counted, locate};
 use crate::scene::Scene;
 
 /// Smaller than a millimetre, or larger than a hundred kilometres: probably the wrong unit.
@@ -21,7 +21,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
         findings.push(Finding {
             severity: Severity::Error,
             fault: "nothing-to-draw",
-            place: "scene".to_owned(),
+            location: "scene".to_owned(),
             what: nothing(scene),
             remedy: "check that the right file was exported, with its meshes",
         });
@@ -48,7 +48,7 @@ fn not_finite(scene: &Scene, findings: &mut Vec<Finding>) {
             findings.push(Finding {
                 severity: Severity::Error,
                 fault: "not-a-number",
-                place: place("mesh", &asset.name, id.index()),
+                location: locate("mesh", &asset.name, id.index()),
                 what: format!("the coordinates of {} are not finite numbers", counted(broken, "vertex")),
                 remedy: "their faces are not drawn: repair the file where it was made",
             });
@@ -60,7 +60,7 @@ fn not_finite(scene: &Scene, findings: &mut Vec<Finding>) {
             findings.push(Finding {
                 severity: Severity::Error,
                 fault: "not-a-number",
-                place: place("node", &node.name, id.index()),
+                location: locate("node", &node.name, id.index()),
                 what: "its transform is not finite".to_owned(),
                 remedy: "its children are not drawn: repair the file where it was made",
             });
@@ -81,7 +81,7 @@ fn flattened(scene: &Scene, findings: &mut Vec<Finding>) {
             findings.push(Finding {
                 severity: Severity::Error,
                 fault: "flattened",
-                place: place("node", &node.name, id.index()),
+                location: locate("node", &node.name, id.index()),
                 what: format!("it is scaled to 0 along {flat} axes, so it is invisible"),
                 remedy: "give it a scale other than 0, or hide it",
             });
@@ -101,7 +101,7 @@ fn size(bounds: &Bounds3, findings: &mut Vec<Finding>) {
     findings.push(Finding {
         severity: Severity::Warning,
         fault: "scale",
-        place: "scene".to_owned(),
+        location: "scene".to_owned(),
         what: format!("it is {what}: {size:.3e} m from corner to corner"),
         remedy,
     });
@@ -113,7 +113,7 @@ fn distance(bounds: &Bounds3, findings: &mut Vec<Finding>) {
         findings.push(Finding {
             severity: Severity::Warning,
             fault: "far-from-origin",
-            place: "scene".to_owned(),
+            location: "scene".to_owned(),
             what: format!(
                 "it is {:.3e} m away from the origin, and only {size:.3e} m large",
                 center.length()

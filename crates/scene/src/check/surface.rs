@@ -4,7 +4,7 @@
 use trigon_math::{DVec3, Vec3};
 use trigon_mesh::{Mesh, Surface};
 
-use super::{Finding, Severity, counted, place};
+use super::{Finding, Severity, counted, locate};
 use crate::scene::Scene;
 
 /// From this number of faces on, a fraction without area counts as a fault.
@@ -25,18 +25,18 @@ pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
         if mesh.face_count() == 0 {
             continue;
         }
-        let place = place("mesh", &asset.name, id.index());
-        joins(mesh, &place, findings);
-        without_area(mesh, &place, findings);
-        normals(mesh, &place, findings);
+        let location = locate("mesh", &asset.name, id.index());
+        joins(mesh, &location, findings);
+        without_area(mesh, &location, findings);
+        normals(mesh, &location, findings);
     }
 }
 
 /// How its faces join.
-fn joins(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {
+fn joins(mesh: &Mesh, location: &str, findings: &mut Vec<Finding>) {
     let Surface { open_edges, turned_edges, non_manifold_edges, volume, .. } = mesh.surface();
     let mut found = |severity, fault, what: String, remedy| {
-        findings.push(Finding { severity, fault, place: place.to_owned(), what, remedy });
+        findings.push(Finding { severity, fault, location: location.to_owned(), what, remedy });
     };
     if volume < 0.0 {
         let remedy = "flip its faces (in Blender: Mesh, Normals, Recalculate Outside)";
@@ -68,14 +68,14 @@ fn first(mesh: &Mesh, edges: &[[u32; 2]]) -> Option<String> {
     Some(format!("the first from {from} to {to}"))
 }
 
-fn without_area(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {
+fn without_area(mesh: &Mesh, location: &str, findings: &mut Vec<Finding>) {
     let is_flat = |&face: &usize| mesh.face_area_vector(face) == DVec3::ZERO;
     let flat = (0..mesh.face_count()).filter(is_flat).count();
     if flat as f64 > SHARE_WITHOUT_AREA * mesh.face_count() as f64 {
         findings.push(Finding {
             severity: Severity::Warning,
             fault: "no-area",
-            place: place.to_owned(),
+            location: location.to_owned(),
             what: format!("no area: {} of {}", counted(flat, "face"), mesh.face_count()),
             remedy: "merge vertices that lie at the same place",
         });
@@ -83,7 +83,7 @@ fn without_area(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {
 }
 
 /// Normals of the file compared with the faces.
-fn normals(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {
+fn normals(mesh: &Mesh, location: &str, findings: &mut Vec<Finding>) {
     let Some(normals) = &mesh.attributes().corner_normals else { return };
     let (mut useless, mut against) = (0, 0);
     for (face, corners) in mesh.faces().enumerate() {
@@ -95,7 +95,13 @@ fn normals(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {
         }
     }
     let mut found = |fault, what: String, remedy| {
-        findings.push(Finding { severity: Severity::Error, fault, place: place.to_owned(), what, remedy });
+        findings.push(Finding {
+            severity: Severity::Error,
+            fault,
+            location: location.to_owned(),
+            what,
+            remedy,
+        });
     };
     if useless * 2 > normals.len() {
         let what = format!("zero or not a number: {} of {}", counted(useless, "normal"), normals.len());

@@ -9,14 +9,14 @@ use crate::settings::RenderSettings;
 /// The background as rays through glass see it: what it shows in the direction of a ray, or at the
 /// place of a ray if the camera's own are parallel. Beyond the edges of the image its edges go on.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SeenBackdrop {
+pub(crate) struct VisibleBackdrop {
     top: Vec3,
     bottom: Vec3,
     /// From camera space to the height on the screen, and the divisor of it.
     rows: [Vec4; 2],
 }
 
-impl SeenBackdrop {
+impl VisibleBackdrop {
     /// `None` if the environment is what is seen. A transparent background counts as the default one:
     /// colours, unlike alpha, cannot be multiplied.
     pub(crate) fn new(settings: &RenderSettings, projection: &DMat4) -> Option<Self> {

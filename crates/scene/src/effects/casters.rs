@@ -8,7 +8,7 @@ use trigon_raster::Texture;
 use crate::geometry::{Geometry, GeometryState};
 use crate::material::{AlphaMode, Material};
 use crate::node::Node;
-use crate::scene::{Place, Scene};
+use crate::scene::{NodePlacement, Scene};
 use crate::shapes::{Shape, Shapes};
 
 /// All shadow casters of a scene.
@@ -34,7 +34,7 @@ pub(crate) struct Caster {
 #[derive(Clone, Debug)]
 pub(crate) struct ShadowSource {
     geometry: GeometryState,
-    pub(crate) place: Place,
+    pub(crate) placement: NodePlacement,
     /// For each run of the geometry its material, or `None` if light passes.
     pub(crate) materials: Vec<Option<Material>>,
     /// The current content of the materials' textures of colour, transmission and thickness: an
@@ -46,7 +46,7 @@ impl PartialEq for ShadowSource {
     /// Whether the shadow is certainly the same.
     fn eq(&self, other: &Self) -> bool {
         self.geometry == other.geometry
-            && self.place == other.place
+            && self.placement == other.placement
             && self.materials == other.materials
             && self.texture_addresses().eq(other.texture_addresses())
     }
@@ -63,17 +63,17 @@ impl Casters {
     pub(crate) fn gather(scene: &Scene, shapes: &Shapes) -> Self {
         let mut casters = Self { list: Vec::new(), bounds: Bounds3::EMPTY };
         for (id, node) in scene.nodes().iter() {
-            let Some(Shape { geometry, place, .. }) = shapes.get(id.index()) else { continue };
+            let Some(Shape { geometry, placement, .. }) = shapes.get(id.index()) else { continue };
             let materials: Vec<Option<Material>> =
                 geometry.runs.iter().map(|run| cast_by(scene, node, run.slot)).collect();
             if materials.iter().all(Option::is_none) {
                 continue;
             }
-            let bounds = geometry.bounds().transformed(&place.world);
+            let bounds = geometry.bounds().transformed(&placement.world);
             casters.bounds = casters.bounds.union(bounds);
             let textures = materials.iter().flatten().map(|material| textures(scene, material)).collect();
             let shadow =
-                ShadowSource { geometry: geometry.state.clone(), place: *place, materials, textures };
+                ShadowSource { geometry: geometry.state.clone(), placement: *placement, materials, textures };
             let node = id.index() as u32;
             casters.list.push(Caster { node, geometry: Arc::clone(geometry), shadow, bounds });
         }

@@ -9,13 +9,13 @@ use crate::lanes::{V3, dot, exp2, mix, splat};
 
 /// Precomputed fog.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Mist {
+pub(crate) struct FogModel {
     color: Vec3,
     /// Halvings per metre.
     halvings: f32,
 }
 
-impl Mist {
+impl FogModel {
     /// `None` for fog that hides nothing.
     pub(crate) fn new(fog: &Fog) -> Option<Self> {
         let halvings = fog.density * std::f32::consts::LOG2_E;
@@ -27,9 +27,13 @@ impl Mist {
     pub(crate) fn over<S: Simd>(&self, simd: S, position: V3<S>, color: V3<S>) -> V3<S> {
         note(Work::Fog);
         let distance = dot(position, position).sqrt();
-        let kept = exp2(distance * -self.halvings);
-        let mist = splat(simd, self.color);
-        [mix(mist[0], color[0], kept), mix(mist[1], color[1], kept), mix(mist[2], color[2], kept)]
+        let transmitted = exp2(distance * -self.halvings);
+        let fog_color = splat(simd, self.color);
+        [
+            mix(fog_color[0], color[0], transmitted),
+            mix(fog_color[1], color[1], transmitted),
+            mix(fog_color[2], color[2], transmitted),
+        ]
     }
 }
 
@@ -43,21 +47,21 @@ mod tests {
     fn a_surface_fades_exponentially_with_its_distance() {
         let simd = Fallback::new();
         let fog = Fog { color: Vec3::new(1.0, 0.5, 0.0), density: 0.3 };
-        let mist = Mist::new(&fog).expect("there is some");
+        let model = FogModel::new(&fog).expect("there is some");
         for distance in [0.0_f32, 1.0, 5.0, 40.0] {
             let at = splat(simd, Vec3::new(0.0, 0.6, -0.8) * distance);
-            let seen = mist.over(simd, at, splat(simd, Vec3::Z)).map(|channel| f64::from(channel[0]));
-            let kept = elementary::exp(-0.3 * f64::from(distance));
-            let expected = [1.0 - kept, 0.5 - 0.5 * kept, kept];
-            let worst = seen.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            assert!(worst < 1e-6, "{seen:?} at {distance}, not {expected:?}");
+            let foggy = model.over(simd, at, splat(simd, Vec3::Z)).map(|channel| f64::from(channel[0]));
+            let transmitted = elementary::exp(-0.3 * f64::from(distance));
+            let expected = [1.0 - transmitted, 0.5 - 0.5 * transmitted, transmitted];
+            let worst = foggy.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(worst < 1e-6, "{foggy:?} at {distance}, not {expected:?}");
         }
     }
 
     #[test]
     fn fog_without_density_is_none() {
         for density in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-            assert!(Mist::new(&Fog { color: Vec3::ONE, density }).is_none(), "{density} hides nothing");
+            assert!(FogModel::new(&Fog { color: Vec3::ONE, density }).is_none(), "{density} hides nothing");
         }
     }
 }

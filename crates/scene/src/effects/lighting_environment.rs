@@ -4,8 +4,8 @@
 use trigon_math::{Mat3, Vec3};
 use trigon_raster::simd::{F32, Simd, prelude::*};
 
-use super::backdrop::SeenBackdrop;
-use super::fog::Mist;
+use super::backdrop::VisibleBackdrop;
+use super::fog::FogModel;
 use super::metal_studio::{MetalStudio, StudioOnMetal};
 use super::rays::{AmbientRays, Optics, RayScene};
 use super::shadow::ShadowMaps;
@@ -30,13 +30,13 @@ pub(crate) struct LightingEnvironment {
     /// Whether mirrors and the reflections in glass have sight rays, and not only what is behind glass.
     pub(crate) traces_mirrors: bool,
     /// What they see far behind glass, if it is not the environment.
-    pub(crate) backdrop: Option<SeenBackdrop>,
+    pub(crate) backdrop: Option<VisibleBackdrop>,
     pub(crate) surroundings: Option<Surroundings>,
     /// What metals mirror instead of ambient light.
     pub(crate) metal_studio: Option<MetalStudio>,
     /// From world space to that of the surroundings and of the metals' studio, in which +Y is up.
     pub(crate) world_to_sky: Mat3,
-    pub(crate) mist: Option<Mist>,
+    pub(crate) fog: Option<FogModel>,
 }
 
 impl LightingEnvironment {

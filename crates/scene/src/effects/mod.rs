@@ -14,11 +14,11 @@ mod sight;
 mod sum;
 mod tone;
 
-pub(crate) use backdrop::SeenBackdrop;
+pub(crate) use backdrop::VisibleBackdrop;
 pub(crate) use casters::{Caster, Casters, ShadowSource};
 pub(crate) use counts::Counts;
 pub use counts::EffectCounts;
-pub(crate) use fog::Mist;
+pub(crate) use fog::FogModel;
 pub(crate) use lighting_environment::LightingEnvironment;
 pub(crate) use metal_studio::MetalStudio;
 pub(crate) use outline::draw_outline;

@@ -89,7 +89,7 @@ struct Walk {
 
 impl LightingEnvironment {
     /// What is visible from eight points on surfaces in some directions; both in camera space.
-    pub(crate) fn seen<S: Simd>(
+    pub(crate) fn visible_light<S: Simd>(
         &self,
         simd: S,
         points: &LitPoints<S>,
@@ -166,11 +166,11 @@ impl LightingEnvironment {
                     });
                     [0, 1, 2].map(|axis| F32::simd_from(simd, values.map(|value| value[axis])))
                 };
-                let seen_side = |met: &SurfaceHit, along: Vec3| {
+                let visible_side = |met: &SurfaceHit, along: Vec3| {
                     if met.normal.dot(along) > 0.0 { -met.normal } else { met.normal }
                 };
                 let turn = rays.turn().transpose();
-                let normal = turned(&turn, lanes(&seen_side));
+                let normal = turned(&turn, lanes(&visible_side));
                 let points = LitPoints {
                     position: moved(&rays.from_scene, lanes(&|met, _| met.position)),
                     normal,

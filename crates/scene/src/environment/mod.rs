@@ -136,9 +136,9 @@ impl Environment {
     #[must_use]
     pub fn radiance(&self, direction: Vec3, roughness: f32) -> Vec3 {
         let last = self.blurred.len();
-        let place = if roughness > 0.0 { roughness * last as f32 } else { 0.0 };
-        let place = if place < last as f32 { place } else { last as f32 };
-        let (level, share) = (place as usize, place - (place as usize) as f32);
+        let exact_level = if roughness > 0.0 { roughness * last as f32 } else { 0.0 };
+        let exact_level = if exact_level < last as f32 { exact_level } else { last as f32 };
+        let (level, share) = (exact_level as usize, exact_level - (exact_level as usize) as f32);
         let shown = |level: usize| match level.checked_sub(1) {
             None => self.halved[0].at(direction),
             Some(level) => self.blurred[level].at(direction),
@@ -148,7 +148,7 @@ impl Environment {
 
     /// The light from a direction (of any length but 0), filtered to a pixel's width in radians, so
     /// that pixels do not miss what lies between them.
-    pub(crate) fn seen(&self, direction: Vec3, width: f32) -> Vec3 {
+    pub(crate) fn filtered_radiance(&self, direction: Vec3, width: f32) -> Vec3 {
         note(Work::EnvironmentLight);
         if let Some(sky) = &self.sky {
             return sky.radiance(direction.normalize_or_zero());
@@ -157,9 +157,9 @@ impl Environment {
         let texel = (4.0 * std::f32::consts::PI).sqrt() / self.halved[0].size() as f32;
         let last = self.halved.len() - 1;
         let wider = width / texel;
-        let place = if wider > 1.0 { elementary::log2_f32(wider) } else { 0.0 };
-        let place = if place < last as f32 { place } else { last as f32 };
-        let (level, share) = (place as usize, place - (place as usize) as f32);
+        let exact_level = if wider > 1.0 { elementary::log2_f32(wider) } else { 0.0 };
+        let exact_level = if exact_level < last as f32 { exact_level } else { last as f32 };
+        let (level, share) = (exact_level as usize, exact_level - (exact_level as usize) as f32);
         let shown = self.halved[level].at(direction);
         if share == 0.0 { shown } else { shown.lerp(self.halved[level + 1].at(direction), share) }
     }

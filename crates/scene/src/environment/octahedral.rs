@@ -39,8 +39,8 @@ impl Octahedral {
                 let (u, v) = ((x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32);
                 let towards = equirectangular(u, v);
                 let area = (1.0 - towards.y * towards.y).sqrt();
-                let place = unfolded(towards) * size as f32;
-                let texel = held(place.y as usize, size) * size + held(place.x as usize, size);
+                let position = unfolded(towards) * size as f32;
+                let texel = held(position.y as usize, size) * size + held(position.x as usize, size);
                 sums[texel].0 += clean(pixel) * area;
                 sums[texel].1 += area;
             }
@@ -87,9 +87,9 @@ impl Octahedral {
     /// The light from a direction of any length, bilinear; from no direction that
     /// of the middle.
     pub(super) fn at(&self, direction: Vec3) -> Vec3 {
-        let place = unfolded(direction) * self.size as f32 + 0.5;
-        let (x, y) = (held(place.x as usize, self.size + 1), held(place.y as usize, self.size + 1));
-        let share = place - Vec2::new(x as f32, y as f32);
+        let position = unfolded(direction) * self.size as f32 + 0.5;
+        let (x, y) = (held(position.x as usize, self.size + 1), held(position.y as usize, self.size + 1));
+        let share = position - Vec2::new(x as f32, y as f32);
         let side = self.size + 2;
         let [a, b, c, d] = [0, 1, side, side + 1].map(|step| self.texels[y * side + x + step]);
         a.lerp(b, share.x).lerp(c.lerp(d, share.x), share.y)
@@ -104,8 +104,8 @@ impl Octahedral {
         let (size, side) = (self.size, self.size + 2);
         (0..size * size).map(move |i| {
             let (x, y) = (i % size, i / size);
-            let place = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / size as f32;
-            let folded = folded(place);
+            let position = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / size as f32;
+            let folded = folded(position);
             let length = folded.length();
             // The octahedron's faces are tilted, which changes the solid angle of texels.
             let step = 2.0 / size as f32;
@@ -146,13 +146,13 @@ pub(super) fn direction(size: usize, x: usize, y: usize) -> Vec3 {
 fn unfolded(direction: Vec3) -> Vec2 {
     let Vec3 { x, y, z } = direction / (direction.x.abs() + direction.y.abs() + direction.z.abs());
     let flat = if y >= 0.0 { Vec2::new(x, z) } else { over_the_edge(x, z) };
-    let place = flat * 0.5 + 0.5;
-    if place.is_finite() { place } else { Vec2::splat(0.5) }
+    let position = flat * 0.5 + 0.5;
+    if position.is_finite() { position } else { Vec2::splat(0.5) }
 }
 
 /// The point of the octahedron at a position in the unit square.
-fn folded(place: Vec2) -> Vec3 {
-    let flat = place * 2.0 - 1.0;
+fn folded(position: Vec2) -> Vec3 {
+    let flat = position * 2.0 - 1.0;
     let y = 1.0 - flat.x.abs() - flat.y.abs();
     let flat = if y >= 0.0 { flat } else { over_the_edge(flat.x, flat.y) };
     Vec3::new(flat.x, y, flat.y)

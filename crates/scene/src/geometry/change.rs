@@ -21,7 +21,7 @@ use trigon_mesh::{
 use changed_faces::{ChangedFace, ChangedFaces, FACES_PER_TASK, Rewritten, TriangleLists, fillers_of};
 
 use super::{
-    Columns, Geometry, GeometryChange, Triangles, box_around, box_of_ranges, large_flat, places_for,
+    Columns, Geometry, GeometryChange, MaterialTriangles, box_around, box_of_ranges, empty_slots, large_flat,
     range_without,
 };
 
@@ -29,20 +29,20 @@ impl Geometry {
     /// Geometry that can follow changes of its mesh.
     pub(crate) fn that_follows(mesh: &Mesh) -> Self {
         if let Some(((mut welded, normals), links)) = large_flat(mesh, WeldedMesh::of_flat_with_links) {
-            let triangles = Triangles::of_welded(&mut welded);
+            let triangles = MaterialTriangles::of_welded(&mut welded);
             let columns = || Columns::of_flat_faces(mesh, welded, normals);
             return Self::linked(mesh, triangles, links, columns);
         }
         let (mut render_mesh, links) = RenderMesh::with_links(mesh);
         let Some(links) = links else { return Self::of(render_mesh) };
-        let triangles = Triangles::of_render_mesh(&mut render_mesh);
+        let triangles = MaterialTriangles::of_render_mesh(&mut render_mesh);
         Self::linked(mesh, triangles, links, || Columns::new(render_mesh))
     }
 
     /// Of these triangles of a mesh, and its vertices.
     fn linked(
         mesh: &Mesh,
-        mut triangles: Triangles,
+        mut triangles: MaterialTriangles,
         links: RenderLinks,
         columns: impl FnOnce() -> Columns,
     ) -> Self {
@@ -79,7 +79,7 @@ impl Geometry {
         let bounds = self.bounds_without(&update);
         self.blocks = OnceLock::new();
         self.mesh_vertices = OnceLock::new();
-        (self.tangential, self.split) = (places_for(&self.columns), OnceLock::new());
+        (self.tangential, self.split) = (empty_slots(&self.columns), OnceLock::new());
         let mut columns = take(&mut self.columns);
         let is_flat = columns.face_normals.is_some();
         let (triangles, vertices) = rayon::join(
@@ -101,16 +101,16 @@ impl Geometry {
         let moved = replaced(update).map(|vertex| vertex.vertex);
         let columns = &self.columns;
         // New vertices have no position yet.
-        let place = |vertex| columns.position(vertex);
-        self.still_bounds.without(self.bounds.get().copied(), moved, place, |moved| {
+        let position = |vertex| columns.position(vertex);
+        self.still_bounds.without(self.bounds.get().copied(), moved, position, |moved| {
             box_of_ranges(columns.positions.each_ref().map(|column| range_without(column, moved)))
         })
     }
 
     /// The box extended by vertices that were written.
     fn bounds_with(&self, bounds: Bounds3, update: &RenderUpdate) -> Bounds3 {
-        let places = replaced(update).filter_map(|vertex| self.columns.position(vertex.vertex));
-        bounds.union(box_around(places))
+        let positions = replaced(update).filter_map(|vertex| self.columns.position(vertex.vertex));
+        bounds.union(box_around(positions))
     }
 
     /// Cuts faces into triangles again, and returns the triangles that may have other corners, edge flags, sides or
@@ -164,13 +164,13 @@ impl Geometry {
     /// Updates the list of fillers after faces were cut again.
     fn note_fillers(&mut self, faces: &[ChangedFace], rewritten: &[Rewritten]) {
         let fillers = rewritten.iter().flat_map(|part| &part.fillers);
-        let fillers: Vec<u32> = fillers.map(|&slot| self.place_in_triangulation(slot as usize)).collect();
+        let fillers: Vec<u32> = fillers.map(|&slot| self.index_with_fillers(slot as usize)).collect();
         if self.fillers.is_empty() && fillers.is_empty() {
             return;
         }
         // The slots of a face are consecutive in the triangulation, too.
         let in_triangulation = |face: &ChangedFace| {
-            let start = self.place_in_triangulation(face.start as usize);
+            let start = self.index_with_fillers(face.start as usize);
             start..start + face.end - face.start
         };
         let mut changed: Vec<Range<u32>> = faces.iter().map(in_triangulation).collect();
@@ -199,7 +199,7 @@ impl Geometry {
     }
 }
 
-impl Triangles {
+impl MaterialTriangles {
     /// Gives each face slots for as many triangles as it can ever have, and returns the slots of fillers,
     /// increasing. A polygon that crosses itself or has no area has fewer triangles than slots.
     fn fill(&mut self, mesh: &Mesh, links: &RenderLinks) -> Vec<u32> {

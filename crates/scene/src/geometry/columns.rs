@@ -152,7 +152,7 @@ fn write<'a, const N: usize>(
     for vertex in vertices {
         for (column, entry) in columns.iter_mut().zip(value(vertex)) {
             match column.get_mut(vertex.vertex as usize) {
-                Some(place) => *place = entry,
+                Some(slot) => *slot = entry,
                 None => column.push(entry),
             }
         }

@@ -19,7 +19,7 @@ impl StillBounds {
         &mut self,
         bounds: Option<Bounds3>,
         moved: impl Iterator<Item = u32> + Clone,
-        place: impl Fn(u32) -> Option<Vec3>,
+        position: impl Fn(u32) -> Option<Vec3>,
         others: impl FnOnce(&[u32]) -> Bounds3,
     ) -> Option<Bounds3> {
         let is_repeated = self.moved.iter().copied().eq(moved.clone());
@@ -28,8 +28,8 @@ impl StillBounds {
         }
         let bounds = bounds?;
         let is_on_border = |vertex: u32| {
-            let place = place(vertex).map(Vec3::as_dvec3);
-            place.is_some_and(|place| (place.cmpeq(bounds.min) | place.cmpeq(bounds.max)).any())
+            let position = position(vertex).map(Vec3::as_dvec3);
+            position.is_some_and(|position| (position.cmpeq(bounds.min) | position.cmpeq(bounds.max)).any())
         };
         if !moved.clone().any(is_on_border) {
             return Some(bounds);

@@ -152,7 +152,7 @@ pub(crate) fn lesser_of<S: Simd>(value: F32<S>, bound: f32) -> F32<S> {
 /// before each, and the fraction of the way to the next. The last entry is the end of the last step.
 #[inline(always)]
 pub(crate) fn table_step<S: Simd>(value: F32<S>, count: usize) -> ([i32; LANES], F32<S>) {
-    let place = saturated(value) * (count - 1) as f32;
-    let first = lesser_of(place.floor(), (count - 2) as f32);
-    (first.to_int::<I32<S>>().into(), place - first)
+    let position = saturated(value) * (count - 1) as f32;
+    let first = lesser_of(position.floor(), (count - 2) as f32);
+    (first.to_int::<I32<S>>().into(), position - first)
 }

@@ -9,10 +9,10 @@ use crate::scene::Scene;
 /// All lights of a scene.
 pub(super) struct Lamps {
     ambient: DVec3,
-    lamps: Vec<Lamp>,
+    lamps: Vec<MeteredLamp>,
 }
 
-struct Lamp {
+struct MeteredLamp {
     light: Light,
     position: DVec3,
     /// The unit vector against the direction in which it shines.
@@ -30,7 +30,7 @@ impl Lamps {
             if light.kind == LightKind::Ambient {
                 all.ambient += light.radiance().as_dvec3();
             } else {
-                all.lamps.push(Lamp::new(light, world));
+                all.lamps.push(MeteredLamp::new(light, world));
             }
         }
         (!all.lamps.is_empty()).then_some(all)
@@ -51,7 +51,7 @@ impl Lamps {
     }
 }
 
-impl Lamp {
+impl MeteredLamp {
     fn new(light: Light, world: &DAffine3) -> Self {
         let backwards = world.transform_vector3(DVec3::Z).normalize_or_zero();
         let (scale, offset) = light.cone();

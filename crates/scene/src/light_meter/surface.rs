@@ -34,8 +34,8 @@ pub(super) fn lit_parts(scene: &Scene) -> Vec<LitPart> {
     let objects = with_faces(scene, &transforms);
     let points = (POINTS / objects.len().max(1)).clamp(1, MOST_POINTS);
     let mut parts = Vec::new();
-    for place in spread(objects.len(), MOST_OBJECTS) {
-        let (id, world) = objects[place];
+    for index in spread(objects.len(), MOST_OBJECTS) {
+        let (id, world) = objects[index];
         let Some(mesh) = scene.placed_mesh(id, world) else { continue };
         add_parts(&mesh, points, &lamps, &mut parts);
     }
@@ -82,7 +82,7 @@ fn add_parts(mesh: &PlacedMesh<'_>, points: usize, lamps: &Lamps, parts: &mut Ve
 /// As many numbers below `count` as there are, or `most` that are spread evenly.
 fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
     (0..count.min(most))
-        .map(move |place| if count <= most { place } else { (2 * place + 1) * count / (2 * most) })
+        .map(move |index| if count <= most { index } else { (2 * index + 1) * count / (2 * most) })
 }
 
 /// A face of a placed mesh as a fan of triangles around its first corner.
@@ -96,7 +96,7 @@ struct Face {
 impl Face {
     fn new(mesh: &PlacedMesh<'_>, face: usize) -> Self {
         let vertices = mesh.mesh().face_vertices(face);
-        let corners: Vec<DVec3> = vertices.iter().map(|&vertex| mesh.place(vertex)).collect();
+        let corners: Vec<DVec3> = vertices.iter().map(|&vertex| mesh.position(vertex)).collect();
         let mut area = 0.0;
         let areas = corners[1..].windows(2).map(|pair| {
             area += cross(corners[0], pair).length() * 0.5;
@@ -112,12 +112,12 @@ impl Face {
         if !(self.area > 0.0 && self.area.is_finite()) {
             return None;
         }
-        let place = (number as f64 + 0.5) / count as f64 * self.area;
-        let triangle = self.areas.partition_point(|&area| area < place).min(self.areas.len() - 1);
+        let cumulative = (number as f64 + 0.5) / count as f64 * self.area;
+        let triangle = self.areas.partition_point(|&area| area < cumulative).min(self.areas.len() - 1);
         let before = if triangle == 0 { 0.0 } else { self.areas[triangle - 1] };
         let (first, pair) = (self.corners[0], &self.corners[triangle + 1..triangle + 3]);
         // A uniform distribution over a triangle, of two uniform numbers; the second one is van der Corput's.
-        let outwards = ((place - before) / (self.areas[triangle] - before)).sqrt();
+        let outwards = ((cumulative - before) / (self.areas[triangle] - before)).sqrt();
         let along = f64::from((number as u32).reverse_bits()) / 4_294_967_296.0 + 0.5 / count as f64;
         let position = first + (pair[0] - first).lerp(pair[1] - first, along.min(1.0)) * outwards;
         Some((position, cross(first, pair).try_normalize()?))

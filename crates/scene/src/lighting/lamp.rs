@@ -14,7 +14,7 @@ pub(crate) const BRIGHTEST: f32 = (1_u64 << 60) as f32;
 /// coordinates never appear.
 #[derive(Clone, Debug)]
 pub(crate) struct Lamp {
-    pub(crate) source: Source,
+    pub(crate) source: LampSource,
     /// The linear RGB of a white surface in this light; for a point or spot light, at one metre.
     pub(crate) radiance: Vec3,
     /// Its node.
@@ -23,7 +23,7 @@ pub(crate) struct Lamp {
 
 /// The direction from which light comes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Source {
+pub(crate) enum LampSource {
     /// Parallel; the unit vector points towards the light.
     Directional(Vec3),
     /// From a point, perhaps within a cone.
@@ -61,12 +61,12 @@ impl Lamp {
         let inverse_range_squared = inverse_range * inverse_range;
         let source = match light.kind {
             LightKind::Ambient => return None,
-            LightKind::Directional => Source::Directional(backwards),
-            LightKind::Point => Source::Point { position, inverse_range_squared, cone: None },
+            LightKind::Directional => LampSource::Directional(backwards),
+            LightKind::Point => LampSource::Point { position, inverse_range_squared, cone: None },
             LightKind::Spot { .. } => {
                 let (scale, offset) = light.cone();
                 let cone = Some(Cone { backwards, scale, offset });
-                Source::Point { position, inverse_range_squared, cone }
+                LampSource::Point { position, inverse_range_squared, cone }
             }
         };
         Some(Self { source, radiance: light.radiance(), node: Some(node) })
@@ -74,13 +74,13 @@ impl Lamp {
 
     /// Parallel light of the studio.
     pub(crate) fn studio(towards: Vec3, radiance: f32) -> Self {
-        let source = Source::Directional(towards.normalize());
+        let source = LampSource::Directional(towards.normalize());
         Self { source, radiance: Vec3::splat(radiance), node: None }
     }
 
     /// Whether the light depends on a surface's position, and not only on its normal.
     pub(crate) fn needs_position(&self) -> bool {
-        matches!(self.source, Source::Point { .. })
+        matches!(self.source, LampSource::Point { .. })
     }
 
     /// Whether its light is grey.
@@ -93,10 +93,10 @@ impl Lamp {
     #[inline(always)]
     pub(crate) fn arriving<S: Simd>(&self, simd: S, position: V3<S>) -> Arriving<S> {
         match &self.source {
-            Source::Directional(towards) => {
+            LampSource::Directional(towards) => {
                 Arriving { towards: splat(simd, *towards), share: F32::splat(simd, 1.0) }
             }
-            Source::Point { position: lamp, inverse_range_squared, cone } => {
+            LampSource::Point { position: lamp, inverse_range_squared, cone } => {
                 let offset = difference(splat(simd, *lamp), position);
                 let squared = dot(offset, offset);
                 let inverse = inverse_root(squared);

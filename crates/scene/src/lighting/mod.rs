@@ -7,7 +7,7 @@ mod reflectance;
 mod studio;
 
 pub(crate) use brdf::Microfacets;
-pub(crate) use lamp::{Arriving, BRIGHTEST, Lamp, Source};
+pub(crate) use lamp::{Arriving, BRIGHTEST, Lamp, LampSource};
 pub(crate) use points::{Brdf, LitPoints, Reflected};
 
 use std::collections::BTreeMap;
@@ -47,16 +47,16 @@ pub(crate) struct IdleLamps {
 }
 
 impl Lights {
-    /// Collects the lights that the settings and the scene require. `places` are those of the visible nodes that have
+    /// Collects the lights that the settings and the scene require. `transforms` are those of the visible nodes that have
     /// lights, by their indices.
     pub(crate) fn gather(
         scene: &Scene,
-        places: &BTreeMap<u32, DAffine3>,
+        transforms: &BTreeMap<u32, DAffine3>,
         eye: &Eye,
         settings: &RenderSettings,
     ) -> Self {
         let lighting = settings.lighting();
-        let lights = Self::of_scene(scene, places, eye, lighting);
+        let lights = Self::of_scene(scene, transforms, eye, lighting);
         match lighting {
             Lighting::Studio => Self::studio(),
             // An environment is light, too.
@@ -72,10 +72,10 @@ impl Lights {
         .scaled(settings.light_factor())
     }
 
-    fn of_scene(scene: &Scene, places: &BTreeMap<u32, DAffine3>, eye: &Eye, lighting: Lighting) -> Self {
+    fn of_scene(scene: &Scene, transforms: &BTreeMap<u32, DAffine3>, eye: &Eye, lighting: Lighting) -> Self {
         let mut lights = Self::default();
         if lighting != Lighting::Studio {
-            for (&index, world) in places {
+            for (&index, world) in transforms {
                 let node = scene.nodes().id_at(index as usize).and_then(|id| scene.node(id));
                 let Some(light) = node.and_then(|node| node.light.as_ref()) else { continue };
                 if light.kind == LightKind::Ambient {

@@ -22,7 +22,7 @@ impl Lights {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lighting::Source;
+    use crate::lighting::LampSource;
 
     /// Over all normals n, the sum of max(0, n · v) over some vectors v is largest where n
     /// points along the sum of some of them: it is the length of the longest such sum.
@@ -37,7 +37,9 @@ mod tests {
 
     /// The length is the lamp's brightness.
     fn towards(lamp: &Lamp) -> Vec3 {
-        let Source::Directional(towards) = lamp.source else { panic!("lamps of the studio are parallel") };
+        let LampSource::Directional(towards) = lamp.source else {
+            panic!("lamps of the studio are parallel")
+        };
         towards * lamp.radiance
     }
 

@@ -53,7 +53,7 @@ impl ExtensionParameter {
         Self { extension, name, field: ParameterField::Color(field) }
     }
 
-    pub(super) const fn texture(extension: &'static str, name: &'static str, place: MaterialTexture) -> Self {
-        Self { extension, name, field: ParameterField::Texture(place) }
+    pub(super) const fn texture(extension: &'static str, name: &'static str, slot: MaterialTexture) -> Self {
+        Self { extension, name, field: ParameterField::Texture(slot) }
     }
 }

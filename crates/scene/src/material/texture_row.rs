@@ -36,17 +36,17 @@ pub(crate) enum DrawnIf {
 
 /// Lists the places of textures: the variant and its row.
 macro_rules! texture_rows {
-    ($($(#[$doc:meta])* $place:ident => $row:expr),+ $(,)?) => {
+    ($($(#[$doc:meta])* $slot:ident => $row:expr),+ $(,)?) => {
         /// A place of a material that can have a texture.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
         pub enum MaterialTexture {
-            $($(#[$doc])* $place),+
+            $($(#[$doc])* $slot),+
         }
 
         impl MaterialTexture {
             /// All of them.
-            pub const ALL: [Self; [$(stringify!($place)),+].len()] = [$(Self::$place),+];
+            pub const ALL: [Self; [$(stringify!($slot)),+].len()] = [$(Self::$slot),+];
 
             /// Whether its images hold colours or data.
             #[must_use]
@@ -61,7 +61,7 @@ macro_rules! texture_rows {
 
             pub(crate) fn row(self) -> &'static TextureRow {
                 match self {
-                    $(Self::$place => const { &$row }),+
+                    $(Self::$slot => const { &$row }),+
                 }
             }
         }

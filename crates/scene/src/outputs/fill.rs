@@ -5,8 +5,8 @@ use trigon_math::{DVec2, DVec3, Vec2, Vec3};
 use trigon_raster::Rasterizer;
 
 use super::facet::Beam;
-use super::seen::Seen;
-use super::source::{Point, Source, Triangle};
+use super::source::{ObjectSource, Point, Triangle};
+use super::visible_ids::VisibleIds;
 use crate::frame::Frame;
 use crate::prepare::PreparedScene;
 
@@ -19,31 +19,31 @@ pub(crate) fn fill(
     frame: &mut Frame,
     prepared: &PreparedScene<'_>,
     sample: [f64; 2],
-    seen: &Seen,
+    ids: &VisibleIds,
     rasterizer: &Rasterizer,
 ) {
     let Some(lens) = Lens::new(prepared, sample) else { return };
     let width = frame.width as usize;
-    let sources: Vec<Option<Source<'_>>> = sources(prepared, &seen.objects);
-    let pieces: Vec<Piece<'_>> = Piece::cut(frame, width * ROWS);
+    let sources: Vec<Option<ObjectSource<'_>>> = sources(prepared, &ids.objects);
+    let pieces: Vec<Strip<'_>> = Strip::cut(frame, width * ROWS);
     rasterizer.share(pieces.into_iter().enumerate(), |(number, mut piece)| {
-        piece.fill(&lens, &sources, seen, width, number * width * ROWS);
+        piece.fill(&lens, &sources, ids, width, number * width * ROWS);
     });
 }
 
 /// The visible objects, by their indices.
-fn sources<'s>(prepared: &'s PreparedScene<'_>, objects: &[u32]) -> Vec<Option<Source<'s>>> {
+fn sources<'s>(prepared: &'s PreparedScene<'_>, objects: &[u32]) -> Vec<Option<ObjectSource<'s>>> {
     let scene = prepared.scene;
-    let mut seen = vec![false; scene.nodes().index_bound()];
+    let mut is_visible = vec![false; scene.nodes().index_bound()];
     for &object in objects.iter().filter(|&&object| object != u32::MAX) {
-        seen[object as usize] = true;
+        is_visible[object as usize] = true;
     }
-    let mut sources: Vec<Option<Source<'_>>> = Vec::new();
-    sources.resize_with(seen.len(), || None);
-    for (id, node) in scene.nodes().iter().filter(|(id, _)| seen[id.index()]) {
+    let mut sources: Vec<Option<ObjectSource<'_>>> = Vec::new();
+    sources.resize_with(is_visible.len(), || None);
+    for (id, node) in scene.nodes().iter().filter(|(id, _)| is_visible[id.index()]) {
         let Some(shape) = prepared.shapes.get(id.index()) else { continue };
         let Some(asset) = node.mesh.and_then(|mesh| scene.meshes().get(mesh)) else { continue };
-        sources[id.index()] = Some(Source::new(prepared, node, shape, asset.mesh()));
+        sources[id.index()] = Some(ObjectSource::new(prepared, node, shape, asset.mesh()));
     }
     sources
 }
@@ -81,13 +81,13 @@ impl Lens {
     }
 
     /// A point of camera space as the position output stores it.
-    fn told(&self, point: DVec3) -> Vec3 {
+    fn world_position(&self, point: DVec3) -> Vec3 {
         (self.camera.orientation * point + (self.camera.position - self.origin)).as_vec3()
     }
 }
 
 /// Some rows of the outputs; empty if not requested.
-struct Piece<'f> {
+struct Strip<'f> {
     length: usize,
     material_ids: &'f mut [u32],
     triangle_ids: &'f mut [u32],
@@ -99,7 +99,7 @@ struct Piece<'f> {
     albedo: &'f mut [Vec3],
 }
 
-impl<'f> Piece<'f> {
+impl<'f> Strip<'f> {
     fn cut(frame: &'f mut Frame, size: usize) -> Vec<Self> {
         let pixels = frame.width as usize * frame.height as usize;
         let mut material_ids = chunks(&mut frame.material_ids, size);
@@ -124,16 +124,23 @@ impl<'f> Piece<'f> {
         (0..pixels).step_by(size).map(piece).collect()
     }
 
-    fn fill(&mut self, lens: &Lens, sources: &[Option<Source<'_>>], seen: &Seen, width: usize, start: usize) {
+    fn fill(
+        &mut self,
+        lens: &Lens,
+        sources: &[Option<ObjectSource<'_>>],
+        ids: &VisibleIds,
+        width: usize,
+        start: usize,
+    ) {
         // Neighbours mostly show the same triangle.
         let mut last: Option<([u32; 3], Option<Triangle<'_>>)> = None;
         for at in 0..self.length {
             let pixel = start + at;
-            let ids @ [object, face, number] =
-                [seen.objects[pixel], seen.faces[pixel], seen.triangles[pixel]];
-            if last.is_none_or(|(known, _)| known != ids) {
+            let visible @ [object, face, number] =
+                [ids.objects[pixel], ids.faces[pixel], ids.triangles[pixel]];
+            if last.is_none_or(|(known, _)| known != visible) {
                 let source = sources.get(object as usize).and_then(Option::as_ref);
-                last = Some((ids, source.and_then(|source| source.triangle(face, number, lens.beam))));
+                last = Some((visible, source.and_then(|source| source.triangle(face, number, lens.beam))));
             }
             match last {
                 Some((_, Some(triangle))) => self.put(at, &triangle, lens, [pixel % width, pixel / width]),
@@ -152,7 +159,7 @@ impl<'f> Piece<'f> {
         put(self.material_ids, at, || triangle.material());
         put(self.triangle_ids, at, || triangle.index());
         put(self.barycentrics, at, || weights.as_vec3());
-        put(self.positions, at, || lens.told(facet.at(weights)));
+        put(self.positions, at, || lens.world_position(facet.at(weights)));
         put(self.normals, at, || triangle.normal(&point));
         put(self.geometric_normals, at, || to_world(triangle.plane_normal()));
         put(self.uvs, at, || triangle.uv(weights));
@@ -179,7 +186,7 @@ fn chunks<T>(list: &mut Option<Vec<T>>, size: usize) -> std::slice::ChunksMut<'_
 
 /// Stores a value if its output is requested.
 fn put<T>(list: &mut [T], at: usize, value: impl FnOnce() -> T) {
-    if let Some(place) = list.get_mut(at) {
-        *place = value();
+    if let Some(slot) = list.get_mut(at) {
+        *slot = value();
     }
 }

@@ -7,10 +7,10 @@
 
 mod facet;
 mod fill;
-mod seen;
 mod source;
 #[cfg(test)]
 mod tests;
+mod visible_ids;
 
 pub(crate) use fill::fill;
-pub(crate) use seen::{Needed, Seen};
+pub(crate) use visible_ids::{Needed, VisibleIds};

@@ -15,7 +15,7 @@ use crate::settings::{Outputs, Style};
 use crate::shapes::Shape;
 
 /// An object that may be visible.
-pub(super) struct Source<'s> {
+pub(super) struct ObjectSource<'s> {
     geometry: &'s Geometry,
     looks: Vec<OutputMaterial<'s>>,
     to_camera: DAffine3,
@@ -32,13 +32,13 @@ struct OutputMaterial<'s> {
     geometry: &'s Geometry,
     material: u32,
     color: Vec3,
-    texture: Option<Map<'s>>,
+    texture: Option<OutputTexture<'s>>,
     /// With the factor of x and y.
-    normal_map: Option<(Map<'s>, f32)>,
+    normal_map: Option<(OutputTexture<'s>, f32)>,
 }
 
 /// A texture with the mesh's coordinates.
-struct Map<'s> {
+struct OutputTexture<'s> {
     texture: &'s Texture,
     binding: TextureBinding,
 }
@@ -46,7 +46,7 @@ struct Map<'s> {
 /// A visible triangle.
 #[derive(Clone, Copy)]
 pub(super) struct Triangle<'s> {
-    source: &'s Source<'s>,
+    source: &'s ObjectSource<'s>,
     look: &'s OutputMaterial<'s>,
     pub(super) facet: Facet,
     index: usize,
@@ -62,7 +62,7 @@ pub(super) struct Point {
     pub(super) slopes: [DVec3; 2],
 }
 
-impl<'s> Source<'s> {
+impl<'s> ObjectSource<'s> {
     pub(super) fn new(prepared: &'s PreparedScene<'_>, node: &Node, shape: &'s Shape, mesh: &Mesh) -> Self {
         let scene = prepared.scene;
         let needs = &prepared.settings.outputs;
@@ -78,10 +78,10 @@ impl<'s> Source<'s> {
         Self {
             geometry,
             looks: looks.collect(),
-            to_camera: prepared.eye.to_camera(&shape.place.world),
-            normal_to_world: normal_matrix(&shape.place.world.matrix3, shape.place.is_mirrored),
-            tangent_to_world: shape.place.world.matrix3.as_mat3(),
-            mirrored: shape.place.is_mirrored,
+            to_camera: prepared.eye.to_camera(&shape.placement.world),
+            normal_to_world: normal_matrix(&shape.placement.world.matrix3, shape.placement.is_mirrored),
+            tangent_to_world: shape.placement.world.matrix3.as_mat3(),
+            mirrored: shape.placement.is_mirrored,
             draws_are_runs: prepared.settings.style != Style::HiddenLine,
         }
     }
@@ -115,7 +115,7 @@ impl<'s> OutputMaterial<'s> {
         let map = |binding: TextureBinding| {
             let texture = &scene.textures.get(binding.texture)?.texture;
             geometry.columns.uv_sets.get(binding.uv_set)?;
-            Some(Map { texture, binding })
+            Some(OutputTexture { texture, binding })
         };
         let shows_normals = needs.normals && material.shading != Shading::Unlit;
         let bent = material.normal_map.filter(|_| shows_normals && MaterialTexture::Normal.matters(material));
@@ -176,7 +176,7 @@ impl Triangle<'_> {
     }
 
     /// The value of a texture over a whole pixel.
-    fn look_up(&self, map: &Map<'_>, point: &Point) -> Vec3 {
+    fn look_up(&self, map: &OutputTexture<'_>, point: &Point) -> Vec3 {
         let set = &self.look.geometry.columns.uv_sets[map.binding.uv_set];
         let mix = |weights: DVec3| -> DVec2 { mixed2(weights, set, self.corners()) };
         let transform = map.binding.transform;

@@ -279,14 +279,14 @@ fn what_nobody_asks_for_takes_no_memory() {
     let camera = scene.cameras()[0].1;
     let mut renderer = Renderer::new(settings(Outputs::default()));
     renderer.render(&scene, &camera).expect("drawn");
-    let [objects, faces, triangles] = renderer.seen_capacities();
+    let [objects, faces, triangles] = renderer.id_capacities();
     assert_eq!([objects, faces, triangles], [0; 3], "no ids beside colours");
     renderer.settings_mut().outputs = Outputs { depth: true, ..Outputs::NONE };
     renderer.render(&scene, &camera).expect("drawn");
-    assert_eq!(renderer.seen_capacities(), [0; 3], "no ids beside depth");
+    assert_eq!(renderer.id_capacities(), [0; 3], "no ids beside depth");
     renderer.settings_mut().outputs = Outputs { ids: true, ..Outputs::NONE };
     renderer.render(&scene, &camera).expect("drawn");
-    assert_eq!(renderer.seen_capacities()[2], 0, "no triangles beside ids");
+    assert_eq!(renderer.id_capacities()[2], 0, "no triangles beside ids");
 }
 
 #[test]

@@ -69,9 +69,10 @@ impl Centers {
 
 /// The pixels with centres between the least and the greatest of some places, and `more`
 /// on either side. Places that are no numbers do not count.
-fn pixels(places: [f64; 3], more: f64, range: &Range<u32>) -> Range<u32> {
-    let least = places.iter().fold(f64::INFINITY, |least, &place| least.min(place));
-    let greatest = places.iter().fold(f64::NEG_INFINITY, |greatest, &place| greatest.max(place));
+fn pixels(coordinates: [f64; 3], more: f64, range: &Range<u32>) -> Range<u32> {
+    let least = coordinates.iter().fold(f64::INFINITY, |least, &coordinate| least.min(coordinate));
+    let greatest =
+        coordinates.iter().fold(f64::NEG_INFINITY, |greatest, &coordinate| greatest.max(coordinate));
     // The casts saturate.
     let start = ((least - 0.5 - more).ceil() as u32).clamp(range.start, range.end);
     let end = ((greatest + 0.5 + more).floor() as u32).clamp(range.start, range.end);

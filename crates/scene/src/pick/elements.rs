@@ -4,19 +4,19 @@ use fixedbitset::FixedBitSet;
 
 use trigon_mesh::Mesh;
 
-use super::object::Object;
+use super::object::PickObject;
 use crate::elements::ElementSet;
 
 /// A set that grows element by element.
 pub(super) struct Sets<'o, 's, C> {
-    objects: &'o [Option<Object<'s>>],
+    objects: &'o [Option<PickObject<'s>>],
     count: C,
     bits: Vec<FixedBitSet>,
 }
 
 impl<'o, 's, C: Fn(&Mesh) -> usize> Sets<'o, 's, C> {
     /// `count` tells how many elements a mesh has.
-    pub(super) fn new(objects: &'o [Option<Object<'s>>], count: C) -> Self {
+    pub(super) fn new(objects: &'o [Option<PickObject<'s>>], count: C) -> Self {
         Self { objects, count, bits: vec![FixedBitSet::new(); objects.len()] }
     }
 

@@ -28,13 +28,13 @@ const FARTHEST: f64 = 1e12;
 /// Eight triangles, and what is counted from where.
 pub(super) struct Forms<S: Simd> {
     /// The three sides, not negative within, and how much nearer than a depth the plane is.
-    forms: [Form<S>; 4],
+    forms: [TriangleForm<S>; 4],
     origin: DVec2,
     depth: f64,
 }
 
 /// `x * factors[0] + y * factors[1] + constant`
-struct Form<S: Simd> {
+struct TriangleForm<S: Simd> {
     factors: [F32<S>; 2],
     constant: F32<S>,
 }
@@ -59,7 +59,7 @@ impl<S: Simd> Forms<S> {
         }
         let forms = lanes.each(
             #[inline(always)]
-            |[x, y, constant]| Form {
+            |[x, y, constant]| TriangleForm {
                 factors: [F32::simd_from(simd, x), F32::simd_from(simd, y)],
                 constant: F32::simd_from(simd, constant),
             },
@@ -71,15 +71,15 @@ impl<S: Simd> Forms<S> {
     /// does not.
     #[inline(always)]
     pub(super) fn that_may_hide(&self, simd: S, probe: &Probe) -> u64 {
-        let place = probe.at - self.origin;
-        let [x, y] = [place.x, place.y].each(
+        let offset = probe.at - self.origin;
+        let [x, y] = [offset.x, offset.y].each(
             #[inline(always)]
             |at| F32::splat(simd, at as f32),
         );
         let [a, b, c, nearer] = &self.forms;
         let at = inlined(
             #[inline(always)]
-            |form: &Form<S>| x * form.factors[0] + y * form.factors[1] + form.constant,
+            |form: &TriangleForm<S>| x * form.factors[0] + y * form.factors[1] + form.constant,
         );
         let (zero, depth) =
             (F32::splat(simd, 0.0), F32::splat(simd, (probe.hiding_depth - self.depth) as f32));
@@ -203,13 +203,14 @@ mod tests {
     #[test]
     fn of_a_dense_mesh_nothing_is_left_for_the_exact_test() {
         // Quads of 1.3 pixels on a slope.
-        let place = |x: u32, y: u32| {
+        let grid_point = |x: u32, y: u32| {
             let [x, y] = [x, y].map(|at| f64::from(at) * 1.3);
             [x + 0.2 * y + 7.1, y + 5.3, 0.02 + 1e-5 * x - 2e-5 * y]
         };
-        let quads = (0..4).map(|x| [place(x, 1), place(x + 1, 1), place(x + 1, 2), place(x, 2)]);
+        let quads =
+            (0..4).map(|x| [grid_point(x, 1), grid_point(x + 1, 1), grid_point(x + 1, 2), grid_point(x, 2)]);
         let triangles: Vec<Corners> = quads.flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-        let vertices = (0..4).flat_map(|y| (0..6).map(move |x| place(x, y)));
+        let vertices = (0..4).flat_map(|y| (0..6).map(move |x| grid_point(x, y)));
         let probe = |[x, y, depth]: [f64; 3], nearer: f64| Probe {
             at: DVec2::new(x, y),
             hiding_depth: depth * nearer,

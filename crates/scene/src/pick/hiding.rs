@@ -17,7 +17,7 @@ use trigon_raster::simd::Simd;
 use super::facing::Facing;
 use super::forms::Forms;
 use super::nearby::{Nearby, NearbyTriangles};
-use super::object::Object;
+use super::object::PickObject;
 use super::occluders::{Around, Extent, Group, Pixels};
 use super::probes::{Probe, Probes};
 use super::region::Area;
@@ -85,27 +85,27 @@ impl<'p> Hiding<'p> {
         for (facing, run) in triangles.drawn.runs() {
             let wins = |face: u32, at: DVec2| facing.is_opaque || self.wins(nearby.object, face, at);
             let hides = |face: u32, point: &Candidate| wins(face, point.spot.at) && !is_own(face, point);
-            let places = triangles.places(run);
-            let starts: Vec<usize> = places.clone().step_by(TRIANGLES).collect();
+            let indices = triangles.indices(run);
+            let starts: Vec<usize> = indices.clone().step_by(TRIANGLES).collect();
             starts.into_par_iter().for_each(|start| {
-                let share = start..places.end.min(start + TRIANGLES);
+                let share = start..indices.end.min(start + TRIANGLES);
                 dispatch!(level, simd => self.visit_all(simd, &triangles, facing, share, &hides));
             });
         }
     }
 
     /// What is asked of the candidates that nothing hides, in lists.
-    pub(super) fn seen<T: Send>(&self, ask: impl Fn(&Candidate) -> T + Sync) -> Vec<Vec<T>> {
+    pub(super) fn visible<T: Send>(&self, visit: impl Fn(&Candidate) -> T + Sync) -> Vec<Vec<T>> {
         let of_band = |band: &Band| {
             let points = band.points.iter().zip(&band.hidden);
-            let seen = points.filter(|(_, hidden)| !hidden.load(Ordering::Relaxed));
-            seen.map(|(point, _)| ask(point)).collect()
+            let visible = points.filter(|(_, hidden)| !hidden.load(Ordering::Relaxed));
+            visible.map(|(point, _)| visit(point)).collect()
         };
         self.bands.par_iter().map(of_band).collect()
     }
 
     /// Whether the image shows a face in the pixel of a point.
-    fn wins(&self, object: &Object<'_>, face: u32, at: DVec2) -> bool {
+    fn wins(&self, object: &PickObject<'_>, face: u32, at: DVec2) -> bool {
         let pixel = at.y as usize * self.frame.width as usize + at.x as usize;
         let id = |ids: &Option<Vec<u32>>| ids.as_ref().and_then(|ids| ids.get(pixel).copied());
         id(&self.frame.object_ids) == Some(object.node.index() as u32)
@@ -117,12 +117,12 @@ impl<'p> Hiding<'p> {
         simd: S,
         triangles: &NearbyTriangles<'_>,
         facing: Facing,
-        places: Range<usize>,
+        indices: Range<usize>,
         hides: &impl Fn(u32, &Candidate) -> bool,
     ) {
         let mut group = Group::new();
-        for place in places {
-            triangles.pieces(place, |piece| {
+        for index in indices {
+            triangles.pieces(index, |piece| {
                 let [a, b, c] = piece;
                 if !facing.draws(doubled_area([a.at, b.at, c.at])) {
                     return;
@@ -133,7 +133,7 @@ impl<'p> Hiding<'p> {
                     self.visit(simd, &group, hides);
                     group.clear();
                 }
-                let face = triangles.drawn.face(triangles.number(place));
+                let face = triangles.drawn.face(triangles.number(index));
                 group.push(piece, face, extent, pixels);
             });
         }

@@ -10,24 +10,23 @@
 //! | `region`, `lasso`, `outline` | which points lie in a region; the even-odd rule; distances from a polygon |
 //! | `screen`, `object` | screen positions of an object's points |
 //! | `facing` | which sides of faces are drawn |
-//! | `kept` | what outlives a picker: screen positions and visible vertices |
+//! | `cached_points` | what outlives a picker: screen positions and visible vertices |
 //! | `nearby` | the objects near an area, and which of their elements may lie in it |
 //! | `sides` | for large areas: one byte per point, which side of the area it is on |
-//! | `few`, `beyond` | for small areas: skips whole boxes of triangles |
+//! | `small_region`, `box_culling` | for small areas: skips whole boxes of triangles |
 //! | `kind` | vertices and edges: the points that must be visible |
 //! | `hiding` | **which points a face hides** |
 //! | `occluders`, `probes`, `forms` | the triangles and the points of that test; a quick proof in f32 that a point is not hidden |
 //! | `covering` | the pixel centres that a face covers |
 //! | `elements` | sets of elements |
 
-mod beyond;
+mod box_culling;
+mod cached_points;
 mod covering;
 mod elements;
 mod facing;
-mod few;
 mod forms;
 mod hiding;
-mod kept;
 mod kind;
 mod lasso;
 mod nearby;
@@ -41,11 +40,12 @@ mod region;
 mod screen;
 mod search;
 mod sides;
+mod small_region;
 mod snap;
 #[cfg(test)]
 mod tests;
 
-pub use kept::KeptPoints;
+pub use cached_points::CachedPoints;
 pub use nearest::Nearest;
 pub use picker::{Pick, Picker, Reach};
 pub use region::Region;

@@ -1,7 +1,7 @@
 //! The objects of a scene near an area of an image, and their elements that may lie in it.
 //!
 //! A small area, such as around the pointer, contains few elements: whole boxes of triangles are skipped, and
-//! nothing is stored (`few`). In a large area, the screen positions of all points are computed and stored,
+//! nothing is stored (`small_region`). In a large area, the screen positions of all points are computed and stored,
 //! and one byte per point records on which side of the area it lies; most elements and triangles are decided
 //! from these bytes alone.
 
@@ -9,19 +9,19 @@ use std::ops::Range;
 
 use trigon_raster::simd::LANES;
 
-use super::few::Few;
 use super::kind::Kind;
-use super::object::{Drawn, Object};
+use super::object::{DrawnTriangles, PickObject};
 use super::region::Area;
 use super::screen::{Screen, Spot};
 use super::sides::Sides;
+use super::small_region::SmallRegion;
 
 /// Of an image, the part from which on an area is large.
 const LARGE: usize = 16;
 
 /// An object beside an area.
 pub(super) struct Nearby<'q> {
-    pub(super) object: &'q Object<'q>,
+    pub(super) object: &'q PickObject<'q>,
     pub(super) area: &'q Area<'q>,
     screen: &'q Screen,
     /// What may lie in it.
@@ -29,7 +29,7 @@ pub(super) struct Nearby<'q> {
 }
 
 enum Near<'q> {
-    Few(Few),
+    SmallRegion(SmallRegion),
     /// All of it.
     All {
         /// Of the mesh's vertices, and some more.
@@ -40,12 +40,12 @@ enum Near<'q> {
 }
 
 impl<'q> Nearby<'q> {
-    pub(super) fn new(object: &'q Object<'q>, screen: &'q Screen, area: &'q Area<'q>) -> Self {
+    pub(super) fn new(object: &'q PickObject<'q>, screen: &'q Screen, area: &'q Area<'q>) -> Self {
         let near = if is_large(screen, area) {
             let vertices = object.vertex_sides(screen, area);
             Near::All { vertices, used: object.used() }
         } else {
-            Near::Few(Few::new(object, screen, area))
+            Near::SmallRegion(SmallRegion::new(object, screen, area))
         };
         Self { object, area, screen, near }
     }
@@ -53,8 +53,8 @@ impl<'q> Nearby<'q> {
     /// How many elements may lie in the area.
     pub(super) fn count(&self, kind: Kind) -> usize {
         match (&self.near, kind) {
-            (Near::Few(few), Kind::Vertex) => few.vertices.len(),
-            (Near::Few(few), Kind::Edge) => few.edges.len(),
+            (Near::SmallRegion(region), Kind::Vertex) => region.vertices.len(),
+            (Near::SmallRegion(region), Kind::Edge) => region.edges.len(),
             (Near::All { .. }, _) => kind.count(self.object.mesh()),
         }
     }
@@ -63,8 +63,8 @@ impl<'q> Nearby<'q> {
     #[inline]
     pub(super) fn element(&self, kind: Kind, number: usize) -> usize {
         match (&self.near, kind) {
-            (Near::Few(few), Kind::Vertex) => few.vertices[number] as usize,
-            (Near::Few(few), Kind::Edge) => few.edges[number] as usize,
+            (Near::SmallRegion(region), Kind::Vertex) => region.vertices[number] as usize,
+            (Near::SmallRegion(region), Kind::Edge) => region.edges[number] as usize,
             (Near::All { .. }, _) => number,
         }
     }
@@ -73,7 +73,7 @@ impl<'q> Nearby<'q> {
     #[inline]
     pub(super) fn vertex(&self, vertex: usize) -> Option<Spot> {
         let is_near = match &self.near {
-            Near::Few(_) => true,
+            Near::SmallRegion(_) => true,
             Near::All { vertices, used } => vertices.as_flattened()[vertex].is_inside() && used[vertex],
         };
         is_near.then(|| self.object.vertices(self.screen)(vertex))
@@ -85,7 +85,7 @@ impl<'q> Nearby<'q> {
         let ends = self.object.mesh().edges()[edge];
         let spot = |end: u32| self.object.vertices(self.screen)(end as usize);
         let sides = ends.map(|end| match &self.near {
-            Near::Few(_) => Sides::of(&spot(end), self.area),
+            Near::SmallRegion(_) => Sides::of(&spot(end), self.area),
             Near::All { vertices, .. } => vertices.as_flattened()[end as usize],
         });
         if Sides::is_beside(&sides) {
@@ -101,7 +101,7 @@ impl<'q> Nearby<'q> {
     pub(super) fn triangles(&self) -> Option<NearbyTriangles<'_>> {
         let drawn = self.object.drawn()?;
         let near = match &self.near {
-            Near::Few(few) => NearTriangles::Few(&few.triangles),
+            Near::SmallRegion(region) => NearTriangles::SmallRegion(&region.triangles),
             Near::All { vertices, .. } => match drawn.corner_vertices(self.object) {
                 Some(corners) => NearTriangles::OfVertices { corners, sides: vertices.as_flattened() },
                 None => NearTriangles::All(drawn.corner_sides(self.screen, self.area)),
@@ -113,15 +113,15 @@ impl<'q> Nearby<'q> {
 
 /// The triangles of an object beside an area.
 pub(super) struct NearbyTriangles<'q> {
-    pub(super) drawn: &'q Drawn,
-    object: &'q Object<'q>,
+    pub(super) drawn: &'q DrawnTriangles,
+    object: &'q PickObject<'q>,
     screen: &'q Screen,
     near: NearTriangles<'q>,
 }
 
 enum NearTriangles<'q> {
     /// Those that may lie in it.
-    Few(&'q [u32]),
+    SmallRegion(&'q [u32]),
     /// All of them, by the sides of the mesh's vertices.
     OfVertices {
         /// The vertex of each corner.
@@ -134,10 +134,10 @@ enum NearTriangles<'q> {
 
 impl NearbyTriangles<'_> {
     /// The places in the list of those that may lie in the area, of a range of triangles.
-    pub(super) fn places(&self, triangles: Range<usize>) -> Range<usize> {
+    pub(super) fn indices(&self, triangles: Range<usize>) -> Range<usize> {
         match &self.near {
-            NearTriangles::Few(few) => {
-                let at = |end: usize| few.partition_point(|&triangle| (triangle as usize) < end);
+            NearTriangles::SmallRegion(region) => {
+                let at = |end: usize| region.partition_point(|&triangle| (triangle as usize) < end);
                 at(triangles.start)..at(triangles.end)
             }
             NearTriangles::OfVertices { .. } | NearTriangles::All(_) => triangles,
@@ -146,22 +146,22 @@ impl NearbyTriangles<'_> {
 
     /// The number of the triangle at a place.
     #[inline]
-    pub(super) fn number(&self, place: usize) -> usize {
+    pub(super) fn number(&self, index: usize) -> usize {
         match &self.near {
-            NearTriangles::Few(few) => few[place] as usize,
-            NearTriangles::OfVertices { .. } | NearTriangles::All(_) => place,
+            NearTriangles::SmallRegion(region) => region[index] as usize,
+            NearTriangles::OfVertices { .. } | NearTriangles::All(_) => index,
         }
     }
 
     /// Calls `visit` with the triangle at a place if it may be in the area, or with those that
     /// the near plane leaves of it.
     #[inline]
-    pub(super) fn pieces(&self, place: usize, visit: impl FnMut(&[Spot; 3])) {
-        let triangle = self.number(place);
+    pub(super) fn pieces(&self, index: usize, visit: impl FnMut(&[Spot; 3])) {
+        let triangle = self.number(index);
         let [a, b, c] = self.drawn.triangle(triangle);
         // Not by `map`, which would be calls here.
         let spots = match &self.near {
-            NearTriangles::Few(_) => {
+            NearTriangles::SmallRegion(_) => {
                 let at = self.drawn.corners(self.screen);
                 [at(a), at(b), at(c)]
             }

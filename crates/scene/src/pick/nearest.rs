@@ -22,12 +22,12 @@ pub struct Nearest {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Best {
     target: DVec2,
-    found: Option<Candidate>,
+    found: Option<NearestCandidate>,
 }
 
 /// An element that may be the nearest one.
 #[derive(Clone, Copy, Debug)]
-struct Candidate {
+struct NearestCandidate {
     /// From the target, in pixels squared.
     distance_squared: f64,
     depth: f64,
@@ -37,7 +37,7 @@ struct Candidate {
     element: u32,
 }
 
-impl Candidate {
+impl NearestCandidate {
     fn order(&self, other: &Self) -> Ordering {
         let order = self.distance_squared.total_cmp(&other.distance_squared);
         let order = order.then(self.depth.total_cmp(&other.depth));
@@ -54,7 +54,7 @@ impl Best {
     /// stays, and of those the first of the first node, whatever the order.
     pub(super) fn offer(&mut self, at: DVec2, depth: f64, object: u32, element: u32) {
         let distance_squared = at.distance_squared(self.target);
-        self.improve(Candidate { distance_squared, depth, object, element });
+        self.improve(NearestCandidate { distance_squared, depth, object, element });
     }
 
     /// The better of two.
@@ -65,7 +65,7 @@ impl Best {
         self
     }
 
-    fn improve(&mut self, new: Candidate) {
+    fn improve(&mut self, new: NearestCandidate) {
         if self.found.is_none_or(|old| new.order(&old) == Ordering::Less) {
             self.found = Some(new);
         }

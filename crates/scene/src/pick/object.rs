@@ -10,8 +10,8 @@ use trigon_math::{DMat4, DVec3, Vec3};
 use trigon_mesh::Mesh;
 use trigon_raster::simd::{LANES, inlined, lanes_of};
 
+use super::cached_points::{CachedPoints, ObjectPoints, PointOrigin, VisibleOrigin};
 use super::facing::Facing;
-use super::kept::{KeptPoints, ObjectPoints, PointOrigin, VisibleOrigin};
 use super::region::Area;
 use super::screen::{Screen, Spot, Spots};
 use super::sides::Sides;
@@ -25,13 +25,13 @@ use crate::scene::{PlacedMesh, Scene};
 pub(super) const POINTS: usize = 4096;
 
 /// A visible node with a mesh.
-pub(super) struct Object<'s> {
+pub(super) struct PickObject<'s> {
     pub(super) node: NodeId,
     placed: PlacedMesh<'s>,
     /// Of its geometry, if it is at rest.
     state: Option<GeometryState>,
     /// Its triangles as they are drawn; `None` where nothing of them can be in view.
-    drawn: Option<Drawn>,
+    drawn: Option<DrawnTriangles>,
     /// Where vertices are.
     map: DMat4,
     /// The same for all of them, once that is kept, and for some more.
@@ -39,7 +39,7 @@ pub(super) struct Object<'s> {
 }
 
 /// The triangles of an object.
-pub(super) struct Drawn {
+pub(super) struct DrawnTriangles {
     shape: Shape,
     map: DMat4,
     /// For each run how its material shows faces.
@@ -49,20 +49,24 @@ pub(super) struct Drawn {
 }
 
 /// All visible objects, by the indices of their nodes, with the points that are known of them.
-pub(super) fn objects<'s>(scene: &'s Scene, screen: &Screen, known: &KeptPoints) -> Vec<Option<Object<'s>>> {
-    let places = scene.visible_places();
-    let mut shapes = Shapes::new(scene, &places, Onlookers::Camera(&screen.eye));
-    let mut objects: Vec<Option<Object<'_>>> = Vec::new();
-    objects.resize_with(places.len(), || None);
+pub(super) fn objects<'s>(
+    scene: &'s Scene,
+    screen: &Screen,
+    known: &CachedPoints,
+) -> Vec<Option<PickObject<'s>>> {
+    let placements = scene.visible_placements();
+    let mut shapes = Shapes::new(scene, &placements, Onlookers::Camera(&screen.eye));
+    let mut objects: Vec<Option<PickObject<'_>>> = Vec::new();
+    objects.resize_with(placements.len(), || None);
     for (node, _) in scene.nodes().iter() {
-        let Some(place) = places[node.index()] else { continue };
-        let Some(placed) = scene.placed_mesh(node, place.world) else { continue };
+        let Some(placement) = placements[node.index()] else { continue };
+        let Some(placed) = scene.placed_mesh(node, placement.world) else { continue };
         let map = screen.map(placed.world());
         let shape = shapes.take(node.index());
         let at_rest = shape.as_ref().filter(|shape| !shape.is_posed);
         let state = at_rest.map(|shape| shape.geometry.state.clone());
-        let drawn = shape.and_then(|shape| Drawn::new(scene, node, shape, screen));
-        let mut object = Object { node, placed, state, drawn, map, vertices: OnceLock::new() };
+        let drawn = shape.and_then(|shape| DrawnTriangles::new(scene, node, shape, screen));
+        let mut object = PickObject { node, placed, state, drawn, map, vertices: OnceLock::new() };
         let points = object.origin(screen).and_then(|origin| known.of(node.index(), &origin));
         object.vertices = points.map_or_else(OnceLock::new, OnceLock::from);
         objects[node.index()] = Some(object);
@@ -73,37 +77,38 @@ pub(super) fn objects<'s>(scene: &'s Scene, screen: &Screen, known: &KeptPoints)
 /// What decides which vertices of all objects are visible, by the indices of their nodes. `None` if it also depends on
 /// something else: a pose, or the pixels in which a face with holes or a translucent one is visible.
 pub(super) fn visible_origins(
-    objects: &[Option<Object<'_>>],
+    objects: &[Option<PickObject<'_>>],
     screen: &Screen,
 ) -> Option<Vec<Option<VisibleOrigin>>> {
-    let of_object = |object: &Option<Object<'_>>| match object {
+    let of_object = |object: &Option<PickObject<'_>>| match object {
         Some(object) => object.visible_origin(screen).map(Some),
         None => Some(None),
     };
     objects.iter().map(of_object).collect()
 }
 
-impl<'s> Object<'s> {
+impl<'s> PickObject<'s> {
     pub(super) fn mesh(&self) -> &'s Mesh {
         self.placed.mesh()
     }
 
     /// Where a vertex is in the world.
-    pub(super) fn place(&self, vertex: u32) -> DVec3 {
-        self.placed.place(vertex)
+    pub(super) fn position(&self, vertex: u32) -> DVec3 {
+        self.placed.position(vertex)
     }
 
-    pub(super) fn drawn(&self) -> Option<&Drawn> {
+    pub(super) fn drawn(&self) -> Option<&DrawnTriangles> {
         self.drawn.as_ref()
     }
 
     /// On which sides of an area all vertices lie; where they are is kept.
     pub(super) fn vertex_sides(&self, screen: &Screen, area: &Area<'_>) -> Vec<[Sides; LANES]> {
         let positions = self.placed.positions();
-        let spots = KeptSpots { kept: &self.vertices, count: positions.len(), screen, map: &self.map };
+        let spots = LazySpots { cached: &self.vertices, count: positions.len(), screen, map: &self.map };
         spots.sides(area, |block| {
-            let place = |vertex: usize| positions.get(vertex).map_or([0.0; 3], |point| point.to_array());
-            let points: [[f32; 3]; LANES] = lanes_of(|lane| place(block * LANES + lane));
+            let coordinates =
+                |vertex: usize| positions.get(vertex).map_or([0.0; 3], |point| point.to_array());
+            let points: [[f32; 3]; LANES] = lanes_of(|lane| coordinates(block * LANES + lane));
             [0, 1, 2].map(|axis| points.map(|point| point[axis]))
         })
     }
@@ -111,10 +116,10 @@ impl<'s> Object<'s> {
     /// Where a vertex is.
     pub(super) fn vertices<'v>(&'v self, screen: &'v Screen) -> impl Fn(usize) -> Spot + Sync + 'v {
         let positions = self.placed.positions();
-        let kept = self.vertices.get().map(|spots| spots.as_flattened());
+        let cached = self.vertices.get().map(|spots| spots.as_flattened());
         inlined(
             #[inline(always)]
-            move |vertex: usize| match kept {
+            move |vertex: usize| match cached {
                 Some(spots) => spots[vertex],
                 None => screen.spot(&self.map, positions[vertex].as_dvec3()),
             },
@@ -154,9 +159,9 @@ impl<'s> Object<'s> {
     }
 }
 
-impl Drawn {
+impl DrawnTriangles {
     fn new(scene: &Scene, node: NodeId, shape: Shape, screen: &Screen) -> Option<Self> {
-        if !screen.eye.may_see(&shape.geometry.bounds(), &shape.place.world) {
+        if !screen.eye.may_see(&shape.geometry.bounds(), &shape.placement.world) {
             return None;
         }
         let materials = &scene.node(node)?.materials;
@@ -165,11 +170,11 @@ impl Drawn {
             Facing {
                 double_sided: material.is_none_or(|material| material.double_sided),
                 is_opaque: material.is_none_or(|material| material.alpha_mode == AlphaMode::Opaque),
-                is_mirrored: shape.place.is_mirrored,
+                is_mirrored: shape.placement.is_mirrored,
             }
         };
         let facings = shape.geometry.runs.iter().map(facing).collect();
-        Some(Self { map: screen.map(&shape.place.world), facings, shape, corners: OnceLock::new() })
+        Some(Self { map: screen.map(&shape.placement.world), facings, shape, corners: OnceLock::new() })
     }
 
     /// The triangles of each material.
@@ -213,7 +218,7 @@ impl Drawn {
 
     /// For each corner a vertex of the mesh that lies at the same place of the screen; `None` if some may lie
     /// elsewhere, as in a pose.
-    pub(super) fn corner_vertices(&self, object: &Object<'_>) -> Option<&[u32]> {
+    pub(super) fn corner_vertices(&self, object: &PickObject<'_>) -> Option<&[u32]> {
         let is_at_rest = !self.shape.is_posed && self.map == object.map;
         is_at_rest.then(|| self.shape.geometry.mesh_vertices(object.mesh()))
     }
@@ -221,7 +226,8 @@ impl Drawn {
     /// On which sides of an area all corners lie; where they are is kept.
     pub(super) fn corner_sides(&self, screen: &Screen, area: &Area<'_>) -> Vec<[Sides; LANES]> {
         let columns = &self.shape.geometry.columns;
-        let spots = KeptSpots { kept: &self.corners, count: columns.vertex_count(), screen, map: &self.map };
+        let spots =
+            LazySpots { cached: &self.corners, count: columns.vertex_count(), screen, map: &self.map };
         spots.sides(area, |block| {
             columns.positions.each_ref().map(|column| {
                 let rest = &column[block * LANES..];
@@ -233,10 +239,10 @@ impl Drawn {
 
     /// Where a corner is.
     pub(super) fn corners<'d>(&'d self, screen: &'d Screen) -> impl Fn(usize) -> Spot + Sync + 'd {
-        let kept = self.corners.get().map(|spots| spots.as_flattened());
+        let cached = self.corners.get().map(|spots| spots.as_flattened());
         inlined(
             #[inline(always)]
-            move |corner: usize| match kept {
+            move |corner: usize| match cached {
                 Some(spots) => spots[corner],
                 None => screen.spot(&self.map, self.position(corner)),
             },
@@ -267,8 +273,8 @@ impl Drawn {
 }
 
 /// Where the points of an object are on the screen, kept once they are found.
-struct KeptSpots<'o> {
-    kept: &'o OnceLock<Arc<Vec<[Spot; LANES]>>>,
+struct LazySpots<'o> {
+    cached: &'o OnceLock<Arc<Vec<[Spot; LANES]>>>,
     /// The number of points.
     count: usize,
     screen: &'o Screen,
@@ -276,7 +282,7 @@ struct KeptSpots<'o> {
     map: &'o DMat4,
 }
 
-impl KeptSpots<'_> {
+impl LazySpots<'_> {
     /// On which sides of an area the points lie. `points` gives eight of them, by axis.
     fn sides(
         &self,
@@ -284,7 +290,7 @@ impl KeptSpots<'_> {
         points: impl Fn(usize) -> [[f32; LANES]; 3] + Sync,
     ) -> Vec<[Sides; LANES]> {
         let level = Level::new();
-        if let Some(spots) = self.kept.get() {
+        if let Some(spots) = self.cached.get() {
             let blocks = spots.par_iter().with_min_len(POINTS / LANES);
             let of = |spots| dispatch!(level, simd => Sides::of_each(simd, &Spots::of(simd, spots), area));
             return blocks.map(of).collect();
@@ -300,7 +306,7 @@ impl KeptSpots<'_> {
         let (mut spots, mut sides) = (Vec::new(), Vec::new());
         found.unzip_into_vecs(&mut spots, &mut sides);
         // Another thread may have been quicker, and has found the same.
-        let _ = self.kept.set(Arc::new(spots));
+        let _ = self.cached.set(Arc::new(spots));
         sides
     }
 }

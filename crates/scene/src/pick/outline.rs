@@ -7,7 +7,7 @@ use trigon_mesh::Mesh;
 use super::screen::nearer_first;
 
 /// A polygon on the screen.
-pub(super) struct Outline<'m> {
+pub(super) struct FaceOutline<'m> {
     mesh: &'m Mesh,
     face: usize,
     /// For each corner where it is drawn; `None` before the near plane.
@@ -16,18 +16,18 @@ pub(super) struct Outline<'m> {
     sides: Vec<Option<[DVec2; 2]>>,
 }
 
-impl<'m> Outline<'m> {
-    /// `place` tells where a vertex is in the world.
+impl<'m> FaceOutline<'m> {
+    /// `position` tells where a vertex is in the world.
     pub(super) fn new(
         mesh: &'m Mesh,
         face: usize,
         projector: &Projector,
-        place: impl Fn(u32) -> DVec3,
+        position: impl Fn(u32) -> DVec3,
     ) -> Self {
-        let points: Vec<DVec3> = mesh.face_vertices(face).iter().map(|&vertex| place(vertex)).collect();
+        let points: Vec<DVec3> = mesh.face_vertices(face).iter().map(|&vertex| position(vertex)).collect();
         let near = projector.camera().projection.near();
-        let is_seen = |point: DVec3| -projector.to_camera(point).z >= near;
-        let corner = |&point: &DVec3| projector.to_screen(point).filter(|_| is_seen(point));
+        let is_visible = |point: DVec3| -projector.to_camera(point).z >= near;
+        let corner = |&point: &DVec3| projector.to_screen(point).filter(|_| is_visible(point));
         let side =
             |from: usize| projector.line_to_screen([points[from], points[(from + 1) % points.len()]], near);
         let corners = points.iter().map(corner).collect();

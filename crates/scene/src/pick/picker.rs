@@ -8,11 +8,11 @@ use trigon_camera::{Camera, Projector, Viewport};
 use trigon_math::DVec2;
 use trigon_mesh::Mesh;
 
+use super::cached_points::{CachedPoints, VisibleVertices};
 use super::elements::Sets;
-use super::kept::{KeptPoints, VisibleVertices};
 use super::kind::Kind;
 use super::nearest::{Best, Nearest};
-use super::object::{Object, objects, visible_origins};
+use super::object::{PickObject, objects, visible_origins};
 use super::region::{Region, center};
 use super::screen::Screen;
 use super::search::for_each_pixel;
@@ -103,7 +103,7 @@ pub struct Picker<'p> {
     pub(super) frame: &'p Frame,
     pub(super) projector: Projector,
     pub(super) screen: Screen,
-    pub(super) objects: OnceLock<Vec<Option<Object<'p>>>>,
+    pub(super) objects: OnceLock<Vec<Option<PickObject<'p>>>>,
     /// Once they are found, if they can be kept.
     pub(super) visible: OnceLock<Option<Arc<VisibleVertices>>>,
 }
@@ -141,7 +141,7 @@ impl<'p> Picker<'p> {
 
     /// The same with what an earlier picker has found out about where points are.
     #[must_use]
-    pub fn with_points(scene: &'p Scene, camera: &Camera, frame: &'p Frame, known: &KeptPoints) -> Self {
+    pub fn with_points(scene: &'p Scene, camera: &Camera, frame: &'p Frame, known: &CachedPoints) -> Self {
         let picker = Self::new(scene, camera, frame);
         let objects = objects(scene, &picker.screen, known);
         let is_same = |visible: &Arc<VisibleVertices>| {
@@ -163,9 +163,9 @@ impl<'p> Picker<'p> {
     /// What was found out of points, for the next picker. Takes 24 bytes for each vertex of objects that were
     /// asked about in large regions, and a bit for each vertex if the visible ones were found.
     #[must_use]
-    pub fn points(&self) -> KeptPoints {
-        let of_object = |object: &Option<Object<'_>>| object.as_ref()?.points(&self.screen);
-        KeptPoints {
+    pub fn points(&self) -> CachedPoints {
+        let of_object = |object: &Option<PickObject<'_>>| object.as_ref()?.points(&self.screen);
+        CachedPoints {
             objects: self.objects.get().into_iter().flatten().map(of_object).collect(),
             visible: self.visible.get().cloned().flatten(),
         }
@@ -252,14 +252,14 @@ impl<'p> Picker<'p> {
             Reach::Visible => {
                 let area = self.area(region);
                 let ids = self.frame.object_ids.as_deref().unwrap_or_default();
-                let mut seen = FixedBitSet::with_capacity(self.scene.nodes().index_bound());
+                let mut is_visible = FixedBitSet::with_capacity(self.scene.nodes().index_bound());
                 for_each_pixel(&area, |[x, y]| {
                     let id = ids.get(self.pixel([x, y])).map_or(usize::MAX, |&id| id as usize);
-                    if id < seen.len() {
-                        seen.insert(id);
+                    if id < is_visible.len() {
+                        is_visible.insert(id);
                     }
                 });
-                seen.ones().filter_map(|index| self.scene.nodes().id_at(index)).collect()
+                is_visible.ones().filter_map(|index| self.scene.nodes().id_at(index)).collect()
             }
             Reach::Through => {
                 let of = |elements: ElementSet| elements.nodes().map(|(node, _)| node).collect::<Vec<_>>();

@@ -28,9 +28,9 @@ pub(super) struct Probe {
 
 impl Probes {
     pub(super) fn new<'s>(screen: &Screen, spots: impl ExactSizeIterator<Item = &'s Spot>) -> Self {
-        let room = spots.len() + LANES;
-        let list = || Vec::with_capacity(room);
-        let mut probes = Self { at: [list(), list()], depth: list(), exact: Vec::with_capacity(room) };
+        let capacity = spots.len() + LANES;
+        let list = || Vec::with_capacity(capacity);
+        let mut probes = Self { at: [list(), list()], depth: list(), exact: Vec::with_capacity(capacity) };
         for spot in spots {
             let [x, y] = spot.at.to_array().map(|at| at as f32);
             let hiding_depth = screen.hiding_depth(spot.depth);

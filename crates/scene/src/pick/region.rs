@@ -38,14 +38,14 @@ pub enum Region {
 
 /// A region prepared for an image.
 pub(super) struct Area<'r> {
-    shape: Shape<'r>,
+    shape: AreaShape<'r>,
     /// The pixels around it, all of them in the image.
     pub(super) columns: Range<u32>,
     /// As the columns.
     pub(super) rows: Range<u32>,
 }
 
-enum Shape<'r> {
+enum AreaShape<'r> {
     Rectangle { min: DVec2, max: DVec2 },
     Circle { center: DVec2, radius_squared: f64 },
     Lasso(Lasso<'r>),
@@ -63,10 +63,14 @@ impl<'r> Area<'r> {
         let columns = pixels(min.x, max.x, viewport.width);
         let rows = pixels(min.y, max.y, viewport.height);
         let shape = match region {
-            Region::Point(_) => Shape::Rectangle { min, max: min + DVec2::ONE },
-            &Region::Rectangle { min, max } => Shape::Rectangle { min, max },
-            &Region::Circle { center, radius } => Shape::Circle { center, radius_squared: radius * radius },
-            Region::Lasso(corners) => Shape::Lasso(Lasso::new(if is_usable { corners } else { &[] }, &rows)),
+            Region::Point(_) => AreaShape::Rectangle { min, max: min + DVec2::ONE },
+            &Region::Rectangle { min, max } => AreaShape::Rectangle { min, max },
+            &Region::Circle { center, radius } => {
+                AreaShape::Circle { center, radius_squared: radius * radius }
+            }
+            Region::Lasso(corners) => {
+                AreaShape::Lasso(Lasso::new(if is_usable { corners } else { &[] }, &rows))
+            }
         };
         Self { shape, columns, rows }
     }
@@ -84,7 +88,7 @@ impl<'r> Area<'r> {
 
     /// The pixels of a row whose centres lie in the region, from left to right.
     pub(super) fn runs(&self, row: u32) -> Vec<Range<u32>> {
-        if let Shape::Lasso(lasso) = &self.shape {
+        if let AreaShape::Lasso(lasso) = &self.shape {
             return lasso.runs(row, &self.columns);
         }
         // The others are convex.
@@ -95,7 +99,7 @@ impl<'r> Area<'r> {
     }
 }
 
-impl Shape<'_> {
+impl AreaShape<'_> {
     fn contains(&self, point: DVec2) -> bool {
         match self {
             Self::Rectangle { min, max } => point.cmpge(*min).all() && point.cmplt(*max).all(),

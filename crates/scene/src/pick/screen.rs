@@ -65,7 +65,7 @@ impl<S: Simd> Spots<S> {
 }
 
 /// What the near plane leaves of a triangle on the screen.
-pub(super) struct Piece {
+pub(super) struct ClippedTriangle {
     corners: [Spot; 4],
     count: usize,
 }
@@ -206,8 +206,8 @@ impl Screen {
     }
 
     /// What is beyond the near plane of a triangle.
-    pub(super) fn cut_triangle(&self, map: &DMat4, corners: [DVec3; 3]) -> Piece {
-        let mut piece = Piece { corners: [Spot::NOWHERE; 4], count: 0 };
+    pub(super) fn cut_triangle(&self, map: &DMat4, corners: [DVec3; 3]) -> ClippedTriangle {
+        let mut piece = ClippedTriangle { corners: [Spot::NOWHERE; 4], count: 0 };
         let clip = corners.map(|corner| *map * corner.extend(1.0));
         for (from, to) in [(clip[2], clip[0]), (clip[0], clip[1]), (clip[1], clip[2])] {
             match [from, to].map(|corner| beyond_near(corner) >= 0.0) {
@@ -257,10 +257,10 @@ pub(super) fn doubled_area([a, b, c]: [DVec2; 3]) -> f64 {
     }
 }
 
-impl Piece {
+impl ClippedTriangle {
     fn push(&mut self, spot: Spot) {
-        if let Some(place) = self.corners.get_mut(self.count) {
-            *place = spot;
+        if let Some(slot) = self.corners.get_mut(self.count) {
+            *slot = spot;
             self.count += 1;
         }
     }

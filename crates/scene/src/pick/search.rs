@@ -7,15 +7,15 @@ use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 use trigon_math::DVec2;
 
+use super::cached_points::{CachedPoints, VisibleVertices};
 use super::covering::Centers;
 use super::elements::Sets;
 use super::hiding::{Candidate, Hiding};
-use super::kept::{KeptPoints, VisibleVertices};
 use super::kind::Kind;
 use super::nearby::Nearby;
 use super::nearest::Best;
-use super::object::{Object, objects, visible_origins};
-use super::outline::Outline;
+use super::object::{PickObject, objects, visible_origins};
+use super::outline::FaceOutline;
 use super::picker::{Picker, Reach};
 use super::region::{Area, Region, center};
 use crate::elements::ElementSet;
@@ -44,15 +44,15 @@ impl<'p> Picker<'p> {
     }
 
     /// By the indices of their nodes.
-    pub(super) fn objects(&self) -> &[Option<Object<'p>>] {
-        self.objects.get_or_init(|| objects(self.scene, &self.screen, &KeptPoints::default()))
+    pub(super) fn objects(&self) -> &[Option<PickObject<'p>>] {
+        self.objects.get_or_init(|| objects(self.scene, &self.screen, &CachedPoints::default()))
     }
 
     /// The polygon of a hit on the screen; `None` for lines and points.
-    pub(super) fn outline(&self, hit: &Hit) -> Option<Outline<'_>> {
+    pub(super) fn outline(&self, hit: &Hit) -> Option<FaceOutline<'_>> {
         let object = self.objects().get(hit.node.index())?.as_ref()?;
         let face = hit.face.filter(|&face| face < object.mesh().face_count())?;
-        Some(Outline::new(object.mesh(), face, &self.projector, |vertex| object.place(vertex)))
+        Some(FaceOutline::new(object.mesh(), face, &self.projector, |vertex| object.position(vertex)))
     }
 
     /// The objects beside an area; none if that is empty.
@@ -87,7 +87,7 @@ impl<'p> Picker<'p> {
         let area = self.area(region);
         let mut sets = Sets::new(self.objects(), move |mesh| kind.count(mesh));
         let names = |point: &Candidate| [point.object, point.element];
-        self.seen(kind, &self.nearby(&area), names, |[object, element]| sets.insert(object, element));
+        self.visible(kind, &self.nearby(&area), names, |[object, element]| sets.insert(object, element));
         sets.finish()
     }
 
@@ -96,7 +96,7 @@ impl<'p> Picker<'p> {
         &self,
         kind: Kind,
         region: &Region,
-        passes: impl Fn(&Object<'_>, usize) -> bool + Sync,
+        passes: impl Fn(&PickObject<'_>, usize) -> bool + Sync,
     ) -> ElementSet {
         let area = self.area(region);
         let mut sets = Sets::new(self.objects(), move |mesh| kind.count(mesh));
@@ -130,7 +130,7 @@ impl<'p> Picker<'p> {
         let mut offer =
             |point: Candidate| best.offer(point.spot.at, point.spot.depth, point.object, point.element);
         match reach {
-            Reach::Visible => self.seen(kind, nearby, |point| *point, offer),
+            Reach::Visible => self.visible(kind, nearby, |point| *point, offer),
             Reach::Through => {
                 self.candidates(kind, nearby, |lists| lists.iter().flatten().copied().for_each(&mut offer));
             }
@@ -139,11 +139,11 @@ impl<'p> Picker<'p> {
     }
 
     /// Calls `found` with what is asked of the points of elements that are seen in an area.
-    fn seen<T: Send>(
+    fn visible<T: Send>(
         &self,
         kind: Kind,
         nearby: &[Nearby<'_>],
-        ask: impl Fn(&Candidate) -> T + Sync,
+        visit: impl Fn(&Candidate) -> T + Sync,
         mut found: impl FnMut(T),
     ) {
         self.candidates(kind, nearby, |lists| {
@@ -156,7 +156,7 @@ impl<'p> Picker<'p> {
                     point.object == index && kind.belongs(object.mesh(), face, point.element)
                 });
             }
-            hiding.seen(&ask).into_iter().flatten().for_each(&mut found);
+            hiding.visible(&visit).into_iter().flatten().for_each(&mut found);
         });
     }
 
@@ -282,11 +282,11 @@ impl<'p> Picker<'p> {
     ) -> T {
         let Visit { none, known, add, merged } = visit;
         let Some(triangles) = nearby.triangles().filter(|_| !centers.is_empty()) else { return none() };
-        let places = triangles.places(0..triangles.drawn.triangle_count());
-        let visited = places.into_par_iter().with_min_len(TRIANGLES).fold(&none, |mut found, place| {
-            let face = triangles.drawn.face(triangles.number(place));
+        let indices = triangles.indices(0..triangles.drawn.triangle_count());
+        let visited = indices.into_par_iter().with_min_len(TRIANGLES).fold(&none, |mut found, index| {
+            let face = triangles.drawn.face(triangles.number(index));
             if !known(&found, face) {
-                triangles.pieces(place, |piece| {
+                triangles.pieces(index, |piece| {
                     let _ = centers.covered(piece, |pixel, depth| add(&mut found, face, pixel, depth));
                 });
             }

@@ -4,7 +4,7 @@ use trigon_camera::Ray;
 use trigon_math::{DVec2, DVec3};
 
 use super::nearest::Nearest;
-use super::object::Object;
+use super::object::PickObject;
 use super::picker::{Picker, Reach};
 use super::region::center;
 use crate::node::NodeId;
@@ -38,13 +38,13 @@ impl Picker<'_> {
     pub fn snap(&self, point: DVec2, radius: f64) -> Option<Snap> {
         let found = |of: Option<(NodeId, u32)>| of.filter(|(node, _)| self.object(*node).is_some());
         if let Some((node, vertex)) = found(self.nearest(point, radius, Reach::Visible).vertex) {
-            let point = self.object(node)?.place(vertex);
+            let point = self.object(node)?.position(vertex);
             return Some(Snap { node, element: SnapElement::Vertex(vertex), point });
         }
         let Nearest { edge, .. } = self.nearest(point, radius * 0.5, Reach::Visible);
         if let (Some((node, edge)), Some(ray)) = (found(edge), self.projector.ray(point)) {
             let object = self.object(node)?;
-            let ends = object.mesh().edges().get(edge as usize)?.map(|end| object.place(end));
+            let ends = object.mesh().edges().get(edge as usize)?.map(|end| object.position(end));
             return Some(Snap { node, element: SnapElement::Edge(edge), point: nearest_on(ends, &ray) });
         }
         let [x, y] = [point.x, point.y].map(|at| at as u32);
@@ -59,7 +59,7 @@ impl Picker<'_> {
 
 impl<'p> Picker<'p> {
     /// The mesh of a node as it is picked.
-    fn object(&self, node: NodeId) -> Option<&Object<'p>> {
+    fn object(&self, node: NodeId) -> Option<&PickObject<'p>> {
         self.objects().get(node.index())?.as_ref()
     }
 }

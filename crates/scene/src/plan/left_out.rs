@@ -66,9 +66,9 @@ fn each_material(scene: &mut Scene, change: impl Fn(&mut Material)) {
 
 /// Removes all textures except normal and occlusion maps, which are separate effects.
 fn strip_textures(material: &mut Material) {
-    for place in MaterialTexture::ALL {
-        if !matches!(place.row().effect, Effect::NormalMaps | Effect::OcclusionMaps) {
-            material.set_texture(place, None);
+    for slot in MaterialTexture::ALL {
+        if !matches!(slot.row().effect, Effect::NormalMaps | Effect::OcclusionMaps) {
+            material.set_texture(slot, None);
         }
     }
 }

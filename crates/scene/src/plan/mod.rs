@@ -16,7 +16,7 @@ use crate::background::Background;
 use crate::display::Display;
 use crate::effect::Effect;
 use crate::effect_settings::{Exposure, MetalReflection, Shadows};
-use crate::effects::Mist;
+use crate::effects::FogModel;
 use crate::lighting::{IdleLamps, Lights};
 use crate::prepare::PreparedScene;
 use crate::scene::Scene;
@@ -90,13 +90,15 @@ fn decide(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> Deci
         }
         Effect::ShadowRays => shadows(prepared.settings.effects.shadows == Shadows::Rays, prepared, survey),
         Effect::AmbientOcclusion => ambient_occlusion(prepared, survey),
-        Effect::Fog => asked(prepared.settings.effects.fog.as_ref().and_then(Mist::new).is_some()),
-        Effect::ToneMapping => asked(prepared.settings.effects.maps_tones()),
-        Effect::Outline => {
-            asked(prepared.settings.effects.outline.as_ref().is_some_and(|outline| !outline.nodes.is_empty()))
+        Effect::Fog => requested(prepared.settings.effects.fog.as_ref().and_then(FogModel::new).is_some()),
+        Effect::ToneMapping => requested(prepared.settings.effects.maps_tones()),
+        Effect::Outline => requested(
+            prepared.settings.effects.outline.as_ref().is_some_and(|outline| !outline.nodes.is_empty()),
+        ),
+        Effect::Edges => requested(prepared.settings.style != Style::Surface),
+        Effect::Reflection if !prepared.settings.effects.sight.start_at_mirrors() => {
+            Err(Absence::NotRequested)
         }
-        Effect::Edges => asked(prepared.settings.style != Style::Surface),
-        Effect::Reflection if !prepared.settings.effects.sight.start_at_mirrors() => Err(Absence::NotAsked),
         Effect::Refraction => refraction(prepared, survey),
         Effect::OcclusionMaps => occlusion_maps(prepared, survey),
         Effect::NormalMaps | Effect::Reflection => of_pixels(effect, prepared, survey),
@@ -117,12 +119,12 @@ fn decide(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> Deci
 /// Why an effect is off where surfaces are displayed otherwise than in light.
 fn not_displayed(effect: Effect, settings: &RenderSettings) -> Option<Absence> {
     let is_background = effect == Effect::Environment && settings.background == Background::Environment;
-    let is_kept = is_background || effect == Effect::Outline || shapes(effect);
+    let is_retained = is_background || effect == Effect::Outline || shapes(effect);
     let is_clay = matches!(effect, Effect::Lamps | Effect::AmbientLight | Effect::Highlights);
     let is_shown = match settings.display {
         Display::Shaded => true,
-        Display::Matcap => is_kept || is_clay,
-        _ => is_kept,
+        Display::Matcap => is_retained || is_clay,
+        _ => is_retained,
     };
     (!is_shown).then_some(Absence::Display)
 }
@@ -156,8 +158,8 @@ fn shapes(effect: Effect) -> bool {
 
 type Outcome = Result<Cause, Absence>;
 
-fn asked(asked: bool) -> Outcome {
-    if asked { Ok(Cause::Asked) } else { Err(Absence::NotAsked) }
+fn requested(is_requested: bool) -> Outcome {
+    if is_requested { Ok(Cause::Requested) } else { Err(Absence::NotRequested) }
 }
 
 /// Whether light is evaluated at all.
@@ -215,18 +217,18 @@ fn light_meter(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
 
 fn environment(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     if prepared.settings.effects.environment.is_none() {
-        return Err(Absence::NotAsked);
+        return Err(Absence::NotRequested);
     }
     if prepared.settings.background == Background::Environment {
         return Ok(Cause::Background);
     }
     check_lit(prepared, survey)?;
-    Ok(Cause::Asked)
+    Ok(Cause::Requested)
 }
 
 fn metal_studio(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     match prepared.settings.effects.metal_reflection {
-        MetalReflection::Ambient => return Err(Absence::NotAsked),
+        MetalReflection::Ambient => return Err(Absence::NotRequested),
         MetalReflection::Studio => {}
     }
     check_lit(prepared, survey)?;
@@ -244,9 +246,9 @@ fn metal_studio(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     }
 }
 
-fn shadows(asked: bool, prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
-    if !asked {
-        return Err(Absence::NotAsked);
+fn shadows(is_requested: bool, prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    if !is_requested {
+        return Err(Absence::NotRequested);
     }
     check_lit(prepared, survey)?;
     match (prepared.lights.lamps.len(), survey.casters) {
@@ -258,7 +260,7 @@ fn shadows(asked: bool, prepared: &PreparedScene<'_>, survey: &Survey) -> Outcom
 
 fn ambient_occlusion(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     if prepared.settings.effects.ambient_occlusion.is_none() {
-        return Err(Absence::NotAsked);
+        return Err(Absence::NotRequested);
     }
     check_lit(prepared, survey)?;
     if prepared.settings.shading != ShadingModel::Phong {
@@ -267,7 +269,7 @@ fn ambient_occlusion(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     match (has_ambient(prepared), survey.casters) {
         (false, _) => Err(Absence::NoAmbientLight),
         (true, 0) => Err(Absence::NoCaster),
-        (true, _) => Ok(Cause::Asked),
+        (true, _) => Ok(Cause::Requested),
     }
 }
 
@@ -286,7 +288,7 @@ fn refraction(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
         *shading != ShadingModel::Phong || matches!(reflection, Reflection::Lambert | Reflection::BlinnPhong);
     of_objects(Effect::Refraction, prepared, survey)?;
     match effects.sight.bounces() {
-        0 => Err(Absence::GlassNotAsked(glass.clone())),
+        0 => Err(Absence::GlassNotRequested(glass.clone())),
         _ if lit_otherwise => Err(Absence::GlassLitOtherwise(glass.clone())),
         bounces => Ok(Cause::Glass { objects: glass.clone(), bounces }),
     }

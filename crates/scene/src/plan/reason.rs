@@ -17,7 +17,7 @@ pub enum Decision {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cause {
     /// The settings request it.
-    Asked,
+    Requested,
     /// It is the background.
     Background,
     /// Lights of the scene shine on visible objects.
@@ -50,7 +50,7 @@ pub enum Cause {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Absence {
     /// The settings do not request it.
-    NotAsked,
+    NotRequested,
     /// Nothing in the scene has it.
     Nowhere,
     /// Only objects outside the view have it.
@@ -97,7 +97,7 @@ pub enum Absence {
     /// Faces show something else than their materials in light.
     Display,
     /// The settings turn off the rays that show what is behind these visible objects.
-    GlassNotAsked(Named),
+    GlassNotRequested(Named),
     /// The settings light surfaces otherwise than per pixel by their own materials, which glass
     /// needs.
     GlassLitOtherwise(Named),
@@ -150,7 +150,7 @@ impl fmt::Display for Decision {
 impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Asked => f.write_str("the settings request it"),
+            Self::Requested => f.write_str("the settings request it"),
             Self::Background => f.write_str("it is the background"),
             Self::Lights(1) => f.write_str("one light shines on visible objects"),
             Self::Lights(count) => write!(f, "{count} lights shine on visible objects"),
@@ -194,7 +194,7 @@ impl fmt::Display for Cause {
 impl fmt::Display for Absence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotAsked => f.write_str("the settings do not request it"),
+            Self::NotRequested => f.write_str("the settings do not request it"),
             Self::Nowhere => f.write_str("nothing in the scene has it"),
             Self::OutOfView(Named { count: 1, first }) => {
                 write!(f, "the only object that has it, `{first}`, is outside the view")
@@ -241,7 +241,7 @@ impl fmt::Display for Absence {
             ),
             Self::NoColor => f.write_str("colour is not an output"),
             Self::Display => f.write_str("the display mode leaves it out"),
-            Self::GlassNotAsked(objects) => {
+            Self::GlassNotRequested(objects) => {
                 write!(f, "the settings turn it off: {}", Opaque(objects))
             }
             Self::GlassLitOtherwise(objects) => {

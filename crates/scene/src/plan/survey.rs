@@ -35,13 +35,13 @@ enum Presence {
     Absent,
     /// It has it, and nobody could see it.
     Invisible(Invisible),
-    Seen,
+    Visible,
 }
 
 /// An object as far as it matters for all effects alike.
 struct SurveyedObject<'a> {
     name: &'a str,
-    looks: Vec<Look<'a>>,
+    looks: Vec<SurveyedMaterial<'a>>,
     /// Whether faces may be in view.
     sees_faces: bool,
     /// Whether lines or points may be in view.
@@ -49,7 +49,7 @@ struct SurveyedObject<'a> {
 }
 
 /// A material on a mesh.
-struct Look<'a> {
+struct SurveyedMaterial<'a> {
     shape: &'a Shape,
     prepared: &'a PreparedScene<'a>,
     material: &'a Material,
@@ -67,8 +67,8 @@ impl Survey {
             let sees_faces = prepared.may_show(shape);
             let name = if node.name.is_empty() { "an unnamed object" } else { &node.name };
             let runs = shape.geometry.runs.iter();
-            let looks: Vec<Look<'_>> = runs
-                .map(|run| Look::new(material_of(prepared, node, run, &default), shape, prepared))
+            let looks: Vec<SurveyedMaterial<'_>> = runs
+                .map(|run| SurveyedMaterial::new(material_of(prepared, node, run, &default), shape, prepared))
                 .collect();
             let wires = Wires::of(node, prepared);
             let sees_wires = wires.as_ref().is_some_and(|wires| wires.may_show(shape, prepared));
@@ -77,9 +77,9 @@ impl Survey {
                 let of_wires = wires.as_ref().is_some_and(|wires| wires.have(effect));
                 survey.add(effect, &object, of_wires);
             }
-            let lit = |look: &Look<'_>| look.material.shading != Shading::Unlit;
+            let lit = |look: &SurveyedMaterial<'_>| look.material.shading != Shading::Unlit;
             survey.lit += usize::from(sees_faces && object.looks.iter().any(lit));
-            let opaque = |look: &Look<'_>| look.material.alpha_mode != AlphaMode::Blend;
+            let opaque = |look: &SurveyedMaterial<'_>| look.material.alpha_mode != AlphaMode::Blend;
             survey.casters += usize::from(object.looks.iter().any(opaque));
         }
         survey
@@ -95,7 +95,7 @@ impl Survey {
             match look.presence(effect) {
                 Presence::Absent => {}
                 Presence::Invisible(why) => invisible = invisible.or(Some(why)),
-                Presence::Seen => of_faces = true,
+                Presence::Visible => of_faces = true,
             }
         }
         if of_faces || of_wires {
@@ -140,7 +140,7 @@ impl<'s> Wires<'s> {
     }
 
     fn may_show(&self, shape: &Shape, prepared: &PreparedScene<'_>) -> bool {
-        prepared.eye.may_see(&self.asset.bounds(), &shape.place.world)
+        prepared.eye.may_see(&self.asset.bounds(), &shape.placement.world)
     }
 
     fn have(&self, effect: Effect) -> bool {
@@ -165,7 +165,7 @@ fn material_of<'a>(
     id.and_then(|&id| prepared.scene.materials.get(id)).unwrap_or(default)
 }
 
-impl<'a> Look<'a> {
+impl<'a> SurveyedMaterial<'a> {
     fn new(material: &'a Material, shape: &'a Shape, prepared: &'a PreparedScene<'_>) -> Self {
         let canvas = Canvas { scene: prepared.scene, columns: &shape.geometry.columns };
         let mut drawn = Material {
@@ -182,25 +182,25 @@ impl<'a> Look<'a> {
 
     fn presence(&self, effect: Effect) -> Presence {
         let Self { shape, material, drawn, .. } = self;
-        let seen_if = |is_seen: bool, why: Invisible| {
-            if is_seen { Presence::Seen } else { Presence::Invisible(why) }
+        let visible_if = |is_visible: bool, why: Invisible| {
+            if is_visible { Presence::Visible } else { Presence::Invisible(why) }
         };
-        let absent_unless = |is_there: bool| if is_there { Presence::Seen } else { Presence::Absent };
+        let absent_unless = |is_there: bool| if is_there { Presence::Visible } else { Presence::Absent };
         match effect {
             Effect::Highlights => self.highlights(),
             Effect::Textures => self.textures(),
             Effect::NormalMaps => self.map_of_light(MaterialTexture::Normal),
             Effect::OcclusionMaps => self.map_of_light(MaterialTexture::Occlusion),
             Effect::Emission if material.emissive_texture.is_some() => {
-                seen_if(material.emissive != Vec3::ZERO, Invisible::Zero)
+                visible_if(material.emissive != Vec3::ZERO, Invisible::Zero)
             }
             Effect::Emission => absent_unless(material.emissive != Vec3::ZERO),
             Effect::VertexColors => self.vertex_colors(),
             Effect::Masks if matches!(material.alpha_mode, AlphaMode::Mask { .. }) => {
-                seen_if(matches!(drawn.alpha_mode, AlphaMode::Mask { .. }), Invisible::NoHole)
+                visible_if(matches!(drawn.alpha_mode, AlphaMode::Mask { .. }), Invisible::NoHole)
             }
             Effect::Transparency if material.alpha_mode == AlphaMode::Blend => {
-                seen_if(drawn.alpha_mode == AlphaMode::Blend, Invisible::Opaque)
+                visible_if(drawn.alpha_mode == AlphaMode::Blend, Invisible::Opaque)
             }
             Effect::Poses => absent_unless(shape.is_posed),
             Effect::MetalStudio => absent_unless(is_metal(drawn)),
@@ -223,20 +223,20 @@ impl<'a> Look<'a> {
     }
 
     fn highlights(&self) -> Presence {
-        let is_seen = match &self.drawn.shading {
+        let is_visible = match &self.drawn.shading {
             Shading::Unlit | Shading::Lambert => return Presence::Absent,
             Shading::BlinnPhong { specular, .. } => *specular != Vec3::ZERO,
             Shading::MetallicRoughness(model) => !model.is_matt() || Optics::of(self.material).is_some(),
         };
-        if is_seen { Presence::Seen } else { Presence::Invisible(Invisible::Zero) }
+        if is_visible { Presence::Visible } else { Presence::Invisible(Invisible::Zero) }
     }
 
     /// Textures of any kind: all of them need coordinates.
     fn textures(&self) -> Presence {
-        let textures = || self.drawn.textures().map(|(place, _)| place);
+        let textures = || self.drawn.textures().map(|(slot, _)| slot);
         let Some(first) = textures().next() else { return Presence::Absent };
-        if textures().any(|place| self.draws(place)) {
-            return Presence::Seen;
+        if textures().any(|slot| self.draws(slot)) {
+            return Presence::Visible;
         }
         Presence::Invisible(match self.drawn.shading {
             _ if !first.matters(&self.drawn) => Invisible::Zero,
@@ -246,12 +246,12 @@ impl<'a> Look<'a> {
     }
 
     /// A texture that changes nothing but light.
-    fn map_of_light(&self, place: MaterialTexture) -> Presence {
-        match self.material.texture(place) {
+    fn map_of_light(&self, slot: MaterialTexture) -> Presence {
+        match self.material.texture(slot) {
             None => Presence::Absent,
             Some(_) if self.material.shading == Shading::Unlit => Presence::Invisible(Invisible::Unlit),
-            Some(_) if !place.matters(self.material) => Presence::Invisible(Invisible::Zero),
-            Some(_) => Presence::Seen,
+            Some(_) if !slot.matters(self.material) => Presence::Invisible(Invisible::Zero),
+            Some(_) => Presence::Visible,
         }
     }
 
@@ -259,18 +259,18 @@ impl<'a> Look<'a> {
         let columns = &self.shape.geometry.columns;
         match columns.colors {
             None => Presence::Absent,
-            Some(_) if columns.show_colors(&self.drawn, self.prepared.settings.display) => Presence::Seen,
+            Some(_) if columns.show_colors(&self.drawn, self.prepared.settings.display) => Presence::Visible,
             Some(_) if columns.are_colors_white() => Presence::Invisible(Invisible::White),
             Some(_) => Presence::Invisible(Invisible::Zero),
         }
     }
 
     /// Whether a texture has an effect on what is shown.
-    fn draws(&self, place: MaterialTexture) -> bool {
+    fn draws(&self, slot: MaterialTexture) -> bool {
         let (material, prepared) = (&self.drawn, self.prepared);
         let settings = prepared.settings;
         let in_pixels = material.shading != Shading::Unlit && settings.shading == ShadingModel::Phong;
-        let has_what_it_needs = match place.row().drawn_if {
+        let has_what_it_needs = match slot.row().drawn_if {
             DrawnIf::Always => true,
             DrawnIf::LightInPixels | DrawnIf::TangentsInPixels => in_pixels,
             DrawnIf::AmbientLightInPixels => in_pixels && has_ambient(prepared),
@@ -278,7 +278,7 @@ impl<'a> Look<'a> {
                 in_pixels && settings.effects.sight.bounces() > 0 && is_traced(material, true)
             }
         };
-        has_what_it_needs && place.matters(material)
+        has_what_it_needs && slot.matters(material)
     }
 }
 

@@ -93,6 +93,6 @@ impl Panorama {
     fn at(&self, pixel: UVec2) -> Vec3 {
         let [right, below] = self.steps;
         let towards = self.corner + right * (pixel.x as f32 + 0.5) + below * (pixel.y as f32 + 0.5);
-        self.environment.seen(towards, self.pixel) * self.intensity
+        self.environment.filtered_radiance(towards, self.pixel) * self.intensity
     }
 }

@@ -53,11 +53,11 @@ impl PreparedScene<'_> {
                 break;
             }
             let shape = self.shapes.get(id.index());
-            let is_seen = |shape: &&Shape| is_met_by_rays || self.may_show(shape);
-            let Some(shape) = shape.filter(|shape| is_lit(self.scene, node, shape)).filter(is_seen) else {
+            let is_visible = |shape: &&Shape| is_met_by_rays || self.may_show(shape);
+            let Some(shape) = shape.filter(|shape| is_lit(self.scene, node, shape)).filter(is_visible) else {
                 continue;
             };
-            let bounds = shape.geometry.bounds().transformed(&shape.place.world);
+            let bounds = shape.geometry.bounds().transformed(&shape.placement.world);
             waiting.retain(|(_, reach)| !reach.may_light(&bounds));
         }
         waiting.into_iter().map(|(number, _)| number).collect()
@@ -105,8 +105,8 @@ impl LampReach {
     /// Whether light may arrive anywhere in a box.
     fn may_light(&self, bounds: &Bounds3) -> bool {
         let (Some(center), half) = (bounds.center(), bounds.size() * 0.5) else { return false };
-        let seen_from_eye = center.distance(self.eye) + half.length() + self.position.distance(self.eye);
-        let slack = POSITION_ERROR * seen_from_eye;
+        let largest_distance = center.distance(self.eye) + half.length() + self.position.distance(self.eye);
+        let slack = POSITION_ERROR * largest_distance;
         let offset = center - self.position;
         let beyond = (offset.abs() - half).map(|gap| if gap > 0.0 { gap } else { 0.0 }).length();
         let is_far = beyond > self.range * (1.0 + RANGE_MARGIN) + slack;

@@ -10,9 +10,9 @@ use crate::effect_settings::{Shadows, SightRays};
 use crate::effects::{LampPose, MetalStudio, Optics};
 use crate::environment::Surroundings;
 use crate::light::{Light, LightKind};
-use crate::lighting::{Lamp, Lights, Source};
+use crate::lighting::{Lamp, LampSource, Lights};
 use crate::placement::Eye;
-use crate::scene::{Place, Scene};
+use crate::scene::{NodePlacement, Scene};
 use crate::settings::RenderSettings;
 use crate::shapes::{Onlookers, Shape, Shapes};
 
@@ -32,7 +32,7 @@ pub(crate) struct PreparedScene<'s> {
     pub(crate) camera: &'s Camera,
     pub(crate) settings: &'s RenderSettings,
     /// Where the visible nodes with lights are, by their indices.
-    light_places: BTreeMap<u32, DAffine3>,
+    light_transforms: BTreeMap<u32, DAffine3>,
     pub(crate) camera_to_world: DAffine3,
     pub(crate) eye: Eye,
     pub(crate) backdrop: Backdrop,
@@ -42,42 +42,53 @@ pub(crate) struct PreparedScene<'s> {
 
 impl<'s> PreparedScene<'s> {
     pub(crate) fn new(scene: &'s Scene, camera: &'s Camera, settings: &'s RenderSettings) -> Self {
-        let places = scene.visible_places();
+        let placements = scene.visible_placements();
         let eye = Eye::new(camera, settings.aspect());
         let effects = &settings.effects;
         let rays = effects.ambient_occlusion.is_some() || has_sight_rays(scene, effects.sight);
         let all = rays || effects.shadows != Shadows::Off;
         let onlookers = if all { Onlookers::All } else { Onlookers::Camera(&eye) };
-        let shapes = Shapes::new(scene, &places, onlookers);
-        let light_places = light_places(scene, &places);
-        let lights = Lights::gather(scene, &light_places, &eye, settings);
+        let shapes = Shapes::new(scene, &placements, onlookers);
+        let light_transforms = light_transforms(scene, &placements);
+        let lights = Lights::gather(scene, &light_transforms, &eye, settings);
         let turn = DMat3::from_quat(camera.orientation);
         let camera_to_world = DAffine3::from_mat3_translation(turn, camera.position);
         let backdrop = Backdrop::new(camera, settings, scene.up);
-        let mut prepared =
-            Self { scene, camera, settings, light_places, camera_to_world, eye, backdrop, shapes, lights };
+        let mut prepared = Self {
+            scene,
+            camera,
+            settings,
+            light_transforms,
+            camera_to_world,
+            eye,
+            backdrop,
+            shapes,
+            lights,
+        };
         prepared.leave_out_idle_lamps();
         prepared
     }
 
     /// Whether some of a shape's faces may be in view.
     pub(crate) fn may_show(&self, shape: &Shape) -> bool {
-        self.eye.may_see(&shape.geometry.bounds(), &shape.place.world)
+        self.eye.may_see(&shape.geometry.bounds(), &shape.placement.world)
     }
 
     /// The transform of a lamp.
     pub(crate) fn pose(&self, lamp: &Lamp) -> LampPose {
-        let world = lamp.node.and_then(|node| self.light_places.get(&node));
+        let world = lamp.node.and_then(|node| self.light_transforms.get(&node));
         let along = world.map_or_else(
             || match lamp.source {
-                Source::Directional(towards) => -self.camera_to_world.transform_vector3(towards.as_dvec3()),
-                Source::Point { .. } => DVec3::NEG_Z,
+                LampSource::Directional(towards) => {
+                    -self.camera_to_world.transform_vector3(towards.as_dvec3())
+                }
+                LampSource::Point { .. } => DVec3::NEG_Z,
             },
             |world| world.transform_vector3(DVec3::NEG_Z).normalize_or_zero(),
         );
         match lamp.source {
-            Source::Directional(_) => LampPose::Directional(along),
-            Source::Point { .. } => {
+            LampSource::Directional(_) => LampPose::Directional(along),
+            LampSource::Point { .. } => {
                 let position = world.map_or(DVec3::ZERO, |world| world.translation);
                 LampPose::Point { position, cone: self.cone(lamp).map(|half| (along, half)) }
             }
@@ -121,8 +132,8 @@ impl<'s> PreparedScene<'s> {
     }
 }
 
-/// Where the nodes with lights are; `places` is the scene's table of visible nodes.
-fn light_places(scene: &Scene, places: &[Option<Place>]) -> BTreeMap<u32, DAffine3> {
+/// Where the nodes with lights are; `placements` is the scene's table of visible nodes.
+fn light_transforms(scene: &Scene, placements: &[Option<NodePlacement>]) -> BTreeMap<u32, DAffine3> {
     let holders = scene.nodes().iter().filter(|(_, node)| node.light.is_some());
-    holders.filter_map(|(id, _)| Some((id.index() as u32, places[id.index()]?.world))).collect()
+    holders.filter_map(|(id, _)| Some((id.index() as u32, placements[id.index()]?.world))).collect()
 }

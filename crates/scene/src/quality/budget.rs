@@ -5,7 +5,7 @@ use std::time::Duration;
 use trigon_camera::Camera;
 
 use super::patience::Patience;
-use super::{Choice, CostModel, ErrorModel, Foreseen, Preset, Quality, candidates};
+use super::{Choice, CostModel, ErrorModel, Prediction, Preset, Quality, candidates};
 use crate::frame::Frame;
 use crate::render::{RenderError, Renderer};
 use crate::scene::Scene;
@@ -87,10 +87,10 @@ impl TimeBudget {
 
     /// The choice for the next frame, with settings for everything but the quality.
     pub fn choose(&self, settings: &RenderSettings) -> Choice {
-        let all = self.foreseen(settings);
-        let fits = |foreseen: &&Foreseen| {
-            self.patience.with_margin(foreseen.time) <= self.limit
-                && !self.patience.is_resting(foreseen.quality)
+        let all = self.predictions(settings);
+        let fits = |predicted: &&Prediction| {
+            self.patience.with_margin(predicted.time) <= self.limit
+                && !self.patience.is_resting(predicted.quality)
         };
         let best = all.iter().filter(fits).reduce(more_accurate);
         let stays = self.last.and_then(|last| all.iter().filter(fits).find(|one| one.quality == last));
@@ -98,7 +98,7 @@ impl TimeBudget {
             (Some(last), Some(best)) if !is_worth_a_change(last, best) => Some(last),
             _ => best,
         };
-        let quickest = || all.iter().min_by_key(|foreseen| foreseen.time).expect("there are candidates");
+        let quickest = || all.iter().min_by_key(|predicted| predicted.time).expect("there are candidates");
         let choice = chosen.unwrap_or_else(quickest);
         Choice {
             chosen: *choice,
@@ -116,8 +116,8 @@ impl TimeBudget {
 
     /// The time that it took.
     pub fn took(&mut self, choice: &Choice, settings: &RenderSettings, time: Duration) {
-        let Foreseen { quality, time: foreseen, .. } = choice.chosen;
-        self.patience.note(quality, [time, foreseen, self.limit]);
+        let Prediction { quality, time: predicted, .. } = choice.chosen;
+        self.patience.note(quality, [time, predicted, self.limit]);
         self.costs.learn(&of_quality(settings, quality), time);
         self.last = Some(quality);
     }
@@ -162,13 +162,13 @@ impl TimeBudget {
     }
 
     /// The known cost and error of all candidates, as far as such a frame distinguishes them.
-    pub(super) fn foreseen(&self, settings: &RenderSettings) -> Vec<Foreseen> {
-        let mut all: Vec<Foreseen> = Vec::new();
+    pub(super) fn predictions(&self, settings: &RenderSettings) -> Vec<Prediction> {
+        let mut all: Vec<Prediction> = Vec::new();
         for candidate in &self.candidates {
             let quality = candidate.within(settings);
-            if all.iter().all(|foreseen| foreseen.quality != quality) {
+            if all.iter().all(|predicted| predicted.quality != quality) {
                 let time = self.costs.predict(&of_quality(settings, quality));
-                all.push(Foreseen { quality, time, error: self.errors.predict(quality) });
+                all.push(Prediction { quality, time, error: self.errors.predict(quality) });
             }
         }
         all
@@ -183,7 +183,7 @@ fn of_any_glass(quality: Quality) -> Quality {
 
 /// The one with the smaller error; while an error is unknown the second, which comes later in the
 /// order of candidates.
-fn more_accurate<'a>(first: &'a Foreseen, second: &'a Foreseen) -> &'a Foreseen {
+fn more_accurate<'a>(first: &'a Prediction, second: &'a Prediction) -> &'a Prediction {
     match (first.error, second.error) {
         (Some(a), Some(b)) if a <= b => first,
         _ => second,
@@ -192,7 +192,7 @@ fn more_accurate<'a>(first: &'a Foreseen, second: &'a Foreseen) -> &'a Foreseen 
 
 /// The fastest of those more accurate than one of them; while errors are unknown, of those that
 /// come later.
-fn next_better<'a>(all: &'a [Foreseen], than: &Foreseen) -> Option<&'a Foreseen> {
+fn next_better<'a>(all: &'a [Prediction], than: &Prediction) -> Option<&'a Prediction> {
     let later = all.iter().skip_while(|one| one.quality != than.quality).skip(1);
     match than.error {
         Some(error) => {
@@ -203,7 +203,7 @@ fn next_better<'a>(all: &'a [Foreseen], than: &Foreseen) -> Option<&'a Foreseen>
     }
 }
 
-fn is_worth_a_change(last: &Foreseen, best: &Foreseen) -> bool {
+fn is_worth_a_change(last: &Prediction, best: &Prediction) -> bool {
     match (last.error, best.error) {
         (Some(last), Some(best)) => best < WORTH_A_CHANGE * last,
         _ => last.quality != best.quality,
@@ -221,8 +221,8 @@ mod tests {
     use super::*;
 
     /// Milliseconds and an error; of qualities that are all different.
-    fn foreseen(all: &[(u64, Option<f64>)]) -> Vec<Foreseen> {
-        let one = |(rays, &(time, error)): (u32, &(u64, Option<f64>))| Foreseen {
+    fn predictions(all: &[(u64, Option<f64>)]) -> Vec<Prediction> {
+        let one = |(rays, &(time, error)): (u32, &(u64, Option<f64>))| Prediction {
             quality: Quality { occlusion_rays: rays, ..Preset::Draft.quality() },
             time: Duration::from_millis(time),
             error,
@@ -233,7 +233,7 @@ mod tests {
     #[test]
     fn the_smaller_error_is_more_accurate_and_the_later_while_it_is_unknown() {
         let pair = |errors: [Option<f64>; 2]| {
-            let all = foreseen(&errors.map(|error| (1, error)));
+            let all = predictions(&errors.map(|error| (1, error)));
             usize::from(more_accurate(&all[0], &all[1]).quality == all[1].quality)
         };
         assert_eq!(pair([Some(1.0), Some(2.0)]), 0);
@@ -247,7 +247,7 @@ mod tests {
     #[test]
     fn the_fastest_of_those_that_are_better_comes_next() {
         let next = |all: &[(u64, Option<f64>)], than: usize| {
-            let all = foreseen(all);
+            let all = predictions(all);
             next_better(&all, &all[than]).map(|next| next.quality.occlusion_rays)
         };
         let known = [(1, Some(9.0)), (5, Some(4.0)), (3, Some(6.0)), (9, Some(6.0)), (2, None)];
@@ -259,13 +259,13 @@ mod tests {
     #[test]
     fn a_tenth_less_error_is_worth_a_change() {
         let worth = |errors: [Option<f64>; 2]| {
-            let all = foreseen(&errors.map(|error| (1, error)));
+            let all = predictions(&errors.map(|error| (1, error)));
             is_worth_a_change(&all[0], &all[1])
         };
         assert!(worth([Some(1.0), Some(0.89)]) && !worth([Some(1.0), Some(0.91)]));
         assert!(!worth([Some(1.0), Some(1.0)]) && !worth([Some(1.0), Some(2.0)]));
         assert!(worth([None, Some(1.0)]) && worth([Some(1.0), None]), "unless it is unknown");
-        let all = foreseen(&[(1, None)]);
+        let all = predictions(&[(1, None)]);
         assert!(!is_worth_a_change(&all[0], &all[0]), "not to itself");
     }
 }

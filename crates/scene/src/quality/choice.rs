@@ -8,7 +8,7 @@ use super::Quality;
 /// A quality with the predicted time and error of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Foreseen {
+pub struct Prediction {
     /// The quality.
     pub quality: Quality,
     /// The predicted time.
@@ -25,13 +25,13 @@ pub struct Foreseen {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choice {
     /// The most accurate quality that fits, or the fastest of all.
-    pub chosen: Foreseen,
+    pub chosen: Prediction,
     /// The available time.
     pub limit: Duration,
     /// Whether the choice is predicted to fit.
     pub fits: bool,
     /// The next more accurate quality, which was given up; `None` if there is none.
-    pub given_up: Option<Foreseen>,
+    pub given_up: Option<Prediction>,
     /// The quality that errors are relative to.
     pub reference: Quality,
 }
@@ -48,7 +48,7 @@ fn write_error(f: &mut fmt::Formatter<'_>, error: Option<f64>) -> fmt::Result {
     }
 }
 
-impl fmt::Display for Foreseen {
+impl fmt::Display for Prediction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} (about {:.1} ms", self.quality, milliseconds(self.time))?;
         write_error(f, self.error)?;

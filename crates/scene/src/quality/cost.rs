@@ -19,7 +19,7 @@ const USUAL: [f64; UNITS] = [500_000.0, 4.0, 15.0, 4.0, 10.0, 60.0, 40.0];
 const TRUST_IN_USUAL: f64 = 0.001;
 
 /// The number of frames of different work that are remembered.
-const MOST_SEEN: usize = 32;
+const MOST_MEASUREMENTS: usize = 32;
 
 /// Learns from measured frames of a scene how long others will take.
 ///
@@ -48,14 +48,14 @@ const MOST_SEEN: usize = 32;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct CostModel {
-    seen: Vec<Seen>,
+    measurements: Vec<Measurement>,
     /// Nanoseconds of each unit.
     costs: [f64; UNITS],
 }
 
 /// Measured work.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Seen {
+struct Measurement {
     work: [f64; UNITS],
     /// Nanoseconds, greater than 0.
     time: f64,
@@ -64,7 +64,7 @@ struct Seen {
 impl Default for CostModel {
     /// For an unknown scene and machine.
     fn default() -> Self {
-        Self { seen: Vec::new(), costs: USUAL }
+        Self { measurements: Vec::new(), costs: USUAL }
     }
 }
 
@@ -74,29 +74,34 @@ impl CostModel {
         /// The largest change that one frame may cause.
         const MOST_CHANGE: f64 = 8.0;
         let (work, time) = (work(settings), (time.as_nanos() as f64).max(1.0));
-        if let Some(known) = self.seen.iter().find(|seen| seen.work == work) {
+        if let Some(known) = self.measurements.iter().find(|measurement| measurement.work == work) {
             let change = (time / known.time).clamp(1.0 / MOST_CHANGE, MOST_CHANGE).sqrt();
-            self.seen.iter_mut().for_each(|seen| seen.time *= change);
+            self.measurements.iter_mut().for_each(|measurement| measurement.time *= change);
             self.costs.iter_mut().for_each(|cost| *cost *= change);
             return;
         }
-        if self.seen.len() == MOST_SEEN {
-            self.seen.remove(0);
+        if self.measurements.len() == MOST_MEASUREMENTS {
+            self.measurements.remove(0);
         }
-        self.seen.push(Seen { work, time });
-        self.costs = fitted(&self.seen);
+        self.measurements.push(Measurement { work, time });
+        self.costs = fitted(&self.measurements);
     }
 
     /// The predicted time of a frame with these settings.
     pub fn predict(&self, settings: &RenderSettings) -> Duration {
         let work = work(settings);
-        let same = self.seen.iter().find(|seen| seen.work == work).map(|seen| seen.time);
+        let same = self
+            .measurements
+            .iter()
+            .find(|measurement| measurement.work == work)
+            .map(|measurement| measurement.time);
         let time = same.unwrap_or_else(|| sum(&work, &self.costs));
         // At least the time measured for less work in the same number of pixels.
-        let is_part = |seen: &&Seen| {
-            seen.work[1] == work[1] && seen.work.iter().zip(&work).all(|(part, whole)| part <= whole)
+        let is_part = |measurement: &&Measurement| {
+            measurement.work[1] == work[1]
+                && measurement.work.iter().zip(&work).all(|(part, whole)| part <= whole)
         };
-        let parts = self.seen.iter().filter(is_part).map(|seen| seen.time);
+        let parts = self.measurements.iter().filter(is_part).map(|measurement| measurement.time);
         Duration::from_nanos(parts.fold(time, f64::max) as u64)
     }
 }
@@ -123,16 +128,19 @@ fn sum(work: &[f64; UNITS], costs: &[f64; UNITS]) -> f64 {
 }
 
 /// The costs that fit the measured frames.
-fn fitted(seen: &[Seen]) -> [f64; UNITS] {
+fn fitted(measurements: &[Measurement]) -> [f64; UNITS] {
     /// More iterations than needed for convergence.
     const SWEEPS: usize = 256;
-    let mut scales: Vec<f64> = seen.iter().map(|seen| seen.time / sum(&seen.work, &USUAL)).collect();
+    let mut scales: Vec<f64> =
+        measurements.iter().map(|measurement| measurement.time / sum(&measurement.work, &USUAL)).collect();
     scales.sort_by(f64::total_cmp);
     let scale = scales.get(scales.len() / 2).copied().unwrap_or(1.0);
     let usual = USUAL.map(|cost| cost * scale);
     // Each unit's share of each time, at its default cost.
-    let share = |seen: &Seen| std::array::from_fn(|unit| seen.work[unit] * usual[unit] / seen.time);
-    let rows: Vec<[f64; UNITS]> = seen.iter().map(share).collect();
+    let share = |measurement: &Measurement| {
+        std::array::from_fn(|unit| measurement.work[unit] * usual[unit] / measurement.time)
+    };
+    let rows: Vec<[f64; UNITS]> = measurements.iter().map(share).collect();
     let mut factors = [1.0; UNITS];
     for _ in 0..SWEEPS {
         for unit in 0..UNITS {
@@ -225,7 +233,7 @@ mod tests {
         for width in 1..100 {
             costs.learn(&RenderSettings::new(width, 10), Duration::from_micros(u64::from(width)));
         }
-        assert_eq!(costs.seen.len(), MOST_SEEN, "the newest");
+        assert_eq!(costs.measurements.len(), MOST_MEASUREMENTS, "the newest");
         costs.learn(&RenderSettings::new(5, 5), Duration::ZERO);
         assert!(costs.costs.iter().all(|cost| cost.is_finite()), "a clock that stands still");
     }

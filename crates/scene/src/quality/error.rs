@@ -92,10 +92,10 @@ impl ErrorModel {
     /// the same places: they follow it half of the way.
     pub fn correct(&mut self, quality: Quality, image: &Frame, reference: &Frame) {
         /// The weight that older images keep: about ten images count.
-        const KEPT: f64 = 0.9;
+        const RETAINED: f64 = 0.9;
         let Some(known) = self.of_mut(quality) else { return };
         let before = known.now.squares / known.now.detail;
-        known.now = known.now.times(KEPT).plus(Sums::of(image, reference));
+        known.now = known.now.times(RETAINED).plus(Sums::of(image, reference));
         let change = (known.now.squares / known.now.detail / before).sqrt();
         let is_alike = |other: Quality| {
             other != quality

@@ -39,7 +39,7 @@ mod tests;
 
 pub use budget::TimeBudget;
 pub use candidates::candidates;
-pub use choice::{Choice, Foreseen};
+pub use choice::{Choice, Prediction};
 pub use cost::CostModel;
 pub use error::{ErrorModel, rmse};
 pub use knobs::Quality;

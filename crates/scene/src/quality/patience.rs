@@ -39,10 +39,10 @@ struct Rest {
 
 impl Patience {
     /// Reports the time of a frame, its prediction, and its limit.
-    pub(super) fn note(&mut self, quality: Quality, [time, foreseen, limit]: [Duration; 3]) {
+    pub(super) fn note(&mut self, quality: Quality, [time, predicted, limit]: [Duration; 3]) {
         /// The weight of the last frame.
         const NEW: f64 = 0.1;
-        let miss = time.as_secs_f64() / foreseen.as_secs_f64().max(1e-9) - 1.0;
+        let miss = time.as_secs_f64() / predicted.as_secs_f64().max(1e-9) - 1.0;
         self.miss += NEW * (miss.clamp(0.0, MOST_MARGIN) - self.miss);
         self.resting.iter_mut().for_each(|rest| rest.left = rest.left.saturating_sub(1));
         if time > limit {

@@ -54,7 +54,7 @@ impl TimeBudget {
             // Their mean: what lies in one window is not what lies in the image.
             self.costs.learn(&of_quality(&part, *quality), time / FIRST_WINDOWS);
         }
-        let quickest = self.foreseen(&whole).into_iter().min_by_key(|foreseen| foreseen.time);
+        let quickest = self.predictions(&whole).into_iter().min_by_key(|predicted| predicted.time);
         let quality = quickest.expect("there are candidates").quality;
         let (frame, time) = studio.draw(&of_quality(&whole, quality), camera, MEASURED)?;
         self.costs.learn(&of_quality(&whole, quality), time);

@@ -76,10 +76,10 @@ fn a_choice_says_what_it_gives_up() {
     let [standard, high] = [Preset::Standard, Preset::High].map(Preset::quality);
     let quality = |quality: Quality| quality.within(&RenderSettings::new(1, 1));
     let choice = Choice {
-        chosen: Foreseen { quality: quality(standard), time: LIMIT / 2, error: error(0.00337) },
+        chosen: Prediction { quality: quality(standard), time: LIMIT / 2, error: error(0.00337) },
         limit: LIMIT,
         fits: true,
-        given_up: Some(Foreseen { quality: quality(high), time: 2 * LIMIT, error: error(0.0012) }),
+        given_up: Some(Prediction { quality: quality(high), time: 2 * LIMIT, error: error(0.0012) }),
         reference: quality(Preset::Reference.quality()),
     };
     assert_eq!(

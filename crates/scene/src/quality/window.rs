@@ -33,12 +33,12 @@ impl Window {
         const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
         let whole = [settings.width, settings.height];
         let size = whole.map(|side| ((f64::from(side) * share) as u32).clamp(1, most.max(1)));
-        let place = |axis: usize| {
+        let offset = |axis: usize| {
             let free = f64::from(whole[axis].saturating_sub(size[axis]));
             let point = 0.5 + f64::from(number) * STEPS[axis];
             (free * (point - point.floor())) as u32
         };
-        Self { corner: [place(0), place(1)], size }
+        Self { corner: [offset(0), offset(1)], size }
     }
 
     /// The settings of an image of it alone.

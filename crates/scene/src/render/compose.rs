@@ -10,7 +10,7 @@ use trigon_math::{Mat3, Vec3, Vec4};
 use trigon_raster::{BlendMode, Culling, EdgeFlags};
 
 use super::looks::{LookKey, Looks, SharedLook};
-use super::record::{Dots, MarkNumbers, ObjectMarks, PointList, Record, Segments, Triangles};
+use super::record::{Dots, MarkNumbers, ObjectMarks, PointList, Record, Segments, TriangleDraw};
 use super::vertex_list::{VertexList, VertexLists};
 use super::wire::{ColoredLines, HiddenLine, PointColors, Wire, WireMarks, WirePaint};
 use crate::display::Display;
@@ -63,18 +63,18 @@ enum Purpose {
 }
 
 /// One mesh at one node.
-struct Object<'s> {
+struct DrawnObject<'s> {
     id: NodeId,
     index: u32,
     node: &'s Node,
     asset: &'s MeshAsset,
     geometry: &'s Geometry,
-    place: Placement,
+    placement: Placement,
     /// For faces, and for edges on faces.
     marks: Option<Arc<MarkNumbers>>,
 }
 
-impl Object<'_> {
+impl DrawnObject<'_> {
     /// What the look of a run depends on.
     fn key(&self, run: &Run) -> LookKey {
         LookKey::new(self.geometry, run, self.node.materials.get(run.slot as usize).copied())
@@ -138,9 +138,9 @@ impl<'s> Composer<'s> {
                 true => shape.geometry.bounds(),
                 false => shape.geometry.bounds().union(asset.bounds()),
             };
-            let (index, place) = (id.index() as u32, self.eye.place(&shape.place, &bounds));
+            let (index, placement) = (id.index() as u32, self.eye.placement(&shape.placement, &bounds));
             let (geometry, marks) = (&shape.geometry, self.marks(id));
-            let object = Object { id, index, node, asset, geometry, place, marks };
+            let object = DrawnObject { id, index, node, asset, geometry, placement, marks };
             self.object(&object, &mut draws, counts);
         }
         draws
@@ -154,10 +154,15 @@ impl<'s> Composer<'s> {
         wires
             || self.settings.style == Style::Wireframe
             || self.settings.vertices.is_some()
-            || self.eye.may_see(&shape.geometry.bounds(), &shape.place.world)
+            || self.eye.may_see(&shape.geometry.bounds(), &shape.placement.world)
     }
 
-    fn object<'c>(&'c self, object: &Object<'s>, draws: &mut Vec<Box<dyn Record + 'c>>, counts: &mut Counts) {
+    fn object<'c>(
+        &'c self,
+        object: &DrawnObject<'s>,
+        draws: &mut Vec<Box<dyn Record + 'c>>,
+        counts: &mut Counts,
+    ) {
         match self.settings.style {
             Style::Surface | Style::SurfaceWithEdges => {
                 let runs = object.geometry.runs.iter();
@@ -202,25 +207,25 @@ impl<'s> Composer<'s> {
     }
 
     /// The mesh edges of triangle sides, if some of them are marked.
-    fn sides(&self, object: &Object<'s>, marks: &MarkNumbers) -> &'s [[u32; 3]] {
+    fn sides(&self, object: &DrawnObject<'s>, marks: &MarkNumbers) -> &'s [[u32; 3]] {
         if marks.edges.is_empty() { &[] } else { object.geometry.side_edges(object.asset.mesh()) }
     }
 
     /// The marks of some triangles.
-    fn marks_of(&self, object: &Object<'s>, triangles: &Range<usize>) -> Option<Box<ObjectMarks<'s>>> {
+    fn marks_of(&self, object: &DrawnObject<'s>, triangles: &Range<usize>) -> Option<Box<ObjectMarks<'s>>> {
         let numbers = Arc::clone(object.marks.as_ref()?);
         let sides = self.sides(object, &numbers).get(triangles.clone()).unwrap_or_default();
         Some(Box::new(ObjectMarks { sides, numbers }))
     }
 
     /// The material of a slot; the default if there is none.
-    fn material(&self, object: &Object<'s>, slot: u32) -> &Material {
+    fn material(&self, object: &DrawnObject<'s>, slot: u32) -> &Material {
         let id = object.node.materials.get(slot as usize);
         id.and_then(|&id| self.scene.materials.get(id)).unwrap_or(&self.default_material)
     }
 
     /// The material in which the faces of a slot are displayed, as far as its alpha can be seen.
-    fn displayed(&self, object: &Object<'s>, slot: u32) -> Cow<'_, Material> {
+    fn displayed(&self, object: &DrawnObject<'s>, slot: u32) -> Cow<'_, Material> {
         let material = self.material(object, slot);
         let mut material =
             self.settings.display.replaced(material).map_or(Cow::Borrowed(material), Cow::Owned);
@@ -231,13 +236,13 @@ impl<'s> Composer<'s> {
         material
     }
 
-    fn canvas(&self, object: &Object<'s>) -> Canvas<'s> {
+    fn canvas(&self, object: &DrawnObject<'s>) -> Canvas<'s> {
         Canvas { scene: self.scene, columns: &object.geometry.columns }
     }
 
     /// How the rasterizer treats the faces of a slot, which are displayed with this alpha mode. Blended surfaces write
     /// neither depth nor ids unless the outputs ask for that, also those that are drawn as opaque ones.
-    fn blend_mode(&self, object: &Object<'s>, slot: u32, displayed: AlphaMode) -> BlendMode {
+    fn blend_mode(&self, object: &DrawnObject<'s>, slot: u32, displayed: AlphaMode) -> BlendMode {
         let outputs = &self.settings.outputs;
         let is_unseen = outputs.beside_color() && !outputs.of_blended;
         match displayed {
@@ -258,7 +263,7 @@ impl<'s> Composer<'s> {
     }
 
     /// The triangles of one slot with their material.
-    fn surface<'c>(&'c self, object: &Object<'s>, run: &Run, counts: &mut Counts) -> Box<dyn Record + 'c>
+    fn surface<'c>(&'c self, object: &DrawnObject<'s>, run: &Run, counts: &mut Counts) -> Box<dyn Record + 'c>
     where
         's: 'c,
     {
@@ -274,13 +279,13 @@ impl<'s> Composer<'s> {
     }
 
     /// The node of an object whose slot is glass: a node's scale makes that thicker.
-    fn node_of_glass(&self, object: &Object<'s>, slot: u32) -> Option<u32> {
+    fn node_of_glass(&self, object: &DrawnObject<'s>, slot: u32) -> Option<u32> {
         let optics = self.lighting.traced(self.material(object, slot));
         matches!(optics, Some(Optics::Glass(_))).then_some(object.index)
     }
 
     /// The look of the triangles of one slot.
-    fn shaded(&self, object: &Object<'s>, run: &Run) -> SharedLook<'s> {
+    fn shaded(&self, object: &DrawnObject<'s>, run: &Run) -> SharedLook<'s> {
         let material = &*self.displayed(object, run.slot);
         let bent = material.normal_map.filter(|_| self.shows_normal_map(material));
         let geometry = match &bent {
@@ -304,7 +309,7 @@ impl<'s> Composer<'s> {
 
     /// The same triangles without shading: positions and alpha masks. `None` if outputs see through blended
     /// surfaces.
-    fn shape<'c>(&'c self, object: &Object<'s>, run: &Run) -> Option<Box<dyn Record + 'c>>
+    fn shape<'c>(&'c self, object: &DrawnObject<'s>, run: &Run) -> Option<Box<dyn Record + 'c>>
     where
         's: 'c,
     {
@@ -320,7 +325,7 @@ impl<'s> Composer<'s> {
     }
 
     /// The look of the triangles of one slot of which only alpha is needed.
-    fn bare(&self, object: &Object<'s>, run: &Run) -> SharedLook<'s> {
+    fn bare(&self, object: &DrawnObject<'s>, run: &Run) -> SharedLook<'s> {
         let material = self.material(object, run.slot);
         let mut bare = Material {
             shading: Shading::Unlit,
@@ -344,7 +349,7 @@ impl<'s> Composer<'s> {
     /// Triangles at their node.
     fn placed<'c, const FLAT: bool>(
         &'c self,
-        object: &Object<'s>,
+        object: &DrawnObject<'s>,
         run: &Run,
         shared: SharedLook<'s>,
     ) -> Box<dyn Record + 'c>
@@ -352,14 +357,14 @@ impl<'s> Composer<'s> {
         's: 'c,
     {
         let flags = self.shows_edges().then(|| &self.edge_flags(object)[run.triangles.clone()]);
-        Box::new(Triangles {
-            pipeline: Surface::<FLAT>::new(object.place, shared.look),
+        Box::new(TriangleDraw {
+            pipeline: Surface::<FLAT>::new(object.placement, shared.look),
             geometry: shared.geometry,
             range: run.triangles.clone(),
             edge_flags: flags,
             marks: self.marks_of(object, &run.triangles),
             object: object.index,
-            culling: if shared.double_sided { Culling::None } else { object.place.cull_back },
+            culling: if shared.double_sided { Culling::None } else { object.placement.cull_back },
             blend_mode: self.blend_mode(object, run.slot, shared.alpha_mode),
         })
     }
@@ -370,15 +375,15 @@ impl<'s> Composer<'s> {
     }
 
     /// Which edges of the triangles are edges of faces. (Tangents change none.)
-    fn edge_flags(&self, object: &Object<'s>) -> &'s [EdgeFlags] {
+    fn edge_flags(&self, object: &DrawnObject<'s>) -> &'s [EdgeFlags] {
         object.geometry.edge_flags(object.asset.mesh())
     }
 
-    fn hidden_line<'c>(&'c self, object: &Object<'s>) -> Box<dyn Record + 'c> {
+    fn hidden_line<'c>(&'c self, object: &DrawnObject<'s>) -> Box<dyn Record + 'c> {
         let geometry = object.geometry;
         let pipeline =
-            HiddenLine { columns: &geometry.columns, place: object.place, backdrop: self.backdrop };
-        Box::new(Triangles {
+            HiddenLine { columns: &geometry.columns, placement: object.placement, backdrop: self.backdrop };
+        Box::new(TriangleDraw {
             pipeline,
             geometry,
             range: 0..geometry.triangles.len(),
@@ -390,13 +395,13 @@ impl<'s> Composer<'s> {
         })
     }
 
-    fn wire(&self, object: &Object<'s>, paint: WirePaint, marks: WireMarks) -> Wire<'s> {
+    fn wire(&self, object: &DrawnObject<'s>, paint: WirePaint, marks: WireMarks) -> Wire<'s> {
         let positions = object.asset.mesh().positions();
-        Wire { positions, place: object.place, paint, colors: None, marks }
+        Wire { positions, placement: object.placement, paint, colors: None, marks }
     }
 
     /// Loose edges and points, in the material of the first slot.
-    fn loose<'c>(&'c self, object: &Object<'s>, draws: &mut Vec<Box<dyn Record + 'c>>) {
+    fn loose<'c>(&'c self, object: &DrawnObject<'s>, draws: &mut Vec<Box<dyn Record + 'c>>) {
         let mesh = object.asset.mesh();
         let (edges, points) = (mesh.loose_edges(), mesh.loose_points());
         if edges.is_empty() && points.is_empty() {
@@ -419,7 +424,7 @@ impl<'s> Composer<'s> {
     /// Lines along edges of a mesh, in the colours of its vertices if there are any.
     fn segments<'c>(
         &'c self,
-        object: &Object<'s>,
+        object: &DrawnObject<'s>,
         EdgeRange { first, edges: segments }: EdgeRange<'s>,
         paint: WirePaint,
         colors: Option<&'s [Vec4]>,
@@ -440,7 +445,7 @@ impl<'s> Composer<'s> {
         })
     }
 
-    fn points<'c>(&'c self, object: &Object<'s>, paint: WirePaint) -> Option<Box<dyn Record + 'c>> {
+    fn points<'c>(&'c self, object: &DrawnObject<'s>, paint: WirePaint) -> Option<Box<dyn Record + 'c>> {
         let mesh = object.asset.mesh();
         let points = mesh.loose_points();
         let colors = mesh.attributes().vertex_colors.as_deref();
@@ -470,7 +475,7 @@ impl<'s> Composer<'s> {
 
     /// The vertices of faces, edges and points. They write neither depth nor ids, so that what lies
     /// below them can be picked.
-    fn vertices<'c>(&'c self, object: &Object<'s>) -> Option<Box<dyn Record + 'c>> {
+    fn vertices<'c>(&'c self, object: &DrawnObject<'s>) -> Option<Box<dyn Record + 'c>> {
         let shown = self.settings.vertices.filter(|_| self.purpose == Purpose::Colors)?;
         let listed = &self.settings.marks.vertices;
         let list = self.vertex_lists.of(object.id, object.asset.used_vertices(), listed);

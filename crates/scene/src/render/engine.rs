@@ -12,10 +12,10 @@ use trigon_raster::{
 use super::RenderError;
 use super::compose::Composer;
 use super::depth_image::paint_depth;
-use super::kept::{Destination, Kept};
-use super::last_frame::{LastFrame, Step, redraw};
+use super::effect_caches::{Destination, EffectCaches};
+use super::last_frame::{LastFrame, Redraw, redraw};
 use super::record::Record;
-use super::shared_frames::{FreeFrame, SharedFrames};
+use super::shared_frames::{ReusableFrame, SharedFrames};
 use super::vertex_list::VertexLists;
 use crate::display::Display;
 use crate::effect::Effect;
@@ -32,7 +32,7 @@ use crate::settings::{RenderSettings, Style};
 #[derive(Default)]
 pub(super) struct Engine {
     rasterizer: Option<Rasterizer>,
-    kept: Kept,
+    caches: EffectCaches,
     last: LastFrame,
     frames: SharedFrames,
     vertex_lists: VertexLists,
@@ -69,7 +69,7 @@ impl Engine {
         rasterizer.set_cancel(None);
         let prepared = PreparedScene::new(scene, camera, settings);
         let plan = EffectPlan::of_prepared(&prepared);
-        let lighting = self.kept.lighting(&prepared, &plan, &mut rasterizer)?;
+        let lighting = self.caches.lighting(&prepared, &plan, &mut rasterizer)?;
         let explained =
             record(&prepared, &lighting, &self.vertex_lists, settings, &mut Counts::default(), |pass, _| {
                 rasterizer.explain_pixel(pass, &target, x, y)
@@ -82,7 +82,7 @@ impl Engine {
 
     /// Draws into an existing frame; after an error its contents are unspecified.
     pub(super) fn draw(&mut self, request: Request<'_>, frame: &mut Frame) -> Result<(), RenderError> {
-        let mut free = FreeFrame::of(std::mem::take(frame));
+        let mut free = ReusableFrame::of(std::mem::take(frame));
         let drawn = self.draw_free(request, &mut free);
         if let (Ok(()), Some(rasterizer)) = (drawn, &self.rasterizer) {
             self.frames.keep(&free, request.settings, rasterizer);
@@ -108,14 +108,14 @@ impl Engine {
         self.frames.redrawn_between(before, last)
     }
 
-    fn draw_free(&mut self, request: Request<'_>, free: &mut FreeFrame) -> Result<(), RenderError> {
+    fn draw_free(&mut self, request: Request<'_>, free: &mut ReusableFrame) -> Result<(), RenderError> {
         let Request { settings, cancel, .. } = request;
         if settings.display == Display::Depth && settings.outputs.color {
             return self.draw_depth(request, free);
         }
         // Checks the size before memory is allocated for it.
         let sample = blank(settings)?.visibility_sample();
-        free.frame.make_room(settings)?;
+        free.frame.allocate(settings)?;
         let mut rasterizer = self.rasterizer(settings)?;
         rasterizer.set_cancel(cancel.cloned());
         let threads = rasterizer.threads();
@@ -129,17 +129,17 @@ impl Engine {
         mut rasterizer: Rasterizer,
         request: Request<'_>,
         sample: [f64; 2],
-        free: &mut FreeFrame,
+        free: &mut ReusableFrame,
     ) -> Result<(), RenderError> {
         let Request { scene, camera, settings, cancel } = request;
         let prepared = PreparedScene::new(scene, camera, settings);
         let plan = EffectPlan::of_prepared(&prepared);
         let mut counts = Counts::default();
-        let apart = sees_apart(settings, &plan);
+        let apart = needs_id_pass(settings, &plan);
         if let Some(cancel) = cancel {
             // Shadow maps are added when it is known which of them are missing.
             let colors = u32::from(settings.outputs.of_light());
-            let beneath = u32::from(settings.share_through_faces().is_some()) * colors;
+            let beneath = u32::from(settings.xray_opacity().is_some()) * colors;
             cancel.begin_drawing(colors + beneath + u32::from(apart));
         }
         self.stats = Stats::default();
@@ -147,23 +147,23 @@ impl Engine {
         if settings.outputs.of_light() {
             let drawn = self.draw_colors(&prepared, &plan, free, &mut rasterizer, &mut counts);
             // It may have been cancelled, too: its shadow maps may be incomplete.
-            drawn.inspect_err(|_| self.kept.forget_unfinished())?;
+            drawn.inspect_err(|_| self.caches.forget_unfinished())?;
         }
-        let FreeFrame { frame, redrawn, .. } = free;
+        let ReusableFrame { frame, redrawn, .. } = free;
         if apart {
-            self.draw_seen(&prepared, frame, &mut rasterizer)?;
+            self.draw_ids(&prepared, frame, &mut rasterizer)?;
         }
         if settings.outputs.of_triangles() {
-            outputs::fill(frame, &prepared, sample, &self.kept.seen, &rasterizer);
+            outputs::fill(frame, &prepared, sample, &self.caches.ids, &rasterizer);
         }
         if cancel.is_some_and(Cancel::is_cancelled) {
-            self.kept.forget_unfinished();
+            self.caches.forget_unfinished();
             self.rasterizer = Some(rasterizer);
             return Err(RenderError::Cancelled);
         }
         self.last.set_whole(redrawn.is_some());
         if redrawn.is_none() {
-            self.kept.seen.hand_over(frame);
+            self.caches.ids.hand_over(frame);
             measure_depth(frame, camera, settings, &rasterizer);
         }
         counts.of(Effect::Poses).bytes = prepared.shapes.posed_bytes() as u64;
@@ -173,7 +173,7 @@ impl Engine {
     }
 
     /// Draws depths as colours.
-    fn draw_depth(&mut self, request: Request<'_>, free: &mut FreeFrame) -> Result<(), RenderError> {
+    fn draw_depth(&mut self, request: Request<'_>, free: &mut ReusableFrame) -> Result<(), RenderError> {
         let settings = request.settings;
         let mut uncolored = settings.clone();
         (uncolored.outputs.color, uncolored.outputs.depth) = (false, true);
@@ -189,13 +189,13 @@ impl Engine {
         &mut self,
         prepared: &PreparedScene<'_>,
         plan: &EffectPlan,
-        free: &mut FreeFrame,
+        free: &mut ReusableFrame,
         rasterizer: &mut Rasterizer,
         counts: &mut Counts,
     ) -> Result<(), RenderError> {
-        let lighting = self.kept.lighting(prepared, plan, rasterizer)?;
+        let lighting = self.caches.lighting(prepared, plan, rasterizer)?;
         let settings = prepared.settings;
-        if settings.share_through_faces().is_some() {
+        if settings.xray_opacity().is_some() {
             let wires = RenderSettings { style: Style::Wireframe, ..settings.clone() };
             let target = blank(settings)?;
             self.stats += record(
@@ -204,21 +204,21 @@ impl Engine {
                 &self.vertex_lists,
                 &wires,
                 &mut Counts::default(),
-                |pass, _| self.kept.draw_beneath(pass, settings, target, rasterizer),
+                |pass, _| self.caches.draw_beneath(pass, settings, target, rasterizer),
             )?;
         }
-        let apart = sees_apart(settings, plan);
+        let apart = needs_id_pass(settings, plan);
         let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
         // If depth has a pass of its own, it is not written twice.
         let depth = if apart { free.frame.depth.take() } else { None };
         let target = blank(settings)?;
         let stats = record(prepared, &lighting, &self.vertex_lists, settings, counts, |pass, draws| {
-            let step = if apart { Step::Apart } else { self.last.step(prepared, plan, draws) };
-            if matches!(step, Step::Apart) {
+            let kind = if apart { Redraw::Independent } else { self.last.plan_redraw(prepared, plan, draws) };
+            if matches!(kind, Redraw::Independent) {
                 let into = Destination { target, frame: &mut free.frame, needed };
-                self.kept.draw(pass, settings, plan, into, rasterizer)
+                self.caches.draw(pass, settings, plan, into, rasterizer)
             } else {
-                let changes = step.changes(&self.frames, free, rasterizer);
+                let changes = kind.changes(&self.frames, free, rasterizer);
                 redraw(pass, prepared, target, free, changes.as_deref(), rasterizer)
             }
         })?;
@@ -226,12 +226,12 @@ impl Engine {
         if apart {
             free.frame.depth = depth;
         }
-        self.kept.count(prepared, &lighting, plan, counts);
+        self.caches.count(prepared, &lighting, plan, counts);
         Ok(())
     }
 
     /// Draws only ids and depth.
-    fn draw_seen(
+    fn draw_ids(
         &mut self,
         prepared: &PreparedScene<'_>,
         frame: &mut Frame,
@@ -244,7 +244,7 @@ impl Engine {
         let mut pass = Pass::new();
         draws.iter().for_each(|draw| draw.record(&mut pass));
         let into = Destination { target: blank(settings)?, frame, needed: Needed::of(&settings.outputs) };
-        self.stats += self.kept.draw_seen(&pass, settings, into, rasterizer)?;
+        self.stats += self.caches.draw_ids(&pass, settings, into, rasterizer)?;
         Ok(())
     }
 
@@ -261,17 +261,17 @@ impl Engine {
     }
 
     #[cfg(test)]
-    pub(super) fn seen_capacities(&self) -> [usize; 3] {
-        let seen = &self.kept.seen;
-        [seen.objects.capacity(), seen.faces.capacity(), seen.triangles.capacity()]
+    pub(super) fn id_capacities(&self) -> [usize; 3] {
+        let ids = &self.caches.ids;
+        [ids.objects.capacity(), ids.faces.capacity(), ids.triangles.capacity()]
     }
 
     /// The last frame's rasterizer if its settings fit, or a new one.
     fn rasterizer(&mut self, settings: &RenderSettings) -> Result<Rasterizer, RenderError> {
         let RenderSettings { threads, simd, .. } = *settings;
         let how = ExecuteSettings { threads, simd, timed: self.is_timed, ..Default::default() };
-        let kept = self.rasterizer.take().filter(|rasterizer| *rasterizer.settings() == how);
-        Ok(match kept {
+        let rasterizer = self.rasterizer.take().filter(|rasterizer| *rasterizer.settings() == how);
+        Ok(match rasterizer {
             Some(rasterizer) => rasterizer,
             None => Rasterizer::new(how)?,
         })
@@ -315,7 +315,7 @@ fn samples_of(settings: &RenderSettings) -> u64 {
 }
 
 /// Whether depth and ids have a pass of their own, besides that of colours.
-fn sees_apart(settings: &RenderSettings, plan: &EffectPlan) -> bool {
+fn needs_id_pass(settings: &RenderSettings, plan: &EffectPlan) -> bool {
     settings.outputs.need_own_pass(plan.is_on(Effect::Transparency))
 }
 

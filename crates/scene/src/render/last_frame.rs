@@ -12,8 +12,8 @@ use trigon_camera::{Camera, UpAxis};
 use trigon_raster::{DrawChange, Pass, Rasterizer, Rect, Stats, Target, TargetError, Texture};
 
 use self::marked::{MarkOrigin, MarkPalette, MarkedPrimitives};
-use super::record::{Record, Source};
-use super::shared_frames::{FreeFrame, SharedFrames};
+use super::record::{DrawSource, Record};
+use super::shared_frames::{ReusableFrame, SharedFrames};
 use crate::arena::Arena;
 use crate::effect::Effect;
 use crate::environment::Environment;
@@ -74,18 +74,18 @@ struct DrawOrigin {
     state: GeometryState,
     first_triangle: usize,
     triangle_count: usize,
-    place: Placement,
+    placement: Placement,
     marks: MarkOrigin,
 }
 
 /// How a frame differs from the last one.
-pub(super) enum Step {
+pub(super) enum Redraw {
     /// Unknown: it is drawn as if nothing were kept.
-    Apart,
+    Independent,
     /// It is drawn completely, and kept.
-    Whole,
+    Full,
     /// These are the differences of each draw.
-    Changed(Vec<ChangedDraw>),
+    Partial(Vec<ChangedDraw>),
 }
 
 /// How a draw differs from that of the last frame.
@@ -98,27 +98,27 @@ pub(super) struct ChangedDraw {
 
 impl LastFrame {
     /// How the next frame differs from the last one, which it replaces.
-    pub(super) fn step(
+    pub(super) fn plan_redraw(
         &mut self,
         prepared: &PreparedScene<'_>,
         plan: &EffectPlan,
         draws: &[Box<dyn Record + '_>],
-    ) -> Step {
+    ) -> Redraw {
         let outputs = &prepared.settings.outputs;
         let is_plain = outputs.color && !outputs.radiance && !outputs.of_triangles();
         // What shows through faces is a pass of its own, too.
         let is_coupled = COUPLING.into_iter().any(|effect| plan.is_on(effect))
-            || prepared.settings.share_through_faces().is_some();
+            || prepared.settings.xray_opacity().is_some();
         let was_changed = draws.iter().any(|draw| draw.source().geometry.can_follow());
         // Marks may change at any time.
         let is_marked = prepared.settings.vertices.is_some() || !prepared.settings.marks.is_plain();
         if !is_plain || is_coupled || !(was_changed || is_marked) {
             *self = Self::default();
-            return Step::Apart;
+            return Redraw::Independent;
         }
-        let sources: Vec<Source<'_>> = draws.iter().map(|draw| draw.source()).collect();
+        let sources: Vec<DrawSource<'_>> = draws.iter().map(|draw| draw.source()).collect();
         let is_whole = std::mem::take(&mut self.is_whole);
-        let unlike = if is_marked { Step::Whole } else { Step::Apart };
+        let unlike = if is_marked { Redraw::Full } else { Redraw::Independent };
         let Some(origin) = &mut self.origin else {
             self.origin = Some(Box::new(Origin::new(prepared, plan, &sources)));
             return unlike;
@@ -127,8 +127,8 @@ impl LastFrame {
         let changes = origin.replace_draws(&sources);
         match changes {
             _ if !is_same => unlike,
-            Some(changes) if is_whole => Step::Changed(changes),
-            _ => Step::Whole,
+            Some(changes) if is_whole => Redraw::Partial(changes),
+            _ => Redraw::Full,
         }
     }
 
@@ -138,19 +138,19 @@ impl LastFrame {
     }
 }
 
-impl Step {
+impl Redraw {
     /// The changes of each draw, if a free frame shows the last image; `None` if all is to be drawn.
     pub(super) fn changes(
         &self,
         frames: &SharedFrames,
-        free: &mut FreeFrame,
+        free: &mut ReusableFrame,
         rasterizer: &Rasterizer,
     ) -> Option<Vec<DrawChange<'_>>> {
         match self {
-            Self::Changed(draws) if frames.bring_up_to_date(free, rasterizer) => {
+            Self::Partial(draws) if frames.bring_up_to_date(free, rasterizer) => {
                 Some(draws.iter().map(DrawChange::from).collect())
             }
-            Self::Apart | Self::Whole | Self::Changed(_) => None,
+            Self::Independent | Self::Full | Self::Partial(_) => None,
         }
     }
 }
@@ -161,7 +161,7 @@ pub(super) fn redraw(
     pass: &Pass<'_>,
     prepared: &PreparedScene<'_>,
     blank: Target<'_>,
-    free: &mut FreeFrame,
+    free: &mut ReusableFrame,
     changes: Option<&[DrawChange<'_>]>,
     rasterizer: &mut Rasterizer,
 ) -> Result<Stats, TargetError> {
@@ -220,7 +220,7 @@ impl<T> Clone for Same<T> {
 }
 
 impl Origin {
-    fn new(prepared: &PreparedScene<'_>, plan: &EffectPlan, sources: &[Source<'_>]) -> Self {
+    fn new(prepared: &PreparedScene<'_>, plan: &EffectPlan, sources: &[DrawSource<'_>]) -> Self {
         let scene = prepared.scene;
         Self {
             settings: without_environment_and_marks(prepared.settings),
@@ -254,7 +254,7 @@ impl Origin {
     }
 
     /// Takes over the draws of another image; returns how they differ, if that is known.
-    fn replace_draws(&mut self, sources: &[Source<'_>]) -> Option<Vec<ChangedDraw>> {
+    fn replace_draws(&mut self, sources: &[DrawSource<'_>]) -> Option<Vec<ChangedDraw>> {
         let before = std::mem::replace(&mut self.draws, sources.iter().map(DrawOrigin::new).collect());
         if before.len() != sources.len() {
             return None;
@@ -275,22 +275,22 @@ impl<'a> From<&'a ChangedDraw> for DrawChange<'a> {
 }
 
 impl DrawOrigin {
-    fn new(source: &Source<'_>) -> Self {
-        let Source { geometry, triangles, place, marked } = source;
+    fn new(source: &DrawSource<'_>) -> Self {
+        let DrawSource { geometry, triangles, placement, marked } = source;
         Self {
             state: geometry.state.clone(),
             first_triangle: triangles.start,
             triangle_count: triangles.len(),
-            place: *place,
+            placement: *placement,
             marks: MarkOrigin::new(marked),
         }
     }
 
     /// How the draw differs from another one; `None` if that is unknown.
-    fn change(&self, now: &Self, source: &Source<'_>) -> Option<ChangedDraw> {
-        let Self { first_triangle, triangle_count, place, .. } = self;
-        let is_alike =
-            (first_triangle, triangle_count, place) == (&now.first_triangle, &now.triangle_count, &now.place);
+    fn change(&self, now: &Self, source: &DrawSource<'_>) -> Option<ChangedDraw> {
+        let Self { first_triangle, triangle_count, placement, .. } = self;
+        let is_alike = (first_triangle, triangle_count, placement)
+            == (&now.first_triangle, &now.triangle_count, &now.placement);
         if !is_alike {
             return None;
         }

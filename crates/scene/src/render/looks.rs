@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::geometry::{Geometry, Run};
 use crate::material::{AlphaMode, Material, MaterialId};
-use crate::surface::{BoundMaterial, Drawn, Look, MaterialContext};
+use crate::surface::{BoundMaterial, DrawTriangles, Look, MaterialContext};
 
 /// What a look depends on within one image.
 #[derive(PartialEq, Eq, Hash)]
@@ -57,7 +57,7 @@ impl<'s> SharedLook<'s> {
         bound: BoundMaterial<'s>,
         context: &MaterialContext<'s>,
     ) -> Self {
-        let drawn = Drawn {
+        let drawn = DrawTriangles {
             columns: &geometry.columns,
             triangles: &geometry.triangles[run.triangles.clone()],
             faces: geometry.faces_of(run.triangles.clone()),
@@ -95,7 +95,7 @@ mod tests {
     use crate::node::Node;
     use crate::prepare::PreparedScene;
     use crate::render::compose::Composer;
-    use crate::render::record::Triangles;
+    use crate::render::record::TriangleDraw;
     use crate::render::vertex_list::VertexLists;
     use crate::scene::Scene;
     use crate::settings::RenderSettings;
@@ -105,8 +105,8 @@ mod tests {
     /// A draw held 1.4 kB: a copy of its material, and of all else that draws share.
     #[test]
     fn what_each_of_many_nodes_takes_is_small() {
-        let draw = size_of::<Triangles<'_, Surface<'_, true>>>();
-        assert_eq!(draw, size_of::<Triangles<'_, Surface<'_, false>>>(), "flat or not");
+        let draw = size_of::<TriangleDraw<'_, Surface<'_, true>>>();
+        assert_eq!(draw, size_of::<TriangleDraw<'_, Surface<'_, false>>>(), "flat or not");
         assert!(draw <= 272, "a draw: {draw} bytes");
         assert!(size_of::<Option<Shape>>() <= 120, "a shape: {} bytes", size_of::<Option<Shape>>());
         assert!(size_of::<Node>() <= 344, "a node: {} bytes", size_of::<Node>());

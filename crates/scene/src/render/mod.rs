@@ -6,8 +6,8 @@
 mod builder;
 mod compose;
 mod depth_image;
+mod effect_caches;
 mod engine;
-mod kept;
 mod last_frame;
 mod looks;
 mod record;

@@ -18,15 +18,15 @@ pub(super) trait Record {
     fn record<'a>(&'a self, pass: &mut Pass<'a>);
 
     /// What it draws.
-    fn source(&self) -> Source<'_>;
+    fn source(&self) -> DrawSource<'_>;
 }
 
 /// The parts of a draw other than its material.
-pub(super) struct Source<'s> {
+pub(super) struct DrawSource<'s> {
     pub(super) geometry: &'s Geometry,
     /// Those of the geometry's triangles that are drawn; none of lines and points.
     pub(super) triangles: Range<usize>,
-    pub(super) place: Placement,
+    pub(super) placement: Placement,
     pub(super) marked: Marked<'s>,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct WireNumbers<'s> {
 }
 
 /// Triangles of one mesh.
-pub(super) struct Triangles<'s, P> {
+pub(super) struct TriangleDraw<'s, P> {
     pub(super) pipeline: P,
     pub(super) geometry: &'s Geometry,
     /// Those of the geometry's triangles that are drawn.
@@ -79,22 +79,22 @@ pub(super) struct MarkNumbers {
 /// A pipeline of faces.
 pub(super) trait Faces: LanePipeline {
     /// Where they are.
-    fn place(&self) -> Placement;
+    fn placement(&self) -> Placement;
 }
 
 impl<const FLAT: bool> Faces for Surface<'_, FLAT> {
-    fn place(&self) -> Placement {
-        self.place
+    fn placement(&self) -> Placement {
+        self.placement
     }
 }
 
 impl Faces for HiddenLine<'_> {
-    fn place(&self) -> Placement {
-        self.place
+    fn placement(&self) -> Placement {
+        self.placement
     }
 }
 
-impl<P: Faces> Record for Triangles<'_, P> {
+impl<P: Faces> Record for TriangleDraw<'_, P> {
     fn record<'a>(&'a self, pass: &mut Pass<'a>) {
         pass.triangles(Draw {
             faces: self.geometry.faces_of(self.range.clone()),
@@ -111,12 +111,12 @@ impl<P: Faces> Record for Triangles<'_, P> {
         });
     }
 
-    fn source(&self) -> Source<'_> {
+    fn source(&self) -> DrawSource<'_> {
         let marked = Marked::Faces(self.marks.as_deref());
-        Source {
+        DrawSource {
             geometry: self.geometry,
             triangles: self.range.clone(),
-            place: self.pipeline.place(),
+            placement: self.pipeline.placement(),
             marked,
         }
     }
@@ -143,7 +143,7 @@ impl<'s, P: AnyWire<'s>> Record for Segments<'s, P> {
         });
     }
 
-    fn source(&self) -> Source<'_> {
+    fn source(&self) -> DrawSource<'_> {
         let wire = self.pipeline.wire();
         let wires = WireNumbers { numbers: &wire.marks.numbers, points: None, large: None };
         wire.source(self.geometry, wires)
@@ -191,7 +191,7 @@ impl Record for Dots<'_> {
         });
     }
 
-    fn source(&self) -> Source<'_> {
+    fn source(&self) -> DrawSource<'_> {
         let large = self.marked.as_ref().map(|(set, _)| set);
         let numbers = &self.pipeline.marks.numbers;
         let points = match &self.points {
@@ -203,7 +203,7 @@ impl Record for Dots<'_> {
 }
 
 impl Wire<'_> {
-    fn source<'s>(&self, geometry: &'s Geometry, wires: WireNumbers<'s>) -> Source<'s> {
-        Source { geometry, triangles: 0..0, place: self.place, marked: Marked::Wires(wires) }
+    fn source<'s>(&self, geometry: &'s Geometry, wires: WireNumbers<'s>) -> DrawSource<'s> {
+        DrawSource { geometry, triangles: 0..0, placement: self.placement, marked: Marked::Wires(wires) }
     }
 }

@@ -251,8 +251,8 @@ impl Renderer {
 
     /// For tests: the capacity kept for objects, faces and triangles.
     #[cfg(test)]
-    pub(crate) fn seen_capacities(&self) -> [usize; 3] {
-        self.engine.seen_capacities()
+    pub(crate) fn id_capacities(&self) -> [usize; 3] {
+        self.engine.id_capacities()
     }
 }
 

@@ -30,7 +30,7 @@ pub(super) struct SharedFrames {
 
 /// A frame that nobody else holds.
 #[derive(Default)]
-pub(super) struct FreeFrame {
+pub(super) struct ReusableFrame {
     pub(super) frame: Frame,
     /// The image in it, if it is known.
     image: Option<u64>,
@@ -38,7 +38,7 @@ pub(super) struct FreeFrame {
     pub(super) redrawn: Option<Vec<Rect>>,
 }
 
-impl FreeFrame {
+impl ReusableFrame {
     /// A frame with unknown contents.
     pub(super) fn of(frame: Frame) -> Self {
         Self { frame, ..Self::default() }
@@ -47,11 +47,11 @@ impl FreeFrame {
 
 impl SharedFrames {
     /// A frame that nobody else holds: of several the newest. The others are freed. An empty one if there is none.
-    pub(super) fn take(&mut self) -> FreeFrame {
-        let mut newest = FreeFrame::default();
+    pub(super) fn take(&mut self) -> ReusableFrame {
+        let mut newest = ReusableFrame::default();
         for (frame, image) in std::mem::take(&mut self.frames) {
             match Arc::try_unwrap(frame) {
-                Ok(frame) if image >= newest.image => newest = FreeFrame { frame, image, redrawn: None },
+                Ok(frame) if image >= newest.image => newest = ReusableFrame { frame, image, redrawn: None },
                 Ok(_) => {}
                 Err(held) => self.frames.push((held, image)),
             }
@@ -60,7 +60,7 @@ impl SharedFrames {
     }
 
     /// Shares what was drawn. Its memory comes back once nobody else holds it.
-    pub(super) fn share(&mut self, FreeFrame { frame, redrawn, .. }: FreeFrame) -> Arc<Frame> {
+    pub(super) fn share(&mut self, ReusableFrame { frame, redrawn, .. }: ReusableFrame) -> Arc<Frame> {
         let image = redrawn.map(|parts| {
             self.redrawn.push_back(parts);
             if self.redrawn.len() > REMEMBERED {
@@ -76,19 +76,19 @@ impl SharedFrames {
 
     /// Keeps a copy of a frame that its owner may change, if the next image can follow from it and there is memory
     /// for it.
-    pub(super) fn keep(&mut self, drawn: &FreeFrame, settings: &RenderSettings, rasterizer: &Rasterizer) {
+    pub(super) fn keep(&mut self, drawn: &ReusableFrame, settings: &RenderSettings, rasterizer: &Rasterizer) {
         let Some(redrawn) = &drawn.redrawn else { return };
-        let mut kept = self.take();
-        if kept.frame.make_room(settings).is_err() {
+        let mut reserve = self.take();
+        if reserve.frame.allocate(settings).is_err() {
             return;
         }
-        if kept.image == Some(self.latest) {
-            copy_parts(&drawn.frame, &mut kept.frame, redrawn, rasterizer);
+        if reserve.image == Some(self.latest) {
+            copy_parts(&drawn.frame, &mut reserve.frame, redrawn, rasterizer);
         } else {
-            copy_parts(&drawn.frame, &mut kept.frame, &[whole(&drawn.frame)], rasterizer);
+            copy_parts(&drawn.frame, &mut reserve.frame, &[whole(&drawn.frame)], rasterizer);
         }
-        kept.redrawn = Some(redrawn.clone());
-        self.share(kept);
+        reserve.redrawn = Some(redrawn.clone());
+        self.share(reserve);
     }
 
     /// Takes the memory of a frame whose contents do not matter.
@@ -98,7 +98,7 @@ impl SharedFrames {
 
     /// Makes a free frame show the last numbered image, which has its size and outputs. Returns whether it does: an
     /// image that was refused or cancelled since may have taken the memory of that one.
-    pub(super) fn bring_up_to_date(&self, free: &mut FreeFrame, rasterizer: &Rasterizer) -> bool {
+    pub(super) fn bring_up_to_date(&self, free: &mut ReusableFrame, rasterizer: &Rasterizer) -> bool {
         if free.image == Some(self.latest) {
             return true;
         }
@@ -177,7 +177,7 @@ mod tests {
     use super::*;
 
     /// Three rows of two pixels, all of one byte.
-    fn filled(mut free: FreeFrame, byte: u8, redrawn: Option<Vec<Rect>>) -> FreeFrame {
+    fn filled(mut free: ReusableFrame, byte: u8, redrawn: Option<Vec<Rect>>) -> ReusableFrame {
         let ids = Some(vec![u32::from(byte); 6]);
         free.frame = Frame {
             width: 2,
@@ -188,7 +188,7 @@ mod tests {
             depth: Some(vec![f32::from(byte); 6]),
             ..Frame::default()
         };
-        FreeFrame { redrawn, ..free }
+        ReusableFrame { redrawn, ..free }
     }
 
     fn part(min: [i32; 2], max: [i32; 2]) -> Vec<Rect> {
@@ -214,13 +214,13 @@ mod tests {
     fn memory_comes_back_once_nobody_holds_it() {
         let mut frames = SharedFrames::default();
         assert_eq!(frames.take().frame.width, 0, "nothing was shared yet");
-        let first = frames.share(filled(FreeFrame::default(), 1, None));
+        let first = frames.share(filled(ReusableFrame::default(), 1, None));
         let place = first.color.as_ptr();
         assert_eq!(frames.take().frame.width, 0, "the first one is shown");
         drop(first);
         assert_eq!(frames.take().frame.color.as_ptr(), place, "the same memory");
         for byte in 0..4 {
-            drop(frames.share(filled(FreeFrame::default(), byte, None)));
+            drop(frames.share(filled(ReusableFrame::default(), byte, None)));
         }
         frames.take();
         assert!(frames.frames.is_empty(), "all others were freed");
@@ -231,8 +231,8 @@ mod tests {
     #[test]
     fn a_frame_that_comes_back_receives_what_was_drawn_since() {
         let (mut frames, rasterizer) = (SharedFrames::default(), rasterizer());
-        let first = frames.share(filled(FreeFrame::default(), 1, Some(part([0, 0], [2, 3]))));
-        let second = frames.share(filled(FreeFrame::default(), 2, Some(part([1, 0], [2, 1]))));
+        let first = frames.share(filled(ReusableFrame::default(), 1, Some(part([0, 0], [2, 3]))));
+        let second = frames.share(filled(ReusableFrame::default(), 2, Some(part([1, 0], [2, 1]))));
         drop(first);
         let mut free = frames.take();
         assert!(frames.bring_up_to_date(&mut free, &rasterizer));
@@ -259,17 +259,17 @@ mod tests {
         let rects = [part([0, 0], [2, 3]), part([1, 0], [2, 1]), part([0, 1], [1, 3])];
         let images = [1_u8, 2, 3].map(|byte| {
             let redrawn = rects[usize::from(byte) - 1].clone();
-            frames.share(filled(FreeFrame::default(), byte, Some(redrawn)))
+            frames.share(filled(ReusableFrame::default(), byte, Some(redrawn)))
         });
         let [first, second, third] = &images;
         assert_eq!(frames.redrawn_between(second, third), Some(rects[2].clone()), "of the last one");
         assert_eq!(frames.redrawn_between(first, third), Some(rects[1..].concat()), "of the last two");
         assert_eq!(frames.redrawn_between(third, third), Some(Vec::new()), "none");
         assert_eq!(frames.redrawn_between(first, second), None, "only the last one is of interest");
-        let unknown = frames.share(filled(FreeFrame::default(), 4, None));
+        let unknown = frames.share(filled(ReusableFrame::default(), 4, None));
         assert_eq!(frames.redrawn_between(third, &unknown), None, "it may differ anywhere");
         assert_eq!(frames.redrawn_between(&Frame::default(), third), None, "of another renderer");
-        let mut larger = filled(FreeFrame::default(), 5, Some(part([0, 0], [2, 9])));
+        let mut larger = filled(ReusableFrame::default(), 5, Some(part([0, 0], [2, 9])));
         larger.frame.height = 9;
         let larger = frames.share(larger);
         assert_eq!(frames.redrawn_between(third, &larger), None, "of another size");
@@ -278,13 +278,13 @@ mod tests {
     #[test]
     fn frames_of_unknown_contents_and_old_ones_are_copied_as_a_whole() {
         let (mut frames, rasterizer) = (SharedFrames::default(), rasterizer());
-        let old = frames.share(filled(FreeFrame::default(), 1, Some(part([0, 0], [2, 3]))));
+        let old = frames.share(filled(ReusableFrame::default(), 1, Some(part([0, 0], [2, 3]))));
         let mut held = Vec::new();
         for byte in 2..=REMEMBERED as u8 + 2 {
-            held.push(frames.share(filled(FreeFrame::default(), byte, Some(Vec::new()))));
+            held.push(frames.share(filled(ReusableFrame::default(), byte, Some(Vec::new()))));
         }
         drop(old);
-        for mut free in [frames.take(), filled(FreeFrame::default(), 0, None)] {
+        for mut free in [frames.take(), filled(ReusableFrame::default(), 0, None)] {
             assert!(frames.bring_up_to_date(&mut free, &rasterizer));
             assert_eq!(shown(&free.frame), [REMEMBERED as u8 + 2; 6]);
         }

@@ -14,7 +14,7 @@ use crate::prepare::Backdrop;
 /// Lines in one colour, or points, unlit.
 pub(super) struct Wire<'a> {
     pub(super) positions: &'a [Vec3],
-    pub(super) place: Placement,
+    pub(super) placement: Placement,
     pub(super) paint: WirePaint,
     /// The colours of points, if they differ.
     pub(super) colors: Option<PointColors<'a>>,
@@ -78,7 +78,7 @@ impl WirePaint {
         }
     }
 
-    fn is_kept(&self, vertex: Vec4) -> bool {
+    fn is_drawn(&self, vertex: Vec4) -> bool {
         match self.alpha_mode {
             AlphaMode::Opaque | AlphaMode::Blend => true,
             AlphaMode::Mask { cutoff } => self.base_color.w * vertex.w >= cutoff,
@@ -110,9 +110,9 @@ impl Wire<'_> {
         self.colors.map_or(Vec4::ONE, of)
     }
 
-    fn place(&self, vertex: usize) -> Vec4 {
-        let place = self.positions[vertex] - self.place.anchor;
-        self.place.to_clip * place.extend(1.0)
+    fn clip_position(&self, vertex: usize) -> Vec4 {
+        let position = self.positions[vertex] - self.placement.anchor;
+        self.placement.to_clip * position.extend(1.0)
     }
 }
 
@@ -125,7 +125,7 @@ impl Pipeline for Wire<'_> {
     }
 
     fn vertex(&self, index: usize) -> VertexOutput<()> {
-        VertexOutput { position: self.place(index), varyings: () }
+        VertexOutput { position: self.clip_position(index), varyings: () }
     }
 
     fn fragment(&self, fragment: &Fragment<()>) -> Vec4 {
@@ -134,7 +134,7 @@ impl Pipeline for Wire<'_> {
     }
 
     fn mask(&self, fragment: &Fragment<()>) -> bool {
-        self.paint.is_kept(self.vertex_color(fragment.triangle))
+        self.paint.is_drawn(self.vertex_color(fragment.triangle))
     }
 }
 
@@ -147,7 +147,7 @@ impl Pipeline for ColoredLines<'_> {
     }
 
     fn vertex(&self, index: usize) -> VertexOutput<Vec4> {
-        VertexOutput { position: self.wire.place(index), varyings: self.colors[index] }
+        VertexOutput { position: self.wire.clip_position(index), varyings: self.colors[index] }
     }
 
     fn fragment(&self, fragment: &Fragment<Vec4>) -> Vec4 {
@@ -156,7 +156,7 @@ impl Pipeline for ColoredLines<'_> {
     }
 
     fn mask(&self, fragment: &Fragment<Vec4>) -> bool {
-        self.wire.paint.is_kept(fragment.varyings)
+        self.wire.paint.is_drawn(fragment.varyings)
     }
 }
 
@@ -181,7 +181,7 @@ impl<'a> AnyWire<'a> for ColoredLines<'a> {
 /// hidden-line image.
 pub(super) struct HiddenLine<'a> {
     pub(super) columns: &'a Columns,
-    pub(super) place: Placement,
+    pub(super) placement: Placement,
     pub(super) backdrop: &'a Backdrop,
 }
 
@@ -196,7 +196,7 @@ impl LanePipeline for HiddenLine<'_> {
     fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
         let [x, y, z] = &self.columns.positions;
         let position = [vertices.load(simd, x), vertices.load(simd, y), vertices.load(simd, z)];
-        self.place.clip(simd, position)
+        self.placement.clip(simd, position)
     }
 
     #[inline(always)]

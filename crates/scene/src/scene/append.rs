@@ -47,9 +47,9 @@ impl Scene {
             self.nodes.insert(node)
         });
         for (id, node) in other.nodes.iter() {
-            let Some(place) = nodes.get(id).and_then(|id| self.nodes.get_mut(id)) else { continue };
-            place.parent = node.parent.and_then(|parent| nodes.get(parent));
-            place.children = node.children.iter().filter_map(|&child| nodes.get(child)).collect();
+            let Some(copied) = nodes.get(id).and_then(|id| self.nodes.get_mut(id)) else { continue };
+            copied.parent = node.parent.and_then(|parent| nodes.get(parent));
+            copied.children = node.children.iter().filter_map(|&child| nodes.get(child)).collect();
         }
         self.append_movements(other, &nodes, &skins);
         nodes.0.into_iter().flatten().map(|(_, new)| new).collect()

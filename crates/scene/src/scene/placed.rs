@@ -85,7 +85,7 @@ impl<'s> PlacedMesh<'s> {
     }
 
     /// Where a vertex is in the world.
-    pub(crate) fn place(&self, vertex: u32) -> DVec3 {
+    pub(crate) fn position(&self, vertex: u32) -> DVec3 {
         self.world.transform_point3(self.positions()[vertex as usize].as_dvec3())
     }
 
@@ -93,7 +93,7 @@ impl<'s> PlacedMesh<'s> {
     pub(crate) fn into_used_points(self) -> impl Iterator<Item = DVec3> {
         let used = Arc::clone(self.asset.used_vertices());
         let vertices = (0..used.len() as u32).filter(move |&vertex| used[vertex as usize]);
-        vertices.map(move |vertex| self.place(vertex))
+        vertices.map(move |vertex| self.position(vertex))
     }
 
     /// A box in the world around them.
@@ -164,13 +164,13 @@ mod tests {
         ) {
             let mut scene = Scene::new();
             let mut last: Option<NodeId> = None;
-            for (turn, scale, place, parent) in nodes {
+            for (turn, scale, position, parent) in nodes {
                 let id = scene.add_object("torus", primitives::torus(1.0, 0.4, 7, 5), Material::default());
                 let node: &mut Node = scene.node_mut(id).expect("just added");
                 node.transform = Transform::from_scale_rotation_translation(
                     DVec3::from_array(scale),
                     turn,
-                    DVec3::from_array(place),
+                    DVec3::from_array(position),
                 );
                 if let (Some(last), Some(0)) = (last, parent) {
                     scene.set_parent(id, Some(last)).expect("no circle");

@@ -13,11 +13,11 @@ use crate::material::{AlphaMode, Material, Shading};
 use crate::placement::{Eye, Rays};
 use crate::scene::Scene;
 use crate::settings::{Reflection, ShadingModel};
-use crate::surface::{BoundMaterial, Drawn, Look, MaterialContext, Surface};
+use crate::surface::{BoundMaterial, DrawTriangles, Look, MaterialContext, Surface};
 use crate::unseen::Canvas;
 
 /// The parameters of a run of triangles.
-enum Shape<'a> {
+enum ShadowDraw<'a> {
     Whole(Surface<'a, true>),
     /// With holes.
     Masked(Surface<'a, false>),
@@ -44,10 +44,10 @@ pub(super) fn draw(
     for (caster, triangles, shape) in &shapes {
         let triangles = &caster.geometry.triangles[triangles.clone()];
         match shape {
-            Shape::Whole(surface) => {
+            ShadowDraw::Whole(surface) => {
                 pass.triangles(Draw { culling: Culling::None, ..Draw::new(surface, triangles) })
             }
-            Shape::Masked(surface) => pass.triangles(Draw {
+            ShadowDraw::Masked(surface) => pass.triangles(Draw {
                 culling: Culling::None,
                 blend_mode: trigon_raster::BlendMode::Masked,
                 ..Draw::new(surface, triangles)
@@ -67,7 +67,7 @@ fn shape<'a>(
     eye: &Eye,
     caster: &'a Caster,
     material: &Material,
-) -> Shape<'a> {
+) -> ShadowDraw<'a> {
     let columns = &caster.geometry.columns;
     let alpha_mode = Canvas { scene, columns }.visible_alpha(material);
     let masked = matches!(alpha_mode, AlphaMode::Mask { .. });
@@ -81,12 +81,16 @@ fn shape<'a>(
         display: Display::Shaded,
         to_world: Mat3::IDENTITY,
     };
-    let place = eye.place(&caster.shadow.place, &caster.geometry.bounds());
-    let drawn = Drawn { columns, triangles: &[], faces: None };
+    let placement = eye.placement(&caster.shadow.placement, &caster.geometry.bounds());
+    let drawn = DrawTriangles { columns, triangles: &[], faces: None };
     let mut bound = BoundMaterial::new(&material, columns, &context);
     if !masked {
         bound.strip();
     }
     let look = Arc::new(Look::new(drawn, bound, &context));
-    if masked { Shape::Masked(Surface::new(place, look)) } else { Shape::Whole(Surface::new(place, look)) }
+    if masked {
+        ShadowDraw::Masked(Surface::new(placement, look))
+    } else {
+        ShadowDraw::Whole(Surface::new(placement, look))
+    }
 }

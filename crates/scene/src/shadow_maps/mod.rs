@@ -42,9 +42,9 @@ impl ShadowCache {
             self.casters = casting.casters.shadow_sources().cloned().collect();
             self.resolution = resolution;
         }
-        self.maps.retain(|(kept, _)| poses.contains(kept));
+        self.maps.retain(|(cached, _)| poses.contains(cached));
         self.drawn = 0;
-        let missing = poses.iter().filter(|pose| !self.maps.iter().any(|(kept, _)| kept == *pose));
+        let missing = poses.iter().filter(|pose| !self.maps.iter().any(|(cached, _)| cached == *pose));
         let passes: usize = missing.map(|pose| views(pose, casting.casters).len()).sum();
         rasterizer.expect_passes(u32::try_from(passes).unwrap_or(u32::MAX));
         let mut maps = ShadowMaps::default();
@@ -67,7 +67,7 @@ impl ShadowCache {
         casting: &CastingScene<'_>,
         rasterizer: &mut Rasterizer,
     ) -> Result<Vec<Arc<ShadowMap>>, TargetError> {
-        if let Some((_, maps)) = self.maps.iter().find(|(kept, _)| kept == pose) {
+        if let Some((_, maps)) = self.maps.iter().find(|(cached, _)| cached == pose) {
             return Ok(maps.clone());
         }
         let mut maps = Vec::new();

@@ -21,17 +21,17 @@ pub(super) const METRES: f32 = 4.0;
 pub(super) fn floor() -> Texture {
     let texel = |index: u32| {
         let (x, y) = (index % FLOOR_SIDE, index / FLOOR_SIDE);
-        let place = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) * (FIELDS as f32 / FLOOR_SIDE as f32);
-        opaque(wood(place))
+        let position = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) * (FIELDS as f32 / FLOOR_SIDE as f32);
+        opaque(wood(position))
     };
     let texels = (0..FLOOR_SIDE * FLOOR_SIDE).map(texel).collect();
     Texture::new(FLOOR_SIDE, FLOOR_SIDE, texels, TextureFormat::Srgb).expect("the size is within the limits")
 }
 
-/// sRGB of the floor; `place` counts fields.
-fn wood(place: Vec2) -> Vec3 {
-    let (column, row) = (place.x as u32, place.y as u32);
-    let within = place - Vec2::new(column as f32, row as f32);
+/// sRGB of the floor; `position` counts fields.
+fn wood(position: Vec2) -> Vec3 {
+    let (column, row) = (position.x as u32, position.y as u32);
+    let within = position - Vec2::new(column as f32, row as f32);
     let along = if (column + row) % 2 == 0 { within } else { Vec2::new(within.y, within.x) };
     let seed = column * 8 + row;
     // Fibres: noise that is stretched along the grain, and bent by slower noise.
@@ -55,8 +55,8 @@ const DARKEST: f32 = 0.35;
 /// under an object.
 pub(super) fn spot() -> Texture {
     let texel = |index: u32| {
-        let place = Vec2::new((index % SPOT_SIDE) as f32 + 0.5, (index / SPOT_SIDE) as f32 + 0.5);
-        let out = (place * (2.0 / SPOT_SIDE as f32) - Vec2::ONE).length().clamp(0.0, 1.0);
+        let position = Vec2::new((index % SPOT_SIDE) as f32 + 0.5, (index / SPOT_SIDE) as f32 + 0.5);
+        let out = (position * (2.0 / SPOT_SIDE as f32) - Vec2::ONE).length().clamp(0.0, 1.0);
         let alpha = smooth(((1.0 - out) / (1.0 - DARKEST)).clamp(0.0, 1.0));
         [0, 0, 0, (alpha * 255.0 + 0.5) as u8]
     };
@@ -107,7 +107,8 @@ mod tests {
         let (spot, side) = (spot(), 64.0);
         assert_eq!([spot.width(), spot.height()], [64; 2]);
         for (number, texel) in spot.texels().enumerate() {
-            let [x, y] = [number % 64, number / 64].map(|place| (place as f64 + 0.5) / side * 2.0 - 1.0);
+            let [x, y] =
+                [number % 64, number / 64].map(|position| (position as f64 + 0.5) / side * 2.0 - 1.0);
             let out = (x * x + y * y).sqrt();
             let share = ((1.0 - out) / 0.65).clamp(0.0, 1.0);
             let expected = share * share * (3.0 - 2.0 * share) * 255.0;
@@ -147,7 +148,7 @@ mod tests {
         let field = |column: usize, row: usize| {
             let within =
                 (20..108).flat_map(|y| (20..108).map(move |x| (128 * row + y) * 512 + 128 * column + x));
-            within.map(|place| f64::from(texels[place][0])).sum::<f64>() / (88.0 * 88.0)
+            within.map(|position| f64::from(texels[position][0])).sum::<f64>() / (88.0 * 88.0)
         };
         for (column, row) in (0..16).map(|i| (i % 4, i / 4)) {
             let expected = if (column + row) % 2 == 0 { 0.86 } else { 0.52 } * 0.9 * 255.0;

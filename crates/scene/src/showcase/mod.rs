@@ -47,7 +47,7 @@ struct Exhibit {
     name: &'static str,
     mesh: Mesh,
     /// X and Z of its middle, in metres.
-    place: DVec2,
+    position: DVec2,
     /// About +Y, in degrees.
     turn: f64,
     /// sRGB, as in a paint program.
@@ -66,7 +66,7 @@ fn exhibits() -> Vec<Exhibit> {
         Exhibit {
             name: "teapot",
             mesh: primitives::teapot(12).transformed(&DAffine3::from_scale(DVec3::splat(0.4))),
-            place: DVec2::new(-0.05, 0.65),
+            position: DVec2::new(-0.05, 0.65),
             turn: 24.0,
             color: [214, 92, 58],
             shading: glossy(0.6, 80.0),
@@ -75,7 +75,7 @@ fn exhibits() -> Vec<Exhibit> {
         Exhibit {
             name: "sphere",
             mesh: primitives::uv_sphere(0.46, 64, 32),
-            place: DVec2::new(1.95, 0.35),
+            position: DVec2::new(1.95, 0.35),
             turn: 0.0,
             color: [38, 74, 150],
             shading: glossy(1.2, 250.0),
@@ -84,7 +84,7 @@ fn exhibits() -> Vec<Exhibit> {
         Exhibit {
             name: "icosahedron",
             mesh: resting(&primitives::icosahedron(0.72)),
-            place: DVec2::new(-2.15, -0.55),
+            position: DVec2::new(-2.15, -0.55),
             turn: 10.0,
             color: [28, 140, 138],
             shading: glossy(0.25, 30.0),
@@ -93,7 +93,7 @@ fn exhibits() -> Vec<Exhibit> {
         Exhibit {
             name: "dodecahedron",
             mesh: resting(&primitives::dodecahedron(0.33)),
-            place: DVec2::new(-1.6, 1.5),
+            position: DVec2::new(-1.6, 1.5),
             turn: 32.0,
             color: [226, 164, 52],
             shading: Shading::Lambert,
@@ -102,7 +102,7 @@ fn exhibits() -> Vec<Exhibit> {
         Exhibit {
             name: "torus knot",
             mesh: primitives::torus_knot(&knot).transformed(&upright),
-            place: DVec2::new(1.4, -1.35),
+            position: DVec2::new(1.4, -1.35),
             turn: -18.0,
             color: [236, 226, 206],
             shading: glossy(0.5, 60.0),
@@ -111,7 +111,7 @@ fn exhibits() -> Vec<Exhibit> {
         Exhibit {
             name: "cone",
             mesh: primitives::cone(0.42, 1.15, 64),
-            place: DVec2::new(-0.95, -1.7),
+            position: DVec2::new(-0.95, -1.7),
             turn: 0.0,
             color: [122, 158, 88],
             shading: Shading::Lambert,
@@ -120,7 +120,7 @@ fn exhibits() -> Vec<Exhibit> {
         Exhibit {
             name: "torus",
             mesh: primitives::torus(0.33, 0.13, 64, 24),
-            place: DVec2::new(1.4, 1.65),
+            position: DVec2::new(1.4, 1.65),
             turn: 0.0,
             color: [132, 62, 110],
             shading: glossy(0.5, 60.0),
@@ -137,18 +137,18 @@ impl Exhibit {
     fn add(self, scene: &mut Scene, spot: TextureId) {
         let ground = -self.mesh.bounds().min.y;
         let material = Material::from_color(linear(self.color)).with_shading(self.shading);
-        let mut place = Transform::from_translation(DVec3::new(self.place.x, ground, self.place.y));
-        place.rotate(DVec3::Y, self.turn.to_radians());
+        let mut transform = Transform::from_translation(DVec3::new(self.position.x, ground, self.position.y));
+        transform.rotate(DVec3::Y, self.turn.to_radians());
         let object = scene.add_object(self.name, self.mesh, material);
         if let Some(node) = scene.node_mut(object) {
-            node.transform = place;
+            node.transform = transform;
         }
-        add_spot(scene, spot, self.place, self.spot);
+        add_spot(scene, spot, self.position, self.spot);
     }
 }
 
 /// The soft dark spot where an object keeps the light of the sky off the floor.
-fn add_spot(scene: &mut Scene, texture: TextureId, place: DVec2, reach: Vec2) {
+fn add_spot(scene: &mut Scene, texture: TextureId, position: DVec2, reach: Vec2) {
     /// A hair above the floor: high enough to win, too low to be seen.
     const HEIGHT: f64 = 0.002;
     let material = Material {
@@ -160,7 +160,7 @@ fn add_spot(scene: &mut Scene, texture: TextureId, place: DVec2, reach: Vec2) {
     };
     let spot = scene.add_object("spot", primitives::plane(2.0 * reach.x, 2.0 * reach.y), material);
     if let Some(node) = scene.node_mut(spot) {
-        node.transform = Transform::from_translation(DVec3::new(place.x, HEIGHT, place.y));
+        node.transform = Transform::from_translation(DVec3::new(position.x, HEIGHT, position.y));
     }
 }
 

@@ -6,7 +6,9 @@ use trigon_math::glam::Affine2;
 use trigon_math::{Mat3, Vec3, Vec4};
 
 use super::reflection::f0;
-use super::{Coverage, Illumination, Layout, LightSlots, Map, Maps, MaterialParams, MicrofacetModel, Model};
+use super::{
+    Coverage, Illumination, Layout, LightSlots, Maps, MaterialParams, MicrofacetModel, Model, TextureMap,
+};
 use crate::display::Display;
 use crate::effects::{LightingEnvironment, Optics};
 use crate::geometry::Columns;
@@ -92,7 +94,7 @@ impl<'a> BoundMaterial<'a> {
 
     /// Whether a triangle has a single colour.
     pub(crate) fn is_flat(&self) -> bool {
-        let is_even = self.params.maps.places().next().is_none();
+        let is_even = self.params.maps.slots().next().is_none();
         let per_triangle = matches!(self.illumination, Illumination::None | Illumination::OnFacets);
         per_triangle && is_even && self.layout.count == 0
     }
@@ -113,11 +115,11 @@ struct Fitting<'o, 'a> {
 
 impl<'a> Fitting<'_, 'a> {
     /// A texture that exists, with texture coordinates that the mesh has.
-    fn map(&mut self, place: MaterialTexture, binding: &TextureBinding) -> Option<Map<'a>> {
+    fn map(&mut self, slot: MaterialTexture, binding: &TextureBinding) -> Option<TextureMap<'a>> {
         let texture = &self.context.scene.textures.get(binding.texture)?.texture;
         self.columns.uv_sets.get(binding.uv_set)?;
         let at = self.layout.add_coordinates(binding.uv_set, binding.transform);
-        Some(Map { texture, sampler: binding.sampler, at, place })
+        Some(TextureMap { texture, sampler: binding.sampler, at, slot })
     }
 
     /// Adds the varyings that the material and its lighting need in each pixel.
@@ -127,7 +129,7 @@ impl<'a> Fitting<'_, 'a> {
             layout.color = Some(layout.add(4));
         }
         let highlights = !matches!(params.model, Model::Lambert);
-        if context.lighting.mist.is_some() {
+        if context.lighting.fog.is_some() {
             layout.position = Some(layout.add(3));
         }
         match illumination {

@@ -57,14 +57,14 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
     pub(super) fn facets<S: Simd>(&self, simd: S, primitives: [u32; LANES]) -> LitPoints<S> {
         let [a, b, c] = [0, 1, 2].each(
             #[inline(always)]
-            |corner| self.place.camera(simd, self.corners(simd, primitives, corner)),
+            |corner| self.placement.camera(simd, self.corners(simd, primitives, corner)),
         );
         let position = scaled(sum(sum(a, b), c), F32::splat(simd, 1.0 / 3.0));
         let normal = normalized(cross(difference(b, a), difference(c, a)));
         let view = self.view(simd, position);
         // The visible side is the one that faces the eye, whatever the winding.
-        let seen = dot(normal, view).simd_ge(0.0);
-        let normal = select(seen, normal, negated(normal));
+        let faces_eye = dot(normal, view).simd_ge(0.0);
+        let normal = select(faces_eye, normal, negated(normal));
         LitPoints { position, normal, facing: normal, plane: normal, view }
     }
 

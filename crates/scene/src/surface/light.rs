@@ -22,8 +22,8 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         position: V3<S>,
     ) {
         let normal = load(simd, vertices, &self.columns.normals);
-        let normal = normalized(turned(&self.place.normal_to_camera, normal));
-        let position = self.place.camera(simd, position);
+        let normal = normalized(turned(&self.placement.normal_to_camera, normal));
+        let position = self.placement.camera(simd, position);
         let points =
             LitPoints { position, normal, facing: normal, plane: normal, view: self.view(simd, position) };
         self.set_side(simd, vertices, slots, slots.at, &points);
@@ -103,8 +103,8 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                 let points = self.points(simd, fragments);
                 let open = match (&self.lighting.ambient_rays, &self.lighting.rays) {
                     (Some(ambient), Some(scene)) => {
-                        let (place, active) = (fragments.position(), fragments.active());
-                        Some(ambient.open(simd, scene, &points, place, active))
+                        let (pixel, active) = (fragments.position(), fragments.active());
+                        Some(ambient.open(simd, scene, &points, pixel, active))
                     }
                     _ => None,
                 };
@@ -147,7 +147,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                     diffuse_share: share,
                     transmission,
                     thickness,
-                    place: fragments.position(),
+                    pixel: fragments.position(),
                 };
                 self.traced(simd, points, &surface, fragments.active())
             }

@@ -13,13 +13,13 @@ use crate::material::{Material, MaterialTexture};
 
 /// A texture and its varyings.
 #[derive(Clone, Copy)]
-pub(crate) struct Map<'a> {
+pub(crate) struct TextureMap<'a> {
     pub(crate) texture: &'a Texture,
     pub(crate) sampler: Sampler,
     /// The varying that holds u; v is the next.
     pub(crate) at: usize,
     /// Its slot in the material.
-    pub(crate) place: MaterialTexture,
+    pub(crate) slot: MaterialTexture,
 }
 
 /// A material prepared for a draw.
@@ -66,30 +66,30 @@ pub(crate) struct MicrofacetModel {
 
 /// The textures of a material, by slot.
 #[derive(Clone, Default)]
-pub(crate) struct Maps<'a>([Option<Map<'a>>; MaterialTexture::ALL.len()]);
+pub(crate) struct Maps<'a>([Option<TextureMap<'a>>; MaterialTexture::ALL.len()]);
 
 impl<'a> Maps<'a> {
     /// The textures for which a function returns one.
-    pub(crate) fn new(find: impl FnMut(MaterialTexture) -> Option<Map<'a>>) -> Self {
+    pub(crate) fn new(find: impl FnMut(MaterialTexture) -> Option<TextureMap<'a>>) -> Self {
         Self(MaterialTexture::ALL.map(find))
     }
 
     #[inline(always)]
-    pub(crate) fn get(&self, place: MaterialTexture) -> Option<&Map<'a>> {
-        self.0[place as usize].as_ref()
+    pub(crate) fn get(&self, slot: MaterialTexture) -> Option<&TextureMap<'a>> {
+        self.0[slot as usize].as_ref()
     }
 
     /// The slots that are in use.
-    pub(crate) fn places(&self) -> impl Iterator<Item = MaterialTexture> {
-        MaterialTexture::ALL.into_iter().filter(|&place| self.get(place).is_some())
+    pub(crate) fn slots(&self) -> impl Iterator<Item = MaterialTexture> {
+        MaterialTexture::ALL.into_iter().filter(|&slot| self.get(slot).is_some())
     }
 }
 
-impl Map<'_> {
+impl TextureMap<'_> {
     /// RGBA at eight points.
     #[inline(always)]
     pub(crate) fn look_up<S: Simd>(&self, simd: S, values: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
-        note(Work::TextureLookUp(self.place));
+        note(Work::TextureLookUp(self.slot));
         let uv = [values.varying(self.at), values.varying(self.at + 1)];
         let [[ux, uy], [vx, vy]] = [values.gradient(self.at), values.gradient(self.at + 1)];
         self.texture.sample_lanes(simd, uv, [ux, vx], [uy, vy], &self.sampler)

@@ -20,7 +20,7 @@ mod value;
 pub(crate) use bound_material::{BoundMaterial, MaterialContext};
 pub(crate) use illumination::Illumination;
 pub(crate) use layout::{Layout, LightSlots};
-pub(crate) use material_params::{Coverage, Map, Maps, MaterialParams, MicrofacetModel, Model};
+pub(crate) use material_params::{Coverage, Maps, MaterialParams, MicrofacetModel, Model, TextureMap};
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -39,7 +39,7 @@ use crate::placement::{Placement, Rays};
 
 /// The triangles of a draw.
 #[derive(Clone, Copy)]
-pub(crate) struct Drawn<'a> {
+pub(crate) struct DrawTriangles<'a> {
     pub(crate) columns: &'a Columns,
     /// All of them, and the polygon of each; draws without light need neither.
     pub(crate) triangles: &'a [[u32; 3]],
@@ -66,7 +66,7 @@ pub(crate) struct Look<'a> {
 
 /// Faces of one mesh in one material at one node. A scene may have millions: what does not depend on the node is shared.
 pub(crate) struct Surface<'a, const FLAT: bool> {
-    pub(crate) place: Placement,
+    pub(crate) placement: Placement,
     look: Arc<Look<'a>>,
 }
 
@@ -101,7 +101,7 @@ impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
         if !FLAT && self.layout.count > 0 {
             self.set_varyings(simd, vertices, position);
         }
-        self.place.clip(simd, position)
+        self.placement.clip(simd, position)
     }
 
     #[inline(always)]
@@ -120,7 +120,7 @@ impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
 impl<'a> Look<'a> {
     /// Triangles in one material.
     pub(crate) fn new(
-        Drawn { columns, triangles, faces }: Drawn<'a>,
+        DrawTriangles { columns, triangles, faces }: DrawTriangles<'a>,
         bound: BoundMaterial<'a>,
         context: &MaterialContext<'a>,
     ) -> Self {
@@ -132,14 +132,14 @@ impl<'a> Look<'a> {
 
 impl<'a, const FLAT: bool> Surface<'a, FLAT> {
     /// Triangles of a placed mesh.
-    pub(crate) fn new(place: Placement, look: Arc<Look<'a>>) -> Self {
-        Self { place, look }
+    pub(crate) fn new(placement: Placement, look: Arc<Look<'a>>) -> Self {
+        Self { placement, look }
     }
 
     #[inline(always)]
     fn set_varyings<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>, position: V3<S>) {
         let Look { layout, columns, .. } = &**self;
-        let place = &self.place;
+        let placement = &self.placement;
         for coordinates in &layout.coordinates {
             let [u, v] = load(simd, vertices, &columns.uv_sets[coordinates.uv_set]);
             let (matrix, offset) = (coordinates.transform.matrix2, coordinates.transform.translation);
@@ -147,11 +147,11 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
             vertices.set(coordinates.at + 1, u * matrix.x_axis.y + v * matrix.y_axis.y + offset.y);
         }
         if let Some(at) = layout.position {
-            set(vertices, at, place.camera(simd, position));
+            set(vertices, at, placement.camera(simd, position));
         }
         if let Some(at) = layout.normal {
             let normal = load(simd, vertices, &columns.normals);
-            set(vertices, at, normalized(turned(&place.normal_to_camera, normal)));
+            set(vertices, at, normalized(turned(&placement.normal_to_camera, normal)));
         }
         if let (Some(at), Some([x, y, z, sign])) = (layout.tangent, &columns.tangents) {
             note(Work::Tangents);
@@ -159,8 +159,8 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
                 #[inline(always)]
                 |column| vertices.load(simd, column),
             );
-            set(vertices, at, normalized(turned(&place.tangent_to_camera(), tangent)));
-            vertices.set(at + 3, vertices.load(simd, sign) * place.handedness());
+            set(vertices, at, normalized(turned(&placement.tangent_to_camera(), tangent)));
+            vertices.set(at + 3, vertices.load(simd, sign) * placement.handedness());
         }
         if let (Some(at), Some(colors)) = (layout.color, &columns.colors) {
             set(vertices, at, load(simd, vertices, colors));
@@ -185,8 +185,8 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
             }
         };
         let mut shaded = self.with_emission(simd, fragments, shaded);
-        if let (Some(mist), Some(at)) = (&self.lighting.mist, self.layout.position) {
-            shaded = mist.over(simd, points::three(fragments, at), shaded);
+        if let (Some(fog), Some(at)) = (&self.lighting.fog, self.layout.position) {
+            shaded = fog.over(simd, points::three(fragments, at), shaded);
         }
         self.finished(simd, shaded, alpha)
     }

@@ -4,7 +4,7 @@ use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;
 use trigon_raster::simd::{F32, InlineMap, LANES, Mask, Simd, inlined, prelude::*};
 
-use super::{Map, Surface};
+use super::{Surface, TextureMap};
 use crate::lanes::{V3, cross, negated, normalized, scaled, select, splat, sum, turned};
 use crate::lighting::LitPoints;
 use crate::material::MaterialTexture;
@@ -70,7 +70,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                         F32::simd_from(simd, values)
                     },
                 );
-                normalized(turned(&self.place.normal_to_camera, normal))
+                normalized(turned(&self.placement.normal_to_camera, normal))
             },
         )
     }
@@ -105,7 +105,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
     /// The pixels that see the side from which the face winds counter-clockwise.
     #[inline(always)]
     pub(super) fn shows_front<S: Simd>(&self, fragments: &FragmentLanes<'_, S>) -> Mask<S> {
-        match self.place.front {
+        match self.placement.front {
             Side::Front => fragments.front_facing(),
             Side::Back => !fragments.front_facing(),
         }
@@ -125,7 +125,7 @@ fn apply_normal_map<S: Simd>(
     simd: S,
     fragments: &FragmentLanes<'_, S>,
     basis: NormalBasis<S>,
-    map: &Map<'_>,
+    map: &TextureMap<'_>,
     scale: f32,
 ) -> V3<S> {
     let NormalBasis { normal, tangent_at: at } = basis;

@@ -30,7 +30,7 @@ pub(super) struct GlassPoint {
     /// Perceptual.
     pub(super) roughness: f32,
     /// The position of the sample in the image.
-    pub(super) place: [f32; 2],
+    pub(super) pixel: [f32; 2],
 }
 
 impl GlassPoint {
@@ -55,7 +55,7 @@ impl GlassPoint {
     fn facet(&self) -> Vec3 {
         /// α of GGX below which nothing is spread that a pixel shows.
         const SMOOTH: f32 = 1e-3;
-        let Self { view, normal, roughness, place: [x, y] } = *self;
+        let Self { view, normal, roughness, pixel: [x, y] } = *self;
         let alpha = roughness * roughness;
         if alpha.is_nan() || alpha < SMOOTH {
             return normal;
@@ -79,9 +79,9 @@ mod tests {
     #[test]
     fn facets_are_distributed_as_ggx_has_it() {
         let alpha = 0.3_f32;
-        let point = |place| GlassPoint { view: Vec3::Z, normal: Vec3::Z, roughness: alpha.sqrt(), place };
-        let places = (0..16_u8).map(|place| [f32::from(place % 4), f32::from(place / 4)]);
-        let facets: Vec<Vec3> = places.map(|place| point(place).facet()).collect();
+        let point = |pixel| GlassPoint { view: Vec3::Z, normal: Vec3::Z, roughness: alpha.sqrt(), pixel };
+        let pixels = (0..16_u8).map(|pixel| [f32::from(pixel % 4), f32::from(pixel / 4)]);
+        let facets: Vec<Vec3> = pixels.map(|pixel| point(pixel).facet()).collect();
         for tangent in [0.1_f32, 0.3, 0.6, 1.0] {
             let within = facets.iter().filter(|facet| facet.truncate().length() / facet.z < tangent).count();
             let expected = tangent * tangent / (tangent * tangent + alpha * alpha) * 16.0;
@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn smooth_glass_scatters_nothing() {
         let view = Vec3::new(0.6, 0.0, 0.8);
-        let point = GlassPoint { view, normal: Vec3::Z, roughness: 0.0, place: [1.0, 2.0] };
+        let point = GlassPoint { view, normal: Vec3::Z, roughness: 0.0, pixel: [1.0, 2.0] };
         let glass = Glass { transmission: 1.0, ior: 1.5, volume: None };
         assert_eq!(point.direction_behind(&glass), -view, "straight on");
         let rough = GlassPoint { roughness: 0.5, ..point };

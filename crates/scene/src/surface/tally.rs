@@ -23,7 +23,7 @@ impl Look<'_> {
         };
         let specular = !matches!(params.model, Model::Lambert);
         let position = match () {
-            () if lighting.mist.is_some() => Effect::Fog,
+            () if lighting.fog.is_some() => Effect::Fog,
             () if specular && self.illumination != Illumination::None => Effect::Highlights,
             () if lighting.shadow_maps.is_some() => Effect::ShadowMaps,
             () if lighting.shadow_rays => Effect::ShadowRays,
@@ -36,8 +36,8 @@ impl Look<'_> {
         counts.of(Effect::NormalMaps).attributes += some(layout.tangent.is_some(), 4);
         counts.of(Effect::VertexColors).attributes += some(layout.color.is_some(), 4);
         counts.of(Effect::Textures).attributes += 2 * layout.coordinates.len() as u64;
-        for place in params.maps.places() {
-            counts.of(place.row().effect).look_ups += 1;
+        for slot in params.maps.slots() {
+            counts.of(slot.row().effect).look_ups += 1;
         }
         let has_holes = masked && params.maps.get(MaterialTexture::BaseColor).is_some();
         counts.of(Effect::Masks).look_ups += some(has_holes, 1);

@@ -24,7 +24,7 @@ pub(super) struct TracedSurface<'a, S: Simd> {
     /// The thickness factor of the texture.
     pub(super) thickness: Option<F32<S>>,
     /// The positions of the samples in the image.
-    pub(super) place: [F32<S>; 2],
+    pub(super) pixel: [F32<S>; 2],
 }
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
@@ -48,7 +48,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                         Optics::Mirror => SightStart::AtMirror,
                         Optics::Glass(_) => SightStart::AtReflection,
                     };
-                    self.lighting.seen(simd, points, &start, back, active)
+                    self.lighting.visible_light(simd, points, &start, back, active)
                 });
                 let brdf = Brdf::Microfacets(*facets);
                 let reflected = self.reflected(simd, points, &brdf, open, mirrored);
@@ -84,11 +84,16 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                 let cosine = dot(points.normal, points.view);
                 let into = directions_behind(simd, points, surface, glass);
                 let inside = LitPoints { facing: negated(points.facing), ..*points };
-                let seen =
-                    self.lighting.seen(simd, &inside, &SightStart::Through(glass.medium()), into, active);
+                let inner_light = self.lighting.visible_light(
+                    simd,
+                    &inside,
+                    &SightStart::Through(glass.medium()),
+                    into,
+                    active,
+                );
                 let [r, g, b] = surface.facets.fresnel(cosine);
                 let left = [1.0 - r, 1.0 - g, 1.0 - b];
-                let through = product(seen, left);
+                let through = product(inner_light, left);
                 match glass.plate() {
                     None => through,
                     Some(plate) => {
@@ -116,14 +121,14 @@ fn directions_behind<S: Simd>(
         #[inline(always)]
         || {
             let [[nx, ny, nz], [vx, vy, vz]] = [points.normal, points.view].map(rows);
-            let [x, y]: [[f32; LANES]; 2] = surface.place.map(Into::into);
+            let [x, y]: [[f32; LANES]; 2] = surface.pixel.map(Into::into);
             let roughness: [f32; LANES] = surface.facets.roughness.into();
             let behind: [Vec3; LANES] = lanes_of(|lane| {
                 let point = GlassPoint {
                     view: Vec3::new(vx[lane], vy[lane], vz[lane]),
                     normal: Vec3::new(nx[lane], ny[lane], nz[lane]),
                     roughness: roughness[lane],
-                    place: [x[lane], y[lane]],
+                    pixel: [x[lane], y[lane]],
                 };
                 point.direction_behind(glass)
             });

@@ -11,7 +11,7 @@ use crate::scene::Scene;
 /// The BVH of the last frame.
 #[derive(Debug, Default)]
 pub(crate) struct RayCache {
-    kept: Option<(Vec<ShadowSource>, Arc<RayTriangles>)>,
+    cached: Option<(Vec<ShadowSource>, Arc<RayTriangles>)>,
 }
 
 impl RayCache {
@@ -22,13 +22,13 @@ impl RayCache {
         looks_of: Option<&Scene>,
         camera_to_world: &DAffine3,
     ) -> RayScene {
-        let fits = |(kept, triangles): &(Vec<ShadowSource>, Arc<RayTriangles>)| {
-            casters.shadow_sources().eq(kept) && triangles.surfaces.is_some() == looks_of.is_some()
+        let fits = |(cached, triangles): &(Vec<ShadowSource>, Arc<RayTriangles>)| {
+            casters.shadow_sources().eq(cached) && triangles.surfaces.is_some() == looks_of.is_some()
         };
-        let kept = self.kept.take().filter(fits);
+        let cached = self.cached.take().filter(fits);
         let sources = || casters.shadow_sources().cloned().collect();
         let made = || (sources(), Arc::new(RayTriangles::new(casters, looks_of)));
-        let (_, triangles) = self.kept.insert(kept.unwrap_or_else(made));
+        let (_, triangles) = self.cached.insert(cached.unwrap_or_else(made));
         RayScene::new(Arc::clone(triangles), camera_to_world)
     }
 }

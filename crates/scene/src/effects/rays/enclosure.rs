@@ -5,12 +5,12 @@
 /// the other. Vertices at the same position are the same.
 pub(super) fn encloses([x, y, z]: &[Vec<f32>; 3], triangles: impl Iterator<Item = [u32; 3]>) -> bool {
     // +0, so that both zeros are the same.
-    let place = |vertex: u32| [x, y, z].map(|column| (column[vertex as usize] + 0.0).to_bits());
+    let position_bits = |vertex: u32| [x, y, z].map(|column| (column[vertex as usize] + 0.0).to_bits());
     let mut ordered: Vec<u32> = (0..x.len() as u32).collect();
-    ordered.sort_unstable_by_key(|&vertex| place(vertex));
+    ordered.sort_unstable_by_key(|&vertex| position_bits(vertex));
     let mut welded = vec![0_u32; ordered.len()];
     for pair in ordered.windows(2) {
-        let is_new = place(pair[0]) != place(pair[1]);
+        let is_new = position_bits(pair[0]) != position_bits(pair[1]);
         welded[pair[1] as usize] = welded[pair[0] as usize] + u32::from(is_new);
     }
     let mut edges: Vec<([u32; 2], bool)> = Vec::new();

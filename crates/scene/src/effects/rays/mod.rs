@@ -22,7 +22,7 @@ use trigon_raster::simd::{F32, InlineMap, LANES, Simd, lanes_of, prelude::*};
 
 use crate::effects::casters::Casters;
 use crate::lanes::{V3, moved, turned};
-use crate::lighting::{Arriving, Lamp, LitPoints, Source};
+use crate::lighting::{Arriving, Lamp, LampSource, LitPoints};
 use crate::scene::Scene;
 
 /// The triangles of all casters, around the middle of their box.
@@ -42,11 +42,11 @@ impl RayTriangles {
         let mut triangles = Vec::new();
         for caster in &casters.list {
             let to_scene = DAffine3 {
-                translation: caster.shadow.place.world.translation - middle,
-                ..caster.shadow.place.world
+                translation: caster.shadow.placement.world.translation - middle,
+                ..caster.shadow.placement.world
             };
             let [x, y, z] = &caster.geometry.columns.positions;
-            let place = |vertex: u32| {
+            let position = |vertex: u32| {
                 let vertex = vertex as usize;
                 let position = Vec3::new(x[vertex], y[vertex], z[vertex]);
                 to_scene.transform_point3(position.as_dvec3()).as_vec3()
@@ -54,7 +54,7 @@ impl RayTriangles {
             for (run, material) in caster.geometry.runs.iter().zip(&caster.shadow.materials) {
                 if material.is_some() {
                     let run = &caster.geometry.triangles[run.triangles.clone()];
-                    triangles.extend(run.iter().map(|corners| corners.map(place)));
+                    triangles.extend(run.iter().map(|corners| corners.map(position)));
                 }
             }
         }
@@ -133,8 +133,8 @@ impl RayScene {
         let [x, y, z] = self.turned_rows(simd, arriving.towards);
         let wanted: [f32; LANES] = arriving.share.into();
         let reach: [f32; LANES] = match lamp.source {
-            Source::Directional(_) => [f32::INFINITY; LANES],
-            Source::Point { position, .. } => {
+            LampSource::Directional(_) => [f32::INFINITY; LANES],
+            LampSource::Point { position, .. } => {
                 let lamp = self.to_scene.transform_point3(position);
                 lanes_of(|lane| (lamp - origins[lane]).length())
             }

@@ -71,9 +71,9 @@ struct CasterSurface {
 struct CasterMaterial {
     slot: u32,
     color: Vec3,
-    texture: Option<Map>,
+    texture: Option<BoundTexture>,
     /// For glass: the weights of its transmission and its thickness.
-    glass_textures: [Option<Map>; 2],
+    glass_textures: [Option<BoundTexture>; 2],
     emissive: Vec3,
     /// Whether the colour is shown unlit.
     unlit: bool,
@@ -83,7 +83,7 @@ struct CasterMaterial {
     double_sided: bool,
 }
 
-type Map = (Arc<Texture>, TextureBinding);
+type BoundTexture = (Arc<Texture>, TextureBinding);
 
 impl CasterSurfaces {
     /// In the order of the casters' triangles.
@@ -120,7 +120,7 @@ impl CasterSurfaces {
         };
         let normal = (*normal_to_scene * Vec3::new(axis(0), axis(1), axis(2))).normalize_or_zero();
         let (_, look) = &looks[looks.partition_point(|(triangles, _)| triangles.end <= triangle)];
-        let texel = |map: &Option<Map>| {
+        let texel = |map: &Option<BoundTexture>| {
             let (texture, binding) = map.as_ref()?;
             let [u, v] = geometry.columns.uv_sets.get(binding.uv_set)?;
             let uv = binding.transform.transform_point2(Vec2::new(mixed(u), mixed(v)));
@@ -169,8 +169,8 @@ impl CasterSurface {
         let runs = caster.geometry.runs.iter().zip(&caster.shadow.materials);
         let looks = runs.filter_map(|(run, material)| {
             let material = material.as_ref()?;
-            let bound = |place: MaterialTexture| {
-                let binding = material.texture(place)?;
+            let bound = |slot: MaterialTexture| {
+                let binding = material.texture(slot)?;
                 Some((Arc::clone(&scene.textures.get(binding.texture)?.texture), binding))
             };
             let look = CasterMaterial {
@@ -189,15 +189,15 @@ impl CasterSurface {
             };
             Some((run.triangles.clone(), look))
         });
-        let place = &caster.shadow.place;
-        let normal_to_scene = normal_matrix(&place.world.matrix3, place.is_mirrored);
+        let placement = &caster.shadow.placement;
+        let normal_to_scene = normal_matrix(&placement.world.matrix3, placement.is_mirrored);
         let mut surface = Self {
             node: caster.node,
             looks: looks.collect(),
             normal_to_scene,
             geometry: Arc::clone(&caster.geometry),
         };
-        surface.place_volumes(&place.world.matrix3);
+        surface.place_volumes(&placement.world.matrix3);
         surface
     }
 

@@ -49,11 +49,11 @@ pub(crate) fn views(pose: &LampPose, casters: &Casters) -> Vec<View> {
 /// Parallel rays through the box of all casters, seen along them.
 fn parallel(along: DVec3, casters: &Casters) -> Option<View> {
     let turned = Camera::look_at(DVec3::ZERO, along, DVec3::Y);
-    let mut seen = Bounds3::EMPTY;
+    let mut extent = Bounds3::EMPTY;
     for bounds in casters.boxes() {
-        bounds.corners().into_iter().for_each(|corner| seen.include(turned.to_camera(corner)));
+        bounds.corners().into_iter().for_each(|corner| extent.include(turned.to_camera(corner)));
     }
-    let (middle, size) = (seen.center()?, seen.size());
+    let (middle, size) = (extent.center()?, extent.size());
     // A flat caster still has two sides, and no caster lies at the ends.
     let margin = 1e-3 * size.length() + 1e-30;
     let (width, height, depth) = (size.x + margin, size.y + margin, size.z / 2.0 + margin);

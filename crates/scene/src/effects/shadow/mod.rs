@@ -150,7 +150,7 @@ impl ShadowMap {
     /// The fraction of four texels around points that are at least as far from the lamp as the
     /// points.
     #[inline(always)]
-    fn compared<S: Simd>(&self, simd: S, place: [F32<S>; 2], depth: F32<S>) -> F32<S> {
+    fn compared<S: Simd>(&self, simd: S, position: [F32<S>; 2], depth: F32<S>) -> F32<S> {
         let (zero, side) = (F32::splat(simd, 0.0), F32::splat(simd, self.resolution as f32));
         // The two texels on either side, at the edge of the map the nearest one twice; and the weight of the second.
         let axis = inlined(
@@ -162,7 +162,7 @@ impl ShadowMap {
                 ([first_texel.to_int::<I32<S>>(), second_texel.to_int()], held - first)
             },
         );
-        let ((columns, across), (rows, down)) = (axis(place[0]), axis(place[1]));
+        let ((columns, across), (rows, down)) = (axis(position[0]), axis(position[1]));
         let rows = [rows[0] * self.resolution as i32, rows[1] * self.resolution as i32];
         let lit = inlined(
             #[inline(always)]

@@ -363,7 +363,7 @@ fn glass_is_on_and_an_opaque_one_has_a_reason() {
         "{on}"
     );
     let off = decision(&|settings| settings.effects.sight = SightRays::Off);
-    assert!(matches!(off, Decision::Off(Absence::GlassNotAsked(_))), "{off}");
+    assert!(matches!(off, Decision::Off(Absence::GlassNotRequested(_))), "{off}");
     let shading = decision(&|settings| settings.shading = ShadingModel::Gouraud);
     let reflection = decision(&|settings| settings.reflection = Reflection::Lambert);
     for otherwise in [shading, reflection] {

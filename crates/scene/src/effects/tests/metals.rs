@@ -3,7 +3,7 @@
 use super::*;
 use crate::effect::Effect;
 use crate::effects::MetalStudio;
-use crate::lighting::{Lamp, Lights, Source};
+use crate::lighting::{Lamp, LampSource, Lights};
 use crate::{Outputs, SimdLevel};
 
 fn in_the_studio(metal_reflection: MetalReflection) -> RenderSettings {
@@ -57,8 +57,8 @@ fn a_white_mirror_shows_the_studio() {
 fn in_the_world(camera: &Camera) -> impl Fn(&Lamp) -> Vec3 {
     let turn = camera.orientation.as_quat();
     move |lamp| match lamp.source {
-        Source::Directional(towards) => turn * towards,
-        Source::Point { .. } => panic!("lamps of the studio are parallel"),
+        LampSource::Directional(towards) => turn * towards,
+        LampSource::Point { .. } => panic!("lamps of the studio are parallel"),
     }
 }
 

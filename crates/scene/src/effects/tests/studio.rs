@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::Outputs;
-use crate::lighting::{Lights, Source};
+use crate::lighting::{LampSource, Lights};
 
 fn rough() -> Shading {
     Shading::MetallicRoughness(MetallicRoughness { metallic: 0.0, roughness: 1.0, ..Default::default() })
@@ -43,8 +43,8 @@ fn rough_dielectric(normal: DVec3) -> f64 {
 fn each_lamp(of: impl Fn(DVec3, f64) -> f64) -> f64 {
     let studio = Lights::studio();
     let lamps = studio.lamps.iter().map(|lamp| match lamp.source {
-        Source::Directional(towards) => of(towards.as_dvec3(), f64::from(lamp.radiance.x)),
-        Source::Point { .. } => panic!("lamps of the studio are parallel"),
+        LampSource::Directional(towards) => of(towards.as_dvec3(), f64::from(lamp.radiance.x)),
+        LampSource::Point { .. } => panic!("lamps of the studio are parallel"),
     });
     f64::from(studio.ambient.x) + lamps.sum::<f64>()
 }

@@ -66,7 +66,7 @@ pub(super) struct Rewritten {
 }
 
 /// What is written into a slot.
-struct Slot {
+struct SlotTriangle {
     corners: [u32; 3],
     flags: EdgeFlags,
     sides: [u32; 3],
@@ -114,7 +114,7 @@ impl ChangedFaces<'_> {
             }
             let corners = triangle.copied().unwrap_or_else(|| [fillers.next(); 3]);
             let sides_of = |triangle| sides_of_triangle(mesh, changed.face, triangle);
-            let made = Slot {
+            let made = SlotTriangle {
                 corners: corners.map(|corner| links.vertex_of_corner()[corner as usize]),
                 flags: flags.get(number).copied().unwrap_or(EdgeFlags::NONE),
                 sides: triangle.filter(|_| has_sides).map_or([NO_EDGE; 3], sides_of),
@@ -126,7 +126,7 @@ impl ChangedFaces<'_> {
     }
 
     /// Writes into a slot of the lists; whether anything there differs from before.
-    fn write_slot(&mut self, at: usize, made: Slot) -> bool {
+    fn write_slot(&mut self, at: usize, made: SlotTriangle) -> bool {
         let TriangleLists { triangles, flags, sides } = &mut self.lists;
         let mut differs = replace(&mut triangles[at], made.corners) != made.corners;
         if let Some(own) = flags.get_mut(at) {

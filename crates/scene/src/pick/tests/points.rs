@@ -9,7 +9,7 @@ use trigon_mesh::{Deltas, MeshChange, MorphTarget, primitives};
 use super::super::region::center;
 use super::oracle::{Lens, in_world};
 use crate::{
-    AlphaMode, ElementSet, Frame, KeptPoints, Material, NodeId, Outputs, Picker, Reach, Region,
+    AlphaMode, CachedPoints, ElementSet, Frame, Material, NodeId, Outputs, Picker, Reach, Region,
     RenderSettings, Scene, Transform, render,
 };
 
@@ -240,7 +240,7 @@ fn points_that_are_kept_change_nothing_but_the_time() {
     let mut scene = solids();
     let nodes: Vec<NodeId> = scene.nodes().iter().map(|(node, _)| node).collect();
     let region = rectangle([0.0, 0.0], [SIZE[0].into(), SIZE[1].into()]);
-    let mut kept = KeptPoints::default();
+    let mut kept = CachedPoints::default();
     let step = |scene: &mut Scene, number: usize| match number {
         1 => {
             let moved = Transform::from_translation(DVec3::X * 0.1);

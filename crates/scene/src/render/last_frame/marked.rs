@@ -8,7 +8,7 @@ use trigon_math::Vec4;
 use trigon_raster::MarkColors;
 
 use crate::marks::{self, Marks};
-use crate::render::record::{MarkNumbers, Marked, Source, WireNumbers};
+use crate::render::record::{DrawSource, MarkNumbers, Marked, WireNumbers};
 
 /// The colours of marks, by their numbers.
 #[derive(Clone, PartialEq)]
@@ -50,7 +50,7 @@ impl MarkOrigin {
     }
 
     /// The primitives of a draw whose marks have changed; `None` if that is unknown.
-    pub(super) fn difference(&self, now: &Self, source: &Source<'_>) -> Option<MarkedPrimitives> {
+    pub(super) fn difference(&self, now: &Self, source: &DrawSource<'_>) -> Option<MarkedPrimitives> {
         match (self, now) {
             (Self::Faces(before), Self::Faces(now)) => {
                 let recolored = triangles([before, now].map(Option::as_deref), source)?;
@@ -79,7 +79,7 @@ fn differing_bits(before: Option<&FixedBitSet>, now: Option<&FixedBitSet>) -> Ve
 const SHARE: usize = 1 << 14;
 
 /// The triangles of a draw whose faces or sides have changed marks.
-fn triangles(marks: [Option<&MarkNumbers>; 2], source: &Source<'_>) -> Option<Vec<u32>> {
+fn triangles(marks: [Option<&MarkNumbers>; 2], source: &DrawSource<'_>) -> Option<Vec<u32>> {
     let numbers = |of: fn(&MarkNumbers) -> &Vec<u8>| {
         let [before, now] = marks.map(|marks| marks.map_or(&[][..], |marks| of(marks)));
         Elements::new(&differing(before, now))

@@ -6,11 +6,11 @@ use trigon_raster::{Pass, Rasterizer, Stats, Target, TargetError};
 use crate::effect::Effect;
 use crate::effect_settings::Shadows;
 use crate::effects::{
-    AmbientRays, Casters, Counts, LampPose, LightingEnvironment, Mist, RayCache, SeenBackdrop, draw_outline,
-    lay_on_background, map_tones,
+    AmbientRays, Casters, Counts, FogModel, LampPose, LightingEnvironment, RayCache, VisibleBackdrop,
+    draw_outline, lay_on_background, map_tones,
 };
 use crate::frame::{Frame, resize};
-use crate::outputs::{Needed, Seen};
+use crate::outputs::{Needed, VisibleIds};
 use crate::plan::{Cause, Decision, EffectPlan};
 use crate::prepare::PreparedScene;
 use crate::settings::RenderSettings;
@@ -18,7 +18,7 @@ use crate::shadow_maps::{CastingScene, ShadowCache};
 
 /// What a renderer keeps from frame to frame. It never changes a byte.
 #[derive(Default)]
-pub(super) struct Kept {
+pub(super) struct EffectCaches {
     shadows: ShadowCache,
     rays: RayCache,
     /// The image before tone mapping.
@@ -26,7 +26,7 @@ pub(super) struct Kept {
     /// What shows through its faces, likewise.
     beneath: Vec<Vec4>,
     /// The visible triangle of each pixel, as far as outputs and outlines need it.
-    pub(super) seen: Seen,
+    pub(super) ids: VisibleIds,
 }
 
 /// Where a pass is drawn.
@@ -38,7 +38,7 @@ pub(super) struct Destination<'a> {
     pub(super) needed: Needed,
 }
 
-impl Kept {
+impl EffectCaches {
     /// The lighting environment, as far as the plan requires it.
     pub(super) fn lighting(
         &mut self,
@@ -57,7 +57,7 @@ impl Kept {
             surroundings: prepared.surroundings().filter(|_| on(Effect::Environment)),
             metal_studio: on(Effect::MetalStudio).then(|| prepared.metal_studio()),
             world_to_sky: prepared.world_to_sky().as_mat3(),
-            mist: effects.fog.as_ref().filter(|_| on(Effect::Fog)).and_then(Mist::new),
+            fog: effects.fog.as_ref().filter(|_| on(Effect::Fog)).and_then(FogModel::new),
             shadow_rays: on(Effect::ShadowRays),
             ambient_rays: effects
                 .ambient_occlusion
@@ -69,7 +69,7 @@ impl Kept {
         if sight {
             lighting.bounces = effects.sight.bounces();
             lighting.traces_mirrors = on(Effect::Reflection) || effects.sight.start_at_mirrors();
-            lighting.backdrop = SeenBackdrop::new(prepared.settings, prepared.eye.projection());
+            lighting.backdrop = VisibleBackdrop::new(prepared.settings, prepared.eye.projection());
         }
         let rays = sight || lighting.shadow_rays || lighting.ambient_rays.is_some();
         if !rays && !on(Effect::ShadowMaps) {
@@ -115,7 +115,7 @@ impl Kept {
         }
         if plan.is_on(Effect::Outline) {
             counts.of(Effect::Outline).passes = 1;
-            counts.of(Effect::Outline).bytes = size_of_val(self.seen.objects.as_slice()) as u64;
+            counts.of(Effect::Outline).bytes = size_of_val(self.ids.objects.as_slice()) as u64;
         }
         if let Decision::On(Cause::Metered(reading)) = plan.decision(Effect::LightMeter) {
             counts.of(Effect::LightMeter).bytes = size_of_val(reading) as u64;
@@ -148,7 +148,7 @@ impl Kept {
     }
 
     /// Draws the colour pass, and what is laid over the image afterwards. The results of the pass other than
-    /// colours go to `seen` and the frame's depth, as far as they are needed.
+    /// colours go to `ids` and the frame's depth, as far as they are needed.
     pub(super) fn draw(
         &mut self,
         pass: &Pass<'_>,
@@ -161,26 +161,26 @@ impl Kept {
         let (colors, pixels) = (color.as_chunks_mut().0, settings.width as usize * settings.height as usize);
         let needed = needed.with_objects(plan.is_on(Effect::Outline));
         let full = TargetError::Memory { width: settings.width, height: settings.height };
-        self.seen.make_room(pixels, needed).ok_or(full)?;
+        self.ids.allocate(pixels, needed).ok_or(full)?;
         // The target borrows the lists.
-        let mut seen = std::mem::take(&mut self.seen);
-        let target = seen.with(target, depth.as_mut())?;
+        let mut ids = std::mem::take(&mut self.ids);
+        let target = ids.with(target, depth.as_mut())?;
         let images = ColorImages { colors, radiance: radiance.as_mut() };
         let is_mapped = plan.is_on(Effect::ToneMapping);
-        let stats = if is_mapped || settings.share_through_faces().is_some() {
+        let stats = if is_mapped || settings.xray_opacity().is_some() {
             self.draw_mapped(pass, settings, target, images, rasterizer)?
         } else {
             draw_directly(pass, target, images, rasterizer)?
         };
         if let (true, Some(outline)) = (plan.is_on(Effect::Outline), &settings.effects.outline) {
-            draw_outline(outline, &seen.objects, settings.width as usize, color.as_chunks_mut().0);
+            draw_outline(outline, &ids.objects, settings.width as usize, color.as_chunks_mut().0);
         }
-        self.seen = seen;
+        self.ids = ids;
         Ok(stats)
     }
 
     /// Draws a pass of which only depth and ids are kept.
-    pub(super) fn draw_seen(
+    pub(super) fn draw_ids(
         &mut self,
         pass: &Pass<'_>,
         settings: &RenderSettings,
@@ -189,8 +189,8 @@ impl Kept {
     ) -> Result<Stats, TargetError> {
         let RenderSettings { width, height, .. } = *settings;
         let pixels = width as usize * height as usize;
-        self.seen.make_room(pixels, needed).ok_or(TargetError::Memory { width, height })?;
-        Ok(rasterizer.draw(pass, &mut self.seen.with(target, frame.depth.as_mut())?))
+        self.ids.allocate(pixels, needed).ok_or(TargetError::Memory { width, height })?;
+        Ok(rasterizer.draw(pass, &mut self.ids.with(target, frame.depth.as_mut())?))
     }
 
     /// Draws what shows through the faces of the next image.
@@ -217,17 +217,17 @@ impl Kept {
         rasterizer: &mut Rasterizer,
     ) -> Result<Stats, TargetError> {
         let RenderSettings { width, height, .. } = *settings;
-        let (is_asked_for, linear) = (radiance.is_some(), radiance.unwrap_or(&mut self.linear));
+        let (is_requested, linear) = (radiance.is_some(), radiance.unwrap_or(&mut self.linear));
         let pixels = width as usize * height as usize;
         resize(linear, pixels, Vec4::ZERO).ok_or(TargetError::Memory { width, height })?;
         let stats = rasterizer.draw(pass, &mut target.with_linear(linear)?);
-        if let Some(share) = settings.share_through_faces() {
+        if let Some(share) = settings.xray_opacity() {
             for (light, beneath) in linear.iter_mut().zip(&self.beneath) {
                 *light = *light * (1.0 - share) + *beneath * share;
             }
         }
         map_tones(linear, settings, colors, rasterizer);
-        if is_asked_for {
+        if is_requested {
             lay_on_background(linear, settings);
         }
         Ok(stats)

@@ -14,7 +14,7 @@ use crate::geometry::GeometryState;
 /// found out: the next one need not do so again. It uses only what it knows of objects that are as they were, and
 /// seen in the same way.
 #[derive(Clone, Debug, Default)]
-pub struct KeptPoints {
+pub struct CachedPoints {
     /// By the indices of nodes.
     pub(super) objects: Vec<Option<ObjectPoints>>,
     pub(super) visible: Option<Arc<VisibleVertices>>,
@@ -53,7 +53,7 @@ pub(super) struct VisibleOrigin {
     pub(super) facings: Vec<Facing>,
 }
 
-impl KeptPoints {
+impl CachedPoints {
     /// The points of the node with this index, if they have this origin.
     pub(super) fn of(&self, index: usize, origin: &PointOrigin) -> Option<Arc<Vec<[Spot; LANES]>>> {
         let points = self.objects.get(index)?.as_ref()?;

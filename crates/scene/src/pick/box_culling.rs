@@ -15,15 +15,15 @@ const ROUNDED: f64 = 64.0 * f64::EPSILON;
 /// The four sides of an area and the near plane: linear forms of an object's points, negative
 /// beyond each. A form is that of `x / w` against a border, times `w`, so that it holds on
 /// both sides of the near plane.
-pub(super) struct Beyond([Form; 5]);
+pub(super) struct BoxCulling([BorderForm; 5]);
 
-struct Form {
+struct BorderForm {
     factors: DVec4,
     /// The greatest that rounding may make of each.
     absolute: DVec4,
 }
 
-impl Beyond {
+impl BoxCulling {
     /// `map` takes the object's points to clip space.
     pub(super) fn new(map: &DMat4, half_size: DVec2, area: &Area<'_>) -> Self {
         let [x, y, z, w] = [0, 1, 2, 3].map(|row| map.row(row));
@@ -33,11 +33,11 @@ impl Beyond {
         let across = |pixel: f64| pixel / half_size.x - 1.0;
         let up = |pixel: f64| 1.0 - pixel / half_size.y;
         Self([
-            Form::new(x, w, -across(left - MARGIN)),
-            Form::new(-x, w, across(right + MARGIN)),
-            Form::new(-y, w, up(above - MARGIN)),
-            Form::new(y, w, -up(below + MARGIN)),
-            Form::new(-z, w, 1.0),
+            BorderForm::new(x, w, -across(left - MARGIN)),
+            BorderForm::new(-x, w, across(right + MARGIN)),
+            BorderForm::new(-y, w, up(above - MARGIN)),
+            BorderForm::new(y, w, -up(below + MARGIN)),
+            BorderForm::new(-z, w, 1.0),
         ])
     }
 
@@ -47,7 +47,7 @@ impl Beyond {
     }
 }
 
-impl Form {
+impl BorderForm {
     /// `one + share * w`
     fn new(one: DVec4, w: DVec4, share: f64) -> Self {
         Self { factors: one + w * share, absolute: one.abs() + w.abs() * share.abs() }
@@ -104,7 +104,7 @@ mod tests {
             let region = Region::Circle { center: DVec2::new(center.0, center.1), radius };
             let area = Area::new(&region, viewport);
             let block = BlockBox { min: min.to_array(), max: max.to_array() };
-            let is_held = Beyond::new(&map, viewport.size() * 0.5, &area).may_hold(&block);
+            let is_held = BoxCulling::new(&map, viewport.size() * 0.5, &area).may_hold(&block);
             for share in shares {
                 let within = min + (max - min) * Vec3::from_array(share);
                 let spot = screen.spot(&map, within.clamp(min, max).as_dvec3());

@@ -1,7 +1,7 @@
 //! Finds the parts of an object that may lie in a small area, and skips all others box by box.
 
-use super::beyond::Beyond;
-use super::object::{Drawn, Object};
+use super::box_culling::BoxCulling;
+use super::object::{DrawnTriangles, PickObject};
 use super::region::Area;
 use super::screen::Screen;
 use super::sides::Sides;
@@ -9,14 +9,14 @@ use crate::geometry::Blocks;
 
 /// The elements of an object that may lie in an area, each list increasing.
 #[derive(Default)]
-pub(super) struct Few {
+pub(super) struct SmallRegion {
     pub(super) vertices: Vec<u32>,
     pub(super) edges: Vec<u32>,
     pub(super) triangles: Vec<u32>,
 }
 
-impl Few {
-    pub(super) fn new(object: &Object<'_>, screen: &Screen, area: &Area<'_>) -> Self {
+impl SmallRegion {
+    pub(super) fn new(object: &PickObject<'_>, screen: &Screen, area: &Area<'_>) -> Self {
         let mesh = object.mesh();
         let (mut triangles, mut faces) = (Vec::new(), Vec::new());
         if let Some(drawn) = object.drawn() {
@@ -36,13 +36,13 @@ impl Few {
 }
 
 /// The triangles that may lie in an area.
-fn near_triangles(drawn: &Drawn, blocks: &Blocks, screen: &Screen, area: &Area<'_>) -> Vec<u32> {
-    let beyond = Beyond::new(drawn.map(), screen.half_size(), area);
+fn near_triangles(drawn: &DrawnTriangles, blocks: &Blocks, screen: &Screen, area: &Area<'_>) -> Vec<u32> {
+    let culling = BoxCulling::new(drawn.map(), screen.half_size(), area);
     let corner = drawn.corners(screen);
     let is_near = |triangle: &usize| {
         !Sides::is_beside(&drawn.triangle(*triangle).map(|at| Sides::of(&corner(at), area)))
     };
-    let near = drawn.within(blocks, |block| beyond.may_hold(block));
+    let near = drawn.within(blocks, |block| culling.may_hold(block));
     near.flatten().filter(is_near).map(|triangle| triangle as u32).collect()
 }
 

@@ -7,7 +7,7 @@ use crate::settings::Outputs;
 
 /// Ids of each pixel; unused lists are empty.
 #[derive(Debug, Default)]
-pub(crate) struct Seen {
+pub(crate) struct VisibleIds {
     /// Indices of nodes.
     pub(crate) objects: Vec<u32>,
     /// Indices of polygons.
@@ -38,9 +38,9 @@ impl Needed {
     }
 }
 
-impl Seen {
+impl VisibleIds {
     /// Allocates the lists for an image; `None` if memory is exhausted.
-    pub(crate) fn make_room(&mut self, pixels: usize, needed: Needed) -> Option<()> {
+    pub(crate) fn allocate(&mut self, pixels: usize, needed: Needed) -> Option<()> {
         let length = |needed: bool| if needed { pixels } else { 0 };
         resize(&mut self.objects, length(needed.objects), u32::MAX)?;
         resize(&mut self.faces, length(needed.faces), u32::MAX)?;
