@@ -15,7 +15,7 @@
 //! let corners: [GridPoint; 4] = [[0, 0], [512, 0], [512, 512], [0, 512]];
 //! let [lower, upper] = [[0, 2, 3], [0, 1, 2]].map(|half| half.map(|i: usize| corners[i]));
 //! // The centre of the first pixel lies on the diagonal: one of them has it.
-//! let both = [lower, upper].map(|half| coverage::covers(half, coverage::centre([0, 0])));
+//! let both = [lower, upper].map(|half| coverage::covers(half, coverage::pixel_center([0, 0])));
 //! assert_eq!(both, [false, true]);
 //!
 //! let half = area::rational(0.5);
