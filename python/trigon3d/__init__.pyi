@@ -1,0 +1,215 @@
+from collections.abc import Iterable, Iterator, Sequence
+from os import PathLike
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+Convention = Literal["opengl", "opencv"]
+Output = Literal[
+    "color",
+    "radiance",
+    "depth",
+    "object_ids",
+    "face_ids",
+    "material_ids",
+    "triangle_ids",
+    "barycentrics",
+    "positions",
+    "normals",
+    "geometric_normals",
+    "uvs",
+    "albedo",
+]
+Point = tuple[float, float, float]
+
+class TrigonError(Exception): ...
+class LoadError(TrigonError): ...
+class RenderError(TrigonError): ...
+class TrigonWarning(UserWarning): ...
+
+class Camera:
+    @staticmethod
+    def perspective(
+        vertical_fov: float,
+        *,
+        pose: ArrayLike | None = None,
+        convention: Convention = "opengl",
+        near: float | None = None,
+        far: float | None = None,
+    ) -> Camera: ...
+    @staticmethod
+    def orthographic(
+        height: float,
+        *,
+        pose: ArrayLike | None = None,
+        convention: Convention = "opengl",
+        near: float | None = None,
+        far: float | None = None,
+    ) -> Camera: ...
+    @staticmethod
+    def from_intrinsics(
+        K: Sequence[Sequence[float]] | NDArray[Any],
+        width: int,
+        height: int,
+        pose: ArrayLike | None = None,
+        *,
+        convention: Convention = "opencv",
+        near: float | None = None,
+        far: float | None = None,
+    ) -> Camera: ...
+    @staticmethod
+    def look_at(
+        position: Sequence[float],
+        target: Sequence[float],
+        up: Sequence[float] = (0.0, 1.0, 0.0),
+        *,
+        vertical_fov: float = 30.0,
+        near: float | None = None,
+        far: float | None = None,
+    ) -> Camera: ...
+    def with_pose(self, pose: ArrayLike, *, convention: Convention = "opengl") -> Camera: ...
+    def pose(self, convention: Convention = "opengl") -> NDArray[np.float64]: ...
+    def extrinsics(self, convention: Convention = "opencv") -> NDArray[np.float64]: ...
+    def K(
+        self, width: int, height: int, *, convention: Convention = "opencv"
+    ) -> NDArray[np.float64] | None: ...
+    def project(
+        self, points: ArrayLike, width: int, height: int, *, convention: Convention = "opengl"
+    ) -> NDArray[np.float64]: ...
+    @property
+    def position(self) -> Point: ...
+    @property
+    def forward(self) -> Point: ...
+
+class Material:
+    def __init__(
+        self,
+        color: Sequence[float] = (0.8, 0.8, 0.8),
+        *,
+        metallic: float | None = None,
+        roughness: float | None = None,
+        emission: Sequence[float] | None = None,
+        unlit: bool = False,
+        double_sided: bool = True,
+        alpha_mode: Literal["opaque", "mask", "blend"] = "opaque",
+        alpha_cutoff: float = 0.5,
+        texture: NDArray[np.uint8] | None = None,
+        name: str = "",
+    ) -> None: ...
+
+class Frame:
+    @property
+    def width(self) -> int: ...
+    @property
+    def height(self) -> int: ...
+    @property
+    def color(self) -> NDArray[np.uint8] | None: ...
+    @property
+    def radiance(self) -> NDArray[np.float32] | None: ...
+    @property
+    def depth(self) -> NDArray[np.float32] | None: ...
+    @property
+    def object_ids(self) -> NDArray[np.int32] | None: ...
+    @property
+    def face_ids(self) -> NDArray[np.int32] | None: ...
+    @property
+    def material_ids(self) -> NDArray[np.int32] | None: ...
+    @property
+    def triangle_ids(self) -> NDArray[np.int32] | None: ...
+    @property
+    def barycentrics(self) -> NDArray[np.float32] | None: ...
+    @property
+    def positions(self) -> NDArray[np.float32] | None: ...
+    @property
+    def normals(self) -> NDArray[np.float32] | None: ...
+    @property
+    def geometric_normals(self) -> NDArray[np.float32] | None: ...
+    @property
+    def uvs(self) -> NDArray[np.float32] | None: ...
+    @property
+    def albedo(self) -> NDArray[np.float32] | None: ...
+    def save(self, path: str | PathLike[str]) -> None: ...
+
+class Scene:
+    def __init__(self) -> None: ...
+    def add_mesh(
+        self,
+        vertices: ArrayLike,
+        faces: ArrayLike | Sequence[Sequence[int]],
+        *,
+        normals: ArrayLike | None = None,
+        uvs: ArrayLike | None = None,
+        colors: ArrayLike | None = None,
+        material: Material | None = None,
+        pose: ArrayLike | None = None,
+        smooth_angle: float | None = None,
+        name: str = "mesh",
+    ) -> int: ...
+    def add_points(
+        self,
+        points: ArrayLike,
+        *,
+        colors: ArrayLike | None = None,
+        pose: ArrayLike | None = None,
+        name: str = "points",
+    ) -> int: ...
+    def add_light(
+        self,
+        kind: Literal["ambient", "directional", "point", "spot"] = "directional",
+        *,
+        color: Sequence[float] = (1.0, 1.0, 1.0),
+        intensity: float = 1.0,
+        position: Sequence[float] = (0.0, 0.0, 0.0),
+        direction: Sequence[float] = (0.0, 0.0, -1.0),
+        angle: float = 45.0,
+    ) -> int: ...
+    def add_file(self, path: str | PathLike[str], *, pose: ArrayLike | None = None) -> list[int]: ...
+    def set_pose(self, node: int, pose: ArrayLike) -> None: ...
+    def set_visible(self, node: int, visible: bool) -> None: ...
+    def set_vertices(self, node: int, vertices: ArrayLike) -> None: ...
+    def remove(self, node: int) -> None: ...
+    @property
+    def nodes(self) -> list[dict[str, Any]]: ...
+    @property
+    def materials(self) -> list[dict[str, Any]]: ...
+    @property
+    def cameras(self) -> list[Camera]: ...
+    @property
+    def bounds(self) -> list[Point] | None: ...
+    def overview(self, aspect: float = 4 / 3) -> Camera: ...
+    def surround(self, count: int, *, seed: int = 0, aspect: float = 1.0) -> list[Camera]: ...
+    def render(
+        self,
+        width: int,
+        height: int,
+        camera: Camera | None = None,
+        *,
+        outputs: Output | Sequence[Output] = ("color",),
+        samples: int | None = None,
+        quality: Literal["draft", "standard", "high", "reference"] | None = None,
+        time_budget: float | None = None,
+        background: Sequence[float] | Literal["transparent", "default"] | None = None,
+        lighting: Literal["auto", "scene", "studio"] | None = None,
+        shadows: bool | None = None,
+        flat: bool | None = None,
+        point_size: float | None = None,
+        line_width: float | None = None,
+        threads: int | None = None,
+        simd: str | None = None,
+    ) -> Frame: ...
+    def check(self) -> list[dict[str, str]]: ...
+    def plan(self, width: int, height: int, camera: Camera | None = None, **named: Any) -> dict[str, str]: ...
+
+def load(path: str | PathLike[str], *, up: str | None = None) -> Scene: ...
+def load_cameras(
+    path: str | PathLike[str], width: int = 640, height: int = 480
+) -> list[tuple[str, Camera, tuple[int, int]]]: ...
+def render_many(
+    scene: Scene, cameras: Iterable[Camera], width: int, height: int, **named: Any
+) -> Iterator[Frame]: ...
+def set_threads(count: int) -> None: ...
+def from_trimesh(source: Any) -> Scene: ...
+def save_image(source: Any, resolution: tuple[int, int] = (640, 480), **named: Any) -> bytes: ...

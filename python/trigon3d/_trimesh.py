@@ -1,0 +1,82 @@
+"""Scenes of trimesh. Nothing here imports trimesh: what is given is asked for what it has."""
+
+import os
+import tempfile
+from typing import Any
+
+import numpy as np
+
+from ._trigon3d import Camera, Material, Scene
+
+
+def from_trimesh(source: Any) -> Scene:
+    """A scene of a ``trimesh.Trimesh``, ``PointCloud`` or ``Scene``: geometry, poses, names, colours and textures.
+
+    Nodes have the names of the graph's nodes. Faces are smooth across edges at which they meet at less than 30 degrees.
+    """
+    scene = Scene()
+    if not hasattr(source, "geometry"):
+        _add(scene, source, np.eye(4), "mesh")
+        return scene
+    for node in source.graph.nodes_geometry:
+        pose, name = source.graph[node]
+        _add(scene, source.geometry[name], pose, str(node))
+    return scene
+
+
+def save_image(source: Any, resolution: tuple[int, int] = (640, 480), **named: Any) -> bytes:
+    """The bytes of a PNG, as ``trimesh.Scene.save_image`` returns them, by the scene's own camera.
+
+    Named arguments are those of ``Scene.render``.
+    """
+    width, height = resolution
+    camera = None
+    if hasattr(source, "camera_transform"):
+        fov = float(source.camera.fov[1])
+        camera = Camera.perspective(fov, pose=source.camera_transform)
+    frame = from_trimesh(source).render(width, height, camera, **named)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "image.png")
+        frame.save(path)
+        with open(path, "rb") as file:
+            return file.read()
+
+
+def _add(scene: Scene, geometry: Any, pose: Any, name: str) -> None:
+    visual = getattr(geometry, "visual", None)
+    kind = getattr(visual, "kind", None)
+    faces = getattr(geometry, "faces", None)
+    if faces is None:
+        colors = getattr(geometry, "colors", None)
+        has_colors = colors is not None and len(colors) == len(geometry.vertices)
+        scene.add_points(geometry.vertices, colors=np.asarray(colors) if has_colors else None, pose=pose, name=name)
+        return
+    named: dict[str, Any] = {"smooth_angle": 30.0, "pose": pose, "name": name}
+    if kind == "vertex":
+        named["colors"] = np.asarray(visual.vertex_colors)
+    elif kind == "face":
+        # A colour for each corner.
+        named["colors"] = np.repeat(np.asarray(visual.face_colors), 3, axis=0)
+    elif kind == "texture" and visual.uv is not None:
+        # trimesh counts v from the lower edge.
+        named["uvs"] = np.asarray(visual.uv)[:, :2] * [1, -1] + [0, 1]
+        named["material"] = _material(visual.material)
+    scene.add_mesh(geometry.vertices, np.asarray(faces), **named)
+
+
+def _material(material: Any) -> Material:
+    """A material of trimesh: PBR, or of an OBJ."""
+    image = getattr(material, "baseColorTexture", None)
+    image = image if image is not None else getattr(material, "image", None)
+    color = getattr(material, "baseColorFactor", None)
+    color = color if color is not None else getattr(material, "diffuse", None)
+    numbers = np.ones(4) if color is None else np.asarray(color, dtype=np.float64)
+    if color is not None and np.asarray(color).dtype.kind in "iu":
+        numbers = numbers / 255
+    texture = None if image is None else np.asarray(image.convert("RGBA"))
+    return Material(
+        np.clip(numbers, 0, 1).tolist(),
+        metallic=getattr(material, "metallicFactor", None),
+        roughness=getattr(material, "roughnessFactor", None),
+        texture=texture,
+    )
