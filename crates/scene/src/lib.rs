@@ -30,7 +30,6 @@
 
 mod animation;
 mod arena;
-mod background;
 mod check;
 mod display;
 mod effect;
@@ -41,12 +40,9 @@ mod environment;
 mod frame;
 mod geometry;
 mod lanes;
-mod left_in;
 mod light;
 mod light_meter;
-mod light_reading;
 mod lighting;
-mod marks;
 mod material;
 mod mesh_asset;
 mod node;
@@ -71,7 +67,6 @@ mod work;
 
 pub use animation::{Animation, Channel, Curve, Interpolation, Property};
 pub use arena::{Arena, Id};
-pub use background::Background;
 pub use check::{Finding, Severity};
 pub use display::Display;
 pub use effect::Effect;
@@ -80,15 +75,13 @@ pub use effect_settings::{
     ToneMapping,
 };
 pub use effects::EffectCounts;
-pub use elements::ElementSet;
+pub use elements::{ElementSet, Mark, Marks, VertexPoints};
 pub use environment::{Environment, EnvironmentError, Sky};
 /// The bit set inside [`ElementSet`].
 pub use fixedbitset::FixedBitSet;
 pub use frame::{Frame, Hit};
-pub use light::{Light, LightKind};
+pub use light::{Light, LightKind, LightReading};
 pub use light_meter::{ExposureFault, ExposureWarning};
-pub use light_reading::LightReading;
-pub use marks::{Mark, Marks, VertexPoints};
 pub use material::{
     AlphaMode, ExtensionParameter, Material, MaterialId, MaterialTexture, MetallicRoughness, NormalMap,
     Occlusion, ParameterField, Shading, TextureBinding,
@@ -99,7 +92,9 @@ pub use pick::{CachedPoints, Nearest, Pick, Picker, Reach, Region, Snap, SnapEle
 pub use plan::{Absence, Cause, Decision, EffectPlan, Invisible, Named};
 pub use render::{RenderError, Renderer, RendererBuilder, render};
 pub use scene::{NodePose, Pose, Scene, SceneError, SceneParts, SkinPose};
-pub use settings::{Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style};
+pub use settings::{
+    Background, Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style,
+};
 pub use showcase::showcase;
 pub use texture_asset::{TextureAsset, TextureId};
 pub use transform::Transform;

@@ -7,10 +7,10 @@
 use trigon_math::Vec4;
 
 use crate::geometry::Columns;
-use crate::left_in::keeps_unseen;
 use crate::material::{AlphaMode, Material};
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, Style};
+use crate::work::keeps_unseen;
 
 /// A mesh of a scene, on which materials lie.
 #[derive(Clone, Copy)]

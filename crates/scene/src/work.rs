@@ -1,5 +1,5 @@
-//! Counts of the work done for effects, noted where it is done. Only tests read them; other builds contain
-//! none of this.
+//! Counts of the work done for effects, noted where the work is done, and a switch that draws what cannot be seen. Only
+//! tests use counts and switch; other builds contain none of this.
 
 use crate::material::MaterialTexture;
 
@@ -81,5 +81,32 @@ pub(crate) mod done {
     /// The kinds of work that were done since the last call.
     pub(crate) fn take() -> Vec<Work> {
         DONE.take()
+    }
+}
+
+/// Whether what cannot be seen is drawn all the same: only in tests, which compare both images.
+pub(crate) fn keeps_unseen() -> bool {
+    #[cfg(test)]
+    return kept::KEPT.get();
+    #[cfg(not(test))]
+    false
+}
+
+#[cfg(test)]
+pub(crate) mod kept {
+    //! Draws what cannot be seen, on the thread that asks for it.
+
+    use std::cell::Cell;
+
+    thread_local! {
+        pub(super) static KEPT: Cell<bool> = const { Cell::new(false) };
+    }
+
+    /// Calls a function while nothing is left out.
+    pub(crate) fn with_everything<T>(draw: impl FnOnce() -> T) -> T {
+        KEPT.set(true);
+        let drawn = draw();
+        KEPT.set(false);
+        drawn
     }
 }

@@ -5,7 +5,6 @@
 
 mod look;
 mod space;
-mod surface;
 
 use std::fmt;
 
@@ -75,7 +74,7 @@ impl Scene {
     #[must_use]
     pub fn check_for_printing(&self) -> Vec<Finding> {
         self.check_with(|finding| {
-            if matches!(finding.fault, surface::OPEN_EDGES | surface::NON_MANIFOLD | surface::MIXED_WINDING) {
+            if matches!(finding.fault, space::OPEN_EDGES | space::NON_MANIFOLD | space::MIXED_WINDING) {
                 finding.severity = Severity::Error;
             }
         })
@@ -84,7 +83,7 @@ impl Scene {
     fn check_with(&self, judge: impl FnMut(&mut Finding)) -> Vec<Finding> {
         let mut findings = Vec::new();
         space::check(self, &mut findings);
-        surface::check(self, &mut findings);
+        space::check_faces(self, &mut findings);
         look::check(self, &mut findings);
         findings.iter_mut().for_each(judge);
         let mut counts: Vec<(&str, usize)> = Vec::new();

@@ -1,18 +1,22 @@
-//! The lighting environment of all surfaces in a frame: its lights, shadow casters, ambient light,
-//! and fog.
+//! The lighting environment of all surfaces in a frame: lights, shadow casters, ambient light, and fog.
+//!
+//! Rays through glass see the background behind the image, even where an environment lights the scene without being
+//! shown: a clear pane must not be visible.
 
-use trigon_math::{Mat3, Vec3};
-use trigon_raster::simd::{F32, Simd, prelude::*};
+use trigon_math::{DMat4, Mat3, Mat4, Vec3, Vec4};
+use trigon_raster::simd::prelude::*;
+use trigon_raster::simd::{F32, Simd};
 
-use super::backdrop::VisibleBackdrop;
-use super::fog::FogModel;
 use super::metal_studio::{MetalStudio, StudioOnMetal};
 use super::rays::{AmbientRays, Optics, RayScene};
 use super::shadow::ShadowMaps;
+use crate::effect_settings::Fog;
 use crate::environment::Surroundings;
-use crate::lanes::{V3, dot, splat};
+use crate::lanes::{V3, dot, exp2, mix, splat};
 use crate::lighting::{Arriving, Lamp, Lights, LitPoints, Microfacets};
 use crate::material::Material;
+use crate::settings::Background;
+use crate::settings::RenderSettings;
 use crate::work::{Work, note};
 
 /// The lighting environment of all surfaces in a frame.
@@ -131,5 +135,114 @@ impl LightingEnvironment {
     /// Whether there is any ambient light.
     pub(crate) fn has_ambient(&self) -> bool {
         self.surroundings.is_some() || self.lights.ambient != Vec3::ZERO
+    }
+}
+
+/// Precomputed fog.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FogModel {
+    color: Vec3,
+    /// Halvings per metre.
+    halvings: f32,
+}
+
+impl FogModel {
+    /// `None` for fog that hides nothing.
+    pub(crate) fn new(fog: &Fog) -> Option<Self> {
+        let halvings = fog.density * std::f32::consts::LOG2_E;
+        (halvings > 0.0 && halvings.is_finite()).then_some(Self { color: fog.color, halvings })
+    }
+
+    /// Colours seen through the fog at positions in camera space.
+    #[inline(always)]
+    pub(crate) fn over<S: Simd>(&self, simd: S, position: V3<S>, color: V3<S>) -> V3<S> {
+        note(Work::Fog);
+        let distance = dot(position, position).sqrt();
+        let transmitted = exp2(distance * -self.halvings);
+        let fog_color = splat(simd, self.color);
+        [
+            mix(fog_color[0], color[0], transmitted),
+            mix(fog_color[1], color[1], transmitted),
+            mix(fog_color[2], color[2], transmitted),
+        ]
+    }
+}
+
+/// The background as rays through glass see it: what it shows in the direction of a ray, or at the
+/// place of a ray if the camera's own are parallel. Beyond the edges of the image its edges go on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct VisibleBackdrop {
+    top: Vec3,
+    bottom: Vec3,
+    /// From camera space to the height on the screen, and the divisor of it.
+    rows: [Vec4; 2],
+}
+
+impl VisibleBackdrop {
+    /// `None` if the environment is what is seen. A transparent background counts as the default one:
+    /// colours, unlike alpha, cannot be multiplied.
+    pub(crate) fn new(settings: &RenderSettings, projection: &DMat4) -> Option<Self> {
+        let [top, bottom] = match settings.background {
+            Background::Environment if settings.effects.environment.is_none() => [Vec3::ZERO; 2],
+            Background::Environment => return None,
+            Background::Transparent if settings.effects.environment.is_some() => return None,
+            Background::Transparent => Background::default().edges(),
+            shown @ (Background::Color(_) | Background::Gradient { .. }) => shown.edges(),
+        };
+        // Surfaces are exposed, the background is not.
+        let scale = 1.0 / settings.effects.exposure_factor();
+        let scale = if scale.is_finite() { scale } else { 1.0 };
+        let rows = projection.as_mat4().transpose();
+        Some(Self { top: top * scale, bottom: bottom * scale, rows: [rows.y_axis, rows.w_axis] })
+    }
+
+    /// Its light where a ray runs to, in the space of the rays.
+    pub(super) fn light(&self, to_camera: &Mat4, origin: Vec3, direction: Vec3) -> Vec3 {
+        if self.top == self.bottom {
+            return self.top;
+        }
+        // The divisor of an orthographic camera does not depend on the place.
+        let at = match self.rows[1].w != 0.0 {
+            true => to_camera.transform_point3(origin).extend(1.0),
+            false => to_camera.transform_vector3(direction).extend(0.0),
+        };
+        let [height, divisor] = self.rows.map(|row| row.dot(at));
+        let down = match divisor > 0.0 {
+            true => 0.5 - 0.5 * (height / divisor),
+            // Behind the eye.
+            false if height > 0.0 => 0.0,
+            false => 1.0,
+        };
+        let down = if down > 0.0 { down.min(1.0) } else { 0.0 };
+        self.top + (self.bottom - self.top) * down
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fearless_simd::Fallback;
+    use trigon_math::elementary;
+
+    #[test]
+    fn a_surface_fades_exponentially_with_its_distance() {
+        let simd = Fallback::new();
+        let fog = Fog { color: Vec3::new(1.0, 0.5, 0.0), density: 0.3 };
+        let model = FogModel::new(&fog).expect("there is some");
+        for distance in [0.0_f32, 1.0, 5.0, 40.0] {
+            let at = splat(simd, Vec3::new(0.0, 0.6, -0.8) * distance);
+            let foggy = model.over(simd, at, splat(simd, Vec3::Z)).map(|channel| f64::from(channel[0]));
+            let transmitted = elementary::exp(-0.3 * f64::from(distance));
+            let expected = [1.0 - transmitted, 0.5 - 0.5 * transmitted, transmitted];
+            let worst = foggy.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(worst < 1e-6, "{foggy:?} at {distance}, not {expected:?}");
+        }
+    }
+
+    #[test]
+    fn fog_without_density_is_none() {
+        for density in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+            assert!(FogModel::new(&Fog { color: Vec3::ONE, density }).is_none(), "{density} hides nothing");
+        }
     }
 }

@@ -3,24 +3,23 @@
 //! Two forms are computed once and stored. One is the diffuse irradiance for each orientation, as nine
 //! coefficients (R. Ramamoorthi and P. Hanrahan, "An Efficient Representation for Irradiance Environment Maps",
 //! 2001). The other is the reflections at five roughnesses (B. Karis, "Real Shading in Unreal Engine 4", 2013).
+//!
+//! [`Sky`] is an analytic sky of three colours.
 
-mod harmonics;
 mod octahedral;
 mod prefilter;
-mod sky;
 
-pub use sky::Sky;
-
-use crate::work::{Work, note};
 use std::sync::Arc;
 
-use harmonics::Harmonics;
 use octahedral::Octahedral;
 use thiserror::Error;
 use trigon_math::{Mat3, Vec3, elementary};
-use trigon_raster::simd::{F32, InlineMap, LANES, Simd, lanes_of, prelude::*};
+use trigon_raster::simd::prelude::*;
+use trigon_raster::simd::{F32, InlineMap, LANES, Simd, lanes_of};
 
+use self::prefilter::Harmonics;
 use crate::lanes::{V3, turned};
+use crate::work::{Work, note};
 
 /// The smallest side of the sharpest map in texels. (The horizon is four sides long.)
 const LEAST: usize = 256;
@@ -229,6 +228,46 @@ fn equirectangular(u: f32, v: f32) -> Vec3 {
     )
 }
 
+/// A sky of three colours that blend into each other: linear RGB, up to several
+/// times the white of the display.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sky {
+    /// Overhead.
+    pub zenith: Vec3,
+    /// At the horizon.
+    pub horizon: Vec3,
+    /// Below.
+    pub ground: Vec3,
+}
+
+impl Default for Sky {
+    /// A clear day, as bright on a level white surface as ambient light of about one half.
+    fn default() -> Self {
+        Self {
+            zenith: Vec3::new(0.28, 0.42, 0.78),
+            horizon: Vec3::new(0.78, 0.82, 0.88),
+            ground: Vec3::new(0.2, 0.19, 0.17),
+        }
+    }
+}
+
+impl Sky {
+    /// The light from a unit vector, +Y up. Above the horizon, it approaches the
+    /// zenith colour with the third power of the elevation; below, the ground colour with the
+    /// eighth: haze is thick, and the ground begins abruptly.
+    #[must_use]
+    pub fn radiance(&self, direction: Vec3) -> Vec3 {
+        let level = 1.0 - direction.y.abs();
+        let level = if level > 0.0 { level } else { 0.0 };
+        let square = level * level;
+        if direction.y >= 0.0 {
+            self.zenith.lerp(self.horizon, square * level)
+        } else {
+            self.ground.lerp(self.horizon, square * square * square * square)
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -296,5 +335,13 @@ mod tests {
     fn an_image_without_pixels_is_refused() {
         let error = Environment::from_equirectangular(2, 2, &[[0.0; 3]]).expect_err("too few");
         assert_eq!(error, EnvironmentError::Size { width: 2, height: 2, given: 1 }, "says what is there");
+    }
+
+    #[test]
+    fn the_three_colours_are_where_they_belong() {
+        let sky = Sky::default();
+        assert_eq!(sky.radiance(Vec3::Y), sky.zenith, "overhead");
+        assert_eq!(sky.radiance(Vec3::NEG_Y), sky.ground, "below");
+        assert_eq!(sky.radiance(Vec3::X), sky.horizon, "and between them");
     }
 }

@@ -1,10 +1,17 @@
-//! The vertex attributes of a mesh as columns (structure of arrays), for the vectorized vertex stage.
+//! The vertex attributes of a mesh as columns (structure of arrays), for the vectorized vertex stage. What all vertex
+//! colours of a mesh have in common is found once, when a material first asks for it.
+
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use rayon::prelude::*;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Deformed, Mesh, RenderMesh, RenderUpdate, UpdatedVertex, WeldedMesh};
 
-use super::color_traits::ColorTraits;
+use super::Geometry;
+use crate::display::Display;
+use crate::material::{AlphaMode, Material};
+use crate::work::keeps_unseen;
 
 /// The vertex values of a mesh. All columns have the same length, but that of normals may be empty.
 #[derive(Clone, Debug, Default)]
@@ -180,4 +187,93 @@ fn turned<T: Sync, const N: usize>(rows: &[T], entries: impl Fn(&T) -> [f32; N] 
         columns.par_iter_mut().enumerate().for_each(write);
     }
     columns
+}
+
+/// What is the same of all vertex colours; each is searched when it is first asked for.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ColorTraits {
+    /// Red, green and blue are 1.
+    white: OnceLock<bool>,
+    /// Alpha is 1.
+    opaque: OnceLock<bool>,
+    /// All are finite numbers, at least 0.
+    positive: OnceLock<bool>,
+}
+
+impl Columns {
+    /// Whether vertex colours show in a material whose alpha mode is the one that can be seen. Interpolated between
+    /// equal values they are exactly these, so white ones change no byte.
+    pub(crate) fn show_colors(&self, material: &Material, display: Display) -> bool {
+        let shows_alpha = material.alpha_mode != AlphaMode::Opaque || display == Display::Alpha;
+        let is_black = || material.base_color.truncate() == Vec3::ZERO && self.are_colors_positive();
+        let shows = || !self.are_colors_white() && !is_black() || shows_alpha && !self.are_colors_opaque();
+        self.colors.is_some() && (keeps_unseen() || shows())
+    }
+
+    /// Whether the red, green and blue of all vertex colours, if there are any, are 1.
+    pub(crate) fn are_colors_white(&self) -> bool {
+        *self.color_traits.white.get_or_init(|| self.all_of_colors(0..3, |value| value == 1.0))
+    }
+
+    /// Whether their alpha is 1.
+    pub(crate) fn are_colors_opaque(&self) -> bool {
+        *self.color_traits.opaque.get_or_init(|| self.all_of_colors(3..4, |value| value == 1.0))
+    }
+
+    /// Whether all of their values are finite and at least 0.
+    pub(crate) fn are_colors_positive(&self) -> bool {
+        let is_positive = |value: f32| value.is_finite() && value >= 0.0;
+        *self.color_traits.positive.get_or_init(|| self.all_of_colors(0..4, is_positive))
+    }
+
+    fn all_of_colors(&self, channels: std::ops::Range<usize>, holds: impl Fn(f32) -> bool) -> bool {
+        let Some(colors) = &self.colors else { return true };
+        colors[channels].iter().flatten().all(|&value| holds(value))
+    }
+}
+
+/// Triangles per task.
+const TRIANGLES_PER_TASK: usize = 4096;
+
+/// For each vertex of geometry at rest that a triangle has, a vertex of the mesh at the same position, to the bit;
+/// 0 for the others.
+pub(super) fn mesh_vertices(source: &Mesh, geometry: &Geometry) -> Vec<u32> {
+    let vertices: Vec<AtomicU32> = (0..geometry.columns.vertex_count()).map(|_| AtomicU32::new(0)).collect();
+    let bits = |position: [f32; 3]| position.map(f32::to_bits);
+    let triangles = geometry.triangles.par_iter().enumerate().with_min_len(TRIANGLES_PER_TASK);
+    // Fillers cover nothing, and need not be anywhere.
+    let triangles = triangles.filter(|(_, [a, b, c])| a != b || b != c);
+    triangles.for_each(|(number, triangle)| {
+        let candidates = source.face_vertices(geometry.face(number) as usize);
+        for &drawn in triangle {
+            let position = geometry.columns.positions.each_ref().map(|column| column[drawn as usize]);
+            let is_here =
+                |&&vertex: &&u32| bits(source.positions()[vertex as usize].to_array()) == bits(position);
+            let vertex = candidates.iter().find(is_here);
+            // Triangles that share a vertex may find different ones, all at the same position.
+            let vertex = vertex.expect("triangles have corners of their faces");
+            vertices[drawn as usize].store(*vertex, Ordering::Relaxed);
+        }
+    });
+    vertices.into_iter().map(AtomicU32::into_inner).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use trigon_mesh::primitives;
+
+    use super::*;
+
+    #[test]
+    fn drawn_vertices_lie_where_those_of_the_mesh_do() {
+        for mesh in [primitives::cube(1.0), primitives::torus(2.0, 0.5, 6, 5)] {
+            let geometry = Geometry::new(&mesh);
+            let vertices = mesh_vertices(&mesh, &geometry);
+            assert_eq!(vertices.len(), geometry.columns.vertex_count(), "one for each");
+            for (&vertex, drawn) in vertices.iter().zip(0..) {
+                let position = geometry.columns.position(drawn).expect("it is drawn");
+                assert_eq!(mesh.positions()[vertex as usize], position, "vertex {drawn}");
+            }
+        }
+    }
 }

@@ -1,5 +1,5 @@
-//! Which sides of triangles are edges of their polygons, and how much larger a polygon is than each of its
-//! triangles.
+//! Which sides of triangles are edges of polygons, the mesh's edge for each such side, and how much larger a polygon is
+//! than each of its triangles.
 
 use trigon_mesh::Mesh;
 use trigon_raster::EdgeFlags;
@@ -92,13 +92,32 @@ impl Measure {
     }
 }
 
+/// Marks a diagonal of a triangulation.
+pub(super) const NO_EDGE: u32 = u32::MAX;
+
+/// For each triangle of a mesh's triangulation, the edges of its three sides, starting at the first corner.
+pub(super) fn sides_of_mesh(source: &Mesh) -> Vec<[u32; 3]> {
+    let triangulation = source.triangulation();
+    let triangles = triangulation.triangles.iter().zip(&triangulation.triangle_faces);
+    triangles.map(|(triangle, &face)| sides_of_triangle(source, face, triangle)).collect()
+}
+
+/// The edges of one triangle of a face. A side is an edge if it joins consecutive corners of the face.
+pub(super) fn sides_of_triangle(source: &Mesh, face: u32, &[a, b, c]: &[u32; 3]) -> [u32; 3] {
+    let corners = source.face_corners(face as usize);
+    let (first, last) = (corners.start as u32, corners.end as u32 - 1);
+    [(a, b), (b, c), (c, a)].map(|(from, to)| {
+        let next = if from == last { first } else { from + 1 };
+        if to == next { source.corner_edge(from as usize).unwrap_or(NO_EDGE) } else { NO_EDGE }
+    })
+}
+
 #[cfg(test)]
 mod tests {
+    use super::*;
     use proptest::prelude::*;
     use trigon_math::Vec3;
-    use trigon_mesh::MeshBuilder;
-
-    use super::*;
+    use trigon_mesh::{MeshBuilder, primitives};
 
     proptest! {
         #[test]
@@ -131,10 +150,27 @@ mod tests {
 
     #[test]
     fn a_cube_shows_twelve_edges_and_no_diagonal() {
-        let cube = trigon_mesh::primitives::cube(1.0);
+        let cube = primitives::cube(1.0);
         let flags = flags_of_mesh(&cube);
         let shown: usize =
             flags.iter().map(|flags| (0..3).filter(|&edge| flags.contains(edge)).count()).sum();
         assert_eq!((flags.len(), shown), (12, 24), "each edge is seen from its two faces");
+    }
+
+    #[test]
+    fn every_edge_is_a_side_on_each_of_its_faces() {
+        for mesh in [primitives::cube(1.0), primitives::dodecahedron(1.0)] {
+            let mut found = vec![0; mesh.edge_count()];
+            let triangulation = mesh.triangulation();
+            for (sides, triangle) in sides_of_mesh(&mesh).iter().zip(&triangulation.triangles) {
+                let vertices = triangle.map(|corner| mesh.corner_vertices()[corner as usize]);
+                for (side, &edge) in sides.iter().enumerate().filter(|(_, edge)| **edge != NO_EDGE) {
+                    let [from, to] = [vertices[side], vertices[(side + 1) % 3]];
+                    assert_eq!(mesh.edges()[edge as usize], [from.min(to), from.max(to)], "side {side}");
+                    found[edge as usize] += 1;
+                }
+            }
+            assert!(found.iter().all(|&count| count == 2), "{found:?}");
+        }
     }
 }

@@ -1,15 +1,22 @@
-//! The microfacet surface of glTF 2.0, appendix B. It has the GGX distribution (B. Walter et al., "Microfacet
-//! Models for Refraction through Rough Surfaces", 2007). Shadowing is height-correlated (E. Heitz, "Understanding
-//! the Masking-Shadowing Function in Microfacet-Based BRDFs", 2014), and Fresnel's law that of C. Schlick's
-//! approximation (1994).
+//! Eight points of a surface, and the light that they reflect.
 //!
-//! All terms are multiplied by π, so that a light of radiance 1 shows a white
-//! Lambertian surface as 1; see the head of `light.rs`.
+//! The microfacet surface is that of glTF 2.0, appendix B. It has the GGX distribution (B. Walter et al., "Microfacet
+//! Models for Refraction through Rough Surfaces", 2007). Shadowing is height-correlated (E. Heitz, "Understanding the
+//! Masking-Shadowing Function in Microfacet-Based BRDFs", 2014), and Fresnel's law that of C. Schlick's approximation
+//! (1994). All terms are multiplied by π, so that a light of radiance 1 shows a white Lambertian surface as 1; see the
+//! head of `light.rs`.
+//!
+//! The fraction of light that a surface reflects in all directions together has no closed form. A table is made on first
+//! use. Each entry is the mean over 256 directions of the distribution (B. Karis, "Real Shading in Unreal Engine 4", 2013,
+//! section "Environment BRDF"), with the shadowing term of the surface itself.
 
-use trigon_raster::simd::{F32, Simd, greater, prelude::*};
+use std::sync::OnceLock;
 
-use super::reflectance::reflectance;
-use crate::lanes::{V3, fifth_power, mix, positive, saturated};
+use trigon_math::{Vec3, elementary};
+use trigon_raster::simd::prelude::*;
+use trigon_raster::simd::{F32, Simd, greater, inlined, lanes_of};
+
+use crate::lanes::{V3, fifth_power, mix, positive, product, saturated, sum, table_step};
 
 /// The parameters of a microfacet surface at eight points.
 #[derive(Clone, Copy)]
@@ -86,6 +93,132 @@ pub(crate) struct Surrounded<S: Simd> {
     pub(crate) repeated: V3<S>,
     /// The fraction that remains for the diffuse part.
     pub(crate) diffuse: V3<S>,
+}
+
+/// Entries along each axis, roughness and cosine, both from 0 to 1.
+const SIDE: usize = 16;
+
+/// Directions for each entry.
+const SAMPLES: u32 = 256;
+
+/// The factors of F0 and of F90.
+type Table = [[f32; SIDE * SIDE]; 2];
+
+fn table() -> &'static Table {
+    static TABLE: OnceLock<Table> = OnceLock::new();
+    TABLE.get_or_init(|| {
+        let share = |step: usize| step as f32 / (SIDE - 1) as f32;
+        let entries: Vec<[f32; 2]> =
+            (0..SIDE * SIDE).map(|entry| integral(share(entry / SIDE), share(entry % SIDE))).collect();
+        [0, 1].map(|factor| std::array::from_fn(|entry| entries[entry][factor]))
+    })
+}
+
+/// Both factors for a roughness and the cosine between normal and view.
+fn integral(roughness: f32, cosine: f32) -> [f32; 2] {
+    /// At grazing views and for perfect mirrors there is nothing to integrate.
+    const LEAST: f32 = 1e-3;
+    let cosine = if cosine > LEAST { cosine } else { LEAST };
+    let alpha = if roughness * roughness > LEAST { roughness * roughness } else { LEAST };
+    let square = alpha * alpha;
+    let view = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
+    let mut sums = [0.0_f64; 2];
+    for sample in 0..SAMPLES {
+        // Hammersley's points; half vectors as GGX has them.
+        let across = (sample as f32 + 0.5) / SAMPLES as f32;
+        let around = sample.reverse_bits() as f32 / 4_294_967_296.0 * std::f32::consts::TAU;
+        let n_dot_h = ((1.0 - across) / (1.0 + (square - 1.0) * across)).sqrt();
+        let flat = (1.0 - n_dot_h * n_dot_h).sqrt();
+        let half = Vec3::new(flat * elementary::cos_f32(around), flat * elementary::sin_f32(around), n_dot_h);
+        let v_dot_h = view.dot(half);
+        let n_dot_l = 2.0 * v_dot_h * n_dot_h - cosine;
+        if n_dot_l <= 0.0 || v_dot_h <= 0.0 {
+            continue;
+        }
+        let towards_view = n_dot_l * ((cosine - cosine * square) * cosine + square).sqrt();
+        let towards_light = cosine * ((n_dot_l - n_dot_l * square) * n_dot_l + square).sqrt();
+        let visible = 0.5 / (towards_view + towards_light);
+        let weight = f64::from(visible * n_dot_l * v_dot_h * 4.0 / n_dot_h);
+        let away = 1.0 - v_dot_h;
+        let fresnel = f64::from(away * away * away * away * away);
+        sums[0] += (1.0 - fresnel) * weight;
+        sums[1] += fresnel * weight;
+    }
+    sums.map(|sum| (sum / f64::from(SAMPLES)) as f32)
+}
+
+/// Both factors at eight points: the reflectance is the first times F0 plus the second times F90.
+#[inline(always)]
+pub(super) fn reflectance<S: Simd>(simd: S, roughness: F32<S>, cosine: F32<S>) -> [F32<S>; 2] {
+    let table = table();
+    let ((row, down), (column, across)) = (table_step(roughness, SIDE), table_step(cosine, SIDE));
+    let of = inlined(
+        #[inline(always)]
+        |factor: usize| {
+            let entry = inlined(
+                #[inline(always)]
+                |step: usize| {
+                    let values = lanes_of(
+                        #[inline(always)]
+                        |lane| table[factor][row[lane] as usize * SIDE + column[lane] as usize + step],
+                    );
+                    F32::simd_from(simd, values)
+                },
+            );
+            mix(mix(entry(0), entry(1), across), mix(entry(SIDE), entry(SIDE + 1), across), down)
+        },
+    );
+    [of(0), of(1)]
+}
+
+/// Eight points of a surface, in camera space.
+#[derive(Clone, Copy)]
+pub(crate) struct LitPoints<S: Simd> {
+    pub(crate) position: V3<S>,
+    /// Of unit length, or zero, which no light reaches.
+    pub(crate) normal: V3<S>,
+    /// The same without the normal map: the orientation of the surface itself.
+    pub(crate) facing: V3<S>,
+    /// Perpendicular to the triangle, of any length and on either side: `facing` may be interpolated. Shadow maps alone
+    /// need it; without them it is `facing`.
+    pub(crate) plane: V3<S>,
+    /// Unit vectors towards the eye.
+    pub(crate) view: V3<S>,
+}
+
+/// The reflection model at eight points.
+#[derive(Clone, Copy)]
+pub(crate) enum Brdf<S: Simd> {
+    /// Base colour × N·L.
+    Lambert,
+    /// See [`Shading::BlinnPhong`](crate::Shading::BlinnPhong).
+    BlinnPhong { specular: V3<S>, shininess: F32<S> },
+    /// See [`Shading::MetallicRoughness`](crate::Shading::MetallicRoughness).
+    Microfacets(Microfacets<S>),
+}
+
+/// Light that leaves towards the eye.
+#[derive(Clone, Copy)]
+pub(crate) struct Reflected<S: Simd> {
+    /// To be multiplied by the diffuse colour.
+    pub(crate) diffuse: V3<S>,
+    /// Highlights.
+    pub(crate) specular: V3<S>,
+}
+
+impl<S: Simd> Reflected<S> {
+    #[inline(always)]
+    pub(crate) fn none(simd: S) -> Self {
+        let zero = F32::splat(simd, 0.0);
+        Self { diffuse: [zero; 3], specular: [zero; 3] }
+    }
+
+    /// Adds light, of which `diffuse` and `specular` are reflected to the eye.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, light: V3<S>, diffuse: V3<S>, specular: V3<S>) {
+        self.diffuse = sum(self.diffuse, product(light, diffuse));
+        self.specular = sum(self.specular, product(light, specular));
+    }
 }
 
 #[cfg(test)]

@@ -2,20 +2,16 @@
 
 mod brdf;
 mod lamp;
-mod points;
-mod reflectance;
-mod studio;
 
-pub(crate) use brdf::Microfacets;
+pub(crate) use brdf::{Brdf, LitPoints, Microfacets, Reflected};
 pub(crate) use lamp::{Arriving, BRIGHTEST, Lamp, LampSource};
-pub(crate) use points::{Brdf, LitPoints, Reflected};
 
 use std::collections::BTreeMap;
 
 use trigon_math::{DAffine3, Vec3};
 
 use crate::light::LightKind;
-use crate::light_reading::LightReading;
+use crate::light::LightReading;
 use crate::placement::Eye;
 use crate::scene::Scene;
 use crate::settings::{Lighting, RenderSettings};

@@ -4,9 +4,9 @@ use trigon_camera::{Camera, Projector, Viewport};
 use trigon_math::{DVec2, DVec3, Vec2, Vec3};
 use trigon_raster::Rasterizer;
 
+use super::VisibleIds;
 use super::facet::Beam;
 use super::source::{ObjectSource, Point, Triangle};
-use super::visible_ids::VisibleIds;
 use crate::frame::Frame;
 use crate::prepare::PreparedScene;
 

@@ -1,15 +1,15 @@
-//! Triangles as linear forms of the place on the screen: a quick proof that they do not hide a point.
+//! Triangles as linear forms of the position on the screen: a quick proof that a triangle does not hide a point.
 //!
-//! A triangle hides a point that lies within its three sides and behind its plane. On the screen all four
-//! are linear forms. Here they are f32, of eight triangles at a time, counted from a place near all of them,
-//! and each is larger than the exact one by more than anything that is rounded. So most points, their own
-//! corners above all, are told apart from hidden ones without the exact test.
+//! A triangle hides a point that lies within the triangle's three sides and behind its plane. On the screen all four
+//! conditions are linear forms. Here the forms are f32, of eight triangles at a time, relative to an origin near all
+//! eight. Each form is larger than the exact form by more than all rounding errors. So most points, a triangle's own
+//! corners above all, are told apart from hidden points without the exact test.
 
 use trigon_math::DVec2;
 use trigon_raster::simd::{F32, InlineMap, LANES, Simd, inlined, prelude::*};
 
 use super::occluders::Pieces;
-use super::probes::Probe;
+use super::occluders::Probe;
 
 /// Of the sum of the absolute terms of a form, more than what its factors, a place and their sum are
 /// rounded by in f32: a dozen steps.

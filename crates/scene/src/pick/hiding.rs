@@ -1,10 +1,9 @@
-//! Decides which points of elements are hidden by faces that they do not belong to.
+//! Decides which points of elements are hidden by faces that the elements do not belong to.
 //!
-//! The points are sorted into pixels. Every drawn triangle then tests the points in the pixels around it, and
-//! hides those that it covers on the screen and that lie behind it. Each triangle is read once, and a
-//! triangle as small as a pixel tests few points, so the time grows with triangles plus points, not with
-//! their product. Points are tested in f64 where they are, never at pixel centres. Quick tests come first
-//! (`occluders`).
+//! The points are sorted into pixels. Every drawn triangle then tests the points in the pixels around the triangle. The
+//! triangle hides the points that it covers on the screen and that lie behind it. Each triangle is read once, and a
+//! triangle as small as a pixel tests few points, so the time grows with triangles plus points, not with their product.
+//! Points are tested in f64 at their own positions, never at pixel centres. Quick tests come first (`occluders`).
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,12 +13,12 @@ use rayon::prelude::*;
 use trigon_math::DVec2;
 use trigon_raster::simd::Simd;
 
-use super::facing::Facing;
 use super::forms::Forms;
 use super::nearby::{Nearby, NearbyTriangles};
+use super::object::Facing;
 use super::object::PickObject;
 use super::occluders::{Around, Extent, Group, Pixels};
-use super::probes::{Probe, Probes};
+use super::occluders::{Probe, Probes};
 use super::region::Area;
 use super::screen::{Screen, Spot, doubled_area};
 use crate::frame::Frame;

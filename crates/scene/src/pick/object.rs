@@ -1,20 +1,19 @@
-//! Objects for picking: their elements, and the screen positions of their points. Everything is
-//! computed on first use.
+//! Objects for picking: their elements, the screen positions of their points, and which sides of their faces are drawn.
+//! Everything is computed on first use. [`CachedPoints`] outlives a picker: screen positions, and which vertices are
+//! visible.
 
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
-use trigon_math::{DMat4, DVec3, Vec3};
+use trigon_math::{DMat4, DVec2, DVec3, Vec3};
 use trigon_mesh::Mesh;
 use trigon_raster::simd::{LANES, inlined, lanes_of};
 
-use super::cached_points::{CachedPoints, ObjectPoints, PointOrigin, VisibleOrigin};
-use super::facing::Facing;
-use super::region::Area;
+use super::region::{Area, Sides};
 use super::screen::{Screen, Spot, Spots};
-use super::sides::Sides;
+use crate::elements::ElementSet;
 use crate::geometry::{BlockBox, Blocks, GeometryState, Run};
 use crate::material::AlphaMode;
 use crate::node::NodeId;
@@ -308,5 +307,74 @@ impl LazySpots<'_> {
         // Another thread may have been quicker, and has found the same.
         let _ = self.cached.set(Arc::new(spots));
         sides
+    }
+}
+
+/// How faces of a material are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Facing {
+    /// Whether backs are drawn, too.
+    pub(super) double_sided: bool,
+    /// Whether there are no holes, and nothing shines through.
+    pub(super) is_opaque: bool,
+    /// Whether fronts wind clockwise because the object is mirrored.
+    pub(super) is_mirrored: bool,
+}
+
+impl Facing {
+    /// Whether a triangle of this area on the screen, where y points down, is drawn.
+    pub(super) fn draws(&self, area: f64) -> bool {
+        area != 0.0 && (self.double_sided || (area < 0.0) != self.is_mirrored)
+    }
+}
+
+/// Where the vertices of a scene's objects are on the screen and which of them are visible, as far as a picker has
+/// found out: the next one need not do so again. It uses only what it knows of objects that are as they were, and
+/// seen in the same way.
+#[derive(Clone, Debug, Default)]
+pub struct CachedPoints {
+    /// By the indices of nodes.
+    pub(super) objects: Vec<Option<ObjectPoints>>,
+    pub(super) visible: Option<Arc<VisibleVertices>>,
+}
+
+/// The vertices of an object at rest.
+#[derive(Clone, Debug)]
+pub(super) struct ObjectPoints {
+    pub(super) origin: PointOrigin,
+    /// With some more at the end.
+    pub(super) spots: Arc<Vec<[Spot; LANES]>>,
+}
+
+/// Everything that the screen positions of an object at rest depend on.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct PointOrigin {
+    pub(super) state: GeometryState,
+    /// To clip space.
+    pub(super) map: DMat4,
+    /// Of the image, in pixels.
+    pub(super) half_size: DVec2,
+}
+
+/// Which vertices no face but their own hides, of all that lie in an image.
+#[derive(Clone, Debug)]
+pub(super) struct VisibleVertices {
+    /// By the indices of nodes.
+    pub(super) origins: Vec<Option<VisibleOrigin>>,
+    pub(super) vertices: ElementSet,
+}
+
+/// What the visibility of points depends on, of one object.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct VisibleOrigin {
+    pub(super) points: PointOrigin,
+    pub(super) facings: Vec<Facing>,
+}
+
+impl CachedPoints {
+    /// The points of the node with this index, if they have this origin.
+    pub(super) fn of(&self, index: usize, origin: &PointOrigin) -> Option<Arc<Vec<[Spot; LANES]>>> {
+        let points = self.objects.get(index)?.as_ref()?;
+        (points.origin == *origin).then(|| Arc::clone(&points.spots))
     }
 }

@@ -1,8 +1,8 @@
 //! Screen positions of objects' points, in f64.
 //!
-//! Objects are placed as the renderer places them: their transforms are made relative to the camera
-//! before anything is multiplied. Depth is that of the depth buffer, which is linear across the
-//! screen: 1 on the near plane, 0 on the far plane or at infinity.
+//! Objects are placed as the renderer places objects: transforms are made relative to the camera before anything is
+//! multiplied. Depth is that of the depth buffer, which is linear across the screen: 1 on the near plane, 0 on the far
+//! plane or at infinity.
 
 use fearless_simd::f64x8;
 use trigon_camera::{Camera, Viewport};

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::light_reading::LightReading;
+use crate::light::LightReading;
 
 /// Whether an effect is on, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -6,14 +6,14 @@
 
 use trigon_math::{Bounds3, DVec3, Vec3, elementary};
 
-use super::{PreparedScene, prepared_scene::has_sight_rays};
+use super::{PreparedScene, has_sight_rays};
 use crate::effects::LampPose;
-use crate::left_in::keeps_unseen;
 use crate::lighting::Lamp;
 use crate::material::Shading;
 use crate::node::Node;
 use crate::scene::Scene;
 use crate::shapes::Shape;
+use crate::work::keeps_unseen;
 
 /// By how much of itself a range is widened. The falloff is computed in f32.
 const RANGE_MARGIN: f64 = 1e-3;

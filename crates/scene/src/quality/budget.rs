@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use trigon_camera::Camera;
 
-use super::patience::Patience;
+use super::choice::Patience;
 use super::{Choice, CostModel, ErrorModel, Prediction, Preset, Quality, candidates};
 use crate::frame::Frame;
 use crate::render::{RenderError, Renderer};

@@ -24,23 +24,17 @@
 //! ```
 
 mod budget;
-mod candidates;
 mod choice;
 mod cost;
 mod error;
 mod knobs;
-mod patience;
-mod preset;
 mod probe;
-mod window;
 
 #[cfg(test)]
 mod tests;
 
 pub use budget::TimeBudget;
-pub use candidates::candidates;
-pub use choice::{Choice, Prediction};
+pub use choice::{Choice, Prediction, candidates};
 pub use cost::CostModel;
 pub use error::{ErrorModel, rmse};
-pub use knobs::Quality;
-pub use preset::{Preset, UnknownPreset};
+pub use knobs::{Preset, Quality, UnknownPreset};

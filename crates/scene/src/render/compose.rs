@@ -11,13 +11,13 @@ use trigon_raster::{BlendMode, Culling, EdgeFlags};
 
 use super::looks::{LookKey, Looks, SharedLook};
 use super::record::{Dots, MarkNumbers, ObjectMarks, PointList, Record, Segments, TriangleDraw};
-use super::vertex_list::{VertexList, VertexLists};
 use super::wire::{ColoredLines, HiddenLine, PointColors, Wire, WireMarks, WirePaint};
+use super::wire::{VertexList, VertexLists};
 use crate::display::Display;
 use crate::effect::Effect;
 use crate::effects::{Counts, LightingEnvironment, Optics};
+use crate::elements;
 use crate::geometry::{Geometry, Run};
-use crate::marks;
 use crate::material::{AlphaMode, Material, MaterialTexture, Shading};
 use crate::mesh_asset::MeshAsset;
 use crate::node::{Node, NodeId};
@@ -200,8 +200,8 @@ impl<'s> Composer<'s> {
             return None;
         }
         let paints_edges = matches!(style, Style::SurfaceWithEdges | Style::HiddenLine);
-        let edges = if paints_edges { marks::numbers(&marks.edges, node) } else { Vec::new() };
-        let faces = marks::numbers(&marks.faces, node);
+        let edges = if paints_edges { elements::numbers(&marks.edges, node) } else { Vec::new() };
+        let faces = elements::numbers(&marks.faces, node);
         let is_marked = !edges.is_empty() || !faces.is_empty();
         is_marked.then(|| Arc::new(MarkNumbers { edges, faces }))
     }
@@ -430,9 +430,9 @@ impl<'s> Composer<'s> {
         colors: Option<&'s [Vec4]>,
     ) -> Option<Box<dyn Record + 'c>> {
         let edges = &self.settings.marks.edges;
-        let mut numbers = marks::numbers(edges, object.id);
+        let mut numbers = elements::numbers(edges, object.id);
         numbers.drain(..first.min(numbers.len()));
-        let marks = WireMarks { numbers: Arc::new(numbers), colors: marks::colors(edges) };
+        let marks = WireMarks { numbers: Arc::new(numbers), colors: elements::colors(edges) };
         let (wire, geometry) = (self.wire(object, paint, marks), object.geometry);
         let (object, width, blend_mode) =
             (object.index, self.settings.line_width, blend_mode_of(paint.alpha_mode()));
@@ -483,7 +483,7 @@ impl<'s> Composer<'s> {
             return None;
         }
         let VertexList { points, numbers, marked } = list;
-        let marks = WireMarks { numbers, colors: marks::colors(listed) };
+        let marks = WireMarks { numbers, colors: elements::colors(listed) };
         Some(Box::new(Dots {
             pipeline: self.wire(object, WirePaint::of_color(shown.color), marks),
             geometry: object.geometry,

@@ -1,5 +1,7 @@
 //! The drawing engine: threads, memory and caches that last from frame to frame, and the order of
 //! the steps of a frame.
+//!
+//! Depths become greys here, too, for [`Display::Depth`](crate::Display::Depth).
 
 use std::sync::Arc;
 
@@ -11,17 +13,17 @@ use trigon_raster::{
 
 use super::RenderError;
 use super::compose::Composer;
-use super::depth_image::paint_depth;
 use super::effect_caches::{Destination, EffectCaches};
 use super::last_frame::{LastFrame, Redraw, redraw};
 use super::record::Record;
 use super::shared_frames::{ReusableFrame, SharedFrames};
-use super::vertex_list::VertexLists;
+use super::wire::VertexLists;
 use crate::display::Display;
 use crate::effect::Effect;
 use crate::effects::{Counts, EffectCounts, LightingEnvironment};
 use crate::frame::Frame;
-use crate::outputs::{self, Needed};
+use crate::outputs;
+use crate::outputs::Needed;
 use crate::placement::DepthToDistance;
 use crate::plan::EffectPlan;
 use crate::prepare::{Backdrop, PreparedScene};
@@ -338,4 +340,25 @@ fn measure_depth(frame: &mut Frame, camera: &Camera, settings: &RenderSettings, 
     } else {
         rasterizer.share(depths.chunks_mut(PIECE), measure);
     }
+}
+
+/// Paints the depths of a frame into its colours.
+pub(super) fn paint_depth(frame: &mut Frame) {
+    let Some(depths) = &frame.depth else { return };
+    frame.color = grey_depths(depths);
+}
+
+/// Near is dark; nothing is white. Greys are in proportion to the distance.
+fn grey_depths(depths: &[f32]) -> Vec<u8> {
+    /// The brightest grey, so that it differs from the background.
+    const FAR: f32 = 235.0;
+    let finite = || depths.iter().copied().filter(|depth| depth.is_finite());
+    let nearest = finite().fold(f32::INFINITY, |least, depth| if depth < least { depth } else { least });
+    let farthest = finite().fold(0.0, |most: f32, depth| if depth > most { depth } else { most });
+    let range = if farthest > nearest { farthest - nearest } else { 1.0 };
+    let grey = |&depth: &f32| {
+        let grey = if depth.is_finite() { ((depth - nearest) / range * FAR) as u8 } else { 255 };
+        [grey, grey, grey, 255]
+    };
+    depths.iter().flat_map(grey).collect()
 }

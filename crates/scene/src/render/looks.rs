@@ -96,7 +96,7 @@ mod tests {
     use crate::prepare::PreparedScene;
     use crate::render::compose::Composer;
     use crate::render::record::TriangleDraw;
-    use crate::render::vertex_list::VertexLists;
+    use crate::render::wire::VertexLists;
     use crate::scene::Scene;
     use crate::settings::RenderSettings;
     use crate::shapes::Shape;

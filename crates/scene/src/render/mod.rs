@@ -2,10 +2,10 @@
 //! one pass, execute it, and compute the outputs.
 //!
 //! A frame is a pure function of scene, camera and settings.
+//!
+//! A [`RendererBuilder`] makes a renderer from settings.
 
-mod builder;
 mod compose;
-mod depth_image;
 mod effect_caches;
 mod engine;
 mod last_frame;
@@ -13,27 +13,25 @@ mod looks;
 mod record;
 mod renderer;
 mod shared_frames;
-#[cfg(test)]
-mod tests;
-mod vertex_list;
 mod wire;
 
-pub use builder::RendererBuilder;
-pub use renderer::Renderer;
-/// For picking.
-pub(crate) use {
-    crate::placement,
-    crate::shapes::{Onlookers, Shape, Shapes},
-};
+use std::num::NonZeroUsize;
 
 use thiserror::Error;
 use trigon_camera::Camera;
 use trigon_raster::TargetError;
 use trigon_raster::simd::SimdLevelError;
 
+use crate::effect_settings::EffectSettings;
 use crate::frame::Frame;
 use crate::scene::Scene;
-use crate::settings::RenderSettings;
+use crate::settings::{Background, Outputs, RenderSettings, Style};
+
+pub use renderer::Renderer;
+pub(crate) use {
+    crate::placement,
+    crate::shapes::{Onlookers, Shape, Shapes},
+};
 
 /// Why a frame cannot be drawn.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
@@ -59,3 +57,81 @@ pub enum RenderError {
 pub fn render(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Result<Frame, RenderError> {
     Renderer::new(settings.clone()).render(scene, camera)
 }
+
+/// The default size of an image in pixels: the viewer's, and F3D's.
+const USUAL_SIZE: [u32; 2] = [1000, 600];
+
+/// Builds a [`Renderer`] from the most common settings. The others are those of
+/// [`RenderSettings::new`]; the default size is 1000×600 pixels.
+///
+/// Nothing is checked here: a size or a number of samples out of range is an error of the first
+/// frame.
+#[derive(Clone, Debug)]
+pub struct RendererBuilder(RenderSettings);
+
+impl Default for RendererBuilder {
+    fn default() -> Self {
+        Self(RenderSettings::new(USUAL_SIZE[0], USUAL_SIZE[1]))
+    }
+}
+
+impl RendererBuilder {
+    /// Width and height in pixels, each 1 to [`MAX_SIZE`](crate::MAX_SIZE).
+    #[must_use]
+    pub fn size(self, width: u32, height: u32) -> Self {
+        Self(RenderSettings { width, height, ..self.0 })
+    }
+
+    /// Multisampling: 1, 2, 4, 8 or 16 samples per pixel, shaded once per triangle. Replaces
+    /// [`samples_per_axis`](Self::samples_per_axis).
+    #[must_use]
+    pub fn samples(self, samples: u32) -> Self {
+        Self(RenderSettings { samples, samples_per_axis: 1, ..self.0 })
+    }
+
+    /// Supersampling: 1 to 4 samples along each side of a pixel, each shaded; 3 by default.
+    /// Replaces [`samples`](Self::samples).
+    #[must_use]
+    pub fn samples_per_axis(self, samples_per_axis: u32) -> Self {
+        Self(RenderSettings { samples_per_axis, samples: 1, ..self.0 })
+    }
+
+    /// The maximum number of threads; 0 for one per core. No image depends on it.
+    #[must_use]
+    pub fn threads(self, threads: usize) -> Self {
+        Self(RenderSettings { threads: NonZeroUsize::new(threads), ..self.0 })
+    }
+
+    /// The outputs of frames.
+    #[must_use]
+    pub fn outputs(self, outputs: Outputs) -> Self {
+        Self(RenderSettings { outputs, ..self.0 })
+    }
+
+    /// Behind everything.
+    #[must_use]
+    pub fn background(self, background: Background) -> Self {
+        Self(RenderSettings { background, ..self.0 })
+    }
+
+    /// Faces, edges or both.
+    #[must_use]
+    pub fn style(self, style: Style) -> Self {
+        Self(RenderSettings { style, ..self.0 })
+    }
+
+    /// All effects beyond directly lit surfaces.
+    #[must_use]
+    pub fn effects(self, effects: EffectSettings) -> Self {
+        Self(RenderSettings { effects, ..self.0 })
+    }
+
+    /// The renderer. It allocates no memory until its first frame.
+    #[must_use]
+    pub fn build(self) -> Renderer {
+        Renderer::new(self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests;

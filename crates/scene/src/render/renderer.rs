@@ -6,7 +6,7 @@ use trigon_camera::Camera;
 use trigon_raster::{Cancel, PixelExplanation, Rect, Stats};
 
 use super::RenderError;
-use super::builder::RendererBuilder;
+use super::RendererBuilder;
 use super::engine::{Engine, Request};
 use crate::effect::Effect;
 use crate::effects::EffectCounts;

@@ -7,7 +7,7 @@ use trigon_math::{Bounds3, DAffine3, DVec3, Vec3};
 use trigon_mesh::Mesh;
 
 use super::Scene;
-use super::skin_pose::SkinPose;
+use super::pose::SkinPose;
 use crate::mesh_asset::MeshAsset;
 use crate::node::NodeId;
 

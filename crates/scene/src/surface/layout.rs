@@ -1,6 +1,9 @@
-//! The layout of a draw's varyings: only values that its material and its lighting need are interpolated.
+//! The layout of a draw's varyings: only values that the material and the lighting need are interpolated. A surface is lit
+//! per face, per vertex or per pixel, or shows a value instead.
 
 use trigon_math::glam::Affine2;
+
+use crate::display::Display;
 
 /// The varyings of a draw. What is `None` is not interpolated.
 #[derive(Clone, Debug, Default)]
@@ -75,6 +78,23 @@ impl Layout {
         self.coordinates.push(Coordinates { uv_set, transform, at });
         at
     }
+}
+
+/// Where light is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Illumination {
+    /// There is no light.
+    None,
+    /// At the vertices, and interpolated (H. Gouraud, "Continuous Shading of Curved
+    /// Surfaces", 1971).
+    AtVertices,
+    /// In each pixel, for an interpolated normal (B. T. Phong, "Illumination for Computer Generated
+    /// Pictures", 1975).
+    InPixels,
+    /// Once for each triangle, at its centre.
+    OnFacets,
+    /// Nowhere: surfaces show one of their values.
+    Value(Display),
 }
 
 #[cfg(test)]

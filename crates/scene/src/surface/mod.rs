@@ -3,39 +3,36 @@
 //! One pipeline serves all materials. A part that a material or its lighting does not need costs one branch
 //! for each group of eight pixels; its values are neither fetched nor interpolated. A second variant of the
 //! pipeline, `FLAT`, is evaluated once for each visible triangle, for faces of one colour.
+//!
+//! Varyings and texture look-ups of a draw are counted for the effects that need them.
 
 mod bound_material;
-mod facet;
-mod illumination;
 mod layout;
 mod light;
 mod material_params;
 mod points;
-mod reflection;
-mod scatter;
-mod tally;
 mod traced;
-mod value;
-
-pub(crate) use bound_material::{BoundMaterial, MaterialContext};
-pub(crate) use illumination::Illumination;
-pub(crate) use layout::{Layout, LightSlots};
-pub(crate) use material_params::{Coverage, Maps, MaterialParams, MicrofacetModel, Model, TextureMap};
 
 use std::ops::Deref;
 use std::sync::Arc;
 
-use crate::work::{Work, note};
 use trigon_math::{Mat3, Vec3};
-use trigon_raster::simd::{F32, InlineMap, Mask, Simd, prelude::*};
+use trigon_raster::simd::prelude::*;
+use trigon_raster::simd::{F32, InlineMap, Mask, Simd};
 use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
 
-use crate::effects::LightingEnvironment;
+use crate::effect::Effect;
+use crate::effects::{Counts, LightingEnvironment, Optics};
 use crate::geometry::Columns;
 use crate::lanes::{V3, normalized, saturated, splat, sum, turned};
 use crate::lighting::Reflected;
 use crate::material::MaterialTexture;
 use crate::placement::{Placement, Rays};
+use crate::work::{Work, note};
+
+pub(crate) use bound_material::{BoundMaterial, MaterialContext};
+pub(crate) use layout::{Illumination, Layout, LightSlots};
+pub(crate) use material_params::{Coverage, Maps, MaterialParams, MicrofacetModel, Model, TextureMap};
 
 /// The triangles of a draw.
 #[derive(Clone, Copy)]
@@ -245,5 +242,45 @@ fn load<S: Simd, const N: usize>(
 fn set<S: Simd, const N: usize>(vertices: &mut VertexLanes<'_>, at: usize, values: [F32<S>; N]) {
     for (index, value) in values.into_iter().enumerate() {
         vertices.set(at + index, value);
+    }
+}
+
+impl Look<'_> {
+    /// Adds the varyings of each vertex and the look-ups of each pixel.
+    pub(crate) fn count(&self, lighting: &LightingEnvironment, masked: bool, counts: &mut Counts) {
+        let Self { params, layout, .. } = self;
+        let some = |there: bool, count: u64| if there { count } else { 0 };
+        let light = if !lighting.lights.lamps.is_empty() {
+            Effect::Lamps
+        } else if lighting.surroundings.is_some() {
+            Effect::Environment
+        } else if lighting.has_ambient() {
+            Effect::AmbientLight
+        } else if matches!(params.optics, Some(Optics::Glass(_))) {
+            Effect::Refraction
+        } else {
+            Effect::Reflection
+        };
+        let specular = !matches!(params.model, Model::Lambert);
+        let position = match () {
+            () if lighting.fog.is_some() => Effect::Fog,
+            () if specular && self.illumination != Illumination::None => Effect::Highlights,
+            () if lighting.shadow_maps.is_some() => Effect::ShadowMaps,
+            () if lighting.shadow_rays => Effect::ShadowRays,
+            () if lighting.ambient_rays.is_some() => Effect::AmbientOcclusion,
+            () => light,
+        };
+        let of_light = layout.light.map_or(0, |slots| slots.len() as u64) + some(layout.normal.is_some(), 3);
+        counts.of(light).attributes += of_light;
+        counts.of(position).attributes += some(layout.position.is_some(), 3);
+        counts.of(Effect::NormalMaps).attributes += some(layout.tangent.is_some(), 4);
+        counts.of(Effect::VertexColors).attributes += some(layout.color.is_some(), 4);
+        counts.of(Effect::Textures).attributes += 2 * layout.coordinates.len() as u64;
+        for slot in params.maps.slots() {
+            counts.of(slot.row().effect).look_ups += 1;
+        }
+        let has_holes = masked && params.maps.get(MaterialTexture::BaseColor).is_some();
+        counts.of(Effect::Masks).look_ups += some(has_holes, 1);
+        counts.of(Effect::Transparency).passes += some(params.coverage == Coverage::Translucent, 1);
     }
 }

@@ -1,14 +1,20 @@
-//! Positions and normals of eight pixels of a surface.
+//! Positions and normals of eight pixels of a surface; flat faces, one colour per triangle, lit once; and surfaces that show
+//! one of their values as a colour, instead of light.
 
 use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;
-use trigon_raster::simd::{F32, InlineMap, LANES, Mask, Simd, inlined, prelude::*};
+use trigon_raster::simd::prelude::*;
+use trigon_raster::simd::{F32, InlineMap, LANES, Mask, Simd, inlined};
 
-use super::{Surface, TextureMap};
-use crate::lanes::{V3, cross, negated, normalized, scaled, select, splat, sum, turned};
+use super::{Coverage, Illumination, Model, Surface, TextureMap, shown};
+use crate::display::Display;
+use crate::lanes::{
+    V3, cross, difference, dot, negated, normalized, pow, saturated, scaled, select, splat, sum, turned,
+};
 use crate::lighting::LitPoints;
 use crate::material::MaterialTexture;
 use crate::placement::{Rays, Side};
+use crate::work::{Work, note};
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
     /// The positions and normals of the pixels.
@@ -146,4 +152,168 @@ fn apply_normal_map<S: Simd>(
 #[inline(always)]
 pub(super) fn three<S: Simd>(fragments: &FragmentLanes<'_, S>, at: usize) -> V3<S> {
     [fragments.varying(at), fragments.varying(at + 1), fragments.varying(at + 2)]
+}
+
+impl<const FLAT: bool> Surface<'_, FLAT> {
+    /// One colour for each triangle.
+    #[inline(always)]
+    pub(super) fn facet_color<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        let base = splat(simd, self.params.material.base_color.truncate());
+        let lit = match self.illumination {
+            Illumination::OnFacets => self.lit_facets(simd, fragments, base),
+            Illumination::None
+            | Illumination::AtVertices
+            | Illumination::InPixels
+            | Illumination::Value(_) => base,
+        };
+        let emissive = self.params.material.emissive;
+        if emissive != Vec3::ZERO {
+            note(Work::Emission);
+        }
+        let [r, g, b] = sum(lit, splat(simd, emissive));
+        match self.params.coverage {
+            Coverage::Opaque => [r, g, b, F32::splat(simd, 1.0)],
+            Coverage::Translucent => {
+                note(Work::Blend);
+                let alpha = F32::splat(simd, self.params.material.base_color.w.clamp(0.0, 1.0));
+                [r * alpha, g * alpha, b * alpha, alpha]
+            }
+        }
+    }
+
+    /// A colour lit at the centre of its triangle.
+    pub(super) fn lit_facets<S: Simd>(
+        &self,
+        simd: S,
+        fragments: &FragmentLanes<'_, S>,
+        albedo: V3<S>,
+    ) -> V3<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let points = self.facets(simd, fragments.primitives());
+                shown(&self.lit_plainly(simd, &points), albedo)
+            },
+        )
+    }
+
+    /// The centres of triangles, and the sides from which they are seen.
+    #[inline(always)]
+    pub(super) fn facets<S: Simd>(&self, simd: S, primitives: [u32; LANES]) -> LitPoints<S> {
+        let [a, b, c] = [0, 1, 2].each(
+            #[inline(always)]
+            |corner| self.placement.camera(simd, self.corners(simd, primitives, corner)),
+        );
+        let position = scaled(sum(sum(a, b), c), F32::splat(simd, 1.0 / 3.0));
+        let normal = normalized(cross(difference(b, a), difference(c, a)));
+        let view = self.view(simd, position);
+        // The visible side is the one that faces the eye, whatever the winding.
+        let faces_eye = dot(normal, view).simd_ge(0.0);
+        let normal = select(faces_eye, normal, negated(normal));
+        LitPoints { position, normal, facing: normal, plane: normal, view }
+    }
+
+    /// The positions of one corner of eight triangles, in the mesh's space.
+    #[inline(always)]
+    fn corners<S: Simd>(&self, simd: S, primitives: [u32; LANES], corner: usize) -> V3<S> {
+        let vertices = primitives.each(
+            #[inline(always)]
+            |primitive| self.triangles[primitive as usize][corner] as usize,
+        );
+        self.columns.positions.each_ref().each(
+            #[inline(always)]
+            |column| {
+                let values = vertices.each(
+                    #[inline(always)]
+                    |vertex| column[vertex],
+                );
+                F32::simd_from(simd, values)
+            },
+        )
+    }
+}
+
+impl<const FLAT: bool> Surface<'_, FLAT> {
+    /// The colour of eight pixels that show a value, in linear light.
+    pub(super) fn value<S: Simd>(
+        &self,
+        simd: S,
+        fragments: &FragmentLanes<'_, S>,
+        display: Display,
+        [r, g, b, alpha]: [F32<S>; 4],
+    ) -> V3<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let zero = F32::splat(simd, 0.0);
+                let stored = match display {
+                    Display::Emission => return self.with_emission(simd, fragments, [zero; 3]),
+                    Display::Normal => self.as_stored(self.points(simd, fragments).normal),
+                    Display::GeometricNormal => {
+                        self.as_stored(self.facets(simd, fragments.primitives()).normal)
+                    }
+                    Display::TextureCoordinates => match self.layout.shown_uv {
+                        Some(at) => {
+                            let fraction = |value: F32<S>| value - value.floor();
+                            [fraction(fragments.varying(at)), fraction(fragments.varying(at + 1)), zero]
+                        }
+                        None => [zero; 3],
+                    },
+                    Display::Metallic => [self.metallic_and_roughness(simd, fragments)[0]; 3],
+                    Display::Roughness => [self.metallic_and_roughness(simd, fragments)[1]; 3],
+                    Display::Occlusion => [self.open(simd, fragments); 3],
+                    Display::Alpha => [alpha; 3],
+                    Display::Shaded | Display::Matcap | Display::BaseColor | Display::Depth => {
+                        return [r, g, b];
+                    }
+                };
+                stored.each(
+                    #[inline(always)]
+                    |channel| decoded(channel),
+                )
+            },
+        )
+    }
+
+    /// From −1…1 in camera space to 0…1 along the world's axes.
+    #[inline(always)]
+    fn as_stored<S: Simd>(&self, normal: V3<S>) -> V3<S> {
+        let [x, y, z] = turned(&self.to_world, normal);
+        [x * 0.5 + 0.5, y * 0.5 + 0.5, z * 0.5 + 0.5]
+    }
+
+    #[inline(always)]
+    fn metallic_and_roughness<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 2] {
+        let (zero, one) = (F32::splat(simd, 0.0), F32::splat(simd, 1.0));
+        let Model::Microfacets(model) = &self.params.model else { return [zero, one] };
+        let [metallic, roughness] = [model.metallic, model.roughness].each(
+            #[inline(always)]
+            |value| F32::splat(simd, value),
+        );
+        match self.params.maps.get(MaterialTexture::MetallicRoughness) {
+            Some(map) => {
+                let [_, green, blue, _] = map.look_up_apart(simd, fragments);
+                [metallic * blue, roughness * green]
+            }
+            None => [metallic, roughness],
+        }
+    }
+
+    /// The fraction of ambient light that arrives.
+    #[inline(always)]
+    fn open<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> F32<S> {
+        let strength = self.params.material.occlusion.map_or(0.0, |map| map.strength);
+        match self.params.maps.get(MaterialTexture::Occlusion) {
+            Some(map) => (map.look_up_apart(simd, fragments)[0] - 1.0) * strength + 1.0,
+            None => F32::splat(simd, 1.0),
+        }
+    }
+}
+
+/// Converts a fraction of the display's range to linear light (IEC 61966-2-1).
+#[inline(always)]
+fn decoded<S: Simd>(stored: F32<S>) -> F32<S> {
+    let stored = saturated(stored);
+    let curved = pow((stored + 0.055) * (1.0 / 1.055), F32::splat(stored.token(), 2.4));
+    stored.simd_le(F32::splat(stored.token(), 0.04045)).select(stored * (1.0 / 12.92), curved)
 }

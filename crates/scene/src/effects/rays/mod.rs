@@ -1,29 +1,30 @@
 //! Rays among the casters of a scene: exact shadows, ambient occlusion, mirrors and glass. All but those
 //! that come from the eye through glass alone ignore alpha masks: the whole triangle stops them.
+//!
+//! The BVH over the casters' triangles is kept until the casters change. A surface may enclose a volume or not: a ray that
+//! enters through an open surface would never leave, so an open surface stands for a plate.
 
-mod cache;
-mod enclosure;
 mod occlusion;
 mod optics;
 mod surface_hit;
 
-pub(crate) use cache::RayCache;
-pub(crate) use occlusion::AmbientRays;
-pub(crate) use optics::{Glass, Medium, Optics, left_after};
-pub(crate) use surface_hit::SurfaceHit;
-
-use crate::work::{Work, note};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use surface_hit::CasterSurfaces;
 use trigon_math::{Bvh, DAffine3, DMat4, DVec3, Mat4, Ray, Vec3};
-use trigon_raster::simd::{F32, InlineMap, LANES, Simd, lanes_of, prelude::*};
+use trigon_raster::simd::prelude::*;
+use trigon_raster::simd::{F32, InlineMap, LANES, Simd, lanes_of};
 
-use crate::effects::casters::Casters;
+use super::casters::{Casters, ShadowSource};
 use crate::lanes::{V3, moved, turned};
 use crate::lighting::{Arriving, Lamp, LampSource, LitPoints};
 use crate::scene::Scene;
+use crate::work::{Work, note};
+
+pub(crate) use occlusion::AmbientRays;
+pub(crate) use optics::{Glass, Medium, Optics, left_after};
+pub(crate) use surface_hit::SurfaceHit;
 
 /// The triangles of all casters, around the middle of their box.
 #[derive(Debug, Default)]
@@ -196,4 +197,82 @@ pub(crate) fn rows<S: Simd>(vector: V3<S>) -> [[f32; LANES]; 3] {
         #[inline(always)]
         |axis| axis.into(),
     )
+}
+
+/// The BVH of the last frame.
+#[derive(Debug, Default)]
+pub(crate) struct RayCache {
+    cached: Option<(Vec<ShadowSource>, Arc<RayTriangles>)>,
+}
+
+impl RayCache {
+    /// With materials, if sight rays may end on the casters.
+    pub(crate) fn scene(
+        &mut self,
+        casters: &Casters,
+        looks_of: Option<&Scene>,
+        camera_to_world: &DAffine3,
+    ) -> RayScene {
+        let fits = |(cached, triangles): &(Vec<ShadowSource>, Arc<RayTriangles>)| {
+            casters.shadow_sources().eq(cached) && triangles.surfaces.is_some() == looks_of.is_some()
+        };
+        let cached = self.cached.take().filter(fits);
+        let sources = || casters.shadow_sources().cloned().collect();
+        let made = || (sources(), Arc::new(RayTriangles::new(casters, looks_of)));
+        let (_, triangles) = self.cached.insert(cached.unwrap_or_else(made));
+        RayScene::new(Arc::clone(triangles), camera_to_world)
+    }
+}
+
+/// Whether triangles enclose a volume: each of their edges is passed as often in one direction as in
+/// the other. Vertices at the same position are the same.
+fn encloses([x, y, z]: &[Vec<f32>; 3], triangles: impl Iterator<Item = [u32; 3]>) -> bool {
+    // +0, so that both zeros are the same.
+    let position_bits = |vertex: u32| [x, y, z].map(|column| (column[vertex as usize] + 0.0).to_bits());
+    let mut ordered: Vec<u32> = (0..x.len() as u32).collect();
+    ordered.sort_unstable_by_key(|&vertex| position_bits(vertex));
+    let mut welded = vec![0_u32; ordered.len()];
+    for pair in ordered.windows(2) {
+        let is_new = position_bits(pair[0]) != position_bits(pair[1]);
+        welded[pair[1] as usize] = welded[pair[0] as usize] + u32::from(is_new);
+    }
+    let mut edges: Vec<([u32; 2], bool)> = Vec::new();
+    for corners in triangles {
+        let [a, b, c] = corners.map(|vertex| welded[vertex as usize]);
+        let sides = [[a, b], [b, c], [c, a]].into_iter().filter(|[from, to]| from != to);
+        edges.extend(sides.map(|[from, to]| ([from.min(to), from.max(to)], from < to)));
+    }
+    edges.sort_unstable();
+    let is_balanced = |edge: &[([u32; 2], bool)]| {
+        2 * edge.iter().filter(|(_, is_forward)| *is_forward).count() == edge.len()
+    };
+    !edges.is_empty() && edges.chunk_by(|one, next| one.0 == next.0).all(is_balanced)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The corners of a tetrahedron, each three times as at creases, the last ones with a zero of
+    /// the other sign.
+    fn positions() -> [Vec<f32>; 3] {
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let column = |axis: usize| -> Vec<f32> {
+            let of = |zero: f32| corners.map(|corner: [f32; 3]| if corner[axis] == 0.0 { zero } else { 1.0 });
+            [of(0.0), of(0.0), of(-0.0)].concat()
+        };
+        [column(0), column(1), column(2)]
+    }
+
+    #[test]
+    fn closed_surfaces_enclose_and_open_ones_do_not() {
+        let faces = [[0, 2, 1], [4, 5, 7], [8, 11, 10], [1, 6, 11]];
+        let encloses = |faces: &[[u32; 3]]| encloses(&positions(), faces.iter().copied());
+        assert!(encloses(&faces), "a tetrahedron");
+        assert!(!encloses(&faces[..3]), "one that lacks a face");
+        let turned = [faces[0], faces[1], faces[2], [11, 6, 1]];
+        assert!(!encloses(&turned), "one with a face that looks inwards");
+        assert!(encloses(&[&faces[..], &[[0, 4, 8]]].concat()), "a triangle without area is no edge");
+        assert!(!encloses(&[]), "nothing");
+    }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use trigon_math::{DMat3, Mat3, Ray, RayHit, Vec2, Vec3, elementary};
 use trigon_raster::Texture;
 
-use super::enclosure::encloses;
+use super::encloses;
 use super::optics::{Glass, Optics, Volume};
 use crate::effects::casters::{Caster, Casters};
 use crate::geometry::Geometry;

@@ -1,12 +1,9 @@
 //! Images of single effects against what geometry says.
 
-mod ambient;
 mod backdrop;
-mod flat_meshes;
 mod glass;
 mod kept;
 mod metals;
-mod outline;
 mod planning;
 mod poses;
 mod shading;
@@ -14,7 +11,6 @@ mod shadows;
 mod sight;
 mod studio;
 mod unseen;
-mod up;
 
 use std::sync::Arc;
 

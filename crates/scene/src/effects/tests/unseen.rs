@@ -5,8 +5,8 @@ use trigon_mesh::Mesh;
 
 use super::*;
 use crate::effect::Effect;
-use crate::left_in::kept::with_everything;
 use crate::material::MaterialTexture;
+use crate::work::kept::with_everything;
 use crate::{EffectCounts, Outputs, VertexPoints};
 
 /// What a plan says of an effect of one ball in a material.

@@ -7,7 +7,7 @@ use trigon_mesh::{Mesh, RenderLinks};
 use trigon_raster::EdgeFlags;
 
 use super::super::edge_flags::push_flags_of_face;
-use super::super::side_edges::{NO_EDGE, sides_of_triangle};
+use crate::geometry::edge_flags::{NO_EDGE, sides_of_triangle};
 
 /// Faces per task.
 pub(super) const FACES_PER_TASK: usize = 1024;

@@ -1,7 +1,6 @@
 //! Picking against rays in f64 that know nothing of it.
 
 mod areas;
-mod eye_plane;
 mod grid;
 mod oracle;
 mod points;

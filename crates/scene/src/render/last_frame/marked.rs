@@ -7,7 +7,8 @@ use rayon::prelude::*;
 use trigon_math::Vec4;
 use trigon_raster::MarkColors;
 
-use crate::marks::{self, Marks};
+use crate::elements;
+use crate::elements::Marks;
 use crate::render::record::{DrawSource, MarkNumbers, Marked, WireNumbers};
 
 /// The colours of marks, by their numbers.
@@ -21,7 +22,7 @@ pub(super) struct MarkPalette {
 impl MarkPalette {
     pub(super) fn new(marks: &Marks) -> Self {
         let MarkColors { edges, faces } = marks.colors();
-        Self { edges, faces, vertices: marks::colors(&marks.vertices) }
+        Self { edges, faces, vertices: elements::colors(&marks.vertices) }
     }
 }
 
