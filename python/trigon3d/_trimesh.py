@@ -43,25 +43,31 @@ def save_image(source: Any, resolution: tuple[int, int] = (640, 480), **named: A
 
 
 def _add(scene: Scene, geometry: Any, pose: Any, name: str) -> None:
-    visual = getattr(geometry, "visual", None)
-    kind = getattr(visual, "kind", None)
     faces = getattr(geometry, "faces", None)
     if faces is None:
         colors = getattr(geometry, "colors", None)
         has_colors = colors is not None and len(colors) == len(geometry.vertices)
         scene.add_points(geometry.vertices, colors=np.asarray(colors) if has_colors else None, pose=pose, name=name)
         return
-    named: dict[str, Any] = {"smooth_angle": 30.0, "pose": pose, "name": name}
+    scene.add_mesh(
+        geometry.vertices, np.asarray(faces), smooth_angle=30.0, pose=pose, name=name, **mesh_arguments(geometry)
+    )
+
+
+def mesh_arguments(geometry: Any) -> dict[str, Any]:
+    """Colours, texture coordinates and material of a mesh, as `Scene.add_mesh` takes them."""
+    visual = getattr(geometry, "visual", None)
+    kind = getattr(visual, "kind", None)
     if kind == "vertex":
-        named["colors"] = np.asarray(visual.vertex_colors)
-    elif kind == "face":
+        return {"colors": np.asarray(visual.vertex_colors)}
+    if kind == "face":
         # A colour for each corner.
-        named["colors"] = np.repeat(np.asarray(visual.face_colors), 3, axis=0)
-    elif kind == "texture" and visual.uv is not None:
+        return {"colors": np.repeat(np.asarray(visual.face_colors), 3, axis=0)}
+    if kind == "texture" and visual.uv is not None:
         # trimesh counts v from the lower edge.
-        named["uvs"] = np.asarray(visual.uv)[:, :2] * [1, -1] + [0, 1]
-        named["material"] = _material(visual.material)
-    scene.add_mesh(geometry.vertices, np.asarray(faces), **named)
+        uvs = np.asarray(visual.uv)[:, :2] * [1, -1] + [0, 1]
+        return {"uvs": uvs, "material": _material(visual.material)}
+    return {}
 
 
 def _material(material: Any) -> Material:

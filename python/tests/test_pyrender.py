@@ -1,0 +1,131 @@
+"""pyrender's interface: shapes, types, backgrounds, flags and poses."""
+
+import doctest
+
+import numpy as np
+import pytest
+import trigon3d.pyrender
+import trimesh
+from trigon3d import pyrender
+from trigon3d.pyrender import RenderFlags
+
+
+def pose(x=0.0, y=0.0, z=0.0):
+    matrix = np.eye(4)
+    matrix[:3, 3] = x, y, z
+    return matrix
+
+
+@pytest.fixture
+def scene():
+    scene = pyrender.Scene(bg_color=[0.0, 0.0, 0.0, 0.0], ambient_light=[0.1, 0.1, 0.1])
+    box = pyrender.Mesh.from_trimesh(trimesh.creation.box((1, 1, 1)), smooth=False)
+    scene.left = scene.add(box, pose=pose(-1), name="left")
+    scene.right = scene.add(box, pose=pose(1), name="right")
+    scene.camera = scene.add(pyrender.PerspectiveCamera(yfov=np.pi / 3), pose=pose(0, 0, 4))
+    scene.add(pyrender.DirectionalLight(intensity=3.0), pose=pose(0, 0, 4))
+    return scene
+
+
+def test_the_example_of_its_documentation_runs():
+    assert doctest.testmod(trigon3d.pyrender).failed == 0
+
+
+def test_shapes_types_and_backgrounds_are_pyrenders(scene):
+    renderer = pyrender.OffscreenRenderer(80, 60)
+    color, depth = renderer.render(scene)
+    assert color.shape == (60, 80, 3) and color.dtype == np.uint8
+    assert depth.shape == (60, 80) and depth.dtype == np.float32
+    assert depth[0, 0] == 0 and depth[depth > 0].min() == pytest.approx(3.5, abs=1e-5)
+    color, _ = renderer.render(scene, flags=RenderFlags.RGBA)
+    assert color.shape == (60, 80, 4) and color[0, 0, 3] == 0 and color[depth > 0][:, 3].min() > 0
+    only = renderer.render(scene, flags=RenderFlags.DEPTH_ONLY)
+    # Corners are snapped to a grid that is three times as fine beside colours: outlines may differ by a pixel.
+    both = (only > 0) & (depth > 0)
+    assert np.allclose(only[both], depth[both], atol=1e-2) and ((only > 0) != (depth > 0)).mean() < 0.01
+    renderer.delete()
+
+
+def test_a_background_has_its_colour_and_alpha(scene):
+    renderer = pyrender.OffscreenRenderer(40, 30)
+    for given, expected in (([1.0, 0.5, 0.0], [255, 128, 0, 255]), ([0.2, 0.4, 0.6, 0.5], [51, 102, 153, 128])):
+        scene.bg_color = np.asarray([*given, 1.0][:4] if len(given) == 3 else given)
+        color, _ = renderer.render(scene, flags=RenderFlags.RGBA)
+        assert np.abs(color[0, 0].astype(int) - expected).max() <= 1
+
+
+def test_segmentation_draws_the_nodes_of_the_map_alone(scene):
+    renderer = pyrender.OffscreenRenderer(80, 60)
+    colors, depth = renderer.render(scene, RenderFlags.SEG, {scene.left: 7, scene.right: (1, 2, 3)})
+    assert {tuple(row) for row in colors.reshape(-1, 3)} == {(0, 0, 0), (7, 7, 7), (1, 2, 3)}
+    assert (colors[:, :40] != [1, 2, 3]).any(axis=-1).all() and (depth[colors.any(axis=-1)] > 0).all()
+    colors, _ = renderer.render(scene, RenderFlags.SEG, {scene.right: (1, 2, 3)})
+    assert {tuple(row) for row in colors.reshape(-1, 3)} == {(0, 0, 0), (1, 2, 3)}
+    both, _ = renderer.render(scene)
+    assert both[:, :40].any(), "all are back in an ordinary image"
+
+
+def test_moved_nodes_and_parents_are_followed(scene):
+    renderer = pyrender.OffscreenRenderer(40, 30)
+    before = renderer.render(scene, RenderFlags.DEPTH_ONLY)
+    scene.set_pose(scene.right, pose(1, 0, 1))
+    after = renderer.render(scene, RenderFlags.DEPTH_ONLY)
+    assert after[15, 30] == pytest.approx(before[15, 30] - 1, abs=0.6) and after[15, 30] < before[15, 30]
+    child = scene.add(pyrender.Mesh.from_trimesh(trimesh.creation.icosphere(radius=0.2)), parent_node=scene.left)
+    assert np.array_equal(scene.get_pose(child), pose(-1))
+    scene.set_pose(scene.left, pose(-1, 0, -1))
+    assert np.array_equal(scene.get_pose(child), pose(-1, 0, -1))
+    scene.set_pose(scene.camera, pose(0, 0, 6))
+    behind = renderer.render(scene, RenderFlags.DEPTH_ONLY)
+    assert behind[behind > 0].min() == pytest.approx(after[after > 0].min() + 2, abs=1e-4)
+    scene.remove_node(scene.left)
+    assert not scene.has_node(scene.left) and not scene.has_node(child)
+    fresh = pyrender.Scene(bg_color=scene.bg_color, ambient_light=scene.ambient_light)
+    for node in scene.nodes:
+        fresh.add(node.mesh or node.light or node.camera, pose=scene.get_pose(node))
+    assert (renderer.render(scene)[0] == renderer.render(fresh)[0]).all(), "as if it had been built so"
+
+
+def test_back_faces_are_culled_unless_asked(scene):
+    triangle = pyrender.Primitive([[-1, -1, 0], [0, 1, 0], [1, -1, 0]], material=pyrender.MetallicRoughnessMaterial())
+    back = pyrender.Scene()
+    back.add(pyrender.Mesh([triangle]))
+    back.add(pyrender.OrthographicCamera(2, 2), pose=pose(0, 0, 3))
+    renderer = pyrender.OffscreenRenderer(32, 32)
+    assert renderer.render(back, RenderFlags.DEPTH_ONLY).max() == 0
+    assert renderer.render(back, RenderFlags.DEPTH_ONLY | RenderFlags.SKIP_CULL_FACES).max() == pytest.approx(3, abs=1e-5)
+
+
+def test_intrinsics_place_points_as_pyrenders_matrix_does():
+    """The projection matrix of pyrender's IntrinsicsCamera, written out."""
+    width, height, fx, fy, cx, cy = 160, 120, 150.0, 140.0, 70.0, 65.0
+    scene = pyrender.Scene()
+    scene.add(pyrender.Mesh.from_points([[0.3, 0.2, -2.0]], colors=[[255, 255, 255]]))
+    scene.add(pyrender.IntrinsicsCamera(fx, fy, cx, cy))
+    depth = pyrender.OffscreenRenderer(width, height, point_size=3).render(scene, RenderFlags.DEPTH_ONLY)
+    matrix = np.array([[2 * fx / width, 0, 1 - 2 * cx / width], [0, 2 * fy / height, 2 * cy / height - 1]])
+    ndc = matrix @ [0.3, 0.2, -2.0] / 2.0
+    expected = (ndc * [1, -1] + 1) / 2 * [width, height]
+    rows, columns = np.nonzero(depth)
+    assert np.abs([columns.mean() + 0.5, rows.mean() + 0.5] - expected).max() < 0.6
+
+
+def test_instances_have_poses_of_their_own():
+    ball = trimesh.creation.icosphere(radius=0.3)
+    scene = pyrender.Scene()
+    node = scene.add(pyrender.Mesh.from_trimesh(ball, poses=np.stack([pose(-1), pose(0), pose(1)])), pose=pose(0, 1))
+    scene.add(pyrender.OrthographicCamera(2, 2), pose=pose(0, 0, 3))
+    colors, _ = pyrender.OffscreenRenderer(64, 64).render(scene, RenderFlags.SEG, {node: 9})
+    assert [colors[16, x, 0] for x in (16, 24, 32, 40, 48)] == [9, 0, 9, 0, 9]
+
+
+def test_what_is_missing_says_so(scene):
+    renderer = pyrender.OffscreenRenderer(8, 8)
+    with pytest.raises(NotImplementedError):
+        renderer.render(scene, RenderFlags.ALL_WIREFRAME)
+    with pytest.raises(NotImplementedError):
+        pyrender.Viewer(scene)
+    with pytest.raises(ValueError, match="camera"):
+        renderer.render(pyrender.Scene())
+    with pytest.raises(TypeError):
+        scene.add("box")
