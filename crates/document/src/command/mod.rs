@@ -1,9 +1,8 @@
 //! Commands as data: an action with all its parameters, so that it can be recorded, run again, and
 //! adjusted.
 //!
-//! A command is one variant of [`Command`]. A file has the parameters and the implementations of one family
-//! of commands. Its description in scripts and documentation is generated from the comments of its
-//! parameters.
+//! A command is one variant of [`Command`]. Each file of this folder holds one family of commands.
+//! The description of a command in scripts and documentation is generated from the comments of its parameters.
 
 mod action;
 mod apply_transform;

@@ -1,5 +1,5 @@
-//! Camera files: the views of a data set. Trigon's own JSON, the `transforms.json` of NeRF programs, and COLMAP's
-//! text model. `docs/cameras.md` describes each.
+//! Camera files: the views of a data set. `entry` reads trigon's own JSON, `nerf` the `transforms.json` of NeRF
+//! programs, `colmap` COLMAP's text model. `docs/cameras.md` describes each.
 
 mod colmap;
 mod entry;

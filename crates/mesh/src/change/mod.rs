@@ -2,10 +2,9 @@
 //! renderer needs after such a change.
 //!
 //! A [`MeshChange`] lists new values for some elements; [`Mesh::change`](crate::Mesh::change) writes them.
-//! [`RenderLinks`] map the vertices of a [`RenderMesh`](crate::RenderMesh) to the corners that they come
-//! from, and return what a change affects. The cost of a change of few elements therefore depends on their
-//! neighbourhood and not on the whole mesh. The updated values are, to the bit, those of a
-//! [`RenderMesh`](crate::RenderMesh) made from the changed mesh.
+//! [`RenderLinks`] know from which corners each vertex of a [`RenderMesh`](crate::RenderMesh) comes, and so tell
+//! what a change affects. A small change costs as much as its neighbourhood, whatever the size of the mesh. The
+//! updated values are, to the bit, those of a [`RenderMesh`](crate::RenderMesh) made from the changed mesh.
 
 mod mesh_change;
 mod normals;

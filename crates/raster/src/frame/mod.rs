@@ -7,9 +7,9 @@
 //! | `set_up` | sets up primitives, chunk by chunk |
 //! | `tiles` | draws one tile, or only what changed in a cached tile |
 //! | `redraw` | **the stages of a frame that differs little from the last one** |
-//! | `change` | which tiles a change touches |
-//! | `changed_vertices` | which vertices run again, and which primitives that affects |
-//! | `moving` | primitives that move in several frames, and the cached tiles under them |
+//! | `change` | whether a change can be followed; the set of tiles to draw again |
+//! | `changed_vertices` | the vertices that run again, and the primitives that they affect |
+//! | `moving` | primitives that move frame after frame, and cached images of their tiles without them |
 
 mod change;
 mod changed_vertices;

@@ -1,9 +1,8 @@
 //! The visibility stage: which triangle is visible at each sample of a tile.
 //!
-//! A triangle covers a sample if no edge function is negative there. Of the triangles that cover a
-//! sample the nearest is visible. Depth is reversed: **a greater depth is nearer**, so the
-//! farthest of several depths is the least. At
-//! equal depth the triangle with the smaller key is visible:
+//! A triangle covers a sample if no edge function is negative there. Of the triangles that cover a sample the
+//! nearest is visible. Depth is reversed: **a greater depth is nearer**, so the farthest has the smallest depth
+//! (the output `depth` of a frame is a distance). At equal depth the triangle with the smaller key is visible:
 //! [`FrameView::compare`](crate::view::FrameView::compare) is that rule.
 //!
 //! Depth and visible triangle of each sample are kept in a
@@ -22,18 +21,19 @@
 //! | `triangle` | one triangle prepared for the tile, whatever its size |
 //! | `micro` | kernel: up to eight small triangles of at most 4×4 pixels each, one sample per pixel; a lane is a triangle; also the list of pixels that `micro` and `sliver` find, and the test of their depths |
 //! | `tiny` | kernel: one small triangle of at most 24×24 pixels, one sample per pixel |
-//! | `multisample` | the same with several samples per pixel; also, for `tiny` too, the edge functions of each prepared triangle at its first 4×2 group |
+//! | `multisample` | kernel: as `tiny`, with several samples per pixel; also the start values of edge functions that both use |
 //! | `sliver` | kernel: one small triangle at most two pixels wide along an axis, one sample per pixel; a lane is a column of pixels |
 //! | `rasterizer` | kernel: any other triangle (the *general* kernel); also **the depth test**, of which the other kernels have versions |
 //! | `quad` | kernel: opaque lines and points less than 32 pixels wide, both triangles at once |
 //! | `points` | kernel: plain points, from their vertices, without edge functions |
 //! | `sides` | which blocks and groups lie on which side of a triangle's edges, for `rasterizer` |
-//! | `masked`, `depth_query` | masked triangles; where a masked or translucent triangle would be visible, and sets of blocks |
+//! | `masked` | masked triangles |
+//! | `depth_query` | where a masked or translucent triangle would be visible; sets of blocks |
 //! | `cached` | what still triangles show, cached while others move |
 //!
-//! The sizes in pixels count the part of a triangle's bounding box that lies in the tile. In the other kernels a lane is
-//! a pixel of a group. All kernels make the same decisions with the same integers and depths, so the choice of a
-//! kernel never changes a byte.
+//! The sizes in pixels count the part of a triangle's bounding box that lies in the tile. Except in `micro`,
+//! `sliver` and `points` a lane is a pixel of a group. All kernels make the same decisions with the same integers
+//! and depths, so the choice of a kernel never changes a byte.
 
 mod cached;
 mod depth_query;

@@ -1,7 +1,7 @@
 //! The triangles of a mesh as they are drawn, grouped by material slot.
 //!
-//! A geometry is created once per mesh, at the mesh's first frame. All nodes that draw the mesh share the geometry. After
-//! a change of few values of the mesh the geometry is updated (`change`).
+//! A geometry is created once per mesh, at the mesh's first frame. All nodes that draw the mesh share the geometry.
+//! When a few values of the mesh change, `change` updates the geometry.
 
 mod bounds;
 mod change;

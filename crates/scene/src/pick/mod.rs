@@ -1,6 +1,7 @@
 //! Picking: what is under a pixel or in a region of an image, down to the faces, edges and vertices of polygons.
 //!
-//! [`Picker`] defines the rule. Visible faces are read from an image's ids. Everything else is decided in f64.
+//! The documentation of [`Picker`] says what counts as hit. Visible faces are read from an image's ids. Everything
+//! else is decided in f64; f32 is used only where it proves the same answer.
 //!
 //! | file | what it does |
 //! |---|---|
@@ -8,7 +9,8 @@
 //! | `search` | **which faces a point or a region hits**; how pixels, triangles and points are visited |
 //! | `nearest` | the elements nearest to a point; distances from a polygon; sets of elements |
 //! | `region` | which points lie in a region; the even-odd rule; which side of an area a point is on |
-//! | `screen`, `object` | screen positions of an object's points; what outlives a picker |
+//! | `screen` | screen positions of an object's points |
+//! | `object` | an object's data that outlive a picker |
 //! | `nearby` | the objects near an area, and which of their elements may lie in the area |
 //! | `small_region` | for small areas: skips whole boxes of triangles |
 //! | `hiding` | **which points a face hides** |

@@ -1,9 +1,16 @@
-//! From a scene to a frame: gather lights, compose a pipeline for each mesh and material, record
-//! one pass, execute it, and compute the outputs.
+//! From a scene to a frame. A frame is a pure function of scene, camera and settings.
 //!
-//! A frame is a pure function of scene, camera and settings.
-//!
-//! A [`RendererBuilder`] makes a renderer from settings.
+//! | file | what it does |
+//! |---|---|
+//! | `renderer` | the public renderer |
+//! | `engine` | **the steps of a frame**; threads, memory and caches that last from frame to frame |
+//! | `compose` | gives each draw a pipeline of the parts that its material and mesh need |
+//! | `looks` | what the draws of one image share |
+//! | `wire` | pipelines of edges, lines, points, and faces that only hide |
+//! | `record` | draws that own their pipelines, until they are recorded in a pass |
+//! | `last_frame` | whether the last image may be reused, and for which effects not |
+//! | `effect_caches` | what effects keep from frame to frame |
+//! | `shared_frames` | frames that a window shows, drawn into again once it releases them |
 
 mod compose;
 mod effect_caches;

@@ -5,11 +5,12 @@
 //! each object or group). Materials and their images come from `mtl` and `convert` through
 //! `library`. `write` is the other direction.
 //!
-//! The tests use the `tobj` crate as an oracle. The first reader was built on `tobj` and rewrote every line
-//! before. `tobj` stops at the first invalid byte without saying where, takes polylines for polygons, and repeats
-//! the last texture coordinate where a corner has none (`tests/import/tobj_crate.rs` has all cases). For a million
-//! triangles on one thread `tobj` takes 9.2 billion instructions and 258 MB besides the text. This reader takes
-//! 4.7 billion and 168 MB up to the finished scene (example `obj_readers` under callgrind, `time -v`).
+//! The tests use the `tobj` crate as an oracle. The first reader used `tobj` and had to rewrite every line of the
+//! file before passing it on. `tobj` stops at the first invalid byte without saying where, reads polylines as
+//! polygons, and repeats the last texture coordinate where a corner has none (`tests/import/tobj_crate.rs` has all
+//! cases). For a million triangles on one thread `tobj` takes 9.2 billion instructions and 258 MB besides the text.
+//! This reader takes 4.7 billion and 168 MB up to the finished scene (example `obj_readers` under callgrind, `time
+//! -v`).
 
 mod build;
 mod convert;
