@@ -403,7 +403,7 @@ impl PyScene {
         PyFrame::new(py, frame.map_err(render_error)?)
     }
 
-    /// What faults the scene has, as dicts: severity, fault, subject, what, remedy.
+    /// What faults the scene has, as dicts: severity, fault, location, what, remedy.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let findings = py.detach(|| self.scene.check());
         let list = PyList::empty(py);
@@ -411,6 +411,7 @@ impl PyScene {
             let facts = PyDict::new(py);
             facts.set_item("severity", format!("{:?}", finding.severity).to_lowercase())?;
             facts.set_item("fault", finding.fault)?;
+            facts.set_item("location", finding.location)?;
             facts.set_item("what", finding.what)?;
             facts.set_item("remedy", finding.remedy)?;
             list.append(facts)?;

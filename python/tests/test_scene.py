@@ -153,6 +153,15 @@ def test_faces_are_smooth_across_shallow_edges_alone(camera):
     assert counts[None] == counts[10] == 2 < counts[30]
 
 
+def test_faults_are_named(square):
+    assert square.check() == []
+    inside_out = trigon3d.Scene()
+    corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    inside_out.add_mesh(corners, [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]], name="tetrahedron")
+    [finding] = [finding for finding in inside_out.check() if finding["severity"] == "error"]
+    assert finding["fault"] == "inside-out" and "tetrahedron" in finding["location"] and finding["remedy"]
+
+
 def test_lights(square, camera):
     studio = square.render(16, 16, camera).color[8, 8, :3].mean()
     square.add_light("directional", direction=(0, 0, 1), intensity=0.0)
