@@ -24,7 +24,10 @@ pub(super) struct SharedFrames {
     frames: Vec<(Arc<Frame>, Option<u64>)>,
     /// The number of the last numbered image; 0 before the first.
     latest: u64,
-    /// The parts that the last images redrew, in their order.
+    /// The width and height of that image.
+    latest_size: [u32; 2],
+    /// The parts that the last images of this size redrew, in their order. Parts of images of different sizes mean
+    /// nothing together.
     redrawn: VecDeque<Vec<Rect>>,
 }
 
@@ -61,10 +64,15 @@ impl SharedFrames {
 
     /// Shares what was drawn. Its memory comes back once nobody else holds it.
     pub(super) fn share(&mut self, ReusableFrame { frame, redrawn, .. }: ReusableFrame) -> Arc<Frame> {
+        let size = [frame.width, frame.height];
         let image = redrawn.map(|parts| {
             self.redrawn.push_back(parts);
             if self.redrawn.len() > REMEMBERED {
                 self.redrawn.pop_front();
+            }
+            if self.latest_size != size {
+                self.redrawn.clear();
+                self.latest_size = size;
             }
             self.latest += 1;
             self.latest
@@ -79,10 +87,11 @@ impl SharedFrames {
     pub(super) fn keep(&mut self, drawn: &ReusableFrame, settings: &RenderSettings, rasterizer: &Rasterizer) {
         let Some(redrawn) = &drawn.redrawn else { return };
         let mut reserve = self.take();
+        let has_size = [reserve.frame.width, reserve.frame.height] == [drawn.frame.width, drawn.frame.height];
         if reserve.frame.allocate(settings).is_err() {
             return;
         }
-        if reserve.image == Some(self.latest) {
+        if has_size && reserve.image == Some(self.latest) {
             copy_parts(&drawn.frame, &mut reserve.frame, redrawn, rasterizer);
         } else {
             copy_parts(&drawn.frame, &mut reserve.frame, &[whole(&drawn.frame)], rasterizer);
