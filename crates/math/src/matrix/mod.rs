@@ -12,7 +12,7 @@ use std::ops::{Index, IndexMut, Mul};
 
 /// A matrix of `N` rows and `M` columns that acts on column vectors.
 ///
-/// Indexed by `[(row, column)]`. Products are summed in the order of the inner index.
+/// Indexed by `[[row, column]]`. Products are summed in the order of the inner index.
 ///
 /// ```
 /// use trigon_math::Matrix;
@@ -64,15 +64,15 @@ impl<const N: usize> Matrix<N, N> {
     };
 }
 
-impl<const N: usize, const M: usize> Index<(usize, usize)> for Matrix<N, M> {
+impl<const N: usize, const M: usize> Index<[usize; 2]> for Matrix<N, M> {
     type Output = f64;
-    fn index(&self, (row, column): (usize, usize)) -> &f64 {
+    fn index(&self, [row, column]: [usize; 2]) -> &f64 {
         &self.rows[row][column]
     }
 }
 
-impl<const N: usize, const M: usize> IndexMut<(usize, usize)> for Matrix<N, M> {
-    fn index_mut(&mut self, (row, column): (usize, usize)) -> &mut f64 {
+impl<const N: usize, const M: usize> IndexMut<[usize; 2]> for Matrix<N, M> {
+    fn index_mut(&mut self, [row, column]: [usize; 2]) -> &mut f64 {
         &mut self.rows[row][column]
     }
 }

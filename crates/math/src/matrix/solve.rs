@@ -16,17 +16,17 @@ impl<const N: usize> Matrix<N, N> {
             left.rows.swap(column, pivot);
             right.rows.swap(column, pivot);
             for row in column + 1..N {
-                let factor = left[(row, column)] / left[(column, column)];
+                let factor = left[[row, column]] / left[[column, column]];
                 left.subtract_row(row, column, factor);
                 right.subtract_row(row, column, factor);
             }
         }
         for column in (0..N).rev() {
             for entry in &mut right.rows[column] {
-                *entry /= left[(column, column)];
+                *entry /= left[[column, column]];
             }
             for row in 0..column {
-                right.subtract_row(row, column, left[(row, column)]);
+                right.subtract_row(row, column, left[[row, column]]);
             }
         }
         right.is_finite().then_some(right)
@@ -53,9 +53,9 @@ impl<const N: usize> Matrix<N, N> {
                 left.rows.swap(column, pivot);
                 determinant = -determinant;
             }
-            determinant *= left[(column, column)];
+            determinant *= left[[column, column]];
             for row in column + 1..N {
-                left.subtract_row(row, column, left[(row, column)] / left[(column, column)]);
+                left.subtract_row(row, column, left[[row, column]] / left[[column, column]]);
             }
         }
         determinant

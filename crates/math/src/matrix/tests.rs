@@ -40,7 +40,7 @@ fn shapes_multiply_and_transpose() {
     let a = Matrix::from_rows([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
     let b = Matrix::from_rows([[1.0], [0.0], [-1.0]]);
     assert_eq!(a * b, Matrix::from_rows([[-2.0], [-2.0]]), "2×3 times 3×1");
-    assert_eq!(a.transposed()[(2, 1)], 6.0, "row and column change places");
+    assert_eq!(a.transposed()[[2, 1]], 6.0, "row and column change places");
     assert_eq!(a * Matrix::IDENTITY, a, "the identity changes nothing");
 }
 
