@@ -29,6 +29,11 @@ const MEMBERS: [&str; 17] = [
     "projection",
 ];
 
+/// Those that say where a camera is, and those that say what its lens is. Members of one camera replace those that the
+/// file has for all, whichever they are.
+const POSES: [&str; 4] = ["pose", "world_to_camera", "position", "rotation"];
+const LENSES: [&str; 5] = ["vertical_fov_radians", "vertical_fov", "view_height", "frustum", "K"];
+
 /// Reads the cameras of a file. An error has the number of its camera.
 pub(super) fn read(
     file: &Value,
@@ -68,6 +73,15 @@ impl Entry<'_> {
             .into_iter()
             .find_map(|object| object.get(name))
             .filter(|value| !value.is_null())
+    }
+
+    /// What the nearest object says that has one of these members: nothing of the others.
+    fn nearest(&self, members: &[&str]) -> Self {
+        let has_one = |object: &&Value| {
+            members.iter().any(|member| object.get(member).is_some_and(|value| !value.is_null()))
+        };
+        let object = [self.inner, self.outer, self.file].into_iter().find(has_one).unwrap_or(self.inner);
+        Self { inner: object, outer: object, file: object }
     }
 
     fn number(&self, name: &str) -> Result<Option<f64>, String> {
@@ -119,8 +133,9 @@ impl Entry<'_> {
     }
 
     fn camera(&self, axes: CameraAxes, projection: Projection) -> Result<Camera, String> {
-        let (position, rotation) = (self.numbers("position")?, self.numbers("rotation")?);
-        let camera = match (self.member("pose"), self.member("world_to_camera"), position, rotation) {
+        let pose = self.nearest(&POSES);
+        let (position, rotation) = (pose.numbers("position")?, pose.numbers("rotation")?);
+        let camera = match (pose.member("pose"), pose.member("world_to_camera"), position, rotation) {
             (Some(pose), None, None, None) => Camera::from_pose(&affine(pose)?, axes, projection),
             (None, Some(pose), None, None) => Camera::from_extrinsics(&affine(pose)?, axes, projection),
             (None, None, Some(position), Some(rotation)) => {
@@ -144,22 +159,23 @@ impl Entry<'_> {
 
     /// The projection; with near and far planes of no meaning, but for a frustum.
     fn projection(&self, image: Viewport, axes: CameraAxes) -> Result<Projection, String> {
+        let lens = self.nearest(&LENSES);
         let projection = match () {
-            () if let Some(angle) = self.number("vertical_fov_radians")? => {
+            () if let Some(angle) = lens.number("vertical_fov_radians")? => {
                 Projection::perspective(angle, UNPLACED_NEAR, None)
             }
-            () if let Some(angle) = self.number("vertical_fov")? => {
+            () if let Some(angle) = lens.number("vertical_fov")? => {
                 Projection::perspective(angle.to_radians(), UNPLACED_NEAR, None)
             }
-            () if let Some(height) = self.number("view_height")? => {
+            () if let Some(height) = lens.number("view_height")? => {
                 Projection::orthographic(height, -UNPLACED_NEAR, UNPLACED_NEAR)
             }
-            () if let Some([left, right, bottom, top]) = self.numbers("frustum")? => {
+            () if let Some([left, right, bottom, top]) = lens.numbers("frustum")? => {
                 // Its sides are those of the near plane.
                 let near = self.number("near")?.ok_or("its `frustum` needs `near`")?;
                 Projection::frustum(left, right, bottom, top, near, None)
             }
-            () if let Some(matrix) = self.member("K") => self.pinhole(matrix, image, axes)?,
+            () if let Some(matrix) = lens.member("K") => self.pinhole(matrix, image, axes)?,
             () => return Err("it needs one of `K`, `vertical_fov`, `view_height` or `frustum`".to_owned()),
         };
         projection.map_err(|error| error.to_string())
@@ -180,11 +196,11 @@ impl Entry<'_> {
         if [skew, zero] != [0.0; 2] || last != [0.0, 0.0, 1.0] {
             return Err("its `K` is not [fx 0 cx, 0 fy cy, 0 0 1]; skew is not supported".to_owned());
         }
-        let words = match axes {
+        let is_at_integers = match axes {
             CameraAxes::OpenGl => self.word("pixel_centers", ["halves", "integers"])?,
             CameraAxes::OpenCv => !self.word("pixel_centers", ["integers", "halves"])?,
         };
-        let centers = if words { PixelCenters::AtIntegers } else { PixelCenters::AtHalves };
+        let centers = if is_at_integers { PixelCenters::AtIntegers } else { PixelCenters::AtHalves };
         Ok(Projection::pinhole(DVec2::new(fx, fy), DVec2::new(cx, cy), image, centers, UNPLACED_NEAR))
     }
 }

@@ -201,6 +201,26 @@ fn lenses_without_a_matrix_have_angles_heights_and_frustums() {
     assert!(views.iter().all(|view| view.image == USUAL && !view.has_own_size), "the size is the caller's");
 }
 
+/// A lens that all cameras share won over a camera's own.
+#[test]
+fn what_a_camera_says_itself_counts_before_what_is_said_for_all() {
+    let lens = r#""K": [[100, 0, 200], [0, 100, 150], [0, 0, 1]]"#;
+    let own = r#""position": [0, 0, 9], "rotation": [0, 0, 0, 1]"#;
+    let text = format!(
+        r#"{{"vertical_fov": 90, "pose": {IDENTITY}, "cameras": [{{}}, {{{lens}}}, {{{own}}}, {{"pose": null}}]}}"#
+    );
+    let views = read_json(&text).expect("four cameras").views;
+    let focal = |view: &CameraView| {
+        let k = view.camera.projection.intrinsics(USUAL, trigon_camera::PixelCenters::AtHalves);
+        k.expect("a perspective").focal.y
+    };
+    for (view, expected, z) in [(0, 150.0, 5.0), (1, 100.0, 5.0), (2, 150.0, 9.0), (3, 150.0, 5.0)] {
+        let (found, position) = (focal(&views[view]), views[view].camera.position);
+        assert!((found - expected).abs() < 1e-9, "camera {view}: a focal length of {found}");
+        assert_eq!(position, DVec3::new(0.0, 0.0, z), "camera {view}");
+    }
+}
+
 #[test]
 fn an_angle_across_is_for_the_size_that_the_image_gets() {
     let text = format!(
