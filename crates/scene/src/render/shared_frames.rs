@@ -237,6 +237,32 @@ mod tests {
         assert_eq!(frames.take().frame.width, 9);
     }
 
+    /// Parts of a wide image were copied into a narrow one, beyond its end.
+    #[test]
+    fn parts_of_another_size_are_forgotten() {
+        let (mut frames, rasterizer) = (SharedFrames::default(), rasterizer());
+        let narrow = |frame: &mut Frame| {
+            (frame.width, frame.height) = (1, 3);
+            frame.color.truncate(12);
+            [&mut frame.object_ids, &mut frame.face_ids]
+                .into_iter()
+                .flatten()
+                .for_each(|ids| ids.truncate(3));
+            frame.depth.iter_mut().for_each(|depth| depth.truncate(3));
+        };
+        let first = frames.share(filled(ReusableFrame::default(), 1, Some(part([0, 0], [2, 3]))));
+        let shown = frames.share(filled(ReusableFrame::default(), 2, Some(part([1, 0], [2, 1]))));
+        let mut last = filled(ReusableFrame::default(), 3, Some(part([0, 0], [1, 3])));
+        narrow(&mut last.frame);
+        let last = frames.share(last);
+        drop(first);
+        let mut free = frames.take();
+        narrow(&mut free.frame);
+        assert!(frames.bring_up_to_date(&mut free, &rasterizer), "there is a last image");
+        assert!(free.frame == *last, "all of it, and nothing of the wide ones");
+        drop(shown);
+    }
+
     #[test]
     fn a_frame_that_comes_back_receives_what_was_drawn_since() {
         let (mut frames, rasterizer) = (SharedFrames::default(), rasterizer());
