@@ -1,6 +1,6 @@
 //! `--compare`: two models seen by one camera: side by side, and where they differ.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use trigon_camera::Camera;
 use trigon_io::{ImageDifference, RgbaImage, compare_images};
@@ -10,7 +10,7 @@ use crate::args::{Destination, Request, Subject};
 use crate::facts::names;
 use crate::failure::Failure;
 use crate::loading;
-use crate::outlet::Outlet;
+use crate::outlet::{Outlet, OutputFile};
 use crate::report::Reporter;
 use crate::source::Source;
 use crate::stdout::report_failure;
@@ -82,7 +82,7 @@ fn facts(
     source: &Source,
     other: &Path,
     difference: &ImageDifference,
-    written: &[PathBuf],
+    written: &[OutputFile],
 ) -> serde_json::Value {
     serde_json::json!({
         "file": source.first_file().map(Path::to_string_lossy), "other": other.to_string_lossy(), "error": difference.error,

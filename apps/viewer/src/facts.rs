@@ -3,14 +3,13 @@
 //!
 //! Nodes are written one by one as they are visited, so that a scene of a million nodes needs no copy.
 
-use std::path::PathBuf;
-
 use serde::{Serialize, Serializer};
 use trigon_camera::{Camera, PixelCenters, Projection, Viewport};
 use trigon_math::{DAffine3, DMat4};
 use trigon_scene::{AlphaMode, LightReading, Material, MaterialId, Node, NodeId, Scene};
 
 use crate::model::{Model, Summary};
+use crate::outlet::OutputFile;
 
 /// What is in a model.
 #[derive(Serialize)]
@@ -292,7 +291,7 @@ impl ViewFacts {
     }
 }
 
-/// Files as text.
-pub(crate) fn names(files: &[PathBuf]) -> Vec<String> {
-    files.iter().map(|file| file.to_string_lossy().into_owned()).collect()
+/// The names of files as text.
+pub(crate) fn names(files: &[OutputFile]) -> Vec<String> {
+    files.iter().map(|file| file.name.to_string_lossy().into_owned()).collect()
 }

@@ -17,8 +17,8 @@ pub(crate) enum Failure {
     /// Something could not be done: exit code 1.
     #[error("{0}")]
     Work(Box<dyn std::error::Error + Send + Sync>),
-    /// Some views of a series failed, of which everything has been said: their worst exit code.
-    #[error("some views failed")]
+    /// Some images failed, of which everything has been said: their worst exit code.
+    #[error("some images failed")]
     Reported(u8),
 }
 

@@ -18,7 +18,6 @@ use crate::model::Model;
 use crate::outlet::{Outlet, write_file};
 use crate::report::Reporter;
 use crate::source::Source;
-use crate::stdout::write_json;
 
 /// Draws and writes an image of every source. A source that fails does not
 /// keep the others from being drawn; the worst exit code is returned.
@@ -57,17 +56,15 @@ pub(crate) fn draw_source(
         }
         _ => drawing = Some(draw_single(&mut model, request, capture, outlet, reporter)?),
     }
-    if request.json {
-        write_json(&ImageFacts {
-            model: ModelFacts::new(&model, &summary),
-            drawing,
-            views,
-            width: request.settings.width,
-            height: request.settings.height,
-            load_seconds: loaded,
-            written: names(&outlet.written[before..]),
-        })?;
-    }
+    outlet.tell(request, |written| ImageFacts {
+        model: ModelFacts::new(&model, &summary),
+        drawing,
+        views,
+        width: request.settings.width,
+        height: request.settings.height,
+        load_seconds: loaded,
+        written: names(&written[before..]),
+    })?;
     failed.map_or(Ok(()), Err)
 }
 

@@ -41,6 +41,15 @@ impl Inputs {
         self.0.extend(known);
     }
 
+    /// Those that are files, by name.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        let mut files: Vec<PathBuf> = self.0.iter().map(|(_, path)| path.clone()).collect();
+        files.retain(|path| path.is_file());
+        files.sort();
+        files.dedup();
+        files
+    }
+
     /// Refuses an output that is one of them.
     pub(crate) fn refuse(&self, output: &Path) -> Result<(), Failure> {
         let identity = FileIdentity::of(output).ok();

@@ -6,6 +6,7 @@
 
 mod args;
 mod axes;
+mod batch;
 mod check;
 mod compare;
 mod drawing;
@@ -38,12 +39,13 @@ mod stdout;
 #[cfg(feature = "window")]
 mod window;
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::CommandFactory;
+use clap::{CommandFactory, Parser};
 
-use crate::args::{CommandLine, HelpLength, Mode, RawArgs, Request};
+use crate::args::{BatchArgs, CommandLine, HelpLength, Mode, RawArgs, Request};
 use crate::report::{Level, Reporter};
 
 fn main() -> ExitCode {
@@ -51,7 +53,11 @@ fn main() -> ExitCode {
         Reporter::new(Level::Warning)
             .warning(format_args!("temporary files may stay when this program is interrupted ({error})"));
     }
-    let read = CommandLine::new(std::env::args_os().skip(1)).and_then(|line| Ok((line.raw(None)?, line)));
+    let mut words = std::env::args_os().skip(1).peekable();
+    if words.next_if(|word| word == "batch").is_some() {
+        return ExitCode::from(draw_batch(words));
+    }
+    let read = CommandLine::new(words).and_then(|line| Ok((line.raw(None)?, line)));
     let (raw, line) = match read {
         Ok(read) => read,
         Err(answer) => return ExitCode::from(said_by_clap(&answer)),
@@ -88,6 +94,15 @@ fn main() -> ExitCode {
         Mode::ListBindings => list_bindings(&request, reporter),
         Mode::ListBackends => lists::backends(reporter),
     })
+}
+
+/// `trigon-viewer batch`: draws a list of jobs.
+fn draw_batch(words: impl Iterator<Item = OsString>) -> u8 {
+    let name = OsString::from("trigon-viewer batch");
+    match BatchArgs::try_parse_from(std::iter::once(name).chain(words)) {
+        Ok(args) => batch::run(&args),
+        Err(answer) => said_by_clap(&answer),
+    }
 }
 
 /// A mistake on standard error, or the version on standard output; returns the exit code.

@@ -1,9 +1,11 @@
 //! The destination of finished images: files by their extensions, or standard output.
 
 use std::collections::HashSet;
+use std::fs;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
+use serde_json::Value;
 use trigon_io::{
     Pixels, Sequence, WriteError, encode_png, write_apng, write_exr, write_gif, write_jpeg, write_npy,
     write_origin_npy, write_png, write_png16, write_webp,
@@ -11,27 +13,62 @@ use trigon_io::{
 use trigon_scene::Frame;
 
 use crate::args::{Beside, Destination, Format, Request, Subject};
+use crate::facts::ImageFacts;
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::report::Reporter;
+use crate::stdout::write_json;
 
 /// Where finished images go.
 pub(crate) struct Outlet<'a> {
     output: Option<&'a Destination>,
     pub(crate) beside: &'a [Beside],
-    taken: HashSet<PathBuf>,
+    pub(crate) folders: Folders<'a>,
+    /// The names that no other image may have.
+    pub(crate) taken: HashSet<PathBuf>,
     /// What must not be overwritten.
     pub(crate) inputs: Inputs,
     /// All files that were written, in their order.
-    pub(crate) written: Vec<PathBuf>,
+    pub(crate) written: Vec<OutputFile>,
+    /// What is told of each source, if it is kept instead of being written to standard output.
+    pub(crate) kept_facts: Option<Vec<Value>>,
     reporter: Reporter,
+}
+
+/// The folders of the files that are written.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Folders<'a> {
+    /// Those of their names, which exist.
+    Existing,
+    /// Those of their names, which are created.
+    Created,
+    /// This one for all, under other names: the files are compared and not kept.
+    Only(&'a Path),
+}
+
+/// A file that was written.
+#[derive(Clone, Debug)]
+pub(crate) struct OutputFile {
+    /// As `--output` has it.
+    pub(crate) name: PathBuf,
+    /// Where its contents are.
+    pub(crate) stored: PathBuf,
 }
 
 impl<'a> Outlet<'a> {
     /// Of what a request reads, nothing is overwritten.
     pub(crate) fn new(output: Option<&'a Destination>, request: &Request, reporter: Reporter) -> Self {
         let inputs = Inputs::of(request);
-        Self { output, beside: &[], taken: HashSet::new(), inputs, written: Vec::new(), reporter }
+        Self {
+            output,
+            beside: &[],
+            folders: Folders::Existing,
+            taken: HashSet::new(),
+            inputs,
+            written: Vec::new(),
+            kept_facts: None,
+            reporter,
+        }
     }
 
     /// Bytes of an image would only garble a terminal.
@@ -75,10 +112,10 @@ impl<'a> Outlet<'a> {
     fn put_beside(&mut self, beside: Beside, image: &Path, frame: &Frame) -> Result<(), Failure> {
         self.save(&beside.path(image), frame, |path, frame| write_beside(beside, path, frame))?;
         let Some(path) = beside.origin_path(image) else { return Ok(()) };
-        self.take(&path)?;
-        write_origin_npy(&path, frame).map_err(|error| unwritten(&path, error))?;
+        let file = self.take(&path)?;
+        write_origin_npy(&file.stored, frame).map_err(|error| unwritten(&path, error))?;
         let [x, y, z] = frame.origin.to_array();
-        self.said(&path, format_args!("add it to the positions: {x}, {y}, {z}"));
+        self.said(file, format_args!("add it to the positions: {x}, {y}, {z}"));
         Ok(())
     }
 
@@ -90,10 +127,10 @@ impl<'a> Outlet<'a> {
         frame: &Frame,
         write: impl FnOnce(&Path, &Frame) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        self.take(path)?;
-        write(path, frame)?;
+        let file = self.take(path)?;
+        write(&file.stored, frame)?;
         let (width, height) = (frame.width, frame.height);
-        self.said(path, format_args!("{width}×{height}"));
+        self.said(file, format_args!("{width}×{height}"));
         Ok(())
     }
 
@@ -106,7 +143,7 @@ impl<'a> Outlet<'a> {
     ) -> Result<(), Failure> {
         let Some(Destination::File(template)) = self.output else { return Ok(()) };
         let path = template.unused(subject);
-        self.take(&path)?;
+        let file = self.take(&path)?;
         // What went wrong with a frame, which the writer only passes on.
         let mut failed = None;
         let mut bytes = |number| {
@@ -118,23 +155,38 @@ impl<'a> Outlet<'a> {
         };
         let is_gif = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("gif"));
         let written = if is_gif {
-            write_gif(&path, sequence, &mut bytes)
+            write_gif(&file.stored, sequence, &mut bytes)
         } else {
-            write_apng(&path, sequence, &mut bytes)
+            write_apng(&file.stored, sequence, &mut bytes)
         };
         match (failed, written) {
             (Some(failure), _) => return Err(failure),
             (None, written) => written.map_err(|error| unwritten(&path, error))?,
         }
         let Sequence { width, height, frames, .. } = sequence;
-        self.said(&path, format_args!("{width}×{height}, {frames} frames"));
+        self.said(file, format_args!("{width}×{height}, {frames} frames"));
         Ok(())
     }
 
-    fn take(&mut self, path: &Path) -> Result<(), Failure> {
+    /// Tells what was drawn of a source, if it is kept or `--json` asks for it.
+    pub(crate) fn tell<'m>(
+        &mut self,
+        request: &Request,
+        facts: impl FnOnce(&[OutputFile]) -> ImageFacts<'m>,
+    ) -> Result<(), Failure> {
+        if let Some(kept) = &mut self.kept_facts {
+            kept.push(serde_json::to_value(facts(&self.written)).map_err(Failure::work)?);
+            return Ok(());
+        }
+        if request.json { write_json(&facts(&self.written)) } else { Ok(()) }
+    }
+
+    /// Reserves a name; returns where the file goes.
+    fn take(&mut self, path: &Path) -> Result<OutputFile, Failure> {
         self.inputs.refuse(path)?;
         if self.taken.insert(path.to_owned()) {
-            return Ok(());
+            let stored = self.stored(path)?;
+            return Ok(OutputFile { name: path.to_owned(), stored });
         }
         Err(Failure::Usage(format!(
             "{}: two images would be written to it; write {{n}} in the name of --output (--output '{{model}}_{{n}}.png'), or {{frame}} for views",
@@ -142,9 +194,32 @@ impl<'a> Outlet<'a> {
         )))
     }
 
-    fn said(&mut self, path: &Path, what: std::fmt::Arguments<'_>) {
-        self.reporter.info(format_args!("wrote {} ({what})", path.display()));
-        self.written.push(path.to_owned());
+    /// Where the file of this name goes; its folder exists then, if that is asked for.
+    fn stored(&self, name: &Path) -> Result<PathBuf, Failure> {
+        match self.folders {
+            Folders::Existing => Ok(name.to_owned()),
+            Folders::Created => {
+                let folder = name.parent().filter(|folder| !folder.as_os_str().is_empty());
+                let created = folder.map_or(Ok(()), fs::create_dir_all);
+                created.map(|()| name.to_owned()).map_err(|error| {
+                    Failure::work(format!(
+                        "{}: its folder cannot be created ({error}); check the name and the permissions",
+                        name.display()
+                    ))
+                })
+            }
+            // The writers go by the extension.
+            Folders::Only(folder) => {
+                let number = Path::new(&self.taken.len().to_string())
+                    .with_extension(name.extension().unwrap_or_default());
+                Ok(folder.join(number))
+            }
+        }
+    }
+
+    fn said(&mut self, file: OutputFile, what: std::fmt::Arguments<'_>) {
+        self.reporter.info(format_args!("wrote {} ({what})", file.name.display()));
+        self.written.push(file);
     }
 }
 

@@ -262,7 +262,7 @@ fn settings(options: &Map<String, Value>, warnings: &mut Vec<String>) -> Result<
 }
 
 /// A value as it would be typed.
-fn text(value: &Value) -> Option<String> {
+pub(super) fn text(value: &Value) -> Option<String> {
     match value {
         Value::String(text) => Some(text.clone()),
         Value::Number(number) => Some(number.to_string()),

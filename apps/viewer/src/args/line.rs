@@ -209,12 +209,12 @@ impl CommandLine {
             let unset = |setting: &ConfigSetting| self.edits.contains(&format!("--unset={}", setting.flag));
             let counts = |setting: &&ConfigSetting| is_free(setting, &typed) && !unset(setting);
             from_files.extend(usual.iter().filter(counts));
-            words.extend(from_files[imperative.len()..].iter().copied().map(word));
+            words.extend(from_files[imperative.len()..].iter().copied().map(setting_word));
         }
         // After `--` there are no flags.
         let end = self.typed.iter().position(|word| word == "--").unwrap_or(self.typed.len());
         words.extend_from_slice(&self.typed[..end]);
-        words.extend(imperative.iter().map(word));
+        words.extend(imperative.iter().map(setting_word));
         words.extend(self.edits.iter().map(OsString::from));
         words.extend_from_slice(&self.typed[end..]);
         parsed(&words).map_err(|error| located(error, &from_files))
@@ -231,7 +231,7 @@ fn words_after_name(words: &[OsString]) -> impl Iterator<Item = OsString> {
 /// The error; if a setting of a configuration file causes it, with the name of that file.
 fn located(error: clap::Error, settings: &[&ConfigSetting]) -> clap::Error {
     let wrong = settings.iter().find_map(|setting| {
-        let alone = parsed(words_after_name(&[word(setting)])).err()?;
+        let alone = parsed(words_after_name(&[setting_word(setting)])).err()?;
         Some(conflict(format!("{}: {}: {}", setting.file.display(), setting.flag, plain(&alone))))
     });
     wrong.unwrap_or(error)
@@ -282,15 +282,19 @@ fn flag_of(word: &str) -> &str {
     word.strip_prefix("--").map_or("", |rest| rest.split('=').next().unwrap_or_default())
 }
 
-/// A setting as a word. `true` for a flag that takes no such value becomes the flag alone.
-fn word(setting: &ConfigSetting) -> OsString {
+fn setting_word(setting: &ConfigSetting) -> OsString {
+    word(&setting.flag, &setting.value)
+}
+
+/// A flag with its value as a word. `true` for a flag that takes no such value becomes the flag alone.
+pub(super) fn word(flag: &str, value: &str) -> OsString {
     let command = RawArgs::command();
-    let argument = command.get_arguments().find(|argument| argument.get_long() == Some(&setting.flag));
+    let argument = command.get_arguments().find(|argument| argument.get_long() == Some(flag));
     let choices = argument.map(clap::Arg::get_possible_values).unwrap_or_default();
-    if setting.value == "true" && !choices.is_empty() {
-        return format!("--{}", setting.flag).into();
+    if value == "true" && !choices.is_empty() {
+        return format!("--{flag}").into();
     }
-    format!("--{}={}", setting.flag, setting.value).into()
+    format!("--{flag}={value}").into()
 }
 
 /// Whether neither the flag nor a conflicting one was typed.

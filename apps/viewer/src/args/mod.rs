@@ -2,6 +2,7 @@
 //! combined meaning.
 
 mod animation;
+mod batch;
 mod beside;
 mod change;
 mod config;
@@ -10,6 +11,7 @@ mod effects;
 mod flags;
 mod gpu;
 mod help;
+mod job;
 mod line;
 mod material;
 mod names;
@@ -26,6 +28,7 @@ mod words;
 
 #[cfg(feature = "window")]
 pub(crate) use animation::AnimationProgress;
+pub(crate) use batch::{BatchArgs, Shard};
 pub(crate) use beside::{Beside, Format};
 #[cfg(feature = "window")]
 pub(crate) use config::KeyBinding;
@@ -33,6 +36,7 @@ pub(crate) use effects::Explanation;
 #[cfg(feature = "window")]
 pub(crate) use flags::{DECIDED, of_settings};
 pub(crate) use help::short as short_help;
+pub(crate) use job::Job;
 pub(crate) use line::{CommandLine, plain};
 #[cfg(feature = "window")]
 pub(crate) use names::flag as flag_named;

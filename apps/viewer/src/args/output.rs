@@ -109,6 +109,16 @@ impl Template {
         self.0.iter().any(|piece| matches!(piece, Piece::Frame(_) | Piece::Camera))
     }
 
+    /// Whether the same image gets the same name again, whatever files there are and whatever day it is.
+    pub(crate) fn is_repeatable(&self) -> bool {
+        !self.0.iter().any(|piece| matches!(piece, Piece::Number(_) | Piece::Date(_)))
+    }
+
+    /// Whether the name contains that of the camera.
+    pub(crate) fn names_camera(&self) -> bool {
+        self.0.contains(&Piece::Camera)
+    }
+
     /// Whether different models get different names.
     pub(crate) fn tells_models_apart(&self) -> bool {
         self.0

@@ -1,6 +1,7 @@
 //! The whole program, run as a user runs it: images, streams, messages, exit
 //! codes. No display, no network.
 
+mod batch;
 mod comparing;
 mod facts;
 mod glass;
