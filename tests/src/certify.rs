@@ -4,8 +4,8 @@
 use crate::coverage_support::{Samples, rasterizer};
 use crate::effort::cases;
 use proptest::prelude::*;
-use trigon_math::glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_at_mat4};
 use trigon_math::{SplitMix64, Vec2, Vec3, Vec4, elementary};
+use trigon_math::{look_at_mat4, perspective_infinite_reverse};
 use trigon_raster::{
     Background, BlendMode, Certainty, Certificate, Culling, Draw, ExecuteSettings, Fragment, Lines, Output,
     Pass, Pipeline, PointShape, Points, TargetImages, Tolerance, VertexOutput,

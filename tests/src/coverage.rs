@@ -4,7 +4,7 @@
 use crate::coverage_support::{SIDE, Values, clip_position, count, draw, pixel};
 use crate::effort::cases;
 use proptest::prelude::*;
-use trigon_math::glam::camera::rh::proj::directx::perspective_infinite_reverse;
+use trigon_math::perspective_infinite_reverse;
 use trigon_math::{Mat4, Vec4, elementary};
 use trigon_raster::{BlendMode, Culling, Draw, Output, Pass, Rasterizer, Target};
 use trigon_study::oracle::GridPoint;

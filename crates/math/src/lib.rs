@@ -44,6 +44,9 @@ mod predicates;
 mod random;
 
 pub use glam;
+/// Matrices of views and projections in the conventions above, with angles in radians: a camera that looks along −Z, and
+/// reversed depth without a far plane. `trigon-camera` has all others, in `f64`.
+pub use glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_at_mat4};
 pub use glam::{
     DAffine3, DMat3, DMat4, DQuat, DVec2, DVec3, DVec4, IVec2, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec4,
 };

@@ -60,7 +60,7 @@ pub enum MeshError {
     /// An attribute list does not have one value per element.
     #[error("{attribute} has {found} values, but the mesh has {expected} {element}: give one each")]
     AttributeLength {
-        /// The field of [`Attributes`](crate::Attributes).
+        /// The field of [`Attributes`](crate::Attributes), or what the values are.
         attribute: &'static str,
         /// What it is stored on: "corners", "faces" or "vertices".
         element: &'static str,

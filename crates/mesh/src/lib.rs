@@ -62,6 +62,7 @@ mod tangents;
 mod transform;
 mod triangulate;
 mod triangulation;
+mod vertex_values;
 mod weld;
 mod welded_mesh;
 

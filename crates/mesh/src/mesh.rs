@@ -242,7 +242,7 @@ impl Mesh {
             && self.loose_points == other.loose_points
     }
 
-    /// For changes that preserve lengths.
+    /// For changes that keep the right lengths.
     pub(crate) fn attributes_mut(&mut self) -> &mut Attributes {
         &mut self.attributes
     }

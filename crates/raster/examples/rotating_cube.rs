@@ -6,8 +6,7 @@
 #![allow(clippy::print_stdout, reason = "the terminal is the screen here")]
 
 use std::{env, thread, time::Duration};
-use trigon_math::glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_at_mat4};
-use trigon_math::{Mat4, Vec3, Vec4, elementary};
+use trigon_math::{Mat4, Vec3, Vec4, elementary, look_at_mat4, perspective_infinite_reverse};
 use trigon_raster::{
     Draw, EdgeFlags, Fragment, Output, Pass, Pipeline, Rasterizer, Target, TargetError, VertexOutput,
 };

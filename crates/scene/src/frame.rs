@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use trigon_camera::{Camera, CameraAxes};
 use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 use trigon_raster::TargetError;
 
@@ -112,6 +113,16 @@ impl Frame {
         Some(Hit { node, face: face.map(|face| face as usize) })
     }
 
+    /// The normals along the axes of the camera that drew the frame, as networks for depth and normals are trained with:
+    /// with [`CameraAxes::OpenGl`] a surface that faces the camera has (0, 0, 1), with [`CameraAxes::OpenCv`] (0, 0, −1).
+    /// All 0 where no face was drawn; `None` if normals were not requested.
+    #[must_use]
+    pub fn camera_normals(&self, camera: &Camera, axes: CameraAxes) -> Option<Vec<Vec3>> {
+        let to_camera = camera.extrinsics(axes).matrix3;
+        let turned = |normal: &Vec3| (to_camera * normal.as_dvec3()).as_vec3();
+        Some(self.normals.as_ref()?.iter().map(turned).collect())
+    }
+
     /// Allocates the requested outputs, reusing existing memory.
     pub(crate) fn allocate(&mut self, settings: &RenderSettings) -> Result<(), TargetError> {
         let RenderSettings { width, height, outputs, .. } = *settings;
@@ -167,4 +178,37 @@ fn resize_optional<T: Clone>(list: &mut Option<Vec<T>>, wanted: bool, length: us
         return Some(());
     }
     resize(list.get_or_insert_default(), length, value)
+}
+
+#[cfg(test)]
+mod tests {
+    use trigon_mesh::primitives;
+
+    use super::*;
+    use crate::{Material, Scene, render};
+
+    /// Against the camera's own axes.
+    #[test]
+    fn normals_of_a_camera_are_along_its_axes() {
+        let mut scene = Scene::new();
+        scene.add_object("cube", primitives::cube(1.0), Material::default());
+        let camera = Camera::look_at(DVec3::new(2.0, 3.0, 4.0), DVec3::ZERO, DVec3::Y);
+        let mut settings = RenderSettings::new(24, 18);
+        settings.outputs.normals = true;
+        let frame = render(&scene, &camera, &settings).expect("a cube");
+        let [gl, cv] = [CameraAxes::OpenGl, CameraAxes::OpenCv]
+            .map(|axes| frame.camera_normals(&camera, axes).expect("normals"));
+        let normals = frame.normals.as_ref().expect("normals");
+        let mut sides = 0;
+        for ((normal, gl), cv) in normals.iter().zip(gl).zip(cv) {
+            let world = normal.as_dvec3();
+            let expected =
+                DVec3::new(world.dot(camera.right()), world.dot(camera.up()), -world.dot(camera.forward()));
+            assert!((gl.as_dvec3() - expected).length() < 1e-6, "{gl} and {expected}: f32 has 24 bits");
+            assert_eq!(cv, Vec3::new(gl.x, -gl.y, -gl.z), "Y down, Z forward");
+            sides += u32::from(gl.z > 0.0);
+        }
+        assert!(sides > 50, "the cube is in view");
+        assert_eq!(Frame::default().camera_normals(&camera, CameraAxes::OpenGl), None, "not requested");
+    }
 }

@@ -83,8 +83,8 @@ pub use frame::{Frame, Hit};
 pub use light::{Light, LightKind, LightReading};
 pub use light_meter::{ExposureFault, ExposureWarning};
 pub use material::{
-    AlphaMode, ExtensionParameter, Material, MaterialId, MaterialTexture, MetallicRoughness, NormalMap,
-    Occlusion, ParameterField, Shading, TextureBinding,
+    AlphaMode, ColorError, ExtensionParameter, Material, MaterialId, MaterialTexture, MetallicRoughness,
+    NormalMap, Occlusion, ParameterField, Shading, TextureBinding, css_color,
 };
 pub use mesh_asset::{MeshAsset, MeshId};
 pub use node::{Node, NodeId, Skin, SkinId};

@@ -2,8 +2,8 @@
 
 use crate::coverage::Random;
 use crate::programs::Vertices;
-use trigon_math::glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_at_mat4};
 use trigon_math::{Mat4, Vec3, Vec4, elementary};
+use trigon_math::{look_at_mat4, perspective_infinite_reverse};
 
 /// What an image shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -98,6 +98,7 @@ Show 3D models, or render them to image files. No GPU is needed, and no display 
   trigon-viewer chair.glb --output chair.png   write an image (PNG, JPEG, WebP, OpenEXR)
   trigon-viewer *.obj --output '{model}.png'   an image of each
   trigon-viewer chair.glb --turntable=36 --output chair.gif
+  trigon-viewer batch jobs.jsonl --resume      draw a list of jobs; see batch --help
 ";
 
 /// After them.

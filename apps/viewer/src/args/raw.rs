@@ -47,6 +47,7 @@ Examples:
   trigon-viewer chair.glb                         show a model
   trigon-viewer chair.glb --output chair.png      write an image, no display needed
   trigon-viewer *.obj --output '{model}.png'      an image of each
+  trigon-viewer batch jobs.jsonl --resume         draw a list of jobs; see trigon-viewer batch --help
   trigon-viewer chair.glb --view=top --output - | other-program";
 
 /// What a model is checked for.

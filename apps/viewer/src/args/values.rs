@@ -8,7 +8,7 @@ use trigon_camera::{UpAxis, Viewport};
 use trigon_io::{Format, SceneChoice};
 use trigon_math::glam::{Affine2, Vec2};
 use trigon_math::{DVec3, Vec3, color, elementary};
-use trigon_scene::{Display, MAX_SIZE, SimdLevel};
+use trigon_scene::{ColorError, Display, MAX_SIZE, SimdLevel, css_color};
 
 use super::raw::{Check, CheckPurpose};
 
@@ -74,8 +74,6 @@ fn side(what: &str, text: &str) -> Result<u32, String> {
 
 /// A colour, written in sRGB, as linear RGB.
 pub(crate) fn color(text: &str) -> Result<Vec3, String> {
-    /// What is white in another colour space may be off by so much.
-    const ROUNDING: f32 = 1e-3;
     const FORMS: &str = "write R,G,B with numbers from 0 to 1, #rgb, #rrggbb or a CSS name such as orange";
     if let Some(rgb) = named(text).or_else(|| cmyk(text)) {
         return Ok(to_linear(rgb));
@@ -84,18 +82,16 @@ pub(crate) fn color(text: &str) -> Result<Vec3, String> {
         let inside = channels.cmpge(DVec3::ZERO).all() && channels.cmple(DVec3::ONE).all();
         return if inside { Ok(to_linear(channels.as_vec3())) } else { Err(FORMS.to_owned()) };
     }
-    let parsed = csscolorparser::parse(text).map_err(|_| FORMS)?;
-    if parsed.a < 1.0 {
+    let color = css_color(text).map_err(|error| match error {
+        ColorError::Unknown => FORMS.to_owned(),
+        outside => outside.to_string(),
+    })?;
+    if color.w < 1.0 {
         return Err(
             "the colour is translucent; use --opacity for a model, --no-background for none".to_owned()
         );
     }
-    let (rgb, within) =
-        (Vec3::new(parsed.r, parsed.g, parsed.b), |rgb: Vec3| rgb.clamp(Vec3::ZERO, Vec3::ONE));
-    if (rgb - within(rgb)).abs().max_element() > ROUNDING {
-        return Err("the colour is outside of sRGB, whose channels go from 0 to 1".to_owned());
-    }
-    Ok(to_linear(within(rgb)))
+    Ok(color.truncate())
 }
 
 /// F3D's own colour names, which CSS lacks.

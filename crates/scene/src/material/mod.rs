@@ -4,12 +4,14 @@
 //! extension once, as a row of [`Material::EXTENSION_PARAMETERS`]. Planner, renderer, importers,
 //! exporters, captures and checks walk these lists.
 
+mod css_color;
 mod shading;
 mod texture_row;
 
 use trigon_math::{Vec3, Vec4};
 use trigon_raster::TextureFormat;
 
+pub use css_color::{ColorError, css_color};
 pub use shading::{ExtensionParameter, MetallicRoughness, ParameterField, Shading};
 pub(crate) use texture_row::DrawnIf;
 pub use texture_row::{NormalMap, Occlusion, TextureBinding};
