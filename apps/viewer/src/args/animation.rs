@@ -54,7 +54,8 @@ pub(crate) struct AnimationArgs {
     /// is such a file, too.
     #[arg(long, value_name = "FILE", requires = "output", help_heading = "Animation", conflicts_with_all = [
         "turntable", "view", "camera_direction", "camera_position", "camera_focal_point", "camera_view_up",
-        "camera_index", "camera_exact", "compare", "reference",
+        "camera_index", "camera_exact", "camera_view_angle", "camera_zoom_factor", "camera_azimuth_angle",
+        "camera_elevation_angle", "camera_orthographic", "compare", "reference",
     ])]
     pub(crate) cameras: Option<PathBuf>,
 

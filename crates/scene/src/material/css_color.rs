@@ -36,8 +36,8 @@ pub fn css_color(text: &str) -> Result<Vec4, ColorError> {
     let parsed = csscolorparser::parse(text).map_err(|_| ColorError::Unknown)?;
     let srgb = Vec3::new(parsed.r, parsed.g, parsed.b);
     let within = srgb.clamp(Vec3::ZERO, Vec3::ONE);
-    // NaN is outside, too.
-    if !((srgb - within).abs().max_element() <= ROUNDING) {
+    let is_number = srgb.is_finite() && (0.0..=1.0).contains(&parsed.a);
+    if !is_number || (srgb - within).abs().max_element() > ROUNDING {
         return Err(ColorError::OutsideSrgb);
     }
     let [red, green, blue] = within.to_array().map(color::srgb_to_linear);
@@ -88,6 +88,12 @@ mod tests {
     fn what_is_no_colour_is_refused() {
         for text in ["", "nocolour", "#12", "rgb(1,2)", "#ggg"] {
             assert_eq!(css_color(text), Err(ColorError::Unknown), "{text}");
+        }
+        for text in
+            ["rgb(nan 0 0)", "rgb(inf 0 0)", "rgb(0 0 0 / nan)", "hsl(nan 100% 50%)", "rgb(1 2 3 / -inf)"]
+        {
+            let color = css_color(text);
+            assert!(color.is_err() || color.is_ok_and(|color| color.is_finite()), "{text}: {color:?}");
         }
         assert_eq!(css_color("oklch(0.7 0.4 150)"), Err(ColorError::OutsideSrgb), "more green than sRGB has");
     }
