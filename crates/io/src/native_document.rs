@@ -76,7 +76,8 @@ impl NativeDocument {
         Self { scene, ..Self::default() }
     }
 
-    /// Loads a file of any readable format. A glTF is kept for writing it back.
+    /// Loads a file of any readable format. A glTF is kept for writing it back. A file with nothing to draw is a document
+    /// without anything to draw.
     ///
     /// # Errors
     /// As [`load`].
@@ -149,7 +150,7 @@ impl NativeDocument {
 }
 
 fn keeping<'a>(options: &LoadOptions<'a>) -> LoadOptions<'a> {
-    LoadOptions { keep_source: true, ..options.clone() }
+    LoadOptions { keep_source: true, may_be_empty: true, ..options.clone() }
 }
 
 /// A document ready to be written.

@@ -64,9 +64,11 @@ pub struct LoadOptions<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Keeps the JSON, buffers and images of a glTF file, and which object in it each part of the
     /// scene was, in [`Loaded::source`](crate::Loaded::source). Costs their memory, and also reads
-    /// buffers and images that nothing uses. A file without any mesh is loaded only with this
-    /// option, since something may be added to it. Off by default; ignored for other formats.
+    /// buffers and images that nothing uses. Off by default; ignored for other formats.
     pub keep_source: bool,
+    /// Loads a file with nothing to draw as a scene without anything to draw, since something may be added to it. Off by
+    /// default: such a file is an error of the kind [`Empty`](crate::LoadErrorKind::Empty).
+    pub may_be_empty: bool,
     /// The progress callback, which may cancel.
     pub progress: Option<ProgressHook<'a>>,
 }
@@ -74,7 +76,7 @@ pub struct LoadOptions<'a> {
 impl fmt::Debug for LoadOptions<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let progress = self.progress.map(|_| "a callback");
-        let Self { limits, format, scene, variant, up, threads, keep_source, .. } = self;
+        let Self { limits, format, scene, variant, up, threads, keep_source, may_be_empty, .. } = self;
         f.debug_struct("LoadOptions")
             .field("limits", limits)
             .field("format", format)
@@ -83,6 +85,7 @@ impl fmt::Debug for LoadOptions<'_> {
             .field("up", up)
             .field("threads", threads)
             .field("keep_source", keep_source)
+            .field("may_be_empty", may_be_empty)
             .field("progress", &progress)
             .finish()
     }

@@ -52,6 +52,7 @@ mod moves;
 mod overlay;
 mod pacing;
 mod panes;
+mod path_line;
 mod popup;
 mod present;
 mod recent;
@@ -83,6 +84,7 @@ pub use keymap::{
 };
 pub use overlay::{Corner, Overlay};
 pub use panes::{Area, Pane};
+pub use path_line::{path_from_line, path_to_line};
 pub use popup::{PopupEnd, popup_entry, popup_menu};
 pub use recent::{RecentFiles, state_folder};
 pub use refinement::{Comparison, Difference, QualityReport, Refinement};

@@ -3,11 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::path_line::{path_from_line, path_to_line};
+
 /// The number of files that are remembered.
 const MOST: usize = 10;
 
-/// Files that a program opened lately, the last one first. A file of the user remembers them, a path in each
-/// line.
+/// Files that a program opened lately, the last one first. A file of the user remembers them, a
+/// [path in each line](path_to_line).
 #[derive(Debug, Default)]
 pub struct RecentFiles {
     /// `None` remembers nothing beyond this run.
@@ -20,7 +22,7 @@ impl RecentFiles {
     #[must_use]
     pub fn load(list: Option<PathBuf>) -> Self {
         let text = list.as_ref().and_then(|list| fs::read_to_string(list).ok()).unwrap_or_default();
-        let files = text.lines().filter(|line| !line.is_empty()).take(MOST).map(PathBuf::from).collect();
+        let files = text.lines().filter(|line| !line.is_empty()).take(MOST).map(path_from_line).collect();
         Self { list, files }
     }
 
@@ -38,8 +40,8 @@ impl RecentFiles {
         self.files.insert(0, file);
         self.files.truncate(MOST);
         let Some(list) = &self.list else { return };
-        let lines = self.files.iter().filter_map(|file| file.to_str()).filter(|name| !name.contains('\n'));
-        let text = lines.fold(String::new(), |text, line| text + line + "\n");
+        let lines = self.files.iter().map(|file| path_to_line(file));
+        let text = lines.fold(String::new(), |text, line| text + &line + "\n");
         drop(list.parent().map(fs::create_dir_all));
         let draft = list.with_extension("new");
         drop(fs::write(&draft, text).and_then(|()| fs::rename(&draft, list)));
@@ -79,6 +81,12 @@ mod tests {
         assert_eq!(again.files(), recent.files(), "read again");
         assert_eq!(again.files().len(), MOST, "the oldest are forgotten");
         assert_eq!(again.files()[..2], [PathBuf::from("/5.obj"), "/11.obj".into()], "the last one first");
+        // Names that no line could hold are no reason to forget them.
+        recent.add(Path::new("/two\nlines.obj"));
+        assert_eq!(
+            RecentFiles::load(Some(folder.path().join("deep").join("recent"))).files(),
+            recent.files()
+        );
         RecentFiles::load(None).add(Path::new("/a.obj"));
     }
 }

@@ -10,11 +10,12 @@ use trigon_window::scene::mesh::primitives;
 
 use super::dialog::Purpose;
 use super::editor::{Editor, Message, WELCOME};
+use super::file_version::FileVersion;
 use super::loading::{Found, LoadPurpose, Loading, Outcome};
 use super::loading::{SaveOrder, Saved, Saving};
 use super::navigation;
 use super::open_file::{Answer, Next, OpenFile, Question};
-use super::recovery::{Left, Recovery};
+use super::recovery::{Left, Recovery, set_damaged_aside};
 use super::settings::Look;
 use crate::export;
 use crate::request::{FileAction, FileRequest};
@@ -25,6 +26,14 @@ const HOME_DIRECTION: DVec3 = DVec3::new(-0.8, -0.6, -1.0);
 /// Whether something is to be recovered.
 pub(crate) fn offer_recovery(folder: Option<&Path>) -> Option<Question> {
     Left::find(folder?).into_iter().next().map(Question::Recover)
+}
+
+/// What is said of recovery files that cannot be used, once.
+pub(crate) fn damaged_recovery(folder: Option<&Path>) -> Option<String> {
+    let kept = set_damaged_aside(folder?);
+    let (first, more) = (kept.first()?.display(), kept.len() - 1);
+    let others = if more == 0 { String::new() } else { format!(" and {more} more") };
+    Some(format!("Recovery: nothing in {first}{others} can be read; open the file that was saved last"))
 }
 
 impl Editor {
@@ -160,16 +169,24 @@ impl Editor {
     }
 
     /// A load has ended; the next one begins.
-    pub(crate) fn loaded(&mut self, stage: &mut Stage, path: &Path, outcome: Outcome) {
+    pub(crate) fn loaded(
+        &mut self,
+        stage: &mut Stage,
+        path: &Path,
+        version: Option<FileVersion>,
+        outcome: Outcome,
+    ) {
         match outcome {
             Ok(Found::Document(document, warnings)) => {
                 self.take_document(*document, Some(path.to_owned()));
+                self.file = std::mem::take(&mut self.file).of_version(version);
                 self.recent.add(path);
                 let warned = match &warnings[..] {
                     [] => String::new(),
                     [first, ..] => format!(" with {} warnings: {first}", warnings.len()),
                 };
                 self.message = Message::Info(format!("Opened {}{warned}", path.display()));
+                self.notice_others();
                 self.look_at_all(stage);
             }
             Ok(Found::Import(loaded)) => {
@@ -184,6 +201,23 @@ impl Editor {
         }
     }
 
+    /// The window has the keyboard again: says what other programs have done to the file meanwhile.
+    pub(crate) fn notice_others(&mut self) {
+        let Some(path) = &self.file.path else { return };
+        let path = path.display();
+        if self.file.notices_change() {
+            let text = format!(
+                "{path} was changed by another program; Save asks whether to overwrite, reload or save elsewhere"
+            );
+            self.message = Message::Refusal(text);
+        } else if self.recovery.as_mut().is_some_and(Recovery::notices_other_editor) {
+            let text = format!(
+                "{path} is open in another editor, too; the one that saves last asks before it overwrites"
+            );
+            self.message = Message::Refusal(text);
+        }
+    }
+
     /// Nothing is loaded: what was open stays, and at the start there is a cube.
     pub(crate) fn give_up_loading(&mut self, stage: &mut Stage, message: Message) {
         if self.document.nodes().nodes().is_empty() {
@@ -194,13 +228,17 @@ impl Editor {
 
     /// Saves, unless something would be lost that the user has not confirmed.
     fn save_to(&mut self, stage: &Stage, path: PathBuf, next: Option<Next>) {
-        self.save(stage, SaveOrder { path, accepts_losses: false, next });
+        self.save(stage, SaveOrder { path, accepts_losses: false, overwrites: false, next });
     }
 
     /// Starts to save the document as it is now, or as soon as the current save has ended.
     fn save(&mut self, stage: &Stage, order: SaveOrder) {
         if self.saving.is_some() {
             self.to_save = Some(order);
+            return;
+        }
+        if !order.overwrites && self.file.would_overwrite(&order.path) {
+            self.question = Some(Question::ChangedOnDisk(order));
             return;
         }
         let waker = stage.waker();
@@ -289,11 +327,21 @@ impl Editor {
             (Question::Unsaved(next), Answer::Yes) => self.save_then(stage, next),
             (Question::Unsaved(next), Answer::No) => self.go_on(stage, next),
             (Question::Losses { path, next, .. }, Answer::Yes) => {
-                self.save(stage, SaveOrder { path, accepts_losses: true, next });
+                self.save(stage, SaveOrder { path, accepts_losses: true, overwrites: true, next });
+            }
+            (Question::ChangedOnDisk(order), Answer::Yes) => {
+                self.save(stage, SaveOrder { overwrites: true, ..order });
+            }
+            (Question::ChangedOnDisk(order), Answer::SaveAs) => {
+                self.ask(stage, FileAction::SaveAs);
+                self.after_save = order.next;
+            }
+            (Question::ChangedOnDisk(order), Answer::Reload) => {
+                self.go_on(stage, Next::Open(order.path));
             }
             (Question::Recover(left), Answer::Yes) => self.recover(stage, &left),
             (Question::Recover(left), Answer::No) => left.discard(),
-            (_, Answer::No | Answer::Cancel) => {}
+            (_, _) => {}
         }
         self.show(stage);
     }
@@ -318,7 +366,7 @@ impl Editor {
                 self.file = OpenFile::opened(path);
                 self.file.changed();
                 left.discard();
-                self.message = Message::Info(recovered(left).into());
+                self.message = Message::Info(recovered(left));
                 self.show(stage);
                 navigation::frame_all(self, stage);
             }
@@ -328,11 +376,12 @@ impl Editor {
 }
 
 /// What is said of a document that has come back.
-fn recovered(left: &Left) -> &'static str {
-    if left.is_cut_off {
-        "Recovered unsaved work except the last actions, which the recovery file lacks; save it now"
-    } else {
-        "Recovered unsaved work; save it now"
+fn recovered(left: &Left) -> String {
+    let missing =
+        if left.is_cut_off { " except the last actions, which the recovery file lacks" } else { "" };
+    match &left.document {
+        Some(path) => format!("Recovered unsaved work{missing}; Save writes it to {}", path.display()),
+        None => format!("Recovered unsaved work{missing}; it has no file yet, and Save asks for a name"),
     }
 }
 

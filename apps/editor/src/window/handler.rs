@@ -65,7 +65,7 @@ impl Handler for Editor {
         if let Some(outcome) = self.loading.as_ref().and_then(Loading::outcome)
             && let Some(loading) = self.loading.take()
         {
-            self.loaded(stage, &loading.path, outcome);
+            self.loaded(stage, &loading.path, loading.version, outcome);
         }
         if let Some(outcome) = self.saving.as_ref().and_then(Saving::outcome) {
             self.saved(stage, outcome);
@@ -101,6 +101,10 @@ impl Editor {
                 self.click = None;
                 Taken::No
             }
+            Input::FocusGained => {
+                self.notice_others();
+                Taken::No
+            }
             _ => Taken::No,
         }
     }
@@ -115,6 +119,9 @@ impl Editor {
         files.for_each(|file| self.file_request(stage, FileRequest::Import(file)));
         if self.question.is_none() {
             self.question = files::offer_recovery(self.recovery_folder.as_deref());
+        }
+        if let Some(damaged) = files::damaged_recovery(self.recovery_folder.as_deref()) {
+            self.message = Message::Refusal(damaged);
         }
     }
 

@@ -11,6 +11,7 @@ use std::thread;
 use trigon_document::{Document, DocumentFile, Storage, save};
 use trigon_io::{LoadOptions, Loaded, Progress, UpAxis, Warning, load};
 
+use super::file_version::FileVersion;
 use super::open_file::Next;
 
 /// What becomes of the file.
@@ -36,6 +37,8 @@ pub(crate) type Outcome = Result<Found, String>;
 #[derive(Debug)]
 pub(crate) struct Loading {
     pub(crate) path: PathBuf,
+    /// What was on the disk before it was read.
+    pub(crate) version: Option<FileVersion>,
     purpose: LoadPurpose,
     outcome: Receiver<Outcome>,
     state: Arc<State>,
@@ -58,6 +61,7 @@ impl Loading {
     ) -> Self {
         let state = Arc::new(State::default());
         let (sender, outcome) = channel();
+        let version = FileVersion::of(&path);
         let (theirs, file) = (Arc::clone(&state), path.clone());
         thread::spawn(move || {
             // Nobody waits for it any more when this fails.
@@ -65,7 +69,7 @@ impl Loading {
             drop(sender.send(read(&file, purpose, options, &theirs, &wake)));
             wake();
         });
-        Self { path, purpose, outcome, state }
+        Self { path, version, purpose, outcome, state }
     }
 
     /// What it ended with; `None` while it runs.
@@ -133,6 +137,8 @@ pub(crate) struct SaveOrder {
     pub(crate) path: PathBuf,
     /// Whether somebody was asked about what the file will not hold.
     pub(crate) accepts_losses: bool,
+    /// Whether what another program has written there is replaced.
+    pub(crate) overwrites: bool,
     /// What follows once it is saved.
     pub(crate) next: Option<Next>,
 }

@@ -7,6 +7,7 @@ mod actions;
 mod button_start;
 mod dialog;
 mod editor;
+mod file_version;
 mod files;
 mod gizmo_cache;
 mod handler;

@@ -2,12 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
+use super::file_version::FileVersion;
+use super::loading::SaveOrder;
 use super::recovery::Left;
 
 /// The file of the document, and whether it holds what was done.
 #[derive(Debug, Default)]
 pub(crate) struct OpenFile {
     pub(crate) path: Option<PathBuf>,
+    /// What was on the disk when it was read or written last; `None` before that.
+    version: Option<FileVersion>,
+    /// A version of another program's that somebody was told of.
+    noticed: Option<FileVersion>,
     /// How many changes lie between the document as it was opened and as it is.
     position: i64,
     /// The position that the file holds; `None` if no undo leads there.
@@ -18,7 +24,32 @@ pub(crate) struct OpenFile {
 
 impl OpenFile {
     pub(crate) fn opened(path: Option<PathBuf>) -> Self {
-        Self { path, position: 0, saved: Some(0), saving: None }
+        let version = path.as_deref().and_then(FileVersion::of);
+        Self { path, version, noticed: None, position: 0, saved: Some(0), saving: None }
+    }
+
+    /// Opened from what was on the disk in this version.
+    pub(crate) fn of_version(self, version: Option<FileVersion>) -> Self {
+        Self { version, ..self }
+    }
+
+    /// The version that another program has written since the file was read or written last.
+    fn changed_on_disk(&self) -> Option<FileVersion> {
+        let now = FileVersion::of(self.path.as_deref()?)?;
+        (self.version.is_some() && self.version != Some(now)).then_some(now)
+    }
+
+    /// Whether a save to this path would replace what another program has written.
+    pub(crate) fn would_overwrite(&self, path: &Path) -> bool {
+        self.path.as_deref() == Some(path) && self.changed_on_disk().is_some()
+    }
+
+    /// Whether another program has written the file since this was asked for the last time.
+    pub(crate) fn notices_change(&mut self) -> bool {
+        let now = self.changed_on_disk();
+        let is_new = now.is_some() && now != self.noticed;
+        self.noticed = now;
+        is_new
     }
 
     /// A command was run. One that only selects is no change, but what was undone before cannot be done again.
@@ -53,7 +84,8 @@ impl OpenFile {
     pub(crate) fn ended_save(&mut self, path: Option<PathBuf>) {
         let saving = self.saving.take();
         if path.is_some() {
-            (self.saved, self.path) = (saving, path);
+            (self.saved, self.version) = (saving, path.as_deref().and_then(FileVersion::of));
+            (self.path, self.noticed) = (path, None);
         }
     }
 
@@ -88,6 +120,8 @@ pub(crate) enum Question {
     Unsaved(Next),
     /// The file would not hold all of the one that was opened.
     Losses { path: PathBuf, losses: Vec<String>, next: Option<Next> },
+    /// Another program has written the file since.
+    ChangedOnDisk(SaveOrder),
     /// A crash has left a document.
     Recover(Left),
 }
@@ -99,12 +133,36 @@ pub(crate) enum Answer {
     Yes,
     /// Discard.
     No,
+    /// Save to another file.
+    SaveAs,
+    /// Open the file as another program has written it.
+    Reload,
     Cancel,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_another_program_writes_is_noticed_once_and_before_it_is_replaced() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.glb");
+        std::fs::write(&path, "as opened").expect("written");
+        let mut file = OpenFile::opened(Some(path.clone()));
+        assert!(!file.notices_change() && !file.would_overwrite(&path), "nobody has changed it");
+        std::fs::write(&path, "by another program").expect("written");
+        assert!(file.would_overwrite(&path), "that would be lost");
+        assert!(!file.would_overwrite(&folder.path().join("b.glb")), "another file is another question");
+        assert_eq!([file.notices_change(), file.notices_change()], [true, false], "once");
+        std::fs::write(&path, "and again, longer").expect("written");
+        assert!(file.notices_change(), "another change");
+        file.begins_save();
+        file.ended_save(Some(path.clone()));
+        assert!(!file.would_overwrite(&path), "it is ours now");
+        std::fs::remove_file(&path).expect("removed");
+        assert!(!file.would_overwrite(&path), "there is nothing to replace");
+    }
 
     #[test]
     fn undo_and_redo_lead_back_to_what_was_saved_unless_something_else_was_done() {

@@ -9,7 +9,8 @@ use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use trigon_document::{Disk, Document, Event, RecoveryLog, RecoveryWriter};
-use trigon_io::LoadOptions;
+use trigon_io::{FileIdentity, LoadOptions};
+use trigon_window::{path_from_line, path_to_line};
 
 /// The recovery file of the document that is open.
 #[derive(Debug)]
@@ -23,6 +24,9 @@ pub(crate) struct Recovery {
     in_save: usize,
     /// Whether somebody was told that nothing is written any more.
     has_reported: bool,
+    /// The document's file, and whether somebody was told that another editor has it.
+    document: Option<PathBuf>,
+    has_told_of_other: bool,
 }
 
 /// A document that was open when the editor ended without closing it.
@@ -68,7 +72,10 @@ impl Recovery {
         let file = folder.join(format!("{name}.recovery"));
         let writer = RecoveryWriter::start(Box::new(Disk), &file, log.base);
         log.events.into_iter().for_each(|event| writer.add(event));
-        Some(Self { writer: Some(writer), lock, held, events, in_save: 0, has_reported: false })
+        let document = path.map(Path::to_owned);
+        let (in_save, has_reported, has_told_of_other) = (0, false, false);
+        let writer = Some(writer);
+        Some(Self { writer, lock, held, events, in_save, has_reported, document, has_told_of_other })
     }
 
     /// Writes down what was done since the last call. Returns what a user has to know, once.
@@ -94,6 +101,18 @@ impl Recovery {
     pub(crate) fn saved(&mut self, path: &Path) {
         // If that fails, more is offered after a crash than is needed, which loses nothing.
         drop(write_lock(&mut self.held, self.in_save, Some(path)));
+        if self.document.as_deref() != Some(path) {
+            (self.document, self.has_told_of_other) = (Some(path.to_owned()), false);
+        }
+    }
+
+    /// Whether another editor has the document's file open, once. Elsewhere than on Unix nobody may read what another
+    /// process has locked, so it is not noticed there.
+    pub(crate) fn notices_other_editor(&mut self) -> bool {
+        let is_other = self.document.as_deref().is_some_and(|path| is_open_elsewhere(&self.lock, path));
+        let is_new = is_other && !self.has_told_of_other;
+        self.has_told_of_other = is_other;
+        is_new
     }
 
     /// The document is closed: nothing of it is to be recovered.
@@ -108,7 +127,7 @@ impl Recovery {
 /// Writes how many events a document's file holds, and its path. Through the handle that holds the lock: elsewhere
 /// than on Unix no other one may.
 fn write_lock(held: &mut File, saved: usize, path: Option<&Path>) -> std::io::Result<()> {
-    let path = path.and_then(Path::to_str).unwrap_or_default();
+    let path = path.map(path_to_line).unwrap_or_default();
     held.set_len(0)?;
     held.seek(SeekFrom::Start(0))?;
     held.write_all(format!("{saved}\n{path}").as_bytes())
@@ -119,7 +138,26 @@ fn read_lock(held: &mut File) -> std::io::Result<(usize, Option<PathBuf>)> {
     let mut text = String::new();
     held.read_to_string(&mut text)?;
     let (saved, path) = text.split_once('\n').unwrap_or_default();
-    Ok((saved.parse().unwrap_or(0), Some(path).filter(|path| !path.is_empty()).map(PathBuf::from)))
+    // What a relative path meant is not known any more: saving there could replace another file.
+    let path = Some(path_from_line(path)).filter(|path| path.is_absolute());
+    Ok((saved.parse().unwrap_or(0), path))
+}
+
+/// Whether a lock that another process holds, in the folder of this one's, names the same file.
+fn is_open_elsewhere(own: &Path, document: &Path) -> bool {
+    let Ok(wanted) = FileIdentity::of(document) else { return false };
+    let entries = own.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
+    let locks = entries
+        .map(|entry| entry.path())
+        .filter(|path| path != own && path.extension().is_some_and(|extension| extension == "lock"));
+    let names_it = |lock: PathBuf| {
+        let mut file = File::open(lock).ok()?;
+        // A lock that nobody holds is what a crash left.
+        file.try_lock_shared().is_err().then_some(())?;
+        let (_, path) = read_lock(&mut file).ok()?;
+        (FileIdentity::of(&path?).ok()? == wanted).then_some(())
+    };
+    locks.filter_map(names_it).next().is_some()
 }
 
 /// A name that no document has, with its lock.
@@ -133,21 +171,45 @@ fn free_name(folder: &Path) -> Option<(String, File)> {
     })
 }
 
+/// Recovery files whose start is damaged, so that nothing in them can be used. They are told of once: from now on they
+/// have other names, which are returned.
+pub(crate) fn set_damaged_aside(folder: &Path) -> Vec<PathBuf> {
+    let set_aside = |file: PathBuf| {
+        let _held = free_lock(&file)?;
+        RecoveryLog::read(&fs::read(&file).ok()?).err()?;
+        let kept = file.with_extension("damaged");
+        fs::rename(&file, &kept).ok()?;
+        // A lock without a file holds nothing.
+        drop(fs::remove_file(file.with_extension("lock")));
+        Some(kept)
+    };
+    recovery_files(folder).into_iter().filter_map(set_aside).collect()
+}
+
+fn recovery_files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "recovery"));
+    files.sort();
+    files
+}
+
+/// The lock of a recovery file, held from now on; `None` while another process holds it.
+fn free_lock(file: &Path) -> Option<File> {
+    let lock = file.with_extension("lock");
+    let held = File::options().read(true).write(true).create(true).truncate(false).open(lock).ok()?;
+    held.try_lock().ok()?;
+    Some(held)
+}
+
 impl Left {
     /// What was left in a folder with anything to recover.
     pub(crate) fn find(folder: &Path) -> Vec<Self> {
-        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-        let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
-        files.retain(|path| path.extension().is_some_and(|extension| extension == "recovery"));
-        files.sort();
-        files.into_iter().filter_map(Self::of).collect()
+        recovery_files(folder).into_iter().filter_map(Self::of).collect()
     }
 
     fn of(file: PathBuf) -> Option<Self> {
-        let lock = file.with_extension("lock");
-        let mut held =
-            File::options().read(true).write(true).create(true).truncate(false).open(&lock).ok()?;
-        held.try_lock().ok()?;
+        let (mut held, lock) = (free_lock(&file)?, file.with_extension("lock"));
         // A file that cannot be read stays where it is: nobody has seen what it holds.
         let RecoveryLog { events, is_cut_off, .. } = RecoveryLog::read(&fs::read(&file).ok()?).ok()?;
         let changes = |event: &&Event| !matches!(event, Event::Run(command) if command.is_selection());
@@ -253,6 +315,54 @@ mod tests {
         assert_eq!(again.scene().nodes().len(), document.scene().nodes().len(), "and all are recovered");
     }
 
+    /// A document that was opened by a relative name came back under that name in whatever folder the editor was started
+    /// from, and was saved over a file that had nothing to do with it.
+    #[test]
+    fn a_recovered_document_goes_back_to_its_own_file() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder.path();
+        let mut document = Document::default();
+        let mut crash = |path: Option<&Path>| {
+            let mut recovery = Recovery::start(folder, &mut document, path).expect("it can be written");
+            document.run(command(r#"{"op":"add_light"}"#)).expect("possible");
+            assert_eq!(recovery.follow(&mut document), None, "nothing goes wrong");
+        };
+        crash(Some(Path::new("chair.glb")));
+        let absolute = std::env::current_dir().expect("a folder").join("chair.glb");
+        let left = Left::find(folder);
+        assert_eq!(left[0].document.as_deref(), Some(absolute.as_path()), "from any folder");
+        left[0].discard();
+        drop(left);
+        // A lock file of an older version has what was typed: nobody knows where that was.
+        crash(None);
+        let lock = recovery_files(folder)[0].with_extension("lock");
+        fs::write(&lock, "0\nchair.glb").expect("it can be written");
+        assert_eq!(Left::find(folder)[0].document, None, "it asks where to save");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn two_editors_on_one_file_learn_of_each_other_once() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [path, other] = ["a.glb", "b.glb"].map(|name| folder.path().join(name));
+        fs::write(&path, "").expect("written");
+        fs::hard_link(&path, folder.path().join("second name.glb")).expect("linked");
+        fs::write(&other, "").expect("written");
+        let start = |path: &Path| {
+            Recovery::start(folder.path(), &mut Document::default(), Some(path)).expect("it can be written")
+        };
+        let mut first = start(&path);
+        assert!(!first.notices_other_editor(), "it is alone");
+        let second = start(&other);
+        assert!(!first.notices_other_editor(), "the other has another file");
+        let mut third = start(&folder.path().join("second name.glb"));
+        assert_eq!([first.notices_other_editor(), first.notices_other_editor()], [true, false], "once");
+        assert!(third.notices_other_editor(), "under another name of the file, too");
+        third.close();
+        assert!(!first.notices_other_editor(), "it is alone again");
+        second.close();
+    }
+
     #[test]
     fn a_damaged_end_is_told_and_a_damaged_start_is_kept() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -282,6 +392,10 @@ mod tests {
         fs::write(&file, &damaged).expect("it can be written");
         assert!(Left::find(folder).is_empty(), "there is nothing to offer");
         assert_eq!(fs::read(&file).expect("it is still there"), damaged, "nothing was deleted");
+        let kept = set_damaged_aside(folder);
+        assert_eq!(kept, [file.with_extension("damaged")], "it is named");
+        assert_eq!(fs::read(&kept[0]).expect("it is there"), damaged, "and kept");
+        assert!(set_damaged_aside(folder).is_empty(), "once");
     }
 
     #[test]

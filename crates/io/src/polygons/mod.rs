@@ -86,7 +86,11 @@ pub(crate) fn check_solids(import: &Import<'_>, count: usize) -> Result<(), Load
 /// Adds a node for each of the meshes. Far from the origin they are moved, and their nodes have
 /// the offset.
 pub(crate) fn add_polygons(import: &mut Import<'_>, list: Vec<Polygons>) -> Result<(), LoadError> {
-    if list.iter().all(|polygons| polygons.positions.is_empty()) {
+    let is_empty = list.iter().all(|polygons| polygons.positions.is_empty());
+    if is_empty && import.options.may_be_empty {
+        return Ok(());
+    }
+    if is_empty {
         let what = "there is nothing to draw: the file has no vertices";
         let remedy = "export the model with its faces or points";
         return Err(LoadError::new(LoadErrorKind::Empty, import.path, what, remedy));

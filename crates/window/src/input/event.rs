@@ -52,6 +52,7 @@ pub(crate) enum InputEvent {
     KeyUp(KeyCode),
     Modifiers(Modifiers),
     FocusLost,
+    FocusGained,
     /// A file is dragged over the window and not dropped yet.
     FileHovered(PathBuf),
     /// What was dragged over the window has left it.

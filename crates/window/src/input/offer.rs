@@ -43,6 +43,8 @@ pub enum Input {
     ModifiersChanged,
     /// The window lost the keyboard, and with it all buttons and keys: none of their releases follow.
     FocusLost,
+    /// The window has the keyboard again: other programs may have changed files meanwhile.
+    FocusGained,
 }
 
 /// Where the pointer is and which modifiers are held.

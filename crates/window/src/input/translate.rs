@@ -27,6 +27,7 @@ pub(crate) fn translate(event: &WindowEvent, scale: f64) -> Option<InputEvent> {
         }
         WindowEvent::ModifiersChanged(modifiers) => InputEvent::Modifiers(modifier_set(modifiers.state())),
         WindowEvent::Focused(false) => InputEvent::FocusLost,
+        WindowEvent::Focused(true) => InputEvent::FocusGained,
         WindowEvent::HoveredFile(path) => InputEvent::FileHovered(path.clone()),
         WindowEvent::HoveredFileCancelled => InputEvent::HoverEnded,
         WindowEvent::DroppedFile(path) => InputEvent::FileDropped(path.clone()),
@@ -292,6 +293,7 @@ mod tests {
         assert_eq!(told(WindowEvent::Occluded(false)), Some(InputEvent::Shown));
         assert_eq!(told(WindowEvent::CloseRequested), Some(InputEvent::CloseRequested));
         assert_eq!(told(WindowEvent::Focused(false)), Some(InputEvent::FocusLost));
+        assert_eq!(told(WindowEvent::Focused(true)), Some(InputEvent::FocusGained));
         assert_eq!(told(WindowEvent::Focused(true)), None, "nothing is to be done");
         assert_eq!(told(WindowEvent::RedrawRequested), None, "the session knows when to draw");
         let control = if cfg!(target_os = "macos") { ModifiersState::SUPER } else { ModifiersState::CONTROL };

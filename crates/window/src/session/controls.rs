@@ -36,6 +36,7 @@ impl Session<'_> {
                 self.offer(Input::ModifiersChanged, now);
             }
             InputEvent::FocusLost => self.focus_lost(now),
+            InputEvent::FocusGained => self.offer(Input::FocusGained, now),
             _ => {}
         }
     }

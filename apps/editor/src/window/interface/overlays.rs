@@ -146,6 +146,18 @@ fn content(ui: &mut Ui, question: &Question) -> Option<Answer> {
             }
             buttons(ui, &[("Save Anyway", Answer::Yes), ("Cancel", Answer::Cancel)])
         }
+        Question::ChangedOnDisk(order) => {
+            ui.heading("The file has changed");
+            ui.label(format!("Another program has written {} since it was opened.", order.path.display()));
+            ui.label("Reload discards what was done here since the last save.");
+            let choices = [
+                ("Save As…", Answer::SaveAs),
+                ("Overwrite", Answer::Yes),
+                ("Reload", Answer::Reload),
+                ("Cancel", Answer::Cancel),
+            ];
+            buttons(ui, &choices)
+        }
         Question::Recover(left) => {
             ui.heading("Recover a document?");
             let name = left

@@ -62,7 +62,7 @@ impl Worked {
 /// Waits for the load that is under way.
 fn finish_load(editor: &mut Editor, stage: &mut Stage) {
     let loading = editor.loading.take().expect("it was begun");
-    editor.loaded(stage, &loading.path, loading.wait());
+    editor.loaded(stage, &loading.path, loading.version, loading.wait());
 }
 
 /// Waits for the save that is under way.
@@ -187,7 +187,7 @@ fn a_document_is_saved_and_opened_again() {
     finish_load(editor, stage);
     assert_eq!(editor.document.nodes().nodes().len(), 4, "again: {:?}", editor.message);
     assert!(!editor.file.is_unsaved(), "as it was saved");
-    editor.loaded(stage, &path, Err("it is broken".into()));
+    editor.loaded(stage, &path, None, Err("it is broken".into()));
     assert_eq!(worked.objects(), 4, "a load that fails leaves the document");
     assert_eq!(worked.refusal(), "it is broken", "and says why");
 }

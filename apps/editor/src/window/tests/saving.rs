@@ -104,6 +104,42 @@ fn the_window_goes_on_while_it_saves_and_the_file_has_what_was_there_when_that_b
 }
 
 #[test]
+fn what_another_program_wrote_is_replaced_only_after_a_question() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("chair.glb");
+    let mut worked = Worked::new();
+    worked.file(FileRequest::SaveAs(path.clone()));
+    worked.finish_save();
+    let theirs = b"by another program";
+    std::fs::write(&path, theirs).expect("written");
+    worked.editor.notice_others();
+    assert!(worked.refusal().contains("was changed by another program"), "{}", worked.refusal());
+    worked.change();
+    worked.file(FileRequest::Ask(FileAction::Save));
+    assert!(matches!(worked.editor.question, Some(Question::ChangedOnDisk(_))), "a question");
+    worked.editor.answer(&mut worked.stage, Answer::Cancel);
+    assert_eq!(std::fs::read(&path).expect("it is there"), theirs, "nothing was written");
+    worked.file(FileRequest::Ask(FileAction::Save));
+    worked.editor.answer(&mut worked.stage, Answer::Yes);
+    worked.finish_save();
+    assert_eq!(count_of_objects(&path), worked.objects(), "overwritten");
+    // The next save is of our own file.
+    worked.change();
+    worked.file(FileRequest::Ask(FileAction::Save));
+    assert!(worked.editor.question.is_none(), "no question");
+    worked.finish_save();
+    // And a reload gives what is there.
+    worked.change();
+    let objects = count_of_objects(&path);
+    let file = std::fs::File::options().write(true).open(&path).expect("it is there");
+    file.set_modified(std::time::SystemTime::UNIX_EPOCH).expect("as if it had been written then");
+    worked.file(FileRequest::Ask(FileAction::Save));
+    worked.editor.answer(&mut worked.stage, Answer::Reload);
+    finish_load(&mut worked.editor, &mut worked.stage);
+    assert_eq!(worked.objects(), objects, "as it is in the file");
+}
+
+#[test]
 fn closing_during_a_save_waits_for_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("chair.glb");

@@ -172,9 +172,7 @@ fn build_meshes(
         drawable |= mesh.face_count() + mesh.loose_edges().len() + mesh.loose_points().len() > 0;
         meshes[index] = Some(built);
     }
-    // What is opened to be edited may hold lights alone, or nothing yet.
-    let may_be_empty = import.options.keep_source && root.meshes.is_empty();
-    if !drawable && !may_be_empty {
+    if !drawable && !import.options.may_be_empty {
         return Err(nothing(import, root, used.len()));
     }
     check_placed(import, root, hierarchy, &meshes)?;

@@ -66,7 +66,7 @@ pub(super) fn parse_in_pieces(
         return Err(LoadError::limit(path, format!("it has more than {limit} vertices")));
     }
     let mut parsed = read_all(path, &chunks, total, options)?;
-    if parsed.content.arities.is_empty() {
+    if parsed.content.arities.is_empty() && !options.may_be_empty {
         return Err(nothing(path, total.positions, &parsed.oddities));
     }
     let colorless = if parsed.content.colors.is_empty() { Tally::default() } else { parsed.colorless };

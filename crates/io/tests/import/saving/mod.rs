@@ -7,7 +7,8 @@ mod written;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use trigon_io::{
-    ExportOptions, LoadOptions, Loaded, NativeDocument, UpAxis, Warning, encode_glb, load_from_slice,
+    ExportOptions, LoadErrorKind, LoadOptions, Loaded, NativeDocument, UpAxis, Warning, encode_glb,
+    load_from_slice,
 };
 use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Deltas, EditData, Mesh, MorphTarget, RenderMesh, SkinWeights, primitives};

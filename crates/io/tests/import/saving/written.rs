@@ -26,10 +26,53 @@ fn loose_edges_points_and_empty_meshes_are_written() {
     scene.add_object("nothing", Mesh::default(), Material::default());
     let again = loaded("a.glb", &glb(&scene));
     assert_eq!(only_mesh(&again.scene).1.loose_edges(), wires.loose_edges(), "lines");
-    let native = NativeDocument::new(scene);
-    let file = native.encode().expect("small");
-    assert_eq!(file.what_would_be_lost()[0].to_string(), "node \"nothing\": its mesh, which has no vertices");
-    assert!(*only_mesh(&document("a.glb", &file.to_bytes()).0.scene).1 == wires, "to the bit");
+    let again = document("a.glb", &saved(&NativeDocument::new(scene))).0.scene;
+    let meshes: Vec<&Mesh> = again.meshes().iter().map(|(_, asset)| asset.mesh()).collect();
+    assert!(meshes == [&wires, &Mesh::default()], "to the bit");
+}
+
+/// A document in which nothing is left is not lost.
+#[test]
+fn what_is_saved_with_nothing_to_draw_is_opened_and_shown_by_nobody() {
+    let mut empty = Mesh::default();
+    let target = MorphTarget { name: "wide".into(), ..MorphTarget::default() };
+    let values = Attributes {
+        face_smooth: Some(Vec::new()),
+        uv_sets: vec![Vec::new(); 2],
+        morph_targets: vec![target],
+        ..Attributes::default()
+    };
+    empty.set_attributes(values).expect("there is nothing");
+    let mut scene = Scene::new();
+    let mesh = scene.add_mesh("nothing", empty.clone());
+    for name in ["red", "blue"] {
+        let material = scene.add_material(Material::default().with_name(name));
+        let node = scene.add(Node::from_mesh(mesh, material));
+        scene.node_mut(node).expect("just added").visible = false;
+    }
+    let bytes = saved(&NativeDocument::new(scene));
+    let (again, warnings) = document("a.glb", &bytes);
+    assert_eq!(warnings, [], "nothing is odd");
+    assert!(again.scene.meshes().iter().all(|(_, asset)| *asset.mesh() == empty), "the mesh");
+    let materials = again.scene.nodes().iter().map(|(_, node)| again.scene.materials.get(node.materials[0]));
+    let names: Vec<&str> = materials.map(|material| material.expect("it is there").name.as_str()).collect();
+    assert_eq!(names, ["red", "blue"], "its materials");
+    assert!(saved(&again) == bytes, "the second file is the first");
+    // For a viewer there is nothing.
+    let error = load_from_slice("a.glb", &bytes, &LoadOptions::default()).expect_err("nothing to draw");
+    assert_eq!(error.kind, LoadErrorKind::Empty, "{error}");
+    for (name, text) in [
+        ("a.obj", "v 0 0 0\n"),
+        ("a.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n"),
+        ("a.off", "OFF\n0 0 0\n"),
+        ("a.stl", "solid a\nendsolid a\n"),
+    ] {
+        let (opened, _) = document(name, text.as_bytes());
+        assert_eq!(opened.scene.nodes().len(), 0, "{name} is a document without objects");
+        let error =
+            load_from_slice(name, text.as_bytes(), &LoadOptions::default()).expect_err("nothing to draw");
+        assert_eq!(error.kind, LoadErrorKind::Empty, "{name}: {error}");
+    }
 }
 
 #[test]

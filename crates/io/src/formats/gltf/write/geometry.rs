@@ -50,6 +50,20 @@ pub(super) fn write_geometry(draft: &mut Draft<'_>, mesh: &Mesh, render: &Render
     parts
 }
 
+/// Stands for a mesh with nothing that other programs could show, because the format has no empty meshes: a triangle
+/// without area.
+pub(super) fn write_placeholder(draft: &mut Draft<'_>, mesh: &Mesh) -> GeometryPart {
+    let corners = draft.floats(&[[0.0; 3]; 3], Some(BufferTarget::Vertices), Bounded::Yes);
+    let target = BTreeMap::from([("POSITION", corners)]);
+    GeometryPart {
+        slot: 0,
+        mode: TRIANGLES,
+        attributes: BTreeMap::from([("POSITION".to_owned(), corners)]),
+        indices: None,
+        targets: vec![target; mesh.attributes().morph_targets.len()],
+    }
+}
+
 fn write_triangles(draft: &mut Draft<'_>, render: &RenderMesh) -> Vec<GeometryPart> {
     let slots = sort_by_slot(render);
     if slots.is_empty() {

@@ -12,7 +12,7 @@ use trigon_mesh::{EditData, Mesh, RenderMesh};
 use trigon_scene::MeshId;
 
 use super::draft::Draft;
-use super::geometry::{GeometryPart, write_geometry};
+use super::geometry::{GeometryPart, write_geometry, write_placeholder};
 use super::raw::RetainedFile;
 use super::raw::{RawObject, raw};
 use crate::error::Location;
@@ -85,7 +85,7 @@ impl Written {
         Self { object, form: Form::Retained(primitives.into_iter().zip(slots).collect()), header }
     }
 
-    /// Writes the accessors of a mesh; `None` if there is nothing that a file could hold.
+    /// Writes the accessors of a mesh; `None` if there is nothing that a file for other programs could hold.
     pub(super) fn new(
         draft: &mut Draft<'_>,
         object: RawObject,
@@ -95,7 +95,10 @@ impl Written {
         let render = || RenderMesh::from_mesh(shape.mesh);
         let columns = || is_native.then(|| columns_of_mesh(shape.mesh, shape.edit_data));
         let (render, columns) = rayon::join(render, columns);
-        let parts = write_geometry(draft, shape.mesh, &render);
+        let mut parts = write_geometry(draft, shape.mesh, &render);
+        if parts.is_empty() && is_native {
+            parts.push(write_placeholder(draft, shape.mesh));
+        }
         if parts.is_empty() {
             return None;
         }
