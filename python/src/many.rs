@@ -85,7 +85,9 @@ impl PyScene {
             return Err(value_error("out says which outputs are drawn; leave outputs away"));
         }
         options.ask_for(&targets.names())?;
-        slf.try_borrow()?.fill(py, &views(cameras, frames)?, &options, &targets)?;
+        // Before the scene is held: cameras may come from code that changes it.
+        let views = views(cameras, frames)?;
+        slf.try_borrow()?.fill(py, &views, &options, &targets)?;
         Ok(out.clone().into_any())
     }
 }

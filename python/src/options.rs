@@ -24,8 +24,29 @@ static THREADS: AtomicUsize = AtomicUsize::new(0);
 /// >>> trigon3d.set_threads(1)
 /// >>> trigon3d.set_threads(0)
 #[pyfunction]
-pub(crate) fn set_threads(count: usize) {
-    THREADS.store(count, Ordering::Relaxed);
+pub(crate) fn set_threads(count: usize) -> PyResult<()> {
+    THREADS.store(some_threads(count)?, Ordering::Relaxed);
+    Ok(())
+}
+
+/// More threads than any machine has cores.
+const MOST_THREADS: usize = 4096;
+
+/// A number of threads that can be started.
+fn some_threads(count: usize) -> PyResult<usize> {
+    if count <= MOST_THREADS {
+        return Ok(count);
+    }
+    Err(value_error(format!("{count} threads; the limit is {MOST_THREADS}")))
+}
+
+/// The widest points and lines in pixels: the longest side of an image.
+fn pixels(value: &Bound<'_, PyAny>, name: &str) -> PyResult<f32> {
+    let width: f32 = value.extract()?;
+    if (0.0..=MAX_SIZE as f32).contains(&width) {
+        return Ok(width);
+    }
+    Err(value_error(format!("{name} is {width}, but goes from 0 to {MAX_SIZE} pixels")))
 }
 
 /// What an image is drawn with.
@@ -114,9 +135,9 @@ impl Options {
             "flat" => {
                 settings.shading = if value.extract()? { ShadingModel::Flat } else { ShadingModel::Phong }
             }
-            "point_size" => settings.point_size = Some(value.extract()?),
-            "line_width" => settings.line_width = value.extract()?,
-            "threads" => settings.threads = NonZeroUsize::new(value.extract()?),
+            "point_size" => settings.point_size = Some(pixels(value, name)?),
+            "line_width" => settings.line_width = pixels(value, name)?,
+            "threads" => settings.threads = NonZeroUsize::new(some_threads(value.extract()?)?),
             "simd" => settings.simd = Some(value.extract::<String>()?.parse().map_err(value_error)?),
             other => {
                 return Err(pyo3::exceptions::PyTypeError::new_err(format!(

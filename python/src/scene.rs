@@ -176,6 +176,9 @@ impl PyScene {
             ..Attributes::default()
         };
         let has_normals = attributes.corner_normals.is_some();
+        if smooth_angle.is_some_and(|angle| !(0.0..=180.0).contains(&angle)) {
+            return Err(value_error("smooth_angle goes from 0 to 180 degrees"));
+        }
         mesh.set_attributes(attributes).map_err(value_error)?;
         if let Some(angle) = smooth_angle.filter(|_| !has_normals) {
             mesh.smooth_by_angle(angle.to_radians());

@@ -455,11 +455,21 @@ class Scene:
         return translation
 
 
-def _below(node: Node, pose: np.ndarray):
-    pose = pose @ node.matrix
-    yield node, pose
-    for child in node.children:
-        yield from _below(child, pose)
+def _below(top: Node, pose: np.ndarray):
+    """A node and all below it, each after its parent, with their poses in the world."""
+    # Without recursion, so that trees may be of any depth.
+    waiting, path, above = [(top, pose, 0)], [], set()
+    while waiting:
+        node, pose, depth = waiting.pop()
+        while len(path) > depth:
+            above.discard(path.pop())
+        if id(node) in above:
+            raise ValueError(f"the node {node.name!r} is below itself: a child is one of its own parents")
+        path.append(id(node))
+        above.add(id(node))
+        pose = pose @ node.matrix
+        yield node, pose
+        waiting += [(child, pose, depth + 1) for child in reversed(node.children)]
 
 
 class _Translation:
