@@ -227,7 +227,8 @@ impl PyScene {
 
     /// Adds a light: "ambient", "directional", "point" or "spot". A scene without lights has studio lights.
     ///
-    /// `angle` is the half angle of a spot in degrees.
+    /// `angle` is the half angle of a spot in degrees. Within `inner_angle`, 0.8 of it unless it is given, the light is
+    /// not yet weaker.
     ///
     /// >>> import trigon3d
     /// >>> scene = trigon3d.Scene()
@@ -235,7 +236,7 @@ impl PyScene {
     /// 0
     #[pyo3(signature = (
         kind="directional", *, color=Channels::white(), intensity=1.0, position=[0.0; 3], direction=[0.0, 0.0, -1.0],
-        angle=45.0
+        angle=45.0, inner_angle=None
     ))]
     fn add_light(
         &mut self,
@@ -245,12 +246,15 @@ impl PyScene {
         position: [f64; 3],
         direction: [f64; 3],
         angle: f32,
+        inner_angle: Option<f32>,
     ) -> PyResult<usize> {
         let (position, direction) = (DVec3::from_array(position), DVec3::from_array(direction));
         let is_sound = position.is_finite() && direction.is_finite() && direction != DVec3::ZERO;
-        if !(is_sound && intensity.is_finite() && intensity >= 0.0 && (0.0..=90.0).contains(&angle)) {
+        let inner_angle = inner_angle.unwrap_or(0.8 * angle);
+        let has_angles = (0.0..=90.0).contains(&angle) && (0.0..=angle).contains(&inner_angle);
+        if !(is_sound && intensity.is_finite() && intensity >= 0.0 && has_angles) {
             return Err(value_error(
-                "a light has a finite position, a direction that is not 0, an intensity of at least 0 and an angle up to 90",
+                "a light has a finite position, a direction that is not 0, an intensity of at least 0, an angle up to 90 and an inner_angle up to that",
             ));
         }
         let light = match kind {
@@ -258,8 +262,8 @@ impl PyScene {
             "directional" => Light::directional(intensity),
             "point" => Light::point(intensity),
             "spot" => {
-                let outer = angle.to_radians();
-                let kind = trigon_scene::LightKind::Spot { inner: 0.8 * outer, outer };
+                let [inner, outer] = [inner_angle, angle].map(f32::to_radians);
+                let kind = trigon_scene::LightKind::Spot { inner, outer };
                 Light { kind, ..Light::spot(intensity) }
             }
             other => {
