@@ -413,7 +413,8 @@ impl PyScene {
     ///
     /// Named arguments: `outputs` (names of `Frame`'s arrays), `samples` along each side of a pixel (1 to 4, default
     /// 3), `quality` ("draft", "standard", "high", "reference"), `time_budget` in seconds, `background` (a colour in
-    /// sRGB, "transparent", "default"), `lighting` ("auto", "scene", "studio"), `shadows`, `flat`, `point_size`,
+    /// sRGB, "transparent", "default"), `lighting` ("auto", "scene", "studio"), `exposure` ("auto", by a light meter for
+    /// lamps that a display cannot show, or stops: 0 leaves light as it is), `shadows`, `flat`, `point_size`,
     /// `line_width`, `threads`, `simd`. Other threads of Python run meanwhile.
     ///
     /// >>> import trigon3d

@@ -202,6 +202,7 @@ class Scene:
         time_budget: float | None = None,
         background: Sequence[float] | Literal["transparent", "default"] | None = None,
         lighting: Literal["auto", "scene", "studio"] | None = None,
+        exposure: float | Literal["auto"] | None = None,
         shadows: bool | None = None,
         flat: bool | None = None,
         point_size: float | None = None,

@@ -185,7 +185,7 @@ class MetallicRoughnessMaterial(Material):
             unlit=look.is_flat,
             metallic=self.metallicFactor,
             roughness=self.roughnessFactor,
-            emission=encoded(self.emissiveFactor),
+            emission=encoded(self.emissiveFactor) if not look.is_flat else np.zeros(3),
             double_sided=look.is_double_sided or self.doubleSided,
             alpha_mode=mode,
             alpha_cutoff=self.alphaCutoff,
