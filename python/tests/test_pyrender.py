@@ -231,3 +231,26 @@ def test_scenes_of_trimesh_and_textures():
     scene.add(pyrender.OrthographicCamera(1, 1), pose=pose(0, 0, 2))
     color, _ = pyrender.OffscreenRenderer(32, 32).render(scene, RenderFlags.FLAT)
     assert (color[8, 16] == [0, 200, 0]).all() and (color[24, 16] == 0).all(), "v counts from the lower edge"
+
+
+@pytest.mark.parametrize(
+    "camera",
+    [
+        pyrender.PerspectiveCamera(0.9),
+        pyrender.PerspectiveCamera(0.9, zfar=50.0, aspectRatio=2.0),
+        pyrender.OrthographicCamera(3, 2),
+        pyrender.IntrinsicsCamera(150, 140, 70, 65),
+    ],
+)
+def test_projection_matrices_place_what_is_drawn(camera):
+    """A small ball, and where its middle is by the matrix alone."""
+    place = np.array([0.4, -0.3, -4.0])
+    scene = pyrender.Scene()
+    scene.add(pyrender.Mesh.from_trimesh(trimesh.creation.icosphere(radius=0.1)), pose=pose(*place))
+    scene.add(camera)
+    depth = pyrender.OffscreenRenderer(160, 120).render(scene, RenderFlags.DEPTH_ONLY)
+    clip = camera.get_projection_matrix(160, 120) @ [*place, 1]
+    expected = (clip[:2] / clip[3] * [1, -1] + 1) / 2 * [160, 120]
+    rows, columns = np.nonzero(depth)
+    assert np.abs([columns.mean() + 0.5, rows.mean() + 0.5] - expected).max() < 0.6
+    assert abs(clip[2] / clip[3]) < 1, "between the clip planes"

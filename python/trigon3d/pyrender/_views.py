@@ -18,6 +18,19 @@ class Camera:
             raise ValueError(f"znear {znear} and zfar {zfar}: 0 < znear < zfar")
         self.znear, self.zfar, self.name = znear, zfar, name
 
+    def get_projection_matrix(self, width=None, height=None):
+        """The matrix of 4 × 4 that takes the camera's space to OpenGL's clip space, for an image of this size."""
+        matrix = np.zeros((4, 4))
+        matrix[:2], matrix[3] = self._rows(width, height)
+        near, far, is_flat = self.znear, self.zfar, matrix[3, 3] == 1
+        if is_flat:
+            matrix[2, 2:] = 2 / (near - far), (far + near) / (near - far)
+        elif far is None:
+            matrix[2, 2:] = -1, -2 * near
+        else:
+            matrix[2, 2:] = (far + near) / (near - far), 2 * far * near / (near - far)
+        return matrix
+
     def _planes(self) -> dict[str, float | None]:
         return {"near": self.znear, "far": self.zfar}
 
@@ -30,6 +43,13 @@ class PerspectiveCamera(Camera):
         if not yfov > 0:
             raise ValueError(f"yfov {yfov}: it is more than 0")
         self.yfov, self.aspectRatio = float(yfov), aspectRatio
+
+    def _rows(self, width, height):
+        if self.aspectRatio is None and (width is None or height is None):
+            raise ValueError("without an aspectRatio it needs the image's width and height")
+        slope = math.tan(self.yfov / 2)
+        aspect = width / height if self.aspectRatio is None else self.aspectRatio
+        return [[1 / (aspect * slope), 0, 0, 0], [0, 1 / slope, 0, 0]], [0, 0, -1, 0]
 
     def _translated(self, pose, width, height):
         if self.aspectRatio is None:
@@ -50,6 +70,10 @@ class OrthographicCamera(Camera):
             raise ValueError(f"xmag {xmag} and ymag {ymag}: they are more than 0")
         self.xmag, self.ymag = float(xmag), float(ymag)
 
+    def _rows(self, width, height):
+        xmag = self.xmag if width is None or height is None else width / height * self.ymag
+        return [[1 / xmag, 0, 0, 0], [0, 1 / self.ymag, 0, 0]], [0, 0, 0, 1]
+
     def _translated(self, pose, width, height):
         return trigon.Camera.orthographic(2 * self.ymag, pose=pose, **self._planes())
 
@@ -60,6 +84,10 @@ class IntrinsicsCamera(Camera):
     def __init__(self, fx, fy, cx, cy, znear=0.05, zfar=100.0, name=None):
         super().__init__(znear, zfar, name)
         self.fx, self.fy, self.cx, self.cy = float(fx), float(fy), float(cx), float(cy)
+
+    def _rows(self, width, height):
+        across, up = 1 - 2 * self.cx / width, 2 * self.cy / height - 1
+        return [[2 * self.fx / width, 0, across, 0], [0, 2 * self.fy / height, up, 0]], [0, 0, -1, 0]
 
     def _translated(self, pose, width, height):
         matrix = [[self.fx, 0, self.cx], [0, self.fy, self.cy], [0, 0, 1]]
