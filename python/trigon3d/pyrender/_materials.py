@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from .. import _trigon3d as trigon
+from .._colors import encoded
 
 
 def color_vector(value: Any, length: int) -> np.ndarray:
@@ -34,12 +35,6 @@ def color_rows(value: Any, count: int) -> np.ndarray:
     if colors.shape[1] == 3:
         colors = np.column_stack([colors, np.ones(len(colors))])
     return np.clip(colors, 0, 1)
-
-
-def encoded(linear: Any) -> np.ndarray:
-    """Linear light as sRGB."""
-    linear = np.asarray(linear, dtype=np.float64)
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.power(linear, 1 / 2.4) - 0.055)
 
 
 class Sampler:

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from .. import _trigon3d as trigon
+from .._colors import encoded
 from ._constants import GLTF
-from ._materials import Look, MetallicRoughnessMaterial, color_rows, encoded, of_trimesh, usual
+from ._materials import Look, MetallicRoughnessMaterial, color_rows, of_trimesh, usual
 
 
 class _Measured:

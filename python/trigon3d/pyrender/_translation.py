@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _trigon3d as trigon
-from ._materials import Look, encoded
+from .._colors import encoded
+from ._materials import Look
 
 if TYPE_CHECKING:
     from ._scene import Node

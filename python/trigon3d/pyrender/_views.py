@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from .. import _trigon3d as trigon
-from ._materials import color_vector, encoded
+from .._colors import encoded
+from ._materials import color_vector
 
 
 class Camera:
