@@ -57,7 +57,7 @@ def _add(scene: Scene, geometry: Any, pose: Any, name: str) -> None:
 
 def mesh_arguments(geometry: Any) -> dict[str, Any]:
     """Colours, texture coordinates and material of a mesh, as `Scene.add_mesh` takes them."""
-    visual = getattr(geometry, "visual", None)
+    visual: Any = getattr(geometry, "visual", None)
     kind = getattr(visual, "kind", None)
     if kind == "vertex":
         return {"colors": np.asarray(visual.vertex_colors)}
@@ -81,7 +81,7 @@ def _material(material: Any) -> Material:
     # Factors of PBR are linear light.
     color[:3] = encoded(color[:3])
     emission = material.emissiveFactor
-    mode = (material.alphaMode or "OPAQUE").lower()
+    mode: Any = (material.alphaMode or "OPAQUE").lower()
     # What glTF says where a factor is missing.
     metallic, roughness = (1.0 if each is None else each for each in (material.metallicFactor, material.roughnessFactor))
     return Material(

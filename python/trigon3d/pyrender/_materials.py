@@ -174,7 +174,7 @@ class MetallicRoughnessMaterial(Material):
         factor = self.baseColorFactor
         # Unlit colours are shown as they are given.
         color = factor[:3] if look.is_flat else encoded(factor[:3])
-        mode = {"OPAQUE": "opaque", "MASK": "mask", "BLEND": "blend" if is_transparent else "opaque"}[self.alphaMode]
+        mode: Any = {"OPAQUE": "opaque", "MASK": "mask", "BLEND": "blend" if is_transparent else "opaque"}[self.alphaMode]
         return trigon.Material(
             [*color, factor[3]],
             unlit=look.is_flat,
@@ -215,8 +215,8 @@ def of_trimesh(material: Any) -> MetallicRoughnessMaterial:
     if isinstance(material, MetallicRoughnessMaterial):
         return material
     if hasattr(material, "baseColorFactor"):
-        names = ("normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor", "baseColorFactor")
-        names += ("baseColorTexture", "metallicFactor", "roughnessFactor", "metallicRoughnessTexture")
+        names = ["normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor", "baseColorFactor"]
+        names += ["baseColorTexture", "metallicFactor", "roughnessFactor", "metallicRoughnessTexture"]
         named = {name: getattr(material, name, None) for name in names}
         return MetallicRoughnessMaterial(
             alphaMode="BLEND", doubleSided=material.doubleSided, alphaCutoff=material.alphaCutoff, **named

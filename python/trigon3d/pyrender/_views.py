@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -98,7 +99,7 @@ class IntrinsicsCamera(Camera):
 class Light:
     """What all lights have."""
 
-    _kind = ""
+    _kind: Any = ""
 
     def __init__(self, color=None, intensity=None, name=None):
         self.color = color
@@ -116,11 +117,11 @@ class Light:
 
     def _add_to(self, scene: trigon.Scene, pose: np.ndarray) -> int:
         # Light of 1 from the front makes white of a white surface here, and 1/pi of it there.
-        strength = {"color": encoded(self.color), "intensity": self.intensity / math.pi}
+        strength: dict[str, Any] = {"color": encoded(self.color), "intensity": self.intensity / math.pi}
         place = {"position": pose[:3, 3].tolist(), "direction": (-pose[:3, 2]).tolist()}
         return scene.add_light(self._kind, **strength, **place, **self._named())
 
-    def _named(self) -> dict[str, float]:
+    def _named(self) -> dict[str, Any]:
         return {}
 
     def _state(self) -> tuple:
