@@ -12,7 +12,7 @@ use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 use trigon_scene::quality::TimeBudget;
 use trigon_scene::{Frame, Light, Node, NodeId, RenderError, Renderer, Scene, Transform};
 
-use crate::arrays::{Channels, affine, colors, coordinates, faces, vectors};
+use crate::arrays::{Channels, affine, colors, coordinates, faces, vectors, vertices};
 use crate::camera::PyCamera;
 use crate::errors::{render_error, value_error};
 use crate::frame::PyFrame;
@@ -161,7 +161,7 @@ impl PyScene {
         smooth_angle: Option<f64>,
         name: String,
     ) -> PyResult<usize> {
-        let mut mesh = polygons(&vectors(vertices, "vertices")?, faces)?;
+        let mut mesh = polygons(&self::vertices(vertices, "vertices")?, faces)?;
         let normals = normals.map(|normals| vectors(normals, "normals")).transpose()?;
         let uvs = uvs.map(|uvs| coordinates(uvs, "uvs")).transpose()?;
         let colors = colors.map(|given| self::colors(given, "colors")).transpose()?;
@@ -202,7 +202,7 @@ impl PyScene {
         pose: Option<&Bound<'_, PyAny>>,
         name: String,
     ) -> PyResult<usize> {
-        let points = vectors(points, "points")?;
+        let points = vertices(points, "points")?;
         let mut builder = MeshBuilder::with_capacity(points.len(), 0, 0);
         for &point in &points {
             let vertex = builder.push_vertex(point);
@@ -314,7 +314,7 @@ impl PyScene {
 
     /// Gives the vertices of a node's mesh new positions; there must be as many as before.
     fn set_vertices(&mut self, node: usize, vertices: &Bound<'_, PyAny>) -> PyResult<()> {
-        let (id, vertices) = (self.node_id(node)?, vectors(vertices, "vertices")?);
+        let (id, vertices) = (self.node_id(node)?, self::vertices(vertices, "vertices")?);
         let mesh_id = self.scene.node(id).and_then(|node| node.mesh);
         let mesh_id = mesh_id.ok_or_else(|| value_error(format!("node {node} has no mesh")))?;
         let asset = self.scene.meshes().get(mesh_id).expect("a node's mesh is in its scene");
