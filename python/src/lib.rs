@@ -3,11 +3,16 @@
 mod arrays;
 mod camera;
 mod errors;
+mod facts;
 mod frame;
 mod load;
+mod many;
 mod material;
 mod options;
+mod pick;
+mod pixel;
 mod scene;
+mod targets;
 
 use pyo3::prelude::*;
 

@@ -1,23 +1,23 @@
-//! Scenes: built from arrays or loaded, drawn, and asked.
+//! Scenes: built from arrays or loaded, changed, and drawn.
 
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::Instant;
 
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::PyDict;
 use trigon_camera::Camera;
 use trigon_math::{Bounds3, DAffine3, DVec3, Vec3};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 use trigon_scene::quality::TimeBudget;
-use trigon_scene::{Effect, EffectPlan, Frame, Light, Node, NodeId, RenderError, Renderer, Scene, Transform};
+use trigon_scene::{Frame, Light, Node, NodeId, RenderError, Renderer, Scene, Transform};
 
-use crate::arrays::{affine, color, colors, coordinates, faces, matrix, vectors};
+use crate::arrays::{Channels, affine, colors, coordinates, faces, vectors, vertices};
 use crate::camera::PyCamera;
 use crate::errors::{render_error, value_error};
 use crate::frame::PyFrame;
 use crate::material::PyMaterial;
-use crate::options::{Options, srgb};
+use crate::options::Options;
 
 /// A scene: meshes, points, lights and cameras.
 ///
@@ -31,7 +31,7 @@ use crate::options::{Options, srgb};
 /// ((48, 64, 4), 0)
 #[pyclass(name = "Scene", module = "trigon3d")]
 pub(crate) struct PyScene {
-    scene: Scene,
+    pub(crate) scene: Scene,
     /// Those that are not drawing, with their threads and memory.
     renderers: Mutex<Vec<Renderer>>,
     /// Of all that is visible, until something changes.
@@ -52,23 +52,23 @@ impl PyScene {
         &mut self.scene
     }
 
-    fn visible_bounds(&self) -> Bounds3 {
+    pub(crate) fn visible_bounds(&self) -> Bounds3 {
         let mut bounds = self.bounds.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         *bounds.get_or_insert_with(|| self.scene.tight_bounds())
     }
 
-    fn node_id(&self, node: usize) -> PyResult<NodeId> {
+    pub(crate) fn node_id(&self, node: usize) -> PyResult<NodeId> {
         let id = self.scene.nodes().id_at(node);
         id.ok_or_else(|| pyo3::exceptions::PyIndexError::new_err(format!("there is no node {node}")))
     }
 
     /// The camera that was given, or one that sees everything.
-    fn camera(&self, camera: Option<&PyCamera>, aspect: f64) -> Camera {
+    pub(crate) fn camera(&self, camera: Option<&PyCamera>, aspect: f64) -> Camera {
         camera.map_or_else(|| self.scene.overview(aspect), |camera| camera.placed(&self.visible_bounds()))
     }
 
     /// Does something with a renderer of these settings.
-    fn with_renderer<T>(
+    pub(crate) fn with_renderer<T>(
         &self,
         options: &Options,
         work: impl FnOnce(&mut Renderer) -> Result<T, RenderError>,
@@ -85,14 +85,38 @@ impl PyScene {
         done
     }
 
-    fn draw(&self, camera: &Camera, options: &Options) -> Result<Frame, RenderError> {
+    /// Draws into a frame, whose memory is used again.
+    pub(crate) fn draw_into(
+        &self,
+        camera: &Camera,
+        options: &Options,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
         self.with_renderer(options, |renderer| {
-            let Some(limit) = options.time_budget else { return renderer.render(&self.scene, camera) };
+            let Some(limit) = options.time_budget else {
+                return renderer.render_into(&self.scene, camera, frame);
+            };
             let (mut budget, started) = (TimeBudget::new(limit), Instant::now());
             let clock = &mut || started.elapsed();
             budget.calibrate(renderer, &self.scene, camera, clock)?;
-            Ok(budget.render(renderer, &self.scene, camera, clock)?.0)
+            *frame = budget.render(renderer, &self.scene, camera, clock)?.0;
+            Ok(())
         })
+    }
+
+    /// A frame for Python, drawn while its other threads run.
+    pub(crate) fn frame(
+        &self,
+        py: Python<'_>,
+        camera: Option<&PyCamera>,
+        options: &Options,
+    ) -> PyResult<PyFrame> {
+        let frame = py.detach(|| {
+            let camera = self.camera(camera, options.settings.aspect());
+            let mut frame = Frame::default();
+            self.draw_into(&camera, options, &mut frame).map(|()| frame)
+        });
+        PyFrame::new(py, frame.map_err(render_error)?)
     }
 
     /// A light at a place, shining along a direction.
@@ -137,7 +161,7 @@ impl PyScene {
         smooth_angle: Option<f64>,
         name: String,
     ) -> PyResult<usize> {
-        let mut mesh = polygons(&vectors(vertices, "vertices")?, faces)?;
+        let mut mesh = polygons(&self::vertices(vertices, "vertices")?, faces)?;
         let normals = normals.map(|normals| vectors(normals, "normals")).transpose()?;
         let uvs = uvs.map(|uvs| coordinates(uvs, "uvs")).transpose()?;
         let colors = colors.map(|given| self::colors(given, "colors")).transpose()?;
@@ -149,6 +173,9 @@ impl PyScene {
             ..Attributes::default()
         };
         let has_normals = attributes.corner_normals.is_some();
+        if smooth_angle.is_some_and(|angle| !(0.0..=180.0).contains(&angle)) {
+            return Err(value_error("smooth_angle goes from 0 to 180 degrees"));
+        }
         mesh.set_attributes(attributes).map_err(value_error)?;
         if let Some(angle) = smooth_angle.filter(|_| !has_normals) {
             mesh.smooth_by_angle(angle.to_radians());
@@ -175,7 +202,7 @@ impl PyScene {
         pose: Option<&Bound<'_, PyAny>>,
         name: String,
     ) -> PyResult<usize> {
-        let points = vectors(points, "points")?;
+        let points = vertices(points, "points")?;
         let mut builder = MeshBuilder::with_capacity(points.len(), 0, 0);
         for &point in &points {
             let vertex = builder.push_vertex(point);
@@ -197,30 +224,34 @@ impl PyScene {
 
     /// Adds a light: "ambient", "directional", "point" or "spot". A scene without lights has studio lights.
     ///
-    /// `angle` is the half angle of a spot in degrees.
+    /// `angle` is the half angle of a spot in degrees. Within `inner_angle`, 0.8 of it unless it is given, the light is
+    /// not yet weaker.
     ///
     /// >>> import trigon3d
     /// >>> scene = trigon3d.Scene()
     /// >>> scene.add_light("directional", direction=(0, -1, -1), intensity=2.0)
     /// 0
     #[pyo3(signature = (
-        kind="directional", *, color=vec![1.0, 1.0, 1.0], intensity=1.0, position=[0.0; 3], direction=[0.0, 0.0, -1.0],
-        angle=45.0
+        kind="directional", *, color=Channels::white(), intensity=1.0, position=[0.0; 3], direction=[0.0, 0.0, -1.0],
+        angle=45.0, inner_angle=None
     ))]
     fn add_light(
         &mut self,
         kind: &str,
-        color: Vec<f32>,
+        color: Channels,
         intensity: f32,
         position: [f64; 3],
         direction: [f64; 3],
         angle: f32,
+        inner_angle: Option<f32>,
     ) -> PyResult<usize> {
         let (position, direction) = (DVec3::from_array(position), DVec3::from_array(direction));
         let is_sound = position.is_finite() && direction.is_finite() && direction != DVec3::ZERO;
-        if !(is_sound && intensity.is_finite() && intensity >= 0.0 && (0.0..=90.0).contains(&angle)) {
+        let inner_angle = inner_angle.unwrap_or(0.8 * angle);
+        let has_angles = (0.0..=90.0).contains(&angle) && (0.0..=angle).contains(&inner_angle);
+        if !(is_sound && intensity.is_finite() && intensity >= 0.0 && has_angles) {
             return Err(value_error(
-                "a light has a finite position, a direction that is not 0, an intensity of at least 0 and an angle up to 90",
+                "a light has a finite position, a direction that is not 0, an intensity of at least 0, an angle up to 90 and an inner_angle up to that",
             ));
         }
         let light = match kind {
@@ -228,8 +259,8 @@ impl PyScene {
             "directional" => Light::directional(intensity),
             "point" => Light::point(intensity),
             "spot" => {
-                let outer = angle.to_radians();
-                let kind = trigon_scene::LightKind::Spot { inner: 0.8 * outer, outer };
+                let [inner, outer] = [inner_angle, angle].map(f32::to_radians);
+                let kind = trigon_scene::LightKind::Spot { inner, outer };
                 Light { kind, ..Light::spot(intensity) }
             }
             other => {
@@ -238,7 +269,7 @@ impl PyScene {
                 )));
             }
         };
-        let light = light.with_color(self::color(&color, "color")?.truncate());
+        let light = light.with_color(color.linear("color")?.truncate());
         Ok(self.changed().add(Self::light_node(light, position, direction)).index())
     }
 
@@ -283,7 +314,7 @@ impl PyScene {
 
     /// Gives the vertices of a node's mesh new positions; there must be as many as before.
     fn set_vertices(&mut self, node: usize, vertices: &Bound<'_, PyAny>) -> PyResult<()> {
-        let (id, vertices) = (self.node_id(node)?, vectors(vertices, "vertices")?);
+        let (id, vertices) = (self.node_id(node)?, self::vertices(vertices, "vertices")?);
         let mesh_id = self.scene.node(id).and_then(|node| node.mesh);
         let mesh_id = mesh_id.ok_or_else(|| value_error(format!("node {node} has no mesh")))?;
         let asset = self.scene.meshes().get(mesh_id).expect("a node's mesh is in its scene");
@@ -307,75 +338,12 @@ impl PyScene {
         Ok(())
     }
 
-    /// The nodes, each after its parent, as dicts: id, name, parent, visible, pose (to the world), mesh.
-    #[getter]
-    fn nodes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let list = PyList::empty(py);
-        for (id, _) in self.scene.tree() {
-            let Some(node) = self.scene.node(id) else { continue };
-            let facts = PyDict::new(py);
-            facts.set_item("id", id.index())?;
-            facts.set_item("name", &node.name)?;
-            facts.set_item("parent", node.parent().map(NodeId::index))?;
-            facts.set_item("visible", node.visible)?;
-            facts.set_item("pose", matrix(py, &self.scene.world_transform(id))?)?;
-            facts.set_item(
-                "mesh",
-                node.mesh.and_then(|mesh| self.scene.meshes().get(mesh)).map(|mesh| &mesh.name),
-            )?;
-            list.append(facts)?;
-        }
-        Ok(list)
-    }
-
-    /// The materials as dicts: id, name, color (sRGB with alpha), double_sided.
-    #[getter]
-    fn materials<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let list = PyList::empty(py);
-        for (id, material) in self.scene.materials.iter() {
-            let facts = PyDict::new(py);
-            let [r, g, b] = srgb(material.base_color.truncate().to_array());
-            facts.set_item("id", id.index())?;
-            facts.set_item("name", &material.name)?;
-            facts.set_item("color", (r, g, b, material.base_color.w))?;
-            facts.set_item("double_sided", material.double_sided)?;
-            list.append(facts)?;
-        }
-        Ok(list)
-    }
-
-    /// The cameras of the file, in the order of its nodes.
-    #[getter]
-    fn cameras(&self) -> Vec<PyCamera> {
-        let cameras = self.scene.cameras().into_iter();
-        cameras.map(|(_, camera)| PyCamera { camera, has_clip_planes: false }).collect()
-    }
-
-    /// The smallest box around everything visible, as a list of its lowest and highest corner; `None` if there is nothing.
-    #[getter]
-    fn bounds(&self) -> Option<[(f64, f64, f64); 2]> {
-        let bounds = self.visible_bounds();
-        (!bounds.is_empty()).then(|| [bounds.min.into(), bounds.max.into()])
-    }
-
-    /// A camera that sees everything from the upper right in front; `aspect` is width over height.
-    #[pyo3(signature = (aspect=4.0 / 3.0))]
-    fn overview(&self, aspect: f64) -> PyCamera {
-        PyCamera { camera: self.scene.overview(aspect), has_clip_planes: false }
-    }
-
-    /// `count` cameras all around, evenly spread and the same for the same seed.
-    #[pyo3(signature = (count, *, seed=0, aspect=1.0))]
-    fn surround(&self, count: usize, seed: u64, aspect: f64) -> Vec<PyCamera> {
-        let cameras = self.scene.surround(trigon_scene::views::sphere(count, seed), aspect);
-        cameras.map(|camera| PyCamera { camera, has_clip_planes: false }).collect()
-    }
-
     /// Draws an image. Without a camera everything is in view.
     ///
     /// Named arguments: `outputs` (names of `Frame`'s arrays), `samples` along each side of a pixel (1 to 4, default
     /// 3), `quality` ("draft", "standard", "high", "reference"), `time_budget` in seconds, `background` (a colour in
-    /// sRGB, "transparent", "default"), `lighting` ("auto", "scene", "studio"), `shadows`, `flat`, `point_size`,
+    /// sRGB, "transparent", "default"), `lighting` ("auto", "scene", "studio"), `exposure` ("auto", by a light meter for
+    /// lamps that a display cannot show, or stops: 0 leaves light as it is), `shadows`, `flat`, `point_size`,
     /// `line_width`, `threads`, `simd`. Other threads of Python run meanwhile.
     ///
     /// >>> import trigon3d
@@ -395,49 +363,7 @@ impl PyScene {
         named: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyFrame> {
         let options = Options::new(width, height, named)?;
-        let camera = camera.map(|camera| camera.clone());
-        let frame = py.detach(|| {
-            let camera = self.camera(camera.as_ref(), options.settings.aspect());
-            self.draw(&camera, &options)
-        });
-        PyFrame::new(py, frame.map_err(render_error)?)
-    }
-
-    /// What faults the scene has, as dicts: severity, fault, location, what, remedy.
-    fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let findings = py.detach(|| self.scene.check());
-        let list = PyList::empty(py);
-        for finding in findings {
-            let facts = PyDict::new(py);
-            facts.set_item("severity", format!("{:?}", finding.severity).to_lowercase())?;
-            facts.set_item("fault", finding.fault)?;
-            facts.set_item("location", finding.location)?;
-            facts.set_item("what", finding.what)?;
-            facts.set_item("remedy", finding.remedy)?;
-            list.append(facts)?;
-        }
-        Ok(list)
-    }
-
-    /// Which effects an image needs and why, as a dict of texts.
-    #[pyo3(signature = (width, height, camera=None, **named))]
-    fn plan<'py>(
-        &self,
-        py: Python<'py>,
-        width: u32,
-        height: u32,
-        camera: Option<PyRef<'_, PyCamera>>,
-        named: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let options = Options::new(width, height, named)?;
-        let camera = self.camera(camera.as_deref(), options.settings.aspect());
-        let plan = EffectPlan::new(&self.scene, &camera, &options.settings);
-        let texts = PyDict::new(py);
-        for (effect, decision) in plan.iter() {
-            let effect: Effect = effect;
-            texts.set_item(effect.to_string(), decision.to_string())?;
-        }
-        Ok(texts)
+        self.frame(py, camera.as_deref(), &options)
     }
 
     fn __repr__(&self) -> String {
