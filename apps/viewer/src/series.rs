@@ -151,15 +151,22 @@ fn cameras(
             read.views.len()
         )));
     }
+    if let Some(view) = read.views.iter().position(|view| view.lens.is_some()) {
+        return Err(Failure::Usage(format!(
+            "{}: camera {view} has a fisheye lens, which only rays draw: use Python (trigon3d.load_cameras and Scene.render; docs/python.md)",
+            file.display()
+        )));
+    }
     let has_size = request.line.is_given("resolution", model.source.first_file());
     let bounds = model.scene.tight_bounds();
-    let placed =
-        read.views.into_iter().map(|CameraView { name, camera, image, has_own_size, has_clip_planes }| {
+    let placed = read.views.into_iter().map(
+        |CameraView { name, camera, image, has_own_size, has_clip_planes, .. }| {
             let camera = if has_clip_planes { camera } else { camera.with_clip_planes(&bounds) };
             let image = if has_own_size && !has_size { image } else { size(request) };
             let shot = Shot { camera, distance: distance(&camera, model) };
             SeriesCamera { name, view: SeriesView { shot, image, has_clip_planes } }
-        });
+        },
+    );
     Ok(placed.collect())
 }
 
