@@ -234,15 +234,16 @@ impl PyCamera {
     fn project<'py>(
         &self,
         py: Python<'py>,
-        points: Vec<[f64; 3]>,
+        points: &Bound<'_, PyAny>,
         width: u32,
         height: u32,
         convention: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let shift = if axes(convention)? == CameraAxes::OpenCv { 0.5 } else { 0.0 };
         let projector = Projector::new(&self.camera, Viewport { width, height });
+        let points = crate::arrays::points(points, "points")?;
         let pixels = points.iter().flat_map(|&point| {
-            let pixel = projector.to_screen(DVec3::from_array(point)).unwrap_or(DVec2::NAN);
+            let pixel = projector.to_screen(point).unwrap_or(DVec2::NAN);
             [pixel.x - shift, pixel.y - shift]
         });
         shaped(py, pixels.collect(), &[points.len(), 2])

@@ -5,9 +5,13 @@ mod camera;
 mod errors;
 mod frame;
 mod load;
+mod many;
 mod material;
 mod options;
+mod pick;
+mod pixel;
 mod scene;
+mod targets;
 
 use pyo3::prelude::*;
 

@@ -24,8 +24,29 @@ static THREADS: AtomicUsize = AtomicUsize::new(0);
 /// >>> trigon3d.set_threads(1)
 /// >>> trigon3d.set_threads(0)
 #[pyfunction]
-pub(crate) fn set_threads(count: usize) {
-    THREADS.store(count, Ordering::Relaxed);
+pub(crate) fn set_threads(count: usize) -> PyResult<()> {
+    THREADS.store(some_threads(count)?, Ordering::Relaxed);
+    Ok(())
+}
+
+/// More threads than any machine has cores.
+const MOST_THREADS: usize = 4096;
+
+/// A number of threads that can be started.
+fn some_threads(count: usize) -> PyResult<usize> {
+    if count <= MOST_THREADS {
+        return Ok(count);
+    }
+    Err(value_error(format!("{count} threads; the limit is {MOST_THREADS}")))
+}
+
+/// The widest points and lines in pixels: the longest side of an image.
+fn pixels(value: &Bound<'_, PyAny>, name: &str) -> PyResult<f32> {
+    let width: f32 = value.extract()?;
+    if (0.0..=MAX_SIZE as f32).contains(&width) {
+        return Ok(width);
+    }
+    Err(value_error(format!("{name} is {width}, but goes from 0 to {MAX_SIZE} pixels")))
 }
 
 /// What an image is drawn with.
@@ -54,11 +75,7 @@ pub(crate) const OUTPUTS: [&str; 13] = [
 impl Options {
     /// Of the named arguments of `render`.
     pub(crate) fn new(width: u32, height: u32, named: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        if !(1..=MAX_SIZE).contains(&width) || !(1..=MAX_SIZE).contains(&height) {
-            return Err(value_error(format!(
-                "an image has 1 to {MAX_SIZE} pixels on a side, not {width} × {height}"
-            )));
-        }
+        sound([width, height])?;
         let mut options = Self { settings: RenderSettings::new(width, height), time_budget: None };
         options.settings.threads = NonZeroUsize::new(THREADS.load(Ordering::Relaxed));
         // A preset first: what is given besides overrides it.
@@ -77,10 +94,29 @@ impl Options {
         Ok(options)
     }
 
+    /// Asks for images of another size.
+    pub(crate) fn resize(&mut self, size: [u32; 2]) -> PyResult<()> {
+        [self.settings.width, self.settings.height] = sound(size)?;
+        Ok(())
+    }
+
+    /// Asks for other outputs.
+    pub(crate) fn ask_for(&mut self, names: &[&str]) -> PyResult<()> {
+        self.settings.outputs = outputs(names)?;
+        Ok(())
+    }
+
     fn set(&mut self, name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
         let settings = &mut self.settings;
         match name {
-            "outputs" => settings.outputs = outputs(value)?,
+            "outputs" => {
+                let names = match value.extract::<String>() {
+                    Ok(name) => vec![name],
+                    // One more than there are.
+                    Err(_) => arrays::items(value, "outputs", OUTPUTS.len() + 1)?,
+                };
+                settings.outputs = outputs(&names)?;
+            }
             "samples" => settings.samples_per_axis = value.extract()?,
             "quality" => {
                 let preset: Preset = value.extract::<String>()?.parse().map_err(value_error)?;
@@ -99,9 +135,9 @@ impl Options {
             "flat" => {
                 settings.shading = if value.extract()? { ShadingModel::Flat } else { ShadingModel::Phong }
             }
-            "point_size" => settings.point_size = Some(value.extract()?),
-            "line_width" => settings.line_width = value.extract()?,
-            "threads" => settings.threads = NonZeroUsize::new(value.extract()?),
+            "point_size" => settings.point_size = Some(pixels(value, name)?),
+            "line_width" => settings.line_width = pixels(value, name)?,
+            "threads" => settings.threads = NonZeroUsize::new(some_threads(value.extract()?)?),
             "simd" => settings.simd = Some(value.extract::<String>()?.parse().map_err(value_error)?),
             other => {
                 return Err(pyo3::exceptions::PyTypeError::new_err(format!(
@@ -113,14 +149,18 @@ impl Options {
     }
 }
 
-fn outputs(value: &Bound<'_, PyAny>) -> PyResult<Outputs> {
-    let names: Vec<String> = match value.extract::<String>() {
-        Ok(name) => vec![name],
-        Err(_) => value.extract()?,
-    };
+/// A size of an image, if it is within the limits.
+fn sound([width, height]: [u32; 2]) -> PyResult<[u32; 2]> {
+    if (1..=MAX_SIZE).contains(&width) && (1..=MAX_SIZE).contains(&height) {
+        return Ok([width, height]);
+    }
+    Err(value_error(format!("an image has 1 to {MAX_SIZE} pixels on a side, not {width} × {height}")))
+}
+
+fn outputs(names: &[impl AsRef<str>]) -> PyResult<Outputs> {
     let mut outputs = Outputs::NONE;
-    for name in &names {
-        match name.as_str() {
+    for name in names {
+        match name.as_ref() {
             "color" => outputs.color = true,
             "radiance" => outputs.radiance = true,
             "depth" => outputs.depth = true,
@@ -153,7 +193,8 @@ fn background(value: &Bound<'_, PyAny>) -> PyResult<Background> {
             Err(value_error(format!("background is {other:?}, not a colour, \"transparent\" or \"default\"")))
         }
         Err(_) => {
-            Ok(Background::Color(arrays::color(&value.extract::<Vec<f32>>()?, "background")?.truncate()))
+            let color: arrays::Channels = value.extract()?;
+            Ok(Background::Color(color.linear("background")?.truncate()))
         }
     }
 }

@@ -12,7 +12,7 @@ use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 use trigon_scene::quality::TimeBudget;
 use trigon_scene::{Effect, EffectPlan, Frame, Light, Node, NodeId, RenderError, Renderer, Scene, Transform};
 
-use crate::arrays::{affine, color, colors, coordinates, faces, matrix, vectors};
+use crate::arrays::{Channels, affine, colors, coordinates, faces, matrix, vectors};
 use crate::camera::PyCamera;
 use crate::errors::{render_error, value_error};
 use crate::frame::PyFrame;
@@ -31,12 +31,15 @@ use crate::options::{Options, srgb};
 /// ((48, 64, 4), 0)
 #[pyclass(name = "Scene", module = "trigon3d")]
 pub(crate) struct PyScene {
-    scene: Scene,
+    pub(crate) scene: Scene,
     /// Those that are not drawing, with their threads and memory.
     renderers: Mutex<Vec<Renderer>>,
     /// Of all that is visible, until something changes.
     bounds: Mutex<Option<Bounds3>>,
 }
+
+/// The most cameras of a list that is made at once.
+const MOST_CAMERAS: usize = 1_000_000;
 
 /// Waiting renderers; more are dropped.
 const MOST_RENDERERS: usize = 4;
@@ -57,18 +60,18 @@ impl PyScene {
         *bounds.get_or_insert_with(|| self.scene.tight_bounds())
     }
 
-    fn node_id(&self, node: usize) -> PyResult<NodeId> {
+    pub(crate) fn node_id(&self, node: usize) -> PyResult<NodeId> {
         let id = self.scene.nodes().id_at(node);
         id.ok_or_else(|| pyo3::exceptions::PyIndexError::new_err(format!("there is no node {node}")))
     }
 
     /// The camera that was given, or one that sees everything.
-    fn camera(&self, camera: Option<&PyCamera>, aspect: f64) -> Camera {
+    pub(crate) fn camera(&self, camera: Option<&PyCamera>, aspect: f64) -> Camera {
         camera.map_or_else(|| self.scene.overview(aspect), |camera| camera.placed(&self.visible_bounds()))
     }
 
     /// Does something with a renderer of these settings.
-    fn with_renderer<T>(
+    pub(crate) fn with_renderer<T>(
         &self,
         options: &Options,
         work: impl FnOnce(&mut Renderer) -> Result<T, RenderError>,
@@ -85,14 +88,38 @@ impl PyScene {
         done
     }
 
-    fn draw(&self, camera: &Camera, options: &Options) -> Result<Frame, RenderError> {
+    /// Draws into a frame, whose memory is used again.
+    pub(crate) fn draw_into(
+        &self,
+        camera: &Camera,
+        options: &Options,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
         self.with_renderer(options, |renderer| {
-            let Some(limit) = options.time_budget else { return renderer.render(&self.scene, camera) };
+            let Some(limit) = options.time_budget else {
+                return renderer.render_into(&self.scene, camera, frame);
+            };
             let (mut budget, started) = (TimeBudget::new(limit), Instant::now());
             let clock = &mut || started.elapsed();
             budget.calibrate(renderer, &self.scene, camera, clock)?;
-            Ok(budget.render(renderer, &self.scene, camera, clock)?.0)
+            *frame = budget.render(renderer, &self.scene, camera, clock)?.0;
+            Ok(())
         })
+    }
+
+    /// A frame for Python, drawn while its other threads run.
+    pub(crate) fn frame(
+        &self,
+        py: Python<'_>,
+        camera: Option<&PyCamera>,
+        options: &Options,
+    ) -> PyResult<PyFrame> {
+        let frame = py.detach(|| {
+            let camera = self.camera(camera, options.settings.aspect());
+            let mut frame = Frame::default();
+            self.draw_into(&camera, options, &mut frame).map(|()| frame)
+        });
+        PyFrame::new(py, frame.map_err(render_error)?)
     }
 
     /// A light at a place, shining along a direction.
@@ -149,6 +176,9 @@ impl PyScene {
             ..Attributes::default()
         };
         let has_normals = attributes.corner_normals.is_some();
+        if smooth_angle.is_some_and(|angle| !(0.0..=180.0).contains(&angle)) {
+            return Err(value_error("smooth_angle goes from 0 to 180 degrees"));
+        }
         mesh.set_attributes(attributes).map_err(value_error)?;
         if let Some(angle) = smooth_angle.filter(|_| !has_normals) {
             mesh.smooth_by_angle(angle.to_radians());
@@ -197,30 +227,34 @@ impl PyScene {
 
     /// Adds a light: "ambient", "directional", "point" or "spot". A scene without lights has studio lights.
     ///
-    /// `angle` is the half angle of a spot in degrees.
+    /// `angle` is the half angle of a spot in degrees. Within `inner_angle`, 0.8 of it unless it is given, the light is
+    /// not yet weaker.
     ///
     /// >>> import trigon3d
     /// >>> scene = trigon3d.Scene()
     /// >>> scene.add_light("directional", direction=(0, -1, -1), intensity=2.0)
     /// 0
     #[pyo3(signature = (
-        kind="directional", *, color=vec![1.0, 1.0, 1.0], intensity=1.0, position=[0.0; 3], direction=[0.0, 0.0, -1.0],
-        angle=45.0
+        kind="directional", *, color=Channels::white(), intensity=1.0, position=[0.0; 3], direction=[0.0, 0.0, -1.0],
+        angle=45.0, inner_angle=None
     ))]
     fn add_light(
         &mut self,
         kind: &str,
-        color: Vec<f32>,
+        color: Channels,
         intensity: f32,
         position: [f64; 3],
         direction: [f64; 3],
         angle: f32,
+        inner_angle: Option<f32>,
     ) -> PyResult<usize> {
         let (position, direction) = (DVec3::from_array(position), DVec3::from_array(direction));
         let is_sound = position.is_finite() && direction.is_finite() && direction != DVec3::ZERO;
-        if !(is_sound && intensity.is_finite() && intensity >= 0.0 && (0.0..=90.0).contains(&angle)) {
+        let inner_angle = inner_angle.unwrap_or(0.8 * angle);
+        let has_angles = (0.0..=90.0).contains(&angle) && (0.0..=angle).contains(&inner_angle);
+        if !(is_sound && intensity.is_finite() && intensity >= 0.0 && has_angles) {
             return Err(value_error(
-                "a light has a finite position, a direction that is not 0, an intensity of at least 0 and an angle up to 90",
+                "a light has a finite position, a direction that is not 0, an intensity of at least 0, an angle up to 90 and an inner_angle up to that",
             ));
         }
         let light = match kind {
@@ -228,8 +262,8 @@ impl PyScene {
             "directional" => Light::directional(intensity),
             "point" => Light::point(intensity),
             "spot" => {
-                let outer = angle.to_radians();
-                let kind = trigon_scene::LightKind::Spot { inner: 0.8 * outer, outer };
+                let [inner, outer] = [inner_angle, angle].map(f32::to_radians);
+                let kind = trigon_scene::LightKind::Spot { inner, outer };
                 Light { kind, ..Light::spot(intensity) }
             }
             other => {
@@ -238,7 +272,7 @@ impl PyScene {
                 )));
             }
         };
-        let light = light.with_color(self::color(&color, "color")?.truncate());
+        let light = light.with_color(color.linear("color")?.truncate());
         Ok(self.changed().add(Self::light_node(light, position, direction)).index())
     }
 
@@ -360,15 +394,19 @@ impl PyScene {
 
     /// A camera that sees everything from the upper right in front; `aspect` is width over height.
     #[pyo3(signature = (aspect=4.0 / 3.0))]
-    fn overview(&self, aspect: f64) -> PyCamera {
-        PyCamera { camera: self.scene.overview(aspect), has_clip_planes: false }
+    fn overview(&self, aspect: f64) -> PyResult<PyCamera> {
+        let camera = self.scene.overview(sound_aspect(aspect)?);
+        Ok(PyCamera { camera, has_clip_planes: false })
     }
 
     /// `count` cameras all around, evenly spread and the same for the same seed.
     #[pyo3(signature = (count, *, seed=0, aspect=1.0))]
-    fn surround(&self, count: usize, seed: u64, aspect: f64) -> Vec<PyCamera> {
-        let cameras = self.scene.surround(trigon_scene::views::sphere(count, seed), aspect);
-        cameras.map(|camera| PyCamera { camera, has_clip_planes: false }).collect()
+    fn surround(&self, count: usize, seed: u64, aspect: f64) -> PyResult<Vec<PyCamera>> {
+        if count > MOST_CAMERAS {
+            return Err(value_error(format!("{count} cameras; the limit is {MOST_CAMERAS}")));
+        }
+        let cameras = self.scene.surround(trigon_scene::views::sphere(count, seed), sound_aspect(aspect)?);
+        Ok(cameras.map(|camera| PyCamera { camera, has_clip_planes: false }).collect())
     }
 
     /// Draws an image. Without a camera everything is in view.
@@ -395,12 +433,7 @@ impl PyScene {
         named: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyFrame> {
         let options = Options::new(width, height, named)?;
-        let camera = camera.map(|camera| camera.clone());
-        let frame = py.detach(|| {
-            let camera = self.camera(camera.as_ref(), options.settings.aspect());
-            self.draw(&camera, &options)
-        });
-        PyFrame::new(py, frame.map_err(render_error)?)
+        self.frame(py, camera.as_deref(), &options)
     }
 
     /// What faults the scene has, as dicts: severity, fault, location, what, remedy.
@@ -443,6 +476,16 @@ impl PyScene {
     fn __repr__(&self) -> String {
         format!("Scene({} nodes, {} meshes)", self.scene.nodes().len(), self.scene.meshes().len())
     }
+}
+
+/// Width over height.
+fn sound_aspect(aspect: f64) -> PyResult<f64> {
+    // Of the longest image.
+    let longest = f64::from(trigon_scene::MAX_SIZE);
+    if (1.0 / longest..=longest).contains(&aspect) {
+        return Ok(aspect);
+    }
+    Err(value_error(format!("aspect is {aspect}, not width over height of an image")))
 }
 
 /// The mesh of vertices and faces.

@@ -123,8 +123,13 @@ def test_what_is_missing_says_so(scene):
     renderer = pyrender.OffscreenRenderer(8, 8)
     with pytest.raises(NotImplementedError):
         renderer.render(scene, RenderFlags.ALL_WIREFRAME)
+    with pytest.warns(trigon3d.TrigonWarning, match="no window"):
+        viewer = pyrender.Viewer(scene, use_raymond_lighting=True)
+    assert not viewer.is_active, "scripts that wait for its end go on"
     with pytest.raises(NotImplementedError):
-        pyrender.Viewer(scene)
+        viewer.save_gif()
+    with pytest.raises(NotImplementedError):
+        pyrender.Primitive([[0, 0, 0], [1, 1, 1]], mode=1)
     with pytest.raises(ValueError, match="camera"):
         renderer.render(pyrender.Scene())
     with pytest.raises(TypeError):

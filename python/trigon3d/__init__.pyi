@@ -1,6 +1,6 @@
 from collections.abc import Iterable, Iterator, Sequence
 from os import PathLike
-from typing import Any, Literal
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,6 +24,8 @@ Output = Literal[
     "albedo",
 ]
 Point = tuple[float, float, float]
+Texture = NDArray[np.uint8] | str | PathLike[str]
+View = Camera | tuple[str, Camera, tuple[int, int]]
 
 class TrigonError(Exception): ...
 class LoadError(TrigonError): ...
@@ -87,7 +89,7 @@ class Camera:
 class Material:
     def __init__(
         self,
-        color: Sequence[float] = (0.8, 0.8, 0.8),
+        color: Sequence[float] | None = None,
         *,
         metallic: float | None = None,
         roughness: float | None = None,
@@ -96,7 +98,13 @@ class Material:
         double_sided: bool = True,
         alpha_mode: Literal["opaque", "mask", "blend"] = "opaque",
         alpha_cutoff: float = 0.5,
-        texture: NDArray[np.uint8] | None = None,
+        texture: Texture | None = None,
+        metallic_roughness_texture: Texture | None = None,
+        normal_texture: Texture | None = None,
+        normal_scale: float = 1.0,
+        occlusion_texture: Texture | None = None,
+        occlusion_strength: float = 1.0,
+        emissive_texture: Texture | None = None,
         name: str = "",
     ) -> None: ...
 
@@ -165,6 +173,7 @@ class Scene:
         position: Sequence[float] = (0.0, 0.0, 0.0),
         direction: Sequence[float] = (0.0, 0.0, -1.0),
         angle: float = 45.0,
+        inner_angle: float | None = None,
     ) -> int: ...
     def add_file(self, path: str | PathLike[str], *, pose: ArrayLike | None = None) -> list[int]: ...
     def set_pose(self, node: int, pose: ArrayLike) -> None: ...
@@ -200,6 +209,40 @@ class Scene:
         threads: int | None = None,
         simd: str | None = None,
     ) -> Frame: ...
+    @overload
+    def render_many(
+        self, cameras: Iterable[View], width: int | None = None, height: int | None = None, **named: Any
+    ) -> Iterator[Frame]: ...
+    @overload
+    def render_many(
+        self,
+        cameras: Iterable[View],
+        width: int | None = None,
+        height: int | None = None,
+        *,
+        out: dict[str, NDArray[Any]],
+        **named: Any,
+    ) -> dict[str, NDArray[Any]]: ...
+    def pick(
+        self, x: int, y: int, width: int, height: int, camera: Camera | None = None, **named: Any
+    ) -> dict[str, Any] | None: ...
+    def pick_box(
+        self,
+        left: float,
+        top: float,
+        right: float,
+        bottom: float,
+        width: int,
+        height: int,
+        camera: Camera | None = None,
+        *,
+        elements: Literal["nodes", "faces", "vertices", "edges"] = "nodes",
+        through: bool = False,
+        **named: Any,
+    ) -> list[int] | dict[int, NDArray[np.int32]]: ...
+    def explain_pixel(
+        self, x: int, y: int, width: int, height: int, camera: Camera | None = None, **named: Any
+    ) -> dict[str, Any]: ...
     def check(self) -> list[dict[str, str]]: ...
     def plan(self, width: int, height: int, camera: Camera | None = None, **named: Any) -> dict[str, str]: ...
 
@@ -207,9 +250,6 @@ def load(path: str | PathLike[str], *, up: str | None = None) -> Scene: ...
 def load_cameras(
     path: str | PathLike[str], width: int = 640, height: int = 480
 ) -> list[tuple[str, Camera, tuple[int, int]]]: ...
-def render_many(
-    scene: Scene, cameras: Iterable[Camera], width: int, height: int, **named: Any
-) -> Iterator[Frame]: ...
 def set_threads(count: int) -> None: ...
 def from_trimesh(source: Any) -> Scene: ...
 def save_image(source: Any, resolution: tuple[int, int] = (640, 480), **named: Any) -> bytes: ...
