@@ -11,7 +11,7 @@ use super::{CameraDraft, CameraView, UNPLACED_NEAR};
 use crate::error::Location;
 
 /// The members of a camera; others are told of.
-const MEMBERS: [&str; 19] = [
+const MEMBERS: [&str; 20] = [
     "name",
     "width",
     "height",
@@ -24,6 +24,7 @@ const MEMBERS: [&str; 19] = [
     "K",
     "fisheye",
     "fov",
+    "fov_radians",
     "vertical_fov",
     "vertical_fov_radians",
     "view_height",
@@ -206,9 +207,10 @@ impl Entry<'_> {
         let matrix = lens.member("K").ok_or("its `fisheye` needs `K`")?;
         let Intrinsics { focal, center } = intrinsics(matrix)?;
         let found = FisheyeLens::new(focal, center, image, self.pixel_centers(axes)?, distortion);
-        let found = match lens.number("fov")? {
-            None => found,
-            Some(fov) => found.and_then(|found| found.with_fov(fov.to_radians())),
+        let found = match (lens.number("fov_radians")?, lens.number("fov")?) {
+            (None, None) => found,
+            (Some(fov), _) => found.and_then(|found| found.with_fov(fov)),
+            (None, Some(fov)) => found.and_then(|found| found.with_fov(fov.to_radians())),
         };
         found.map(Some).map_err(|error| error.to_string())
     }

@@ -105,8 +105,8 @@ impl Renderer {
     /// an environment is black there. Lines, points, edges and marks are not drawn: [`Omission::all`](crate::Omission::all)
     /// tells which of them a scene has.
     ///
-    /// Triangles are found in f32 around the middle of the scene: a sample within 2⁻²² of the scene's size of an edge may
-    /// show the triangle beyond it. All else is computed in f64.
+    /// Triangles are found in f32 around the middle of the scene: a sample within 2⁻²² of the scene's size, or of its
+    /// distance, of an edge may show the triangle beyond it. All else is computed in f64.
     ///
     /// ```
     /// use trigon_scene::camera::{FisheyeCamera, FisheyeLens, PixelCenters, Viewport};

@@ -140,17 +140,20 @@ fn what_a_renderer_caches_changes_no_byte() {
     let mut renderer = Renderer::new(settings.clone());
     let overview = scene.overview(1.0);
     let flat = renderer.render(&scene, &overview).expect("drawn");
+    let count = renderer.stats().pixels_shaded;
     for step in 0..2 {
         let moved = scene.nodes().iter().map(|(id, _)| id).last().expect("the film");
         scene.node_mut(moved).expect("the film").visible = step == 0;
         let expected = render_fisheye(&scene, &eye, &settings).expect("drawn");
         for _ in 0..2 {
             assert!(renderer.render_fisheye(&scene, &eye).expect("drawn") == expected, "step {step}");
+            assert!(renderer.stats().pixels_shaded > 1000, "surfaces of four samples in 1600 pixels");
         }
     }
     let moved = scene.nodes().iter().map(|(id, _)| id).last().expect("the film");
     scene.node_mut(moved).expect("the film").visible = true;
     assert!(renderer.render(&scene, &overview).expect("drawn") == flat, "and the other way round");
+    assert_eq!(renderer.stats().pixels_shaded, count, "of its own");
 }
 
 #[test]

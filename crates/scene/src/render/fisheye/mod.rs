@@ -94,12 +94,15 @@ impl Engine {
         }
         if settings.outputs.of_light() {
             let lighting = self.caches.lighting(&prepared, &plan, rasterizer)?;
-            record(&prepared, &lighting, &self.vertex_lists, settings, &mut counts, |pass, draws| {
-                let tracer = Tracer::new(&prepared, pass, draws, &triangles, rasterizer);
-                self.caches.draw_rays(settings, &plan, frame, rasterizer, |pixels| {
-                    tracer.paint(pixels, &prepared.backdrop, rasterizer);
-                })
-            })?;
+            let shaded =
+                record(&prepared, &lighting, &self.vertex_lists, settings, &mut counts, |pass, draws| {
+                    let tracer = Tracer::new(&prepared, pass, draws, &triangles, rasterizer);
+                    self.caches.draw_rays(settings, &plan, frame, rasterizer, |pixels| {
+                        tracer.paint(pixels, &prepared.backdrop, rasterizer);
+                    })?;
+                    Ok::<_, TargetError>(tracer.shaded_count())
+                })?;
+            self.stats.pixels_shaded = shaded;
             self.caches.count(&prepared, &lighting, &plan, &mut counts);
         }
         if settings.outputs.beside_color() {

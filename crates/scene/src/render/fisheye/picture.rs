@@ -58,6 +58,7 @@ impl Tracer<'_> {
         let mut scratch = PointScratch::default();
         let fragments = self.fragments(&samples, &mut scratch);
         let colors = self.shaded(&fragments, &mut scratch);
+        self.count(fragments.len());
         let behind = |slot: usize| backdrop.at(UVec2::from_array(self.grid.pixel(first + slot)));
         let mut light: Vec<Vec4> =
             (0..pixels.len()).flat_map(|slot| std::iter::repeat_n(behind(slot), per_pixel)).collect();

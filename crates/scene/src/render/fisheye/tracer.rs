@@ -2,6 +2,7 @@
 //! is computed in f64 from that triangle and the ray of the lens.
 
 use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use trigon_camera::{FisheyeLens, FisheyeRay};
 use trigon_math::{DAffine3, DVec3, Ray, RayHit, Vec3};
@@ -25,6 +26,7 @@ pub(super) struct Tracer<'p> {
     triangles: &'p EyeTriangles,
     /// By their nodes and triangles.
     runs: Vec<DrawnRun<'p>>,
+    shaded: AtomicU64,
 }
 
 /// Triangles of a node that are drawn together.
@@ -85,7 +87,17 @@ impl<'p> Tracer<'p> {
         };
         let mut runs: Vec<DrawnRun<'p>> = shader.draws().zip(draws).enumerate().filter_map(run).collect();
         runs.sort_by_key(|run| (run.node, run.triangles.start));
-        Self { prepared, lens, grid, shader, triangles, runs }
+        Self { prepared, lens, grid, shader, triangles, runs, shaded: AtomicU64::new(0) }
+    }
+
+    /// Adds to the number of surfaces that were shaded.
+    pub(super) fn count(&self, shaded: usize) {
+        self.shaded.fetch_add(shaded as u64, Ordering::Relaxed);
+    }
+
+    /// How many surfaces were shaded.
+    pub(super) fn shaded_count(&self) -> u64 {
+        self.shaded.load(Ordering::Relaxed)
     }
 
     pub(super) fn run(&self, number: usize) -> &DrawnRun<'p> {
