@@ -84,7 +84,7 @@ def test_every_pixel_is_where_rays_in_double_precision_say():
     covered = decided & (ids >= 0)
     assert covered.mean() > 0.3 and (theta[covered] > np.pi / 2).any()
     assert np.allclose(frame.depth[covered], best[covered], rtol=1e-6)
-    assert np.allclose(frame.positions[covered], (directions * best[..., None])[covered], atol=3e-6)
+    assert np.allclose(frame.positions[covered], directions[covered] * best[covered][:, None], atol=3e-6)
     assert np.allclose(frame.barycentrics[covered].sum(axis=1), 1, atol=1e-5)
 
 

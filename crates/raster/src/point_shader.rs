@@ -41,6 +41,12 @@ pub struct ShadedDraw<'p> {
     pub blend_mode: BlendMode,
 }
 
+impl RecordedDraw<'_> {
+    fn is_shaded(&self) -> bool {
+        matches!(self.geometry.shape, Shape::Triangles { .. }) && !self.pipeline.reads_all()
+    }
+}
+
 /// Some vertices of a draw, to be run.
 struct VertexTask<'a> {
     draw: usize,
@@ -97,7 +103,7 @@ impl<'p> PointShader<'p> {
     /// time: those depend on where they are on a screen.
     pub fn draws(&self) -> impl Iterator<Item = Option<ShadedDraw<'p>>> {
         self.pass.iter().map(|draw| match draw.geometry.shape {
-            Shape::Triangles { triangles, culling, .. } if !draw.pipeline.reads_all() => {
+            Shape::Triangles { triangles, culling, .. } if draw.is_shaded() => {
                 let (object, blend_mode) = (draw.geometry.object, draw.geometry.blend_mode);
                 Some(ShadedDraw { triangles, object, culling, blend_mode })
             }
@@ -136,9 +142,9 @@ impl<'p> PointShader<'p> {
         }
     }
 
-    /// `None` for points that are not the draw's.
+    /// `None` for points that are not the draw's, and if it cannot be shaded.
     fn context(&self, draw: usize, points: &[SurfacePoint]) -> Option<ShadeContext<'_>> {
-        let RecordedDraw { geometry, pipeline } = self.pass.get(draw)?;
+        let RecordedDraw { geometry, pipeline } = self.pass.get(draw).filter(|draw| draw.is_shaded())?;
         let (used, varyings) = &self.used[draw];
         let slots = used.slots(&self.listed);
         let exists = |point: &SurfacePoint| {
@@ -166,5 +172,114 @@ impl<'p> PointShader<'p> {
             triangles: &[],
             outer: None,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::simd::{F32, Mask, Simd, prelude::*};
+    use crate::{
+        BlendMode, Culling, Draw, Fragment, FragmentLanes, LanePipeline, Pass, Pipeline, PointScratch,
+        Rasterizer, SurfacePoint, VertexLanes, VertexOutput,
+    };
+    use trigon_math::Vec4;
+
+    /// Shows the square of its vertices' numbers, the gradient, the triangle, and the side.
+    struct Numbers;
+
+    impl LanePipeline for Numbers {
+        const VARYINGS: usize = 1;
+        const MASKED: bool = true;
+
+        fn vertex_count(&self) -> usize {
+            5000
+        }
+
+        fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
+            let squares: Vec<f32> = (0..5000).map(|number| (number * number) as f32).collect();
+            let squares = vertices.load(simd, &squares);
+            vertices.set(0, squares);
+            [F32::splat(simd, f32::NAN); 4]
+        }
+
+        fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+            let [right, down] = fragments.gradient(0);
+            let side = fragments.front_facing().select(F32::splat(simd, 1.0), F32::splat(simd, 2.0));
+            [fragments.varying(0), right + down * 0.5, fragments.position()[1], side]
+        }
+
+        fn masks<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> Mask<S> {
+            fragments.varying(0).simd_gt(F32::splat(simd, 10.0))
+        }
+    }
+
+    fn point(triangle: u32, weights: [f32; 3]) -> SurfacePoint {
+        let slopes = [[0.5, 0.25], [-1.0, 0.5]];
+        SurfacePoint { triangle, front_facing: triangle == 1, weights, slopes, sample: [7, 2 * triangle + 1] }
+    }
+
+    /// More points than lanes, and few of many vertices, so that their slots are listed.
+    #[test]
+    fn points_are_interpolated_between_their_corners() {
+        let triangles = [[0_u32, 1, 2], [4000, 2, 4999], [3, 3, 1]];
+        let mut pass = Pass::new();
+        pass.triangles(Draw { blend_mode: BlendMode::Masked, object: 9, ..Draw::new(&Numbers, &triangles) });
+        let shader = Rasterizer::default().point_shader(&pass, 2);
+        let draw = shader.draws().next().flatten().expect("it can be shaded");
+        assert_eq!((draw.object, draw.culling, draw.blend_mode), (9, Culling::Back, BlendMode::Masked));
+        let weights = [[0.5, 0.25, 0.25], [0.0, 0.0, 1.0], [0.25, 0.75, 0.0]];
+        let points: Vec<SurfacePoint> =
+            (0..11).map(|number| point(number % 3, weights[number as usize / 4])).collect();
+        let (mut colors, mut passed) = (vec![[0.0; 4]; 11], vec![false; 11]);
+        shader.shade(0, &points, &mut PointScratch::default(), &mut colors);
+        shader.mask(0, &points, &mut PointScratch::default(), &mut passed);
+        for ((point, color), passed) in points.iter().zip(colors).zip(passed) {
+            let [a, b, c] = triangles[point.triangle as usize].map(|vertex| (vertex * vertex) as f32);
+            let [u, v, w] = point.weights;
+            let value = a * u + b * v + c * w;
+            let [right, down] = point.slopes.map(|[v, w]| (b - a) * v + (c - a) * w);
+            // From samples to pixels.
+            let row = (point.sample[1] as f32 + 0.5) / 2.0;
+            let expected = [value, right + down * 0.5, row, if point.triangle == 1 { 1.0 } else { 2.0 }];
+            assert_eq!(color, expected, "{point:?}");
+            assert_eq!(passed, value > 10.0, "{point:?}");
+        }
+    }
+
+    struct OneAtATime;
+
+    impl Pipeline for OneAtATime {
+        type Varyings = ();
+
+        fn vertex_count(&self) -> usize {
+            3
+        }
+
+        fn vertex(&self, _: usize) -> VertexOutput<()> {
+            VertexOutput { position: Vec4::ONE, varyings: () }
+        }
+
+        fn fragment(&self, _: &Fragment<()>) -> Vec4 {
+            Vec4::ONE
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_shaded_is_black() {
+        let mut pass = Pass::new();
+        // Vertex 5000 does not exist.
+        pass.triangles(Draw::new(&Numbers, &[[0, 1, 5000]])).triangles(Draw::new(&OneAtATime, &[[0, 1, 2]]));
+        let shader = Rasterizer::default().point_shader(&pass, 1);
+        assert!(shader.draws().nth(1).expect("recorded").is_none(), "it shades one fragment at a time");
+        let points = [point(0, [1.0, 0.0, 0.0])];
+        for (draw, points) in
+            [(0, points), (0, [SurfacePoint { triangle: 1, ..points[0] }]), (1, points), (2, points)]
+        {
+            let (mut colors, mut passed) = ([[9.0; 4]], [true]);
+            shader.shade(draw, &points, &mut PointScratch::default(), &mut colors);
+            assert_eq!(colors, [[0.0; 4]], "draw {draw}");
+            shader.mask(draw, &points, &mut PointScratch::default(), &mut passed);
+            assert!(!passed[0], "draw {draw}");
+        }
     }
 }

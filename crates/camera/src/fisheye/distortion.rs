@@ -34,7 +34,7 @@ impl Distortion {
 
     /// `None` beyond the greatest angle.
     pub(super) fn distorted(&self, angle: f64) -> Option<f64> {
-        (angle <= self.greatest_angle).then(|| self.value(angle))
+        (angle <= self.greatest_angle).then(|| self.value(angle)).filter(|radius| radius.is_finite())
     }
 
     fn value(&self, angle: f64) -> f64 {
@@ -58,7 +58,9 @@ impl Distortion {
         if self.coefficients == [0.0; 4] {
             return (radius <= high).then_some(radius);
         }
-        if radius.is_nan() || radius > self.value(high) {
+        // Coefficients of any size may overflow.
+        let rim = self.value(high);
+        if radius.is_nan() || !rim.is_finite() || radius > rim {
             return None;
         }
         let mut angle = if radius < high { radius } else { 0.5 * high };

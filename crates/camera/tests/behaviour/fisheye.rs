@@ -113,6 +113,22 @@ fn invalid_lenses_are_errors() {
     assert!(new(FOCAL, CENTER, IMAGE, [0.0, f64::INFINITY, 0.0, 0.0]).is_err(), "no polynomial");
 }
 
+proptest! {
+    /// Any bits: nothing panics, and no ray or pixel is NaN.
+    #[test]
+    fn lenses_of_any_numbers_are_safe(
+        distortion in [any::<f64>(), any::<f64>(), any::<f64>(), any::<f64>()],
+        focal in [any::<f64>(), any::<f64>()], pixel in [any::<f64>(), any::<f64>()],
+        point in [any::<f64>(), any::<f64>(), any::<f64>()],
+    ) {
+        let [focal, pixel] = [focal, pixel].map(DVec2::from_array);
+        let Ok(lens) = FisheyeLens::new(focal, CENTER, IMAGE, PixelCenters::AtHalves, distortion) else { return Ok(()) };
+        prop_assert!((0.0..=std::f64::consts::PI).contains(&lens.greatest_angle()));
+        prop_assert!(lens.ray(pixel).is_none_or(|ray| !ray.is_nan()));
+        prop_assert!(lens.project(DVec3::from_array(point)).is_none_or(|pixel| !pixel.is_nan()));
+    }
+}
+
 #[test]
 fn an_image_of_another_size_shows_the_same_view() {
     let orientation = DQuat::from_rotation_y(0.7);
