@@ -10,12 +10,6 @@ use trigon_math::{DAffine3, DMat3, DVec3, Vec2, Vec3, Vec4, color};
 
 use crate::errors::value_error;
 
-/// The most numbers of an array: four for each corner of as many faces as a file may have. A view of a few bytes can
-/// pretend any number of rows, and would be copied.
-fn most_numbers() -> usize {
-    Limits::default().corners.saturating_mul(4)
-}
-
 /// An array of rows of numbers that is not yet copied.
 struct Table<'py> {
     name: String,
@@ -40,13 +34,15 @@ impl<'py> Table<'py> {
             let found = array.getattr("dtype")?;
             return Err(value_error(format!("{name} holds {found}, not numbers")));
         }
-        if rows.saturating_mul(columns) > most_numbers() {
-            let most = most_numbers();
-            return Err(value_error(format!(
-                "{name} has {rows} rows of {columns} numbers; the limit is {most}"
-            )));
-        }
         Ok(Self { name: name.to_owned(), array, shape: [rows, columns], kind })
+    }
+
+    /// Refuses more than so many rows. A view of a few bytes can pretend any number of them, and would be copied.
+    fn at_most(&self, rows: usize) -> PyResult<()> {
+        if self.shape[0] <= rows {
+            return Ok(());
+        }
+        Err(value_error(format!("{} has {} rows; the limit is {rows}", self.name, self.shape[0])))
     }
 
     /// The numbers in another type, row after row.
@@ -73,6 +69,7 @@ fn finite<const N: usize>(table: &Table<'_>) -> PyResult<Vec<[f32; N]>> {
     if table.shape[1] != N {
         return Err(table.wrong_shape(&format!("(n, {N})")));
     }
+    table.at_most(Limits::default().corners)?;
     let rows = table.numbers::<f32>("float32")?.as_chunks::<N>().0.to_vec();
     match rows.iter().position(|row| row.iter().any(|number| !number.is_finite())) {
         Some(row) => {
@@ -82,7 +79,14 @@ fn finite<const N: usize>(table: &Table<'_>) -> PyResult<Vec<[f32; N]>> {
     }
 }
 
-/// Points or directions.
+/// The points of a mesh or a cloud.
+pub(crate) fn vertices(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<Vec3>> {
+    let table = Table::new(value, name)?;
+    table.at_most(Limits::default().vertices)?;
+    Ok(finite::<3>(&table)?.into_iter().map(Vec3::from_array).collect())
+}
+
+/// Directions.
 pub(crate) fn vectors(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<Vec3>> {
     Ok(finite::<3>(&Table::new(value, name)?)?.into_iter().map(Vec3::from_array).collect())
 }
@@ -93,6 +97,7 @@ pub(crate) fn points(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<DVec3
     if table.shape[1] != 3 {
         return Err(table.wrong_shape("(n, 3)"));
     }
+    table.at_most(Limits::default().corners)?;
     Ok(table
         .numbers::<f64>("float64")?
         .as_chunks::<3>()
@@ -202,6 +207,7 @@ pub(crate) fn faces(value: &Bound<'_, PyAny>, vertex_count: usize) -> PyResult<F
             "faces have the shape ({count}, {width}), but need 3 corners or more"
         )));
     }
+    table.at_most(Limits::default().corners / width)?;
     let numbers = table.numbers::<i64>("int64")?;
     let corners = numbers.into_iter().enumerate().map(|(corner, index)| vertex(index, corner / width));
     let corners: Vec<u32> = corners.collect::<PyResult<_>>()?;

@@ -3,6 +3,7 @@
 mod arrays;
 mod camera;
 mod errors;
+mod facts;
 mod frame;
 mod load;
 mod many;

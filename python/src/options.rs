@@ -8,7 +8,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use trigon_math::color;
 use trigon_scene::quality::Preset;
-use trigon_scene::{Background, Lighting, MAX_SIZE, Outputs, RenderSettings, ShadingModel, Shadows};
+use trigon_scene::{
+    Background, Exposure, Lighting, MAX_SIZE, Outputs, RenderSettings, ShadingModel, Shadows,
+};
 
 use crate::arrays;
 use crate::errors::value_error;
@@ -132,6 +134,7 @@ impl Options {
             "shadows" => {
                 settings.effects.shadows = if value.extract()? { Shadows::Rays } else { Shadows::Off }
             }
+            "exposure" => settings.effects.exposure = exposure(value)?,
             "flat" => {
                 settings.shading = if value.extract()? { ShadingModel::Flat } else { ShadingModel::Phong }
             }
@@ -141,7 +144,7 @@ impl Options {
             "simd" => settings.simd = Some(value.extract::<String>()?.parse().map_err(value_error)?),
             other => {
                 return Err(pyo3::exceptions::PyTypeError::new_err(format!(
-                    "render() has no argument {other:?}; there are outputs, samples, quality, time_budget, background, lighting, shadows, flat, point_size, line_width, threads and simd"
+                    "render() has no argument {other:?}; there are outputs, samples, quality, time_budget, background, lighting, exposure, shadows, flat, point_size, line_width, threads and simd"
                 )));
             }
         }
@@ -207,6 +210,20 @@ fn lighting(name: &str) -> PyResult<Lighting> {
         other => Err(value_error(format!("lighting is {other:?}, not \"auto\", \"scene\" or \"studio\""))),
     }
 }
+
+/// Stops, or "auto".
+fn exposure(value: &Bound<'_, PyAny>) -> PyResult<Exposure> {
+    match (value.extract::<String>().as_deref(), value.extract::<f32>()) {
+        (Ok("auto"), _) => Ok(Exposure::Metered),
+        (Err(_), Ok(stops)) if stops.abs() <= MOST_STOPS => Ok(Exposure::Stops(stops)),
+        _ => Err(value_error(format!(
+            "exposure is {value}, not \"auto\" or a number of stops up to {MOST_STOPS}"
+        ))),
+    }
+}
+
+/// More than any image needs, and few enough that no light is infinite.
+const MOST_STOPS: f32 = 60.0;
 
 /// Linear light as sRGB, for what is told of materials.
 pub(crate) fn srgb(linear: [f32; 3]) -> [f32; 3] {

@@ -67,7 +67,11 @@ impl FrameSize {
                 "out[{name:?}] has the shape {shape:?}, but needs (frames, height, width, …)"
             )));
         };
-        let side = |side: usize| u32::try_from(side).map_err(value_error);
+        let side = |side: usize| {
+            let too_large =
+                || value_error(format!("out[{name:?}] has the shape {shape:?}: no image is so large"));
+            u32::try_from(side).map_err(|_| too_large())
+        };
         Ok(Self { frames, width: side(width)?, height: side(height)? })
     }
 }

@@ -134,3 +134,123 @@ def test_what_is_missing_says_so(scene):
         renderer.render(pyrender.Scene())
     with pytest.raises(TypeError):
         scene.add("box")
+
+
+def test_nodes_are_placed_by_translation_rotation_and_scale():
+    """A quarter turn about x, as a matrix by hand."""
+    half = np.sqrt(0.5)
+    node = pyrender.Node(translation=[1, 2, 3], rotation=[half, 0, 0, half], scale=[2, 1, 0.5])
+    expected = np.array([[2, 0, 0, 1], [0, 0, -0.5, 2], [0, 1, 0, 3], [0, 0, 0, 1]])
+    assert np.allclose(node.matrix, expected)
+    other = pyrender.Node(matrix=node.matrix)
+    assert np.allclose(other.rotation, [half, 0, 0, half]) and np.allclose(other.scale, [2, 1, 0.5])
+    other.translation = [0, 0, 0]
+    other.scale = 1
+    assert np.allclose(other.matrix[:3, :3], [[1, 0, 0], [0, 0, -1], [0, 1, 0]]) and other.matrix[0, 3] == 0
+    for wrong in ({"matrix": np.eye(3)}, {"rotation": [1, 1, 1, 1]}):
+        with pytest.raises(ValueError):
+            pyrender.Node(**wrong)
+
+
+def test_a_node_is_in_a_scene_once(scene):
+    child = pyrender.Node()
+    scene.left.children.append(child)
+    for node, parent in ((child, None), (scene.left, None), (pyrender.Node(), child), (pyrender.Node(), pyrender.Node())):
+        if parent is child:
+            scene.add_node(node, parent)
+            continue
+        with pytest.raises(ValueError):
+            scene.add_node(node, parent)
+    assert len(scene.mesh_nodes) == 2 and len(scene.meshes) == 1 and len(scene.directional_lights) == 1
+    with pytest.raises(ValueError):
+        scene.main_camera_node = scene.left
+    scene.remove_node(scene.camera)
+    assert scene.main_camera_node is None
+    scene.clear()
+    assert not scene.nodes and (scene.bounds == 0).all()
+
+
+def test_light_is_what_pyrenders_shader_computes():
+    """Its formula for a rough dielectric seen and lit from the front, in linear light, and its cone of a spot."""
+    square = pyrender.Primitive([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], [[0, 0, 1.0]] * 4, indices=[[0, 1, 2], [0, 2, 3]])
+    square.material = pyrender.MetallicRoughnessMaterial(baseColorFactor=[0.5, 0.5, 0.5, 1], metallicFactor=0.0)
+
+    def value(light, at=None, **named):
+        scene = pyrender.Scene(**named)
+        scene.add(pyrender.Mesh([square]))
+        scene.add(pyrender.PerspectiveCamera(0.01), pose=pose(0, 0, 5))
+        if light is not None:
+            scene.add(light, pose=pose(0, 0, 2) if at is None else at)
+        color, _ = pyrender.OffscreenRenderer(16, 16).render(scene)
+        encoded = color[8, 8].astype(float) / 255
+        return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+
+    diffuse, gloss = 0.96 * 0.96 * 0.5 / np.pi, 0.04 / np.pi / 4
+    expected = diffuse + gloss
+    assert np.allclose(value(pyrender.DirectionalLight(intensity=2.0)), 2 * expected, rtol=0.06)
+    assert np.allclose(value(pyrender.PointLight(intensity=8.0)), 2 * expected, rtol=0.06)
+    assert np.allclose(value(pyrender.PointLight(color=[1, 0.5, 0], intensity=8.0)), [2 * expected, expected, 0], rtol=0.06)
+    assert np.allclose(value(None, ambient_light=[0.2, 0.4, 0.0]), [0.1, 0.2, 0], rtol=0.06, atol=1e-3)
+    # A light far brighter than a display is white: there is no light meter.
+    assert (value(pyrender.DirectionalLight(intensity=500.0)) == 1).all()
+    # Halfway between the cones' cosines, a quarter: pyrender squares the share.
+    turn = np.arccos((np.cos(0.1) + np.cos(0.5)) / 2)
+    aside = pose(2 * np.sin(turn), 0, 2 * np.cos(turn))
+    full, part = (
+        value(pyrender.SpotLight(intensity=20.0, innerConeAngle=inner, outerConeAngle=0.5), aside)[0] for inner in (0.499, 0.1)
+    )
+    assert part / full == pytest.approx(0.25, rel=0.1)
+
+
+def test_flat_images_have_the_given_colours(scene):
+    scene.left.mesh.primitives[0].material.baseColorFactor = [1.0, 0.5, 0.2]
+    color, _ = pyrender.OffscreenRenderer(80, 60).render(scene, RenderFlags.FLAT)
+    assert np.abs(color[30, 20].astype(int) - [255, 128, 51]).max() <= 1
+
+
+def test_a_lens_with_an_aspect_of_its_own_is_stretched(scene):
+    scene.camera.camera.aspectRatio = 2.0
+    wide = pyrender.OffscreenRenderer(80, 80).render(scene, RenderFlags.DEPTH_ONLY)
+    scene.camera.camera.aspectRatio = None
+    plain = pyrender.OffscreenRenderer(160, 80).render(scene, RenderFlags.DEPTH_ONLY)
+    assert abs((wide > 0).mean() - (plain > 0).mean()) < 0.01
+
+
+def test_scenes_of_trimesh_and_textures():
+    source = trimesh.Scene()
+    source.add_geometry(trimesh.creation.box(), transform=pose(2))
+    scene = pyrender.Scene.from_trimesh_scene(source, ambient_light=[1.0, 1.0, 1.0])
+    assert np.allclose(scene.bounds, [[1.5, -0.5, -0.5], [2.5, 0.5, 0.5]])
+    texture = np.zeros((8, 8, 3), np.uint8)
+    texture[:4] = [0, 200, 0]
+    material = pyrender.MetallicRoughnessMaterial(baseColorTexture=pyrender.Texture(source=texture, source_channels="RGB"))
+    corners, indices = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+    square = pyrender.Primitive(corners, texcoord_0=[[0, 0], [1, 0], [1, 1], [0, 1]], indices=indices, material=material)
+    scene = pyrender.Scene()
+    scene.add(pyrender.Mesh([square]))
+    scene.add(pyrender.OrthographicCamera(1, 1), pose=pose(0, 0, 2))
+    color, _ = pyrender.OffscreenRenderer(32, 32).render(scene, RenderFlags.FLAT)
+    assert (color[8, 16] == [0, 200, 0]).all() and (color[24, 16] == 0).all(), "v counts from the lower edge"
+
+
+@pytest.mark.parametrize(
+    "camera",
+    [
+        pyrender.PerspectiveCamera(0.9),
+        pyrender.PerspectiveCamera(0.9, zfar=50.0, aspectRatio=2.0),
+        pyrender.OrthographicCamera(3, 2),
+        pyrender.IntrinsicsCamera(150, 140, 70, 65),
+    ],
+)
+def test_projection_matrices_place_what_is_drawn(camera):
+    """A small ball, and where its middle is by the matrix alone."""
+    place = np.array([0.4, -0.3, -4.0])
+    scene = pyrender.Scene()
+    scene.add(pyrender.Mesh.from_trimesh(trimesh.creation.icosphere(radius=0.1)), pose=pose(*place))
+    scene.add(camera)
+    depth = pyrender.OffscreenRenderer(160, 120).render(scene, RenderFlags.DEPTH_ONLY)
+    clip = camera.get_projection_matrix(160, 120) @ [*place, 1]
+    expected = (clip[:2] / clip[3] * [1, -1] + 1) / 2 * [160, 120]
+    rows, columns = np.nonzero(depth)
+    assert np.abs([columns.mean() + 0.5, rows.mean() + 0.5] - expected).max() < 0.6
+    assert abs(clip[2] / clip[3]) < 1, "between the clip planes"

@@ -52,3 +52,31 @@ def test_points_and_images():
     with Image.open(io.BytesIO(trigon3d.save_image(source, (80, 60)))) as image:
         assert image.size == (80, 60)
         assert len(np.unique(np.asarray(image).reshape(-1, 4), axis=0)) > 50
+
+
+def test_materials_are_those_of_the_same_scene_as_a_file(tmp_path):
+    """A square with all textures and factors, written as GLB by trimesh and read by trigon."""
+    random = np.random.default_rng(4)
+
+    def image(low=0, high=255):
+        return Image.fromarray(random.integers(low, high + 1, (8, 8, 3)).astype(np.uint8))
+
+    square = trimesh.Trimesh([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    uv = square.vertices[:, :2] * 0.5 + 0.5
+    material = trimesh.visual.material.PBRMaterial(
+        baseColorFactor=[0.9, 0.5, 0.3, 1.0], baseColorTexture=image(), metallicFactor=0.6, roughnessFactor=0.8,
+        metallicRoughnessTexture=image(), normalTexture=image(100, 255), occlusionTexture=image(), emissiveTexture=image(),
+        emissiveFactor=[0.1, 0.2, 0.3], doubleSided=True,
+    )  # fmt: skip
+    square.visual = trimesh.visual.TextureVisuals(uv, material=material)
+    source = trimesh.Scene(square)
+    source.export(tmp_path / "square.glb")
+    camera = trigon3d.Camera.look_at((0, 0.5, 4), (0, 0, 0), vertical_fov=35)
+    outputs = ("color", "albedo", "normals", "face_ids")
+    direct = trigon3d.from_trimesh(source).render(96, 96, camera, outputs=outputs)
+    read = trigon3d.load(tmp_path / "square.glb").render(96, 96, camera, outputs=outputs)
+    assert (direct.face_ids == read.face_ids).all()
+    assert np.abs(direct.albedo - read.albedo).max() < 5e-3
+    assert np.abs(direct.normals - read.normals).max() < 1e-4
+    assert np.abs(direct.color.astype(int) - read.color).max() <= 2
+    assert len(np.unique(direct.normals.reshape(-1, 3).round(2), axis=0)) > 20, "the textures are seen"

@@ -24,6 +24,7 @@ Output = Literal[
     "albedo",
 ]
 Point = tuple[float, float, float]
+Numbers = Sequence[float] | NDArray[Any]
 Texture = NDArray[np.uint8] | str | PathLike[str]
 View = Camera | tuple[str, Camera, tuple[int, int]]
 
@@ -70,14 +71,14 @@ class Camera:
         pose: ArrayLike | None = None,
         *,
         convention: Convention = "opencv",
-        distortion: Sequence[float] | None = None,
+        distortion: Sequence[float] | NDArray[Any] | None = None,
         fov: float | None = None,
     ) -> Camera: ...
     @staticmethod
     def look_at(
-        position: Sequence[float],
-        target: Sequence[float],
-        up: Sequence[float] = (0.0, 1.0, 0.0),
+        position: Numbers,
+        target: Numbers,
+        up: Numbers = (0.0, 1.0, 0.0),
         *,
         vertical_fov: float = 30.0,
         near: float | None = None,
@@ -100,11 +101,11 @@ class Camera:
 class Material:
     def __init__(
         self,
-        color: Sequence[float] | None = None,
+        color: Numbers | None = None,
         *,
         metallic: float | None = None,
         roughness: float | None = None,
-        emission: Sequence[float] | None = None,
+        emission: Numbers | None = None,
         unlit: bool = False,
         double_sided: bool = True,
         alpha_mode: Literal["opaque", "mask", "blend"] = "opaque",
@@ -179,10 +180,10 @@ class Scene:
         self,
         kind: Literal["ambient", "directional", "point", "spot"] = "directional",
         *,
-        color: Sequence[float] = (1.0, 1.0, 1.0),
+        color: Numbers = (1.0, 1.0, 1.0),
         intensity: float = 1.0,
-        position: Sequence[float] = (0.0, 0.0, 0.0),
-        direction: Sequence[float] = (0.0, 0.0, -1.0),
+        position: Numbers = (0.0, 0.0, 0.0),
+        direction: Numbers = (0.0, 0.0, -1.0),
         angle: float = 45.0,
         inner_angle: float | None = None,
     ) -> int: ...
@@ -211,8 +212,9 @@ class Scene:
         samples: int | None = None,
         quality: Literal["draft", "standard", "high", "reference"] | None = None,
         time_budget: float | None = None,
-        background: Sequence[float] | Literal["transparent", "default"] | None = None,
+        background: Numbers | Literal["transparent", "default"] | None = None,
         lighting: Literal["auto", "scene", "studio"] | None = None,
+        exposure: float | Literal["auto"] | None = None,
         shadows: bool | None = None,
         flat: bool | None = None,
         point_size: float | None = None,
@@ -222,7 +224,13 @@ class Scene:
     ) -> Frame: ...
     @overload
     def render_many(
-        self, cameras: Iterable[View], width: int | None = None, height: int | None = None, **named: Any
+        self,
+        cameras: Iterable[View],
+        width: int | None = None,
+        height: int | None = None,
+        *,
+        out: None = None,
+        **named: Any,
     ) -> Iterator[Frame]: ...
     @overload
     def render_many(

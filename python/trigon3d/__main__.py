@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from typing import Literal
 
 import trigon3d
 
@@ -20,7 +21,7 @@ def main() -> int:
         width, height = (int(number) for number in arguments.resolution.replace("x", ",").split(","))
     except ValueError:
         parser.error("--resolution takes a width and a height, such as 1000,600")
-    background = "transparent" if arguments.no_background else "default"
+    background: Literal["transparent", "default"] = "transparent" if arguments.no_background else "default"
     try:
         scene = trigon3d.load(arguments.model, up=arguments.up)
         scene.render(width, height, samples=arguments.samples, background=background).save(arguments.output)

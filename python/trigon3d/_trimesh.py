@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ._colors import encoded
 from ._trigon3d import Camera, Material, Scene
 
 
@@ -56,7 +57,7 @@ def _add(scene: Scene, geometry: Any, pose: Any, name: str) -> None:
 
 def mesh_arguments(geometry: Any) -> dict[str, Any]:
     """Colours, texture coordinates and material of a mesh, as `Scene.add_mesh` takes them."""
-    visual = getattr(geometry, "visual", None)
+    visual: Any = getattr(geometry, "visual", None)
     kind = getattr(visual, "kind", None)
     if kind == "vertex":
         return {"colors": np.asarray(visual.vertex_colors)}
@@ -72,17 +73,40 @@ def mesh_arguments(geometry: Any) -> dict[str, Any]:
 
 def _material(material: Any) -> Material:
     """A material of trimesh: PBR, or of an OBJ."""
-    image = getattr(material, "baseColorTexture", None)
-    image = image if image is not None else getattr(material, "image", None)
-    color = getattr(material, "baseColorFactor", None)
-    color = color if color is not None else getattr(material, "diffuse", None)
-    numbers = np.ones(4) if color is None else np.asarray(color, dtype=np.float64)
-    if color is not None and np.asarray(color).dtype.kind in "iu":
-        numbers = numbers / 255
-    texture = None if image is None else np.asarray(image.convert("RGBA"))
+    is_pbr = hasattr(material, "baseColorFactor")
+    color = _numbers(material.baseColorFactor if is_pbr else getattr(material, "diffuse", None))
+    texture = _image(material.baseColorTexture if is_pbr else getattr(material, "image", None))
+    if not is_pbr:
+        return Material(color, texture=texture)
+    # Factors of PBR are linear light.
+    color[:3] = encoded(color[:3])
+    emission = material.emissiveFactor
+    mode: Any = (material.alphaMode or "OPAQUE").lower()
+    # What glTF says where a factor is missing.
+    metallic, roughness = (1.0 if each is None else each for each in (material.metallicFactor, material.roughnessFactor))
     return Material(
-        np.clip(numbers, 0, 1).tolist(),
-        metallic=getattr(material, "metallicFactor", None),
-        roughness=getattr(material, "roughnessFactor", None),
+        color,
+        metallic=metallic,
+        roughness=roughness,
+        emission=np.zeros(3) if emission is None else encoded(np.clip(_numbers(emission)[:3], 0, 1)),
+        double_sided=bool(material.doubleSided),
+        alpha_mode=mode,
+        alpha_cutoff=0.5 if material.alphaCutoff is None else material.alphaCutoff,
         texture=texture,
+        metallic_roughness_texture=_image(material.metallicRoughnessTexture),
+        normal_texture=_image(material.normalTexture),
+        occlusion_texture=_image(material.occlusionTexture),
+        emissive_texture=_image(material.emissiveTexture),
     )
+
+
+def _numbers(color: Any) -> np.ndarray:
+    """A colour from 0 to 1; bytes are divided by 255."""
+    if color is None:
+        return np.ones(4)
+    numbers = np.array(color, dtype=np.float64)
+    return np.clip(numbers / 255 if np.asarray(color).dtype.kind in "iu" else numbers, 0, 1)
+
+
+def _image(image: Any) -> np.ndarray | None:
+    return None if image is None else np.asarray(image.convert("RGBA"))

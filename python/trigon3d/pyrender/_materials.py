@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from .. import _trigon3d as trigon
+from .._colors import encoded
 
 
 def color_vector(value: Any, length: int) -> np.ndarray:
@@ -34,12 +35,6 @@ def color_rows(value: Any, count: int) -> np.ndarray:
     if colors.shape[1] == 3:
         colors = np.column_stack([colors, np.ones(len(colors))])
     return np.clip(colors, 0, 1)
-
-
-def encoded(linear: Any) -> np.ndarray:
-    """Linear light as sRGB."""
-    linear = np.asarray(linear, dtype=np.float64)
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.power(linear, 1 / 2.4) - 0.055)
 
 
 class Sampler:
@@ -179,13 +174,13 @@ class MetallicRoughnessMaterial(Material):
         factor = self.baseColorFactor
         # Unlit colours are shown as they are given.
         color = factor[:3] if look.is_flat else encoded(factor[:3])
-        mode = {"OPAQUE": "opaque", "MASK": "mask", "BLEND": "blend" if is_transparent else "opaque"}[self.alphaMode]
+        mode: Any = {"OPAQUE": "opaque", "MASK": "mask", "BLEND": "blend" if is_transparent else "opaque"}[self.alphaMode]
         return trigon.Material(
             [*color, factor[3]],
             unlit=look.is_flat,
             metallic=self.metallicFactor,
             roughness=self.roughnessFactor,
-            emission=encoded(self.emissiveFactor),
+            emission=encoded(self.emissiveFactor) if not look.is_flat else np.zeros(3),
             double_sided=look.is_double_sided or self.doubleSided,
             alpha_mode=mode,
             alpha_cutoff=self.alphaCutoff,
@@ -220,8 +215,8 @@ def of_trimesh(material: Any) -> MetallicRoughnessMaterial:
     if isinstance(material, MetallicRoughnessMaterial):
         return material
     if hasattr(material, "baseColorFactor"):
-        names = ("normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor", "baseColorFactor")
-        names += ("baseColorTexture", "metallicFactor", "roughnessFactor", "metallicRoughnessTexture")
+        names = ["normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor", "baseColorFactor"]
+        names += ["baseColorTexture", "metallicFactor", "roughnessFactor", "metallicRoughnessTexture"]
         named = {name: getattr(material, name, None) for name in names}
         return MetallicRoughnessMaterial(
             alphaMode="BLEND", doubleSided=material.doubleSided, alphaCutoff=material.alphaCutoff, **named

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from .. import _trigon3d as trigon
+from .._colors import encoded
 from ._constants import GLTF
-from ._materials import Look, MetallicRoughnessMaterial, color_rows, encoded, of_trimesh, usual
+from ._materials import Look, MetallicRoughnessMaterial, color_rows, of_trimesh, usual
 
 
 class _Measured:
@@ -31,13 +32,19 @@ class _Measured:
         return np.linalg.norm(self.extents)
 
 
-def _rows(name: str, value: Any, count: int, columns: tuple[int, ...]) -> np.ndarray | None:
-    if value is None:
-        return None
-    rows = np.asarray(value, dtype=np.float64)
-    if rows.ndim != 2 or len(rows) != count or rows.shape[1] not in columns:
-        raise ValueError(f"{name} has the shape {rows.shape}, but needs ({count}, {columns[0]})")
-    return rows
+def _rows(name: str, columns: tuple[int, ...], what: str) -> property:
+    """An attribute with a row for each vertex, or `None`."""
+
+    def get(self):
+        return self.__dict__[name]
+
+    def put(self, value):
+        rows, count = None if value is None else np.asarray(value, dtype=np.float64), len(self.positions)
+        if rows is not None and (rows.ndim != 2 or len(rows) != count or rows.shape[1] not in columns):
+            raise ValueError(f"{name} has the shape {rows.shape}, but needs ({count}, {columns[0]})")
+        self.__dict__[name] = rows
+
+    return property(get, put, doc=what)
 
 
 class Primitive(_Measured):
@@ -75,34 +82,26 @@ class Primitive(_Measured):
         self.targets = targets
         self.poses = poses
 
-    normals = property(lambda self: self._normals, doc="A direction for each vertex.")
-    tangents = property(lambda self: self._tangents, doc="A tangent for each vertex; trigon makes its own.")
-    texcoord_0 = property(lambda self: self._texcoord_0, doc="Texture coordinates; v counts from the lower edge.")
-    texcoord_1 = property(lambda self: self._texcoord_1, doc="More of them, which no texture uses.")
-    material = property(lambda self: self._material, doc="How it looks; a white metal with `None`.")
-    poses = property(lambda self: self._poses, doc="Poses of instances, (n, 4, 4).")
+    normals = _rows("normals", (3,), "A direction for each vertex.")
+    tangents = _rows("tangents", (4,), "A tangent for each vertex; trigon makes its own.")
+    texcoord_0 = _rows("texcoord_0", (2, 3), "Texture coordinates; v counts from the lower edge.")
+    texcoord_1 = _rows("texcoord_1", (2, 3), "More of them, which no texture uses.")
 
-    @normals.setter
-    def normals(self, value):
-        self._normals = _rows("normals", value, len(self.positions), (3,))
-
-    @tangents.setter
-    def tangents(self, value):
-        self._tangents = _rows("tangents", value, len(self.positions), (4,))
-
-    @texcoord_0.setter
-    def texcoord_0(self, value):
-        self._texcoord_0 = _rows("texcoord_0", value, len(self.positions), (2, 3))
-
-    @texcoord_1.setter
-    def texcoord_1(self, value):
-        self._texcoord_1 = _rows("texcoord_1", value, len(self.positions), (2, 3))
+    @property
+    def material(self):
+        """How it looks; a white metal with `None`."""
+        return self._material
 
     @material.setter
     def material(self, value):
         if value is not None and not isinstance(value, MetallicRoughnessMaterial):
             raise TypeError(f"a material is a MetallicRoughnessMaterial, not {type(value).__name__}")
         self._material = value if value is not None else MetallicRoughnessMaterial()
+
+    @property
+    def poses(self):
+        """Poses of instances, (n, 4, 4)."""
+        return self._poses
 
     @poses.setter
     def poses(self, value):

@@ -39,7 +39,7 @@ class OffscreenRenderer:
         is_seg, depth_only = bool(flags & RenderFlags.SEG), bool(flags & RenderFlags.DEPTH_ONLY)
         translation = scene.translation(Look(bool(flags & RenderFlags.SKIP_CULL_FACES), bool(flags & RenderFlags.FLAT)))
         translation.show((seg_node_map or {}).keys() if is_seg else None)
-        named = {"lighting": "scene", "point_size": float(self.point_size)}
+        named = {"lighting": "scene", "exposure": 0.0, "point_size": float(self.point_size)}
         named["shadows"] = bool(flags & RenderFlags.SHADOWS_ALL)
         if depth_only or is_seg:
             frame = translation.scene.render(width, height, camera, outputs=("depth", "object_ids"), samples=1, **named)

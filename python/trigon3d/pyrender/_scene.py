@@ -137,7 +137,8 @@ def _quaternion(turn: np.ndarray) -> np.ndarray:
 def below(top: Node, pose: np.ndarray):
     """A node and all below it, each after its parent, with their poses in the world."""
     # Without recursion, so that trees may be of any depth.
-    waiting, path, above = [(top, pose, 0)], [], set()
+    path: list[int] = []
+    waiting, above = [(top, pose, 0)], set()
     while waiting:
         node, pose, depth = waiting.pop()
         while len(path) > depth:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _trigon3d as trigon
-from ._materials import Look, encoded
+from .._colors import encoded
+from ._materials import Look
 
 if TYPE_CHECKING:
     from ._scene import Node
@@ -39,7 +40,7 @@ class Translation:
         """Moves what has moved, and makes the lights anew if they have changed."""
         poses = dict(placed)
         for index, node in self.owners.items():
-            if not np.array_equal(self.poses.get(node), poses[node]):
+            if node not in self.poses or not np.array_equal(self.poses[node], poses[node]):
                 self.scene.set_pose(index, poses[node] @ self.own[index])
         self.poses = poses
         lights = [(node.light, pose) for node, pose in placed if node.light is not None]
