@@ -1,7 +1,10 @@
 //! Cameras.
 
 use pyo3::prelude::*;
-use trigon_camera::{Camera, CameraAxes, PixelCenters, Projection, Projector, Viewport};
+use trigon_camera::{
+    Camera, CameraAxes, CameraError, FisheyeCamera, FisheyeLens, Intrinsics, PixelCenters, Projection,
+    Projector, Viewport,
+};
 use trigon_math::{Bounds3, DAffine3, DVec2, DVec3};
 
 use crate::arrays::{affine, matrix, shaped};
@@ -12,8 +15,8 @@ const UNPLACED_NEAR: f64 = 1.0;
 
 /// A camera: where it is, where it looks, and its lens.
 ///
-/// Make one by `Camera.perspective`, `Camera.orthographic`, `Camera.from_intrinsics` or `Camera.look_at`. Without
-/// `near` the clip planes are placed so that nothing ahead is cut.
+/// Make one by `Camera.perspective`, `Camera.orthographic`, `Camera.from_intrinsics`, `Camera.fisheye` or
+/// `Camera.look_at`. Without `near` the clip planes are placed so that nothing ahead is cut.
 ///
 /// >>> import trigon3d
 /// >>> camera = trigon3d.Camera.look_at((0, 0, 5), (0, 0, 0))
@@ -22,11 +25,24 @@ const UNPLACED_NEAR: f64 = 1.0;
 #[pyclass(name = "Camera", module = "trigon3d", frozen)]
 #[derive(Clone)]
 pub(crate) struct PyCamera {
+    /// With a lens its projection means nothing.
     pub(crate) camera: Camera,
+    pub(crate) lens: Option<FisheyeLens>,
     pub(crate) has_clip_planes: bool,
 }
 
+impl From<Camera> for PyCamera {
+    /// Its clip planes are placed anew for every scene.
+    fn from(camera: Camera) -> Self {
+        Self { camera, lens: None, has_clip_planes: false }
+    }
+}
+
 impl PyCamera {
+    pub(crate) fn as_fisheye(&self) -> Option<FisheyeCamera> {
+        Some(FisheyeCamera::at(&self.camera, self.lens?))
+    }
+
     /// The camera as it draws a scene within these bounds.
     pub(crate) fn placed(&self, bounds: &Bounds3) -> Camera {
         if self.has_clip_planes { self.camera } else { self.camera.with_clip_planes(bounds) }
@@ -41,7 +57,7 @@ impl PyCamera {
         let pose = pose.map_or(Ok(DAffine3::IDENTITY), |pose| affine(pose, "pose"))?;
         let projection = planes.of(projection)?;
         let camera = Camera::from_pose(&pose, axes, projection).map_err(value_error)?;
-        Ok(Self { camera, has_clip_planes: planes.near.is_some() })
+        Ok(Self { camera, lens: None, has_clip_planes: planes.near.is_some() })
     }
 }
 
@@ -136,15 +152,55 @@ impl PyCamera {
         near: Option<f64>,
         far: Option<f64>,
     ) -> PyResult<Self> {
-        let [[fx, skew, cx], [zero, fy, cy], last] = K;
-        if [skew, zero] != [0.0; 2] || last != [0.0, 0.0, 1.0] {
-            return Err(value_error("K is not [fx 0 cx, 0 fy cy, 0 0 1]; skew is not supported"));
-        }
+        let Intrinsics { focal, center } = intrinsics(&K)?;
         let axes = axes(convention)?;
         let centers = pixel_centers(axes);
         let image = Viewport { width, height };
-        let lens = Projection::pinhole(DVec2::new(fx, fy), DVec2::new(cx, cy), image, centers, UNPLACED_NEAR);
+        let lens = Projection::pinhole(focal, center, image, centers, UNPLACED_NEAR);
         Self::new(pose, axes, lens.map_err(value_error)?, Planes { near, far })
+    }
+
+    /// A fisheye camera: K in pixels of an image of `width` × `height`, and the coefficients (k1, k2, k3, k4) of OpenCV's
+    /// `cv2.fisheye`; without them the lens is equidistant.
+    ///
+    /// A point at the angle θ from the axis is drawn at the distance f·θ·(1 + k1·θ² + k2·θ⁴ + k3·θ⁶ + k4·θ⁸) from the
+    /// centre. `fov` is the full angle in degrees that the lens shows; otherwise it ends at 360°, or where the polynomial
+    /// ceases to increase. Pixels beyond show the background. The conventions are those of `from_intrinsics`.
+    ///
+    /// Images are drawn by an exact ray for each sample, with all outputs; `depth` is the distance from the eye. Lines and
+    /// points are left out, with a `TrigonWarning`.
+    ///
+    /// >>> import trigon3d
+    /// >>> K = [[100, 0, 199.5], [0, 100, 199.5], [0, 0, 1]]
+    /// >>> camera = trigon3d.Camera.fisheye(K, 400, 400, fov=190)
+    /// >>> camera.project([[0, 0, 1], [1, 0, 0], [0, 0, -1]], 400, 400, convention="opencv").round(3)
+    /// array([[199.5 , 199.5 ],
+    ///        [356.58, 199.5 ],
+    ///        [   nan,    nan]])
+    #[staticmethod]
+    #[pyo3(signature = (K, width, height, pose=None, *, convention="opencv", distortion=None, fov=None))]
+    #[expect(non_snake_case, reason = "K is the name that everybody knows")]
+    fn fisheye(
+        K: [[f64; 3]; 3],
+        width: u32,
+        height: u32,
+        pose: Option<&Bound<'_, PyAny>>,
+        convention: &str,
+        distortion: Option<[f64; 4]>,
+        fov: Option<f64>,
+    ) -> PyResult<Self> {
+        let Intrinsics { focal, center } = intrinsics(&K)?;
+        let axes = axes(convention)?;
+        let image = Viewport { width, height };
+        let terms = distortion.unwrap_or_default();
+        let lens = FisheyeLens::new(focal, center, image, pixel_centers(axes), terms);
+        let ended = |lens: FisheyeLens| match fov {
+            Some(fov) => lens.with_fov(fov.to_radians()),
+            None => Ok::<_, CameraError>(lens),
+        };
+        let lens = lens.and_then(ended).map_err(value_error)?;
+        let planes = Planes { near: None, far: None };
+        Ok(Self { lens: Some(lens), ..Self::new(pose, axes, Projection::default(), planes)? })
     }
 
     /// A perspective camera at `position` that looks at `target`.
@@ -173,7 +229,7 @@ impl PyCamera {
         let planes = Planes { near, far };
         let camera =
             Camera::look_at(position, target, up).with_projection(planes.of(lens.map_err(value_error)?)?);
-        Ok(Self { camera, has_clip_planes: near.is_some() })
+        Ok(Self { camera, lens: None, has_clip_planes: near.is_some() })
     }
 
     /// The same lens at another pose.
@@ -187,7 +243,7 @@ impl PyCamera {
         let pose = affine(pose, "pose")?;
         let camera =
             Camera::from_pose(&pose, axes(convention)?, self.camera.projection).map_err(value_error)?;
-        Ok(Self { camera, has_clip_planes: self.has_clip_planes })
+        Ok(Self { camera, ..self.clone() })
     }
 
     /// The matrix of 4 × 4 from the camera to the world.
@@ -219,7 +275,11 @@ impl PyCamera {
         convention: &str,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let centers = pixel_centers(axes(convention)?);
-        let k = self.camera.projection.intrinsics(Viewport { width, height }, centers);
+        let image = Viewport { width, height };
+        let k = match &self.lens {
+            Some(lens) => Some(lens.intrinsics(image, centers)),
+            None => self.camera.projection.intrinsics(image, centers),
+        };
         k.map(|k| {
             let numbers = vec![k.focal.x, 0.0, k.center.x, 0.0, k.focal.y, k.center.y, 0.0, 0.0, 1.0];
             shaped(py, numbers, &[3, 3])
@@ -227,7 +287,8 @@ impl PyCamera {
         .transpose()
     }
 
-    /// Where points of the world are in an image, an array of (n, 2); NaN for points behind the camera.
+    /// Where points of the world are in an image, an array of (n, 2); NaN for points behind the camera, or beyond a
+    /// fisheye lens.
     ///
     /// With the convention "opencv" the centre of the first pixel is at (0, 0), with "opengl" at (0.5, 0.5).
     #[pyo3(signature = (points, width, height, *, convention="opengl"))]
@@ -240,10 +301,15 @@ impl PyCamera {
         convention: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let shift = if axes(convention)? == CameraAxes::OpenCv { 0.5 } else { 0.0 };
-        let projector = Projector::new(&self.camera, Viewport { width, height });
+        let image = Viewport { width, height };
+        let (projector, fisheye) = (Projector::new(&self.camera, image), self.as_fisheye());
+        let pixel_of = |point: DVec3| match &fisheye {
+            Some(fisheye) => fisheye.project(point, image),
+            None => projector.to_screen(point),
+        };
         let points = crate::arrays::points(points, "points")?;
         let pixels = points.iter().flat_map(|&point| {
-            let pixel = projector.to_screen(point).unwrap_or(DVec2::NAN);
+            let pixel = pixel_of(point).unwrap_or(DVec2::NAN);
             [pixel.x - shift, pixel.y - shift]
         });
         shaped(py, pixels.collect(), &[points.len(), 2])
@@ -267,6 +333,15 @@ impl PyCamera {
         let [p, f] = [position, self.camera.forward()];
         format!("Camera(position=({}, {}, {}), forward=({}, {}, {}))", p.x, p.y, p.z, f.x, f.y, f.z)
     }
+}
+
+/// A matrix K by rows.
+fn intrinsics(rows: &[[f64; 3]; 3]) -> PyResult<Intrinsics> {
+    let [[fx, skew, cx], [zero, fy, cy], last] = *rows;
+    if [skew, zero] != [0.0; 2] || last != [0.0, 0.0, 1.0] {
+        return Err(value_error("K is not [fx 0 cx, 0 fy cy, 0 0 1]; skew is not supported"));
+    }
+    Ok(Intrinsics { focal: DVec2::new(fx, fy), center: DVec2::new(cx, cy) })
 }
 
 fn pixel_centers(axes: CameraAxes) -> PixelCenters {

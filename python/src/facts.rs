@@ -56,7 +56,7 @@ impl PyScene {
     #[getter]
     fn cameras(&self) -> Vec<PyCamera> {
         let cameras = self.scene.cameras().into_iter();
-        cameras.map(|(_, camera)| PyCamera { camera, has_clip_planes: false }).collect()
+        cameras.map(|(_, camera)| camera.into()).collect()
     }
 
     /// The smallest box around everything visible, as a list of its lowest and highest corner; `None` if there is nothing.
@@ -69,8 +69,7 @@ impl PyScene {
     /// A camera that sees everything from the upper right in front; `aspect` is width over height.
     #[pyo3(signature = (aspect=4.0 / 3.0))]
     fn overview(&self, aspect: f64) -> PyResult<PyCamera> {
-        let camera = self.scene.overview(sound_aspect(aspect)?);
-        Ok(PyCamera { camera, has_clip_planes: false })
+        Ok(self.scene.overview(sound_aspect(aspect)?).into())
     }
 
     /// `count` cameras all around, evenly spread and the same for the same seed.
@@ -80,7 +79,7 @@ impl PyScene {
             return Err(value_error(format!("{count} cameras; the limit is {MOST_CAMERAS}")));
         }
         let cameras = self.scene.surround(trigon_scene::views::sphere(count, seed), sound_aspect(aspect)?);
-        Ok(cameras.map(|camera| PyCamera { camera, has_clip_planes: false }).collect())
+        Ok(cameras.map(PyCamera::from).collect())
     }
 
     /// What faults the scene has, as dicts: severity, fault, location, what, remedy.
@@ -110,8 +109,13 @@ impl PyScene {
         named: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let options = Options::new(width, height, named)?;
-        let camera = self.camera(camera.as_deref(), options.settings.aspect());
-        let plan = EffectPlan::new(&self.scene, &camera, &options.settings);
+        let plan = match camera.as_deref().and_then(PyCamera::as_fisheye) {
+            Some(fisheye) => EffectPlan::of_fisheye(&self.scene, &fisheye, &options.settings),
+            None => {
+                let camera = self.camera(camera.as_deref(), options.settings.aspect())?;
+                EffectPlan::new(&self.scene, &camera, &options.settings)
+            }
+        };
         let texts = PyDict::new(py);
         for (effect, decision) in plan.iter() {
             let effect: Effect = effect;

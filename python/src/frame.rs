@@ -19,7 +19,7 @@ use crate::errors::{load_error, value_error};
 /// |---|---|---|
 /// | color | (h, w, 4) uint8: sRGB, straight alpha | the background's colour |
 /// | radiance | (h, w, 4) float32: linear light, premultiplied | the background's light |
-/// | depth | (h, w) float32: distance along the view axis, in units of the scene | inf |
+/// | depth | (h, w) float32: distance along the view axis, through a fisheye lens from the eye; in units of the scene | inf |
 /// | object_ids, face_ids, material_ids, triangle_ids | (h, w) int32 | -1 |
 /// | barycentrics, positions, normals, geometric_normals, albedo | (h, w, 3) float32 | 0 |
 /// | uvs | (h, w, 2) float32 | 0 |

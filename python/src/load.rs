@@ -52,7 +52,8 @@ pub(crate) fn load_cameras(
     let file = file.map_err(load_error)?;
     warn(py, &file.warnings)?;
     let view = |view: CameraView| {
-        let camera = PyCamera { camera: view.camera, has_clip_planes: view.has_clip_planes };
+        let CameraView { camera, lens, has_clip_planes, .. } = view;
+        let camera = PyCamera { camera, lens, has_clip_planes };
         (view.name, camera, (view.image.width, view.image.height))
     };
     Ok(file.views.into_iter().map(view).collect())

@@ -6,7 +6,7 @@ use pyo3::types::{PyDict, PyIterator};
 use trigon_scene::Frame;
 
 use crate::camera::PyCamera;
-use crate::errors::{render_error, value_error};
+use crate::errors::value_error;
 use crate::frame::PyFrame;
 use crate::options::Options;
 use crate::scene::PyScene;
@@ -112,11 +112,7 @@ impl PyScene {
         let mut frame = Frame::default();
         for (index, view) in views.iter().enumerate() {
             py.check_signals()?;
-            let drawn = py.detach(|| {
-                let camera = self.camera(Some(&view.camera), options.settings.aspect());
-                self.draw_into(&camera, options, &mut frame)
-            });
-            drawn.map_err(render_error)?;
+            self.draw_through(py, Some(&view.camera), options, &mut frame)?;
             targets.put(index, &frame)?;
         }
         Ok(())

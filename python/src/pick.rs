@@ -87,7 +87,7 @@ impl PyScene {
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let mut options = question([width, height], named, "pick", &["outputs", "time_budget"])?;
         let at = pixel_within([x, y], [width, height])?;
-        let camera = self.camera(camera.as_deref(), options.settings.aspect());
+        let camera = self.camera(camera.as_deref(), options.settings.aspect())?;
         // Positions relative to the camera are exact far from the origin, too.
         options.settings.outputs = Outputs { origin: camera.position, ..described() };
         let (frame, pick) = py.detach(|| {
@@ -132,7 +132,7 @@ impl PyScene {
         options.settings.outputs = Outputs { ids: true, ..Outputs::NONE };
         let region = Region::Rectangle { min: DVec2::new(left, top), max: DVec2::new(right, bottom) };
         let reach = if through { Reach::Through } else { Reach::Visible };
-        let camera = self.camera(camera.as_deref(), options.settings.aspect());
+        let camera = self.camera(camera.as_deref(), options.settings.aspect())?;
         let elements = Elements::of(elements)?;
         let found = py.detach(|| {
             let frame = self.picture(&camera, &options)?;
@@ -172,7 +172,7 @@ impl PyScene {
     ) -> PyResult<Bound<'py, PyDict>> {
         let options = question([width, height], named, "explain_pixel", &["outputs", "time_budget"])?;
         let [x, y] = pixel_within([x, y], [width, height])?;
-        let camera = self.camera(camera.as_deref(), options.settings.aspect());
+        let camera = self.camera(camera.as_deref(), options.settings.aspect())?;
         let pixel = py.detach(|| {
             self.with_renderer(&options, |renderer| renderer.explain_pixel(&self.scene, &camera, x, y))
         });

@@ -10,11 +10,11 @@ use trigon_camera::Camera;
 use trigon_math::{Bounds3, DAffine3, DVec3, Vec3};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 use trigon_scene::quality::TimeBudget;
-use trigon_scene::{Frame, Light, Node, NodeId, RenderError, Renderer, Scene, Transform};
+use trigon_scene::{Frame, Light, Node, NodeId, Omission, RenderError, Renderer, Scene, Transform};
 
 use crate::arrays::{Channels, affine, colors, coordinates, faces, vectors, vertices};
 use crate::camera::PyCamera;
-use crate::errors::{render_error, value_error};
+use crate::errors::{render_error, value_error, warn};
 use crate::frame::PyFrame;
 use crate::material::PyMaterial;
 use crate::options::Options;
@@ -62,9 +62,15 @@ impl PyScene {
         id.ok_or_else(|| pyo3::exceptions::PyIndexError::new_err(format!("there is no node {node}")))
     }
 
-    /// The camera that was given, or one that sees everything.
-    pub(crate) fn camera(&self, camera: Option<&PyCamera>, aspect: f64) -> Camera {
-        camera.map_or_else(|| self.scene.overview(aspect), |camera| camera.placed(&self.visible_bounds()))
+    /// The camera that was given, or one that sees everything. Fisheye lenses only draw images.
+    pub(crate) fn camera(&self, camera: Option<&PyCamera>, aspect: f64) -> PyResult<Camera> {
+        match camera {
+            Some(camera) if camera.lens.is_some() => Err(value_error(
+                "this needs a camera without a fisheye lens; Scene.render draws ids through one",
+            )),
+            Some(camera) => Ok(camera.placed(&self.visible_bounds())),
+            None => Ok(self.scene.overview(aspect)),
+        }
     }
 
     /// Does something with a renderer of these settings.
@@ -104,19 +110,40 @@ impl PyScene {
         })
     }
 
-    /// A frame for Python, drawn while its other threads run.
+    /// As [`draw_into`](Self::draw_into), through any lens, while other threads of Python run. What a fisheye lens leaves
+    /// out is warned of.
+    pub(crate) fn draw_through(
+        &self,
+        py: Python<'_>,
+        camera: Option<&PyCamera>,
+        options: &Options,
+        frame: &mut Frame,
+    ) -> PyResult<()> {
+        let Some(fisheye) = camera.and_then(PyCamera::as_fisheye) else {
+            return py.detach(|| {
+                let camera = self.camera(camera, options.settings.aspect())?;
+                self.draw_into(&camera, options, frame).map_err(render_error)
+            });
+        };
+        if options.time_budget.is_some() {
+            return Err(value_error("time_budget is not for fisheye lenses; set quality or samples"));
+        }
+        warn(py, Omission::all(&self.scene, &options.settings))?;
+        let draw = || self.with_renderer(options, |renderer| renderer.render_fisheye(&self.scene, &fisheye));
+        *frame = py.detach(draw).map_err(render_error)?;
+        Ok(())
+    }
+
+    /// A frame for Python.
     pub(crate) fn frame(
         &self,
         py: Python<'_>,
         camera: Option<&PyCamera>,
         options: &Options,
     ) -> PyResult<PyFrame> {
-        let frame = py.detach(|| {
-            let camera = self.camera(camera, options.settings.aspect());
-            let mut frame = Frame::default();
-            self.draw_into(&camera, options, &mut frame).map(|()| frame)
-        });
-        PyFrame::new(py, frame.map_err(render_error)?)
+        let mut frame = Frame::default();
+        self.draw_through(py, camera, options, &mut frame)?;
+        PyFrame::new(py, frame)
     }
 
     /// A light at a place, shining along a direction.

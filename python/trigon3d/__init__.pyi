@@ -64,6 +64,17 @@ class Camera:
         far: float | None = None,
     ) -> Camera: ...
     @staticmethod
+    def fisheye(
+        K: Sequence[Sequence[float]] | NDArray[Any],
+        width: int,
+        height: int,
+        pose: ArrayLike | None = None,
+        *,
+        convention: Convention = "opencv",
+        distortion: Sequence[float] | NDArray[Any] | None = None,
+        fov: float | None = None,
+    ) -> Camera: ...
+    @staticmethod
     def look_at(
         position: Numbers,
         target: Numbers,

@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use trigon_camera::Camera;
-use trigon_scene::{Absence, Decision, Effect, Frame, RenderSettings, Renderer};
+use trigon_camera::{Camera, FisheyeCamera, FisheyeLens};
+use trigon_scene::{Absence, Decision, Effect, Frame, Omission, RenderSettings, Renderer};
 
 use crate::args::{Limit, Request};
 use crate::axes;
@@ -48,25 +48,41 @@ pub(crate) fn finished(
     Ok(frame)
 }
 
-/// Draws an image with the renderer's settings.
+/// Draws an image with the renderer's settings; through a lens in place of the camera's projection, if there is one.
 pub(crate) fn draw(
     model: &Model,
     shot: &Shot,
+    lens: Option<&FisheyeLens>,
     renderer: &mut Renderer,
     request: &Request,
     reporter: Reporter,
 ) -> Result<Drawn, Failure> {
     let (started, camera) = (Instant::now(), &shot.camera);
     renderer.settings_mut().outputs.origin = shot.positions_origin();
-    let frame = match &request.limit {
-        None => renderer.render(&model.scene, camera).map_err(Failure::work)?,
-        Some(limit) => draw_within(limit, model, camera, renderer, reporter)?,
+    let frame = match (&request.limit, lens) {
+        (None, None) => renderer.render(&model.scene, camera).map_err(Failure::work)?,
+        (None, Some(lens)) => {
+            renderer.render_fisheye(&model.scene, &FisheyeCamera::at(camera, *lens)).map_err(Failure::work)?
+        }
+        (Some(_), Some(_)) => {
+            return Err(Failure::Usage(
+                "a fisheye lens has no time budget; leave out --time-budget, and set --preset".to_owned(),
+            ));
+        }
+        (Some(limit), None) => draw_within(limit, model, camera, renderer, reporter)?,
     };
     let seconds = started.elapsed().as_secs_f64();
     let (title, faces) = (model.source.title(), model.face_count());
     reporter.debug(format_args!("drew {title} ({faces} faces) in {:.1} ms", seconds * 1e3));
     let pixels_shaded = renderer.stats().pixels_shaded;
     Ok(Drawn { frame, settings: renderer.settings().clone(), seconds, pixels_shaded })
+}
+
+/// What a fisheye lens leaves out.
+pub(crate) fn warn_of_omissions(model: &Model, settings: &RenderSettings, reporter: Reporter) {
+    for omission in Omission::all(&model.scene, settings) {
+        reporter.warning(format_args!("{}: {omission}", model.source.title()));
+    }
 }
 
 /// Glass that is drawn as if it were opaque looks like china.

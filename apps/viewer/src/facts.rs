@@ -4,7 +4,7 @@
 //! Nodes are written one by one as they are visited, so that a scene of a million nodes needs no copy.
 
 use serde::{Serialize, Serializer};
-use trigon_camera::{Camera, PixelCenters, Projection, Viewport};
+use trigon_camera::{Camera, FisheyeLens, PixelCenters, Projection, Viewport};
 use trigon_math::{DAffine3, DMat4};
 use trigon_scene::{AlphaMode, LightReading, Material, MaterialId, Node, NodeId, Scene};
 
@@ -183,14 +183,23 @@ pub(crate) struct CameraFacts {
     /// By rows; Y down, Z forward, the centre of the first pixel at (0.5, 0.5). `null` for a parallel view.
     #[serde(rename = "K")]
     intrinsics: Option<[[f64; 3]; 3]>,
+    /// The coefficients of a fisheye lens, and the full angle that it shows, in radians.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fisheye: Option<[f64; 4]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fov_radians: Option<f64>,
 }
 
 impl CameraFacts {
-    pub(crate) fn new(camera: &Camera, image: Viewport) -> Self {
+    pub(crate) fn new(camera: &Camera, lens: Option<&FisheyeLens>, image: Viewport) -> Self {
         let projection = camera.projection;
-        let intrinsics = projection.intrinsics(image, PixelCenters::AtHalves);
+        let intrinsics = match lens {
+            Some(lens) => Some(lens.intrinsics(image, PixelCenters::AtHalves)),
+            None => projection.intrinsics(image, PixelCenters::AtHalves),
+        };
         let (mut vertical_fov, mut view_height, mut frustum) = (None, None, None);
         let projection_name = match projection {
+            _ if lens.is_some() => "fisheye",
             Projection::Perspective { vertical_fov: angle, .. } => {
                 vertical_fov = Some(angle);
                 "perspective"
@@ -217,6 +226,8 @@ impl CameraFacts {
             far: projection.far(),
             intrinsics: intrinsics
                 .map(|k| [[k.focal.x, 0.0, k.center.x], [0.0, k.focal.y, k.center.y], [0.0, 0.0, 1.0]]),
+            fisheye: lens.map(FisheyeLens::distortion),
+            fov_radians: lens.map(|lens| 2.0 * lens.greatest_angle()),
         }
     }
 }

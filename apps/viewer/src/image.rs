@@ -79,7 +79,7 @@ fn draw_single(
     let shot = model.shot_with_scenery(request)?;
     let camera = shot.camera;
     let mut renderer = Renderer::new(request.settings.clone());
-    let drawn = draw(model, &shot, &mut renderer, request, reporter)?;
+    let drawn = draw(model, &shot, None, &mut renderer, request, reporter)?;
     let title = model.source.title();
     if drawn.pixels_shaded == 0 {
         reporter.warning(format_args!("{title}: {NOT_IN_VIEW}"));
@@ -91,7 +91,7 @@ fn draw_single(
     }
     let frame = finished(drawn.frame, model, &camera, request)?;
     Ok(DrawingFacts {
-        camera: CameraFacts::new(&camera, viewport(&request.settings)),
+        camera: CameraFacts::new(&camera, None, viewport(&request.settings)),
         positions_origin: frame.positions.as_ref().map(|_| frame.origin.to_array()),
         draw_seconds: drawn.seconds,
         pixels_shaded: drawn.pixels_shaded,

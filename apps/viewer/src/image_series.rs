@@ -6,7 +6,7 @@ use trigon_io::Sequence;
 use trigon_scene::{Frame, Renderer};
 
 use crate::args::{Destination, Mode, Request, Subject};
-use crate::drawing::{draw, finished, warn_of_opaque_glass};
+use crate::drawing::{draw, finished, warn_of_omissions, warn_of_opaque_glass};
 use crate::facts::{CameraFacts, ViewFacts, names};
 use crate::failure::Failure;
 use crate::framing::Shot;
@@ -26,8 +26,15 @@ pub(crate) fn draw_series(
     let series = Series::new(model, request, reporter)?;
     request.scenery.add_to(&mut model.scene);
     let renderer = Renderer::new(request.settings.clone());
-    let mut drawing =
-        SeriesDrawing { series: &series, model, request, renderer, reporter, views: Vec::new() };
+    let mut drawing = SeriesDrawing {
+        series: &series,
+        model,
+        request,
+        renderer,
+        reporter,
+        has_lens: false,
+        views: Vec::new(),
+    };
     let is_moving = matches!(
         &request.mode,
         Mode::Image { output: Some(Destination::File(template)), .. } if template.is_moving()
@@ -49,6 +56,8 @@ struct SeriesDrawing<'a> {
     request: &'a Request,
     renderer: Renderer,
     reporter: Reporter,
+    /// Whether any view has a fisheye lens.
+    has_lens: bool,
     /// Of the views that were drawn.
     views: Vec<ViewFacts>,
 }
@@ -83,7 +92,7 @@ impl SeriesDrawing<'_> {
 
     /// Draws a view, and adds it to the list of views.
     fn draw(&mut self, number: u32) -> Result<Frame, Failure> {
-        let SeriesView { shot, image, has_clip_planes } =
+        let SeriesView { shot, lens, image, has_clip_planes } =
             self.series.set(&mut self.model.scene, number, self.request);
         let camera = match has_clip_planes {
             true => shot.camera,
@@ -93,13 +102,14 @@ impl SeriesDrawing<'_> {
         self.views.push(ViewFacts::new(
             number,
             self.series.name(number),
-            CameraFacts::new(&camera, image),
+            CameraFacts::new(&camera, lens.as_ref(), image),
             image,
         ));
         let shot = Shot { camera, ..shot };
         let settings = self.renderer.settings_mut();
         (settings.width, settings.height) = (image.width, image.height);
-        let drawn = draw(self.model, &shot, &mut self.renderer, self.request, self.reporter)?;
+        self.has_lens |= lens.is_some();
+        let drawn = draw(self.model, &shot, lens.as_ref(), &mut self.renderer, self.request, self.reporter)?;
         let view = self.views.last_mut().expect("just added");
         (view.draw_seconds, view.pixels_shaded) = (drawn.seconds, drawn.pixels_shaded);
         view.positions_origin = drawn.frame.positions.as_ref().map(|_| drawn.frame.origin.to_array());
@@ -117,6 +127,9 @@ impl SeriesDrawing<'_> {
                 empty.len(),
                 self.views.len()
             ));
+        }
+        if self.has_lens {
+            warn_of_omissions(self.model, self.renderer.settings(), self.reporter);
         }
         warn_of_opaque_glass(&self.renderer, &title, self.reporter);
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use trigon_camera::{Camera, Viewport};
+use trigon_camera::{Camera, FisheyeLens, Viewport};
 use trigon_io::{CameraView, Limits, load_cameras};
 use trigon_scene::Scene;
 
@@ -36,6 +36,8 @@ pub(crate) struct SeriesCamera {
 #[derive(Clone, Copy)]
 pub(crate) struct SeriesView {
     pub(crate) shot: Shot,
+    /// In place of the camera's projection.
+    pub(crate) lens: Option<FisheyeLens>,
     pub(crate) image: Viewport,
     /// Whether the clip planes are given. If not, they may have to be wider for what is shown beside the model.
     pub(crate) has_clip_planes: bool,
@@ -126,7 +128,7 @@ impl Series {
                 playing.shot
             }
         };
-        SeriesView { shot, image: size(request), has_clip_planes: false }
+        SeriesView { shot, lens: None, image: size(request), has_clip_planes: false }
     }
 }
 
@@ -153,13 +155,14 @@ fn cameras(
     }
     let has_size = request.line.is_given("resolution", model.source.first_file());
     let bounds = model.scene.tight_bounds();
-    let placed =
-        read.views.into_iter().map(|CameraView { name, camera, image, has_own_size, has_clip_planes }| {
+    let placed = read.views.into_iter().map(
+        |CameraView { name, camera, lens, image, has_own_size, has_clip_planes }| {
             let camera = if has_clip_planes { camera } else { camera.with_clip_planes(&bounds) };
             let image = if has_own_size && !has_size { image } else { size(request) };
             let shot = Shot { camera, distance: distance(&camera, model) };
-            SeriesCamera { name, view: SeriesView { shot, image, has_clip_planes } }
-        });
+            SeriesCamera { name, view: SeriesView { shot, lens, image, has_clip_planes } }
+        },
+    );
     Ok(placed.collect())
 }
 

@@ -20,7 +20,7 @@ pub enum PixelCenters {
 
 impl PixelCenters {
     /// The offset to coordinates with centres at +0.5.
-    fn to_halves(self) -> f64 {
+    pub(crate) fn to_halves(self) -> f64 {
         match self {
             Self::AtIntegers => 0.5,
             Self::AtHalves => 0.0,

@@ -107,6 +107,7 @@ pub mod paint2d;
 mod pass;
 mod pipeline;
 mod point;
+mod point_shader;
 mod pool;
 mod primitive;
 mod rasterizer;
@@ -133,12 +134,13 @@ pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
 };
 pub use fragment::{EdgeFlags, Fragment, MAX_VARYINGS, Varyings};
-pub use fragments::FragmentLanes;
+pub use fragments::{FragmentLanes, PointScratch, SurfacePoint};
 pub use frame::{DrawChange, Redraw};
 pub use ink::FaceEdges;
 pub use paint2d::Rect;
 pub use pass::{Background, Pass};
 pub use pipeline::{LanePipeline, Pipeline, VertexOutput};
+pub use point_shader::{PointShader, ShadedDraw};
 pub use rasterizer::{DepthTest, ExecuteSettings, Rasterizer, Threads, TileSize};
 pub use stats::{StageTimes, Stats};
 pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Target, TargetError, TargetImages};

@@ -3,6 +3,7 @@
 //! [`ExecuteSettings`] say how a pass is executed. No setting changes a byte of the result.
 
 use crate::frame::{Arena, DrawChange, FrameOptions, Redraw, draw, prepare, redraw};
+use crate::point_shader::PointShader;
 use crate::pool::Workers;
 use crate::simd::{SimdLevel, SimdLevelError, Token};
 use crate::view::FrameView;
@@ -167,6 +168,53 @@ impl Rasterizer {
         let Self { execution, arena } = self;
         let options = execution.options(pass, target);
         options.workers.install(|| redraw(arena, pass, target, changes, options))
+    }
+
+    /// Runs the vertices of a pass, to shade its triangles wherever something other than this rasterizer finds them, such
+    /// as rays. `samples_per_axis` says how much finer the grid is on which samples are numbered.
+    ///
+    /// ```
+    /// # use trigon_raster::{*, math::Vec4, simd::*};
+    /// # use trigon_raster::simd::prelude::*;
+    /// /// A triangle with a brightness at each corner.
+    /// struct Triangle;
+    ///
+    /// impl LanePipeline for Triangle {
+    ///     const VARYINGS: usize = 1;
+    ///
+    ///     fn vertex_count(&self) -> usize {
+    ///         3
+    ///     }
+    ///
+    ///     fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
+    ///         let brightness = vertices.load(simd, &[0.0, 1.0, 4.0]);
+    ///         vertices.set(0, brightness);
+    ///         [F32::splat(simd, 1.0); 4]
+    ///     }
+    ///
+    ///     fn fragments<S: Simd>(&self, _: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+    ///         [fragments.varying(0); 4]
+    ///     }
+    /// }
+    ///
+    /// let mut pass = Pass::new();
+    /// pass.triangles(Draw::new(&Triangle, &[[0, 1, 2]]));
+    /// let rasterizer = Rasterizer::default();
+    /// let shader = rasterizer.point_shader(&pass, 1);
+    /// let point = SurfacePoint {
+    ///     triangle: 0,
+    ///     front_facing: true,
+    ///     weights: [0.5, 0.25, 0.25],
+    ///     slopes: [[0.0; 2]; 2],
+    ///     sample: [0, 0],
+    /// };
+    /// let mut color = [[0.0; 4]];
+    /// shader.shade(0, &[point], &mut PointScratch::default(), &mut color);
+    /// assert_eq!(color, [[1.25; 4]]);
+    /// ```
+    #[must_use]
+    pub fn point_shader<'p>(&self, pass: &'p Pass<'p>, samples_per_axis: u32) -> PointShader<'p> {
+        PointShader::new(pass, self.execution.token, &self.execution.workers, samples_per_axis)
     }
 
     /// Processes items of any kind on the rasterizer's threads; each item goes to the first

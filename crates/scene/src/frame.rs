@@ -23,7 +23,8 @@ pub struct Frame {
     /// Linear RGB, premultiplied with alpha, which is the fourth number: 1 is the display's white,
     /// and light may be brighter. Before exposure and tone mapping, on the background.
     pub radiance: Option<Vec<Vec4>>,
-    /// Distance from the camera along its view axis in metres, infinite where nothing was drawn.
+    /// Distance from the camera along its view axis in metres, infinite where nothing was drawn; through a fisheye lens,
+    /// which sees beyond 90°, the distance from the eye itself.
     /// Taken at the sample in the middle of the pixel, or with an even number of samples per axis
     /// at the one to the right and below of the middle.
     pub depth: Option<Vec<f32>>,

@@ -89,8 +89,8 @@ pub use material::{
 pub use mesh_asset::{MeshAsset, MeshId};
 pub use node::{Node, NodeId, Skin, SkinId};
 pub use pick::{CachedPoints, Nearest, Pick, Picker, Reach, Region, Snap, SnapElement};
-pub use plan::{Absence, Cause, Decision, EffectPlan, Invisible, Named};
-pub use render::{RenderError, Renderer, RendererBuilder, render};
+pub use plan::{Absence, Cause, Decision, EffectPlan, Invisible, Named, Omission};
+pub use render::{RenderError, Renderer, RendererBuilder, render, render_fisheye};
 pub use scene::{NodePose, Pose, Scene, SceneError, SceneParts, SkinPose};
 pub use settings::{
     Background, Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style,

@@ -72,8 +72,8 @@ pub(crate) struct Eye {
     /// Only the rotation: the eye is subtracted before it is applied.
     turn: DMat3,
     projection: DMat4,
-    /// What the camera sees, in camera space.
-    frustum: Frustum,
+    /// What the camera sees, in camera space; `None` if that is no frustum, and anything may be in view.
+    frustum: Option<Frustum>,
 }
 
 impl Eye {
@@ -81,7 +81,12 @@ impl Eye {
         let turn = DMat3::from_quat(camera.orientation.conjugate());
         let projection = camera.projection.matrix(aspect);
         let frustum = Frustum::from_clip_matrix(&projection);
-        Self { position: camera.position, turn, projection, frustum }
+        Self { position: camera.position, turn, projection, frustum: Some(frustum) }
+    }
+
+    /// The eye of a lens that sees all around.
+    pub(crate) fn all_around(camera: &Camera) -> Self {
+        Self { frustum: None, ..Self::new(camera, 1.0) }
     }
 
     /// From camera space to clip space.
@@ -92,7 +97,8 @@ impl Eye {
     /// Whether a box at a placement in the world may be in view; `false` is a proof that nothing in
     /// it is.
     pub(crate) fn may_see(&self, bounds: &Bounds3, world: &DAffine3) -> bool {
-        self.frustum.intersects(&bounds.transformed(&self.to_camera(world)))
+        let intersects = |frustum: &Frustum| frustum.intersects(&bounds.transformed(&self.to_camera(world)));
+        self.frustum.as_ref().is_none_or(intersects)
     }
 
     /// A world transform in camera space. Large translations cancel before anything is rounded to

@@ -2,6 +2,7 @@
 
 use std::num::NonZeroUsize;
 
+use trigon_camera::Viewport;
 use trigon_math::{DVec3, Vec3, Vec4};
 use trigon_raster::FaceEdges;
 use trigon_raster::simd::SimdLevel;
@@ -287,6 +288,11 @@ impl RenderSettings {
     /// Which lights, whatever is displayed.
     pub(crate) fn lighting(&self) -> Lighting {
         if self.display == Display::Matcap { Lighting::Studio } else { self.lighting }
+    }
+
+    /// The image as cameras know it.
+    pub(crate) fn viewport(&self) -> Viewport {
+        Viewport { width: self.width, height: self.height }
     }
 
     /// Width over height.

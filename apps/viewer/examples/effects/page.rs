@@ -37,6 +37,12 @@ byte of any output (test `leaving_out_what_nobody_sees_changes_no_byte`):
 
 A normal map of scale 0 is flat by definition: the surface shows its own normals.
 
+## Through a fisheye lens
+
+Rays find the surfaces, and all effects of light are the same: the samples of such an image run the pipelines of any other. Edges of
+faces, wireframes, lines, points and marks have a width on the plane of an image, and are left out; the plan lists edges as off, and
+`Omission::all` (in Python a `TrigonWarning`) names the rest.
+
 ## How shadow maps keep off their own surface
 
 A shadow map holds the depth at the centre of each texel. A point on the same plane can lie up to √2 texels away from

@@ -162,3 +162,34 @@ fn what_is_wrong_with_cameras_is_said() {
     let said = folder.said("corner.obj --cameras=away.json --output o{frame}.png --resolution 9,9", 0);
     assert!(said.contains("not in view in 1 of 1") && said.contains("convention"), "{said}");
 }
+
+/// A lens of 200°, twice: as COLMAP writes it, and as `--json` gives it back.
+#[test]
+fn fisheye_cameras_are_drawn_and_given_back() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("sparse")).expect("a folder");
+    folder.write("sparse/cameras.txt", "1 OPENCV_FISHEYE 60 40 16 16 30 20 0.01 -0.002 0 0\n");
+    folder.write("sparse/images.txt", "1 0 1 0 0 -0.5 0.5 2 1 first.jpg\n\n");
+    let outputs = "--outputs=depth,object-ids";
+    let first = facts(&folder, &format!("corner.obj --cameras=sparse --output f_{{frame}}.png {outputs}"), 0);
+    let camera = &first["views"][0]["camera"];
+    assert_eq!(camera["fisheye"], json!([0.01, -0.002, 0.0, 0.0]), "{camera}");
+    folder.write("again.json", &first.to_string());
+    let again =
+        facts(&folder, &format!("corner.obj --cameras=again.json --output g_{{frame}}.png {outputs}"), 0);
+    assert_eq!(again["views"][0]["camera"], *camera, "the camera");
+    for ending in ["png", "depth.npy", "object-ids.npy"] {
+        let [one, two] =
+            ["f", "g"].map(|name| fs::read(folder.path(&format!("{name}_0.{ending}"))).expect("written"));
+        assert!(one == two, "{ending}");
+    }
+    let depth = fs::read(folder.path("f_0.depth.npy")).expect("written");
+    let at = depth.len() - 4 * 60 * 40 + 4 * (20 * 60 + 30);
+    let middle = f32::from_le_bytes(depth[at..at + 4].try_into().expect("four bytes"));
+    // Half a pixel beside the axis.
+    assert!((middle - 2.0).abs() < 0.01, "the wall at z = 0 is 2 m ahead, not {middle}");
+    let said = folder.said("corner.obj --cameras=sparse --output t.png --time-budget=100ms", 2);
+    assert!(said.contains("fisheye"), "{said}");
+    let said = folder.said("corner.obj --cameras=sparse --output e.png --edges", 0);
+    assert!(said.contains("edges of faces are not drawn"), "{said}");
+}

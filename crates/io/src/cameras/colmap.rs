@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use trigon_camera::{Camera, CameraAxes, PixelCenters, Projection, Viewport};
+use trigon_camera::{Camera, CameraAxes, FisheyeLens, PixelCenters, Projection, Viewport};
 use trigon_math::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 
 use super::entry::pixels;
@@ -16,6 +16,7 @@ use crate::error::{LoadError, LoadErrorKind, Location};
 #[derive(Clone, Copy)]
 struct ColmapLens {
     projection: Projection,
+    fisheye: Option<FisheyeLens>,
     image: Viewport,
 }
 
@@ -83,7 +84,14 @@ fn lens(line: &str) -> Result<(u64, ColmapLens, bool), String> {
         "RADIAL" => (1, 2),
         "OPENCV" => (2, 4),
         "FULL_OPENCV" => (2, 8),
-        other => return Err(format!("the lens \"{other}\" is not supported: only pinhole cameras are")),
+        "SIMPLE_RADIAL_FISHEYE" => (1, 1),
+        "RADIAL_FISHEYE" => (1, 2),
+        "OPENCV_FISHEYE" => (2, 4),
+        other => {
+            return Err(format!(
+                "the lens \"{other}\" is not supported: pinhole cameras are, and the fisheye lenses OPENCV_FISHEYE, RADIAL_FISHEYE and SIMPLE_RADIAL_FISHEYE"
+            ));
+        }
     };
     if parameters.len() != focal_count + 2 + distortion_count {
         return Err(format!(
@@ -96,9 +104,18 @@ fn lens(line: &str) -> Result<(u64, ColmapLens, bool), String> {
     let (center, distortion) = rest.split_at(2);
     let focal = DVec2::new(focal[0], focal[focal_count - 1]);
     let center = DVec2::new(center[0], center[1]);
+    if model.ends_with("FISHEYE") {
+        // The models with fewer parameters are OPENCV_FISHEYE without its higher terms.
+        let mut terms = [0.0; 4];
+        terms[..distortion_count].copy_from_slice(distortion);
+        let lens = FisheyeLens::new(focal, center, image, PixelCenters::AtHalves, terms);
+        let fisheye = Some(lens.map_err(|error| error.to_string())?);
+        return Ok((id, ColmapLens { projection: Projection::default(), fisheye, image }, false));
+    }
     let projection = Projection::pinhole(focal, center, image, PixelCenters::AtHalves, UNPLACED_NEAR);
     let projection = projection.map_err(|error| error.to_string())?;
-    Ok((id, ColmapLens { projection, image }, distortion.iter().any(|parameter| *parameter != 0.0)))
+    let is_distorted = distortion.iter().any(|parameter| *parameter != 0.0);
+    Ok((id, ColmapLens { projection, fisheye: None, image }, is_distorted))
 }
 
 /// A line `IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME`.
@@ -122,6 +139,7 @@ fn view(line: &str, lenses: &HashMap<u64, ColmapLens>) -> Result<CameraView, Str
     Ok(CameraView {
         name: words[9..].join(" "),
         camera: camera.map_err(|error| error.to_string())?,
+        lens: lens.fisheye,
         image: lens.image,
         has_own_size: true,
         has_clip_planes: false,

@@ -1,7 +1,9 @@
 //! Trigon's own camera files, and what `--json` of the viewer writes.
 
 use serde_json::Value;
-use trigon_camera::{Camera, CameraAxes, CameraError, PixelCenters, Projection, Viewport};
+use trigon_camera::{
+    Camera, CameraAxes, CameraError, FisheyeLens, Intrinsics, PixelCenters, Projection, Viewport,
+};
 use trigon_math::{DQuat, DVec2, DVec3};
 
 use super::pose::{affine, unit};
@@ -9,7 +11,7 @@ use super::{CameraDraft, CameraView, UNPLACED_NEAR};
 use crate::error::Location;
 
 /// The members of a camera; others are told of.
-const MEMBERS: [&str; 17] = [
+const MEMBERS: [&str; 20] = [
     "name",
     "width",
     "height",
@@ -20,6 +22,9 @@ const MEMBERS: [&str; 17] = [
     "position",
     "rotation",
     "K",
+    "fisheye",
+    "fov",
+    "fov_radians",
     "vertical_fov",
     "vertical_fov_radians",
     "view_height",
@@ -122,14 +127,18 @@ impl Entry<'_> {
             false => CameraAxes::OpenGl,
         };
         let (near, far) = (self.number("near")?, self.number("far")?);
-        let projection = self.projection(image, axes)?;
+        let lens = self.fisheye(image, axes)?;
+        let projection = match lens {
+            Some(_) => Projection::default(),
+            None => self.projection(image, axes)?,
+        };
         let projection = match near {
             None => projection,
             Some(near) => projection.with_planes(near, far).map_err(|error| error.to_string())?,
         };
         let camera = self.camera(axes, projection)?;
         let name = self.outer.get("name").and_then(Value::as_str).unwrap_or_default().to_owned();
-        Ok(CameraView { name, camera, image, has_own_size, has_clip_planes: near.is_some() })
+        Ok(CameraView { name, camera, lens, image, has_own_size, has_clip_planes: near.is_some() })
     }
 
     fn camera(&self, axes: CameraAxes, projection: Projection) -> Result<Camera, String> {
@@ -187,22 +196,46 @@ impl Entry<'_> {
         image: Viewport,
         axes: CameraAxes,
     ) -> Result<Result<Projection, CameraError>, String> {
-        let rows: Option<Vec<Vec<f64>>> = matrix.as_array().and_then(|rows| {
-            rows.iter().map(|row| row.as_array()?.iter().map(Value::as_f64).collect()).collect()
-        });
-        let rows = rows.unwrap_or_default();
-        let [[fx, skew, cx], [zero, fy, cy], last] =
-            square(&rows).ok_or("its `K` is not a matrix of 3 by 3 numbers")?;
-        if [skew, zero] != [0.0; 2] || last != [0.0, 0.0, 1.0] {
-            return Err("its `K` is not [fx 0 cx, 0 fy cy, 0 0 1]; skew is not supported".to_owned());
-        }
+        let Intrinsics { focal, center } = intrinsics(matrix)?;
+        Ok(Projection::pinhole(focal, center, image, self.pixel_centers(axes)?, UNPLACED_NEAR))
+    }
+
+    /// The lens of a `K` with `fisheye`, the coefficients of its distortion.
+    fn fisheye(&self, image: Viewport, axes: CameraAxes) -> Result<Option<FisheyeLens>, String> {
+        let lens = self.nearest(&LENSES);
+        let Some(distortion) = lens.numbers("fisheye")? else { return Ok(None) };
+        let matrix = lens.member("K").ok_or("its `fisheye` needs `K`")?;
+        let Intrinsics { focal, center } = intrinsics(matrix)?;
+        let found = FisheyeLens::new(focal, center, image, self.pixel_centers(axes)?, distortion);
+        let found = match (lens.number("fov_radians")?, lens.number("fov")?) {
+            (None, None) => found,
+            (Some(fov), _) => found.and_then(|found| found.with_fov(fov)),
+            (None, Some(fov)) => found.and_then(|found| found.with_fov(fov.to_radians())),
+        };
+        found.map(Some).map_err(|error| error.to_string())
+    }
+
+    fn pixel_centers(&self, axes: CameraAxes) -> Result<PixelCenters, String> {
         let is_at_integers = match axes {
             CameraAxes::OpenGl => self.word("pixel_centers", ["halves", "integers"])?,
             CameraAxes::OpenCv => !self.word("pixel_centers", ["integers", "halves"])?,
         };
-        let centers = if is_at_integers { PixelCenters::AtIntegers } else { PixelCenters::AtHalves };
-        Ok(Projection::pinhole(DVec2::new(fx, fy), DVec2::new(cx, cy), image, centers, UNPLACED_NEAR))
+        Ok(if is_at_integers { PixelCenters::AtIntegers } else { PixelCenters::AtHalves })
     }
+}
+
+/// A matrix K by rows.
+fn intrinsics(matrix: &Value) -> Result<Intrinsics, String> {
+    let rows: Option<Vec<Vec<f64>>> = matrix.as_array().and_then(|rows| {
+        rows.iter().map(|row| row.as_array()?.iter().map(Value::as_f64).collect()).collect()
+    });
+    let rows = rows.unwrap_or_default();
+    let [[fx, skew, cx], [zero, fy, cy], last] =
+        square(&rows).ok_or("its `K` is not a matrix of 3 by 3 numbers")?;
+    if [skew, zero] != [0.0; 2] || last != [0.0, 0.0, 1.0] {
+        return Err("its `K` is not [fx 0 cx, 0 fy cy, 0 0 1]; skew is not supported".to_owned());
+    }
+    Ok(Intrinsics { focal: DVec2::new(fx, fy), center: DVec2::new(cx, cy) })
 }
 
 fn square(rows: &[Vec<f64>]) -> Option<[[f64; 3]; 3]> {

@@ -11,7 +11,7 @@ mod tests;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
-use trigon_camera::{Camera, Viewport};
+use trigon_camera::{Camera, FisheyeCamera, FisheyeLens, Viewport};
 
 use crate::error::{LoadError, LoadErrorKind, Location};
 use crate::folder::{Folder, to_the_end};
@@ -30,8 +30,10 @@ const UNPLACED_NEAR: f64 = 1.0;
 pub struct CameraView {
     /// The name in the file, usually that of the photograph; empty if there is none.
     pub name: String,
-    /// The camera.
+    /// The camera. If there is a `lens`, only its pose means something.
     pub camera: Camera,
+    /// A fisheye lens, in place of the camera's projection: see [`CameraView::fisheye`].
+    pub lens: Option<FisheyeLens>,
     /// The size of the image: the file's, or the one that [`load_cameras`] was given.
     pub image: Viewport,
     /// Whether the size is the file's.
@@ -39,6 +41,14 @@ pub struct CameraView {
     /// Whether the clip planes are the file's. If not, they mean nothing: place them by
     /// [`Camera::with_clip_planes`].
     pub has_clip_planes: bool,
+}
+
+impl CameraView {
+    /// The fisheye camera that it is, if it has such a lens.
+    #[must_use]
+    pub fn fisheye(&self) -> Option<FisheyeCamera> {
+        Some(FisheyeCamera::at(&self.camera, self.lens?))
+    }
 }
 
 /// What is in a camera file.
@@ -58,7 +68,7 @@ pub struct CameraFile {
 ///
 /// # Errors
 /// The file cannot be read, is none of the three formats, has no view or more than a million, or has a view that
-/// is no camera: a pose that is no rotation, a focal length that is not positive, a fisheye lens.
+/// is no camera: a pose that is no rotation, a focal length that is not positive, a lens of an unknown model.
 pub fn load_cameras(
     path: impl AsRef<Path>,
     image: Viewport,

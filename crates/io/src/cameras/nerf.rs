@@ -2,7 +2,7 @@
 //! convention, and one lens for all frames or one for each.
 
 use serde_json::Value;
-use trigon_camera::{Camera, CameraAxes, PixelCenters, Projection, Viewport};
+use trigon_camera::{Camera, CameraAxes, FisheyeLens, PixelCenters, Projection, Viewport};
 use trigon_math::{DVec2, elementary};
 
 use super::entry::pixels;
@@ -19,7 +19,7 @@ pub(super) fn read(
     for (index, frame) in frames.iter().enumerate() {
         let lens = Lens { frame, file };
         let view = lens.view(draft.image).map_err(|what| (index, what))?;
-        if lens.is_distorted() {
+        if view.lens.is_none() && lens.is_distorted() {
             draft.warnings.push(
                 Location::Item("frame", index),
                 "lens distortion (k1, k2, p1, p2 …) is not drawn",
@@ -54,9 +54,15 @@ impl Lens<'_> {
 
     fn view(&self, usual: Viewport) -> Result<CameraView, String> {
         let model = self.frame.get("camera_model").or_else(|| self.file.get("camera_model"));
-        if let Some(model) = model.and_then(Value::as_str).filter(|model| !is_pinhole(model)) {
-            return Err(format!("the lens \"{model}\" is not supported: only pinhole cameras are"));
-        }
+        let is_fisheye = match model.and_then(Value::as_str) {
+            Some("OPENCV_FISHEYE") => true,
+            Some(model) if !is_pinhole(model) => {
+                return Err(format!(
+                    "the lens \"{model}\" is not supported: pinhole cameras and OPENCV_FISHEYE are"
+                ));
+            }
+            _ => false,
+        };
         let matrix = self.frame.get("transform_matrix").ok_or("it has no `transform_matrix`")?;
         let pose = affine(matrix)?;
         let size = (pixels("w", self.number("w")?)?, pixels("h", self.number("h")?)?);
@@ -64,11 +70,12 @@ impl Lens<'_> {
             (Some(width), Some(height)) => (Viewport { width, height }, true),
             _ => (usual, false),
         };
-        let projection = self.projection(image)?;
+        let lens = if is_fisheye { Some(self.fisheye(image)?) } else { None };
+        let projection = if is_fisheye { Projection::default() } else { self.projection(image)? };
         let name = self.frame.get("file_path").and_then(Value::as_str).unwrap_or_default().to_owned();
         let camera = Camera::from_pose(&pose, CameraAxes::OpenGl, projection);
         let camera = camera.map_err(|error| error.to_string())?;
-        Ok(CameraView { name, camera, image, has_own_size, has_clip_planes: false })
+        Ok(CameraView { name, camera, lens, image, has_own_size, has_clip_planes: false })
     }
 
     fn projection(&self, image: Viewport) -> Result<Projection, String> {
@@ -83,9 +90,28 @@ impl Lens<'_> {
             (Some(one), None) | (None, Some(one)) => DVec2::splat(one),
             (None, None) => return Err("it needs `fl_x` or `camera_angle_x`".to_owned()),
         };
+        Projection::pinhole(focal, self.center(image)?, image, PixelCenters::AtHalves, UNPLACED_NEAR)
+            .map_err(|error| error.to_string())
+    }
+
+    fn center(&self, image: Viewport) -> Result<DVec2, String> {
+        let middle = image.size() * 0.5;
         let center = |name, middle| self.number(name).map(|center| center.unwrap_or(middle));
-        let center = DVec2::new(center("cx", size.x * 0.5)?, center("cy", size.y * 0.5)?);
-        Projection::pinhole(focal, center, image, PixelCenters::AtHalves, UNPLACED_NEAR)
+        Ok(DVec2::new(center("cx", middle.x)?, center("cy", middle.y)?))
+    }
+
+    /// An angle says nothing of its focal lengths, because it does not tell where the lens ends.
+    fn fisheye(&self, image: Viewport) -> Result<FisheyeLens, String> {
+        let focal = match (self.number("fl_x")?, self.number("fl_y")?) {
+            (Some(x), Some(y)) => DVec2::new(x, y),
+            (Some(one), None) | (None, Some(one)) => DVec2::splat(one),
+            (None, None) => return Err("its fisheye lens needs `fl_x`".to_owned()),
+        };
+        let mut distortion = [0.0; 4];
+        for (slot, name) in distortion.iter_mut().zip(["k1", "k2", "k3", "k4"]) {
+            *slot = self.number(name)?.unwrap_or(0.0);
+        }
+        FisheyeLens::new(focal, self.center(image)?, image, PixelCenters::AtHalves, distortion)
             .map_err(|error| error.to_string())
     }
 }

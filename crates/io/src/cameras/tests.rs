@@ -280,7 +280,8 @@ fn what_is_no_camera_is_refused_with_its_number() {
         assert!(error.contains(word), "{text}: {error}");
     }
     for (cameras, images, word) in [
-        ("1 OPENCV_FISHEYE 640 480 5 5 3 2 0 0 0 0\n", "", "FISHEYE"),
+        ("1 THIN_PRISM_FISHEYE 640 480 5 5 3 2 0 0 0 0 0 0 0 0\n", "", "THIN_PRISM_FISHEYE"),
+        ("1 OPENCV_FISHEYE 640 480 5 5 3 2 0 0\n", "", "8 parameters"),
         ("1 PINHOLE 640 480 5 5 3\n", "", "parameters"),
         (
             "1 PINHOLE 640 480 5 5 3 2\n",
@@ -301,4 +302,61 @@ fn a_binary_model_says_how_to_convert_it() {
     fs::write(folder.path().join("cameras.bin"), [1, 2, 3]).expect("written");
     let error = load_cameras(folder.path(), USUAL, &Limits::default()).expect_err("binary").to_string();
     assert!(error.contains("model_converter"), "{error}");
+}
+
+/// `cv2.fisheye` (OpenCV's documentation, "Fisheye camera model"), with the centre of the first pixel at (0, 0).
+fn fisheye_pixel(point: DVec3, [k1, k2, k3, k4]: [f64; 4]) -> DVec2 {
+    let r = point.truncate().length() / point.z;
+    let theta = r.atan();
+    let theta_d =
+        theta * (1.0 + k1 * theta.powi(2) + k2 * theta.powi(4) + k3 * theta.powi(6) + k4 * theta.powi(8));
+    let side = point.truncate().normalize();
+    DVec2::new(210.0 * theta_d * side.x + 200.0, 220.0 * theta_d * side.y + 150.0)
+}
+
+#[test]
+fn fisheye_lenses_are_read_from_every_format() {
+    let nerf = |model: &str, lens: &str| {
+        let flip = "[[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 0], [0, 0, 0, 1]]";
+        let text = format!(
+            r#"{{"camera_model": "{model}", "w": 400, "h": 300, "fl_x": 210, "fl_y": 220, "cx": 200.5, "cy": 150.5, {lens},
+                "frames": [{{"transform_matrix": {flip}}}]}}"#
+        );
+        read_json(&text).expect("a camera")
+    };
+    let json = |members: &str| {
+        let pose = "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]";
+        let text = format!(
+            r#"{{"cameras": [{{"convention": "opencv", "width": 400, "height": 300, "pose": {pose},
+                "K": [[210, 0, 200], [0, 220, 150], [0, 0, 1]], {members}}}]}}"#
+        );
+        read_json(&text).expect("a camera")
+    };
+    let colmap =
+        |lens: &str| read_colmap(&format!("1 {lens}\n"), "1 1 0 0 0 0 0 0 1 a.png\n\n").expect("a camera");
+    let all = [0.02, -0.01, 0.003, -0.0004];
+    let [some, one, none] = [[0.02, -0.01, 0.0, 0.0], [0.02, 0.0, 0.0, 0.0], [0.0; 4]];
+    for (read, distortion, focal) in [
+        (nerf("OPENCV_FISHEYE", r#""k1": 0.02, "k2": -0.01, "k3": 0.003, "k4": -0.0004"#), all, 220.0),
+        (nerf("OPENCV_FISHEYE", r#""k1": 0.02"#), one, 220.0),
+        (json(r#""fisheye": [0.02, -0.01, 0.003, -0.0004]"#), all, 220.0),
+        (json(r#""fisheye": [0, 0, 0, 0], "fov": 185"#), none, 220.0),
+        (colmap("OPENCV_FISHEYE 400 300 210 220 200.5 150.5 0.02 -0.01 0.003 -0.0004"), all, 220.0),
+        (colmap("RADIAL_FISHEYE 400 300 210 200.5 150.5 0.02 -0.01"), some, 210.0),
+        (colmap("SIMPLE_RADIAL_FISHEYE 400 300 210 200.5 150.5 0.02"), one, 210.0),
+    ] {
+        assert_eq!(read.warnings, [], "its distortion is drawn");
+        let camera = read.views[0].fisheye().expect("a fisheye lens");
+        for point in [DVec3::new(0.3, -0.2, 1.0), DVec3::new(-2.0, 1.0, 0.5), DVec3::new(0.01, 0.02, 4.0)] {
+            let mut expected = fisheye_pixel(point, distortion) + 0.5;
+            expected.y = 150.5 + (expected.y - 150.5) * focal / 220.0;
+            let pixel = camera.project(point, read.views[0].image).expect("within the lens");
+            assert!(pixel.distance(expected) < 1e-9, "{distortion:?}: {pixel}, not {expected}");
+        }
+    }
+    let ended = json(r#""fisheye": [0, 0, 0, 0], "fov": 185"#).views[0].fisheye().expect("a fisheye lens");
+    assert!((ended.lens.greatest_angle() - 92.5_f64.to_radians()).abs() < 1e-15, "half of it");
+    let text =
+        r#"{"camera_model": "OPENCV_FISHEYE", "camera_angle_x": 2, "frames": [{"transform_matrix": []}]}"#;
+    assert!(read_json(text).is_err(), "an angle does not tell the focal length of a fisheye lens");
 }

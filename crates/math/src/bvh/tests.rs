@@ -165,6 +165,31 @@ fn by_brute_force(triangles: &[[Vec3; 3]], ray: &Ray) -> Option<RayHit> {
 }
 
 proptest! {
+    /// The hits of a ray one after the other, triangles at one distance by their numbers: as if all were sorted.
+    #[test]
+    fn hits_that_count_come_in_their_order(
+        triangles in prop::collection::vec([vector(), vector(), vector()], 1..80), origin in vector(), direction in vector(),
+    ) {
+        prop_assume!(direction != Vec3::ZERO);
+        let (bvh, ray) = (Bvh::new(&triangles), Ray { origin, direction });
+        let single = |(number, corners): (u32, &[Vec3; 3])| {
+            Some(RayHit { triangle: number, ..by_brute_force(std::slice::from_ref(corners), &ray)? })
+        };
+        let mut expected: Vec<RayHit> = (0_u32..).zip(&triangles).filter_map(single).collect();
+        // Those with odd numbers do not count.
+        expected.retain(|hit| hit.triangle % 2 == 0);
+        expected.sort_by(|a, b| (a.distance, a.triangle).partial_cmp(&(b.distance, b.triangle)).expect("no NaN"));
+        let (mut found, mut last): (Vec<RayHit>, Option<RayHit>) = (Vec::new(), None);
+        loop {
+            let is_behind = |hit: &RayHit| last.is_none_or(|last| (hit.distance, hit.triangle) > (last.distance, last.triangle));
+            let start = last.map_or(0.0, |last| last.distance);
+            last = bvh.nearest_of(&ray, start..f32::INFINITY, |hit| hit.triangle % 2 == 0 && is_behind(hit));
+            let Some(hit) = last else { break };
+            found.push(hit);
+        }
+        prop_assert_eq!(found, expected);
+    }
+
     #[test]
     fn a_tree_answers_as_a_look_at_every_triangle(
         triangles in prop::collection::vec([vector(), vector(), vector()], 0..120),

@@ -33,11 +33,23 @@ impl Bvh {
     /// the smallest number.
     #[must_use]
     pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<RayHit> {
+        self.nearest_of(ray, range, |_| true)
+    }
+
+    /// As [`nearest`](Self::nearest), of those hits alone that `counts` accepts. It is called in no particular order, and
+    /// not for every hit.
+    #[must_use]
+    pub fn nearest_of(
+        &self,
+        ray: &Ray,
+        range: Range<f32>,
+        mut counts: impl FnMut(&RayHit) -> bool,
+    ) -> Option<RayHit> {
         let mut nearest: Option<RayHit> = None;
         let mut end = range.end;
         self.visit(ray, range.start, &mut end, |hit, end| {
             let order = |hit: RayHit| (hit.distance, hit.triangle);
-            if nearest.is_none_or(|best| order(hit) < order(best)) {
+            if nearest.is_none_or(|best| order(hit) < order(best)) && counts(&hit) {
                 *end = hit.distance;
                 nearest = Some(hit);
             }

@@ -100,6 +100,16 @@ impl<S: Simd> TriangleLanes<'_, S> {
 }
 
 impl<S: Simd> Barycentrics<S> {
+    /// Known weights and slopes of points that have no place on the screen, and so neither depth nor distances to edges.
+    #[inline(always)]
+    pub(crate) fn of_weights(simd: S, weights: [F32<S>; 3], slopes: [[F32<S>; 2]; 2]) -> Self {
+        let [zero, one, far] = [0.0, 1.0, f32::INFINITY].each(
+            #[inline(always)]
+            |value| F32::splat(simd, value),
+        );
+        Self { weights, slopes, edges: [zero; 3], area: one, total: one, distances: [far; 3] }
+    }
+
     /// The depth, within the range of the vertices' depths. Depth is linear on the screen, so it
     /// is weighted by the plain edge functions.
     ///

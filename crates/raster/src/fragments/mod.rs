@@ -11,6 +11,7 @@
 //! | `columns` | the records of eight pixels, transposed: one pixel in each lane |
 //! | `triangle_lanes`, `barycentrics` | edge functions and **perspective-correct weights** at the pixels |
 //! | `fragment_lanes` | the input of a pipeline's shading function: **interpolated varyings** and their gradients |
+//! | `surface_points` | the same input for points that were found otherwise, such as by rays |
 //! | `lines_over` | blends edges and marks of faces over the colours |
 //! | `output` | where colours go; linear light to sRGB bytes |
 
@@ -25,6 +26,7 @@ mod output;
 mod perspective;
 mod records;
 mod sorted;
+mod surface_points;
 mod task;
 mod triangle_lanes;
 
@@ -35,5 +37,6 @@ pub(crate) use fragment_lanes::RawFragment;
 pub(crate) use layout::RecordShape;
 pub(crate) use output::{Codes, Encoding, ShadeOutput, finite};
 pub(crate) use records::Records;
+pub use surface_points::{PointScratch, SurfacePoint};
 pub(crate) use task::{FragmentBatch, FragmentList, FragmentSlice, Group, Task, VisibleTriangles};
 pub(crate) use triangle_lanes::TriangleLanes;

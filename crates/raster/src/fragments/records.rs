@@ -88,6 +88,14 @@ impl Records {
         shape
     }
 
+    /// Eight records of nothing but tags.
+    pub(crate) fn set_tags(&mut self, tags: [Tag; LANES]) {
+        self.clear();
+        self.shape = RecordShape::default();
+        self.tags.clear();
+        self.tags.extend(tags);
+    }
+
     /// Selects the records of another draw.
     pub(crate) fn select(&mut self, shape: RecordShape) {
         self.shape = shape;

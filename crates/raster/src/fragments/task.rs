@@ -74,6 +74,19 @@ enum RecordNames<'t> {
 }
 
 impl<'t, S: Simd> FragmentBatch<'t, S> {
+    /// The first `count` of eight records, whose results the caller takes itself.
+    #[inline(always)]
+    pub(crate) fn of_first(simd: S, count: usize) -> Self {
+        let numbers = lane_numbers(simd).bitcast();
+        Self {
+            names: numbers,
+            named: RecordNames::Slots,
+            spots: numbers,
+            active: (1 << count) - 1,
+            destination: Destination::Listed(&[]),
+        }
+    }
+
     /// The number of the record that a name refers to.
     #[inline(always)]
     pub(crate) fn slot(&self, name: u32) -> u32 {

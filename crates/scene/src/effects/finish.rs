@@ -31,6 +31,13 @@ pub(crate) fn map_tones(
     });
 }
 
+/// Converts an image in linear light, premultiplied and on its background, to sRGB bytes.
+pub(crate) fn encode(linear: &[Vec4], pixels: &mut [[u8; 4]]) {
+    for (pixel, &light) in pixels.iter_mut().zip(linear) {
+        *pixel = encoded(light, Vec4::ZERO);
+    }
+}
+
 /// Composites an image in linear light over its background.
 pub(crate) fn lay_on_background(linear: &mut [Vec4], settings: &RenderSettings) {
     let RenderSettings { width, height, background, .. } = settings;

@@ -3,6 +3,7 @@
 //! Rays through glass see the background behind the image, even where an environment lights the scene without being
 //! shown: a clear pane must not be visible.
 
+use trigon_camera::FisheyeLens;
 use trigon_math::{DMat4, Mat3, Mat4, Vec3, Vec4};
 use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{F32, Simd};
@@ -174,14 +175,26 @@ impl FogModel {
 pub(crate) struct VisibleBackdrop {
     top: Vec3,
     bottom: Vec3,
+    rows: BackdropRows,
+}
+
+/// How high on the screen the background is visible.
+#[derive(Clone, Copy, Debug)]
+enum BackdropRows {
     /// From camera space to the height on the screen, and the divisor of it.
-    rows: [Vec4; 2],
+    Plane([Vec4; 2]),
+    /// Through a lens, whose image has this height.
+    Lens(FisheyeLens, f64),
 }
 
 impl VisibleBackdrop {
     /// `None` if the environment is what is seen. A transparent background counts as the default one:
     /// colours, unlike alpha, cannot be multiplied.
-    pub(crate) fn new(settings: &RenderSettings, projection: &DMat4) -> Option<Self> {
+    pub(crate) fn new(
+        settings: &RenderSettings,
+        projection: &DMat4,
+        lens: Option<&FisheyeLens>,
+    ) -> Option<Self> {
         let [top, bottom] = match settings.background {
             Background::Environment if settings.effects.environment.is_none() => [Vec3::ZERO; 2],
             Background::Environment => return None,
@@ -192,8 +205,14 @@ impl VisibleBackdrop {
         // Surfaces are exposed, the background is not.
         let scale = 1.0 / settings.effects.exposure_factor();
         let scale = if scale.is_finite() { scale } else { 1.0 };
-        let rows = projection.as_mat4().transpose();
-        Some(Self { top: top * scale, bottom: bottom * scale, rows: [rows.y_axis, rows.w_axis] })
+        let rows = match lens {
+            Some(lens) => BackdropRows::Lens(*lens, f64::from(settings.height)),
+            None => {
+                let rows = projection.as_mat4().transpose();
+                BackdropRows::Plane([rows.y_axis, rows.w_axis])
+            }
+        };
+        Some(Self { top: top * scale, bottom: bottom * scale, rows })
     }
 
     /// Its light where a ray runs to, in the space of the rays.
@@ -201,20 +220,35 @@ impl VisibleBackdrop {
         if self.top == self.bottom {
             return self.top;
         }
-        // The divisor of an orthographic camera does not depend on the place.
-        let at = match self.rows[1].w != 0.0 {
-            true => to_camera.transform_point3(origin).extend(1.0),
-            false => to_camera.transform_vector3(direction).extend(0.0),
-        };
-        let [height, divisor] = self.rows.map(|row| row.dot(at));
-        let down = match divisor > 0.0 {
-            true => 0.5 - 0.5 * (height / divisor),
-            // Behind the eye.
-            false if height > 0.0 => 0.0,
-            false => 1.0,
+        let down = match &self.rows {
+            BackdropRows::Plane(rows) => down_on_plane(rows, to_camera, origin, direction),
+            BackdropRows::Lens(lens, height) => {
+                let direction = to_camera.transform_vector3(direction);
+                match lens.project(direction.as_dvec3()) {
+                    Some(pixel) => (pixel.y / height) as f32,
+                    None if direction.y > 0.0 => 0.0,
+                    None => 1.0,
+                }
+            }
         };
         let down = if down > 0.0 { down.min(1.0) } else { 0.0 };
         self.top + (self.bottom - self.top) * down
+    }
+}
+
+/// How far below the upper edge of the image a ray runs to: 1 is the lower edge.
+fn down_on_plane(rows: &[Vec4; 2], to_camera: &Mat4, origin: Vec3, direction: Vec3) -> f32 {
+    // The divisor of an orthographic camera does not depend on the place.
+    let at = match rows[1].w != 0.0 {
+        true => to_camera.transform_point3(origin).extend(1.0),
+        false => to_camera.transform_vector3(direction).extend(0.0),
+    };
+    let [height, divisor] = rows.map(|row| row.dot(at));
+    match divisor > 0.0 {
+        true => 0.5 - 0.5 * (height / divisor),
+        // Behind the eye.
+        false if height > 0.0 => 0.0,
+        false => 1.0,
     }
 }
 

@@ -15,7 +15,7 @@ mod sum;
 use crate::effect::Effect;
 
 pub(crate) use casters::{Caster, Casters, ShadowSource};
-pub(crate) use finish::{draw_outline, lay_on_background, map_tones};
+pub(crate) use finish::{draw_outline, encode, lay_on_background, map_tones};
 pub(crate) use lighting_environment::{FogModel, LightingEnvironment, VisibleBackdrop};
 pub(crate) use metal_studio::MetalStudio;
 pub(crate) use rays::{AmbientRays, Glass, Optics, RayCache, rows};

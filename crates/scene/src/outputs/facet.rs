@@ -8,7 +8,7 @@ use trigon_math::{DVec2, DVec3, Vec3};
 /// corners are first flattened to z = −1; then the same formulas find the intersection with a
 /// parallel ray.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Facet {
+pub(crate) struct Facet {
     /// In camera space.
     corners: [DVec3; 3],
     /// As rays meet them.
@@ -20,7 +20,7 @@ pub(super) struct Facet {
 
 /// How the rays of an image run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Beam {
+pub(crate) enum Beam {
     /// From the eye.
     Central,
     /// Along the line of sight.
@@ -29,7 +29,7 @@ pub(super) enum Beam {
 
 impl Facet {
     /// A triangle in camera space.
-    pub(super) fn new(corners: [DVec3; 3], beam: Beam) -> Self {
+    pub(crate) fn new(corners: [DVec3; 3], beam: Beam) -> Self {
         let projected = match beam {
             Beam::Central => corners,
             Beam::Parallel => corners.map(|corner| corner.truncate().extend(-1.0)),
@@ -39,13 +39,13 @@ impl Facet {
     }
 
     /// Whether the triangle winds clockwise on the screen.
-    pub(super) fn is_clockwise(&self) -> bool {
+    pub(crate) fn is_clockwise(&self) -> bool {
         self.projected[0].dot(self.shares[0]) > 0.0
     }
 
     /// The barycentrics of the point that a ray hits; for a ray that misses, of the nearest point
     /// of the outline. At least 0, with sum 1.
-    pub(super) fn weights(&self, ray: DVec3) -> DVec3 {
+    pub(crate) fn weights(&self, ray: DVec3) -> DVec3 {
         let volumes = self.volumes(ray);
         let weights = volumes / (volumes.x + volumes.y + volumes.z);
         // NaN is not inside, nor is a point behind the eye: its signs are flipped.
@@ -55,7 +55,7 @@ impl Facet {
 
     /// The change of the barycentrics per pixel, whose ray differs by `step`, at the point where
     /// they are `weights`. All 0 if they overflow.
-    pub(super) fn slope(&self, ray: DVec3, weights: DVec3, step: DVec3) -> DVec3 {
+    pub(crate) fn slope(&self, ray: DVec3, weights: DVec3, step: DVec3) -> DVec3 {
         let (volumes, change) = (self.volumes(ray), self.volumes(step));
         let slope =
             (change - weights * (change.x + change.y + change.z)) / (volumes.x + volumes.y + volumes.z);

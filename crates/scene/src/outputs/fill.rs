@@ -1,6 +1,6 @@
 //! Visits the pixels and fills in the requested outputs.
 
-use trigon_camera::{Camera, Projector, Viewport};
+use trigon_camera::{Camera, FisheyeLens, FisheyeRay, Projector};
 use trigon_math::{DVec2, DVec3, Vec2, Vec3};
 use trigon_raster::Rasterizer;
 
@@ -25,7 +25,7 @@ pub(crate) fn fill(
     let Some(lens) = Lens::new(prepared, sample) else { return };
     let width = frame.width as usize;
     let sources: Vec<Option<ObjectSource<'_>>> = sources(prepared, &ids.objects);
-    let pieces: Vec<Strip<'_>> = Strip::cut(frame, width * ROWS);
+    let pieces: Vec<Strip<'_>> = Strip::cut(frame, width * ROWS, prepared.lens.is_some());
     rasterizer.share(pieces.into_iter().enumerate(), |(number, mut piece)| {
         piece.fill(&lens, &sources, ids, width, number * width * ROWS);
     });
@@ -53,31 +53,38 @@ struct Lens {
     beam: Beam,
     camera: Camera,
     origin: DVec3,
-    /// The ray through the sample of the first pixel.
-    first: DVec3,
-    /// Its change per pixel to the right, and downwards.
-    steps: [DVec3; 2],
+    rays: PixelRays,
+}
+
+/// The rays through the samples of pixels.
+enum PixelRays {
+    /// Of an image on a plane: that of the first pixel, and its change per pixel to the right, and downwards.
+    Plane { first: DVec3, steps: [DVec3; 2] },
+    /// Through a lens, at this position in each pixel.
+    Lens(FisheyeLens, DVec2),
 }
 
 impl Lens {
     /// `None` for an image without pixels.
     fn new(prepared: &PreparedScene<'_>, sample: [f64; 2]) -> Option<Self> {
         let camera = prepared.camera;
-        let (width, height) = (prepared.settings.width, prepared.settings.height);
-        let before = Camera { projection: camera.projection, ..Camera::default() };
-        let projector = Projector::new(&before, Viewport { width, height });
-        let ray = |x, y| projector.at_distance(DVec2::new(x, y), 1.0);
-        let corner = ray(0.0, 0.0)?;
-        // Computed from the whole image's span, so that one pixel's is as exact as possible.
-        let [right, down] = [ray(width.into(), 0.0)?, ray(0.0, height.into())?];
-        let steps = [(right - corner) / f64::from(width), (down - corner) / f64::from(height)];
         let beam = if camera.projection.is_orthographic() { Beam::Parallel } else { Beam::Central };
-        let first = corner + steps[0] * sample[0] + steps[1] * sample[1];
-        Some(Self { beam, camera: *camera, origin: prepared.settings.outputs.origin, first, steps })
+        let rays = match prepared.lens {
+            Some(lens) => PixelRays::Lens(lens, DVec2::from_array(sample)),
+            None => PixelRays::of_plane(prepared, sample)?,
+        };
+        Some(Self { beam, camera: *camera, origin: prepared.settings.outputs.origin, rays })
     }
 
-    fn ray(&self, x: usize, y: usize) -> DVec3 {
-        self.first + self.steps[0] * x as f64 + self.steps[1] * y as f64
+    /// The ray of a pixel, of any length, and its change per pixel; `None` beyond a fisheye lens.
+    fn ray(&self, x: usize, y: usize) -> Option<FisheyeRay> {
+        match &self.rays {
+            PixelRays::Plane { first, steps } => {
+                let direction = *first + steps[0] * x as f64 + steps[1] * y as f64;
+                Some(FisheyeRay { direction, steps: *steps })
+            }
+            PixelRays::Lens(lens, sample) => lens.ray_with_steps(DVec2::new(x as f64, y as f64) + *sample),
+        }
     }
 
     /// A point of camera space as the position output stores it.
@@ -86,9 +93,26 @@ impl Lens {
     }
 }
 
+impl PixelRays {
+    fn of_plane(prepared: &PreparedScene<'_>, sample: [f64; 2]) -> Option<Self> {
+        let viewport = prepared.settings.viewport();
+        let before = Camera { projection: prepared.camera.projection, ..Camera::default() };
+        let projector = Projector::new(&before, viewport);
+        let ray = |x, y| projector.at_distance(DVec2::new(x, y), 1.0);
+        let corner = ray(0.0, 0.0)?;
+        let DVec2 { x: width, y: height } = viewport.size();
+        // Computed from the whole image's span, so that one pixel's is as exact as possible.
+        let [right, down] = [ray(width, 0.0)?, ray(0.0, height)?];
+        let steps = [(right - corner) / width, (down - corner) / height];
+        Some(Self::Plane { first: corner + steps[0] * sample[0] + steps[1] * sample[1], steps })
+    }
+}
+
 /// Some rows of the outputs; empty if not requested.
 struct Strip<'f> {
     length: usize,
+    /// From the eye, where the rasterizer has not stored depths.
+    distances: &'f mut [f32],
     material_ids: &'f mut [u32],
     triangle_ids: &'f mut [u32],
     barycentrics: &'f mut [Vec3],
@@ -100,8 +124,10 @@ struct Strip<'f> {
 }
 
 impl<'f> Strip<'f> {
-    fn cut(frame: &'f mut Frame, size: usize) -> Vec<Self> {
+    fn cut(frame: &'f mut Frame, size: usize, fills_depth: bool) -> Vec<Self> {
         let pixels = frame.width as usize * frame.height as usize;
+        let depth = frame.depth.as_deref_mut().filter(|_| fills_depth).unwrap_or_default();
+        let mut distances = depth.chunks_mut(size);
         let mut material_ids = chunks(&mut frame.material_ids, size);
         let mut triangle_ids = chunks(&mut frame.triangle_ids, size);
         let mut barycentrics = chunks(&mut frame.barycentrics, size);
@@ -112,6 +138,7 @@ impl<'f> Strip<'f> {
         let mut albedo = chunks(&mut frame.albedo, size);
         let piece = |start: usize| Self {
             length: size.min(pixels - start),
+            distances: distances.next().unwrap_or_default(),
             material_ids: material_ids.next().unwrap_or_default(),
             triangle_ids: triangle_ids.next().unwrap_or_default(),
             barycentrics: barycentrics.next().unwrap_or_default(),
@@ -151,11 +178,12 @@ impl<'f> Strip<'f> {
 
     fn put(&mut self, at: usize, triangle: &Triangle<'_>, lens: &Lens, [x, y]: [usize; 2]) {
         let facet = &triangle.facet;
-        let ray = lens.ray(x, y);
+        let Some(FisheyeRay { direction: ray, steps }) = lens.ray(x, y) else { return self.clear(at) };
         let weights = facet.weights(ray);
-        let slopes = lens.steps.map(|step| facet.slope(ray, weights, step));
+        let slopes = steps.map(|step| facet.slope(ray, weights, step));
         let point = Point { weights, slopes };
         let to_world = |normal: DVec3| (lens.camera.orientation * normal).as_vec3();
+        put(self.distances, at, || facet.at(weights).length() as f32);
         put(self.material_ids, at, || triangle.material());
         put(self.triangle_ids, at, || triangle.index());
         put(self.barycentrics, at, || weights.as_vec3());
@@ -177,6 +205,7 @@ impl<'f> Strip<'f> {
             put(vectors, at, || Vec3::ZERO);
         }
         put(self.uvs, at, || Vec2::ZERO);
+        put(self.distances, at, || f32::INFINITY);
     }
 }
 

@@ -16,6 +16,7 @@ use trigon_raster::{Target, TargetError};
 use crate::frame::{Frame, resize};
 use crate::settings::Outputs;
 
+pub(crate) use facet::{Beam, Facet};
 pub(crate) use fill::fill;
 
 /// Ids of each pixel; unused lists are empty.
@@ -38,6 +39,9 @@ pub(crate) struct Needed {
 }
 
 impl Needed {
+    /// All of them.
+    pub(crate) const ALL: Self = Self { objects: true, faces: true, triangles: true };
+
     /// Those needed for derived outputs.
     pub(crate) fn of(outputs: &Outputs) -> Self {
         let triangles = outputs.of_triangles();

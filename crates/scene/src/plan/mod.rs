@@ -1,13 +1,14 @@
 //! The plan of a frame: which effects the scene needs, as far as the camera sees the scene, and why. The renderer does
 //! what the plan says. Frames can also be drawn without one of their effects, to see what the effect adds and costs.
 
+mod omission;
 mod reason;
 mod survey;
 
 use std::fmt;
 
 use survey::{Survey, has_ambient};
-use trigon_camera::Camera;
+use trigon_camera::{Camera, FisheyeCamera, Projection};
 use trigon_math::Vec3;
 
 use crate::display::Display;
@@ -20,6 +21,7 @@ use crate::prepare::PreparedScene;
 use crate::scene::Scene;
 use crate::settings::{Background, Reflection, RenderSettings, ShadingModel, Style};
 
+pub use omission::Omission;
 pub use reason::{Absence, Cause, Decision, Invisible, Named};
 
 /// The effects of a frame, and why.
@@ -43,6 +45,14 @@ impl EffectPlan {
     #[must_use]
     pub fn new(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Self {
         Self::of_prepared(&PreparedScene::new(scene, camera, settings))
+    }
+
+    /// As [`new`](Self::new), for a fisheye lens, which draws [surfaces alone](crate::Omission).
+    #[must_use]
+    pub fn of_fisheye(scene: &Scene, camera: &FisheyeCamera, settings: &RenderSettings) -> Self {
+        let settings = Omission::without(settings);
+        let pose = camera.with_projection(Projection::default());
+        Self::of_prepared(&PreparedScene::through(Some(&camera.lens), scene, &pose, &settings))
     }
 
     pub(crate) fn of_prepared(prepared: &PreparedScene<'_>) -> Self {
@@ -94,6 +104,7 @@ fn decide(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> Deci
         Effect::Outline => requested(
             prepared.settings.effects.outline.as_ref().is_some_and(|outline| !outline.nodes.is_empty()),
         ),
+        Effect::Edges if prepared.lens.is_some() => Err(Absence::FisheyeLens),
         Effect::Edges => requested(prepared.settings.style != Style::Surface),
         Effect::Reflection if !prepared.settings.effects.sight.start_at_mirrors() => {
             Err(Absence::NotRequested)

@@ -96,6 +96,8 @@ pub enum Absence {
     NoColor,
     /// Faces show something else than their materials in light.
     Display,
+    /// A fisheye lens draws surfaces alone.
+    FisheyeLens,
     /// The settings turn off the rays that show what is behind these visible objects.
     GlassNotRequested(Named),
     /// The settings light surfaces otherwise than per pixel by their own materials, which glass
@@ -241,6 +243,7 @@ impl fmt::Display for Absence {
             ),
             Self::NoColor => f.write_str("colour is not an output"),
             Self::Display => f.write_str("the display mode leaves it out"),
+            Self::FisheyeLens => f.write_str("a fisheye lens is drawn by rays, which meet surfaces alone"),
             Self::GlassNotRequested(objects) => {
                 write!(f, "the settings turn it off: {}", Opaque(objects))
             }

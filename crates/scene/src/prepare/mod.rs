@@ -6,7 +6,7 @@ mod lamp_reach;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use trigon_camera::{Camera, Projector, UpAxis, Viewport};
+use trigon_camera::{Camera, FisheyeLens, PixelCenters, Projector, UpAxis};
 use trigon_math::{DAffine3, DMat3, DVec2, DVec3, Mat3, UVec2, Vec3, Vec4};
 
 use crate::effect_settings::{Shadows, SightRays};
@@ -34,6 +34,8 @@ fn has_sight_rays(scene: &Scene, sight: SightRays) -> bool {
 pub(crate) struct PreparedScene<'s> {
     pub(crate) scene: &'s Scene,
     pub(crate) camera: &'s Camera,
+    /// What takes the place of the camera's projection, for an image of this size.
+    pub(crate) lens: Option<FisheyeLens>,
     pub(crate) settings: &'s RenderSettings,
     /// Where the visible nodes with lights are, by their indices.
     light_transforms: BTreeMap<u32, DAffine3>,
@@ -46,21 +48,36 @@ pub(crate) struct PreparedScene<'s> {
 
 impl<'s> PreparedScene<'s> {
     pub(crate) fn new(scene: &'s Scene, camera: &'s Camera, settings: &'s RenderSettings) -> Self {
+        Self::through(None, scene, camera, settings)
+    }
+
+    /// The scene as a lens in place of the camera's projection sees it, if there is one.
+    pub(crate) fn through(
+        lens: Option<&FisheyeLens>,
+        scene: &'s Scene,
+        camera: &'s Camera,
+        settings: &'s RenderSettings,
+    ) -> Self {
+        let lens = lens.map(|lens| lens.for_image(settings.viewport()));
         let placements = scene.visible_placements();
-        let eye = Eye::new(camera, settings.aspect());
+        let eye = match lens {
+            None => Eye::new(camera, settings.aspect()),
+            Some(_) => Eye::all_around(camera),
+        };
         let effects = &settings.effects;
         let rays = effects.ambient_occlusion.is_some() || has_sight_rays(scene, effects.sight);
-        let all = rays || effects.shadows != Shadows::Off;
+        let all = rays || effects.shadows != Shadows::Off || lens.is_some();
         let onlookers = if all { Onlookers::All } else { Onlookers::Camera(&eye) };
         let shapes = Shapes::new(scene, &placements, onlookers);
         let light_transforms = light_transforms(scene, &placements);
         let lights = Lights::gather(scene, &light_transforms, &eye, settings);
         let turn = DMat3::from_quat(camera.orientation);
         let camera_to_world = DAffine3::from_mat3_translation(turn, camera.position);
-        let backdrop = Backdrop::new(camera, settings, scene.up);
+        let backdrop = Backdrop::new(camera, lens.as_ref(), settings, scene.up);
         let mut prepared = Self {
             scene,
             camera,
+            lens,
             settings,
             light_transforms,
             camera_to_world,
@@ -158,22 +175,39 @@ pub(crate) enum Backdrop {
 pub(crate) struct Panorama {
     environment: Arc<Environment>,
     intensity: f32,
-    /// Directions of the environment with length 1 along the line of sight: at the corner of the image, and the
-    /// steps to the next pixel to the right and below.
-    corner: Vec3,
-    steps: [Vec3; 2],
+    rays: PanoramaRays,
     /// The angular size of the middle pixel, in radians.
     pixel: f32,
+}
+
+/// Where pixels look, in the environment.
+#[derive(Clone, Debug)]
+enum PanoramaRays {
+    /// With length 1 along the line of sight: at the corner of the image, and the steps to the next pixel to the right
+    /// and below.
+    Plane { corner: Vec3, steps: [Vec3; 2] },
+    /// Through a lens, and from camera space to the environment.
+    Lens(FisheyeLens, DMat3),
 }
 
 impl Backdrop {
     /// If tone mapping follows, a background colour, which is a colour of the display, is added afterwards:
     /// the pass draws on a transparent background.
-    pub(crate) fn new(camera: &Camera, settings: &RenderSettings, up: UpAxis) -> Self {
+    pub(crate) fn new(
+        camera: &Camera,
+        lens: Option<&FisheyeLens>,
+        settings: &RenderSettings,
+        up: UpAxis,
+    ) -> Self {
         match settings.background {
             Background::Environment => match &settings.effects.environment {
-                Some(environment) => Panorama::new(camera, settings, environment, up)
-                    .map_or(Self::Color(Vec4::ZERO), Self::Environment),
+                Some(environment) => {
+                    let panorama = match lens {
+                        Some(lens) => Some(Panorama::through(lens, camera, settings, environment, up)),
+                        None => Panorama::new(camera, settings, environment, up),
+                    };
+                    panorama.map_or(Self::Color(Vec4::ZERO), Self::Environment)
+                }
                 None => Self::Color(Vec3::ZERO.extend(1.0)),
             },
             _ if settings.effects.maps_tones() => Self::Color(Vec4::ZERO),
@@ -203,7 +237,7 @@ impl Panorama {
         up: UpAxis,
     ) -> Option<Self> {
         let to_sky = up.turn_to(UpAxis::Y);
-        let viewport = Viewport { width: settings.width, height: settings.height };
+        let viewport = settings.viewport();
         let (projector, DVec2 { x: width, y: height }) = (Projector::new(camera, viewport), viewport.size());
         let ray = |x: f64, y: f64| {
             let direction = projector.ray(DVec2::new(x, y))?.direction;
@@ -216,16 +250,41 @@ impl Panorama {
         Some(Self {
             environment: Arc::clone(environment),
             intensity: settings.light_factor(),
-            corner: corner.as_vec3(),
-            steps: [right.as_vec3(), below.as_vec3()],
+            rays: PanoramaRays::Plane { corner: corner.as_vec3(), steps: [right.as_vec3(), below.as_vec3()] },
             pixel,
         })
     }
 
-    /// Linear RGB.
+    /// As a lens sees it.
+    fn through(
+        lens: &FisheyeLens,
+        camera: &Camera,
+        settings: &RenderSettings,
+        environment: &Arc<Environment>,
+        up: UpAxis,
+    ) -> Self {
+        let focal = lens.intrinsics(settings.viewport(), PixelCenters::AtHalves).focal;
+        let to_sky = up.turn_to(UpAxis::Y) * DMat3::from_quat(camera.orientation);
+        Self {
+            environment: Arc::clone(environment),
+            intensity: settings.light_factor(),
+            rays: PanoramaRays::Lens(*lens, to_sky),
+            // In the middle.
+            pixel: (1.0 / focal.min_element()) as f32,
+        }
+    }
+
+    /// Linear RGB. Black beyond the lens.
     fn at(&self, pixel: UVec2) -> Vec3 {
-        let [right, below] = self.steps;
-        let towards = self.corner + right * (pixel.x as f32 + 0.5) + below * (pixel.y as f32 + 0.5);
+        let towards = match &self.rays {
+            PanoramaRays::Plane { corner, steps: [right, below] } => {
+                *corner + *right * (pixel.x as f32 + 0.5) + *below * (pixel.y as f32 + 0.5)
+            }
+            PanoramaRays::Lens(lens, to_sky) => {
+                let Some(ray) = lens.ray(pixel.as_dvec2() + 0.5) else { return Vec3::ZERO };
+                (*to_sky * ray).as_vec3()
+            }
+        };
         self.environment.filtered_radiance(towards, self.pixel) * self.intensity
     }
 }

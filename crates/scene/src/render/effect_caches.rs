@@ -7,7 +7,7 @@ use crate::effect::Effect;
 use crate::effect_settings::Shadows;
 use crate::effects::{
     AmbientRays, Casters, Counts, FogModel, LampPose, LightingEnvironment, RayCache, VisibleBackdrop,
-    draw_outline, lay_on_background, map_tones,
+    draw_outline, encode, lay_on_background, map_tones,
 };
 use crate::frame::{Frame, resize};
 use crate::outputs::{Needed, VisibleIds};
@@ -69,7 +69,8 @@ impl EffectCaches {
         if sight {
             lighting.bounces = effects.sight.bounces();
             lighting.traces_mirrors = on(Effect::Reflection) || effects.sight.start_at_mirrors();
-            lighting.backdrop = VisibleBackdrop::new(prepared.settings, prepared.eye.projection());
+            lighting.backdrop =
+                VisibleBackdrop::new(prepared.settings, prepared.eye.projection(), prepared.lens.as_ref());
         }
         let rays = sight || lighting.shadow_rays || lighting.ambient_rays.is_some();
         if !rays && !on(Effect::ShadowMaps) {
@@ -205,6 +206,37 @@ impl EffectCaches {
         let pixels = width as usize * height as usize;
         resize(&mut self.beneath, pixels, Vec4::ZERO).ok_or(TargetError::Memory { width, height })?;
         Ok(rasterizer.draw(pass, &mut blank.with_linear(&mut self.beneath)?))
+    }
+
+    /// Draws the colours of a frame whose pixels are not rasterized: `paint` gives linear light. Outlines are laid over
+    /// them by the ids of the pixels, which must be there already.
+    pub(super) fn draw_rays(
+        &mut self,
+        settings: &RenderSettings,
+        plan: &EffectPlan,
+        frame: &mut Frame,
+        rasterizer: &Rasterizer,
+        paint: impl FnOnce(&mut [Vec4]),
+    ) -> Result<(), TargetError> {
+        let RenderSettings { width, height, .. } = *settings;
+        let Frame { color, radiance, .. } = frame;
+        let (is_requested, linear) = (radiance.is_some(), radiance.as_mut().unwrap_or(&mut self.linear));
+        let pixels = width as usize * height as usize;
+        resize(linear, pixels, Vec4::ZERO).ok_or(TargetError::Memory { width, height })?;
+        paint(linear);
+        let colors = color.as_chunks_mut().0;
+        if plan.is_on(Effect::ToneMapping) {
+            map_tones(linear, settings, colors, rasterizer);
+            if is_requested {
+                lay_on_background(linear, settings);
+            }
+        } else {
+            encode(linear, colors);
+        }
+        if let (true, Some(outline)) = (plan.is_on(Effect::Outline), &settings.effects.outline) {
+            draw_outline(outline, &self.ids.objects, width as usize, colors);
+        }
+        Ok(())
     }
 
     /// Draws linear light, adds what shows through faces, and maps the tones into the image.

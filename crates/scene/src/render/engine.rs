@@ -14,6 +14,7 @@ use trigon_raster::{
 use super::RenderError;
 use super::compose::Composer;
 use super::effect_caches::{Destination, EffectCaches};
+use super::fisheye::EyeTriangleCache;
 use super::last_frame::{LastFrame, Redraw, redraw};
 use super::record::Record;
 use super::shared_frames::{ReusableFrame, SharedFrames};
@@ -33,14 +34,15 @@ use crate::settings::{RenderSettings, Style};
 /// Draws frames one after the other. What it keeps between them never changes a byte.
 #[derive(Default)]
 pub(super) struct Engine {
-    rasterizer: Option<Rasterizer>,
-    caches: EffectCaches,
-    last: LastFrame,
+    pub(super) rasterizer: Option<Rasterizer>,
+    pub(super) caches: EffectCaches,
+    pub(super) last: LastFrame,
+    pub(super) eye_triangles: EyeTriangleCache,
     frames: SharedFrames,
-    vertex_lists: VertexLists,
-    plan: Option<EffectPlan>,
-    counts: Counts,
-    stats: Stats,
+    pub(super) vertex_lists: VertexLists,
+    pub(super) plan: Option<EffectPlan>,
+    pub(super) counts: Counts,
+    pub(super) stats: Stats,
     /// Whether stages measure their time.
     pub(super) is_timed: bool,
 }
@@ -269,7 +271,7 @@ impl Engine {
     }
 
     /// The last frame's rasterizer if its settings fit, or a new one.
-    fn rasterizer(&mut self, settings: &RenderSettings) -> Result<Rasterizer, RenderError> {
+    pub(super) fn rasterizer(&mut self, settings: &RenderSettings) -> Result<Rasterizer, RenderError> {
         let RenderSettings { threads, simd, .. } = *settings;
         let how = ExecuteSettings { threads, simd, timed: self.is_timed, ..Default::default() };
         let rasterizer = self.rasterizer.take().filter(|rasterizer| *rasterizer.settings() == how);
@@ -281,7 +283,7 @@ impl Engine {
 }
 
 /// Records the colour pass of a scene with these settings, and passes it to a function.
-fn record<T>(
+pub(super) fn record<T>(
     prepared: &PreparedScene<'_>,
     lighting: &LightingEnvironment,
     vertex_lists: &VertexLists,
@@ -322,7 +324,7 @@ fn needs_id_pass(settings: &RenderSettings, plan: &EffectPlan) -> bool {
 }
 
 /// A target of the right size and samples that stores nothing.
-fn blank<'a>(settings: &RenderSettings) -> Result<Target<'a>, TargetError> {
+pub(super) fn blank<'a>(settings: &RenderSettings) -> Result<Target<'a>, TargetError> {
     let target = Target::new(settings.width, settings.height, &[])?;
     target.with_samples_per_axis(settings.samples_per_axis)?.with_samples(settings.samples)
 }

@@ -7,6 +7,7 @@
 //! | `compose` | gives each draw a pipeline of the parts that its material and mesh need |
 //! | `looks` | what the draws of one image share |
 //! | `wire` | pipelines of edges, lines, points, and faces that only hide |
+//! | `fisheye` | images through lenses that rays draw |
 //! | `record` | draws that own their pipelines, until they are recorded in a pass |
 //! | `last_frame` | whether the last image may be reused, and for which effects not |
 //! | `effect_caches` | what effects keep from frame to frame |
@@ -15,6 +16,7 @@
 mod compose;
 mod effect_caches;
 mod engine;
+mod fisheye;
 mod last_frame;
 mod looks;
 mod record;
@@ -25,7 +27,7 @@ mod wire;
 use std::num::NonZeroUsize;
 
 use thiserror::Error;
-use trigon_camera::Camera;
+use trigon_camera::{Camera, FisheyeCamera};
 use trigon_raster::TargetError;
 use trigon_raster::simd::SimdLevelError;
 
@@ -63,6 +65,18 @@ pub enum RenderError {
 /// level.
 pub fn render(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Result<Frame, RenderError> {
     Renderer::new(settings.clone()).render(scene, camera)
+}
+
+/// Draws one frame through a fisheye lens; see [`Renderer::render_fisheye`].
+///
+/// # Errors
+/// As [`render()`].
+pub fn render_fisheye(
+    scene: &Scene,
+    camera: &FisheyeCamera,
+    settings: &RenderSettings,
+) -> Result<Frame, RenderError> {
+    Renderer::new(settings.clone()).render_fisheye(scene, camera)
 }
 
 /// The default size of an image in pixels: the viewer's, and F3D's.

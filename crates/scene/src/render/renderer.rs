@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use trigon_camera::Camera;
+use trigon_camera::{Camera, FisheyeCamera};
 use trigon_raster::{Cancel, PixelExplanation, Rect, Stats};
 
 use super::RenderError;
 use super::RendererBuilder;
 use super::engine::{Engine, Request};
+use super::fisheye::FisheyeRequest;
 use crate::effect::Effect;
 use crate::effects::EffectCounts;
 use crate::frame::Frame;
@@ -96,6 +97,39 @@ impl Renderer {
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
         self.engine.draw(Request { scene, camera, settings: &self.settings, cancel: None }, frame)
+    }
+
+    /// Draws what a fisheye lens sees of the scene, with the same outputs. A ray of the lens through every sample finds the
+    /// triangle that it shows; materials, lights, shadows and all other effects are those of other frames. Depth is the
+    /// distance from the eye, because along the axis there is none beyond 90°. Pixels beyond the lens show the background;
+    /// an environment is black there. Lines, points, edges and marks are not drawn: [`Omission::all`](crate::Omission::all)
+    /// tells which of them a scene has.
+    ///
+    /// Triangles are found in f32 around the middle of the scene: a sample within 2⁻²² of the scene's size, or of its
+    /// distance, of an edge may show the triangle beyond it. All else is computed in f64.
+    ///
+    /// ```
+    /// use trigon_scene::camera::{FisheyeCamera, FisheyeLens, PixelCenters, Viewport};
+    /// use trigon_scene::math::DVec2;
+    /// use trigon_scene::{Renderer, showcase};
+    ///
+    /// let scene = showcase();
+    /// let image = Viewport { width: 60, height: 60 };
+    /// let (focal, center) = (DVec2::splat(18.0), DVec2::splat(30.0));
+    /// let lens = FisheyeLens::new(focal, center, image, PixelCenters::AtHalves, [0.0; 4])?;
+    /// let camera = FisheyeCamera::at(&scene.cameras()[0].1, lens.with_fov(190_f64.to_radians())?);
+    /// let frame = Renderer::builder().size(60, 60).build().render_fisheye(&scene, &camera)?;
+    /// assert_ne!(frame.pixel(30, 40), frame.pixel(0, 0), "the corner is beyond the lens");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`render`](Self::render).
+    pub fn render_fisheye(&mut self, scene: &Scene, camera: &FisheyeCamera) -> Result<Frame, RenderError> {
+        let mut frame = Frame::default();
+        let request = FisheyeRequest { scene, camera, settings: &self.settings };
+        self.engine.draw_fisheye(request, &mut frame)?;
+        Ok(frame)
     }
 
     /// As [`render_into`](Self::render_into), but returns soon after `cancel` is cancelled: when the
