@@ -11,7 +11,6 @@ import io
 import json
 import os
 import random
-import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -74,7 +73,7 @@ class Drawer:
         self.load(model)
         camera = self.cameras[view]
         frame = self.scene.render(job.width, job.height, camera, outputs=("color", "depth", "object_ids"))
-        images = {"color": png(frame), "depth": npy(frame.depth), "ids": npy(frame.object_ids)}
+        images = {"color": frame.to_png(), "depth": npy(frame.depth), "ids": npy(frame.object_ids)}
         about = {
             "model": job.models[model],
             "view": view,
@@ -122,14 +121,6 @@ def verify_shard(drawer: Drawer, shard: int, fraction: float) -> str | None:
     except (trigon3d.TrigonError, OSError, ValueError, KeyError) as error:
         return f"{path.name}: {error}"
     return None
-
-
-def png(frame: trigon3d.Frame) -> bytes:
-    """The colours as a PNG, by the module's own encoder: the bytes depend on the colours alone."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "color.png")
-        frame.save(path)
-        return Path(path).read_bytes()
 
 
 def npy(array: np.ndarray) -> bytes:

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use bytemuck::allocation::try_cast_vec;
-use numpy::Element;
+use numpy::{Element, PyReadonlyArray3};
 use pyo3::prelude::*;
-use trigon_io::{Pixels, write_png};
+use pyo3::types::PyBytes;
+use trigon_io::{Pixels, encode_png, write_png};
 use trigon_scene::Frame;
 
 use crate::arrays::shaped;
@@ -64,6 +65,11 @@ impl PyFrame {
             albedo: image.vectors::<_, f32>(frame.albedo, 3)?,
         })
     }
+
+    fn colors<'py>(&self, py: Python<'py>) -> PyResult<PyReadonlyArray3<'py, u8>> {
+        let color = self.color.as_ref().ok_or_else(|| value_error("this frame has no color"))?;
+        Ok(color.extract(py)?)
+    }
 }
 
 /// Makes arrays of the image's size.
@@ -98,10 +104,18 @@ impl Image<'_> {
 impl PyFrame {
     /// Writes the colours to a PNG file, atomically.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        let color = self.color.as_ref().ok_or_else(|| value_error("this frame has no color"))?;
-        let array: numpy::PyReadonlyArray3<'_, u8> = color.extract(py)?;
-        let bytes = array.as_slice().map_err(value_error)?;
+        let color = self.colors(py)?;
+        let bytes = color.as_slice().map_err(value_error)?;
         write_png(Path::new(&path), self.width, self.height, Pixels::Rgba8(bytes)).map_err(load_error)
+    }
+
+    /// The colours as the bytes of a PNG file, the same as `save` writes.
+    fn to_png<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let color = self.colors(py)?;
+        let bytes = color.as_slice().map_err(value_error)?;
+        let mut png = Vec::new();
+        encode_png(&mut png, self.width, self.height, Pixels::Rgba8(bytes)).map_err(load_error)?;
+        Ok(PyBytes::new(py, &png))
     }
 
     fn __repr__(&self) -> String {

@@ -56,6 +56,7 @@ def test_frames_are_saved(corner, tmp_path):
 
     frame = trigon3d.load(corner).render(40, 30)
     frame.save(tmp_path / "o.png")
+    assert frame.to_png() == (tmp_path / "o.png").read_bytes()
     with Image.open(tmp_path / "o.png") as image:
         assert (np.asarray(image) == frame.color).all()
     with pytest.raises(trigon3d.TrigonError):
