@@ -9,9 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-# Beside the tests in the repository, and where `.ci/python` copies them.
-FOLDERS = [pathlib.Path(__file__).parent / "examples", pathlib.Path(__file__).parent.parent / "examples"]
-EXAMPLES = next(folder for folder in FOLDERS if folder.is_dir())
+EXAMPLES = pathlib.Path(__file__).parent.parent / "examples"
 NAMES = ["model_to_picture", "calibrated_camera", "masks_dataset", "point_cloud", "from_trimesh", "turntable", "fragments"]
 
 
