@@ -18,7 +18,7 @@ use crate::prepare::PreparedScene;
 use crate::render::record::Record;
 
 /// Rays among the draws of one image.
-pub(super) struct Tracer<'p> {
+pub(in crate::render) struct Tracer<'p> {
     prepared: &'p PreparedScene<'p>,
     pub(super) lens: FisheyeLens,
     pub(super) grid: SampleGrid,
@@ -90,7 +90,7 @@ impl<'p> DrawnRun<'p> {
 
 impl<'p> Tracer<'p> {
     /// For the draws of a pass, which are all recorded in it in this order.
-    pub(super) fn new(
+    pub(in crate::render) fn new(
         prepared: &'p PreparedScene<'p>,
         pass: &'p Pass<'p>,
         draws: &'p [Box<dyn Record + 'p>],
@@ -114,7 +114,7 @@ impl<'p> Tracer<'p> {
     }
 
     /// How many surfaces were shaded.
-    pub(super) fn shaded_count(&self) -> u64 {
+    pub(in crate::render) fn shaded_count(&self) -> u64 {
         self.shaded.load(Ordering::Relaxed)
     }
 
