@@ -67,9 +67,9 @@ impl Distortion {
         for _ in 0..MOST_STEPS {
             let excess = self.value(angle) - radius;
             if excess > 0.0 {
-                high = angle
+                high = angle;
             } else {
-                low = angle
+                low = angle;
             }
             let newton = angle - excess / self.slope(angle);
             let next = if newton >= low && newton <= high { newton } else { low + 0.5 * (high - low) };

@@ -1,5 +1,7 @@
 //! Fisheye lenses against the formula that OpenCV's documentation publishes for `cv2.fisheye`.
 
+#![expect(clippy::disallowed_methods, reason = "the platform's functions are the oracle here")]
+
 use proptest::prelude::*;
 use trigon_camera::{FisheyeCamera, FisheyeLens, PixelCenters, Viewport};
 use trigon_math::{DQuat, DVec2, DVec3};
@@ -46,7 +48,7 @@ proptest! {
 
     #[test]
     fn rays_meet_the_points_that_are_drawn_there(
-        angle in 1e-6..3.14_f64, side in 0.0..std::f64::consts::TAU, distance in 1e-3..1e3, distortion in distortion(),
+        angle in 1e-6..3.1_f64, side in 0.0..std::f64::consts::TAU, distance in 1e-3..1e3, distortion in distortion(),
     ) {
         let lens = lens(distortion);
         let direction = DVec3::new(angle.sin() * side.cos(), angle.sin() * side.sin(), -angle.cos());

@@ -305,6 +305,7 @@ fn a_binary_model_says_how_to_convert_it() {
 }
 
 /// `cv2.fisheye` (OpenCV's documentation, "Fisheye camera model"), with the centre of the first pixel at (0, 0).
+#[expect(clippy::disallowed_methods, reason = "the platform's functions are the oracle here")]
 fn fisheye_pixel(point: DVec3, [k1, k2, k3, k4]: [f64; 4]) -> DVec2 {
     let r = point.truncate().length() / point.z;
     let theta = r.atan();

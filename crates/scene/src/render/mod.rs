@@ -7,7 +7,7 @@
 //! | `compose` | gives each draw a pipeline of the parts that its material and mesh need |
 //! | `looks` | what the draws of one image share |
 //! | `wire` | pipelines of edges, lines, points, and faces that only hide |
-//! | `fisheye` | images through lenses that rays draw |
+//! | `fisheye`, `lens_frame` | images through lenses that rays draw; the steps of their frames |
 //! | `record` | draws that own their pipelines, until they are recorded in a pass |
 //! | `last_frame` | whether the last image may be reused, and for which effects not |
 //! | `effect_caches` | what effects keep from frame to frame |
@@ -18,6 +18,7 @@ mod effect_caches;
 mod engine;
 mod fisheye;
 mod last_frame;
+mod lens_frame;
 mod looks;
 mod record;
 mod renderer;

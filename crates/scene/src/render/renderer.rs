@@ -8,7 +8,7 @@ use trigon_raster::{Cancel, PixelExplanation, Rect, Stats};
 use super::RenderError;
 use super::RendererBuilder;
 use super::engine::{Engine, Request};
-use super::fisheye::FisheyeRequest;
+use super::lens_frame::FisheyeRequest;
 use crate::effect::Effect;
 use crate::effects::EffectCounts;
 use crate::frame::Frame;

@@ -1,5 +1,7 @@
 //! The triangles that the rays of a lens meet, one by one, in f64.
 
+#![expect(clippy::disallowed_methods, reason = "the platform's functions are the oracle here")]
+
 use trigon_camera::FisheyeCamera;
 use trigon_math::DVec3;
 

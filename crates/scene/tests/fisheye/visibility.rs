@@ -1,5 +1,7 @@
 //! What pixels show, and where it is.
 
+#![expect(clippy::disallowed_methods, reason = "the platform's functions are the oracle here")]
+
 use std::f64::consts::PI;
 
 use proptest::prelude::*;

@@ -13,20 +13,20 @@ const PIECE: usize = 256;
 
 /// The samples of each pixel, on a grid.
 #[derive(Clone, Copy)]
-pub(super) struct SampleGrid {
+pub(in crate::render) struct SampleGrid {
     pub(super) axis: u32,
     width: usize,
 }
 
 impl SampleGrid {
     /// Those of multisampling lie on a grid that has at least as many.
-    pub(super) fn new(settings: &RenderSettings) -> Self {
+    pub(in crate::render) fn new(settings: &RenderSettings) -> Self {
         let multisampling = (1..=4).find(|side| side * side >= settings.samples).unwrap_or(4);
         Self { axis: settings.samples_per_axis * multisampling, width: settings.width as usize }
     }
 
     /// The position of depth and ids in each pixel: the middle, or with an even number to the right and below of it.
-    pub(super) fn visibility_sample(self) -> [f64; 2] {
+    pub(in crate::render) fn visibility_sample(self) -> [f64; 2] {
         [(f64::from(self.axis / 2) + 0.5) / f64::from(self.axis); 2]
     }
 
@@ -41,7 +41,7 @@ impl SampleGrid {
 
 impl Tracer<'_> {
     /// The light of all pixels, premultiplied, on a background.
-    pub(super) fn paint(&self, pixels: &mut [Vec4], backdrop: &Backdrop, rasterizer: &Rasterizer) {
+    pub(in crate::render) fn paint(&self, pixels: &mut [Vec4], backdrop: &Backdrop, rasterizer: &Rasterizer) {
         rasterizer.share(pixels.chunks_mut(PIECE).enumerate(), |(number, piece)| {
             self.paint_piece(number * PIECE, piece, backdrop);
         });
@@ -104,7 +104,7 @@ impl Tracer<'_> {
     }
 
     /// The triangles that pixels show.
-    pub(super) fn find(&self, ids: &mut VisibleIds, rasterizer: &Rasterizer) {
+    pub(in crate::render) fn find(&self, ids: &mut VisibleIds, rasterizer: &Rasterizer) {
         let VisibleIds { objects, faces, triangles } = ids;
         let pieces = objects.chunks_mut(PIECE).zip(faces.chunks_mut(PIECE)).zip(triangles.chunks_mut(PIECE));
         rasterizer.share(pieces.enumerate(), |(number, ((objects, faces), triangles))| {

@@ -18,7 +18,7 @@ use crate::prepare::PreparedScene;
 use crate::render::record::Record;
 
 /// Rays among the draws of one image.
-pub(super) struct Tracer<'p> {
+pub(in crate::render) struct Tracer<'p> {
     prepared: &'p PreparedScene<'p>,
     pub(super) lens: FisheyeLens,
     pub(super) grid: SampleGrid,
@@ -65,9 +65,32 @@ struct PendingRay {
     after: Option<(f32, u32)>,
 }
 
+impl<'p> DrawnRun<'p> {
+    /// `None` for a node without a shape.
+    fn new(
+        prepared: &'p PreparedScene<'p>,
+        draw: usize,
+        shaded: ShadedDraw<'p>,
+        record: &'p (dyn Record + 'p),
+    ) -> Option<Self> {
+        let ShadedDraw { object: node, culling, blend_mode, .. } = shaded;
+        let source = record.source();
+        let shape = prepared.shapes.get(node as usize)?;
+        Some(Self {
+            draw,
+            node,
+            geometry: source.geometry,
+            triangles: source.triangles.start as u32..source.triangles.end as u32,
+            blend_mode,
+            culling,
+            to_camera: prepared.eye.to_camera(&shape.placement.world),
+        })
+    }
+}
+
 impl<'p> Tracer<'p> {
     /// For the draws of a pass, which are all recorded in it in this order.
-    pub(super) fn new(
+    pub(in crate::render) fn new(
         prepared: &'p PreparedScene<'p>,
         pass: &'p Pass<'p>,
         draws: &'p [Box<dyn Record + 'p>],
@@ -77,15 +100,10 @@ impl<'p> Tracer<'p> {
         let grid = SampleGrid::new(prepared.settings);
         let shader = rasterizer.point_shader(pass, grid.axis);
         let lens = prepared.lens.expect("the scene is prepared for a lens");
-        let run = |(draw, (shaded, drawn)): (usize, (Option<ShadedDraw<'p>>, &'p Box<dyn Record + 'p>))| {
-            let ShadedDraw { object, culling, blend_mode, .. } = shaded?;
-            let (source, shape) = (drawn.source(), prepared.shapes.get(object as usize)?);
-            let triangles = source.triangles.start as u32..source.triangles.end as u32;
-            let to_camera = prepared.eye.to_camera(&shape.placement.world);
-            let (node, geometry) = (object, source.geometry);
-            Some(DrawnRun { draw, node, geometry, triangles, blend_mode, culling, to_camera })
-        };
-        let mut runs: Vec<DrawnRun<'p>> = shader.draws().zip(draws).enumerate().filter_map(run).collect();
+        let recorded = shader.draws().zip(draws).enumerate();
+        let mut runs: Vec<DrawnRun<'p>> = recorded
+            .filter_map(|(draw, (shaded, record))| DrawnRun::new(prepared, draw, shaded?, &**record))
+            .collect();
         runs.sort_by_key(|run| (run.node, run.triangles.start));
         Self { prepared, lens, grid, shader, triangles, runs, shaded: AtomicU64::new(0) }
     }
@@ -96,7 +114,7 @@ impl<'p> Tracer<'p> {
     }
 
     /// How many surfaces were shaded.
-    pub(super) fn shaded_count(&self) -> u64 {
+    pub(in crate::render) fn shaded_count(&self) -> u64 {
         self.shaded.load(Ordering::Relaxed)
     }
 

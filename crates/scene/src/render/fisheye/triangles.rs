@@ -11,7 +11,7 @@ use crate::shapes::Shape;
 
 /// All triangles, around the middle of their box: those of a node follow each other, in the order of its geometry.
 #[derive(Debug, Default)]
-pub(super) struct EyeTriangles {
+pub(in crate::render) struct EyeTriangles {
     pub(super) bvh: Bvh,
     /// In the world.
     pub(super) middle: DVec3,
@@ -41,7 +41,7 @@ pub(in crate::render) struct EyeTriangleCache {
 
 impl EyeTriangleCache {
     /// Those of a scene, made anew if it has changed.
-    pub(super) fn of(&mut self, prepared: &PreparedScene<'_>) -> Arc<EyeTriangles> {
+    pub(in crate::render) fn of(&mut self, prepared: &PreparedScene<'_>) -> Arc<EyeTriangles> {
         let key: Vec<PlacedGeometry> = shapes(prepared)
             .map(|(node, shape)| PlacedGeometry {
                 node,
