@@ -130,7 +130,11 @@ def measure_cell(args, job: dict, turns: int, results: dict) -> dict:
         if results["used"].get(name, 0) > args.budget:
             cell[name] = {"error": f"left out, because it had used its {args.budget:.0f} s in the cases before"}
             continue
-        child = Child(name, args.venvs)
+        try:
+            child = Child(name, args.venvs)
+        except FileNotFoundError as error:
+            cell[name] = {"error": f"not installed: {error}"}
+            continue
         answer = child.ask({"do": "load", "pose": views.pose(1000).tolist(), **job}, 4 * args.limit)
         cell[name] = {key: value for key, value in answer.items() if key == "error"}
         if "error" in answer:
