@@ -19,7 +19,7 @@ NAMES = ["model_to_picture", "calibrated_camera", "masks_dataset", "point_cloud"
 def run(tmp_path):
     def run(name):
         command = [sys.executable, "-W", "error", EXAMPLES / f"{name}.py", tmp_path]
-        done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, timeout=300)
+        done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
         assert done.returncode == 0, done.stderr
         return done.stdout
 

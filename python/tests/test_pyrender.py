@@ -190,7 +190,12 @@ def test_light_is_what_pyrenders_shader_computes():
     assert np.allclose(value(pyrender.DirectionalLight(intensity=2.0)), 2 * expected, rtol=0.06)
     assert np.allclose(value(pyrender.PointLight(intensity=8.0)), 2 * expected, rtol=0.06)
     assert np.allclose(value(pyrender.PointLight(color=[1, 0.5, 0], intensity=8.0)), [2 * expected, expected, 0], rtol=0.06)
-    assert np.allclose(value(None, ambient_light=[0.2, 0.4, 0.0]), [0.1, 0.2, 0], rtol=0.06, atol=1e-3)
+    # Without lamps it is the base colour times the ambient light, of metals and with another ambient light, too.
+    square.material.metallicFactor = 1.0
+    for ambient in ([0.2, 0.4, 0.0], [1.0, 1.0, 1.0]):
+        assert np.allclose(value(None, ambient_light=ambient), 0.5 * np.array(ambient), rtol=0.03, atol=1e-4)
+    assert (value(None) == 0).all()
+    square.material.metallicFactor = 0.0
     # A light far brighter than a display is white: there is no light meter.
     assert (value(pyrender.DirectionalLight(intensity=500.0)) == 1).all()
     # Halfway between the cones' cosines, a quarter: pyrender squares the share.
@@ -200,6 +205,15 @@ def test_light_is_what_pyrenders_shader_computes():
         value(pyrender.SpotLight(intensity=20.0, innerConeAngle=inner, outerConeAngle=0.5), aside)[0] for inner in (0.499, 0.1)
     )
     assert part / full == pytest.approx(0.25, rel=0.1)
+
+
+def test_ambient_light_may_change_between_images(scene):
+    scene.remove_node(next(iter(scene.light_nodes)))
+    renderer, seen = pyrender.OffscreenRenderer(40, 30), []
+    for strength in (1.0, 0.2, 0.5, 0.1, 0.3, 0.7, 1.0):
+        scene.ambient_light = np.full(3, strength)
+        seen.append(int(renderer.render(scene)[0][15, 10, 0]))
+    assert seen[0] == seen[-1] and sorted(seen[1:6]) == [seen[3], seen[1], seen[4], seen[2], seen[5]]
 
 
 def test_flat_images_have_the_given_colours(scene):

@@ -8,8 +8,9 @@ Without OpenGL, no display is needed and the bytes are the same on every machine
 - Depth and segmentation are those of the middle of each pixel. Alone, they are drawn with one sample a pixel, and may
   differ from those beside colours by a pixel along outlines. Translucent surfaces have none.
 - Points are round and not lit: they have their colours, where pyrender lights them as rough metal.
-- Ambient light follows glTF's reflection and is darker on rough metals; pyrender adds base colour times light. Backs of
-  faces are lit from their own side. Colours of translucent surfaces are mixed in linear light.
+- Ambient light beside lamps follows glTF's reflection and is darker on rough metals; pyrender adds base colour times
+  light, as is drawn here, too, if there are no lamps. Backs of faces are lit from their own side. Colours of translucent
+  surfaces are mixed in linear light.
 - ``SKIP_CULL_FACES`` and ``doubleSided`` also hold with ``DEPTH_ONLY`` and ``SEG``, where pyrender culls.
 - Values are checked when cameras and lights are made. ``translation`` and ``scale`` of nodes are copies: assign them.
 - There is no window: ``Viewer`` warns, and is as one that was closed at once. Wires and normals as lines raise

@@ -171,13 +171,17 @@ class MetallicRoughnessMaterial(Material):
         return bool(has_holes or self.baseColorFactor[3] < 1)
 
     def _translated(self, look: Look, is_transparent: bool) -> trigon.Material:
-        factor = self.baseColorFactor
-        # Unlit colours are shown as they are given.
-        color = factor[:3] if look.is_flat else encoded(factor[:3])
+        factor, is_unlit = self.baseColorFactor, look.is_flat
+        if look.ambient is not None and self.occlusionTexture is None and not self.emissiveFactor.any():
+            # Nothing but its colour times the ambient light is left of pyrender's shader.
+            color, is_unlit = encoded(factor[:3] * look.ambient), True
+        else:
+            # Flat colours are shown as they are given.
+            color = factor[:3] if look.is_flat else encoded(factor[:3])
         mode: Any = {"OPAQUE": "opaque", "MASK": "mask", "BLEND": "blend" if is_transparent else "opaque"}[self.alphaMode]
         return trigon.Material(
             [*color, factor[3]],
-            unlit=look.is_flat,
+            unlit=is_unlit,
             metallic=self.metallicFactor,
             roughness=self.roughnessFactor,
             emission=encoded(self.emissiveFactor) if not look.is_flat else np.zeros(3),
@@ -193,14 +197,14 @@ class MetallicRoughnessMaterial(Material):
 
 
 class Look:
-    """What flags change of all materials."""
+    """How all materials of a scene are drawn: what flags say, and the ambient light if there is no other."""
 
-    def __init__(self, is_double_sided: bool, is_flat: bool):
-        self.is_double_sided, self.is_flat = is_double_sided, is_flat
+    def __init__(self, is_double_sided: bool, is_flat: bool, ambient: np.ndarray | None = None):
+        self.is_double_sided, self.is_flat, self.ambient = is_double_sided, is_flat, ambient
 
-    def key(self) -> tuple[bool, bool]:
+    def key(self) -> tuple:
         """Equal for looks that are drawn alike."""
-        return self.is_double_sided, self.is_flat
+        return self.is_double_sided, self.is_flat, None if self.ambient is None else tuple(self.ambient)
 
 
 def usual(color: float) -> MetallicRoughnessMaterial:

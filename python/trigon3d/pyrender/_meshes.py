@@ -132,6 +132,9 @@ class Primitive(_Measured):
         """The nodes that are added, and where each is within the primitive's own."""
         poses = [np.eye(4)] if self.poses is None else self.poses
         colors = self.color_0
+        if self.mode == GLTF.POINTS and look.ambient is not None:
+            colors = color_rows([1.0, 1.0, 1.0], len(self.positions)) if colors is None else colors
+            colors = colors * [*look.ambient, 1]
         if colors is not None and not look.is_flat:
             # Vertex colours are linear light there.
             colors = np.column_stack([encoded(colors[:, :3]), colors[:, 3]])

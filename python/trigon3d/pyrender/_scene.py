@@ -152,6 +152,10 @@ def below(top: Node, pose: np.ndarray):
         waiting += [(child, pose, depth + 1) for child in reversed(node.children)]
 
 
+# Of one scene at a time: with and without back faces, lit and flat.
+MOST_TRANSLATIONS = 4
+
+
 class Scene(_Measured):
     """A tree of nodes."""
 
@@ -161,7 +165,7 @@ class Scene(_Measured):
         self.name = name
         self._main_camera_node = None
         self._roots: list[Node] = []
-        self._translations: dict[tuple[bool, bool], Translation] = {}
+        self._translations: dict[tuple, Translation] = {}
         nodes = list(nodes or [])
         children = {id(child) for node in nodes for child in node.children}
         roots = [node for node in nodes if id(node) not in children]
@@ -305,9 +309,16 @@ class Scene(_Measured):
     def translation(self, look: Look) -> Translation:
         """The scene as trigon has it, at the nodes' present poses."""
         placed = list(self.placed())
+        if not look.is_flat and all(node.light is None for node, _ in placed):
+            look = Look(look.is_double_sided, look.is_flat, self.ambient_light)
         held = self._translations.get(look.key())
         if held is None or not held.holds(placed):
-            held = self._translations[look.key()] = Translation(placed, look)
+            held = Translation(placed, look)
+            # The latest last.
+            self._translations.pop(look.key(), None)
+            self._translations[look.key()] = held
+            if len(self._translations) > MOST_TRANSLATIONS:
+                del self._translations[next(iter(self._translations))]
         held.follow(placed, self.ambient_light)
         return held
 
