@@ -188,8 +188,8 @@ fn fisheye_cameras_are_drawn_and_given_back() {
     let middle = f32::from_le_bytes(depth[at..at + 4].try_into().expect("four bytes"));
     // Half a pixel beside the axis.
     assert!((middle - 2.0).abs() < 0.01, "the wall at z = 0 is 2 m ahead, not {middle}");
-    let said = folder.said("corner.obj --cameras=sparse --output t.png --time-budget=100ms", 2);
+    let said = folder.said("corner.obj --cameras=sparse --output t_{frame}.png --time-budget=100ms", 2);
     assert!(said.contains("fisheye"), "{said}");
-    let said = folder.said("corner.obj --cameras=sparse --output e.png --edges", 0);
+    let said = folder.said("corner.obj --cameras=sparse --output e_{frame}.png --edges", 0);
     assert!(said.contains("edges of faces are not drawn"), "{said}");
 }
