@@ -1,7 +1,5 @@
 """Scenes of trimesh. Nothing here imports trimesh: what is given is asked for what it has."""
 
-import os
-import tempfile
 from typing import Any
 
 import numpy as np
@@ -36,11 +34,7 @@ def save_image(source: Any, resolution: tuple[int, int] = (640, 480), **named: A
         fov = float(source.camera.fov[1])
         camera = Camera.perspective(fov, pose=source.camera_transform)
     frame = from_trimesh(source).render(width, height, camera, **named)
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "image.png")
-        frame.save(path)
-        with open(path, "rb") as file:
-            return file.read()
+    return frame.to_png()
 
 
 def _add(scene: Scene, geometry: Any, pose: Any, name: str) -> None:
