@@ -2,8 +2,9 @@
 
 use proptest::prelude::*;
 use serde_json::{Value, json};
-use trigon_document::mesh::Mesh;
+use trigon_document::mesh::{EditData, Mesh};
 use trigon_document::modelling::EditMesh;
+use trigon_document::scene::camera::Projection;
 use trigon_document::scene::{Material, Node};
 use trigon_document::{Command, Document};
 use trigon_io::LoadOptions;
@@ -39,7 +40,7 @@ fn command() -> impl Strategy<Value = Value> {
         json!({"op": "separate"}),
         json!({"op": "apply_transform"}),
         json!({"op": "add_object", "object": {"shape": "cube", "edge": 2}}),
-        json!({"op": "add_object", "object": {"shape": "plane"}}),
+        json!({"op": "add_object", "object": {"shape": "plane", "width": 2, "depth": 1}}),
         json!({"op": "add_empty"}),
         json!({"op": "add_light"}),
         json!({"op": "add_camera"}),
@@ -55,11 +56,11 @@ fn command() -> impl Strategy<Value = Value> {
         6 => plain,
         1 => name().prop_map(|name| json!({"op": "select", "objects": [name]})),
         1 => name().prop_map(|name| json!({"op": "edit_objects", "objects": [name]})),
-        1 => place().prop_map(|by| json!({"op": "translate", "by": by})),
+        1 => place().prop_map(|by| json!({"op": "translate", "offset": by})),
         1 => prop::collection::vec(0_u32..9, 0..4).prop_map(|elements| json!({"op": "select", "elements": elements})),
         1 => (name(), any::<bool>()).prop_map(|(name, visible)| json!({"op": "show_objects", "objects": [name], "visible": visible})),
         1 => (name(), name()).prop_map(|(child, parent)| json!({"op": "set_parent", "objects": [child], "parent": parent})),
-        1 => (name(), place()).prop_map(|(name, translation)| json!({"op": "set_transform", "object": name, "translation": translation})),
+        1 => (name(), place()).prop_map(|(name, location)| json!({"op": "set_transform", "object": name, "location": location})),
         1 => prop::sample::select(vec!["vertex", "edge", "face"]).prop_map(|kind| json!({"op": "set_element_kind", "kind": kind})),
     ]
 }
@@ -70,9 +71,25 @@ struct Object {
     depth: usize,
     /// The node without the numbers of other things, which may change.
     node: Node,
+    camera: Option<[f32; 3]>,
     materials: Vec<Material>,
     mesh: Option<(String, Mesh)>,
-    edited: Option<EditMesh>,
+    /// Of a mesh that was edited. Its elements have other numbers once those that were deleted are gone.
+    edited: Option<(Mesh, EditData)>,
+}
+
+fn as_edited(mesh: &EditMesh) -> (Mesh, EditData) {
+    let (polygons, map) = mesh.to_mesh();
+    let data = mesh.edit_data(&map);
+    (polygons, data)
+}
+
+/// The numbers of a perspective camera, which files hold as f32.
+fn lens(projection: Projection) -> [f32; 3] {
+    let Projection::Perspective { vertical_fov, near, far, .. } = projection else {
+        panic!("no command makes {projection:?}")
+    };
+    [vertical_fov, near, far.unwrap_or(0.0)].map(|number| number as f32)
 }
 
 /// The objects of a document, each after its parent.
@@ -83,13 +100,14 @@ fn objects(document: &mut Document) -> Vec<Object> {
         let material = |&id| scene.materials.get(id).expect("it is in use").clone();
         let asset = node.mesh.and_then(|mesh| scene.meshes().get(mesh));
         let mut bare = Node::default().with_name(node.name.as_str()).with_transform(node.transform.clone());
-        (bare.light, bare.camera, bare.visible) = (node.light.clone(), node.camera.clone(), node.visible);
+        (bare.light, bare.visible) = (node.light.clone(), node.visible);
         Object {
             depth,
             node: bare,
+            camera: node.camera.map(lens),
             materials: node.materials.iter().map(material).collect(),
             mesh: asset.map(|asset| (asset.name.clone(), asset.mesh().clone())),
-            edited: node.mesh.and_then(|mesh| document.mesh(mesh).cloned()),
+            edited: node.mesh.and_then(|mesh| document.mesh(mesh)).map(as_edited),
         }
     };
     scene.tree().into_iter().map(describe).collect()

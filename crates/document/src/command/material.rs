@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_mesh::math::{Vec3, Vec4};
-use trigon_scene::{AlphaMode, Material, MaterialId, MetallicRoughness, Scene, Shading};
+use trigon_modelling::Refusal;
+use trigon_scene::{AlphaMode, Material, MaterialId, MetallicRoughness, NodeId, Scene, Shading};
 
 use super::set_transform::named_or_active;
 use super::{Action, ObjectName, Outcome};
@@ -75,13 +76,27 @@ impl Default for AddMaterial {
 
 impl Action for AddMaterial {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let object = named_or_active(change, self.object.as_ref(), "adding a material")?;
+        let object = with_surface(change, self.object.as_ref(), "adding a material")?;
         let scene = change.scene_mut();
         let shading = Shading::MetallicRoughness(MetallicRoughness::default());
         let material = scene.add_material(Material::default().with_name(&self.name).with_shading(shading));
         scene.node_mut(object).expect("it was just found").materials.push(material);
         Ok(Outcome::silent())
     }
+}
+
+/// An object by name, or the active one. Without a mesh it has no slots: a file could not hold what they hold.
+fn with_surface(
+    change: &Change<'_>,
+    name: Option<&ObjectName>,
+    operation: &'static str,
+) -> Result<NodeId, EditError> {
+    let object = named_or_active(change, name, operation)?;
+    if change.scene().node(object).is_some_and(|node| node.mesh.is_some()) {
+        return Ok(object);
+    }
+    let reason = "the object has no mesh: select one that has";
+    Err(Refusal::NotPossible { operation, reason }.into())
 }
 
 /// Puts another material of the scene into a slot of an object.
@@ -100,7 +115,7 @@ pub struct SetMaterialSlot {
 
 impl Action for SetMaterialSlot {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let object = named_or_active(change, self.object.as_ref(), "setting a material slot")?;
+        let object = with_surface(change, self.object.as_ref(), "setting a material slot")?;
         let material = self.material.find(change.scene())?;
         let slots = &mut change.scene_mut().node_mut(object).expect("it was just found").materials;
         match slots.get_mut(self.slot as usize) {

@@ -63,7 +63,10 @@ fn what_is_saved_with_nothing_to_draw_is_opened_and_shown_by_nobody() {
     assert_eq!(error.kind, LoadErrorKind::Empty, "{error}");
     for (name, text) in [
         ("a.obj", "v 0 0 0\n"),
-        ("a.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n"),
+        (
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
+        ),
         ("a.off", "OFF\n0 0 0\n"),
         ("a.stl", "solid a\nendsolid a\n"),
     ] {

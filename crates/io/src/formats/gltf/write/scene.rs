@@ -152,6 +152,7 @@ impl<'a> SceneWriter<'a> {
         let fresh = plain();
         let was = known.map_or(&fresh, |(_, was)| was);
         write_material(&mut self.draft, &mut self.textures, &mut object, was, now);
+        self.keep_empty_name(&mut object, &now.name);
         Some(match known {
             Some((index, _)) => {
                 self.draft.update("materials", index, &object);
@@ -159,6 +160,13 @@ impl<'a> SceneWriter<'a> {
             }
             None => self.draft.push("materials", &object),
         })
+    }
+
+    /// What has no name in a file gets one when it is read. In the editor's own file nothing changes by that.
+    fn keep_empty_name(&self, object: &mut RawObject, name: &str) {
+        if self.edit_data.is_some() && name.is_empty() && object.get("name").is_none() {
+            object.set("name", name);
+        }
     }
 
     fn stand_in(&mut self) -> usize {
@@ -329,6 +337,7 @@ impl<'a> SceneWriter<'a> {
                 now
             };
             write_node(&mut self.draft, &mut object, was, now, animated.contains(&id));
+            self.keep_empty_name(&mut object, &now.name);
             if now.camera != was.camera && now.camera.is_some_and(|projection| camera(&projection).is_none())
             {
                 self.lose(&[(id, now)], "its camera, which is of a kind that glTF does not have");
