@@ -17,7 +17,7 @@ pub fn path_to_line(path: &Path) -> String {
     match std::str::from_utf8(name) {
         // Letters stay as they are, so that the list can be read.
         Ok(text) => text.chars().map(escaped).collect(),
-        Err(_) => percent_encode(name, &ESCAPED.add(b' ')).to_string(),
+        Err(_) => percent_encode(name, ESCAPED).to_string(),
     }
 }
 
@@ -72,7 +72,7 @@ mod tests {
         use std::os::unix::ffi::OsStrExt;
         let name = Path::new(OsStr::from_bytes(b"/models/caf\xe9 %\n.glb"));
         let line = path_to_line(name);
-        assert_eq!(line, "/models/caf%E9%20%25%0A.glb", "as in addresses");
+        assert_eq!(line, "/models/caf%E9 %25%0A.glb", "as in addresses");
         assert_eq!(path_from_line(&line), name);
     }
 }

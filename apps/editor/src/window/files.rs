@@ -203,8 +203,7 @@ impl Editor {
 
     /// The window has the keyboard again: says what other programs have done to the file meanwhile.
     pub(crate) fn notice_others(&mut self) {
-        let Some(path) = &self.file.path else { return };
-        let path = path.display();
+        let Some(path) = self.file.path.as_ref().map(|path| path.display().to_string()) else { return };
         if self.file.notices_change() {
             let text = format!(
                 "{path} was changed by another program; Save asks whether to overwrite, reload or save elsewhere"

@@ -8,7 +8,7 @@ use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton,
 
 use super::actions::CONTEXT_MENU;
 use super::button_start::Click;
-use super::editor::Editor;
+use super::editor::{Editor, Message};
 use super::loading::Loading;
 use super::loading::Saving;
 use super::open_file::{Answer, Next};

@@ -36,7 +36,9 @@ impl Session<'_> {
                 self.offer(Input::ModifiersChanged, now);
             }
             InputEvent::FocusLost => self.focus_lost(now),
-            InputEvent::FocusGained => self.offer(Input::FocusGained, now),
+            InputEvent::FocusGained => {
+                self.offer(Input::FocusGained, now);
+            }
             _ => {}
         }
     }
