@@ -3,13 +3,14 @@
 //!
 //! Nodes are written one by one as they are visited, so that a scene of a million nodes needs no copy.
 
+use std::path::Path;
+
 use serde::{Serialize, Serializer};
 use trigon_camera::{Camera, FisheyeLens, PixelCenters, Projection, Viewport};
 use trigon_math::{DAffine3, DMat4};
 use trigon_scene::{AlphaMode, LightReading, Material, MaterialId, Node, NodeId, Scene};
 
 use crate::model::{Model, Summary};
-use crate::outlet::OutputFile;
 
 /// What is in a model.
 #[derive(Serialize)]
@@ -303,6 +304,6 @@ impl ViewFacts {
 }
 
 /// The names of files as text.
-pub(crate) fn names(files: &[OutputFile]) -> Vec<String> {
-    files.iter().map(|file| file.name.to_string_lossy().into_owned()).collect()
+pub(crate) fn names<P: AsRef<Path>>(files: &[P]) -> Vec<String> {
+    files.iter().map(|file| file.as_ref().to_string_lossy().into_owned()).collect()
 }

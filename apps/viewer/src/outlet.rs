@@ -31,7 +31,7 @@ pub(crate) struct Outlet<'a> {
     /// All files that were written, in their order.
     pub(crate) written: Vec<OutputFile>,
     /// What is told of each source, if it is kept instead of being written to standard output.
-    pub(crate) kept_facts: Option<Vec<Value>>,
+    pub(crate) held_facts: Option<Vec<Value>>,
     reporter: Reporter,
 }
 
@@ -55,6 +55,12 @@ pub(crate) struct OutputFile {
     pub(crate) stored: PathBuf,
 }
 
+impl AsRef<Path> for OutputFile {
+    fn as_ref(&self) -> &Path {
+        &self.name
+    }
+}
+
 impl<'a> Outlet<'a> {
     /// Of what a request reads, nothing is overwritten.
     pub(crate) fn new(output: Option<&'a Destination>, request: &Request, reporter: Reporter) -> Self {
@@ -66,7 +72,7 @@ impl<'a> Outlet<'a> {
             taken: HashSet::new(),
             inputs,
             written: Vec::new(),
-            kept_facts: None,
+            held_facts: None,
             reporter,
         }
     }
@@ -174,8 +180,8 @@ impl<'a> Outlet<'a> {
         request: &Request,
         facts: impl FnOnce(&[OutputFile]) -> ImageFacts<'m>,
     ) -> Result<(), Failure> {
-        if let Some(kept) = &mut self.kept_facts {
-            kept.push(serde_json::to_value(facts(&self.written)).map_err(Failure::work)?);
+        if let Some(held) = &mut self.held_facts {
+            held.push(serde_json::to_value(facts(&self.written)).map_err(Failure::work)?);
             return Ok(());
         }
         if request.json { write_json(&facts(&self.written)) } else { Ok(()) }

@@ -30,8 +30,8 @@ pub(crate) fn offer_recovery(folder: Option<&Path>) -> Option<Question> {
 
 /// What is said of recovery files that cannot be used, once.
 pub(crate) fn damaged_recovery(folder: Option<&Path>) -> Option<String> {
-    let kept = set_damaged_aside(folder?);
-    let (first, more) = (kept.first()?.display(), kept.len() - 1);
+    let aside = set_damaged_aside(folder?);
+    let (first, more) = (aside.first()?.display(), aside.len() - 1);
     let others = if more == 0 { String::new() } else { format!(" and {more} more") };
     Some(format!("Recovery: nothing in {first}{others} can be read; open the file that was saved last"))
 }

@@ -26,7 +26,7 @@ pub(crate) struct Recovery {
     has_reported: bool,
     /// The document's file, and whether somebody was told that another editor has it.
     document: Option<PathBuf>,
-    has_told_of_other: bool,
+    has_reported_other: bool,
 }
 
 /// A document that was open when the editor ended without closing it.
@@ -73,9 +73,9 @@ impl Recovery {
         let writer = RecoveryWriter::start(Box::new(Disk), &file, log.base);
         log.events.into_iter().for_each(|event| writer.add(event));
         let document = path.map(Path::to_owned);
-        let (in_save, has_reported, has_told_of_other) = (0, false, false);
+        let (in_save, has_reported, has_reported_other) = (0, false, false);
         let writer = Some(writer);
-        Some(Self { writer, lock, held, events, in_save, has_reported, document, has_told_of_other })
+        Some(Self { writer, lock, held, events, in_save, has_reported, document, has_reported_other })
     }
 
     /// Writes down what was done since the last call. Returns what a user has to know, once.
@@ -102,7 +102,7 @@ impl Recovery {
         // If that fails, more is offered after a crash than is needed, which loses nothing.
         drop(write_lock(&mut self.held, self.in_save, Some(path)));
         if self.document.as_deref() != Some(path) {
-            (self.document, self.has_told_of_other) = (Some(path.to_owned()), false);
+            (self.document, self.has_reported_other) = (Some(path.to_owned()), false);
         }
     }
 
@@ -110,8 +110,8 @@ impl Recovery {
     /// process has locked, so it is not noticed there.
     pub(crate) fn notices_other_editor(&mut self) -> bool {
         let is_other = self.document.as_deref().is_some_and(|path| is_open_elsewhere(&self.lock, path));
-        let is_new = is_other && !self.has_told_of_other;
-        self.has_told_of_other = is_other;
+        let is_new = is_other && !self.has_reported_other;
+        self.has_reported_other = is_other;
         is_new
     }
 
@@ -177,11 +177,11 @@ pub(crate) fn set_damaged_aside(folder: &Path) -> Vec<PathBuf> {
     let set_aside = |file: PathBuf| {
         let _held = free_lock(&file)?;
         RecoveryLog::read(&fs::read(&file).ok()?).err()?;
-        let kept = file.with_extension("damaged");
-        fs::rename(&file, &kept).ok()?;
+        let aside = file.with_extension("damaged");
+        fs::rename(&file, &aside).ok()?;
         // A lock without a file holds nothing.
         drop(fs::remove_file(file.with_extension("lock")));
-        Some(kept)
+        Some(aside)
     };
     recovery_files(folder).into_iter().filter_map(set_aside).collect()
 }
@@ -392,9 +392,9 @@ mod tests {
         fs::write(&file, &damaged).expect("it can be written");
         assert!(Left::find(folder).is_empty(), "there is nothing to offer");
         assert_eq!(fs::read(&file).expect("it is still there"), damaged, "nothing was deleted");
-        let kept = set_damaged_aside(folder);
-        assert_eq!(kept, [file.with_extension("damaged")], "it is named");
-        assert_eq!(fs::read(&kept[0]).expect("it is there"), damaged, "and kept");
+        let aside = set_damaged_aside(folder);
+        assert_eq!(aside, [file.with_extension("damaged")], "it is named");
+        assert_eq!(fs::read(&aside[0]).expect("it is there"), damaged, "and kept");
         assert!(set_damaged_aside(folder).is_empty(), "once");
     }
 

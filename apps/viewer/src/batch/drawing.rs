@@ -43,7 +43,7 @@ pub(super) fn draw(
     let mut outlet = Outlet::new(destination, &request, reporter);
     outlet.beside = &request.outputs;
     outlet.folders = settings.folders;
-    outlet.kept_facts = Some(Vec::new());
+    outlet.held_facts = Some(Vec::new());
     std::mem::swap(&mut outlet.taken, taken);
     let code = Source::visit_all(&request, reporter, |source, request| {
         image::draw_source(source, request, None, &mut outlet, reporter)
@@ -53,7 +53,7 @@ pub(super) fn draw(
         return Err(Failure::Reported(code));
     }
     let read = outlet.inputs.files();
-    Ok(JobDrawing { read, written: outlet.written, facts: outlet.kept_facts.unwrap_or_default() })
+    Ok(JobDrawing { read, written: outlet.written, facts: outlet.held_facts.unwrap_or_default() })
 }
 
 /// What a job asks for. A configuration that it names may ask for what [`Job::parse`] refuses.

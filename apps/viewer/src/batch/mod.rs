@@ -15,7 +15,7 @@ use serde::Serialize;
 use self::digest::{FileDigest, InputDigests};
 use self::drawing::{JobDrawing, JobSettings, draw};
 use self::list::ListedJob;
-use self::receipt::{Receipt, ReceiptPlace, VERSION, without_times};
+use self::receipt::{Receipt, ReceiptFile, VERSION, without_times};
 use crate::args::{BatchArgs, STDIN};
 use crate::failure::Failure;
 use crate::outlet::Folders;
@@ -46,7 +46,7 @@ struct Batch<'a> {
 
 /// What became of a job that did not fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Outcome {
+enum JobOutcome {
     Drawn,
     /// It was done before.
     Present,
@@ -56,7 +56,7 @@ enum Outcome {
 
 /// The line about a job on standard output.
 #[derive(Serialize)]
-struct OutcomeFacts<'a> {
+struct JobFacts<'a> {
     line: usize,
     outcome: &'static str,
     receipt: &'a Path,
@@ -97,10 +97,10 @@ impl<'a> Batch<'a> {
     fn run(mut self, jobs: &[ListedJob]) -> u8 {
         let mut tally = Tally::default();
         for listed in jobs {
-            let place = ReceiptPlace::of(&listed.job, &self.receipts);
-            let done = self.visit(listed, &place);
+            let receipt_file = ReceiptFile::of(&listed.job, &self.receipts);
+            let done = self.visit(listed, &receipt_file);
             tally.add(&done);
-            if let Err(failure) = self.tell(listed, &place, done) {
+            if let Err(failure) = self.tell(listed, &receipt_file, done) {
                 // Whoever reads standard output would miss jobs.
                 self.reporter.error(&failure);
                 return failure.exit_code();
@@ -115,22 +115,22 @@ impl<'a> Batch<'a> {
         worst
     }
 
-    fn visit(&mut self, listed: &ListedJob, place: &ReceiptPlace) -> Result<Outcome, Failure> {
+    fn visit(&mut self, listed: &ListedJob, receipt_file: &ReceiptFile) -> Result<JobOutcome, Failure> {
         if self.args.verify {
-            return self.verify(listed, place).map(|()| Outcome::Verified);
+            return self.verify(listed, receipt_file).map(|()| JobOutcome::Verified);
         }
-        if self.args.resume && self.is_present(listed, place) {
-            return Ok(Outcome::Present);
+        if self.args.resume && self.is_present(listed, receipt_file) {
+            return Ok(JobOutcome::Present);
         }
         let drawing = self.draw(listed, Folders::Created)?;
         let receipt = self.receipt(listed, drawing)?;
-        place.write(&receipt)?;
-        Ok(Outcome::Drawn)
+        receipt_file.write(&receipt)?;
+        Ok(JobOutcome::Drawn)
     }
 
     /// Whether a job is done, and nothing has changed since.
-    fn is_present(&mut self, listed: &ListedJob, place: &ReceiptPlace) -> bool {
-        let Some(receipt) = place.read(&listed.job) else { return false };
+    fn is_present(&mut self, listed: &ListedJob, receipt_file: &ReceiptFile) -> bool {
+        let Some(receipt) = receipt_file.read(&listed.job) else { return false };
         let inputs = &mut self.inputs;
         let is_current = receipt.is_current(|file| inputs.is_current(file));
         // As if it had been drawn by this run.
@@ -140,11 +140,11 @@ impl<'a> Batch<'a> {
     }
 
     /// Draws a job again, and compares what would be written with its receipt.
-    fn verify(&mut self, listed: &ListedJob, place: &ReceiptPlace) -> Result<(), Failure> {
-        let Some(receipt) = place.read(&listed.job) else {
+    fn verify(&mut self, listed: &ListedJob, receipt_file: &ReceiptFile) -> Result<(), Failure> {
+        let Some(receipt) = receipt_file.read(&listed.job) else {
             return Err(Failure::work(format!(
                 "{}: there is no such receipt of trigon {VERSION}; draw the job first",
-                place.path.display()
+                receipt_file.path.display()
             )));
         };
         if let Some(changed) = receipt.read.iter().find(|file| !self.inputs.is_current(file)) {
@@ -219,25 +219,23 @@ impl<'a> Batch<'a> {
     fn tell(
         &self,
         listed: &ListedJob,
-        place: &ReceiptPlace,
-        done: Result<Outcome, Failure>,
+        receipt_file: &ReceiptFile,
+        done: Result<JobOutcome, Failure>,
     ) -> Result<(), Failure> {
         let name = format!("{}, line {}", self.args.jobs.display(), listed.line);
         match &done {
-            Ok(Outcome::Present) => self.reporter.debug(format_args!("{name}: is there already")),
-            Ok(Outcome::Verified) => self.reporter.info(format_args!("{name}: the same bytes")),
+            Ok(JobOutcome::Present) => self.reporter.debug(format_args!("{name}: is there already")),
+            Ok(JobOutcome::Verified) => self.reporter.info(format_args!("{name}: the same bytes")),
             Ok(_) => self.reporter.info(format_args!("{name}: drawn")),
             Err(failure) => self.reporter.error(format_args!("{name}: {failure}")),
         }
         if !self.args.json {
             return Ok(());
         }
-        let (line, receipt) = (listed.line, place.path.as_path());
+        let (line, receipt) = (listed.line, receipt_file.path.as_path());
         write_json(&match done {
-            Ok(outcome) => {
-                OutcomeFacts { line, outcome: outcome.name(), receipt, exit_code: 0, failure: None }
-            }
-            Err(failure) => OutcomeFacts {
+            Ok(outcome) => JobFacts { line, outcome: outcome.name(), receipt, exit_code: 0, failure: None },
+            Err(failure) => JobFacts {
                 line,
                 outcome: "failed",
                 receipt,
@@ -248,7 +246,7 @@ impl<'a> Batch<'a> {
     }
 }
 
-impl Outcome {
+impl JobOutcome {
     fn name(self) -> &'static str {
         match self {
             Self::Drawn => "drawn",
@@ -259,11 +257,11 @@ impl Outcome {
 }
 
 impl Tally {
-    fn add(&mut self, done: &Result<Outcome, Failure>) {
+    fn add(&mut self, done: &Result<JobOutcome, Failure>) {
         match done {
-            Ok(Outcome::Drawn) => self.drawn += 1,
-            Ok(Outcome::Present) => self.present += 1,
-            Ok(Outcome::Verified) => self.verified += 1,
+            Ok(JobOutcome::Drawn) => self.drawn += 1,
+            Ok(JobOutcome::Present) => self.present += 1,
+            Ok(JobOutcome::Verified) => self.verified += 1,
             Err(_) => self.failed += 1,
         }
         self.worst = self.worst.max(done.as_ref().err().map_or(0, Failure::exit_code));

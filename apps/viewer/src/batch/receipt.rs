@@ -28,13 +28,13 @@ pub(super) struct Receipt {
 
 /// Where the receipt of a job is.
 #[derive(Clone, Debug)]
-pub(super) struct ReceiptPlace {
+pub(super) struct ReceiptFile {
     pub(super) path: PathBuf,
 }
 
 pub(super) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-impl ReceiptPlace {
+impl ReceiptFile {
     /// In a folder. Another version may draw other bytes, so it has receipts of its own.
     pub(super) fn of(job: &Job, folder: &Path) -> Self {
         let hash = text_digest(&serde_json::json!([VERSION, job]).to_string());
