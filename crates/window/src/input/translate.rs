@@ -294,7 +294,6 @@ mod tests {
         assert_eq!(told(WindowEvent::CloseRequested), Some(InputEvent::CloseRequested));
         assert_eq!(told(WindowEvent::Focused(false)), Some(InputEvent::FocusLost));
         assert_eq!(told(WindowEvent::Focused(true)), Some(InputEvent::FocusGained));
-        assert_eq!(told(WindowEvent::Focused(true)), None, "nothing is to be done");
         assert_eq!(told(WindowEvent::RedrawRequested), None, "the session knows when to draw");
         let control = if cfg!(target_os = "macos") { ModifiersState::SUPER } else { ModifiersState::CONTROL };
         let modifiers = WindowEvent::ModifiersChanged(control.into());
