@@ -99,8 +99,8 @@ fn objects(document: &mut Document) -> Vec<Object> {
         let node: &Node = scene.node(id).expect("it is in the tree");
         let material = |&id| scene.materials.get(id).expect("it is in use").clone();
         let asset = node.mesh.and_then(|mesh| scene.meshes().get(mesh));
-        let mut bare = Node::default().with_name(node.name.as_str()).with_transform(node.transform.clone());
-        (bare.light, bare.visible) = (node.light.clone(), node.visible);
+        let mut bare = Node::default().with_name(node.name.as_str()).with_transform(node.transform);
+        (bare.light, bare.visible) = (node.light, node.visible);
         Object {
             depth,
             node: bare,
