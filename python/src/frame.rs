@@ -68,7 +68,7 @@ impl PyFrame {
 
     fn colors<'py>(&self, py: Python<'py>) -> PyResult<PyReadonlyArray3<'py, u8>> {
         let color = self.color.as_ref().ok_or_else(|| value_error("this frame has no color"))?;
-        Ok(color.extract(py)?)
+        color.extract(py)
     }
 }
 
