@@ -164,7 +164,9 @@ fn content(ui: &mut Ui, question: &Question) -> Option<Answer> {
                 .document
                 .as_ref()
                 .map_or("a document without a file".into(), |path| path.display().to_string());
-            ui.label(format!("The editor ended without closing {name}, with {} changes.", left.actions));
+            let changes = if left.actions == 1 { "change" } else { "changes" };
+            let actions = left.actions;
+            ui.label(format!("The editor ended without closing {name}, with {actions} {changes}."));
             if left.is_cut_off {
                 ui.label("The end of its recovery file is incomplete, so the last actions are missing.");
             }
