@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 import trigon3d
+from exact_rays import nearest
 
 WIDTH, HEIGHT = 96, 80
 K = np.array([[30.0, 0, 46.5], [0, 28.0, 41.0], [0, 0, 1]])
@@ -60,22 +61,8 @@ def test_every_pixel_is_where_rays_in_double_precision_say():
     outputs = ("depth", "face_ids", "positions", "barycentrics")
     frame = scene.render(WIDTH, HEIGHT, camera, outputs=outputs, samples=1)
     directions, theta = rays()
-    best = np.full((HEIGHT, WIDTH), np.inf)
-    ids = np.full((HEIGHT, WIDTH), -1)
-    margin = np.abs(theta - np.radians(fov / 2))
-    for face, (a, b, c) in enumerate(vertices.astype(np.float64).reshape(20, 3, 3)):
-        p = np.cross(directions, c - a)
-        determinant = p @ (b - a)
-        u = (p @ -a) / determinant
-        q = np.cross(-a, b - a)
-        v = (directions @ q) / determinant
-        t = ((c - a) @ q) / determinant
-        inside = np.minimum(np.minimum(u, v), 1 - u - v)
-        margin = np.minimum(margin, np.abs(inside))
-        hit = (inside >= 0) & (t > 0)
-        margin = np.where(hit & np.isfinite(best), np.minimum(margin, np.abs(t - best)), margin)
-        nearer = hit & (t < best)
-        best, ids = np.where(nearer, t, best), np.where(nearer, face, ids)
+    ids, best, margin = nearest(vertices.reshape(20, 3, 3), np.zeros(3), directions)
+    margin = np.minimum(margin, np.abs(theta - np.radians(fov / 2)))
     beyond = theta > np.radians(fov / 2)
     best[beyond], ids[beyond] = np.inf, -1
     decided = margin > 1e-4
