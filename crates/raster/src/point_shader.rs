@@ -22,10 +22,16 @@ pub struct PointShader<'p> {
     pass: &'p [RecordedDraw<'p>],
     token: Token,
     samples_per_axis: u32,
-    /// For each draw its vertices, and where their varyings are.
-    used: Vec<(UsedVertices, Range<usize>)>,
+    /// For each draw.
+    used: Vec<ShadedVertices>,
     listed: Vec<u32>,
     varyings: Vec<f32>,
+}
+
+/// The vertices of a draw, and where their varyings are.
+struct ShadedVertices {
+    vertices: UsedVertices,
+    varyings: Range<usize>,
 }
 
 /// What decides whether a point of a draw is visible.
@@ -62,7 +68,7 @@ impl<'p> PointShader<'p> {
             let vertices = UsedVertices::new(draw.geometry.indices(), count, &mut listed);
             let start = end;
             end += vertices.len() * stride;
-            used.push((vertices, start..end));
+            used.push(ShadedVertices { vertices, varyings: start..end });
         }
         let varyings = vec![0.0; end];
         let mut shader = Self { pass: &pass.draws, token, samples_per_axis, used, listed, varyings };
@@ -77,7 +83,7 @@ impl<'p> PointShader<'p> {
             let mut vertices = vec![ScreenVertex::default(); slots.len()];
             let out = VertexDestination { vertices: &mut vertices, varyings };
             let viewport = Viewport { width: 1, height: 1 };
-            let used = self.used[draw].0.slots(&self.listed);
+            let used = self.used[draw].vertices.slots(&self.listed);
             self.pass[draw].pipeline.run_vertices(self.token, used, slots, viewport, out);
         });
         self.varyings = varyings;
@@ -86,11 +92,11 @@ impl<'p> PointShader<'p> {
     /// Draws without varyings run no vertices.
     fn tasks<'a>(&self, mut varyings: &'a mut [f32]) -> Vec<VertexTask<'a>> {
         let mut tasks = Vec::new();
-        for (draw, (used, _)) in self.used.iter().enumerate() {
+        for (draw, ShadedVertices { vertices, .. }) in self.used.iter().enumerate() {
             let stride = self.pass[draw].pipeline.stride();
-            let starts = (0..used.len()).step_by(VERTICES).filter(|_| stride > 0);
+            let starts = (0..vertices.len()).step_by(VERTICES).filter(|_| stride > 0);
             for start in starts {
-                let slots = start..used.len().min(start + VERTICES);
+                let slots = start..vertices.len().min(start + VERTICES);
                 let (own, others) = std::mem::take(&mut varyings).split_at_mut(slots.len() * stride);
                 varyings = others;
                 tasks.push(VertexTask { draw, slots, varyings: own });
@@ -145,7 +151,7 @@ impl<'p> PointShader<'p> {
     /// `None` for points that are not the draw's, and if it cannot be shaded.
     fn context(&self, draw: usize, points: &[SurfacePoint]) -> Option<ShadeContext<'_>> {
         let RecordedDraw { geometry, pipeline } = self.pass.get(draw).filter(|draw| draw.is_shaded())?;
-        let (used, varyings) = &self.used[draw];
+        let ShadedVertices { vertices: used, varyings } = &self.used[draw];
         let slots = used.slots(&self.listed);
         let exists = |point: &SurfacePoint| {
             let is_listed = (point.triangle as usize) < geometry.len();

@@ -137,6 +137,24 @@ impl Outputs {
         origin: DVec3::ZERO,
     };
 
+    /// Everything, of surfaces that are not blended.
+    pub const ALL: Self = Self {
+        color: true,
+        radiance: true,
+        depth: true,
+        ids: true,
+        material_ids: true,
+        triangle_ids: true,
+        barycentrics: true,
+        positions: true,
+        normals: true,
+        geometric_normals: true,
+        uvs: true,
+        albedo: true,
+        of_blended: false,
+        origin: DVec3::ZERO,
+    };
+
     /// Whether any output derived from the visible triangle is requested.
     pub(crate) fn of_triangles(&self) -> bool {
         self.material_ids

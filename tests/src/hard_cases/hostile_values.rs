@@ -110,22 +110,7 @@ fn material() -> impl Strategy<Value = Material> {
 }
 
 fn everything(style: Style, shading: ShadingModel, of_blended: bool) -> RenderSettings {
-    let outputs = Outputs {
-        color: true,
-        radiance: true,
-        depth: true,
-        ids: true,
-        material_ids: true,
-        triangle_ids: true,
-        barycentrics: true,
-        positions: true,
-        normals: true,
-        geometric_normals: true,
-        uvs: true,
-        albedo: true,
-        of_blended,
-        ..Outputs::default()
-    };
+    let outputs = Outputs { of_blended, ..Outputs::ALL };
     RenderSettings { outputs, samples_per_axis: 1, style, shading, ..RenderSettings::new(32, 24) }
 }
 

@@ -11,22 +11,6 @@ use crate::{
     Scene, Shading, Style, Texture, TextureBinding, TextureFormat, Transform, render, showcase,
 };
 
-const EVERYTHING: Outputs = Outputs {
-    color: true,
-    radiance: true,
-    depth: true,
-    ids: true,
-    material_ids: true,
-    triangle_ids: true,
-    barycentrics: true,
-    positions: true,
-    normals: true,
-    geometric_normals: true,
-    uvs: true,
-    albedo: true,
-    ..Outputs::NONE
-};
-
 fn settings(outputs: Outputs) -> RenderSettings {
     RenderSettings { outputs, samples_per_axis: 1, lighting: Lighting::Scene, ..RenderSettings::new(97, 61) }
 }
@@ -67,7 +51,7 @@ fn points_lie_on_their_triangles_and_on_the_rays_of_their_pixels() {
         let mesh = primitives::dodecahedron(1.0);
         let node = scene.add_object("solid", mesh.clone(), Material::default());
         askew(&mut scene, node);
-        let settings = RenderSettings { samples_per_axis: axis, samples, ..settings(EVERYTHING) };
+        let settings = RenderSettings { samples_per_axis: axis, samples, ..settings(Outputs::ALL) };
         let frame = render(&scene, camera, &settings).expect("drawn");
         let viewport = Viewport { width: frame.width, height: frame.height };
         let projector = Projector::new(camera, viewport);
@@ -126,7 +110,7 @@ fn inner_pixels_are_met_exactly() {
     for camera in cameras() {
         let mut scene = Scene::new();
         let node = scene.add_object("quad", primitives::plane(8.0, 8.0), Material::default());
-        let frame = render(&scene, &camera, &settings(EVERYTHING)).expect("drawn");
+        let frame = render(&scene, &camera, &settings(Outputs::ALL)).expect("drawn");
         let projector = Projector::new(&camera, Viewport { width: 97, height: 61 });
         let mut count = 0;
         for (x, y) in (0..61).flat_map(|y| (0..97).map(move |x| (x, y))) {
@@ -153,7 +137,7 @@ fn inner_pixels_are_met_exactly() {
 fn normals_of_a_ball_point_away_from_its_middle() {
     let mut scene = Scene::new();
     scene.add_object("ball", primitives::uv_sphere(1.0, 64, 32), Material::default());
-    let frame = render(&scene, &cameras()[0], &settings(EVERYTHING)).expect("drawn");
+    let frame = render(&scene, &cameras()[0], &settings(Outputs::ALL)).expect("drawn");
     let seen =
         list(&frame.positions).iter().zip(list(&frame.normals)).filter(|(_, normal)| **normal != Vec3::ZERO);
     let mut count = 0;
@@ -188,7 +172,7 @@ fn a_normal_map_bends_the_normals_of_outputs() {
             let expected = world.transform_vector3(DVec3::new(x * scale, z, -y * scale)).normalize();
             let [right, up] = [DVec3::X, DVec3::Y].map(|axis| world.transform_vector3(axis));
             let camera = Camera::look_at(up * 4.0 + right * 0.5, DVec3::ZERO, right);
-            let frame = render(&scene, &camera, &settings(EVERYTHING)).expect("drawn");
+            let frame = render(&scene, &camera, &settings(Outputs::ALL)).expect("drawn");
             let normals = list(&frame.normals).iter().filter(|normal| **normal != Vec3::ZERO);
             assert!(normals.clone().count() > 500, "the quad is seen");
             for normal in normals {
@@ -208,7 +192,7 @@ fn albedo_is_what_an_unlit_surface_shows() {
     scene.add_object("quad", primitives::plane(3.0, 3.0), unlit(material));
     let plain = unlit(Material::from_color(Vec3::new(0.1, 0.3, 0.7)));
     let cube = scene.add_object("cube", primitives::cube(0.5), plain);
-    let frame = render(&scene, &cameras()[0], &settings(EVERYTHING)).expect("drawn");
+    let frame = render(&scene, &cameras()[0], &settings(Outputs::ALL)).expect("drawn");
     let mut seen = [0; 2];
     for (index, &object) in list(&frame.object_ids).iter().enumerate().filter(|(_, id)| **id != u32::MAX) {
         let albedo = list(&frame.albedo)[index];
@@ -228,7 +212,7 @@ fn albedo_is_what_an_unlit_surface_shows() {
 
 #[test]
 fn the_background_is_as_documented() {
-    let frame = render(&Scene::new(), &cameras()[0], &settings(EVERYTHING)).expect("drawn");
+    let frame = render(&Scene::new(), &cameras()[0], &settings(Outputs::ALL)).expect("drawn");
     assert!(list(&frame.depth).iter().all(|&depth| depth == f32::INFINITY), "infinitely far");
     for ids in [&frame.object_ids, &frame.face_ids, &frame.material_ids, &frame.triangle_ids] {
         assert!(list(ids).iter().all(|&id| id == u32::MAX), "nobody");
@@ -249,7 +233,7 @@ fn outputs_change_neither_colours_nor_each_other() {
     let camera = scene.cameras()[0].1;
     let mut renderer = Renderer::builder().build();
     for style in [Style::Surface, Style::SurfaceWithEdges, Style::HiddenLine, Style::Wireframe] {
-        let settings = RenderSettings { style, samples_per_axis: 3, ..settings(EVERYTHING) };
+        let settings = RenderSettings { style, samples_per_axis: 3, ..settings(Outputs::ALL) };
         *renderer.settings_mut() = settings.clone();
         let all = renderer.render(&scene, &camera).expect("drawn");
         for threads in [1, 2, 3] {
@@ -265,7 +249,7 @@ fn outputs_change_neither_colours_nor_each_other() {
             color == Frame { width: 97, height: 61, color: all.color.clone(), ..Frame::default() },
             "{style:?}"
         );
-        renderer.settings_mut().outputs = Outputs { color: false, radiance: false, ..EVERYTHING };
+        renderer.settings_mut().outputs = Outputs { color: false, radiance: false, ..Outputs::ALL };
         let rest = renderer.render(&scene, &camera).expect("drawn");
         let unlit = Frame { color: Vec::new(), radiance: None, ..all.clone() };
         assert!(rest == unlit, "without colours, {style:?}");
@@ -301,9 +285,9 @@ fn blended_surfaces_are_seen_when_asked_for() {
     let pane = scene.add_object("pane", primitives::plane(2.0, 2.0), glass);
     scene.node_mut(pane).expect("just added").transform = Transform::from_translation(DVec3::Y);
     let camera = Camera::look_at(DVec3::Y * 6.0, DVec3::ZERO, DVec3::NEG_Z);
-    let behind = render(&scene, &camera, &settings(EVERYTHING)).expect("drawn");
+    let behind = render(&scene, &camera, &settings(Outputs::ALL)).expect("drawn");
     let before =
-        render(&scene, &camera, &settings(Outputs { of_blended: true, ..EVERYTHING })).expect("drawn");
+        render(&scene, &camera, &settings(Outputs { of_blended: true, ..Outputs::ALL })).expect("drawn");
     assert_eq!(behind.color, before.color, "colours show the same");
     let node = |frame: &Frame, x| frame.hit(scene.nodes(), x, 30).map(|hit| hit.node);
     assert_eq!([node(&behind, 44), node(&behind, 52)], [Some(wall); 2], "what is behind the pane");
@@ -320,7 +304,7 @@ fn positions_relative_to_an_origin_are_as_good_anywhere() {
         scene.node_mut(ball).expect("just added").transform = Transform::from_translation(offset);
         let mut camera = cameras()[0];
         camera.position += offset;
-        let outputs = Outputs { origin: offset, ..EVERYTHING };
+        let outputs = Outputs { origin: offset, ..Outputs::ALL };
         let frame = render(&scene, &camera, &settings(outputs)).expect("drawn");
         assert_eq!(frame.origin, offset, "as it was asked for");
         Frame { origin: DVec3::ZERO, ..frame }

@@ -91,22 +91,7 @@ fn rich() -> (Scene, RenderSettings) {
     scene.add_object("glass", primitives::icosphere(0.3, 2), glass);
     let blended = unlit(Vec4::new(0.2, 0.6, 1.0, 0.5), AlphaMode::Blend);
     scene.add_object("film", sheet(1.0), blended);
-    let outputs = Outputs {
-        color: true,
-        radiance: true,
-        depth: true,
-        ids: true,
-        material_ids: true,
-        triangle_ids: true,
-        barycentrics: true,
-        positions: true,
-        normals: true,
-        geometric_normals: true,
-        uvs: true,
-        albedo: true,
-        ..Outputs::NONE
-    };
-    let mut settings = RenderSettings { samples_per_axis: 2, ..settings(SIDE, outputs) };
+    let mut settings = RenderSettings { samples_per_axis: 2, ..settings(SIDE, Outputs::ALL) };
     settings.effects.shadows = Shadows::Rays;
     settings.effects.sight = SightRays::All { bounces: 3 };
     settings.effects.ambient_occlusion = Some(AmbientOcclusion { distance: 1.0, rays: 4 });

@@ -96,23 +96,8 @@ fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
     CollapsingHeader::new(title).default_open(true).show_unindented(ui, contents);
 }
 
-/// Everything that an image can hold.
-const ALL: Outputs = Outputs {
-    color: true,
-    depth: true,
-    ids: true,
-    material_ids: true,
-    triangle_ids: true,
-    barycentrics: true,
-    positions: true,
-    normals: true,
-    uvs: true,
-    albedo: true,
-    ..Outputs::NONE
-};
-
 fn inspect(view: &DrawnView<'_>, state: &mut DevelopmentState) {
-    let mut renderer = Renderer::new(RenderSettings { outputs: ALL, ..view.settings.clone() });
+    let mut renderer = Renderer::new(RenderSettings { outputs: Outputs::ALL, ..view.settings.clone() });
     let shades = u64::from(view.settings.samples_per_axis).pow(2);
     (state.inspected, state.failure) = match renderer.render(view.scene, &view.camera) {
         Ok(frame) => {

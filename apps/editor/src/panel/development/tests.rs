@@ -54,7 +54,7 @@ fn an_image_is_inspected_when_it_is_asked_for() {
 #[test]
 fn buffers_show_what_they_hold() {
     let scene = scene();
-    let settings = RenderSettings { outputs: ALL, ..RenderSettings::new(32, 16) };
+    let settings = RenderSettings { outputs: Outputs::ALL, ..RenderSettings::new(32, 16) };
     let frame = render(&scene, &scene.overview(2.0), &settings).expect("small");
     for buffer in Buffer::ALL {
         let image = buffer.image(&frame, 16);

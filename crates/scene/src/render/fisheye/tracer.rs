@@ -62,7 +62,7 @@ pub(super) struct EyeFragment {
 /// A sample whose ray goes on behind the hit that it had last.
 struct PendingRay {
     index: usize,
-    after: Option<(f32, u32)>,
+    after: Option<RayHit>,
 }
 
 impl<'p> DrawnRun<'p> {
@@ -150,15 +150,16 @@ impl<'p> Tracer<'p> {
         let camera = self.prepared.camera;
         let origin = (camera.position - self.triangles.middle).as_vec3();
         let direction: Vec3 = (camera.orientation * sample.ray.direction).as_vec3();
-        let start = ray.after.map_or(0.0, |(distance, _)| distance);
+        let start = ray.after.map_or(0.0, |last| last.distance);
         let counts = |hit: &RayHit| {
             // Several triangles may be at one distance.
-            let is_behind = ray.after.is_none_or(|after| (hit.distance, hit.triangle) > after);
+            let order = |hit: &RayHit| (hit.distance, hit.triangle);
+            let is_behind = ray.after.is_none_or(|last| order(hit) > order(&last));
             is_behind && self.drawn(hit.triangle).is_some_and(|(run, triangle)| self.shows(run, triangle))
         };
         let hit = self.triangles.bvh.nearest_of(&Ray { origin, direction }, start..f32::INFINITY, counts)?;
         let (number, triangle) = self.drawn(hit.triangle)?;
-        let (index, after) = (ray.index, Some((hit.distance, hit.triangle)));
+        let (index, after) = (ray.index, Some(hit));
         let point = self.point(number, triangle, sample);
         Some((PendingRay { index, after }, EyeFragment { index, run: number, point }))
     }

@@ -33,26 +33,32 @@ struct PlacedGeometry {
     placement: NodePlacement,
 }
 
-/// The triangles of the last frame.
+/// The triangles of the last frame: a small image of 490,000 triangles takes 18 ms with them, and 440 if they are gathered
+/// for it.
 #[derive(Default)]
 pub(in crate::render) struct EyeTriangleCache {
-    cached: Option<(Vec<PlacedGeometry>, Arc<EyeTriangles>)>,
+    cached: Option<CachedTriangles>,
+}
+
+struct CachedTriangles {
+    made_of: Vec<PlacedGeometry>,
+    triangles: Arc<EyeTriangles>,
 }
 
 impl EyeTriangleCache {
     /// Those of a scene, made anew if it has changed.
     pub(in crate::render) fn of(&mut self, prepared: &PreparedScene<'_>) -> Arc<EyeTriangles> {
-        let key: Vec<PlacedGeometry> = shapes(prepared)
+        let made_of: Vec<PlacedGeometry> = shapes(prepared)
             .map(|(node, shape)| PlacedGeometry {
                 node,
                 geometry: shape.geometry.state.clone(),
                 placement: shape.placement,
             })
             .collect();
-        let cached = self.cached.take().filter(|(cached, _)| *cached == key);
-        let (_, triangles) =
-            self.cached.insert(cached.unwrap_or_else(|| (key, Arc::new(EyeTriangles::new(prepared)))));
-        Arc::clone(triangles)
+        let cached = self.cached.take().filter(|cached| cached.made_of == made_of);
+        let cached = cached
+            .unwrap_or_else(|| CachedTriangles { made_of, triangles: Arc::new(EyeTriangles::new(prepared)) });
+        Arc::clone(&self.cached.insert(cached).triangles)
     }
 }
 
