@@ -139,6 +139,7 @@ fn type_of(property: &Value) -> String {
         other => other.to_owned(),
     };
     match &property["type"] {
+        Value::Null if property["contentEncoding"] == "base64" => "text in Base64".to_owned(),
         Value::String(name) => simple(name),
         Value::Array(names) => {
             let names = names.iter().filter_map(Value::as_str).filter(|&name| name != "null");

@@ -1,5 +1,6 @@
 //! An open document: a scene, its edited meshes, the selection, the history.
 
+mod copy;
 mod history;
 mod scene;
 
