@@ -245,7 +245,8 @@ pub(super) fn named_or_selected(
     }
 }
 
-/// A standard object. Lengths are in metres.
+/// A standard object. Lengths are in metres. Counts of pieces are brought into 3 to 2048 (1 to 2048 for columns and
+/// rows, 2 to 2048 for rings), subdivisions of an icosphere into 0 to 7, those of a teapot into 2 to 64.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
 #[schemars(extend("examples" = Shape::USUAL))]
