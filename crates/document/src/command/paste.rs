@@ -10,7 +10,7 @@ use base64::engine::general_purpose::STANDARD;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use trigon_io::{LoadOptions, NativeDocument};
+use trigon_io::{Format, LoadOptions, NativeDocument};
 use trigon_modelling::{EditMesh, Refusal};
 use trigon_scene::{MaterialId, MaterialTexture, MeshId, NodeId, Scene, TextureAsset, TextureId};
 
@@ -90,15 +90,16 @@ impl JsonSchema for Glb {
 impl Action for Paste {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let name = Path::new("the clipboard");
-        let loaded = NativeDocument::load_from_slice(name, self.glb.bytes(), &LoadOptions::default());
+        let options = LoadOptions { format: Some(Format::Glb), ..LoadOptions::default() };
+        let loaded = NativeDocument::load_from_slice(name, self.glb.bytes(), &options);
         let (native, mut warnings) = loaded.map_err(|error| EditError::Import(error.to_string()))?;
         let copied = DocumentFile::open(native, name, &mut warnings);
         let outcome = match change.selection().is_editing() {
             true => paste_elements(change, copied)?,
             false => paste_objects(change, copied),
         };
-        let told = warnings.iter().map(ToString::to_string);
-        Ok(Outcome { warnings: told.chain(outcome.warnings).collect(), message: outcome.message })
+        let reported = warnings.iter().map(ToString::to_string);
+        Ok(Outcome { warnings: reported.chain(outcome.warnings).collect(), message: outcome.message })
     }
 
     fn bytes(&self) -> usize {

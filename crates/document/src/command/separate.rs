@@ -199,9 +199,9 @@ fn use_first_slot(mesh: &mut EditMesh) {
 
 /// Gives an object the material of one slot alone; none if the slot had none.
 fn keep_material(change: &mut Change<'_>, object: NodeId, materials: &[MaterialId], slot: u32) {
-    let kept = materials.get(slot as usize).copied();
+    let retained = materials.get(slot as usize).copied();
     let node = change.scene_mut().node_mut(object).expect("it is the mesh's object");
-    node.materials = kept.into_iter().collect();
+    node.materials = retained.into_iter().collect();
 }
 
 #[cfg(test)]

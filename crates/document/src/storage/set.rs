@@ -164,11 +164,11 @@ impl Set {
         let was_there = storage.exists(&target);
         let mut prepared = Ok(());
         if was_there {
-            let kept = storage.keep_permissions(&target, &part);
+            let retained = storage.keep_permissions(&target, &part);
             prepared =
-                kept.map_err(|error| ("taking over the old file's permissions", error)).and_then(|()| {
-                    let kept = keep_backup(storage, &target);
-                    kept.map_err(|error| ("keeping the old file as a backup", error))
+                retained.map_err(|error| ("taking over the old file's permissions", error)).and_then(|()| {
+                    let retained = keep_backup(storage, &target);
+                    retained.map_err(|error| ("keeping the old file as a backup", error))
                 });
         }
         // From here on it is no temporary file any more, which a signal would remove.
@@ -422,7 +422,7 @@ mod tests {
         let names: BTreeSet<OsString> = listed.map(|entry| entry.expect("an entry").file_name()).collect();
         let expected = ["a.mtl", "a.mtl.bak", "a.obj", "a.obj.bak"].map(OsString::from);
         assert_eq!(names, expected.into(), "nothing else");
-        assert_eq!(std::fs::read(folder.join("a.obj.bak")).expect("kept"), b"1");
+        assert_eq!(std::fs::read(folder.join("a.obj.bak")).expect("retained"), b"1");
         assert_eq!(std::fs::read(folder.join("a.mtl")).expect("there"), b"two");
         std::fs::remove_dir_all(&folder).expect("ours");
     }
