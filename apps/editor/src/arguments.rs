@@ -7,8 +7,9 @@ use trigon_io::UpAxis;
 
 /// Edit polygon meshes and scenes, in a window or by a script.
 ///
-/// Without --run a window opens on the files. A script is a list of commands as JSON; --list-commands tells all
-/// of them. The result is written whole or not at all, and a file that it replaces is kept with `.bak` at the
+/// Without --run a window opens on the files. A script is a list of commands as JSON, such as
+/// `[{"op":"add_object","object":{"shape":"cube","edge":2}},{"op":"translate","offset":[0,1,0]}]`; it starts with the
+/// file that is given, or with nothing. --list-commands tells all commands, with a longer example. The result is written whole or not at all, and a file that it replaces is kept with `.bak` at the
 /// end of its name. Exit codes: 0 done, 1 something failed, 2 wrong usage.
 #[derive(Debug, Parser)]
 #[command(name = "trigon-editor", version)]

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use trigon_document::{Disk, Document, save};
+use trigon_document::{Disk, Document, SetFile, save_set};
 use trigon_io::{Encoding, ExportOptions, FaceExport, FileIdentity, Format, writers};
 
 use crate::arguments::Arguments;
@@ -65,9 +65,8 @@ pub(crate) fn write_as(
     let folder = output.parent().unwrap_or(Path::new(""));
     let files = || export.files.iter().map(|file| folder.join(&file.name));
     refuse_to_replace(document, output, files())?;
-    export.files.iter().try_for_each(|file| {
-        save(&mut Disk, &folder.join(&file.name), &file.bytes).map_err(|error| error.to_string())
-    })?;
+    let set = export.files.iter().map(|file| SetFile { path: folder.join(&file.name), bytes: &file.bytes });
+    save_set(&mut Disk, &set.collect::<Vec<_>>()).map_err(|error| error.to_string())?;
     Ok(losses)
 }
 

@@ -12,13 +12,14 @@ use crate::report;
 
 /// Runs the command line.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
-    let (Some(script), Some(output)) = (&arguments.run, &arguments.output) else {
+    let (Some(script_path), Some(output)) = (&arguments.run, &arguments.output) else {
         return Err("write both a script and an output: --run SCRIPT --output FILE".into());
     };
-    refuse_script(script, output)?;
-    let script = read_script(script)?;
+    refuse_script(script_path, output)?;
+    let script = read_script(script_path)?;
     let mut document = open(arguments)?;
-    run_script(&script, &mut document, arguments.quiet)?;
+    run_script(&script, &mut document, arguments.quiet)
+        .map_err(|error| format!("{}, {error}", script_path.display()))?;
     if let Some(format) = export::format_of(arguments, output)? {
         return export::write(&document, format, output, arguments);
     }

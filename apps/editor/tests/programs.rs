@@ -65,7 +65,10 @@ fn a_script_that_fails_writes_nothing_and_says_where() {
     let failed = run(&["--run".as_ref(), &script, "--output".as_ref(), &output]);
     assert_eq!(failed.status.code(), Some(1), "it failed");
     let message = String::from_utf8_lossy(&failed.stderr).into_owned();
-    assert!(message.contains("command 2 of 2 (Delete)") && message.contains("edit mode"), "{message}");
+    assert!(
+        message.contains("wrong.json, command 2 of 2 (Delete)") && message.contains("edit mode"),
+        "{message}"
+    );
     assert_eq!(std::fs::read(&output).expect("kept"), b"what was there", "untouched");
     std::fs::remove_dir_all(&folder).expect("it was made above");
 }

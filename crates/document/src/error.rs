@@ -22,6 +22,9 @@ pub enum EditError {
     /// A file cannot be read; the reason.
     #[error("{0}")]
     Import(String),
+    /// What is selected cannot be copied; the reason.
+    #[error("{0}")]
+    Copy(String),
     /// The command needs something selected.
     #[error("{command} needs {needed}: select first")]
     NothingSelected {

@@ -31,7 +31,9 @@ pub use selection::{
     similar,
 };
 pub use state::SceneChange;
-pub use storage::{Disk, SaveError, Storage, backup_path, save};
+pub use storage::{
+    Disk, SaveError, SetError, SetFile, SetState, Storage, backup_path, finish_set, save, save_set,
+};
 
 /// Re-exports of the crates below, so that programs need no other dependency.
 pub use {trigon_mesh as mesh, trigon_modelling as modelling, trigon_scene as scene};

@@ -1,17 +1,21 @@
-//! Programs that are killed while they save: whatever the moment, the file is whole afterwards.
+//! Programs that are killed while they save: whatever the moment, the file is whole afterwards, and a set of files is of
+//! one version once its main file is opened.
 //!
-//! Each of 500 runs starts this program again as a child that saves the next version and aborts itself
-//! before, in the middle of, or after one of the steps of saving. No clock is asked.
+//! Each of 500 runs, and of 300 for sets, starts this program again as a child that saves the next version and aborts
+//! itself before, in the middle of, or after one of the steps of saving. No clock is asked.
 
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, abort};
 
-use trigon_document::{Disk, Storage, backup_path, save};
+use trigon_document::{Disk, SetFile, Storage, backup_path, finish_set, save, save_set};
 
 const KILLS: u32 = 500;
 /// Of the kills at least so many are between the first write and the folder's sync.
 const INSIDE: u32 = 400;
+const SET_KILLS: u32 = 300;
+/// Of these kills at least so many leave a set that has to be completed.
+const SETS_COMPLETED: u32 = 30;
 
 /// A disk whose user is killed at a step.
 struct Killing {
@@ -110,10 +114,23 @@ fn share(version: u32) -> usize {
 
 fn child(path: &Path, version: u32, steps: u32) -> ExitCode {
     let mut storage = Killing { disk: Disk, steps_left: steps, eighths: share(version) };
-    match save(&mut storage, path, &contents(version)) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(_) => ExitCode::from(3),
-    }
+    let is_set = path.extension().is_some_and(|ending| ending == "obj");
+    let is_saved = match is_set {
+        true => save_version(&mut storage, path, version),
+        false => save(&mut storage, path, &contents(version)).is_ok(),
+    };
+    if is_saved { ExitCode::SUCCESS } else { ExitCode::from(3) }
+}
+
+/// The files of a set with this main file, which comes last.
+fn set(path: &Path) -> [PathBuf; 3] {
+    ["png", "mtl", "obj"].map(|ending| path.with_extension(ending))
+}
+
+fn save_version(storage: &mut dyn Storage, path: &Path, version: u32) -> bool {
+    let bytes = contents(version);
+    let files = set(path).map(|path| SetFile { path, bytes: &bytes });
+    save_set(storage, &files).is_ok()
 }
 
 #[expect(clippy::print_stdout, reason = "a test without a harness tells by itself what it did")]
@@ -129,7 +146,10 @@ fn main() -> ExitCode {
     std::fs::create_dir_all(&folder).expect("a temporary folder");
     let path = folder.join("model.glb");
     let (inside, saved) = run(&path);
+    let completed = run_sets(&folder.join("model.obj"));
     std::fs::remove_dir_all(&folder).expect("it was made above");
+    println!("{SET_KILLS} kills while saving sets, {completed} of which were completed at the next opening");
+    assert!(completed >= SETS_COMPLETED, "only {completed} of {SET_KILLS} had to be completed");
     println!("{KILLS} kills, {inside} of them while saving, {saved} saves between them: whole each time");
     assert!(inside >= INSIDE, "only {inside} of {KILLS} were between the first write and the folder's sync");
     ExitCode::SUCCESS
@@ -165,4 +185,29 @@ fn run(path: &PathBuf) -> (u32, u32) {
         }
     }
     (inside, saved)
+}
+
+/// How many sets had to be completed.
+fn run_sets(path: &Path) -> u32 {
+    let program = std::env::current_exe().expect("this program");
+    assert!(save_version(&mut Disk, path, 0), "a first version");
+    let (mut killed, mut completed, mut last, mut version) = (0, 0, 0, 0);
+    while killed < SET_KILLS {
+        version += 1;
+        // Saving three files takes up to about thirty steps.
+        let steps = version * 5 % 33;
+        let mut command = Command::new(&program);
+        command.arg("--child").arg(path).args([version.to_string(), steps.to_string()]);
+        let status = command.status().expect("this program can be started");
+        assert_ne!(status.code(), Some(3), "no step failed by itself");
+        completed += u32::from(finish_set(&mut Disk, path).expect("nothing fails"));
+        let found = set(path).map(|path| version_of(&std::fs::read(path).expect("there is always a file")));
+        let [Some(one), ..] = found else { panic!("killed at step {steps}: a torn file") };
+        assert_eq!(found, [Some(one); 3], "killed at step {steps}: a mixture");
+        assert!(one >= last, "killed at step {steps}: version {one} after {last} was saved");
+        last = if status.success() { version } else { one };
+        killed += u32::from(!status.success());
+        assert!(!status.success() || one == version, "what is said to be saved is saved");
+    }
+    completed
 }

@@ -45,10 +45,11 @@ fn defaults() -> impl Iterator<Item = (Chord, &'static Action)> {
 
 impl Keys {
     /// The table's chords with those of a file in their place: a JSON object from the names of actions to
-    /// chords with spaces between them. Also tells what in it is not known.
+    /// chords with spaces between them. Also tells what in it cannot be used and is left out: the action then has its
+    /// other chords, or those of the table if it has none.
     ///
     /// # Errors
-    /// With the first line that cannot be used.
+    /// It is no JSON object.
     pub(crate) fn from_json(text: &str) -> Result<(Self, Vec<String>), KeymapError> {
         let entries: BTreeMap<String, Value> = serde_json::from_str(text)
             .map_err(|error| KeymapError { line: error.line(), what: error.to_string() })?;
@@ -62,14 +63,14 @@ impl Keys {
                 warnings.push(format!("line {line}: no action is called {name:?}; --print-keymap lists all"));
                 continue;
             };
-            replaced.push(action.name);
-            for chord in chords(value).map_err(|what| KeymapError { line, what })? {
-                if chord == UNDO && action.name != "edit.undo" {
-                    let what = format!("{UNDO} is always undo; give {name} another key");
-                    return Err(KeymapError { line, what });
-                }
-                chosen.push((chord, action));
+            let (usable, faults): (Vec<_>, Vec<_>) = chords(value, action).partition(Result::is_ok);
+            let faults: Vec<String> = faults.into_iter().filter_map(Result::err).collect();
+            // An action with an empty text has no chord; one whose chords are all wrong keeps those of the table.
+            if !usable.is_empty() || faults.is_empty() {
+                replaced.push(action.name);
             }
+            chosen.extend(usable.into_iter().flatten().map(|chord| (chord, action)));
+            warnings.extend(faults.into_iter().map(|what| format!("line {line}: {name}: {what}")));
         }
         let free = defaults().filter(|&(chord, action)| {
             let is_taken = |&(taken, by): &(Chord, &Action)| taken == chord && share_a_mode(by, action);
@@ -121,11 +122,20 @@ pub(crate) fn print() -> String {
     text + "}"
 }
 
-fn chords(value: &Value) -> Result<Vec<Chord>, String> {
-    let Value::String(text) = value else {
-        return Err(format!("write chords as text, as \"Ctrl+S F2\", instead of {value}"));
+/// The chords of an action in a file, each by itself, or why it is none.
+fn chords(value: &Value, action: &Action) -> impl Iterator<Item = Result<Chord, String>> {
+    let (text, fault) = match value {
+        Value::String(text) => (text.as_str(), None),
+        _ => ("", Some(format!("write chords as text, as \"Ctrl+S F2\", instead of {value}"))),
     };
-    text.split_whitespace().map(|chord| chord.parse().map_err(|error| format!("{error}"))).collect()
+    let chord = move |text: &str| match text.parse::<Chord>() {
+        Ok(chord) if chord == UNDO && action.name != "edit.undo" => {
+            Err(format!("{UNDO} is always undo; use another key"))
+        }
+        Ok(chord) => Ok(chord),
+        Err(error) => Err(error.to_string()),
+    };
+    text.split_whitespace().map(chord).chain(fault.map(Err))
 }
 
 /// Whether two actions fit one of the modes.
@@ -189,16 +199,32 @@ mod tests {
         assert_eq!(action_at(&keys, "I", true), Some("select.all"), "its old key is another's");
         assert_eq!(action_at(&keys, "A", true), None, "and A is free");
         assert!(warnings[0].contains("line 3") && warnings[0].contains("mesh.knife"), "{warnings:?}");
-        let line = |text| Keys::from_json(text).map(|_| ()).expect_err("unusable").line;
-        assert_eq!(line("{\n \"mesh.inset\": \"Ctrl+\"\n}"), 2, "no chord");
-        assert_eq!(line("{\n\n \"mesh.inset\": 5 }"), 3, "no text");
-        assert_eq!(line("{\n \"a\": }"), 2, "no JSON");
+        let error = Keys::from_json("{\n \"a\": }").map(|_| ()).expect_err("no JSON");
+        assert_eq!(error.line, 2, "{error}");
+    }
+
+    #[test]
+    fn a_bad_chord_is_named_and_left_out_and_the_others_are_used() {
+        let (keys, warnings) = Keys::from_json(
+            "{\n \"mesh.inset\": \"Ctrl+ U\",\n \"mesh.bevel\": \"Nonsense+\",\n \"mesh.fill\": 5,\n \"select.all\": \"\"\n}",
+        )
+        .expect("usable");
+        assert_eq!(action_at(&keys, "U", true), Some("mesh.inset"), "the chord beside the bad one");
+        assert_eq!(action_at(&keys, "Ctrl+B", true), Some("mesh.bevel"), "as without the file");
+        assert_eq!(action_at(&keys, "F", true), Some("mesh.fill"), "as without the file");
+        assert_eq!(action_at(&keys, "A", true), None, "it was given none");
+        for (line, name) in [(2, "mesh.inset"), (3, "mesh.bevel"), (4, "mesh.fill")] {
+            let named = |warning: &&String| warning.contains(&format!("line {line}: {name}"));
+            assert_eq!(warnings.iter().filter(named).count(), 1, "{warnings:?}");
+        }
     }
 
     #[test]
     fn ctrl_z_is_never_anything_but_undo() {
-        let error = Keys::from_json("{\n \"mesh.inset\": \"Ctrl+Z\"\n}").map(|_| ()).expect_err("refused");
-        assert!(error.line == 2 && error.what.contains("always undo"), "{error}");
+        let (keys, warnings) = Keys::from_json("{\n \"mesh.inset\": \"Ctrl+Z U\"\n}").expect("usable");
+        assert!(warnings[0].contains("line 2") && warnings[0].contains("always undo"), "{warnings:?}");
+        assert_eq!(action_at(&keys, "Ctrl+Z", true), Some("edit.undo"), "as always");
+        assert_eq!(action_at(&keys, "U", true), Some("mesh.inset"), "the other one is used");
         let (keys, _) = Keys::from_json("{ \"edit.undo\": \"F5\" }").expect("one key more");
         for is_editing in [false, true] {
             assert_eq!(action_at(&keys, "Ctrl+Z", is_editing), Some("edit.undo"), "still");

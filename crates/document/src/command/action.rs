@@ -14,6 +14,11 @@ use crate::state::Change;
 pub(crate) trait Action {
     /// Runs the command. On an error the caller undoes all changes made so far.
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError>;
+
+    /// The memory that its parameters take, if they may be large, in bytes.
+    fn bytes(&self) -> usize {
+        0
+    }
 }
 
 /// A report to the user.

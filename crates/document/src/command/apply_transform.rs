@@ -62,7 +62,12 @@ impl Action for ApplyTransform {
 }
 
 /// Gives an object its new placement, and lets what hangs on it stay.
-fn set_placements(change: &mut Change<'_>, id: NodeId, rest: trigon_scene::Transform, map: DAffine3) {
+pub(super) fn set_placements(
+    change: &mut Change<'_>,
+    id: NodeId,
+    rest: trigon_scene::Transform,
+    map: DAffine3,
+) {
     let scene = change.scene_mut();
     let node = scene.node_mut(id).expect("it was just found");
     node.transform = rest;
@@ -92,7 +97,7 @@ fn refused(reason: &'static str) -> EditError {
 }
 
 /// Moves all of a mesh, first positions included.
-fn move_all(mesh: &mut EditMesh, map: DAffine3) -> Result<(), EditError> {
+pub(super) fn move_all(mesh: &mut EditMesh, map: DAffine3) -> Result<(), EditError> {
     let vertices: Vec<VertexId> = mesh.vertices().collect();
     if vertices.is_empty() {
         return Ok(());

@@ -9,10 +9,10 @@ use trigon_io::{LoadOptions, Loaded, UpAxis, load};
 
 use super::{Action, Outcome};
 use crate::error::EditError;
-use crate::state::Change;
+use crate::state::{Change, Names};
 
-/// Adds the objects of a file in any readable format, placed as they are there, and selects them. The file is
-/// read again whenever the command runs again, in a script or from a recovery file.
+/// Adds the objects of a file in any readable format, placed as they are there, and selects them. Objects whose name
+/// is taken get a number: `Cube.001`. The file is read again whenever the command runs again, in a script or from a recovery file.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ImportFile {
@@ -53,9 +53,14 @@ impl ImportFile {
         change.note_files(&loaded.files);
         // Meshes and textures are shared.
         let mut turned = loaded.scene.clone();
+        let mut names = Names::of(change.scene());
         let scene = change.scene_mut();
         turned.turn_to(scene.up);
         let added = scene.append(&turned);
+        for &id in &added {
+            let node = scene.node_mut(id).expect("it was just added");
+            node.name = names.take(&node.name);
+        }
         let is_root = |id: &_| scene.node(*id).is_some_and(|node| node.parent().is_none());
         let roots: Vec<_> = added.iter().copied().filter(is_root).collect();
         let selection = change.selection_mut();
@@ -92,7 +97,11 @@ mod tests {
         let active = document.selection().active.expect("the square");
         let mesh = document.nodes().node(active).and_then(|node| node.mesh).expect("it has one");
         assert_eq!(document.nodes().meshes().get(mesh).expect("added").mesh().face_count(), 1);
-        document.undo().expect("one");
+        let name = document.nodes().node(active).expect("the square").name.clone();
+        document.run(import(&path).expect("a command")).expect("it can be read again");
+        let second = document.selection().active.and_then(|id| document.nodes().node(id)).expect("another");
+        assert_eq!(second.name, format!("{name}.001"), "the name is taken");
+        (0..2).for_each(|_| document.undo().expect("two"));
         assert_eq!(document.scene().nodes().len(), 1, "the cube");
         let solid = "solid x\nfacet normal 1 0 0\nouter loop\nvertex 1 2 3\nvertex 4 5 6\nvertex 7 8 0\nendloop\nendfacet\nendsolid";
         let path = folder.join("part.stl");

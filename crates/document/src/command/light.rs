@@ -103,7 +103,7 @@ impl Action for AddCamera {
         }
         let (turn, position) = (self.rotation.to_quaternion(), DVec3::from(self.position));
         let transform = Transform::from_scale_rotation_translation(DVec3::ONE, turn, position);
-        let mut node = Node::default().with_name(self.name.clone()).with_transform(transform);
+        let mut node = Node::default().with_name(change.free_name(&self.name)).with_transform(transform);
         node.camera = Some(Projection::default());
         let id = change.scene_mut().add(node);
         select_only(change, id);

@@ -16,11 +16,14 @@ mod light;
 mod material;
 mod mirror;
 mod parts;
+mod paste;
 mod reference;
 mod scene;
 mod select;
 mod select_elements;
 mod select_related;
+mod separate;
+mod set_origin;
 mod set_transform;
 mod space;
 mod surface;
@@ -43,7 +46,8 @@ pub use import::ImportFile;
 pub use light::{AddCamera, SetLight};
 pub use material::{AddMaterial, MaterialName, SetMaterial, SetMaterialSlot, SurfaceAlpha, SurfaceShading};
 pub use mirror::{FlipNormals, Mirror, MirrorPlane, RecalculateNormals, Repair, Symmetrize};
-pub use parts::{Duplicate, JoinObjects, Rip, Separate, SplitOff};
+pub use parts::{Duplicate, JoinObjects, Rip, SplitOff};
+pub use paste::{Glb, Paste};
 pub use reference::{command_reference, command_schema};
 pub use scene::{
     AddEmpty, AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, Shape, ShowObjects,
@@ -57,6 +61,9 @@ pub use select_related::{
     SelectBorder, SelectByMaterial, SelectByNormal, SelectLess, SelectLinked, SelectLoop, SelectMore,
     SelectNonManifold, SelectPath, SelectRing, SelectSharp, SelectSimilar,
 };
+pub use separate::{Separate, SeparateBy};
+pub use set_origin::{GeometryCenter, OriginTarget, SetOrigin};
+pub(crate) use set_transform::transform_of;
 pub use set_transform::{ClearTransform, SetTransform};
 pub use space::TransformSpace;
 pub use surface::{
@@ -190,7 +197,7 @@ commands! {
     SplitOff("Split", false),
     /// Opens meshes along the selected edges or at selected vertices.
     Rip("Rip", false),
-    /// Makes the selected faces a separate object.
+    /// Makes parts of meshes separate objects.
     Separate("Separate", false),
     /// Joins several objects into one.
     JoinObjects("Join", false),
@@ -278,6 +285,8 @@ commands! {
     SetParent("Set Parent", false),
     /// Changes an object's position in the list.
     ReorderObject("Reorder", false),
+    /// Moves the origins of objects, or meshes onto their origins.
+    SetOrigin("Set Origin", false),
     /// Sets an object's exact placement.
     SetTransform("Set Transform", false),
     /// Clears placements.
@@ -296,4 +305,6 @@ commands! {
     AssignTexture("Assign Texture", false),
     /// Copies objects.
     DuplicateObjects("Duplicate Objects", false),
+    /// Adds what was copied.
+    Paste("Paste", false),
 }

@@ -1,5 +1,4 @@
-//! Copying, separating and joining parts of meshes: duplicate, split off, rip, separate, and several objects
-//! into one.
+//! Copying and joining parts of meshes: duplicate, split off, rip, and several objects into one.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -99,25 +98,6 @@ impl Action for Rip {
     }
 }
 
-/// Makes the selected faces of each mesh a separate object in the same place.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Separate {}
-
-impl Action for Separate {
-    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let kind = change.selection().kind();
-        let mut parts = Vec::new();
-        change.edit_selected_meshes("separating", FACES, |id, mesh, selection| {
-            parts.push((id, mesh.separate(&selection.faces(mesh, kind))?));
-            Ok(AfterEdit::Clear)
-        })?;
-        let count = parts.len();
-        parts.into_iter().for_each(|(mesh, part)| change.add_part(mesh, part));
-        Ok(Outcome::counted("made", count, ["object", "objects"]))
-    }
-}
-
 /// Moves the meshes of the selected objects into that of the active one, keeping their positions. The other
 /// objects are removed; their children stay in place and move to the removed object's parent.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -195,8 +175,8 @@ fn remove_alone(scene: &mut Scene, id: NodeId) {
 }
 
 /// The material slots of the object that the others are joined to.
-struct Slots {
-    materials: Vec<MaterialId>,
+pub(super) struct Slots {
+    pub(super) materials: Vec<MaterialId>,
     /// The material that is drawn for empty slots, once it is needed.
     default: Option<MaterialId>,
 }
@@ -204,7 +184,11 @@ struct Slots {
 impl Slots {
     /// The active object's own slots. Faces in slots without a material get a slot with the default
     /// material, before the others' slots.
-    fn of_active(change: &mut Change<'_>, active: NodeId, mesh: MeshId) -> Result<Self, EditError> {
+    pub(super) fn of_active(
+        change: &mut Change<'_>,
+        active: NodeId,
+        mesh: MeshId,
+    ) -> Result<Self, EditError> {
         let materials = change.scene().node(active).map(|node| node.materials.clone()).unwrap_or_default();
         let count = materials.len() as u32;
         let mut slots = Self { materials: materials.clone(), default: None };
@@ -221,7 +205,7 @@ impl Slots {
     }
 
     /// Maps the faces of a mesh with these materials to the slots that hold the same ones here.
-    fn assign(&mut self, scene: &mut Scene, mesh: &mut EditMesh, materials: &[MaterialId]) {
+    pub(super) fn assign(&mut self, scene: &mut Scene, mesh: &mut EditMesh, materials: &[MaterialId]) {
         let faces: Vec<_> = mesh.faces().collect();
         for face in faces {
             let material = materials.get(mesh.material(face) as usize).copied();

@@ -39,9 +39,36 @@ pub fn command_schema() -> Value {
 
 const HEAD: &str = "# Commands
 
-Everything that `trigon-document` can do to a document, for scripts (`trigon-editor --run`) and for programs. A script is
-JSON: `{ \"version\": 1, \"commands\": [ { \"op\": \"select_all\" }, … ] }`. Missing parameters have their defaults; unknown
-parameters are errors.
+Everything that `trigon-document` can do to a document, for scripts (`trigon-editor --run`) and for programs.
+
+A script is JSON: `{ \"version\": 1, \"commands\": [ … ] }`, or the list `[ … ]` alone. Each command is an object: `op` is
+its name, the other keys are its parameters. Missing parameters have their defaults, and a parameter without a default and
+without the word *Default* in its description has to be given; unknown parameters are errors. A parameter whose type is a
+link takes what the section of that type lists: a name in quotes, or an object with the key that is named first, its tag.
+
+In object mode commands work on the selected objects, after `edit_objects` on the selected elements of their meshes, until
+`leave_edit_mode`. What is added is selected. +Y is up. This script makes a table from nothing:
+
+```json
+[
+  { \"op\": \"add_object\", \"object\": { \"shape\": \"cube\", \"edge\": 1.0 }, \"name\": \"Top\", \"position\": [0, 1, 0] },
+  { \"op\": \"scale\", \"factors\": [2.0, 0.1, 1.0] },
+  { \"op\": \"add_material\", \"name\": \"Wood\" },
+  { \"op\": \"set_material_slot\", \"slot\": 0, \"material\": \"Wood\" },
+  { \"op\": \"set_material\", \"material\": \"Wood\", \"base_color\": [0.4, 0.2, 0.1, 1.0], \"roughness\": 0.6 },
+  { \"op\": \"add_object\", \"object\": { \"shape\": \"cylinder\", \"radius\": 0.1, \"height\": 0.95, \"segments\": 16 },
+    \"name\": \"Leg\", \"position\": [0, 0.475, 0] },
+  { \"op\": \"edit_objects\" },
+  { \"op\": \"set_element_kind\", \"kind\": \"face\" },
+  { \"op\": \"select_by_normal\", \"direction\": [0, -1, 0] },
+  { \"op\": \"inset\", \"thickness\": 0.02 },
+  { \"op\": \"extrude\", \"distance\": 0.05 },
+  { \"op\": \"leave_edit_mode\" },
+  { \"op\": \"rotate\", \"axis\": [0, 1, 0], \"angle\": 45 }
+]
+```
+
+    trigon-editor --run table.json --output table.glb
 
 This page is generated from the comments in the code (`command_reference`, checked by a test).
 ";
@@ -69,15 +96,21 @@ fn choices(definition: &Value) -> String {
     let variants = definition["oneOf"].as_array().into_iter().flatten();
     let mut lines = String::new();
     for variant in variants {
-        let name = variant["const"].as_str().map(str::to_owned).or_else(|| {
+        let name = variant["const"].as_str().map(|name| format!("`{name}`")).or_else(|| {
             let properties = variant["properties"].as_object()?;
             // The tag that identifies the variant.
             let (tag, name) = properties.iter().find_map(|(tag, of)| Some((tag, of["const"].as_str()?)))?;
-            let parameters = properties.keys().filter(|key| *key != tag);
-            Some(format!("{name}: {}", parameters.cloned().collect::<Vec<_>>().join(", ")))
+            let parameters = properties.iter().filter(|(key, _)| *key != tag);
+            let parameters = parameters.map(|(key, of)| format!("`{key}` ({}{})", type_of(of), limits(of)));
+            let parameters = parameters.collect::<Vec<_>>().join(", ");
+            Some(format!(
+                "`\"{tag}\": \"{name}\"`{}{parameters}.",
+                if parameters.is_empty() { "" } else { " with " }
+            ))
         });
         if let Some(name) = name {
-            lines.push_str(&format!("- `{name}` {}\n", described(variant)));
+            lines.push_str(format!("- {name} {}", described(variant)).trim_end());
+            lines.push('\n');
         }
     }
     if let Some(names) = definition["enum"].as_array() {
@@ -115,6 +148,15 @@ fn range(property: &Value) -> String {
     }
 }
 
+/// The same in a list, such as ", from 3 to 100".
+fn limits(property: &Value) -> String {
+    let range = range(property).to_lowercase();
+    match range.trim().trim_end_matches('.') {
+        "" => String::new(),
+        range => format!(", {range}"),
+    }
+}
+
 fn type_of(property: &Value) -> String {
     if let Some(path) = property["$ref"].as_str() {
         let name = path.rsplit('/').next().unwrap_or(path);
@@ -139,6 +181,7 @@ fn type_of(property: &Value) -> String {
         other => other.to_owned(),
     };
     match &property["type"] {
+        Value::Null if property["contentEncoding"] == "base64" => "text in Base64".to_owned(),
         Value::String(name) => simple(name),
         Value::Array(names) => {
             let names = names.iter().filter_map(Value::as_str).filter(|&name| name != "null");
@@ -150,7 +193,10 @@ fn type_of(property: &Value) -> String {
 
 #[cfg(test)]
 mod tests {
+    use trigon_mesh::math::DVec3;
+
     use super::*;
+    use crate::{Document, Script};
 
     /// `TRIGON_UPDATE_GOLDENS=1` writes it.
     #[test]
@@ -165,6 +211,30 @@ mod tests {
             known == page,
             "docs/commands.md is not what the code says: TRIGON_UPDATE_GOLDENS=1 writes it"
         );
+    }
+
+    #[test]
+    fn the_example_makes_a_table_from_nothing() {
+        let page = command_reference();
+        let example = page.split("```json").nth(1).and_then(|rest| rest.split("```").next()).expect("there");
+        let mut document = Document::default();
+        Script::from_json(example).expect("a script").run(&mut document, |_| {}).expect("it can be run");
+        let bounds = document.scene().bounds();
+        // The foot of the leg is 5 cm below the floor, the top 5 cm above its height.
+        assert!(bounds.min.abs_diff_eq(DVec3::new(-1.0, -0.05, -0.5), 1e-6), "{bounds:?}");
+        assert!(bounds.max.abs_diff_eq(DVec3::new(1.0, 1.05, 0.5), 1e-6), "{bounds:?}");
+    }
+
+    /// What a reader of the page can write, without the code: each variant of each type by its tag.
+    #[test]
+    fn every_variant_names_its_tag() {
+        let page = command_reference();
+        for words in [
+            "`\"shape\": \"uv_sphere\"` with `radius` (number)",
+            "`\"by\": \"euler\"` with `angles` (3 × number)",
+        ] {
+            assert!(page.contains(words), "{words}");
+        }
     }
 
     #[test]

@@ -10,7 +10,7 @@ use trigon_scene::{Light, Material, Node, NodeId};
 
 use super::{Action, ObjectName, Outcome};
 use crate::error::EditError;
-use crate::state::Change;
+use crate::state::{Change, Names};
 
 /// Adds a standard object and selects it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -18,7 +18,7 @@ use crate::state::Change;
 pub struct AddObject {
     /// The shape, with its dimensions.
     pub object: Shape,
-    /// The name. Default: that of the shape.
+    /// The name. Default: that of the shape. If another object has it, a number is added: `Cube.001`.
     #[serde(default)]
     pub name: Option<String>,
     /// The position of its origin, in metres.
@@ -31,7 +31,7 @@ impl Action for AddObject {
         if change.selection().is_editing() {
             return Err(EditError::Editing("adding an object"));
         }
-        let name = self.name.clone().unwrap_or_else(|| self.object.name().to_owned());
+        let name = change.free_name(self.name.as_deref().unwrap_or(self.object.name()));
         let scene = change.scene_mut();
         let id = scene.add_object(name, self.object.mesh(), Material::default());
         let position = DVec3::from(self.position);
@@ -89,7 +89,8 @@ impl Action for AddLight {
             LightShape::Directional => Light::directional(self.intensity),
             LightShape::Spot => Light::spot(self.intensity),
         };
-        let node = Node::from_light(light.with_color(Vec3::from(self.color))).with_name(self.name.clone());
+        let name = change.free_name(&self.name);
+        let node = Node::from_light(light.with_color(Vec3::from(self.color))).with_name(name);
         let id = change.scene_mut().add(node.at(DVec3::from(self.position)));
         select_only(change, id);
         Ok(Outcome::silent())
@@ -117,7 +118,7 @@ impl Action for AddEmpty {
         if change.selection().is_editing() {
             return Err(EditError::Editing("adding an object"));
         }
-        let node = Node::default().with_name(self.name.clone());
+        let node = Node::default().with_name(change.free_name(&self.name));
         let id = change.scene_mut().add(node.at(DVec3::from(self.position)));
         select_only(change, id);
         Ok(Outcome::silent())
@@ -130,7 +131,7 @@ pub(super) fn select_only(change: &mut Change<'_>, id: NodeId) {
     selection.active = Some(id);
 }
 
-/// Renames an object.
+/// Renames an object. If another object has the new name, a number is added: `Cube.001`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RenameObject {
@@ -143,8 +144,16 @@ pub struct RenameObject {
 impl Action for RenameObject {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let id = self.object.find(change.scene())?;
-        change.scene_mut().node_mut(id).expect("it was just found").name.clone_from(&self.name);
-        Ok(Outcome::silent())
+        let name = Names::without(change.scene(), &[id].into()).take(&self.name);
+        let node = change.scene_mut().node_mut(id).expect("it was just found");
+        node.name.clone_from(&name);
+        if name == self.name {
+            return Ok(Outcome::silent());
+        }
+        Ok(Outcome::with_message(format!(
+            "another object is called {:?}: this one is now {name:?}",
+            self.name
+        )))
     }
 }
 
@@ -193,9 +202,11 @@ impl Action for DuplicateObjects {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let objects = named_or_selected(change, &[], "duplicating objects")?;
         let mut copies = BTreeSet::new();
+        let mut names = Names::of(change.scene());
         for id in objects {
             let mut node = change.scene().node(id).expect("it was just found").clone();
             let parent = node.parent();
+            node.name = names.take(&node.name);
             node.transform.translate(DVec3::from(self.offset));
             if let Some(mesh) = node.mesh.filter(|_| !self.linked) {
                 node.mesh = change.copy_mesh(mesh);
@@ -234,7 +245,8 @@ pub(super) fn named_or_selected(
     }
 }
 
-/// A standard object. Lengths are in metres.
+/// A standard object. Lengths are in metres. Counts of pieces are brought into 3 to 2048 (1 to 2048 for columns and
+/// rows, 2 to 2048 for rings), subdivisions of an icosphere into 0 to 7, those of a teapot into 2 to 64.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
 #[schemars(extend("examples" = Shape::USUAL))]

@@ -89,7 +89,7 @@ fn parts(transform: &Transform) -> (DVec3, DQuat, DVec3) {
 }
 
 /// A placement from its parts, or the map itself if it has no such parts, as under an unevenly scaled parent.
-pub(super) fn transform_of(affine: DAffine3) -> Transform {
+pub(crate) fn transform_of(affine: DAffine3) -> Transform {
     let (scale, rotation, translation) = affine.to_scale_rotation_translation();
     let whole = Transform::from_scale_rotation_translation(scale, rotation, translation);
     let largest = affine.matrix3.to_cols_array().iter().fold(0.0, |most: f64, value| most.max(value.abs()));

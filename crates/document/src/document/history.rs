@@ -43,7 +43,8 @@ impl Entry {
     fn bytes_after(&self, before: Option<&Self>) -> usize {
         let meshes: usize = self.meshes.iter().map(|(_, difference)| difference.bytes()).sum();
         let selection = self.selection.bytes_beside(before.map(|before| &before.selection));
-        meshes + self.parts.as_ref().map_or(0, |parts| parts.bytes()) + selection
+        let parts = self.parts.as_ref().map_or(0, |parts| parts.bytes());
+        meshes + parts + selection + self.command.action().bytes()
     }
 }
 

@@ -1,11 +1,14 @@
 //! An open document: a scene, its edited meshes, the selection, the history.
 
+mod copy;
 mod history;
 mod scene;
 
 use std::path::{Path, PathBuf};
 
-use trigon_io::{Export, ExportOptions, Format, LoadError, LoadOptions, Loaded, NativeDocument, Warning};
+use trigon_io::{
+    Export, ExportOptions, Format, LoadError, LoadOptions, Loaded, Location, NativeDocument, Warning,
+};
 use trigon_mesh::math::DAffine3;
 use trigon_modelling::EditMesh;
 use trigon_scene::{MeshId, Scene};
@@ -16,6 +19,7 @@ use crate::error::EditError;
 use crate::revision::next_revision;
 use crate::selection::Selection;
 use crate::state::{Change, State};
+use crate::storage::{Disk, finish_set};
 
 pub use history::{Entry, Event, History};
 
@@ -58,12 +62,19 @@ impl Document {
         Self::from_file(DocumentFile { native: NativeDocument::new(scene), ..DocumentFile::default() })
     }
 
-    /// Opens a file of any readable format, with its warnings.
+    /// Opens a file of any readable format, with its warnings. A set of files whose saving was interrupted is completed
+    /// first ([`finish_set`]).
     ///
     /// # Errors
     /// As [`NativeDocument::load`].
     pub fn open(path: &Path, options: &LoadOptions<'_>) -> Result<(Self, Vec<Warning>), LoadError> {
+        let finished = finish_set(&mut Disk, path);
         let (native, mut warnings) = NativeDocument::load(path, options)?;
+        if let Err(error) = finished {
+            let location = Location::Named("the files that belong to it".to_owned());
+            let remedy = "make its folder writable and open it again";
+            warnings.push(Warning::new(path, location, &format!("some are older: {error}"), remedy));
+        }
         Ok((Self::from_file(DocumentFile::open(native, path, &mut warnings)), warnings))
     }
 

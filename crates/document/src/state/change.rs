@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use trigon_modelling::{Difference, EdgeId, EditMesh, FaceId, Refusal, VertexId};
 use trigon_scene::{MeshId, NodeId, Scene, SceneError, SceneParts};
 
-use super::State;
+use super::{Names, State};
 use crate::error::EditError;
 use crate::selection::{Elements, MeshSelection, Selection};
 
@@ -126,20 +126,36 @@ impl Change<'_> {
         Some(copy)
     }
 
-    /// Makes a part of a mesh a separate object, next to the first object that shows the mesh.
-    pub(crate) fn add_part(&mut self, of: MeshId, part: EditMesh) {
-        let owner = self.scene().nodes().iter().find(|(_, node)| node.mesh == Some(of));
-        let mut node = owner.map(|(_, node)| node.clone()).unwrap_or_default();
-        let (mesh, _) = part.to_mesh();
-        let mesh = self.state.file.native.scene.add_mesh(node.name.clone(), mesh);
-        self.state.file.edited.insert(mesh, part);
-        self.state.shown.note_mesh(mesh);
-        node.mesh = Some(mesh);
+    /// A name for a new object: the wanted one, with a number if another object has it.
+    pub(crate) fn free_name(&self, wanted: &str) -> String {
+        Names::of(self.scene()).take(wanted)
+    }
+
+    /// Makes a part of a mesh a separate object, next to the object that shows the mesh. Returns it.
+    pub(crate) fn add_part(&mut self, of: MeshId, part: EditMesh) -> NodeId {
+        let owner = self.state.owner(of);
+        let mut node = owner.and_then(|id| self.scene().node(id)).cloned().unwrap_or_default();
+        node.name = self.free_name(&node.name);
+        // The part is a piece of the mesh alone.
+        (node.light, node.camera) = (None, None);
+        node.mesh = Some(self.add_mesh(node.name.clone(), part));
         let scene = self.scene_mut();
-        match node.parent() {
-            Some(parent) => drop(scene.add_child(parent, node)),
-            None => drop(scene.add(node)),
-        }
+        let child = node.parent().and_then(|parent| scene.add_child(parent, node.clone()));
+        child.unwrap_or_else(|| scene.add(node))
+    }
+
+    /// Adds an edited mesh.
+    fn add_mesh(&mut self, name: String, edited: EditMesh) -> MeshId {
+        let (mesh, _) = edited.to_mesh();
+        let id = self.state.file.native.scene.add_mesh(name, mesh);
+        self.set_edited(id, edited);
+        id
+    }
+
+    /// Makes a mesh that was just added to the scene an edited one.
+    pub(crate) fn set_edited(&mut self, id: MeshId, edited: EditMesh) {
+        self.state.file.edited.insert(id, edited);
+        self.state.shown.note_mesh(id);
     }
 
     /// The meshes of objects, each once, in the order of objects.

@@ -4,10 +4,12 @@
 //! |---|---|
 //! | `mod` | the state |
 //! | `change` | a command's access to it |
+//! | `names` | unique names of objects |
 //! | `shown` | how the scene follows the edited meshes |
 //! | `visible` | what a view shows instead of a mesh of the scene; marked elements; changes for a copy of it |
 
 mod change;
+mod names;
 mod shown;
 mod visible;
 
@@ -19,6 +21,7 @@ use crate::document_file::DocumentFile;
 use crate::selection::Selection;
 
 pub(crate) use change::{AfterEdit, Change};
+pub(crate) use names::Names;
 pub(crate) use shown::{Outdated, Shown, Untold};
 pub use visible::SceneChange;
 pub(crate) use visible::{MarkedElements, shown_levels};
@@ -43,10 +46,14 @@ impl State {
 
     /// The map from a mesh into the world; see [`Document::mesh_transform`](crate::Document::mesh_transform).
     pub(crate) fn mesh_transform(&self, id: MeshId) -> DAffine3 {
+        self.owner(id).map_or(DAffine3::IDENTITY, |object| self.file.native.scene.world_transform(object))
+    }
+
+    /// The first selected object that shows a mesh, or the first one at all.
+    pub(crate) fn owner(&self, id: MeshId) -> Option<NodeId> {
         let scene = &self.file.native.scene;
         let shows = |object: &NodeId| scene.node(*object).is_some_and(|node| node.mesh == Some(id));
         let selected = self.selection.objects.iter().copied().find(shows);
-        let object = selected.or_else(|| scene.nodes().iter().map(|(object, _)| object).find(shows));
-        object.map_or(DAffine3::IDENTITY, |object| scene.world_transform(object))
+        selected.or_else(|| scene.nodes().iter().map(|(object, _)| object).find(shows))
     }
 }

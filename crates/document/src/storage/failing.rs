@@ -33,6 +33,8 @@ pub(crate) enum Step {
 pub(crate) struct FailingDisk {
     log: Vec<Step>,
     fails_at: Option<usize>,
+    dies_at: Option<usize>,
+    has_failed: bool,
     has_no_links: bool,
 }
 
@@ -53,13 +55,36 @@ impl FailingDisk {
         self.fails_at = Some(step);
     }
 
-    fn files(&self) -> Files {
+    /// From the operation with this number on all fail without effect.
+    pub(crate) fn die_at(&mut self, step: usize) {
+        self.dies_at = Some(step);
+    }
+
+    /// Whether one has failed on request.
+    pub(crate) fn has_failed(&self) -> bool {
+        self.has_failed
+    }
+
+    /// A disk with these files, all synced.
+    pub(crate) fn with_files(files: &Files) -> Self {
+        let mut disk = Self::default();
+        for (path, bytes) in files {
+            disk.log.push(Step::Write { path: path.clone(), bytes: bytes.clone(), appends: false });
+            disk.log.push(Step::Sync(path.clone()));
+        }
+        disk.log.push(Step::SyncFolder);
+        disk
+    }
+
+    pub(crate) fn files(&self) -> Files {
         DiskState::after(&self.log).visible()
     }
 
     fn step(&mut self, step: Step) -> io::Result<()> {
-        if self.fails_at == Some(self.log.len()) {
+        let is_dead = self.dies_at.is_some_and(|step| self.log.len() >= step);
+        if is_dead || self.fails_at == Some(self.log.len()) {
             self.fails_at = None;
+            self.has_failed = true;
             return Err(io::Error::other("the disk is full"));
         }
         self.log.push(step);

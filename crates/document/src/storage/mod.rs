@@ -2,6 +2,7 @@
 //! data.
 
 mod save;
+mod set;
 
 use std::fs::{File, OpenOptions};
 use std::io::Write;
@@ -12,6 +13,7 @@ use trigon_io::{create_unfinished, forget_unfinished, link_unfinished};
 
 pub(crate) use save::replace;
 pub use save::{SaveError, backup_path, save};
+pub use set::{SetError, SetFile, SetState, finish_set, save_set};
 
 #[cfg(test)]
 pub(crate) mod failing;

@@ -88,7 +88,7 @@ fn failed(path: &Path, step: &'static str) -> impl FnOnce(io::Error) -> SaveErro
 }
 
 /// Writes and syncs a file next to the one that it will replace.
-fn write_new(storage: &mut dyn Storage, path: &Path, bytes: &[u8]) -> Result<PathBuf, SaveError> {
+pub(super) fn write_new(storage: &mut dyn Storage, path: &Path, bytes: &[u8]) -> Result<PathBuf, SaveError> {
     let new = unfinished_path(path);
     let written = storage.create(&new, bytes).and_then(|()| storage.sync(&new));
     remove_on_failure(storage, &new, written).map_err(failed(path, "writing the new file"))?;
@@ -106,7 +106,7 @@ fn give_name(storage: &mut dyn Storage, new: &Path, path: &Path) -> Result<(), S
     synced.map_err(|error| SaveError { is_replaced: true, ..error })
 }
 
-fn keep_backup(storage: &mut dyn Storage, target: &Path) -> io::Result<()> {
+pub(super) fn keep_backup(storage: &mut dyn Storage, target: &Path) -> io::Result<()> {
     let part = unfinished_path(target);
     if storage.link(target, &part).is_err() {
         // On file systems without hard links a copy takes longer, but is just as good.
@@ -120,13 +120,13 @@ fn keep_backup(storage: &mut dyn Storage, target: &Path) -> io::Result<()> {
     if storage.exists(&part) { storage.remove(&part) } else { Ok(()) }
 }
 
-fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
+pub(super) fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
     let mut name = path.file_name().map_or_else(OsString::new, OsString::from);
     name.push(suffix);
     path.with_file_name(name)
 }
 
-fn folder_of(path: &Path) -> &Path {
+pub(super) fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 

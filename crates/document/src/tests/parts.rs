@@ -73,7 +73,7 @@ fn parts_are_separated_from_the_objects_that_they_come_from() {
     );
     let scene = document.scene();
     let (part, node) = scene.nodes().iter().last().expect("a new one");
-    assert_eq!(node.name, "middle", "the part comes from the second object");
+    assert_eq!(node.name, "middle.001", "the part comes from the second object");
     assert_eq!(scene.world_transform(part).translation.x, 6.0, "and is where it was");
 }
 
@@ -159,4 +159,34 @@ fn two_joined_vertices_were_extruded_to_two_edges() {
         let (_, selection) = document.selection().meshes().next().expect("it still is");
         assert_eq!(selection.len(), selected, "{elements:?}: what was extruded is selected");
     }
+}
+
+#[test]
+fn new_objects_and_copies_get_names_of_their_own_and_renaming_says_so() {
+    let mut document = Document::default();
+    run_all(
+        &mut document,
+        &[
+            json!({ "op": "add_object", "object": { "shape": "cube", "edge": 1.0 } }),
+            json!({ "op": "add_object", "object": { "shape": "cube", "edge": 1.0 } }),
+            json!({ "op": "select_all" }),
+            json!({ "op": "duplicate_objects" }),
+            json!({ "op": "add_light" }),
+            json!({ "op": "add_light" }),
+            json!({ "op": "add_empty", "name": "Cube.002" }),
+            json!({ "op": "add_camera", "name": "Light" }),
+        ],
+    );
+    let names = |document: &Document| -> Vec<String> {
+        document.nodes().nodes().iter().map(|(_, node)| node.name.clone()).collect()
+    };
+    let expected =
+        ["Cube", "Cube.001", "Cube.002", "Cube.003", "Light", "Light.001", "Cube.004", "Light.002"];
+    assert_eq!(names(&document), expected);
+    let outcome = document.run(command(json!({ "op": "rename_object", "object": "Cube", "name": "Light" })));
+    assert!(outcome.expect("it is there").message.contains("Light.003"), "it says so");
+    let outcome = document.run(command(json!({ "op": "rename_object", "object": "Light", "name": "Light" })));
+    assert_eq!(outcome.expect("it is there").message, "", "its own name is free for it");
+    run_all(&mut document, &[json!({ "op": "rename_object", "object": "Light", "name": "Lamp" })]);
+    assert_eq!(names(&document)[4], "Lamp", "a free name stays");
 }

@@ -3,7 +3,7 @@
 use super::copy::Elements;
 use super::region::Region;
 use crate::edit_mesh::EditMesh;
-use crate::ids::FaceId;
+use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::refusal::Refusal;
 
 impl EditMesh {
@@ -17,6 +17,25 @@ impl EditMesh {
         let mut part = self.part(&Elements::with_parts(self, &[], &[], &region.faces));
         part.subdivision = self.subdivision;
         self.delete_faces(&region.faces)?;
+        Ok(part)
+    }
+
+    /// A mesh of copies of these faces with their edges and vertices, edges with their ends, and vertices, with
+    /// the same layers and subdivision level. Elements given several times are copied once.
+    ///
+    /// # Errors
+    /// One does not exist.
+    pub fn extract(
+        &self,
+        vertices: &[VertexId],
+        edges: &[EdgeId],
+        faces: &[FaceId],
+    ) -> Result<Self, Refusal> {
+        vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
+        edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
+        faces.iter().try_for_each(|&face| self.check_face(face))?;
+        let mut part = self.part(&Elements::with_parts(self, vertices, edges, faces));
+        part.subdivision = self.subdivision;
         Ok(part)
     }
 }
@@ -43,6 +62,18 @@ mod tests {
         };
         let before = EditMesh::from_mesh(&start).0;
         assert_eq!(positions(&lid, FaceId(0)), positions(&before, FaceId(4)), "where it was");
+    }
+
+    #[test]
+    fn copies_of_some_elements_are_a_mesh_of_their_own() {
+        let start = EditMesh::from_mesh(&with_affine_values(primitives::cube(2.0))).0;
+        let lid: Vec<_> = start.face_vertices(FaceId(4)).collect();
+        let apart = start.vertices().find(|vertex| !lid.contains(vertex)).expect("four are");
+        let part = start.extract(&[apart, apart, lid[0]], &[], &[FaceId(4)]).expect("they exist");
+        assert_eq!(counts(&part), [5, 4, 1], "the lid, and one vertex more");
+        part.check_structure().expect("whole");
+        keeps_affine_values(&part).expect("values came along");
+        assert!(start.extract(&[VertexId(99)], &[], &[]).is_err(), "there is no such vertex");
     }
 
     proptest! {

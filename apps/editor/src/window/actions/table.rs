@@ -59,6 +59,9 @@ actions! {
     "Edit/Apply" "apply.scale" "Scale" "" Objects Run(r#"{"op":"apply_transform","scale":true}"#) => "Makes the sizes of objects 1; nothing is seen to move.";
     "Edit/Apply" "apply.rotation_and_scale" "Rotation & Scale" "" Objects Run(r#"{"op":"apply_transform","rotation":true,"scale":true}"#) => "Takes turn and size of objects back; nothing is seen to move.";
     "Edit/Apply" "apply.all" "All Transforms" "" Objects Run(r#"{"op":"apply_transform","location":true,"rotation":true,"scale":true}"#) => "Takes the whole placement of objects back; nothing is seen to move.";
+    "Edit/Set Origin" "origin.geometry_to_origin" "Geometry to Origin" "" Objects Run(r#"{"op":"set_origin","to":"geometry_to_origin"}"#) => "Moves meshes so that their centres are at their origins.";
+    "Edit/Set Origin" "origin.geometry" "Origin to Geometry" "" Objects Run(r#"{"op":"set_origin"}"#) => "Moves origins to the centres of meshes; nothing is seen to move.";
+    "Edit/Set Origin" "origin.vertices" "Origin to Mean of Vertices" "" Objects Run(r#"{"op":"set_origin","center":"vertices"}"#) => "Moves origins to the mean of all vertices; nothing is seen to move.";
     "Edit" "edit.hide" "Hide Objects" "H" Objects Run(r#"{"op":"show_objects","visible":false}"#) => "Hides the selected objects.";
     "Edit" "edit.hide_others" "Hide Other Objects" "Shift+H" Objects Run(r#"{"op":"hide_others"}"#) => "Hides all objects except the selected ones.";
     "Edit" "edit.reveal" "Show Hidden Objects" "Alt+H" ObjectMode Run(r#"{"op":"reveal_objects"}"#) => "Shows all hidden objects, and selects them.";
@@ -150,7 +153,10 @@ actions! {
     "Mesh" "mesh.split" "Split" "Y Alt+M" Elements Run(r#"{"op":"split_off"}"#) => "Splits the selected faces off.";
     "Mesh" "mesh.rip" "Rip" "V" Elements Ui(UiRequest::Rip { fill: false }) => "Opens the mesh along edges or at vertices, and moves the pointer's side.";
     "Mesh" "mesh.rip_fill" "Rip Fill" "Alt+V" Elements Ui(UiRequest::Rip { fill: true }) => "Rips, and fills the gap with faces.";
-    "Mesh" "mesh.separate" "Separate" "P" Elements Run(r#"{"op":"separate"}"#) => "Makes the selected faces a separate object.";
+    "Mesh/Separate" "separate.menu" "Separate Menu" "P" EditMode Ui(UiRequest::Popup("Mesh/Separate")) => "Chooses which parts become objects of their own.";
+    "Mesh/Separate" "mesh.separate" "Selection" "" Elements Run(r#"{"op":"separate"}"#) => "Makes the selected faces a separate object.";
+    "Mesh/Separate" "separate.material" "By Material" "" Meshes Run(r#"{"op":"separate","by":"material"}"#) => "Makes the faces of each material a separate object.";
+    "Mesh/Separate" "separate.loose" "By Loose Parts" "" Meshes Run(r#"{"op":"separate","by":"loose_parts"}"#) => "Makes each part that is connected a separate object.";
     "Mesh" "mesh.fill" "Make Face / Fill" "F Alt+F" Elements Run(r#"{"op":"fill"}"#) => "Fills loops with faces.";
     "Mesh" "mesh.grid_fill" "Grid Fill" "" Elements Run(r#"{"op":"grid_fill"}"#) => "Fills a closed loop of edges with a grid of quads.";
     "Mesh" "mesh.connect" "Connect Vertices" "J" Elements Run(r#"{"op":"connect_vertices"}"#) => "Connects vertices with edges through faces.";

@@ -1,5 +1,7 @@
 //! Scripts: lists of commands as JSON.
 
+mod fault;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -56,15 +58,19 @@ impl Script {
         Self { version: Self::VERSION, commands }
     }
 
-    /// Reads a script.
+    /// Reads a script: a whole one, or a list of commands alone.
     ///
     /// # Errors
-    /// It is not valid JSON, has another version, or contains an unknown command or parameter.
+    /// It is not valid JSON, has another version, or contains an unknown command or parameter. The message names the
+    /// line, the command and, where it is to blame, the parameter.
     pub fn from_json(text: &str) -> Result<Self, EditError> {
-        let script: Self = serde_json::from_str(text).map_err(|error| EditError::Script {
-            position: format!("line {}, column {}", error.line(), error.column()),
-            what: error.to_string(),
-        })?;
+        let is_list = text.trim_start().starts_with('[');
+        let parsed = if is_list {
+            serde_json::from_str(text).map(Self::new)
+        } else {
+            serde_json::from_str::<Self>(text)
+        };
+        let script = parsed.map_err(|error| fault::describe(text, &error))?;
         if script.version != Self::VERSION {
             let what = format!("the version is {}, but only version 1 is known", script.version);
             return Err(EditError::Script { position: "version".into(), what });

@@ -1,0 +1,202 @@
+//! Random scripts over all commands, with arguments drawn from the commands' schema, some of them invalid: nothing
+//! panics, and what they leave is saved, opened again and exported to every format, with finite numbers in it.
+//!
+//! `PROPTEST_CASES=10000` makes it a sweep; see `docs/testing.md`.
+
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+use proptest::prelude::*;
+use serde_json::{Map, Value, json};
+use trigon_document::mesh::math::SplitMix64;
+use trigon_document::{Command, Document, Paste, command_schema};
+use trigon_io::{ExportOptions, LoadOptions, load_from_slice, writers};
+
+fn schema() -> &'static Value {
+    static SCHEMA: OnceLock<Value> = OnceLock::new();
+    SCHEMA.get_or_init(command_schema)
+}
+
+fn resolved(value: &'static Value) -> &'static Value {
+    match value["$ref"].as_str().and_then(|path| path.rsplit('/').next()) {
+        Some(name) => &schema()["$defs"][name],
+        None => value,
+    }
+}
+
+/// Names of objects, materials and files; some are there.
+const NAMES: [&str; 7] = ["Cube", "Plane", "Cube.001", "Material", "nobody", "+Z", ""];
+
+/// Draws arguments.
+struct Arguments(SplitMix64);
+
+impl Arguments {
+    fn chance(&mut self, one_in: usize) -> bool {
+        self.0.below(one_in) == 0
+    }
+
+    fn command(&mut self) -> Value {
+        let variants = schema()["oneOf"].as_array().expect("the commands");
+        let variant = &variants[self.0.below(variants.len())];
+        let mut command = self.object(resolved(variant));
+        command["op"] = variant["properties"]["op"]["const"].clone();
+        command
+    }
+
+    /// Each parameter that is required, and half of the others.
+    fn object(&mut self, of: &'static Value) -> Value {
+        let required: Vec<&str> =
+            of["required"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+        let mut object = Map::new();
+        for (name, property) in of["properties"].as_object().into_iter().flatten() {
+            if required.contains(&name.as_str()) || self.chance(2) {
+                object.insert(name.clone(), self.value(property));
+            }
+        }
+        object.into()
+    }
+
+    fn value(&mut self, of: &'static Value) -> Value {
+        if self.chance(60) {
+            let wrong = [json!(null), json!(-1), json!("wrong"), json!([]), json!(1e300)];
+            return wrong[self.0.below(wrong.len())].clone();
+        }
+        let of = resolved(of);
+        if !of["const"].is_null() {
+            return of["const"].clone();
+        }
+        for key in ["oneOf", "anyOf", "enum"] {
+            if let Some(choices) = of[key].as_array() {
+                let choice = &choices[self.0.below(choices.len())];
+                return if key == "enum" { choice.clone() } else { self.value(choice) };
+            }
+        }
+        let kind = match &of["type"] {
+            Value::Array(kinds) => kinds[self.0.below(kinds.len())].as_str(),
+            kind => kind.as_str(),
+        };
+        match kind {
+            Some("object") => self.object(of),
+            Some("array") => {
+                let count = of["maxItems"].as_u64().map_or_else(|| self.0.below(4), |count| count as usize);
+                (0..count).map(|_| self.value(&of["items"])).collect()
+            }
+            Some("boolean") => self.chance(2).into(),
+            Some("integer") => {
+                // Great counts take time and show nothing else.
+                let least = of["minimum"].as_u64().unwrap_or(0);
+                (least + self.0.below(4) as u64).into()
+            }
+            Some("number") => self.number().into(),
+            Some("string") => NAMES[self.0.below(NAMES.len())].into(),
+            _ => Value::Null,
+        }
+    }
+
+    fn number(&mut self) -> f64 {
+        const SPECIAL: [f64; 8] = [0.0, 1.0, -1.0, 0.5, 90.0, 1e30, -1e-30, 3.0e38];
+        if self.chance(3) { SPECIAL[self.0.below(SPECIAL.len())] } else { self.0.between(-2.0, 2.0) }
+    }
+}
+
+/// Small models of the corpus.
+fn corpus() -> &'static [PathBuf] {
+    static FILES: OnceLock<Vec<PathBuf>> = OnceLock::new();
+    FILES.get_or_init(|| {
+        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/corpus");
+        let mut files = Vec::new();
+        for folder in ["ok", "geom", "obj", "ply", "off", "stl", "anim", "float"] {
+            let entries =
+                std::fs::read_dir(PathBuf::from(root).join(folder)).expect("a folder of the corpus");
+            files.extend(entries.map(|entry| entry.expect("an entry").path()));
+        }
+        files.sort();
+        files
+    })
+}
+
+fn run(document: &mut Document, json: Value) -> bool {
+    serde_json::from_value::<Command>(json).is_ok_and(|command| document.run(command).is_ok())
+}
+
+/// A document to begin with: a model of the corpus, or two primitives; then everything is selected, often in edit mode.
+fn start(arguments: &mut Arguments) -> Document {
+    let mut document = Document::default();
+    if arguments.chance(3) {
+        let path = &corpus()[arguments.0.below(corpus().len())];
+        if let Ok((opened, _)) = Document::open(path, &LoadOptions::default()) {
+            document = opened;
+        }
+    }
+    let shapes = schema()["$defs"]["Shape"]["examples"].as_array().expect("of each shape one");
+    for name in ["Cube", "Plane"] {
+        let shape = &shapes[arguments.0.below(shapes.len() - 1)];
+        run(&mut document, json!({ "op": "add_object", "object": shape, "name": name }));
+    }
+    if arguments.chance(2) {
+        run(&mut document, json!({ "op": "edit_objects", "objects": ["Cube"] }));
+        let kind = ["vertex", "edge", "face"][arguments.0.below(3)];
+        run(&mut document, json!({ "op": "set_element_kind", "kind": kind }));
+    }
+    run(&mut document, json!({ "op": "select_all" }));
+    document
+}
+
+fn check(document: &mut Document) -> Result<(), TestCaseError> {
+    let ids: Vec<_> = document.scene().meshes().iter().map(|(id, _)| id).collect();
+    for id in ids {
+        if let Some(mesh) = document.mesh(id) {
+            prop_assert_eq!(mesh.check_structure(), Ok(()));
+            let is_finite = mesh.vertices().all(|vertex| mesh.position(vertex).is_finite());
+            prop_assert!(is_finite, "a position is no number");
+        }
+    }
+    let native = document.to_native();
+    let file = native.encode().map_err(|error| TestCaseError::fail(error.to_string()))?;
+    let opened = Document::open_bytes("a.glb".as_ref(), &file.to_bytes(), &LoadOptions::default());
+    let (again, _) = opened.map_err(|error| TestCaseError::fail(error.to_string()))?;
+    prop_assert_eq!(again.nodes().nodes().len(), document.nodes().nodes().len());
+    for writer in writers() {
+        let name = format!("a.{}", writer.extensions[0]);
+        // What a format cannot hold at all is refused.
+        let Ok(export) = document.export(&name, writer.format, &ExportOptions::default()) else { continue };
+        let model = export.files.last().expect("the model");
+        let options = LoadOptions { may_be_empty: true, ..LoadOptions::default() };
+        let loaded = load_from_slice(&name, &model.bytes, &options);
+        let loaded = loaded.map_err(|error| TestCaseError::fail(format!("{name}: {error}")))?;
+        for (_, asset) in loaded.scene.meshes().iter() {
+            let is_finite = asset.mesh().positions().iter().all(|position| position.is_finite());
+            prop_assert!(is_finite, "{}: a position is no number", name);
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #[test]
+    fn whatever_a_script_says_the_document_is_saved_opened_and_exported(seed in any::<u64>(), length in 1_usize..12) {
+        let mut arguments = Arguments(SplitMix64::new(seed));
+        let mut document = start(&mut arguments);
+        let mut script = Vec::new();
+        for _ in 0..length {
+            if arguments.chance(8) {
+                if let Ok(bytes) = document.copy() {
+                    let _ = document.run(Paste { glb: bytes.into() }.into());
+                }
+                continue;
+            }
+            if arguments.chance(4) {
+                run(&mut document, json!({ "op": "select_all" }));
+            }
+            let command = arguments.command();
+            script.push(command.to_string());
+            if run(&mut document, command) && arguments.chance(6) {
+                document.undo().expect("one was done");
+                document.redo().expect("it was undone");
+            }
+        }
+        if let Err(error) = check(&mut document) {
+            return Err(TestCaseError::fail(format!("{error}\n{}", script.join("\n"))));
+        }
+    }
+}
