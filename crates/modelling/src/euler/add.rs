@@ -1,5 +1,6 @@
 //! New vertices, edges and faces.
 
+use super::simple::is_simple;
 use smallvec::SmallVec;
 use trigon_math::Vec3;
 
@@ -50,8 +51,7 @@ impl EditMesh {
     /// values are zero, its material is slot 0.
     ///
     /// # Errors
-    /// A vertex does not exist, consecutive ones are the same, there are fewer than three
-    /// different ones.
+    /// A vertex does not exist, one is there twice, there are fewer than three.
     pub fn add_face(&mut self, vertices: &[VertexId]) -> Result<FaceId, Refusal> {
         for &vertex in vertices {
             self.check_vertex(vertex)?;
@@ -116,18 +116,8 @@ pub(crate) fn check_outline(vertices: &[VertexId]) -> Result<(), Refusal> {
     if vertices.iter().zip(next).any(|(a, b)| a == b) {
         return refused("consecutive vertices of a face differ");
     }
-    let distinct = |wanted: usize| {
-        let mut found: [Option<VertexId>; 3] = [None; 3];
-        for &vertex in vertices {
-            if !found.contains(&Some(vertex)) {
-                let slot = found.iter().position(Option::is_none).expect("it stops at the third");
-                found[slot] = Some(vertex);
-                if slot + 1 == wanted {
-                    return true;
-                }
-            }
-        }
-        false
-    };
-    if distinct(3) { Ok(()) } else { refused("a face has at least three different vertices") }
+    if vertices.len() < 3 {
+        return refused("a face has at least three different vertices");
+    }
+    if is_simple(vertices) { Ok(()) } else { refused("a face visits each of its vertices once") }
 }

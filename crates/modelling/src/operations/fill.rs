@@ -113,7 +113,7 @@ impl EditMesh {
             return refused("a single edge has nothing to fill: select the others, too");
         }
         chain.is_closed = true;
-        if self.has_face_over(&chain.vertices) {
+        if self.face_over(&chain.vertices, |_| false).is_some() {
             return refused("there is a face with these vertices already");
         }
         if self.is_wound_against(&chain) {
@@ -136,15 +136,6 @@ impl EditMesh {
         }
         filled.faces.push(face);
         Ok(())
-    }
-
-    /// Whether some vertices are exactly those of a face.
-    fn has_face_over(&self, vertices: &[VertexId]) -> bool {
-        let Some(edge) = self.find_edge(vertices[0], vertices[1]) else { return false };
-        let wanted = sorted_once(vertices.to_vec());
-        self.edge_faces(edge)
-            .filter(|&face| self.face_size(face) == vertices.len())
-            .any(|face| sorted_once(self.face_vertices(face).collect()) == wanted)
     }
 }
 

@@ -207,18 +207,6 @@ impl EditMesh {
         }
     }
 
-    /// Whether a face visits each of its vertices once.
-    pub(super) fn is_simple(&self, face: FaceId) -> bool {
-        /// Up to this size testing all pairs is faster than sorting.
-        const FEW: usize = 8;
-        let mut vertices: smallvec::SmallVec<[VertexId; FEW]> = self.face_vertices(face).collect();
-        if vertices.len() <= FEW {
-            return (1..vertices.len()).all(|i| !vertices[..i].contains(&vertices[i]));
-        }
-        vertices.sort_unstable();
-        vertices.windows(2).all(|pair| pair[0] != pair[1])
-    }
-
     /// The unit normal of a face; zero if it has no area or is not finite.
     pub(super) fn unit_normal(&self, face: FaceId) -> DVec3 {
         unit_or_zero(area_vector(self.face_vertices(face).map(|vertex| self.point(vertex))))

@@ -93,7 +93,7 @@ impl EditMesh {
         let faces = self.refined_faces(&numbers);
         self.refine_values(&numbers);
         self.slots.vertices.alive += numbers.edges.count() + numbers.faces.count();
-        self.slots.edges.alive += numbers.edges.count() + numbers.spoke_count();
+        self.slots.edges.alive += numbers.edges.count() + numbers.corners.count();
         self.slots.faces.alive = self.slots.corners.alive;
         self.slots.corners.alive *= 4;
         self.vertices.replace(vertices);

@@ -103,9 +103,7 @@ impl EditMesh {
     /// edges.
     ///
     /// Faces keep their ids and get new vertices, so neighbours that are both extruded come apart. Walls are
-    /// as those of [`Self::extrude_region`]; there are no bottoms, as in Blender. A face that visits a vertex
-    /// twice, such as one whose hole is joined to its outline by a bridge, gets no walls along the bridge. It
-    /// keeps its vertices, and the rest gets new ones.
+    /// as those of [`Self::extrude_region`]; there are no bottoms, as in Blender.
     ///
     /// # Errors
     /// No face is given, or one does not exist; the offset is not finite; there would be too many
@@ -126,19 +124,10 @@ impl EditMesh {
                 ExtrudeOffset::Along(distance) => self.unit_normal(face) * distance,
                 ExtrudeOffset::By(by) => by,
             };
-            if self.is_simple(face) {
-                positions.clear();
-                positions.extend(self.face_vertices(face).map(|vertex| self.point(vertex) + by));
-                self.lift_face(face, &positions, &mut lifted);
-                self.dress_walls(&lifted);
-            } else {
-                let alone = Region::new(self, &[face], "extruding")?;
-                let border = alone.border(self);
-                lifted.walls.extend(self.lift_region(&alone, &border, &[]).walls);
-                let vertices = alone.vertices(self);
-                vertices.iter().for_each(|&vertex| self.move_by(vertex, by));
-                lifted.vertices.extend(vertices);
-            }
+            positions.clear();
+            positions.extend(self.face_vertices(face).map(|vertex| self.point(vertex) + by));
+            self.lift_face(face, &positions, &mut lifted);
+            self.dress_walls(&lifted);
         }
         Ok(ExtrudedFaces { walls: lifted.walls, bottoms: Vec::new(), vertices: lifted.vertices })
     }

@@ -3,7 +3,8 @@
 
 use smallvec::{SmallVec, smallvec};
 
-use super::super::parts::{Parts, fill_strip};
+use super::super::parts::fill_strip;
+use crate::euler::Parts;
 
 /// A new point within a face: weights of the face's corners, which sum to 1.
 pub(super) type Interior = SmallVec<[(usize, f64); 4]>;
@@ -93,7 +94,7 @@ impl Pattern {
     }
 
     /// One part, with all points on the sides.
-    pub(super) fn keep_whole(&mut self, outline: &Outline<'_>) {
+    fn keep_whole(&mut self, outline: &Outline<'_>) {
         self.parts.clear();
         self.interior.clear();
         self.parts.push(0..outline.count);
