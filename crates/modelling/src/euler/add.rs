@@ -61,6 +61,22 @@ impl EditMesh {
         Ok(self.face_of(vertices))
     }
 
+    /// The same for an operation that fills a gap: no face is there yet.
+    ///
+    /// # Errors
+    /// Those of [`Self::add_face`]; there is a face with the same vertices.
+    pub(crate) fn add_first_face(
+        &mut self,
+        vertices: &[VertexId],
+        operation: &'static str,
+    ) -> Result<FaceId, Refusal> {
+        if self.face_over(vertices, |_| false).is_some() {
+            let reason = "a face with the same vertices is there already";
+            return Err(Refusal::NotPossible { operation, reason });
+        }
+        self.add_face(vertices)
+    }
+
     /// The face of an outline that has been checked.
     pub(crate) fn face_of(&mut self, vertices: &[VertexId]) -> FaceId {
         let mut outline = SmallVec::<[(VertexId, EdgeId); 8]>::with_capacity(vertices.len());

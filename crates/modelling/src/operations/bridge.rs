@@ -126,7 +126,7 @@ impl EditMesh {
         for (i, &vertex) in vertices.iter().enumerate() {
             self.join_new(vertex, vertices[(i + 1) % vertices.len()], &mut filled.edges);
         }
-        let face: FaceId = self.add_face(&vertices)?;
+        let face: FaceId = self.add_first_face(&vertices, BRIDGING)?;
         let corners: Vec<CornerId> = self.face_corners(face).collect();
         for (&corner, &index) in corners.iter().zip(piece) {
             if let Some(source) = rows.sources[index as usize] {

@@ -113,15 +113,12 @@ impl EditMesh {
             return refused("a single edge has nothing to fill: select the others, too");
         }
         chain.is_closed = true;
-        if self.face_over(&chain.vertices, |_| false).is_some() {
-            return refused("there is a face with these vertices already");
-        }
         if self.is_wound_against(&chain) {
             chain.vertices.reverse();
         }
         let sources = self.corners_beside(&chain);
         let known: Vec<bool> = chain.steps().map(|(from, to)| self.find_edge(from, to).is_some()).collect();
-        let face = self.add_face(&chain.vertices)?;
+        let face = self.add_first_face(&chain.vertices, FILLING)?;
         let corners: Vec<CornerId> = self.face_corners(face).collect();
         for ((&corner, source), is_known) in corners.iter().zip(&sources).zip(known) {
             if let Some(source) = *source {

@@ -142,14 +142,10 @@ impl EditMesh {
                     cells.reverse();
                 }
                 let vertices = cells.map(|(column, row)| at(column, row));
-                if self.face_over(&vertices, |_| false).is_some() {
-                    let reason = "a face of the grid would lie on another one: choose other sides";
-                    return Err(Refusal::NotPossible { operation: FILLING, reason });
-                }
                 for i in 0..4 {
                     self.join_new(vertices[i], vertices[(i + 1) % 4], &mut filled.edges);
                 }
-                let face = self.add_face(&vertices)?;
+                let face = self.add_first_face(&vertices, FILLING)?;
                 filled.faces.push(face);
                 let Some(sources) = sources else { continue };
                 let corners: Vec<CornerId> = self.face_corners(face).collect();

@@ -38,6 +38,8 @@ mod slide;
 mod split;
 mod subdivide;
 mod symmetrize;
+#[cfg(test)]
+mod table_tests;
 mod tables;
 mod transform;
 mod triangulate;

@@ -69,6 +69,8 @@ impl EditMesh {
     /// | more | 3 or more | convex corners between two cut sides are cut off |
     /// | more | 1 | the face stays whole, with more corners |
     ///
+    /// So does a face if one of these parts would lie on another face.
+    ///
     /// The pieces of an edge have its marks, the parts of a face its material. Edge and face keep their
     /// ids as one of the parts.
     ///
@@ -168,6 +170,19 @@ impl EditMesh {
         let SubdivisionScratch { corners, is_cut, starts, points, pattern, vertices } = scratch;
         let outline = Outline { is_cut, starts, cuts: cut.cuts, count: points.len() as u32 };
         pattern.choose(&outline, |corner| self.is_convex_at(corners, corner));
+        // Triangles with such parts lie on each other already.
+        if pattern.parts.len() > 1 && corners.len() > 3 {
+            let is_doubled = |outline: &[u32]| {
+                let vertices: Option<Vec<VertexId>> = outline
+                    .iter()
+                    .map(|&index| points.get(index as usize).map(|point| point.vertex))
+                    .collect();
+                vertices.is_some_and(|vertices| self.face_over(&vertices, |_| false).is_some())
+            };
+            if pattern.parts.iter().any(is_doubled) {
+                pattern.keep_whole(&outline);
+            }
+        }
         for interior in &pattern.interior {
             let point = self.interior_point(face, corners, interior);
             vertices.push(point.vertex);

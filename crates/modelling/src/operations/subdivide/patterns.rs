@@ -94,7 +94,7 @@ impl Pattern {
     }
 
     /// One part, with all points on the sides.
-    fn keep_whole(&mut self, outline: &Outline<'_>) {
+    pub(super) fn keep_whole(&mut self, outline: &Outline<'_>) {
         self.parts.clear();
         self.interior.clear();
         self.parts.push(0..outline.count);
