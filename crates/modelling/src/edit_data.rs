@@ -160,9 +160,11 @@ impl EditMesh {
             editable.set_face_hidden(face, true);
         }
         editable.clear_sharp_corners(&data.sharp_corners)?;
-        editable
-            .set_subdivision(data.subdivision)
-            .map_err(|_| EditDataError::Subdivision(data.subdivision))?;
+        if data.subdivision > Self::MOST_SUBDIVISION {
+            return Err(EditDataError::Subdivision(data.subdivision));
+        }
+        // Not refused for the memory of the surface: opening the file does not make that.
+        editable.subdivision = data.subdivision;
         // Faces and corners were named by their numbers until here.
         left_out.cut_faces = editable.make_all_simple();
         Ok((editable, left_out))

@@ -56,6 +56,9 @@ pub struct EditMesh {
     pub(super) subdivision: u32,
     /// Whether a transaction is active.
     pub(super) is_recording: bool,
+    /// How many bytes of memory an operation may let the mesh take: [`Self::MEMORY`] but within
+    /// [`Self::transaction_within`], so that meshes do not differ in it.
+    pub(super) memory: u64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -88,6 +91,7 @@ impl EditMesh {
             slots: AllSlots::default(),
             subdivision: 0,
             is_recording: false,
+            memory: Self::MEMORY,
         }
     }
 

@@ -7,6 +7,7 @@ use trigon_math::Vec3;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, NONE, VertexId};
 use crate::refusal::Refusal;
+use crate::slots::NewElements;
 
 /// Indices stay below this, so that `NONE` is none of them.
 const MOST: u32 = u32::MAX - 1;
@@ -114,14 +115,14 @@ impl EditMesh {
     pub(crate) fn check_capacity(&self) -> Result<(), Refusal> {
         /// More than any single element can take: a split edge has a corner in each of its faces,
         /// a face a corner for each of its vertices, and lists of these are limited themselves.
-        const MARGIN: usize = 1 << 20;
-        self.check_capacity_for_each(MARGIN)
+        const MARGIN: u32 = 1 << 20;
+        let longest = self.corners.len().max(self.edges.len()).max(self.vertices.len());
+        if MARGIN < MOST - longest.min(MOST) { Ok(()) } else { Err(Refusal::TooMany) }
     }
 
-    /// Whether there is room for so many more elements of each kind.
+    /// The same for so many more elements of each kind, and whether memory is allowed for them.
     pub(crate) fn check_capacity_for_each(&self, more: usize) -> Result<(), Refusal> {
-        let longest = self.corners.len().max(self.edges.len()).max(self.vertices.len());
-        if more < (MOST - longest.min(MOST)) as usize { Ok(()) } else { Err(Refusal::TooMany) }
+        self.check_capacity_for(NewElements::each(more))
     }
 }
 

@@ -9,6 +9,7 @@ use super::parts::fill_strip;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::refusal::Refusal;
+use crate::slots::NewElements;
 
 const BRIDGING: &str = "bridging";
 
@@ -51,6 +52,12 @@ impl EditMesh {
         if self.is_turned_over(first, &second, &pieces, &rows) {
             pieces.iter_mut().for_each(|piece| piece.reverse());
         }
+        self.check_capacity_for(NewElements {
+            vertices: 0,
+            edges: 3 * pieces.len() as u64,
+            corners: 4 * pieces.len() as u64,
+            faces: pieces.len() as u64,
+        })?;
         self.whole(|mesh| {
             let mut filled = Filled::default();
             for piece in pieces {

@@ -37,6 +37,7 @@ impl EditMesh {
     pub fn fill_edges(&mut self, edges: &[EdgeId]) -> Result<Filled, Refusal> {
         require(edges, FILLING, "at least two edges, or one loop")?;
         let chains = self.chains(edges, FILLING)?;
+        self.check_capacity_for_each(edges.len())?;
         self.whole(|mesh| {
             let mut filled = Filled::default();
             for chain in chains {

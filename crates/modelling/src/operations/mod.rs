@@ -23,6 +23,8 @@ mod join;
 mod knife;
 mod lift;
 mod loop_cut;
+#[cfg(test)]
+mod memory_tests;
 mod merge;
 mod mirror;
 mod outlines;

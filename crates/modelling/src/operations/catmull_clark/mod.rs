@@ -62,7 +62,8 @@ impl EditMesh {
         Ok(())
     }
 
-    fn check_capacity_for_levels(&self, levels: u32) -> Result<(), Refusal> {
+    /// Refuses surfaces for which there is no room: what it would have after so many levels.
+    pub(crate) fn check_capacity_for_levels(&self, levels: u32) -> Result<(), Refusal> {
         let [mut vertices, mut edges, mut corners, mut faces] =
             [self.vertex_count(), self.edge_count(), self.corner_count(), self.face_count()]
                 .map(|count| count as u64);
