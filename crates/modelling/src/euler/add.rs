@@ -75,7 +75,9 @@ impl EditMesh {
             let reason = "a face with the same vertices is there already";
             return Err(Refusal::NotPossible { operation, reason });
         }
-        self.add_face(vertices)
+        let face = self.add_face(vertices)?;
+        self.reveal_outline(face);
+        Ok(face)
     }
 
     /// The face of an outline that has been checked.

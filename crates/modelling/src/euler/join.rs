@@ -41,6 +41,7 @@ impl EditMesh {
             None => self.copy_edge(first, edge),
         }
         self.unite_edge_marks(second, edge);
+        let faces: SmallVec<[FaceId; 4]> = corners.iter().map(|&corner| self.corner_face(corner)).collect();
         for corner in corners {
             let before = self.previous_corner(corner);
             self.drop_corner(corner);
@@ -50,6 +51,7 @@ impl EditMesh {
         self.remove_edge(first)?;
         self.remove_edge(second)?;
         self.free_vertex(vertex.0);
+        faces.into_iter().for_each(|face| self.reveal_outline(face));
         Ok(edge)
     }
 
@@ -115,6 +117,7 @@ impl EditMesh {
         record.corner = after_one;
         self.free_face(gone.0);
         self.remove_edge(edge)?;
+        self.reveal_outline(retained);
         Ok(retained)
     }
 }

@@ -100,6 +100,7 @@ impl EditMesh {
         let record = self.faces.write(part.0);
         record.corner = first;
         record.size = outline.len() as u32;
+        self.reveal_outline(part);
     }
 
     /// The corner that a part gets at a point.

@@ -58,6 +58,7 @@ impl EditMesh {
         record.corner = outline[0].0;
         record.size = outline.len() as u32;
         self.remove_loose(&edges);
+        self.reveal_outline(retained);
         retained
     }
 }
