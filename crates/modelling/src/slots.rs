@@ -72,8 +72,8 @@ impl EditMesh {
     /// The memory of elements with all their values, in bytes, without undo records.
     fn bytes_of(&self, NewElements { vertices, edges, corners, faces }: NewElements) -> u64 {
         let values = |layers: &[Layer]| layers.iter().map(Layer::bytes_of_one).sum::<u64>();
-        let places = self.positions.bytes_of_one() + self.first_positions.bytes_of_one();
-        let vertex = self.vertices.bytes_of_one() + places + values(&self.vertex_layers);
+        let positions = self.positions.bytes_of_one() + self.first_positions.bytes_of_one();
+        let vertex = self.vertices.bytes_of_one() + positions + values(&self.vertex_layers);
         let corner = self.corners.bytes_of_one() + values(&self.corner_layers);
         // Counts are below 2^32 here, and elements have some hundred bytes.
         vertices * vertex
@@ -148,7 +148,7 @@ impl EditMesh {
         let index = slots.free;
         if index == NONE {
             self.corners.push(record);
-            self.corner_layers.iter_mut().for_each(super::layers::Layer::push_default);
+            self.corner_layers.iter_mut().for_each(Layer::push_default);
             return self.corners.len() - 1;
         }
         slots.free = self.corners[index].next;

@@ -177,8 +177,8 @@ fn without_doubles(parts: &Parts, vertices: &[VertexId]) -> Parts {
     }
     for outline in parts.iter() {
         let set = sorted_once(outline.iter().map(|&index| vertices[index as usize]).collect());
-        if let Err(place) = known.binary_search(&set) {
-            known.insert(place, set);
+        if let Err(slot) = known.binary_search(&set) {
+            known.insert(slot, set);
             distinct.push(outline.iter().copied());
         }
     }

@@ -92,15 +92,15 @@ fn what_would_take_too_much_memory_is_refused_and_changes_nothing() {
     for (name, operation) in OPERATIONS {
         let mut mesh = tube();
         let (before, bytes) = (mesh.clone(), mesh.bytes());
-        let result = mesh.transaction_within(bytes as u64, |mesh| operation(mesh));
+        let result = mesh.transaction_within(bytes as u64, operation);
         let refusal = result.map(drop).expect_err("not a byte more is allowed");
         let Refusal::Memory { needed, allowed } = refusal else { panic!("{name}: {refusal}") };
         assert_eq!(allowed, bytes as u64, "{name}");
         assert!(mesh == before && mesh.bytes() == bytes, "{name}: no list has grown");
         // One byte less than is needed is too little, and what is needed is enough.
-        let again = mesh.transaction_within(needed - 1, |mesh| operation(mesh));
+        let again = mesh.transaction_within(needed - 1, operation);
         assert!(again.is_err() && mesh == before, "{name} with a byte too little");
-        mesh.transaction_within(needed, |mesh| operation(mesh)).map(drop).expect(name);
+        mesh.transaction_within(needed, operation).map(drop).expect(name);
         let used = used_bytes(&mesh);
         assert!(used <= needed, "{name} takes {used} bytes, and {needed} were expected");
     }
