@@ -37,6 +37,16 @@ pub(super) struct NewElements {
 }
 
 impl NewElements {
+    /// As many as a mesh has.
+    pub(super) fn of(mesh: &EditMesh) -> Self {
+        Self {
+            vertices: mesh.vertex_count() as u64,
+            edges: mesh.edge_count() as u64,
+            corners: mesh.corner_count() as u64,
+            faces: mesh.face_count() as u64,
+        }
+    }
+
     /// So many of each kind.
     pub(super) fn each(count: usize) -> Self {
         let count = count as u64;

@@ -46,11 +46,11 @@ impl EditMesh {
         require(faces, "triangulating", "at least one face")?;
         faces.iter().try_for_each(|&face| self.check_face(face))?;
         let faces = sorted_once(faces.to_vec());
-        let corners: u64 = faces.iter().map(|&face| self.face_size(face) as u64).sum();
+        let cuts: u64 = faces.iter().map(|&face| self.face_size(face) as u64 - 3).sum();
         self.check_capacity_for(NewElements {
-            edges: corners,
-            corners: 2 * corners,
-            faces: corners,
+            edges: cuts,
+            corners: 2 * cuts,
+            faces: cuts,
             ..NewElements::default()
         })?;
         let (mut scratch, mut divided) = (TriangulationScratch::default(), Divided::default());

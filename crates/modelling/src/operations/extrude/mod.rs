@@ -77,10 +77,9 @@ impl EditMesh {
     ) -> Result<ExtrudedFaces, Refusal> {
         let region = Region::new(self, faces, "extruding")?;
         offset.check()?;
-        // Each corner of the region has at most one in a bottom and four in a wall.
-        self.check_capacity_for_each(5 * region.corner_count(self))?;
         let border = region.border(self);
         let sheets = region.sheets(self, &border);
+        self.check_capacity_for_lift(&border, &sheets)?;
         let vertices = region.vertices(self);
         let normals = match offset {
             ExtrudeOffset::Along(_) => self.region_normals(&region, &vertices),
@@ -115,7 +114,7 @@ impl EditMesh {
     ) -> Result<ExtrudedFaces, Refusal> {
         let region = Region::new(self, faces, "extruding")?;
         offset.check()?;
-        self.check_capacity_for_each(4 * region.corner_count(self))?;
+        self.check_capacity_for_walls(region.corner_count(self))?;
         let mut lifted = LiftedFaces::default();
         let mut positions = Vec::new();
         for &face in &region.faces {

@@ -64,7 +64,7 @@ impl EditMesh {
     pub fn inset_individual(&mut self, faces: &[FaceId], inset: Inset) -> Result<InsetFaces, Refusal> {
         let region = Region::new(self, faces, "insetting")?;
         inset.check()?;
-        self.check_capacity_for_each(4 * region.corner_count(self))?;
+        self.check_capacity_for_walls(region.corner_count(self))?;
         let mut lifted = LiftedFaces::default();
         let mut shape = Shape::default();
         for &face in &region.faces {
