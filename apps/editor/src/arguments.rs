@@ -60,6 +60,12 @@ pub(crate) struct Arguments {
     #[arg(long)]
     pub(crate) ascii: bool,
 
+    /// How many GiB of memory a command may let a mesh take [default: 4].
+    ///
+    /// A command for which that is too little is refused before it begins.
+    #[arg(long, value_name = "GIB", value_parser = gibibytes)]
+    pub(crate) memory: Option<u64>,
+
     /// Say nothing but errors.
     #[arg(long, short)]
     pub(crate) quiet: bool,
@@ -73,6 +79,13 @@ pub(crate) struct Arguments {
     #[cfg(feature = "window")]
     #[arg(long)]
     pub(crate) print_keymap: bool,
+}
+
+/// In bytes.
+fn gibibytes(text: &str) -> Result<u64, String> {
+    let number = text.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite());
+    let bytes = number.map(|number| (number * f64::from(1 << 30)) as u64);
+    bytes.ok_or_else(|| "write a number greater than 0, such as 16".to_owned())
 }
 
 fn scale(text: &str) -> Result<f64, String> {

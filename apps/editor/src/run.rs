@@ -18,6 +18,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     refuse_script(script_path, output)?;
     let script = read_script(script_path)?;
     let mut document = open(arguments)?;
+    if let Some(bytes) = arguments.memory {
+        document.set_memory(bytes);
+    }
     run_script(&script, &mut document, arguments.quiet)
         .map_err(|error| format!("{}, {error}", script_path.display()))?;
     if let Some(format) = export::format_of(arguments, output)? {

@@ -66,7 +66,7 @@ fn mesh(random: &mut SplitMix64) -> Mesh {
 enum Needs {
     /// Of this kind ("vertex" …), about so many elements in one place.
     Some(&'static str, usize),
-    /// The edges of one face, of an even number if there is one.
+    /// The edges around one face, of an even number if there is one; the face goes.
     Outline,
 }
 
@@ -259,6 +259,13 @@ impl Session {
             let face = even.get(random.below(even.len())).copied();
             let outline = face.into_iter().flat_map(|face| mesh.face_edges(face));
             let outline: Vec<u32> = outline.map(EdgeId::index).collect();
+            // What is filled has to be a gap.
+            if let Some(face) = face {
+                self.run("set_element_kind", json!({ "kind": "face" }));
+                self.run("select", json!({ "elements": [face.index()] }));
+                self.run("delete", json!({ "what": "only_faces" }));
+                self.run("set_element_kind", json!({ "kind": "edge" }));
+            }
             return self.run("select", json!({ "elements": outline }));
         }
         if count >= 1000 {

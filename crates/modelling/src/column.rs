@@ -69,6 +69,12 @@ impl<T: Copy> Column<T> {
         self.values.capacity() * size_of::<T>()
     }
 
+    /// The memory of one value, in bytes.
+    #[expect(clippy::unused_self, reason = "layers ask the column that they have")]
+    pub(super) fn bytes_of_one(&self) -> u64 {
+        size_of::<T>() as u64
+    }
+
     pub(super) fn push(&mut self, value: T) {
         self.values.push(value);
     }

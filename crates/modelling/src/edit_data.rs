@@ -138,7 +138,7 @@ impl EditMesh {
     /// # Errors
     /// The data name what the mesh has not, or more levels than [`EditMesh::MOST_SUBDIVISION`].
     pub fn from_mesh_and_data(mesh: &Mesh, data: &EditData) -> Result<(Self, LeftOut), EditDataError> {
-        let (mut editable, left_out) = Self::from_mesh(mesh);
+        let (mut editable, mut left_out) = Self::from_mesh_uncut(mesh);
         let (expected, found) = (editable.vertex_count(), data.first_positions.len());
         if found != 0 && found != expected {
             return Err(EditDataError::FirstPositions { expected, found });
@@ -160,9 +160,13 @@ impl EditMesh {
             editable.set_face_hidden(face, true);
         }
         editable.clear_sharp_corners(&data.sharp_corners)?;
-        editable
-            .set_subdivision(data.subdivision)
-            .map_err(|_| EditDataError::Subdivision(data.subdivision))?;
+        if data.subdivision > Self::MOST_SUBDIVISION {
+            return Err(EditDataError::Subdivision(data.subdivision));
+        }
+        // Not refused for the memory of the surface: opening the file does not make that.
+        editable.subdivision = data.subdivision;
+        // Faces and corners were named by their numbers until here.
+        left_out.cut_faces = editable.make_all_simple();
         Ok((editable, left_out))
     }
 

@@ -15,8 +15,8 @@ use super::refusal::Refusal;
 ///
 /// Any number of faces may share an edge, edges and vertices may stand alone, and faces may be
 /// open, folded or duplicated: non-manifold meshes need no special treatment. Two vertices are
-/// joined by at most one edge. A face has at least three corners, at at least three different
-/// vertices; consecutive vertices differ.
+/// joined by at most one edge. A face has at least three corners and
+/// visits each of its vertices once: it neither touches itself nor runs along an edge and back.
 ///
 /// An id stays valid while its element exists; a local edit takes time proportional to its
 /// neighbourhood, not to the mesh. Changes within [`EditMesh::transaction`] can be undone to the
@@ -56,6 +56,9 @@ pub struct EditMesh {
     pub(super) subdivision: u32,
     /// Whether a transaction is active.
     pub(super) is_recording: bool,
+    /// How many bytes of memory an operation may let the mesh take: [`Self::MEMORY`] but within
+    /// [`Self::transaction_within`], so that meshes do not differ in it.
+    pub(super) memory: u64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -88,6 +91,7 @@ impl EditMesh {
             slots: AllSlots::default(),
             subdivision: 0,
             is_recording: false,
+            memory: Self::MEMORY,
         }
     }
 

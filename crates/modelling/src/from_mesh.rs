@@ -1,11 +1,13 @@
 //! Converts a mesh that is shown and saved to an editable one.
 
+use smallvec::SmallVec;
 use trigon_math::Vec3;
 use trigon_mesh::{Attributes, Deltas, Mesh, SkinWeights};
 
 use super::column::Column;
 use super::edit_mesh::EditMesh;
-use super::ids::NONE;
+use super::euler::is_simple;
+use super::ids::{CornerId, FaceId, NONE, VertexId};
 use super::layers::{Layer, LayerKind, LayerValues};
 use super::records::{ALIVE, CornerRecord, EdgeRecord, FaceRecord, POINT, SMOOTH, Slots, VertexRecord};
 use super::skin::Influences;
@@ -16,6 +18,9 @@ use super::skin::Influences;
 pub struct LeftOut {
     /// Corners at the same vertex as the next corner of their face.
     pub repeated_corners: usize,
+    /// Faces that visited a vertex twice, and became simple ones: as they have a hole at the end of a bridge, touch
+    /// themselves or run along an edge and back.
+    pub cut_faces: usize,
     /// Vertices that follow more joints than are kept: the lightest are left out.
     pub skinned_vertices: usize,
 }
@@ -33,7 +38,11 @@ impl LeftOut {
                 "{mesh}: of more than eight joints at a vertex the lightest are left out, at {count} vertices"
             )
         });
-        corners.into_iter().chain(skinned)
+        let cut = (self.cut_faces > 0).then(|| {
+            let count = self.cut_faces;
+            format!("{mesh}: faces that visit a vertex twice are cut into ones that do not: {count}")
+        });
+        corners.into_iter().chain(cut).chain(skinned)
     }
 }
 
@@ -42,8 +51,16 @@ impl EditMesh {
     /// and each vertex can be reset to where it is now.
     ///
     /// A corner at the same vertex as the next of its face is left out: nothing would tell which
-    /// edge is between them. Of the joints that a vertex follows the heaviest eight are kept.
+    /// edge is between them. A face that visits a vertex twice is cut into faces that do not, or goes if it encloses
+    /// nothing; the first one keeps its number, the others come after all faces. Of the joints that a vertex follows the heaviest eight are kept.
     pub fn from_mesh(mesh: &Mesh) -> (Self, LeftOut) {
+        let (mut editable, mut left_out) = Self::from_mesh_uncut(mesh);
+        left_out.cut_faces = editable.make_all_simple();
+        (editable, left_out)
+    }
+
+    /// The same, but faces may visit vertices twice.
+    pub(super) fn from_mesh_uncut(mesh: &Mesh) -> (Self, LeftOut) {
         let mut left_out = LeftOut::default();
         let mut editable = Self::new();
         editable.add_vertices(mesh);
@@ -53,6 +70,20 @@ impl EditMesh {
         editable.corner_layers = corner_layers(mesh.attributes(), mesh.corner_count());
         left_out.repeated_corners = mesh.corner_count() - editable.corner_count();
         (editable, left_out)
+    }
+
+    /// Makes simple faces of those that visit a vertex twice. Returns how many did.
+    pub(super) fn make_all_simple(&mut self) -> usize {
+        let mut count = 0;
+        for face in (0..self.faces.len()).map(FaceId) {
+            let vertices: SmallVec<[VertexId; 8]> = self.face_vertices(face).collect();
+            if !is_simple(&vertices) {
+                count += 1;
+                let corners: SmallVec<[CornerId; 8]> = self.face_corners(face).collect();
+                self.lay_simple_parts(face, &corners, &vertices);
+            }
+        }
+        count
     }
 
     fn add_vertices(&mut self, mesh: &Mesh) {
@@ -232,11 +263,12 @@ mod tests {
 
     #[test]
     fn each_kind_of_what_is_left_out_has_a_warning_and_what_is_not_has_none() {
-        let warnings = |repeated_corners, skinned_vertices| -> Vec<String> {
-            LeftOut { repeated_corners, skinned_vertices }.warnings("cloth").collect()
+        let warnings = |repeated_corners, cut_faces, skinned_vertices| -> Vec<String> {
+            LeftOut { repeated_corners, cut_faces, skinned_vertices }.warnings("cloth").collect()
         };
-        assert!(warnings(0, 0).is_empty(), "nothing was left out");
-        let [corners, skinned] = [warnings(3, 0), warnings(0, 5)];
+        assert!(warnings(0, 0, 0).is_empty(), "nothing was left out");
+        let [corners, cut, skinned] = [warnings(3, 0, 0), warnings(0, 4, 0), warnings(0, 0, 5)];
+        assert!(cut.len() == 1 && cut[0].starts_with("cloth") && cut[0].contains('4'), "{cut:?}");
         assert!(
             corners.len() == 1 && corners[0].starts_with("cloth") && corners[0].contains('3'),
             "{corners:?}"
@@ -245,6 +277,6 @@ mod tests {
             skinned.len() == 1 && skinned[0].starts_with("cloth") && skinned[0].contains('5'),
             "{skinned:?}"
         );
-        assert_eq!(warnings(3, 5), [corners, skinned].concat(), "both");
+        assert_eq!(warnings(3, 4, 5), [corners, cut, skinned].concat(), "all");
     }
 }

@@ -222,6 +222,11 @@ impl Layer {
         for_column!(&self.values, column => column.bytes())
     }
 
+    /// The memory of one value, in bytes.
+    pub(super) fn bytes_of_one(&self) -> u64 {
+        for_column!(&self.values, column => column.bytes_of_one())
+    }
+
     /// How many slots it has.
     pub(super) fn len(&self) -> u32 {
         for_column!(&self.values, column => column.len())

@@ -49,7 +49,25 @@ pub enum Refusal {
     /// A vertex would lie farther away than its coordinates can say.
     #[error("{0} would lie beyond 3.4e38, the largest number of a coordinate: use a smaller value")]
     Overflow(VertexId),
+    /// The mesh would take more memory than is allowed.
+    #[error(
+        "the mesh would take {} of memory, and {} are allowed: do it to a part of it, or raise the setting `memory`",
+        in_words(*needed),
+        in_words(*allowed)
+    )]
+    Memory {
+        /// What the mesh would take, in bytes: an estimate before anything is done.
+        needed: u64,
+        /// What it may take, in bytes.
+        allowed: u64,
+    },
     /// The mesh would have more elements than 32-bit indices can name.
     #[error("the mesh would have too many elements for 32-bit indices: do it to a part of it")]
     TooMany,
+}
+
+/// Bytes as a user reads them, as "1.5 GiB".
+fn in_words(bytes: u64) -> String {
+    let mebibytes = bytes as f64 / f64::from(1 << 20);
+    if mebibytes < 1024.0 { format!("{mebibytes:.1} MiB") } else { format!("{:.1} GiB", mebibytes / 1024.0) }
 }

@@ -5,6 +5,7 @@ use trigon_math::Vec3;
 
 use super::edit_mesh::EditMesh;
 use super::ids::NONE;
+use super::layers::Layer;
 use super::records::{ALIVE, CornerRecord, EdgeRecord, FaceRecord, VertexRecord};
 use super::refusal::Refusal;
 
@@ -35,8 +36,31 @@ pub(super) struct NewElements {
     pub(super) faces: u64,
 }
 
+impl NewElements {
+    /// As many as a mesh has.
+    pub(super) fn of(mesh: &EditMesh) -> Self {
+        Self {
+            vertices: mesh.vertex_count() as u64,
+            edges: mesh.edge_count() as u64,
+            corners: mesh.corner_count() as u64,
+            faces: mesh.face_count() as u64,
+        }
+    }
+
+    /// So many of each kind.
+    pub(super) fn each(count: usize) -> Self {
+        let count = count as u64;
+        Self { vertices: count, edges: count, corners: count, faces: count }
+    }
+}
+
 impl EditMesh {
-    /// Refuses where indices could not name so many more elements.
+    /// How many bytes of memory an operation may let a mesh take by default: 4 GiB, about 17 million quads. The same on
+    /// every machine, so that a script has the same result; [`Self::transaction_within`] takes another limit.
+    pub const MEMORY: u64 = 4 << 30;
+
+    /// Refuses where indices could not name so many more elements, or the mesh would take more memory than is allowed.
+    /// Every operation that may add many asks for all of them before it adds the first.
     pub(super) fn check_capacity_for(&self, new: NewElements) -> Result<(), Refusal> {
         let totals = [
             u64::from(self.vertices.len()) + new.vertices,
@@ -45,7 +69,27 @@ impl EditMesh {
             u64::from(self.faces.len()) + new.faces,
         ];
         // `NONE` is no index.
-        if totals.into_iter().all(|total| total < u64::from(NONE)) { Ok(()) } else { Err(Refusal::TooMany) }
+        if totals.into_iter().any(|total| total >= u64::from(NONE)) {
+            return Err(Refusal::TooMany);
+        }
+        let needed = (self.bytes() as u64).saturating_add(self.bytes_of(new));
+        if needed > self.memory {
+            return Err(Refusal::Memory { needed, allowed: self.memory });
+        }
+        Ok(())
+    }
+
+    /// The memory of elements with all their values, in bytes, without undo records.
+    fn bytes_of(&self, NewElements { vertices, edges, corners, faces }: NewElements) -> u64 {
+        let values = |layers: &[Layer]| layers.iter().map(Layer::bytes_of_one).sum::<u64>();
+        let positions = self.positions.bytes_of_one() + self.first_positions.bytes_of_one();
+        let vertex = self.vertices.bytes_of_one() + positions + values(&self.vertex_layers);
+        let corner = self.corners.bytes_of_one() + values(&self.corner_layers);
+        // Counts are below 2^32 here, and elements have some hundred bytes.
+        vertices * vertex
+            + edges * self.edges.bytes_of_one()
+            + corners * corner
+            + faces * self.faces.bytes_of_one()
     }
 
     /// A vertex without edges; its values are the usual ones.
@@ -114,7 +158,7 @@ impl EditMesh {
         let index = slots.free;
         if index == NONE {
             self.corners.push(record);
-            self.corner_layers.iter_mut().for_each(super::layers::Layer::push_default);
+            self.corner_layers.iter_mut().for_each(Layer::push_default);
             return self.corners.len() - 1;
         }
         slots.free = self.corners[index].next;

@@ -21,11 +21,14 @@ impl EditMesh {
     /// Sets in how many levels the mesh is to be shown. The mesh itself stays as it is.
     ///
     /// # Errors
-    /// There are more than [`Self::MOST_SUBDIVISION`].
+    /// There are more than [`Self::MOST_SUBDIVISION`]; the surface would take more memory than is allowed.
     pub fn set_subdivision(&mut self, levels: u32) -> Result<(), Refusal> {
         if levels > Self::MOST_SUBDIVISION {
             let (parameter, range) = ("the number of levels", "0 to 5");
             return Err(Refusal::OutOfRange { parameter, value: f64::from(levels), range });
+        }
+        if levels > 0 {
+            self.check_capacity_for_levels(levels)?;
         }
         self.subdivision = levels;
         Ok(())
@@ -191,7 +194,11 @@ mod tests {
     #[test]
     fn levels_are_undone_and_surfaces_that_are_too_large_are_refused() {
         let mut grid = editable(&primitives::grid(1.0, 1.0, 200, 100));
-        let (_, mut difference) = grid.transaction(|grid| grid.set_subdivision(5)).expect("five are allowed");
+        let before = grid.clone();
+        let refusal = grid.set_subdivision(5).expect_err("20 million faces");
+        assert!(refusal.to_string().contains("`memory`") && grid == before, "the setting: {refusal}");
+        let levels = grid.transaction_within(u64::MAX, |grid| grid.set_subdivision(5));
+        let (_, mut difference) = levels.expect("all memory is allowed");
         assert!(!difference.is_empty() && difference.changes_subdivision());
         let (was, refused) = (grid.clone(), grid.to_subdivided_mesh(5).expect_err("20 million faces"));
         assert!(refused.to_string().contains("fewer levels"), "{refused}");

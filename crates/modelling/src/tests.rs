@@ -63,7 +63,8 @@ fn soup() -> impl Strategy<Value = Mesh> {
         for (from, to) in edges {
             drop(builder.push_loose_edge(vertex(from), vertex(to)));
         }
-        builder.build()
+        // Faces that visit a vertex twice are cut when they are made editable; afterwards numbers stay.
+        EditMesh::from_mesh(&builder.build()).0.to_mesh().0
     })
 }
 
@@ -196,7 +197,7 @@ proptest! {
     fn a_mesh_that_is_not_edited_comes_back_as_it_was(start in meshes()) {
         let (mesh, left_out) = EditMesh::from_mesh(&start);
         let (back, map) = mesh.to_mesh();
-        if left_out.repeated_corners == 0 {
+        if left_out.repeated_corners == 0 && left_out.cut_faces == 0 {
             prop_assert_eq!(back.edges(), start.edges());
             prop_assert_eq!(&back, &start);
         }

@@ -84,6 +84,32 @@ impl EditMesh {
         }
     }
 
+    /// The same with another limit than [`Self::MEMORY`] for the bytes of memory that an operation may let the mesh
+    /// take. Within another transaction its limit stays.
+    ///
+    /// # Errors
+    /// The errors of the change; among them [`Refusal::Memory`], before anything is allocated.
+    ///
+    /// ```
+    /// use trigon_mesh::primitives;
+    /// use trigon_modelling::{EditMesh, Refusal};
+    ///
+    /// let (mut cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
+    /// let refusal = cube.transaction_within(1 << 20, |mesh| mesh.catmull_clark(6)).expect_err("one MiB");
+    /// assert!(matches!(refusal, Refusal::Memory { allowed: 0x10_0000, .. }), "{refusal}");
+    /// ```
+    pub fn transaction_within<T, E>(
+        &mut self,
+        memory: u64,
+        change: impl FnOnce(&mut Self) -> Result<T, E>,
+    ) -> Result<(T, Difference), E> {
+        let before =
+            if self.is_recording { self.memory } else { std::mem::replace(&mut self.memory, memory) };
+        let result = self.transaction(change);
+        self.memory = before;
+        result
+    }
+
     /// Runs an operation that may be refused half way: then the mesh is as it was before.
     /// Within a transaction it belongs to that.
     pub(super) fn whole<T>(

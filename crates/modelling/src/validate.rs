@@ -113,7 +113,11 @@ impl EditMesh {
         }
         vertices.sort_unstable();
         vertices.dedup();
-        if vertices.len() < 3 { Err(format!("{face} has fewer than three vertices")) } else { Ok(()) }
+        if vertices.len() < self.face_size(face) {
+            Err(format!("{face} visits a vertex twice"))
+        } else {
+            Ok(())
+        }
     }
 
     /// Elements that live and slots that are free are all that there is.

@@ -234,6 +234,24 @@ impl EditMesh {
         }
     }
 
+    /// Reveals edges and vertices of a face in view: it may have come to those of hidden faces.
+    pub(crate) fn reveal_outline(&mut self, face: FaceId) {
+        if self.is_face_hidden(face) {
+            return;
+        }
+        let mut corner = CornerId(self.faces[face.0].corner);
+        for _ in 0..self.face_size(face) {
+            let (vertex, edge) = (self.corner_vertex(corner), self.corner_edge(corner));
+            if self.is_edge_hidden(edge) {
+                self.set_edge_hidden(edge, false);
+            }
+            if self.is_vertex_hidden(vertex) {
+                self.set_vertex_hidden(vertex, false);
+            }
+            corner = self.next_corner(corner);
+        }
+    }
+
     /// Gives a face the values of another: material, smooth, hidden.
     pub(crate) fn copy_face(&mut self, from: FaceId, to: FaceId) {
         let (material, flags) = (self.faces[from.0].material, self.faces[from.0].flags);

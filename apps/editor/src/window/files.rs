@@ -71,7 +71,8 @@ impl Editor {
         if let Some(recovery) = self.recovery.take() {
             recovery.close();
         }
-        self.document = document;
+        let memory = std::mem::replace(&mut self.document, document).memory();
+        self.document.set_memory(memory);
         // Its numbers may be those of the one before.
         self.look = Look::default();
         (self.view.local, self.view.before_camera) = (None, None);

@@ -58,6 +58,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let mut application = Application::new("trigon");
     let mut editor = Editor::new(keys, state_folder(), arguments.files.clone());
     editor.dialog.exchange = Exchange::new(arguments);
+    if let Some(bytes) = arguments.memory {
+        editor.document.set_memory(bytes);
+    }
     settings::prepare(&mut application.stage);
     application.run_with(&mut editor).map_err(|error| match error {
         WindowError::NoDisplay { .. } => format!("{error}; run a script instead: --run script.json"),

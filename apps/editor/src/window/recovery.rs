@@ -233,6 +233,8 @@ impl Left {
         let name = self.document.as_deref().unwrap_or(Path::new("untitled.glb"));
         let (mut document, _) = Document::open_bytes(name, &log.base, &LoadOptions::default())
             .map_err(|error| error.to_string())?;
+        // What was allowed then is allowed again.
+        document.set_memory(u64::MAX);
         document.replay(&log.events).map_err(|error| error.to_string())?;
         Ok((document, log))
     }

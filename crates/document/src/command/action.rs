@@ -42,6 +42,20 @@ impl Outcome {
         Self::with_message(format!("{verb} {count} {}", if count == 1 { one } else { many }))
     }
 
+    /// How many vertices, edges and faces went, as "removed 1 vertex, 2 edges and 1 face"; vertices always.
+    pub(crate) fn removed([vertices, edges, faces]: [usize; 3]) -> Self {
+        let words = [(vertices, "vertex", "vertices"), (edges, "edge", "edges"), (faces, "face", "faces")];
+        let reported: Vec<String> = words
+            .iter()
+            .enumerate()
+            .filter(|(kind, (count, ..))| *kind == 0 || *count > 0)
+            .map(|(_, (count, one, many))| format!("{count} {}", if *count == 1 { one } else { many }))
+            .collect();
+        let (last, others) = reported.split_last().expect("vertices are always told");
+        let separator = if others.is_empty() { "" } else { " and " };
+        Self::with_message(format!("removed {}{separator}{last}", others.join(", ")))
+    }
+
     pub(crate) fn with_message(message: impl Into<String>) -> Self {
         Self { message: message.into(), warnings: Vec::new() }
     }

@@ -162,7 +162,7 @@ impl Default for Merge {
 impl Action for Merge {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kind = change.selection().kind();
-        let mut removed = 0;
+        let mut removed = [0; 3];
         change.edit_selected("merging", "at least two selected vertices", |mesh, selection| {
             let mut vertices = selection.vertices(mesh, kind);
             if kind == ElementKind::Vertex {
@@ -180,9 +180,10 @@ impl Action for Merge {
                 MergeAt::Collapse => mesh.collapse_edges(&selection.edges(mesh, kind))?,
                 MergeAt::Distance => mesh.merge_by_distance(&vertices, self.distance)?,
             };
-            removed += merged.removed;
+            let counts = [merged.removed, merged.removed_edges, merged.removed_faces];
+            counts.into_iter().zip(&mut removed).for_each(|(count, sum)| *sum += count);
             Ok(AfterEdit::Select(Elements::Vertices(merged.vertices)))
         })?;
-        Ok(Outcome::counted("removed", removed, ["vertex", "vertices"]))
+        Ok(Outcome::removed(removed))
     }
 }

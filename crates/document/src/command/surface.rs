@@ -47,17 +47,11 @@ pub struct Triangulate {}
 impl Action for Triangulate {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kind = change.selection().kind();
-        let mut left = 0;
         change.edit_selected("triangulating", FACES, |mesh, selection| {
             let made = mesh.triangulate_faces(&selection.faces(mesh, kind))?;
-            left += made.left.len();
             Ok(AfterEdit::Select(Elements::Faces(made.faces)))
         })?;
-        if left == 0 {
-            Ok(Outcome::silent())
-        } else {
-            Ok(Outcome::counted("left as they were", left, ["face", "faces"]))
-        }
+        Ok(Outcome::silent())
     }
 }
 

@@ -188,6 +188,18 @@ impl Document {
         self.history.set_budget(bytes);
     }
 
+    /// The setting `memory`: how many bytes of memory a command may let a mesh take.
+    #[must_use]
+    pub fn memory(&self) -> u64 {
+        self.state.memory.unwrap_or(EditMesh::MEMORY)
+    }
+
+    /// Sets the setting `memory`: how many bytes of memory a command may let a mesh take; [`EditMesh::MEMORY`] without.
+    /// A command for which that is too little is refused before it allocates anything.
+    pub fn set_memory(&mut self, bytes: u64) {
+        self.state.memory = Some(bytes);
+    }
+
     /// Runs a command: one entry in the history. A preview in progress is confirmed first, as by every change
     /// of the document ([`Self::preview`]).
     ///

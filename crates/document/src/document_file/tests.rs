@@ -73,7 +73,8 @@ fn a_surface_that_is_too_large_is_not_exported_and_names_its_mesh() {
     let torus = primitives::torus(2.0, 0.5, 200, 100);
     let (mut first, id) = document(torus.clone());
     let (mut mesh, _) = EditMesh::from_mesh(&torus);
-    mesh.set_subdivision(EditMesh::MOST_SUBDIVISION).expect("levels alone are no surface yet");
+    let levels = |mesh: &mut EditMesh| mesh.set_subdivision(EditMesh::MOST_SUBDIVISION);
+    mesh.transaction_within(u64::MAX, levels).map(drop).expect("levels alone are no surface yet");
     first.edited.insert(id, mesh);
     let error = first.export("torus.obj", Format::Obj, &ExportOptions::default()).expect_err("20 million");
     assert!(error.to_string().starts_with("mesh \"shape\": "), "{error}");

@@ -46,6 +46,11 @@ impl Change<'_> {
         &mut self.state.file.native.scene
     }
 
+    /// How many bytes of memory an operation may let a mesh take.
+    pub(crate) fn memory(&self) -> u64 {
+        self.state.memory.unwrap_or(EditMesh::MEMORY)
+    }
+
     /// Notes files that contents were read from. They stay noted if the command is undone: it may be done again.
     pub(crate) fn note_files(&mut self, files: &[PathBuf]) {
         self.state.file.native.files.extend_from_slice(files);
@@ -94,10 +99,11 @@ impl Change<'_> {
         change: impl FnOnce(&mut EditMesh) -> Result<T, EditError>,
     ) -> Result<T, EditError> {
         self.mesh(id);
+        let memory = self.memory();
         let Some(mesh) = self.state.file.edited.get_mut(&id) else {
             return Err(SceneError::NoSuchMesh(id).into());
         };
-        let (result, mut difference) = mesh.transaction(change)?;
+        let (result, mut difference) = mesh.transaction_within(memory, change)?;
         if let Some(vertex) = mesh.overflow(&difference) {
             difference.apply(mesh);
             return Err(Refusal::Overflow(vertex).into());

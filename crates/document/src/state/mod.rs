@@ -34,6 +34,8 @@ pub(crate) struct State {
     pub(crate) selection: Selection,
     /// How the scene follows the edited meshes.
     pub(crate) shown: Shown,
+    /// How many bytes of memory an operation may let a mesh take, if not [`EditMesh::MEMORY`].
+    pub(crate) memory: Option<u64>,
     /// What was lost when meshes were made editable and has not been reported yet.
     pub(crate) untold: Vec<String>,
 }

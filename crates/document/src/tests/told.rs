@@ -35,6 +35,26 @@ fn counts(document: &Document) -> Vec<[usize; 3]> {
     document.selection().meshes().map(|(id, _)| count(id)).collect()
 }
 
+#[test]
+fn what_takes_more_memory_than_the_setting_is_refused_with_figures() {
+    let mut document = cubes("face");
+    document.set_memory(1 << 20);
+    for last in [
+        json!({ "op": "catmull_clark", "levels": 7 }),
+        json!({ "op": "subdivide", "cuts": 900 }),
+        json!({ "op": "set_subdivision", "levels": 5 }),
+        json!({ "op": "bevel", "segments": 100 }),
+    ] {
+        let (history, before) = (document.history().done().len(), counts(&document));
+        let refusal =
+            document.run(command(last.clone())).map(drop).expect_err("a megabyte is little").to_string();
+        assert!(refusal.contains("1.0 MiB are allowed") && refusal.contains("`memory`"), "{last}: {refusal}");
+        assert_eq!((document.history().done().len(), counts(&document)), (history, before), "{last}");
+    }
+    document.set_memory(1 << 30);
+    document.run(command(json!({ "op": "catmull_clark", "levels": 7 }))).expect("a gigabyte is enough");
+}
+
 /// What is selected of each mesh that is edited, as the commands before left it.
 fn selected(document: &Document) -> Vec<usize> {
     document.selection().meshes().map(|(_, selection)| selection.indices().count()).collect()
@@ -91,7 +111,12 @@ fn faces_and_vertices_that_are_made_or_removed_are_counted() {
     let triangles = json!({ "op": "triangulate" });
     assert_told("face", [triangles.clone()], "", [8, 18, 12]);
     assert_told("face", [triangles, json!({ "op": "tris_to_quads" })], "made 12 quads", CUBE);
-    assert_told("vertex", [json!({ "op": "merge" })], "removed 14 vertices", [1, 0, 0]);
+    assert_told(
+        "vertex",
+        [json!({ "op": "merge" })],
+        "removed 14 vertices, 24 edges and 12 faces",
+        [1, 0, 0],
+    );
     assert_told(
         "vertex",
         [json!({ "op": "merge", "at": "distance", "distance": 1.9 })],

@@ -71,6 +71,8 @@ pub(super) struct EarCutter {
     shared: Vec<bool>,
     /// How many tests of such corners are left.
     tests_left: Cell<usize>,
+    /// Whether triangles without area or turned over are wanted, too, so that there are n − 2.
+    is_complete: bool,
     grid: Grid,
     loops: Loops,
 }
@@ -87,6 +89,21 @@ enum Verdict {
 impl EarCutter {
     /// Appends the triangles of a polygon that is counter-clockwise (y up).
     pub(super) fn cut(&mut self, points: &[DVec2], triangles: &mut Vec<[u32; 3]>) {
+        self.is_complete = false;
+        self.cut_any(points, triangles);
+    }
+
+    /// The same and what is left out there, in n − 2 triangles in all: those of corners that nothing is between, and
+    /// those that are turned over.
+    pub(super) fn cut_completely(&mut self, points: &[DVec2], triangles: &mut Vec<[u32; 3]>) {
+        self.is_complete = true;
+        self.cut_any(points, triangles);
+        self.queue_all();
+        self.tests_left.set(usize::MAX);
+        self.cut_queued(points, triangles, |_, _, _| Verdict::Ear);
+    }
+
+    fn cut_any(&mut self, points: &[DVec2], triangles: &mut Vec<[u32; 3]>) {
         let (start, usual) = (triangles.len(), TESTS_PER_CORNER * points.len());
         self.start(points, usual);
         self.cut_ears(points, triangles);
@@ -95,7 +112,8 @@ impl EarCutter {
             return;
         }
         triangles.truncate(start);
-        if !self.cut_loops(points, triangles) {
+        // Cut into loops, corners in one place become one.
+        if self.is_complete || !self.cut_loops(points, triangles) {
             self.start(points, usual.max(MOST_TESTS));
             self.cut_ears(points, triangles);
             self.cut_crossing(points, triangles);
@@ -216,7 +234,12 @@ impl EarCutter {
                     triangles.push([before, corner, after]);
                     self.remove(corner);
                 }
-                Verdict::Needless => self.remove(corner),
+                Verdict::Needless => {
+                    if self.is_complete {
+                        triangles.push([before, corner, after]);
+                    }
+                    self.remove(corner);
+                }
                 Verdict::Keep => {}
             }
         }

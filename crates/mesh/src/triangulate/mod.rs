@@ -85,16 +85,65 @@ impl Triangulator {
         }
     }
 
-    fn any(&mut self, positions: &[Vec3], triangles: &mut Vec<[u32; 3]>) {
-        if positions.iter().all(|position| position.is_finite()) {
-            let view = AxisProjection::of(positions);
-            self.projected.clear();
-            self.projected.extend(positions.iter().map(|p| view.project(p.as_dvec3())));
-            self.cutter.cut(&self.projected, triangles);
-        } else {
-            triangles.extend((2..positions.len() as u32).map(|i| [0, i - 1, i]));
+    /// Appends n − 2 triangles whose common border is the polygon: those of [`Self::polygon`], and those that
+    /// are not drawn because they have no area or are turned over. So nothing of a polygon's border gets lost,
+    /// whatever its shape.
+    ///
+    /// ```
+    /// use trigon_math::Vec3;
+    /// use trigon_mesh::Triangulator;
+    ///
+    /// // The last corner is the tip of a spike.
+    /// let spiked = [Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y, Vec3::Y, Vec3::Y * 2.0];
+    /// let (mut triangulator, mut drawn, mut all) = (Triangulator::default(), Vec::new(), Vec::new());
+    /// triangulator.polygon(&spiked, &mut drawn);
+    /// triangulator.complete_polygon(&spiked, &mut all);
+    /// assert_eq!((drawn.len(), all.len()), (2, 3));
+    /// ```
+    pub fn complete_polygon(&mut self, positions: &[Vec3], triangles: &mut Vec<[u32; 3]>) {
+        match *positions {
+            [] | [_] | [_, _] => {}
+            [_, _, _] => triangles.push([0, 1, 2]),
+            [a, b, c, d] => match split([a, b, c, d]) {
+                Some(cut) => triangles.extend(cut.all_triangles()),
+                None => self.any_completely(positions, triangles),
+            },
+            _ => self.any_completely(positions, triangles),
         }
     }
+
+    fn any(&mut self, positions: &[Vec3], triangles: &mut Vec<[u32; 3]>) {
+        if self.project(positions) {
+            self.cutter.cut(&self.projected, triangles);
+        } else {
+            triangles.extend(fan(positions.len()));
+        }
+    }
+
+    fn any_completely(&mut self, positions: &[Vec3], triangles: &mut Vec<[u32; 3]>) {
+        if self.project(positions) {
+            self.cutter.cut_completely(&self.projected, triangles);
+        } else {
+            triangles.extend(fan(positions.len()));
+        }
+    }
+
+    /// Projects a polygon into a plane; false, and nothing is known about its shape, where one of its coordinates
+    /// is not finite.
+    fn project(&mut self, positions: &[Vec3]) -> bool {
+        if !positions.iter().all(|position| position.is_finite()) {
+            return false;
+        }
+        let view = AxisProjection::of(positions);
+        self.projected.clear();
+        self.projected.extend(positions.iter().map(|p| view.project(p.as_dvec3())));
+        true
+    }
+}
+
+/// Triangles from the first corner of a polygon to all others.
+fn fan(corners: usize) -> impl Iterator<Item = [u32; 3]> {
+    (2..corners as u32).map(|i| [0, i - 1, i])
 }
 
 /// The second diagonal is taken only if its square is smaller by this factor.
@@ -123,6 +172,18 @@ impl QuadCut {
             Self::Ear(1) => &[[0, 1, 2]],
             Self::Ear(2) => &[[1, 2, 3]],
             Self::Ear(_) => &[[2, 3, 0]],
+        }
+    }
+
+    /// The same and, for a quad that crosses itself, the half that is turned over.
+    const fn all_triangles(self) -> [[u32; 3]; 2] {
+        match self {
+            Self::First => [[0, 1, 2], [0, 2, 3]],
+            Self::Second => [[0, 1, 3], [1, 2, 3]],
+            Self::Ear(0) => [[3, 0, 1], [1, 2, 3]],
+            Self::Ear(1) => [[0, 1, 2], [2, 3, 0]],
+            Self::Ear(2) => [[1, 2, 3], [3, 0, 1]],
+            Self::Ear(_) => [[2, 3, 0], [0, 1, 2]],
         }
     }
 
@@ -192,6 +253,35 @@ mod tests {
             let mut expected = Vec::new();
             Triangulator::default().any(&corners, &mut expected);
             prop_assert_eq!(cut.triangles(), expected);
+        }
+    }
+
+    /// The directed sides of some outlines; those that run both ways cancel.
+    fn border(outlines: &[Vec<u32>]) -> std::collections::BTreeMap<[u32; 2], i32> {
+        let mut sides = std::collections::BTreeMap::new();
+        for outline in outlines {
+            for (i, &from) in outline.iter().enumerate() {
+                let to = outline[(i + 1) % outline.len()];
+                *sides.entry([from.min(to), from.max(to)]).or_default() += if from < to { 1 } else { -1 };
+            }
+        }
+        sides.retain(|_, count| *count != 0);
+        sides
+    }
+
+    proptest! {
+        #[test]
+        fn all_triangles_have_the_border_of_the_polygon_and_contain_those_that_are_drawn(
+            corners in prop::collection::vec(corner(), 3..14), is_flat: bool,
+        ) {
+            let flat = |corner: &Vec3| if is_flat { corner.with_z(0.0) } else { *corner };
+            let corners: Vec<Vec3> = corners.iter().map(flat).collect();
+            let (mut triangulator, mut all) = (Triangulator::default(), Vec::new());
+            triangulator.complete_polygon(&corners, &mut all);
+            prop_assert_eq!(all.len(), corners.len() - 2);
+            let outlines: Vec<Vec<u32>> = all.iter().map(|triangle| triangle.to_vec()).collect();
+            prop_assert_eq!(border(&outlines), border(&[(0..corners.len() as u32).collect()]));
+            prop_assert!(triangulate_polygon(&corners).iter().all(|triangle| all.contains(triangle)));
         }
     }
 

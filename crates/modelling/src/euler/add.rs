@@ -1,11 +1,13 @@
 //! New vertices, edges and faces.
 
+use super::simple::is_simple;
 use smallvec::SmallVec;
 use trigon_math::Vec3;
 
 use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, NONE, VertexId};
 use crate::refusal::Refusal;
+use crate::slots::NewElements;
 
 /// Indices stay below this, so that `NONE` is none of them.
 const MOST: u32 = u32::MAX - 1;
@@ -50,8 +52,7 @@ impl EditMesh {
     /// values are zero, its material is slot 0.
     ///
     /// # Errors
-    /// A vertex does not exist, consecutive ones are the same, there are fewer than three
-    /// different ones.
+    /// A vertex does not exist, one is there twice, there are fewer than three.
     pub fn add_face(&mut self, vertices: &[VertexId]) -> Result<FaceId, Refusal> {
         for &vertex in vertices {
             self.check_vertex(vertex)?;
@@ -59,6 +60,24 @@ impl EditMesh {
         self.check_capacity()?;
         check_outline(vertices)?;
         Ok(self.face_of(vertices))
+    }
+
+    /// The same for an operation that fills a gap: no face is there yet.
+    ///
+    /// # Errors
+    /// Those of [`Self::add_face`]; there is a face with the same vertices.
+    pub(crate) fn add_first_face(
+        &mut self,
+        vertices: &[VertexId],
+        operation: &'static str,
+    ) -> Result<FaceId, Refusal> {
+        if self.face_over(vertices, |_| false).is_some() {
+            let reason = "a face with the same vertices is there already";
+            return Err(Refusal::NotPossible { operation, reason });
+        }
+        let face = self.add_face(vertices)?;
+        self.reveal_outline(face);
+        Ok(face)
     }
 
     /// The face of an outline that has been checked.
@@ -98,14 +117,14 @@ impl EditMesh {
     pub(crate) fn check_capacity(&self) -> Result<(), Refusal> {
         /// More than any single element can take: a split edge has a corner in each of its faces,
         /// a face a corner for each of its vertices, and lists of these are limited themselves.
-        const MARGIN: usize = 1 << 20;
-        self.check_capacity_for_each(MARGIN)
+        const MARGIN: u32 = 1 << 20;
+        let longest = self.corners.len().max(self.edges.len()).max(self.vertices.len());
+        if MARGIN < MOST - longest.min(MOST) { Ok(()) } else { Err(Refusal::TooMany) }
     }
 
-    /// Whether there is room for so many more elements of each kind.
+    /// The same for so many more elements of each kind, and whether memory is allowed for them.
     pub(crate) fn check_capacity_for_each(&self, more: usize) -> Result<(), Refusal> {
-        let longest = self.corners.len().max(self.edges.len()).max(self.vertices.len());
-        if more < (MOST - longest.min(MOST)) as usize { Ok(()) } else { Err(Refusal::TooMany) }
+        self.check_capacity_for(NewElements::each(more))
     }
 }
 
@@ -116,18 +135,8 @@ pub(crate) fn check_outline(vertices: &[VertexId]) -> Result<(), Refusal> {
     if vertices.iter().zip(next).any(|(a, b)| a == b) {
         return refused("consecutive vertices of a face differ");
     }
-    let distinct = |wanted: usize| {
-        let mut found: [Option<VertexId>; 3] = [None; 3];
-        for &vertex in vertices {
-            if !found.contains(&Some(vertex)) {
-                let slot = found.iter().position(Option::is_none).expect("it stops at the third");
-                found[slot] = Some(vertex);
-                if slot + 1 == wanted {
-                    return true;
-                }
-            }
-        }
-        false
-    };
-    if distinct(3) { Ok(()) } else { refused("a face has at least three different vertices") }
+    if vertices.len() < 3 {
+        return refused("a face has at least three different vertices");
+    }
+    if is_simple(vertices) { Ok(()) } else { refused("a face visits each of its vertices once") }
 }

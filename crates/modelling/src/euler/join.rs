@@ -2,6 +2,7 @@
 
 use smallvec::SmallVec;
 
+use super::simple::is_simple;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::refusal::Refusal;
@@ -11,8 +12,8 @@ impl EditMesh {
     /// that either had stay. If its ends are joined by an edge already, that one takes the place of both.
     ///
     /// # Errors
-    /// There is no such vertex, it has not exactly two edges, a face runs to it and back, or a face
-    /// would have fewer than three different vertices.
+    /// There is no such vertex, it has not exactly two edges, or a face would have fewer than three
+    /// vertices or lie on another one.
     pub fn join_edges(&mut self, vertex: VertexId) -> Result<EdgeId, Refusal> {
         self.check_vertex(vertex)?;
         let refused = |reason| Err(Refusal::NotPossible { operation: "joining edges", reason });
@@ -22,11 +23,14 @@ impl EditMesh {
         };
         let corners: SmallVec<[CornerId; 4]> = self.vertex_corners(vertex).collect();
         for &corner in &corners {
-            if self.corner_edge(corner) == self.corner_edge(self.previous_corner(corner)) {
-                return refused("a face runs along the edge and back");
-            }
-            if !self.keeps_three_vertices(self.corner_face(corner), vertex) {
+            let face = self.corner_face(corner);
+            if self.face_size(face) == 3 {
                 return refused("a face would have fewer than three vertices; remove it first");
+            }
+            let left: SmallVec<[VertexId; 8]> =
+                self.face_vertices(face).filter(|&other| other != vertex).collect();
+            if self.face_over(&left, |_| false).is_some() {
+                return refused("a face would lie on another one; remove one of them first");
             }
         }
         let (a, b) = (self.other_vertex(first, vertex), self.other_vertex(second, vertex));
@@ -37,6 +41,7 @@ impl EditMesh {
             None => self.copy_edge(first, edge),
         }
         self.unite_edge_marks(second, edge);
+        let faces: SmallVec<[FaceId; 4]> = corners.iter().map(|&corner| self.corner_face(corner)).collect();
         for corner in corners {
             let before = self.previous_corner(corner);
             self.drop_corner(corner);
@@ -46,21 +51,8 @@ impl EditMesh {
         self.remove_edge(first)?;
         self.remove_edge(second)?;
         self.free_vertex(vertex.0);
+        faces.into_iter().for_each(|face| self.reveal_outline(face));
         Ok(edge)
-    }
-
-    /// Whether a face has three different vertices besides one.
-    fn keeps_three_vertices(&self, face: FaceId, without: VertexId) -> bool {
-        let mut found = SmallVec::<[VertexId; 3]>::new();
-        for vertex in self.face_vertices(face) {
-            if vertex != without && !found.contains(&vertex) {
-                found.push(vertex);
-                if found.len() == 3 {
-                    return true;
-                }
-            }
-        }
-        false
     }
 
     /// Takes a corner out of its face. The corner before it still leaves along its old edge: the caller
@@ -78,11 +70,11 @@ impl EditMesh {
     }
 
     /// Removes an edge where exactly two different faces meet that run along it in opposite
-    /// directions, and makes them one face: the first of them. Faces that share more edges then
-    /// run along those and back.
+    /// directions, and makes them one face: the first of them.
     ///
     /// # Errors
-    /// There is no such edge, or it is not between two such faces.
+    /// There is no such edge, it is not between two such faces, they share another vertex besides its ends, or
+    /// they would lie on another face.
     pub fn join_faces(&mut self, edge: EdgeId) -> Result<FaceId, Refusal> {
         self.check_edge(edge)?;
         let refused = |reason| Err(Refusal::NotPossible { operation: "joining faces", reason });
@@ -95,6 +87,18 @@ impl EditMesh {
         }
         if self.corner_vertex(one) == self.corner_vertex(two) {
             return refused("the faces wind in opposite ways; recalculate normals first");
+        }
+        let outline: Vec<VertexId> = [retained, gone]
+            .into_iter()
+            .flat_map(|face| self.face_corners(face))
+            .filter(|corner| ![one, two].contains(corner))
+            .map(|corner| self.corner_vertex(corner))
+            .collect();
+        if !is_simple(&outline) {
+            return refused("the faces share more than the edge; dissolve all that they share");
+        }
+        if self.face_over(&outline, |_| false).is_some() {
+            return refused("the face would lie on another one; remove one of them first");
         }
         let moved: Vec<CornerId> = self.face_corners(gone).collect();
         for corner in &moved {
@@ -113,6 +117,7 @@ impl EditMesh {
         record.corner = after_one;
         self.free_face(gone.0);
         self.remove_edge(edge)?;
+        self.reveal_outline(retained);
         Ok(retained)
     }
 }

@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::add::check_outline;
+use super::simple::is_simple;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::numbering::{Numbering, sorted_once};
@@ -30,7 +30,8 @@ impl Targets {
 impl EditMesh {
     /// Lets one vertex take the place of others, for any number of pairs (vertex, what takes its
     /// place) at once. Edges that join the same vertices then become one, with the marks of all;
-    /// faces lose corners, and a face that is left with fewer than three different vertices is
+    /// faces lose corners, and a face that would visit a vertex twice becomes its simple parts:
+    /// none of what runs along an edge and back, one for each loop. A face that would lie on another one is
     /// removed. A pair of the same vertex twice is ignored.
     ///
     /// # Errors
@@ -113,13 +114,29 @@ impl EditMesh {
             keep(&mut outline, 0, corner);
         }
         let vertices: SmallVec<[VertexId; 8]> = outline.iter().map(|&(_, vertex)| vertex).collect();
-        if vertices.len() < 3 || check_outline(&vertices).is_err() {
+        if vertices.len() < 3 {
             return self.remove_face(face);
         }
         for corner in dropped {
             self.drop_corner(corner);
         }
         self.faces.write(face.0).corner = outline[0].0.0;
-        self.relink_face(face, &vertices)
+        if is_simple(&vertices) {
+            self.relink_face(face, &vertices)?;
+            return self.remove_if_doubled(face);
+        }
+        let corners: SmallVec<[CornerId; 8]> = outline.iter().map(|&(corner, _)| corner).collect();
+        let parts = self.lay_simple_parts(face, &corners, &vertices);
+        parts.into_iter().try_for_each(|part| self.remove_if_doubled(part))
+    }
+
+    /// Removes a face that lies on another one. Of faces that become such, the last one goes.
+    fn remove_if_doubled(&mut self, face: FaceId) -> Result<(), Refusal> {
+        let vertices: SmallVec<[VertexId; 8]> = self.face_vertices(face).collect();
+        if self.face_over(&vertices, |other| other == face).is_some() {
+            self.remove_face(face)
+        } else {
+            Ok(())
+        }
     }
 }

@@ -8,10 +8,13 @@
 mod add;
 mod join;
 mod merge;
+mod parts;
 mod relink;
 mod remove;
+mod simple;
 mod split;
 mod turn;
 
-pub(super) use add::check_outline;
+pub(super) use parts::{Divided, PartPoint, Parts};
+pub(super) use simple::is_simple;
 pub use split::{SplitEdge, SplitFace};

@@ -46,6 +46,7 @@ impl EditMesh {
             self.corners.write(corner.0).vertex = vertex.0;
             self.link_at_edge(corner.0, edge.0);
         }
+        self.reveal_outline(face);
         Ok(())
     }
 

@@ -87,11 +87,9 @@ impl EditMesh {
                 continue;
             }
             faces += 1;
-            match self.edge_to_dissolve(face) {
-                Some(edge) => {
-                    self.join_faces(edge)?;
-                }
-                None => self.remove_face(face)?,
+            let is_joined = self.edge_to_dissolve(face).is_some_and(|edge| self.join_faces(edge).is_ok());
+            if !is_joined {
+                self.remove_face(face)?;
             }
         }
         Ok(faces)

@@ -9,6 +9,7 @@ use super::parts::fill_strip;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::refusal::Refusal;
+use crate::slots::NewElements;
 
 const BRIDGING: &str = "bridging";
 
@@ -51,6 +52,12 @@ impl EditMesh {
         if self.is_turned_over(first, &second, &pieces, &rows) {
             pieces.iter_mut().for_each(|piece| piece.reverse());
         }
+        self.check_capacity_for(NewElements {
+            vertices: 0,
+            edges: 3 * pieces.len() as u64,
+            corners: 4 * pieces.len() as u64,
+            faces: pieces.len() as u64,
+        })?;
         self.whole(|mesh| {
             let mut filled = Filled::default();
             for piece in pieces {
@@ -126,7 +133,7 @@ impl EditMesh {
         for (i, &vertex) in vertices.iter().enumerate() {
             self.join_new(vertex, vertices[(i + 1) % vertices.len()], &mut filled.edges);
         }
-        let face: FaceId = self.add_face(&vertices)?;
+        let face: FaceId = self.add_first_face(&vertices, BRIDGING)?;
         let corners: Vec<CornerId> = self.face_corners(face).collect();
         for (&corner, &index) in corners.iter().zip(piece) {
             if let Some(source) = rows.sources[index as usize] {

@@ -36,8 +36,8 @@ impl EditMesh {
         vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
         faces.iter().try_for_each(|&face| self.check_face(face))?;
+        self.check_capacity_for_copies(faces, edges.len() + vertices.len())?;
         let part = self.part(&Elements::with_parts(self, vertices, edges, faces));
-        self.check_capacity_for_each(part.corner_count().max(part.edge_count()).max(part.vertex_count()))?;
         Ok(self.append(&part))
     }
 }

@@ -37,6 +37,7 @@ impl EditMesh {
     pub fn fill_edges(&mut self, edges: &[EdgeId]) -> Result<Filled, Refusal> {
         require(edges, FILLING, "at least two edges, or one loop")?;
         let chains = self.chains(edges, FILLING)?;
+        self.check_capacity_for_each(edges.len())?;
         self.whole(|mesh| {
             let mut filled = Filled::default();
             for chain in chains {
@@ -113,15 +114,12 @@ impl EditMesh {
             return refused("a single edge has nothing to fill: select the others, too");
         }
         chain.is_closed = true;
-        if self.has_face_over(&chain.vertices) {
-            return refused("there is a face with these vertices already");
-        }
         if self.is_wound_against(&chain) {
             chain.vertices.reverse();
         }
         let sources = self.corners_beside(&chain);
         let known: Vec<bool> = chain.steps().map(|(from, to)| self.find_edge(from, to).is_some()).collect();
-        let face = self.add_face(&chain.vertices)?;
+        let face = self.add_first_face(&chain.vertices, FILLING)?;
         let corners: Vec<CornerId> = self.face_corners(face).collect();
         for ((&corner, source), is_known) in corners.iter().zip(&sources).zip(known) {
             if let Some(source) = *source {
@@ -136,15 +134,6 @@ impl EditMesh {
         }
         filled.faces.push(face);
         Ok(())
-    }
-
-    /// Whether some vertices are exactly those of a face.
-    fn has_face_over(&self, vertices: &[VertexId]) -> bool {
-        let Some(edge) = self.find_edge(vertices[0], vertices[1]) else { return false };
-        let wanted = sorted_once(vertices.to_vec());
-        self.edge_faces(edge)
-            .filter(|&face| self.face_size(face) == vertices.len())
-            .any(|face| sorted_once(self.face_vertices(face).collect()) == wanted)
     }
 }
 

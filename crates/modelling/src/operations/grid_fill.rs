@@ -72,8 +72,8 @@ impl EditMesh {
     /// Faces are wound like their neighbours, as in [`Self::fill_edges`], and have the material of the first.
     ///
     /// # Errors
-    /// No edge is given, one does not exist, they do not form one loop with an even number of edges, the span
-    /// is out of range, or the mesh would have too many elements.
+    /// No edge is given, one does not exist, they do not form one loop with an even number of edges, a face is
+    /// there already, the span is out of range, or the mesh would have too many elements.
     pub fn grid_fill(&mut self, edges: &[EdgeId], sides: GridSides) -> Result<Filled, Refusal> {
         require(edges, FILLING, "one loop of edges")?;
         let refused = |reason| Err(Refusal::NotPossible { operation: FILLING, reason });
@@ -84,6 +84,9 @@ impl EditMesh {
         let count = chain.vertices.len();
         if count < 4 || count % 2 != 0 {
             return refused("an even number of edges, four or more, is needed: subdivide one");
+        }
+        if self.face_over(&chain.vertices, |_| false).is_some() {
+            return refused("there is a face within the loop already: delete it first");
         }
         let columns = sides.span.unwrap_or(count / 4);
         if !(1..count / 2).contains(&columns) {
@@ -142,7 +145,7 @@ impl EditMesh {
                 for i in 0..4 {
                     self.join_new(vertices[i], vertices[(i + 1) % 4], &mut filled.edges);
                 }
-                let face = self.add_face(&vertices)?;
+                let face = self.add_first_face(&vertices, FILLING)?;
                 filled.faces.push(face);
                 let Some(sources) = sources else { continue };
                 let corners: Vec<CornerId> = self.face_corners(face).collect();

@@ -6,6 +6,7 @@ use super::copy::CopiedElements;
 use crate::edit_mesh::EditMesh;
 use crate::layers::{Layer, LayerKind, LayerValues};
 use crate::refusal::Refusal;
+use crate::slots::NewElements;
 
 impl EditMesh {
     /// Adds all elements of another mesh, transformed (from its space to this one's, in metres), with their
@@ -20,7 +21,7 @@ impl EditMesh {
     /// # Errors
     /// There would be too many elements.
     pub fn join_mesh(&mut self, other: &Self, transform: &DAffine3) -> Result<CopiedElements, Refusal> {
-        self.check_capacity_for_each(other.corner_count().max(other.edge_count()).max(other.vertex_count()))?;
+        self.check_capacity_for(NewElements::of(other))?;
         if *transform == DAffine3::IDENTITY {
             return Ok(self.append(other));
         }

@@ -7,6 +7,8 @@ use super::region::{BorderEdge, Region, SplitVertex, SplitVertices};
 use super::tables::IndexTable;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::refusal::Refusal;
+use crate::slots::NewElements;
 
 /// A region that was lifted as a whole.
 pub(super) struct Lifted {
@@ -36,6 +38,34 @@ pub(super) struct LiftedFaces {
 }
 
 impl EditMesh {
+    /// Refuses a region for which there is no room once it is lifted.
+    pub(super) fn check_capacity_for_lift(
+        &self,
+        border: &[BorderEdge],
+        sheets: &[FaceId],
+    ) -> Result<(), Refusal> {
+        let corners: usize = sheets.iter().map(|&face| self.face_size(face)).sum();
+        let (border, corners) = (border.len() as u64, corners as u64);
+        // A wall has a base, two edges that lead up to it, and vertices at their ends; a bottom is a copy.
+        self.check_capacity_for(NewElements {
+            vertices: 2 * border + corners,
+            edges: 3 * border + corners,
+            corners: 4 * border + corners,
+            faces: border + sheets.len() as u64,
+        })
+    }
+
+    /// Refuses faces that are lifted one by one where there is no room for a wall along each of their edges.
+    pub(super) fn check_capacity_for_walls(&self, corners: usize) -> Result<(), Refusal> {
+        let walls = corners as u64;
+        self.check_capacity_for(NewElements {
+            vertices: walls,
+            edges: 2 * walls,
+            corners: 4 * walls,
+            faces: walls,
+        })
+    }
+
     /// Lifts a region: walls along the given border edges, and bottoms for the faces of sheets.
     pub(super) fn lift_region(
         &mut self,
@@ -205,18 +235,6 @@ impl EditMesh {
         for (i, &wall) in walls.iter().enumerate() {
             self.dress_wall(wall, lifted.corners[i], lifted.corners[(i + 1) % count]);
         }
-    }
-
-    /// Whether a face visits each of its vertices once.
-    pub(super) fn is_simple(&self, face: FaceId) -> bool {
-        /// Up to this size testing all pairs is faster than sorting.
-        const FEW: usize = 8;
-        let mut vertices: smallvec::SmallVec<[VertexId; FEW]> = self.face_vertices(face).collect();
-        if vertices.len() <= FEW {
-            return (1..vertices.len()).all(|i| !vertices[..i].contains(&vertices[i]));
-        }
-        vertices.sort_unstable();
-        vertices.windows(2).all(|pair| pair[0] != pair[1])
     }
 
     /// The unit normal of a face; zero if it has no area or is not finite.

@@ -7,6 +7,7 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::records::HIDDEN;
 use crate::refusal::Refusal;
+use crate::slots::NewElements;
 
 /// The vertices on an edge: few rings have more cuts.
 pub(super) type Vertices = SmallVec<[VertexId; 8]>;
@@ -108,6 +109,14 @@ impl EditMesh {
             return Err(Refusal::OutOfRange { parameter, value: position, range });
         }
         let ring = self.ring_of_quads(edge)?;
+        let count = (ring.rungs.len() * cuts) as u64;
+        // A vertex on each rung, which divides its edge, and an edge across each face, which divides that.
+        self.check_capacity_for(NewElements {
+            vertices: count,
+            edges: 2 * count,
+            corners: 4 * count,
+            faces: count,
+        })?;
         let parameters: Vec<f64> = (1..=cuts).map(|k| (k as f64 + position) / (cuts + 1) as f64).collect();
         let parameters: Vec<Vec<f64>> = ring
             .rungs

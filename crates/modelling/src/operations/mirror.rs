@@ -8,6 +8,7 @@ use super::transform::GivenNormals;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::refusal::Refusal;
+use crate::slots::NewElements;
 
 /// A mirrored copy.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -82,10 +83,24 @@ impl EditMesh {
         if let Some(distance) = merge_distance {
             check_merge_distance(distance)?;
         }
+        self.check_capacity_for_copies(faces, edges.len())?;
         let is_near = |mesh: &Self, vertex: VertexId| {
             merge_distance.is_some_and(|most| plane.signed_distance(mesh.point(vertex)).abs() <= most)
         };
         self.whole(|mesh| Copy::make(mesh, faces, edges, plane, is_near))
+    }
+
+    /// Refuses copies of some faces and edges for which there is no room.
+    pub(super) fn check_capacity_for_copies(&self, faces: &[FaceId], edges: usize) -> Result<(), Refusal> {
+        let corners: usize = faces.iter().map(|&face| self.face_size(face)).sum();
+        // Each corner has an edge of its own at most, and each edge two vertices.
+        let (corners, edges) = (corners as u64, edges as u64);
+        self.check_capacity_for(NewElements {
+            vertices: corners + 2 * edges,
+            edges: corners + edges,
+            corners,
+            faces: faces.len() as u64,
+        })
     }
 
     /// Moves a vertex onto a plane.

@@ -23,6 +23,8 @@ mod join;
 mod knife;
 mod lift;
 mod loop_cut;
+#[cfg(test)]
+mod memory_tests;
 mod merge;
 mod mirror;
 mod outlines;
@@ -38,6 +40,8 @@ mod slide;
 mod split;
 mod subdivide;
 mod symmetrize;
+#[cfg(test)]
+mod table_tests;
 mod tables;
 mod transform;
 mod triangulate;

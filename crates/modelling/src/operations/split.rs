@@ -4,6 +4,7 @@ use super::region::{Region, SplitVertices};
 use crate::edit_mesh::EditMesh;
 use crate::ids::{FaceId, VertexId};
 use crate::refusal::Refusal;
+use crate::slots::NewElements;
 
 impl EditMesh {
     /// Detaches faces from the rest of the mesh, in place: where they shared edges and vertices with other
@@ -15,10 +16,11 @@ impl EditMesh {
     /// many elements.
     pub fn split_off(&mut self, faces: &[FaceId]) -> Result<Vec<VertexId>, Refusal> {
         let region = Region::new(self, faces, "splitting off")?;
-        self.check_capacity_for_each(region.corner_count(self))?;
         let mut border = region.border(self);
         border.retain(|edge| edge.outer.is_some());
         let vertices = region.vertices(self);
+        let (split, edges) = (vertices.len() as u64, border.len() as u64);
+        self.check_capacity_for(NewElements { vertices: split, edges, ..NewElements::default() })?;
         let mut splits = SplitVertices::new(self, vertices.len());
         for &vertex in &vertices {
             if self.has_others(vertex, &region) {

@@ -43,6 +43,8 @@ impl EditMesh {
     ) -> Result<Symmetrized, Refusal> {
         self.check_faces(faces, "symmetrizing")?;
         check_merge_distance(merge_distance)?;
+        // Twice, since faces that cross the plane are cut.
+        self.check_capacity_for_copies(&[faces, faces].concat(), 0)?;
         self.whole(|mesh| {
             let mut halves = Halves::of(mesh, faces, plane, merge_distance);
             let pieces = halves.cut(mesh, faces)?;

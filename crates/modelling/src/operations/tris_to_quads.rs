@@ -48,7 +48,8 @@ impl EditMesh {
     /// - along a seam, a sharp or a creased edge, or one with other than two sides,
     /// - where texture coordinates or colours differ on both sides of the edge,
     /// - if materials or shading of the faces differ, or their windings are opposite,
-    /// - if a triangle has no area or a position that is not finite.
+    /// - if a triangle has no area or a position that is not finite,
+    /// - if the quad would lie on another face.
     ///
     /// A quad keeps the id of the face that comes first at the edge. Blender respects seams and values only
     /// on request.
@@ -74,8 +75,11 @@ impl EditMesh {
         for candidate in candidates {
             let indices = candidate.faces.map(|face| numbering.get(face.0).expect("it is a candidate"));
             if indices.iter().all(|&index| !is_joined.contains(index)) {
-                indices.iter().for_each(|&index| is_joined.insert(index));
-                quads.push(self.join_faces(candidate.edge)?);
+                // A quad that would lie on another face is refused.
+                if let Ok(quad) = self.join_faces(candidate.edge) {
+                    indices.iter().for_each(|&index| is_joined.insert(index));
+                    quads.push(quad);
+                }
             }
         }
         quads.sort_unstable();

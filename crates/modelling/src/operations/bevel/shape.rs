@@ -9,6 +9,7 @@ use crate::blends::CornerBlends;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, FaceId, NONE};
 use crate::refusal::Refusal;
+use crate::slots::NewElements;
 
 /// Grids are laid where at most this many bevels meet: each of their points is a sum over all.
 const MOST_IN_GRID: usize = 32;
@@ -62,12 +63,17 @@ pub(super) struct Plan<'m> {
     scratch: Vec<(CornerId, f64)>,
 }
 
-/// Refuses what 32-bit indices cannot name.
+/// Refuses what 32-bit indices cannot name, or takes too much memory.
 pub(super) fn check_size(mesh: &EditMesh, laid: &Laid, segments: usize) -> Result<(), Refusal> {
     let nodes = laid.rounds.iter().map(|round| (round.nodes[1] - round.nodes[0]) as u64);
     let corners = most_corners(laid.ends.len() as u64, nodes, segments as u64);
     let most = u64::from(u32::MAX / 2);
-    if mesh.corner_capacity() as u64 + corners < most { Ok(()) } else { Err(Refusal::TooMany) }
+    if mesh.corner_capacity() as u64 + corners >= most {
+        return Err(Refusal::TooMany);
+    }
+    // Grids of quads have a vertex and two edges for each face.
+    let faces = corners / 4;
+    mesh.check_capacity_for(NewElements { vertices: faces, edges: 2 * faces, corners, faces })
 }
 
 /// At least as many as there will be new corners: four for each segment of an edge, and for each point of a grid

@@ -62,7 +62,8 @@ impl EditMesh {
         Ok(())
     }
 
-    fn check_capacity_for_levels(&self, levels: u32) -> Result<(), Refusal> {
+    /// Refuses surfaces for which there is no room: what it would have after so many levels.
+    pub(crate) fn check_capacity_for_levels(&self, levels: u32) -> Result<(), Refusal> {
         let [mut vertices, mut edges, mut corners, mut faces] =
             [self.vertex_count(), self.edge_count(), self.corner_count(), self.face_count()]
                 .map(|count| count as u64);
@@ -93,7 +94,7 @@ impl EditMesh {
         let faces = self.refined_faces(&numbers);
         self.refine_values(&numbers);
         self.slots.vertices.alive += numbers.edges.count() + numbers.faces.count();
-        self.slots.edges.alive += numbers.edges.count() + numbers.spoke_count();
+        self.slots.edges.alive += numbers.edges.count() + numbers.corners.count();
         self.slots.faces.alive = self.slots.corners.alive;
         self.slots.corners.alive *= 4;
         self.vertices.replace(vertices);

@@ -121,7 +121,7 @@ impl EditMesh {
                 }
             }
         }
-        // A single edge that has not two faces, or to which a face runs and back, holds its end.
+        // A single edge that has not two faces holds its end.
         let is_smooth = is_whole && count > 1;
         let point_by_rule = |edges: SharpEdges| match edges.rule() {
             Rule::Smooth if is_smooth => {

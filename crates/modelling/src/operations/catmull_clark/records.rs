@@ -93,40 +93,29 @@ impl EditMesh {
 
     /// The last of the spokes from an edge, in the order of its faces.
     fn last_spoke(&self, numbers: &Numbers, edge: u32) -> Option<u32> {
-        (self.edges[edge].corner != NONE).then(|| {
-            let last = self.corners[self.first_with_spoke(numbers, edge)].radial_previous;
-            numbers.spoke(back_to_own(numbers, last, |corner| self.corners[corner].radial_previous))
-        })
+        let first = self.edges[edge].corner;
+        (first != NONE).then(|| numbers.spoke(self.corners[first].radial_previous))
     }
 
-    /// The spoke of a corner that is the first with it.
+    /// The spoke of a corner.
     fn spoke(&self, numbers: &Numbers, corner: u32) -> EdgeRecord {
         let record = self.corners[corner];
-        let first = self.first_with_spoke(numbers, record.edge);
+        let first = self.edges[record.edge].corner;
         // Around the vertex on the edge: after the last spoke comes the first half, before
         // the first spoke the second half.
-        let next = back_to_own(numbers, record.radial_next, |corner| self.corners[corner].radial_next);
-        let previous =
-            back_to_own(numbers, record.radial_previous, |corner| self.corners[corner].radial_previous);
+        let (after, before) = (record.radial_next, record.radial_previous);
         let at_edge = [
-            if next == first { record.edge } else { numbers.spoke(next) },
-            if corner == first { numbers.second_half(record.edge) } else { numbers.spoke(previous) },
+            if after == first { record.edge } else { numbers.spoke(after) },
+            if corner == first { numbers.second_half(record.edge) } else { numbers.spoke(before) },
         ];
-        let ahead = back_to_own(numbers, record.next, |corner| self.corners[corner].next);
-        let back = back_to_own(numbers, record.previous, |corner| self.corners[corner].previous);
         EdgeRecord {
             vertices: [numbers.on_edge(record.edge), numbers.in_face(record.face)],
-            next: [at_edge[0], numbers.spoke(ahead)],
-            previous: [at_edge[1], numbers.spoke(back)],
+            next: [at_edge[0], numbers.spoke(record.next)],
+            previous: [at_edge[1], numbers.spoke(record.previous)],
             corner: numbers.new_corner(corner, ON_EDGE),
             crease: 0.0,
             flags: self.faces[record.face].flags & (ALIVE | HIDDEN),
         }
-    }
-
-    /// The corner whose spoke is the first around the vertex on an edge.
-    fn first_with_spoke(&self, numbers: &Numbers, edge: u32) -> u32 {
-        numbers.first_sharing(self.edges[edge].corner)
     }
 
     pub(super) fn refined_corner(&self, numbers: &Numbers, index: u32) -> CornerRecord {
@@ -159,7 +148,6 @@ impl EditMesh {
     /// It leaves along the spoke of its corner, which the part at the next corner comes back by.
     fn at_edge(&self, numbers: &Numbers, corner: u32) -> CornerRecord {
         let record = self.corners[corner];
-        let before = numbers.sharing(corner)[1];
         CornerRecord {
             vertex: numbers.on_edge(record.edge),
             edge: numbers.spoke(corner),
@@ -167,20 +155,19 @@ impl EditMesh {
             next: numbers.new_corner(corner, IN_FACE),
             previous: corner,
             radial_next: numbers.new_corner(record.next, IN_FACE),
-            radial_previous: numbers.new_corner(self.corners[before].next, IN_FACE),
+            radial_previous: numbers.new_corner(record.next, IN_FACE),
         }
     }
 
     fn at_face(&self, numbers: &Numbers, corner: u32) -> CornerRecord {
         let record = self.corners[corner];
-        let after = numbers.sharing(record.previous)[0];
         CornerRecord {
             vertex: numbers.in_face(record.face),
             edge: numbers.spoke(record.previous),
             face: numbers.part_of[corner as usize],
             next: numbers.new_corner(corner, BEFORE),
             previous: numbers.new_corner(corner, ON_EDGE),
-            radial_next: numbers.new_corner(after, ON_EDGE),
+            radial_next: numbers.new_corner(record.previous, ON_EDGE),
             radial_previous: numbers.new_corner(record.previous, ON_EDGE),
         }
     }
@@ -219,12 +206,4 @@ impl EditMesh {
 /// Whether the part at a corner keeps the face's id.
 fn part_is_face(numbers: &Numbers, corner: u32, face: u32) -> bool {
     numbers.part_of[corner as usize] == face
-}
-
-/// The first corner, from one on, that does not have the spoke of another one.
-fn back_to_own(numbers: &Numbers, mut corner: u32, follow: impl Fn(u32) -> u32) -> u32 {
-    while numbers.first_sharing(corner) != corner {
-        corner = follow(corner);
-    }
-    corner
 }

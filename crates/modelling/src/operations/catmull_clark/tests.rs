@@ -170,25 +170,6 @@ fn values_of_corners_are_interpolated_in_each_face() {
 }
 
 #[test]
-fn a_face_that_runs_along_an_edge_and_back_shares_a_spoke() {
-    let mut mesh = EditMesh::new();
-    let positions = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE];
-    let v: Vec<VertexId> =
-        positions.iter().map(|&position| mesh.add_vertex(position).expect("room")).collect();
-    // To vertex 3 and back, which another face does, too; and one that runs along it once.
-    mesh.add_face(&[v[0], v[1], v[2], v[0], v[3]]).expect("four different");
-    mesh.add_face(&[v[3], v[0], v[4], v[0]]).expect("three different");
-    mesh.add_face(&[v[1], v[3], v[0]]).expect("three");
-    mesh.remove_face(FaceId(2)).expect("it is there");
-    mesh.add_face(&[v[0], v[3], v[4]]).expect("three");
-    // Edges: 01 12 20 03 04, the loose 13, and 34.
-    assert_eq!(counts(&mesh), [5, 7, 3], "as it was made");
-    // Of twelve spokes the first face lacks one, the second two.
-    assert_eq!(counts(&subdivided(&mesh, 1)), [5 + 7 + 3, 14 + 9, 12], "one spoke for both sides");
-    counts(&subdivided(&mesh, 3));
-}
-
-#[test]
 fn free_slots_stay_free() {
     let mut mesh = editable(&primitives::torus(2.0, 0.5, 6, 5));
     mesh.remove_vertex(VertexId(7)).expect("it is there");

@@ -1,33 +1,20 @@
-//! Merging faces across edges: each connected part becomes the polygon around it.
+//! Merging faces: each group of them becomes the polygon around it.
 
-use super::super::tables::{IndexSet, IndexTable};
+use smallvec::SmallVec;
+
+use super::super::tables::IndexTable;
 use crate::edit_mesh::EditMesh;
-use crate::ids::{CornerId, EdgeId, FaceId};
+use crate::euler::is_simple;
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
+use crate::numbering::sorted_once;
 use crate::refusal::Refusal;
 
-/// What becomes of a part that cannot be one polygon.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum OnRefusal {
-    /// Nothing is done at all.
-    Refuse,
-    /// It stays as it is.
-    Skip,
-}
-
-/// A connected part of the faces.
-struct Part {
-    faces: Vec<FaceId>,
-    /// The corners on its outline, in its order.
-    outline: Vec<CornerId>,
-}
-
-/// Across which edges faces are united, and how the parts are numbered.
-struct Merging {
-    edges: IndexSet,
-    /// From faces to their numbers in `faces`.
-    indices: IndexTable,
-    /// All faces at the edges, in ascending order.
-    faces: Vec<FaceId>,
+/// Disjoint groups of faces; each is connected.
+pub(super) struct FaceGroups {
+    /// In ascending order.
+    pub(super) groups: Vec<Vec<FaceId>>,
+    /// From faces to the index of their group.
+    pub(super) numbers: IndexTable,
 }
 
 impl EditMesh {
@@ -39,114 +26,101 @@ impl EditMesh {
         (is_alike && self.corner_face(a) != self.corner_face(b)).then_some([a, b])
     }
 
-    /// Unites faces across some of the edges: those that have a [`Self::merging_pair`]. Edges between faces
-    /// that are united, but not given, become such that the face runs along and back. Returns the
-    /// united faces.
-    pub(super) fn merge_across(
-        &mut self,
-        edges: &[EdgeId],
-        on_refusal: OnRefusal,
-    ) -> Result<Vec<FaceId>, Refusal> {
-        let merging = Merging::new(self, edges);
-        let mut united = Vec::new();
-        for part in merging.parts(self) {
-            match merging.outline(self, part) {
-                Ok(part) => united.push(self.unite(&merging, &part)),
-                Err(refusal) if on_refusal == OnRefusal::Refuse => return Err(refusal),
-                Err(_) => {}
-            }
-        }
-        Ok(united)
+    /// Unites faces across some of the edges: those that have a [`Self::merging_pair`]. Other edges between two faces
+    /// of one group go, too: the united face would run along them and back. Returns the united faces.
+    pub(super) fn merge_across(&mut self, edges: &[EdgeId]) -> Result<Vec<FaceId>, Refusal> {
+        let groups = FaceGroups::across(self, edges);
+        let unite =
+            |number| groups.outline(self, number).map(|outline| self.unite(&groups, number, &outline));
+        (0..groups.groups.len()).map(unite).collect()
     }
 
-    /// Makes one face of a part.
-    fn unite(&mut self, merging: &Merging, part: &Part) -> FaceId {
-        let retained = part.faces[0];
-        let mut inside: Vec<CornerId> = Vec::new();
-        for &face in &part.faces {
-            inside
-                .extend(self.face_corners(face).filter(|&corner| merging.has_edge(self.corner_edge(corner))));
-        }
-        let mut edges: Vec<EdgeId> = inside.iter().map(|&corner| self.corner_edge(corner)).collect();
-        edges.sort_unstable();
-        edges.dedup();
+    /// Makes one face of a group. It keeps the first one's id.
+    pub(super) fn unite(&mut self, groups: &FaceGroups, number: usize, outline: &[CornerId]) -> FaceId {
+        let faces = &groups.groups[number];
+        let retained = faces[0];
+        let corners = faces.iter().flat_map(|&face| self.face_corners(face));
+        let inside: Vec<CornerId> =
+            corners.filter(|&corner| groups.is_inside(self, number, corner)).collect();
+        let edges: Vec<EdgeId> = sorted_once(inside.iter().map(|&corner| self.corner_edge(corner)).collect());
         for corner in inside {
             self.unlink_at_edge(corner.0);
             self.free_corner(corner.0);
         }
-        for &face in &part.faces[1..] {
+        for &face in &faces[1..] {
             self.free_face(face.0);
         }
-        for (i, &corner) in part.outline.iter().enumerate() {
+        for (i, &corner) in outline.iter().enumerate() {
             self.corners.write(corner.0).face = retained.0;
-            self.link_in_face(corner.0, part.outline[(i + 1) % part.outline.len()].0);
+            self.link_in_face(corner.0, outline[(i + 1) % outline.len()].0);
         }
         let record = self.faces.write(retained.0);
-        record.corner = part.outline[0].0;
-        record.size = part.outline.len() as u32;
+        record.corner = outline[0].0;
+        record.size = outline.len() as u32;
         self.remove_loose(&edges);
+        self.reveal_outline(retained);
         retained
     }
 }
 
-impl Merging {
-    fn new(mesh: &EditMesh, edges: &[EdgeId]) -> Self {
-        let mut set = IndexSet::new(mesh.edge_capacity(), edges.len());
-        let mut faces = Vec::new();
-        for &edge in edges {
-            if let Some(pair) = mesh.merging_pair(edge)
-                && set.insert(edge.0)
-            {
-                faces.extend(pair.map(|corner| mesh.corner_face(corner)));
-            }
-        }
-        faces.sort_unstable();
-        faces.dedup();
-        let mut indices = IndexTable::new(mesh.face_capacity(), faces.len());
-        for (index, face) in (0..).zip(&faces) {
-            indices.insert(face.0, index);
-        }
-        Self { edges: set, indices, faces }
-    }
-
-    fn has_edge(&self, edge: EdgeId) -> bool {
-        self.edges.contains(edge.0)
-    }
-
-    /// The connected parts, each in ascending order.
-    fn parts(&self, mesh: &EditMesh) -> Vec<Vec<FaceId>> {
-        let mut is_visited = vec![false; self.faces.len()];
-        let mut parts = Vec::new();
-        for seed in 0..self.faces.len() {
-            if std::mem::replace(&mut is_visited[seed], true) {
+impl FaceGroups {
+    /// The faces that some edges connect.
+    fn across(mesh: &EditMesh, edges: &[EdgeId]) -> Self {
+        let pairs: Vec<[FaceId; 2]> = edges
+            .iter()
+            .filter_map(|&edge| mesh.merging_pair(edge))
+            .map(|pair| pair.map(|corner| mesh.corner_face(corner)))
+            .collect();
+        let faces = sorted_once(pairs.iter().flatten().copied().collect());
+        let mut neighbors: Vec<[FaceId; 2]> = pairs.iter().flat_map(|&[a, b]| [[a, b], [b, a]]).collect();
+        neighbors.sort_unstable();
+        let mut numbers = IndexTable::new(mesh.face_capacity(), faces.len());
+        let mut groups: Vec<Vec<FaceId>> = Vec::new();
+        for seed in faces {
+            if numbers.get(seed.0).is_some() {
                 continue;
             }
-            let mut part = vec![self.faces[seed]];
+            let number = groups.len() as u32;
+            numbers.insert(seed.0, number);
+            let mut group = vec![seed];
             let mut next = 0;
-            while next < part.len() {
-                for corner in mesh.face_corners(part[next]) {
-                    if !self.has_edge(mesh.corner_edge(corner)) {
-                        continue;
-                    }
-                    let face = mesh.corner_face(mesh.radial_next(corner));
-                    let index = self.indices.get(face.0).expect("faces at the edges are listed") as usize;
-                    if !std::mem::replace(&mut is_visited[index], true) {
-                        part.push(face);
+            while next < group.len() {
+                let here = group[next];
+                let start = neighbors.partition_point(|pair| pair[0] < here);
+                for &[_, there] in neighbors[start..].iter().take_while(|pair| pair[0] == here) {
+                    if numbers.get(there.0).is_none() {
+                        numbers.insert(there.0, number);
+                        group.push(there);
                     }
                 }
                 next += 1;
             }
-            part.sort_unstable();
-            parts.push(part);
+            group.sort_unstable();
+            groups.push(group);
         }
-        parts
+        Self { groups, numbers }
     }
 
-    /// Walks around a part.
-    fn outline(&self, mesh: &EditMesh, faces: Vec<FaceId>) -> Result<Part, Refusal> {
+    fn has(&self, number: usize, face: FaceId) -> bool {
+        self.numbers.get(face.0) == Some(number as u32)
+    }
+
+    /// Whether the edge along which a corner of a group leaves is between two of its faces, so that it goes.
+    fn is_inside(&self, mesh: &EditMesh, number: usize, corner: CornerId) -> bool {
+        let edge = mesh.corner_edge(corner);
+        let is_of_group = |corner: CornerId| self.has(number, mesh.corner_face(corner));
+        mesh.merging_pair(edge).is_some_and(|pair| pair.into_iter().all(is_of_group))
+    }
+
+    /// The corners on the outline of a group, in its order.
+    ///
+    /// # Errors
+    /// The group cannot be one face.
+    pub(super) fn outline(&self, mesh: &EditMesh, number: usize) -> Result<Vec<CornerId>, Refusal> {
         let refused = |reason| Err(Refusal::NotPossible { operation: "dissolving", reason });
-        let corners = faces.iter().flat_map(|&face| mesh.face_corners(face));
-        let mut border = corners.filter(|&corner| !self.has_edge(mesh.corner_edge(corner)));
+        let is_inside = |corner: CornerId| self.is_inside(mesh, number, corner);
+        let corners = self.groups[number].iter().flat_map(|&face| mesh.face_corners(face));
+        let mut border = corners.filter(|&corner| !is_inside(corner));
         let Some(first) = border.next() else {
             return refused("the faces are closed: nothing would be left of them");
         };
@@ -155,7 +129,7 @@ impl Merging {
         loop {
             let mut corner = mesh.next_corner(outline[outline.len() - 1]);
             // Across an edge that goes, the outline continues in the other face.
-            while self.has_edge(mesh.corner_edge(corner)) {
+            while is_inside(corner) {
                 corner = mesh.next_corner(mesh.radial_next(corner));
             }
             if corner == first {
@@ -163,15 +137,20 @@ impl Merging {
             }
             outline.push(corner);
         }
+        let vertices: SmallVec<[VertexId; 16]> =
+            outline.iter().map(|&corner| mesh.corner_vertex(corner)).collect();
         if outline.len() != count {
-            return refused("the faces have a hole: leave an edge from it to the outline");
+            return refused("the faces have a hole: leave two edges between it and the outline");
         }
-        let mut vertices: Vec<_> = outline.iter().map(|&corner| mesh.corner_vertex(corner)).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        if vertices.len() < 3 {
+        if outline.len() < 3 {
             return refused("the merged face would have fewer than three vertices");
         }
-        Ok(Part { faces, outline })
+        if !is_simple(&vertices) {
+            return refused("the merged face would visit a vertex twice: leave an edge there");
+        }
+        if mesh.face_over(&vertices, |face| self.has(number, face)).is_some() {
+            return refused("the merged face would lie on another one: leave an edge");
+        }
+        Ok(outline)
     }
 }

@@ -1,5 +1,6 @@
 //! Dissolving: elements are removed, and the surface that they divided stays as larger faces.
 
+mod discs;
 mod limited;
 mod merge;
 #[cfg(test)]
@@ -11,7 +12,6 @@ use super::tables::IndexSet;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::refusal::Refusal;
-use merge::OnRefusal;
 
 pub use limited::LimitedDissolve;
 
@@ -45,7 +45,7 @@ impl EditMesh {
         edges.retain(|&edge| is_inside(self, edge));
         let vertices = self.vertex_count();
         self.whole(|mesh| {
-            let faces = mesh.merge_across(&edges, OnRefusal::Refuse)?;
+            let faces = mesh.merge_across(&edges)?;
             if faces.is_empty() {
                 let reason = "no two of the faces share an edge and have the same winding";
                 return Err(Refusal::NotPossible { operation: "dissolving faces", reason });
@@ -73,7 +73,7 @@ impl EditMesh {
         ends.retain(|&vertex| self.vertex_edges(vertex).nth(2).is_some());
         let vertices = self.vertex_count();
         self.whole(|mesh| {
-            let faces = mesh.merge_across(edges, OnRefusal::Refuse)?;
+            let faces = mesh.merge_across(edges)?;
             for vertex in ends {
                 if mesh.has_vertex(vertex) {
                     // One that a face needs stays.
@@ -104,7 +104,7 @@ impl EditMesh {
         }
         let before = self.vertex_count();
         self.whole(|mesh| {
-            let mut faces = mesh.merge_across(&edges, OnRefusal::Refuse)?;
+            let mut faces = mesh.merge_across(&edges)?;
             for &vertex in given.iter().filter(|&&vertex| listed.contains(vertex.0)) {
                 if mesh.has_vertex(vertex) {
                     mesh.dissolve_left_over(vertex)?;

@@ -77,10 +77,9 @@ impl EditMesh {
     ) -> Result<ExtrudedFaces, Refusal> {
         let region = Region::new(self, faces, "extruding")?;
         offset.check()?;
-        // Each corner of the region has at most one in a bottom and four in a wall.
-        self.check_capacity_for_each(5 * region.corner_count(self))?;
         let border = region.border(self);
         let sheets = region.sheets(self, &border);
+        self.check_capacity_for_lift(&border, &sheets)?;
         let vertices = region.vertices(self);
         let normals = match offset {
             ExtrudeOffset::Along(_) => self.region_normals(&region, &vertices),
@@ -103,9 +102,7 @@ impl EditMesh {
     /// edges.
     ///
     /// Faces keep their ids and get new vertices, so neighbours that are both extruded come apart. Walls are
-    /// as those of [`Self::extrude_region`]; there are no bottoms, as in Blender. A face that visits a vertex
-    /// twice, such as one whose hole is joined to its outline by a bridge, gets no walls along the bridge. It
-    /// keeps its vertices, and the rest gets new ones.
+    /// as those of [`Self::extrude_region`]; there are no bottoms, as in Blender.
     ///
     /// # Errors
     /// No face is given, or one does not exist; the offset is not finite; there would be too many
@@ -117,7 +114,7 @@ impl EditMesh {
     ) -> Result<ExtrudedFaces, Refusal> {
         let region = Region::new(self, faces, "extruding")?;
         offset.check()?;
-        self.check_capacity_for_each(4 * region.corner_count(self))?;
+        self.check_capacity_for_walls(region.corner_count(self))?;
         let mut lifted = LiftedFaces::default();
         let mut positions = Vec::new();
         for &face in &region.faces {
@@ -126,19 +123,10 @@ impl EditMesh {
                 ExtrudeOffset::Along(distance) => self.unit_normal(face) * distance,
                 ExtrudeOffset::By(by) => by,
             };
-            if self.is_simple(face) {
-                positions.clear();
-                positions.extend(self.face_vertices(face).map(|vertex| self.point(vertex) + by));
-                self.lift_face(face, &positions, &mut lifted);
-                self.dress_walls(&lifted);
-            } else {
-                let alone = Region::new(self, &[face], "extruding")?;
-                let border = alone.border(self);
-                lifted.walls.extend(self.lift_region(&alone, &border, &[]).walls);
-                let vertices = alone.vertices(self);
-                vertices.iter().for_each(|&vertex| self.move_by(vertex, by));
-                lifted.vertices.extend(vertices);
-            }
+            positions.clear();
+            positions.extend(self.face_vertices(face).map(|vertex| self.point(vertex) + by));
+            self.lift_face(face, &positions, &mut lifted);
+            self.dress_walls(&lifted);
         }
         Ok(ExtrudedFaces { walls: lifted.walls, bottoms: Vec::new(), vertices: lifted.vertices })
     }

@@ -9,6 +9,7 @@ use super::check_finite;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::refusal::Refusal;
+use crate::slots::NewElements;
 
 /// The result of extruding edges.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -48,7 +49,13 @@ impl EditMesh {
         require(edges, "extruding edges", "at least one edge")?;
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
         check_finite(&offset.to_array())?;
-        self.check_capacity_for_each(4 * edges.len())?;
+        let walls = edges.len() as u64;
+        self.check_capacity_for(NewElements {
+            vertices: 2 * walls,
+            edges: 3 * walls,
+            corners: 4 * walls,
+            faces: walls,
+        })?;
         let mut edges = edges.to_vec();
         edges.sort_unstable();
         edges.dedup();
@@ -137,7 +144,8 @@ impl EditMesh {
         require(vertices, "extruding vertices", "at least one vertex")?;
         vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
         check_finite(&offset.to_array())?;
-        self.check_capacity_for_each(vertices.len())?;
+        let count = vertices.len() as u64;
+        self.check_capacity_for(NewElements { vertices: count, edges: count, ..NewElements::default() })?;
         let mut vertices = vertices.to_vec();
         vertices.sort_unstable();
         vertices.dedup();

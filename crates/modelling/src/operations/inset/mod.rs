@@ -56,7 +56,7 @@ impl EditMesh {
     /// The distance of each edge from its old position is the thickness: exactly in planar faces, in others
     /// as seen along the normal. Faces keep their ids and get new vertices; all values are interpolated in
     /// the face, so that those that are affine in position stay so. A face without area gets its border, but
-    /// keeps its size. A face that visits a vertex twice is inset at each visit.
+    /// keeps its size.
     ///
     /// # Errors
     /// No face is given, or one does not exist; a parameter is out of its range; there would be too many
@@ -64,7 +64,7 @@ impl EditMesh {
     pub fn inset_individual(&mut self, faces: &[FaceId], inset: Inset) -> Result<InsetFaces, Refusal> {
         let region = Region::new(self, faces, "insetting")?;
         inset.check()?;
-        self.check_capacity_for_each(4 * region.corner_count(self))?;
+        self.check_capacity_for_walls(region.corner_count(self))?;
         let mut lifted = LiftedFaces::default();
         let mut shape = Shape::default();
         for &face in &region.faces {

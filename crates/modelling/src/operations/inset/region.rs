@@ -66,13 +66,13 @@ impl EditMesh {
     ) -> Result<InsetFaces, Refusal> {
         let region = Region::new(self, faces, "insetting")?;
         inset.check()?;
-        self.check_capacity_for_each(5 * region.corner_count(self))?;
         let mut border = region.border(self);
         border.retain(|edge| inset.open_borders || edge.outer.is_some());
         if border.is_empty() {
             let reason = "the faces have no border that could move; select fewer, or inset open borders";
             return Err(Refusal::NotPossible { operation: "insetting", reason });
         }
+        self.check_capacity_for_lift(&border, &[])?;
         let lifted = self.lift_region(&region, &border, &[]);
         for (split, hinge) in lifted.splits.iter().zip(&lifted.hinges) {
             let hinge = hinge.expect("each split vertex is at a wall");

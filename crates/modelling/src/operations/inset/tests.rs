@@ -139,22 +139,20 @@ fn parts_that_touch_in_a_vertex_shrink_apart() {
 }
 
 #[test]
-fn faces_with_a_hole_and_faces_without_area_get_their_rim() {
-    let hole = [[0., 0.], [8., 0.], [8., 4.], [0., 4.], [2., 1.], [2., 3.], [6., 3.], [6., 1.]];
+fn faces_without_area_get_their_rim() {
+    let outline = [[0., 0.], [8., 0.], [8., 4.], [0., 4.], [2., 3.]];
     let mut mesh = EditMesh::new();
     let at = |[x, y]: [f32; 2]| Vec3::new(x, y, 0.0);
     let vertices: Vec<VertexId> =
-        hole.iter().map(|&place| mesh.add_vertex(at(place)).expect("room")).collect();
-    let outline: Vec<VertexId> =
-        [0, 1, 2, 3, 0, 4, 5, 6, 7, 4].iter().map(|&i: &usize| vertices[i]).collect();
-    let face = mesh.add_face(&outline).expect("a face with a hole");
+        outline.iter().map(|&place| mesh.add_vertex(at(place)).expect("room")).collect();
+    let face = mesh.add_face(&vertices).expect("a face");
     let flat = mesh.add_face(&[vertices[0], vertices[1], vertices[2]]).expect("a triangle");
     for &vertex in &[vertices[1], vertices[2]] {
         mesh.set_position(vertex, mesh.position(vertices[1]));
     }
     let inset = mesh.inset_individual(&[face, flat], thickness(0.25)).expect("two faces");
     mesh.check_structure().expect("whole");
-    assert_eq!(inset.rim.len(), 13, "a quad for each corner");
+    assert_eq!(inset.rim.len(), 8, "a quad for each corner");
     assert!(mesh.vertices().all(|vertex| mesh.position(vertex).is_finite()), "no corner is lost");
 }
 

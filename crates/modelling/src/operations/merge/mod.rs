@@ -20,6 +20,10 @@ pub struct MergedVertices {
     pub vertices: Vec<VertexId>,
     /// The number of removed vertices.
     pub removed: usize,
+    /// The number of edges that are fewer than before: those within the merged vertices, and those that became one.
+    pub removed_edges: usize,
+    /// The number of faces that are fewer than before: they had no area left, or lay on another one.
+    pub removed_faces: usize,
 }
 
 impl EditMesh {
@@ -134,10 +138,16 @@ impl EditMesh {
     }
 
     fn merge_pairs(&mut self, pairs: &[(VertexId, VertexId)]) -> Result<MergedVertices, Refusal> {
-        let before = self.vertex_count();
+        let counts = |mesh: &Self| [mesh.vertex_count(), mesh.edge_count(), mesh.face_count()];
+        let before = counts(self);
         self.merge_vertices(pairs)?;
+        let after = counts(self);
+        // A face that comes apart where two of its vertices are merged makes more.
+        let [removed, removed_edges, removed_faces] =
+            std::array::from_fn(|kind| before[kind].saturating_sub(after[kind]));
         let targets = pairs.iter().filter(|(gone, target)| gone != target).map(|&(_, target)| target);
-        Ok(MergedVertices { vertices: sorted_once(targets.collect()), removed: before - self.vertex_count() })
+        let vertices = sorted_once(targets.collect());
+        Ok(MergedVertices { vertices, removed, removed_edges, removed_faces })
     }
 }
 

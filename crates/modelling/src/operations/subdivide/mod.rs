@@ -7,9 +7,9 @@ mod tests;
 use fixedbitset::FixedBitSet;
 
 use super::delete::require;
-use super::parts::{Divided, PartPoint, are_faces};
 use crate::edit_mesh::EditMesh;
-use crate::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
+use crate::euler::{Divided, PartPoint};
+use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 use crate::numbering::{Numbering, sorted_once};
 use crate::refusal::Refusal;
 use crate::slots::NewElements;
@@ -69,8 +69,9 @@ impl EditMesh {
     /// | more | 3 or more | convex corners between two cut sides are cut off |
     /// | more | 1 | the face stays whole, with more corners |
     ///
-    /// A face that visits a vertex twice also stays whole if these parts could not be faces. The
-    /// pieces of an edge have its marks, the parts of a face its material. Edge and face keep their
+    /// So does a face if one of these parts would lie on another face.
+    ///
+    /// The pieces of an edge have its marks, the parts of a face its material. Edge and face keep their
     /// ids as one of the parts.
     ///
     /// # Errors
@@ -169,14 +170,16 @@ impl EditMesh {
         let SubdivisionScratch { corners, is_cut, starts, points, pattern, vertices } = scratch;
         let outline = Outline { is_cut, starts, cuts: cut.cuts, count: points.len() as u32 };
         pattern.choose(&outline, |corner| self.is_convex_at(corners, corner));
-        let repeats = corners.len() > 3 && self.repeats_a_vertex(corners);
-        if repeats && (!pattern.interior.is_empty() || pattern.parts.len() > 1) {
-            let mut all = points.clone();
-            // A vertex within the face is no other.
-            let own = |number| VertexId(NONE - 1 - number);
-            let interior = (0..pattern.interior.len() as u32).map(own);
-            all.extend(interior.map(|vertex| PartPoint { vertex, ..points[0] }));
-            if !are_faces(&all, &pattern.parts) {
+        // Triangles with such parts lie on each other already.
+        if pattern.parts.len() > 1 && corners.len() > 3 {
+            let is_doubled = |outline: &[u32]| {
+                let vertices: Option<Vec<VertexId>> = outline
+                    .iter()
+                    .map(|&index| points.get(index as usize).map(|point| point.vertex))
+                    .collect();
+                vertices.is_some_and(|vertices| self.face_over(&vertices, |_| false).is_some())
+            };
+            if pattern.parts.iter().any(is_doubled) {
                 pattern.keep_whole(&outline);
             }
         }
@@ -241,15 +244,5 @@ impl EditMesh {
         let (before, here, after) = (point(corner + corners.len() - 1), point(corner), point(corner + 1));
         let normal = area_vector((0..corners.len()).map(point));
         (here - before).cross(after - here).dot(normal) > 0.0
-    }
-
-    fn repeats_a_vertex(&self, corners: &[CornerId]) -> bool {
-        let vertex = |corner: &CornerId| self.corner_vertex(*corner);
-        if let [a, b, c, d] = corners {
-            // Neighbours differ.
-            return vertex(a) == vertex(c) || vertex(b) == vertex(d);
-        }
-        let vertices = sorted_once(corners.iter().map(vertex).collect());
-        vertices.len() < corners.len()
     }
 }

@@ -3,7 +3,8 @@
 
 use smallvec::{SmallVec, smallvec};
 
-use super::super::parts::{Parts, fill_strip};
+use super::super::parts::fill_strip;
+use crate::euler::Parts;
 
 /// A new point within a face: weights of the face's corners, which sum to 1.
 pub(super) type Interior = SmallVec<[(usize, f64); 4]>;
