@@ -190,13 +190,13 @@ impl DepthToDistance {
     }
 
     /// Metres along the view axis; infinite for depth 0, the background.
+    #[inline]
     pub(crate) fn at(&self, depth: f32) -> f32 {
-        if depth == 0.0 {
-            return f32::INFINITY;
-        }
-        let depth = f64::from(depth);
-        // depth = (a·z + b) / (c·z + d), solved for z; the camera looks along −z.
-        (-((self.b - depth * self.d) / (depth * self.c - self.a))) as f32
+        let reversed = f64::from(depth);
+        // depth = (a·z + b) / (c·z + d), solved for z; the camera looks along −z. Computed for the background, too, without
+        // a branch, so that the compiler makes vectors of a loop.
+        let distance = (-((self.b - reversed * self.d) / (reversed * self.c - self.a))) as f32;
+        if depth == 0.0 { f32::INFINITY } else { distance }
     }
 }
 

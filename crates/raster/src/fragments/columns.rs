@@ -261,9 +261,12 @@ impl SpecialColumns {
     /// The corners' weights at the vertices of cut triangles; the vertices are the
     /// corners in all other lanes.
     fn load_cuts(&mut self, context: &ShadeContext<'_>) {
+        let triangles = self.cold[cold::INDEX].map(|index| context.triangles[index as usize]);
         self.is_cut = false;
-        for lane in 0..LANES {
-            let triangle = context.triangles[self.cold[cold::INDEX][lane] as usize];
+        if triangles.iter().all(|triangle| triangle.part().is_none()) {
+            return;
+        }
+        for (lane, triangle) in triangles.into_iter().enumerate() {
             let cut = triangle.part().and_then(|_| context.draw.chunk_of(triangle).weights_of(triangle));
             self.is_cut |= cut.is_some();
             let weights = cut.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);

@@ -162,7 +162,9 @@ impl Records {
                 );
                 let mut columns = [[0; LANES]; cold::COUNT];
                 if self.shape.size == self.shape.loaded {
-                    let sorted = SortedTriangles::made(simd, context, triangle_refs(context, visible));
+                    let triangles = triangle_refs(context, visible);
+                    let indices = context.geometry().corners_of(primitives_of(context, triangles));
+                    let sorted = sorted_triangles(simd, context, triangles, indices);
                     let [_, first, second] = sorted.heads(simd, context.area.origin);
                     columns[..LANES].copy_from_slice(&first);
                     columns[LANES..].copy_from_slice(&second);
@@ -215,6 +217,33 @@ fn triangle_refs(context: &ShadeContext<'_>, visible: [u32; LANES]) -> [Triangle
     )
 }
 
+/// The primitives of the context's draw that eight triangles belong to.
+#[inline(always)]
+fn primitives_of(context: &ShadeContext<'_>, triangles: [TriangleRef; LANES]) -> [u32; LANES] {
+    let first = context.draw.first;
+    triangles.each(
+        #[inline(always)]
+        |triangle| triangle.ordinal - first,
+    )
+}
+
+/// Eight triangles; `indices` are the vertices of their primitives.
+#[inline(always)]
+fn sorted_triangles<S: Simd>(
+    simd: S,
+    context: &ShadeContext<'_>,
+    triangles: [TriangleRef; LANES],
+    indices: [[u32; 3]; LANES],
+) -> SortedTriangles<S> {
+    if triangles.iter().all(|triangle| triangle.is_whole()) {
+        return SortedTriangles::whole(simd, context, indices);
+    }
+    simd.vectorize(
+        #[inline(always)]
+        || SortedTriangles::made(simd, context, triangles),
+    )
+}
+
 /// Where the records of up to eight triangles are written.
 struct EightRecords<'r> {
     rows: &'r mut [Row],
@@ -237,20 +266,9 @@ fn prepare_batch<S: Simd>(
         |lane| *visible.get(lane).unwrap_or(&visible[0]),
     );
     let triangles = triangle_refs(context, numbers);
-    let first = context.draw.first;
-    let primitives = triangles.each(
-        #[inline(always)]
-        |triangle| triangle.ordinal - first,
-    );
+    let primitives = primitives_of(context, triangles);
     let indices = context.geometry().corners_of(primitives);
-    let sorted = if triangles.iter().all(|triangle| triangle.is_whole()) {
-        SortedTriangles::whole(simd, context, indices)
-    } else {
-        simd.vectorize(
-            #[inline(always)]
-            || SortedTriangles::made(simd, context, triangles),
-        )
-    };
+    let sorted = sorted_triangles(simd, context, triangles, indices);
     let columns = sorted.heads(simd, context.area.origin);
     let flags: Row = sorted.flags(simd).into();
     for ((tag, primitive), flags) in tags.iter_mut().zip(primitives).zip(flags) {

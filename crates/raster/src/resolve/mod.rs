@@ -11,10 +11,11 @@ use crate::shade::{BEHIND, EdgeGroup, Shading};
 use crate::simd::{LANES, Mask, Simd, U32, at_level, channels, inlined, prelude::*};
 use crate::target::{Band, Bands};
 use crate::tile::TileState;
-use crate::tile_buffer::{NO_TRIANGLE, TileArea, TileRows};
+use crate::tile_buffer::{MAX_SIDE, NO_TRIANGLE, TileArea, TileRows, VisibilityBuffer};
 use crate::view::FrameView;
 use background::fill_background;
 use fearless_simd::{f32x4, mask32x4};
+use std::ops::Range;
 use trigon_math::Vec4;
 
 /// How far the colours of a tile are.
@@ -100,59 +101,90 @@ pub(crate) fn store_visibility(
     if !(frame.wants.depth || frame.wants.ids) {
         return;
     }
-    let axis = frame.supersampling as usize;
     let (mut band, first) = bands.lock(area.own_origin().map(|v| v as u32 / frame.supersampling));
     let band = &mut *band;
     let [columns, rows] = frame.drawn_part(area);
-    let [left, top] = area.margin.map(|side| side / axis);
+    let [left, top] = area.margin.map(|side| side / frame.supersampling as usize);
+    let own = left + columns.start..left + columns.end;
     for y in rows {
         let start = first + y * bands.width();
-        let row = start + columns.start..start + columns.end;
-        let middle = |v: usize| v * axis + axis / 2;
-        let sample_in =
-            |x: usize| state.buffer.index(TileArea::index_of([middle(left + x), middle(top + y)]), 0);
-        let samples = columns.clone().map(sample_in);
+        let pixels = start + columns.start..start + columns.end;
         if frame.wants.depth {
-            for (depth, sample) in band.depth[row.clone()].iter_mut().zip(samples.clone()) {
-                let nearest = state.buffer.depth[sample];
+            let depths = sampled_row(frame, &state.buffer, &state.buffer.depth, [own.end, top + y]);
+            for (depth, &nearest) in band.depth[pixels.clone()].iter_mut().zip(&depths[own.clone()]) {
                 // The background is behind 0; and -0 becomes 0.
                 *depth = if nearest > 0.0 { nearest } else { 0.0 };
             }
         }
-        if frame.wants.ids {
-            let pixels = row.zip(samples);
-            match requested.map(|requested| requested[top + y] >> (left + columns.start)) {
-                None => store_ids(frame, state, band, pixels),
-                Some(requested) => {
-                    let is_requested = |column: usize| requested >> column & 1 != 0;
-                    let some = pixels.enumerate().filter(|(column, _)| is_requested(*column));
-                    store_ids(frame, state, band, some.map(|(_, pixel)| pixel));
-                }
-            }
+        let requested = requested.map_or(u64::MAX, |requested| requested[top + y] >> own.start);
+        if frame.wants.ids && requested != 0 {
+            let visible = sampled_row(frame, &state.buffer, &state.buffer.visible, [own.end, top + y]);
+            store_ids(frame, state, band, pixels, VisibleRow { visible: &visible[own.clone()], requested });
         }
     }
 }
 
-/// Writes the ids of pixels, given by their index in the band and their sample.
+/// The first `width` pixels of the tile in row `y`, each with the value of the sample that its depth and ids are taken from.
+fn sampled_row<T: Copy + Default>(
+    frame: &FrameView<'_>,
+    buffer: &VisibilityBuffer,
+    values: &[T],
+    [width, y]: [usize; 2],
+) -> [T; MAX_SIDE] {
+    let axis = frame.supersampling as usize;
+    let mut row = [T::default(); MAX_SIDE];
+    if axis == 1 {
+        // The pixels of a row lie side by side in each group.
+        let halves = row.as_chunks_mut::<{ LANES / 2 }>().0.iter_mut().take(width.div_ceil(LANES / 2));
+        for (number, half) in halves.enumerate() {
+            let first = buffer.index(TileArea::index_of([number * (LANES / 2), y]), 0);
+            *half = *values[first..].first_chunk().expect("groups are whole");
+        }
+    } else {
+        let middle = |v: usize| v * axis + axis / 2;
+        for (x, value) in row[..width].iter_mut().enumerate() {
+            *value = values[buffer.index(TileArea::index_of([middle(x), middle(y)]), 0)];
+        }
+    }
+    row
+}
+
+/// Neighbouring pixels of a row.
+struct VisibleRow<'r> {
+    /// The visible triangle of each.
+    visible: &'r [u32],
+    /// A bit for each whose ids are written.
+    requested: u64,
+}
+
+/// Writes the ids of neighbouring pixels of a row, given by their indices in the band.
 fn store_ids(
     frame: &FrameView<'_>,
     state: &TileState,
     band: &mut Band<'_>,
-    pixels: impl Iterator<Item = (usize, usize)>,
+    pixels: Range<usize>,
+    VisibleRow { visible, requested }: VisibleRow<'_>,
 ) {
+    // Ids that are not requested go here, so that no pixel asks which are.
+    let mut unused = [[0; MAX_SIDE]; 3];
+    let mut planes = unused.each_mut().map(|row| &mut row[..visible.len()]);
+    for (row, plane) in planes.iter_mut().zip([&mut *band.objects, &mut *band.faces, &mut *band.triangles]) {
+        if !plane.is_empty() {
+            *row = &mut plane[pixels.clone()];
+        }
+    }
+    let [objects, faces, triangles] = planes;
+    let ids = objects.iter_mut().zip(faces).zip(triangles);
     let mut last = (NO_TRIANGLE, [u32::MAX; 3]);
-    for (index, sample) in pixels {
-        let visible = state.buffer.visible[sample];
+    for ((x, &visible), ((object, face), triangle)) in visible.iter().enumerate().zip(ids) {
+        if requested >> x & 1 == 0 {
+            continue;
+        }
         // Neighbours often see the same triangle.
         if visible != last.0 {
             last = (visible, frame.ids(state, visible));
         }
-        let planes = [&mut band.objects, &mut band.faces, &mut band.triangles];
-        for (plane, id) in planes.into_iter().zip(last.1) {
-            if let Some(slot) = plane.get_mut(index) {
-                *slot = id;
-            }
-        }
+        [*object, *face, *triangle] = last.1;
     }
 }
 
