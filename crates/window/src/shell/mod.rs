@@ -3,12 +3,13 @@
 
 #[cfg(feature = "accesskit")]
 mod accessibility;
+mod size;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use winit::application::ApplicationHandler;
-use winit::dpi::{LogicalSize, PhysicalPosition, PhysicalSize};
+use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::window::{CursorGrabMode, Fullscreen, Window, WindowId};
@@ -120,7 +121,7 @@ impl<'a> Shell<'a> {
             .with_title(&title)
             // Screen readers must know of it before anybody sees it.
             .with_visible(cfg!(not(feature = "accesskit")))
-            .with_inner_size(LogicalSize::new(size.width.max(1), size.height.max(1)));
+            .with_inner_size(size::fitting(size, size::screen(event_loop)));
         let refused = |error: winit::error::OsError| WindowError::Window { reason: error.to_string() };
         let window = Arc::new(event_loop.create_window(attributes).map_err(refused)?);
         let presenter = Presenter::new(event_loop, &window)?;
