@@ -171,6 +171,11 @@ pub struct SetMaterial {
     /// 0 (mirror) to 1 (matt); makes it metallic-roughness.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub roughness: Option<f32>,
+    /// Linear red, green and blue of a highlight, 0 to 1; makes it Blinn-Phong.
+    pub specular: Option<[f32; 3]>,
+    /// The exponent of a highlight, from 1 (wide) on; makes it Blinn-Phong.
+    #[schemars(range(min = 0.0))]
+    pub shininess: Option<f32>,
     /// Linear red, green and blue of emitted light.
     pub emissive: Option<[f32; 3]>,
     /// The strength of its normal map, if it has one.
@@ -223,17 +228,24 @@ impl SetMaterial {
     fn change_shading(&self, shading: &mut Shading) {
         let is_physical = matches!(shading, Shading::MetallicRoughness(_));
         let physical = Shading::MetallicRoughness(MetallicRoughness::default());
+        let is_highlight = matches!(shading, Shading::BlinnPhong { .. });
+        let highlight = Material::default().shading;
         match self.shading {
             Some(SurfaceShading::Unlit) => *shading = Shading::Unlit,
             Some(SurfaceShading::Lambert) => *shading = Shading::Lambert,
-            Some(SurfaceShading::BlinnPhong) if !matches!(shading, Shading::BlinnPhong { .. }) => {
-                *shading = Material::default().shading;
-            }
+            Some(SurfaceShading::BlinnPhong) if !is_highlight => *shading = highlight,
             Some(SurfaceShading::MetallicRoughness) if !is_physical => *shading = physical,
             None if !is_physical && (self.metallic.is_some() || self.roughness.is_some()) => {
                 *shading = physical;
             }
+            None if !is_highlight && (self.specular.is_some() || self.shininess.is_some()) => {
+                *shading = highlight;
+            }
             Some(SurfaceShading::BlinnPhong | SurfaceShading::MetallicRoughness) | None => {}
+        }
+        if let Shading::BlinnPhong { specular, shininess, .. } = shading {
+            set(specular, self.specular.map(Vec3::from));
+            set(shininess, self.shininess);
         }
         if let Shading::MetallicRoughness(model) = shading {
             set(&mut model.metallic, self.metallic);

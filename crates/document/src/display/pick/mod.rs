@@ -162,13 +162,14 @@ impl<'p> Picks<'p> {
         Some(target.select(visible, SelectAction::Add))
     }
 
-    /// Everything connected to the element under the pointer.
+    /// Everything connected to the element under the pointer, or to the face there.
     #[must_use]
     pub fn linked(&self, point: DVec2, radius: f64, action: SelectAction) -> Option<Command> {
         let kind = self.document.selection().kind();
-        let target = self.nearest(kind, point, radius)?;
-        let mut linked = MeshSelection::default();
-        linked.insert(&[target.element]);
+        let exact = self.nearest(kind, point, radius).map(|target| (kind, target));
+        let (of, target) =
+            exact.or_else(|| Some((ElementKind::Face, self.nearest(ElementKind::Face, point, radius)?)))?;
+        let mut linked = self.parts(of, target.mesh, [target.element])?;
         linked.grow_linked(self.document.mesh(target.mesh)?, kind);
         Some(self.select_bits(&target, linked.bits(), action))
     }
