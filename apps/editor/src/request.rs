@@ -138,6 +138,17 @@ pub(crate) enum FileAction {
     Quit,
 }
 
+/// What goes where the 3D cursor or something else is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Placing {
+    CursorToOrigin,
+    CursorToSelected,
+    CursorToActive,
+    CursorToGrid,
+    SelectionToCursor,
+    SelectionToGrid,
+}
+
 /// What the window shows besides the document, and how its tools work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum UiRequest {
@@ -159,6 +170,16 @@ pub(crate) enum UiRequest {
     },
     ToolBar,
     SideBar,
+    /// Remembers what is selected.
+    Copy,
+    /// Adds what was copied last.
+    Paste,
+    /// Moves the 3D cursor, or what is selected to it.
+    Snapped(Placing),
+    /// Puts the origins of objects at the 3D cursor.
+    OriginToCursor,
+    /// Shows or hides the tab *Development*.
+    Development,
     EmulateMouse,
     EmulateNumpad,
     Snapping,
@@ -190,6 +211,9 @@ impl UiRequest {
                 | Self::Rip { .. }
                 | Self::LinkedAtPointer
                 | Self::Parent { .. }
+                | Self::Paste
+                | Self::Snapped(_)
+                | Self::OriginToCursor
         )
     }
 }

@@ -1,4 +1,5 @@
-//! The floor: a grid in the plane y = 0, and the axes x and z on it.
+//! The floor: a grid in the plane y = 0, and the axes x and z on it. A side that is looked at in parallel
+//! projection has the grid of its own plane.
 //!
 //! The distance of its lines is a power of ten metres, chosen by the size of a metre on the screen below the
 //! middle of the image. Lines in between fade in as the camera approaches. A piece of a line that lies behind the
@@ -27,7 +28,7 @@ pub(crate) type Depths<'a> = &'a dyn Fn(&[DVec2]) -> Vec<Option<f64>>;
 /// Draws the grid and its two axes.
 pub(crate) fn draw_grid(painter: &Painter, view: &OverlayView, depths: Depths<'_>) {
     let Some(grid) = Grid::of(view) else { return };
-    let floor = FloorDepth::of(view);
+    let floor = FloorDepth::of(view, grid.plane);
     for (line, color, width) in grid.lines() {
         for piece in visible(view, line, &floor, depths) {
             painter.line_segment(piece, Stroke::new(width, color));
@@ -35,9 +36,39 @@ pub(crate) fn draw_grid(painter: &Painter, view: &OverlayView, depths: Depths<'_
     }
 }
 
+/// A plane of two axes through the origin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Plane {
+    /// The axis that it has not.
+    normal: usize,
+    axes: [usize; 2],
+}
+
+impl Plane {
+    const FLOOR: Self = Self { normal: 1, axes: [0, 2] };
+
+    /// The plane that is seen from straight ahead in parallel projection, or the floor.
+    fn of(view: &OverlayView) -> Self {
+        /// The sine of an angle by which no line of the image is a pixel off.
+        const STRAIGHT: f64 = 1e-6;
+        let forward = view.camera().forward().to_array();
+        let faces = |normal: &Self| normal.axes.iter().all(|&axis| forward[axis].abs() < STRAIGHT);
+        let walls = [Self { normal: 2, axes: [0, 1] }, Self { normal: 0, axes: [2, 1] }];
+        let wall = walls.into_iter().find(faces).filter(|_| view.camera().projection.is_orthographic());
+        wall.unwrap_or(Self::FLOOR)
+    }
+
+    fn point(self, at: [f64; 2]) -> DVec3 {
+        let mut point = [0.0; 3];
+        (point[self.axes[0]], point[self.axes[1]]) = (at[0], at[1]);
+        point.into()
+    }
+}
+
 /// Where lines are.
 #[derive(Debug, PartialEq)]
 struct Grid {
+    plane: Plane,
     /// Between lines, in metres.
     gap: f64,
     /// The line in the middle, by number.
@@ -49,17 +80,18 @@ struct Grid {
 impl Grid {
     /// `None` where the floor is seen edge-on, or is too far away.
     fn of(view: &OverlayView) -> Option<Self> {
-        let camera = view.camera();
+        let (camera, plane) = (view.camera(), Plane::of(view));
         let (eye, forward) = (camera.position, camera.forward());
-        // Where the line of sight meets the floor; below the eye where it never does.
-        let ahead = -eye.y / forward.y;
-        let reach = 4.0 * eye.y.abs().max(1e-6);
+        let height = eye[plane.normal];
+        // Where the line of sight meets the plane; below the eye where it never does.
+        let ahead = -height / forward[plane.normal];
+        let reach = 4.0 * height.abs().max(1e-6);
         let point =
             if ahead.is_finite() && ahead > 0.0 && (eye + forward * ahead).distance(eye) < 10.0 * reach {
                 eye + forward * ahead
             } else {
-                let level = DVec3::new(forward.x, 0.0, forward.z).normalize_or_zero();
-                DVec3::new(eye.x, 0.0, eye.z) + level * reach
+                let on_plane = |from: DVec3| plane.point(plane.axes.map(|axis| from[axis]));
+                on_plane(eye) + on_plane(forward).normalize_or_zero() * reach
             };
         let wanted = view.pixel_size(point) * LEAST_GAP;
         if !(wanted > 1e-9 && wanted < 1e9) {
@@ -67,8 +99,9 @@ impl Grid {
         }
         let power = elementary::log10(wanted).ceil();
         let gap = elementary::pow(10.0, power);
-        let middle = [point.x, point.z].map(|at| (at / gap).round());
+        let middle = plane.axes.map(|axis| (point[axis] / gap).round());
         middle.iter().all(|at| at.abs() < 1e12).then(|| Self {
+            plane,
             gap,
             middle: middle.map(|at| at as i64),
             share: (power - elementary::log10(wanted)).clamp(0.0, 1.0),
@@ -84,7 +117,9 @@ impl Grid {
             self.add_lines(along, 10, &mut lines);
             let axis = self.line(along, 0, 10);
             let is_near = (self.middle[1 - along] / 10).abs() <= LINES;
-            axes.extend(is_near.then(|| (axis, AXIS_COLORS[2 * along].gamma_multiply(0.8), 1.5)));
+            axes.extend(
+                is_near.then(|| (axis, AXIS_COLORS[self.plane.axes[along]].gamma_multiply(0.8), 1.5)),
+            );
         }
         lines.extend(axes);
         lines
@@ -109,7 +144,7 @@ impl Grid {
             let mut point = [0.0; 2];
             point[1 - along] = number as f64 * self.gap;
             point[along] = (self.middle[along] + end * LINES * step) as f64 * self.gap;
-            DVec3::new(point[0], 0.0, point[1])
+            self.plane.point(point)
         })
     }
 }
@@ -148,16 +183,17 @@ struct FloorDepth {
 }
 
 impl FloorDepth {
-    fn of(view: &OverlayView) -> Self {
+    fn of(view: &OverlayView, plane: Plane) -> Self {
+        let normal = plane.normal;
         let is_parallel = view.camera().projection.is_orthographic();
         let (eye, forward) = (view.camera().position, view.camera().forward());
         let at = |pixel: DVec2| {
             let Some(ray) = view.ray(pixel) else { return f64::NAN };
             if is_parallel {
-                let along = -ray.origin.y / ray.direction.y;
+                let along = -ray.origin[normal] / ray.direction[normal];
                 view.distance(ray.origin + ray.direction * along)
             } else {
-                -ray.direction.y / (eye.y * ray.direction.dot(forward))
+                -ray.direction[normal] / (eye[normal] * ray.direction.dot(forward))
             }
         };
         // Far apart, so that their difference is precise.
@@ -257,9 +293,34 @@ mod tests {
         }
     }
 
+    /// Each side in parallel projection, and what is not straight ahead or not parallel.
+    #[test]
+    fn a_side_has_the_grid_of_its_plane() {
+        let parallel = Projection::orthographic(12.0, 0.1, 1e3).expect("valid");
+        for (eye, up, normal) in [
+            (DVec3::Z * 9.0, DVec3::Y, 2),
+            (DVec3::NEG_Z * 9.0, DVec3::Y, 2),
+            (DVec3::X * 9.0, DVec3::Y, 0),
+            (DVec3::Y * 9.0, DVec3::Z, 1),
+        ] {
+            let camera = Camera::look_at(eye, DVec3::ZERO, up);
+            let viewport = Viewport { width: 800, height: 600 };
+            let view = OverlayView::new(&camera.with_projection(parallel), viewport, 1.0);
+            let grid = Grid::of(&view).expect("it is seen");
+            assert_eq!(grid.plane.normal, normal, "from {eye}");
+            let on_plane = |line: &[DVec3; 2]| line.iter().all(|end| end[normal] == 0.0);
+            assert!(grid.lines().iter().all(|(line, ..)| on_plane(line)), "all lines lie on it");
+            let perspective = OverlayView::new(&camera, viewport, 1.0);
+            assert_eq!(Plane::of(&perspective), Plane::FLOOR, "the floor in perspective");
+        }
+        let aslant = Camera::look_at(DVec3::new(1e-3, 0.0, 9.0), DVec3::ZERO, DVec3::Y);
+        let view = OverlayView::new(&aslant.with_projection(parallel), Viewport { width: 8, height: 6 }, 1.0);
+        assert_eq!(Plane::of(&view), Plane::FLOOR, "not straight ahead");
+    }
+
     #[test]
     fn the_axes_are_there_and_in_their_colours() {
-        let grid = Grid { gap: 1.0, middle: [3, 0], share: 0.5 };
+        let grid = Grid { plane: Plane::FLOOR, gap: 1.0, middle: [3, 0], share: 0.5 };
         let lines = grid.lines();
         let has = |x: f64| lines.iter().any(|(line, ..)| line.iter().all(|end| end.x == x));
         assert!(
@@ -279,7 +340,7 @@ mod tests {
         let parallel = Projection::orthographic(12.0, 0.1, 1e3).expect("valid");
         for camera in [perspective, perspective.with_projection(parallel)] {
             let view = OverlayView::new(&camera, Viewport { width: 800, height: 600 }, 1.0);
-            let floor = FloorDepth::of(&view);
+            let floor = FloorDepth::of(&view, Plane::FLOOR);
             for point in [DVec3::ZERO, DVec3::new(2.0, 0.0, 4.0), DVec3::new(-30.0, 0.0, -50.0)] {
                 let pixel = view.physical(view.point(point).expect("before the eye"));
                 let distance = view.distance(point);
@@ -292,14 +353,17 @@ mod tests {
             Viewport { width: 800, height: 600 },
             1.0,
         );
-        assert!(!FloorDepth::of(&level).is_hidden(DVec2::ZERO, Some(1.0)), "the floor from its edge");
+        assert!(
+            !FloorDepth::of(&level, Plane::FLOOR).is_hidden(DVec2::ZERO, Some(1.0)),
+            "the floor from its edge"
+        );
     }
 
     #[test]
     fn what_the_image_shows_before_the_floor_hides_it() {
         let view = from(DVec3::new(0.0, 3.0, 10.0));
         let line = [DVec3::new(-5.0, 0.0, 0.0), DVec3::new(5.0, 0.0, 0.0)];
-        let floor = FloorDepth::of(&view);
+        let floor = FloorDepth::of(&view, Plane::FLOOR);
         let visible = |depth: &dyn Fn(DVec2) -> Option<f64>| {
             visible(&view, line, &floor, &|points: &[DVec2]| points.iter().map(|&at| depth(at)).collect())
         };

@@ -102,6 +102,8 @@ mod tests {
             for name in schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str) {
                 let property = &schema["properties"][name];
                 value[name] = match form::form(property, Unit::None) {
+                    // Bytes as text.
+                    form::Form::ReadOnly if !property["contentEncoding"].is_null() => json!(""),
                     // Names of objects and materials.
                     form::Form::ReadOnly => json!(0),
                     form => form::initial(&form),
@@ -153,8 +155,11 @@ mod tests {
                 let form = form::form(property, Unit::None);
                 let is_shown_only = matches!(&form, form::Form::ReadOnly)
                     || matches!(&form, form::Form::Optional(inner) if **inner == form::Form::ReadOnly);
-                let is_list =
-                    read_only.contains(&name.as_str()) || !property["const"].is_null() || name == "op";
+                let is_bytes = !property["contentEncoding"].is_null();
+                let is_list = read_only.contains(&name.as_str())
+                    || !property["const"].is_null()
+                    || is_bytes
+                    || name == "op";
                 assert!(!is_shown_only || is_list, "{}: {name} has no widget", command.name());
             }
         }

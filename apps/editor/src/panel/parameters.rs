@@ -29,7 +29,9 @@ fn group_in(
     unit: Unit,
 ) -> bool {
     let properties = schema["properties"].as_object().into_iter().flatten();
-    let mut properties: Vec<_> = properties.filter(|(_, property)| property["const"].is_null()).collect();
+    // Nobody reads bytes as text.
+    let is_shown = |property: &Value| property["const"].is_null() && property["contentEncoding"].is_null();
+    let mut properties: Vec<_> = properties.filter(|(_, property)| is_shown(property)).collect();
     properties.sort_by_key(|(name, _)| order.index_of(name));
     let mut is_changed = false;
     for (name, property) in properties {

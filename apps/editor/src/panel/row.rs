@@ -1,6 +1,8 @@
 //! Rows of a panel: a label and a widget, side by side or, in a narrow panel, one above the other. A changed
 //! widget becomes a request.
 
+use trigon_document::mesh::math::color::linear_to_srgb8;
+use trigon_document::scene::css_color;
 use trigon_document::{Command, Document};
 use trigon_window::egui;
 use trigon_window::egui::{DragValue, Response, Ui};
@@ -87,19 +89,34 @@ fn speed(value: f64, form: &NumberForm) -> f64 {
     }
 }
 
-/// A number for people: no more than six digits after the point, and no zeros at the end.
+/// How many digits of a number are shown: a panel is as wide as its user made it.
+const SIGNIFICANT: usize = 6;
+
+/// A number for people: six significant digits, no more than six after the point, and no zeros at the end.
 pub(super) fn written(number: f64) -> String {
     rounded(number, Unit::None.digits())
 }
 
+/// The same with another most of digits after the point.
 fn rounded(number: f64, digits: usize) -> String {
-    // Beyond these, digits would fill the panel.
-    if number != 0.0 && !(1e-5..1e9).contains(&number.abs()) {
-        return format!("{number:e}");
+    let exact = format!("{number:.*e}", SIGNIFICANT - 1);
+    let Some((shown, exponent)) = exact.split_once('e') else { return exact };
+    let size: i32 = exponent.parse().unwrap_or(0);
+    // Beyond these, zeros would fill the panel.
+    if !(-5..9).contains(&size) {
+        return format!("{}e{exponent}", without_zeros(shown));
     }
-    let text = format!("{number:.digits$}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
+    let Ok(after_point) = usize::try_from(SIGNIFICANT as i32 - 1 - size) else {
+        // Digits before the point that are not significant are zeros.
+        return format!("{:.0}", exact.parse().unwrap_or(number));
+    };
+    let text = format!("{number:.*}", digits.min(after_point));
+    let text = without_zeros(&text);
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+fn without_zeros(digits: &str) -> &str {
+    if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
 }
 
 /// Plain numbers without bounds.
@@ -194,13 +211,37 @@ pub(super) fn choice<T: Copy + PartialEq>(
     })
 }
 
-/// Linear red, green and blue as a colour that can be chosen, and as numbers.
+/// Linear red, green and blue as a colour that can be chosen, and as the hexadecimal digits of its sRGB bytes.
 pub(super) fn color(ui: &mut Ui, label: &str, hover: &str, value: &mut [f32; 3]) -> Option<Response> {
+    /// Of the digits, in points.
+    const DIGITS: f32 = 72.0;
     let response = row(ui, label, hover, |ui, width| {
-        ui.spacing_mut().interact_size.x = width;
-        egui::color_picker::color_edit_button_rgb(ui, value)
+        ui.horizontal(|ui| {
+            ui.spacing_mut().interact_size.x = (width - DIGITS - ui.spacing().item_spacing.x).max(24.0);
+            let chosen = egui::color_picker::color_edit_button_rgb(ui, value);
+            let mut digits = hex(*value);
+            let typed = text(ui, DIGITS, &mut digits).accessible_name(format!("{label} hex"));
+            match css_color(digits.trim()) {
+                Ok(color) if typed.changed() => {
+                    *value = color.truncate().to_array();
+                    typed
+                }
+                _ => chosen,
+            }
+        })
+        .inner
     });
     response.changed().then_some(response)
+}
+
+/// The sRGB bytes of a linear colour; what is brighter than white counts as white.
+pub(super) fn srgb(linear: [f32; 3]) -> [u8; 3] {
+    linear.map(linear_to_srgb8)
+}
+
+fn hex(linear: [f32; 3]) -> String {
+    let [red, green, blue] = srgb(linear);
+    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// Requests a command. While a value is dragged, each command replaces the one before, so that the whole drag
@@ -246,6 +287,13 @@ mod tests {
             (-0.0, "0"),
             (1e30, "1e30"),
             (1e-7, "1e-7"),
+            (1.0 / 3.0, "0.333333"),
+            (-12.345_678_9, "-12.3457"),
+            (100.0, "100"),
+            (999_999.5, "1000000"),
+            (12_345_678.0, "12345700"),
+            (1.234_567_8e12, "1.23457e12"),
+            (-9.87e-9, "-9.87e-9"),
         ] {
             assert_eq!(written(number), text, "{number}");
         }

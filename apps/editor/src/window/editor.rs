@@ -4,7 +4,8 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
 use trigon_document::{
-    Command, Disk, Document, EditError, EditObjects, LeaveEditMode, Outcome, SetElementKind, Storage,
+    Command, Disk, Document, EditError, EditObjects, Glb, LeaveEditMode, ObjectName, Outcome, Select,
+    SetElementKind, Storage, scene::NodeId,
 };
 use trigon_window::egui::Rect;
 use trigon_window::scene::math::DVec2;
@@ -18,8 +19,10 @@ use super::keys::Keys;
 use super::loading::Loading;
 use super::loading::{SaveOrder, Saving};
 use super::open_file::{Next, OpenFile, Question};
-use super::panels::{Panels, Popup, Rename, Search};
+use super::panels::{Panels, Rename, Report, Search};
 use super::pointing::Pointing;
+use super::popup::Popup;
+use super::preferences::Preferences;
 use super::recovery::Recovery;
 use super::running::Running;
 use super::settings::Look;
@@ -46,9 +49,11 @@ pub(crate) struct Editor {
     pub(crate) tools: ToolSettings,
     pub(crate) view: ViewState,
     pub(crate) layout: Layout,
+    pub(crate) preferences: Preferences,
     pub(crate) message: Message,
     pub(crate) popup: Option<Popup>,
     pub(crate) search: Option<Search>,
+    pub(crate) report: Option<Report>,
     pub(crate) rename: Option<Rename>,
     pub(crate) question: Option<Question>,
     pub(crate) dialog: FileWindow,
@@ -78,8 +83,12 @@ pub(crate) struct Editor {
     pub(crate) click: Option<Click>,
     /// Where the pointer was last, in physical pixels.
     pub(crate) pointer: Option<DVec2>,
+    /// What was copied last: a GLB.
+    pub(crate) copied: Option<Glb>,
     /// Where files of recovery are kept.
     pub(crate) recovery_folder: Option<PathBuf>,
+    /// What is said when the window is open, such as chords of the user's keymap that cannot be used.
+    pub(crate) notes: Vec<String>,
     /// The files of the command line, until the window is open.
     pub(crate) to_open: Vec<PathBuf>,
 }
@@ -95,9 +104,11 @@ impl Editor {
             tools: ToolSettings::default(),
             view: ViewState::default(),
             layout: Layout::default(),
+            preferences: Preferences::load(folder.as_ref().map(|folder| folder.join("editor.json"))),
             message: Message::Info(WELCOME.into()),
             popup: None,
             search: None,
+            report: None,
             rename: None,
             question: None,
             dialog: FileWindow::default(),
@@ -117,7 +128,9 @@ impl Editor {
             pointing: Pointing::default(),
             click: None,
             pointer: None,
+            copied: None,
             recovery_folder: folder.as_deref().map(|folder: &Path| folder.join("recovery")),
+            notes: Vec::new(),
             to_open,
         }
     }
@@ -132,7 +145,7 @@ impl Editor {
             Request::Redo => self.redo(),
             Request::RepeatLast => self.repeat(),
             Request::ChooseTexture { material, slot } => {
-                self.dialog.ask(Purpose::Texture(material, slot), String::new());
+                self.dialog.ask(Purpose::Texture(material, slot), Path::new(""));
             }
             Request::Compare(comparison) => stage.comparison = comparison,
             Request::Refine(refinement) => stage.refinement = refinement,
@@ -234,16 +247,20 @@ impl Editor {
             UiRequest::Search => self.search = Some(Search::default()),
             UiRequest::Help => self.layout.help = !self.layout.help,
             UiRequest::AdjustPanel => self.layout.adjust = !self.layout.adjust,
-            UiRequest::ToggleEditMode => self.toggle_edit_mode(),
+            UiRequest::ToggleEditMode => self.toggle_edit_mode(stage),
             UiRequest::Select { kind, extend } => self.run(SetElementKind { kind, extend }.into()),
             UiRequest::Rip { fill } => self.rip(stage, fill),
             UiRequest::ToolBar => self.layout.tool_bar = !self.layout.tool_bar,
             UiRequest::SideBar => self.layout.side_bar = !self.layout.side_bar,
-            UiRequest::EmulateMouse => {
-                self.layout.emulates_mouse = !self.layout.emulates_mouse;
-                stage.keymap = settings::drags(self.layout.emulates_mouse);
-            }
-            UiRequest::EmulateNumpad => self.keys.emulates_numpad = !self.keys.emulates_numpad,
+            UiRequest::Copy => self.copy(),
+            UiRequest::Paste => self.paste(),
+            UiRequest::Snapped(placing) => self.snap(placing),
+            UiRequest::OriginToCursor => self.origin_to_cursor(),
+            UiRequest::Development
+            | UiRequest::EmulateMouse
+            | UiRequest::EmulateNumpad
+            | UiRequest::LargerText
+            | UiRequest::SmallerText => self.change_preferences(stage, request),
             UiRequest::Snapping => self.tools.snapping = !self.tools.snapping,
             UiRequest::Snap(target) => self.tools.snap_target = target,
             UiRequest::SnapWith(source) => self.tools.snap_source = source,
@@ -254,17 +271,48 @@ impl Editor {
             UiRequest::LinkedAtPointer => self.select_linked(stage),
             UiRequest::Parent { keeps_transform } => self.set_parent(keeps_transform),
             UiRequest::Rename => self.rename = Rename::of_active(&self.document),
-            UiRequest::LargerText => stage.text_scale = (stage.text_scale * 1.25).min(4.0),
-            UiRequest::SmallerText => stage.text_scale = (stage.text_scale / 1.25).max(0.5),
         }
     }
 
-    fn toggle_edit_mode(&mut self) {
+    fn change_preferences(&mut self, stage: &mut Stage, request: UiRequest) {
+        self.preferences.change(|settings| match request {
+            UiRequest::Development => settings.development = !settings.development,
+            UiRequest::EmulateMouse => settings.emulates_mouse = !settings.emulates_mouse,
+            UiRequest::EmulateNumpad => settings.emulates_numpad = !settings.emulates_numpad,
+            UiRequest::LargerText => settings.text_scale = (settings.text_scale * 1.25).min(4.0),
+            UiRequest::SmallerText => settings.text_scale = (settings.text_scale / 1.25).max(0.5),
+            _ => {}
+        });
+        self.apply_preferences(stage);
+    }
+
+    /// Sets up the stage and the keys as users have it.
+    pub(crate) fn apply_preferences(&mut self, stage: &mut Stage) {
+        let settings = self.preferences.get();
+        stage.keymap = settings::drags(settings.emulates_mouse);
+        stage.text_scale = settings.text_scale.clamp(0.5, 4.0);
+        self.keys.emulates_numpad = settings.emulates_numpad;
+    }
+
+    /// Without a mesh among what is selected, what is under the pointer is edited, or else all.
+    fn toggle_edit_mode(&mut self, stage: &Stage) {
         if self.document.selection().is_editing() {
-            self.run(LeaveEditMode {}.into());
-        } else {
-            self.run(EditObjects::default().into());
+            return self.run(LeaveEditMode {}.into());
         }
+        let scene = self.document.nodes();
+        let has_mesh = |id: &NodeId| scene.node(*id).is_some_and(|node| node.mesh.is_some());
+        if !self.document.selection().objects.iter().any(has_mesh) {
+            let hit = self.pointer.and_then(|at| stage.pick(at)).map(|(hit, _)| hit.node);
+            let under = hit.filter(has_mesh).map(|id| vec![id]);
+            let visible = scene.nodes().iter().filter(|(_, node)| node.visible);
+            let all = visible.map(|(id, _)| id).filter(has_mesh);
+            let objects = under.unwrap_or_else(|| all.collect());
+            if !objects.is_empty() {
+                let objects = objects.into_iter().map(ObjectName::of).collect();
+                self.run(Select { objects, ..Select::default() }.into());
+            }
+        }
+        self.run(EditObjects::default().into());
     }
 
     /// Does what an action of the table does, or says why it cannot.

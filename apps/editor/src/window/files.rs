@@ -15,8 +15,9 @@ use super::loading::{Found, LoadPurpose, Loading, Outcome};
 use super::loading::{SaveOrder, Saved, Saving};
 use super::navigation;
 use super::open_file::{Answer, Next, OpenFile, Question};
+use super::panels::Report;
 use super::recovery::{Left, Recovery, set_damaged_aside};
-use super::settings::Look;
+use super::settings::{Look, ToolSettings};
 use crate::export;
 use crate::request::{FileAction, FileRequest};
 
@@ -53,6 +54,7 @@ impl Editor {
             node.transform.translate(DVec3::new(4.0, 6.0, 3.0));
         }
         self.take_document(Document::new(scene), None);
+        self.tools = ToolSettings::default();
         // So that Tab and G work at once.
         self.run(Select { objects: vec![ObjectName::of(cube)], ..Select::default() }.into());
         self.message = Message::Info(WELCOME.into());
@@ -75,7 +77,7 @@ impl Editor {
         self.document.set_memory(memory);
         // Its numbers may be those of the one before.
         self.look = Look::default();
-        (self.view.local, self.view.before_camera) = (None, None);
+        (self.view.local, self.view.before_local, self.view.before_camera) = (None, None, None);
     }
 
     /// Carries out a request about files.
@@ -93,6 +95,8 @@ impl Editor {
                 let texture = Some(TextureSource::File { path: path.to_string_lossy().into_owned() });
                 let material = Some(material);
                 self.run(AssignTexture { material, slot, texture, ..AssignTexture::default() }.into());
+                self.show_images();
+                self.show(stage);
             }
             FileRequest::Export(path) => self.export(&with_extension(path)),
         }
@@ -109,11 +113,20 @@ impl Editor {
             },
             other => {
                 if let Some(purpose) = Purpose::of(other) {
-                    let path = self.file.path.as_deref().map(|path| path.with_extension("glb"));
-                    let path = path.filter(|_| purpose == Purpose::SaveAs).unwrap_or_default();
-                    self.dialog.ask(purpose, path.display().to_string());
+                    let suggestion = self.suggestion(&purpose);
+                    self.dialog.ask(purpose, &suggestion);
                 }
             }
+        }
+    }
+
+    /// Under which name something is written first; for what is read none is better than another.
+    fn suggestion(&self, purpose: &Purpose) -> PathBuf {
+        let path = self.file.path.as_deref().unwrap_or(Path::new("untitled"));
+        match purpose {
+            Purpose::SaveAs => path.with_extension("glb"),
+            Purpose::Export => path.with_extension("obj"),
+            _ => PathBuf::new(),
         }
     }
 
@@ -192,8 +205,12 @@ impl Editor {
             }
             Ok(Found::Import(loaded)) => {
                 let imported = self.document.import(path.to_string_lossy().into_owned(), &loaded);
+                let is_added = imported.is_ok();
                 self.ended("Import", false, imported);
                 self.show(stage);
+                if is_added {
+                    navigation::frame_selected(self, stage);
+                }
             }
             Err(error) => self.give_up_loading(stage, Message::Refusal(error)),
         }
@@ -294,14 +311,15 @@ impl Editor {
     }
 
     fn export(&mut self, path: &Path) {
-        let options = self.dialog.exchange.export_options();
+        let options = self.dialog.exchange.export_options(&self.document);
         let written = export::format_by_ending(path)
             .and_then(|format| export::write_as(&self.document, format, path, &options));
         self.message = match written {
             Ok(losses) if losses.is_empty() => Message::Info(format!("Exported {}", path.display())),
-            Ok(losses) => {
-                let (first, count) = (&losses[0], losses.len());
-                Message::Info(format!("Exported {}; {count} things are lost: {first}", path.display()))
+            Ok(lines) => {
+                let text = format!("Exported {}; {} things are not in it", path.display(), lines.len());
+                self.report = Some(Report { title: text.clone(), lines });
+                Message::Info(text)
             }
             Err(error) => Message::Refusal(error),
         };

@@ -8,19 +8,21 @@ use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton,
 
 use super::actions::CONTEXT_MENU;
 use super::button_start::Click;
+use super::dropped::is_image;
 use super::editor::{Editor, Message};
 use super::loading::Loading;
 use super::loading::Saving;
 use super::open_file::{Answer, Next};
-use super::panels::Popup;
 use super::panes::pane_of;
 use super::pointing::Prefetch;
+use super::popup::Popup;
 use super::running::Running;
 use super::{files, interface, pick};
 use crate::request::{FileAction, FileRequest, Request};
 
 impl Handler for Editor {
     fn start(&mut self, stage: &mut Stage) {
+        self.apply_preferences(stage);
         self.begin(stage);
         self.show(stage);
     }
@@ -53,11 +55,15 @@ impl Handler for Editor {
 
     fn dropped(&mut self, stage: &mut Stage, paths: Vec<PathBuf>, modifiers: Modifiers) {
         self.cancel_tool(stage);
-        for path in paths {
-            // With Shift it is added to the scene, as a menu entry would.
-            let imports = modifiers.contains(Modifiers::SHIFT);
+        let (images, models): (Vec<_>, Vec<_>) = paths.into_iter().partition(|path| is_image(path));
+        // Several are added to the scene, as is one with Shift.
+        let imports = modifiers.contains(Modifiers::SHIFT) || models.len() > 1;
+        for path in models {
             let request = if imports { FileRequest::Import(path) } else { FileRequest::Open(path) };
             self.perform(stage, Request::File(request));
+        }
+        for path in images {
+            self.drop_image(stage, path);
         }
     }
 
@@ -123,6 +129,11 @@ impl Editor {
         if let Some(damaged) = files::damaged_recovery(self.recovery_folder.as_deref()) {
             self.message = Message::Refusal(damaged);
         }
+        let more = self.notes.len().saturating_sub(1);
+        if let Some(note) = self.notes.first() {
+            let others = if more == 0 { String::new() } else { format!(" (and {more} more)") };
+            self.message = Message::Refusal(format!("{note}{others}"));
+        }
     }
 
     fn key(&mut self, stage: &mut Stage, hands: Hands, keys: [Option<Key>; 2]) -> Taken {
@@ -137,6 +148,16 @@ impl Editor {
             return Taken::Yes;
         }
         if keys[0] == Some(Key::Escape) && self.dismiss() {
+            return Taken::Yes;
+        }
+        if let (Some(popup), Some(Key::Character(letter))) = (&mut self.popup, keys[0])
+            && !hands.modifiers.contains(Modifiers::CTRL)
+        {
+            // The menu may not be shown yet: what was typed meanwhile is for it.
+            if let Some(action) = popup.typed(&letter.to_string(), &self.document) {
+                self.popup = None;
+                self.choose(stage, action);
+            }
             return Taken::Yes;
         }
         if self.is_typing() && !hands.modifiers.contains(Modifiers::CTRL) {
@@ -161,8 +182,9 @@ impl Editor {
 
     /// Closes what is open over the view; returns whether anything was.
     fn dismiss(&mut self) -> bool {
-        let was_open = self.popup.is_some() || self.search.is_some() || self.layout.help;
-        (self.popup, self.search, self.layout.help) = (None, None, false);
+        let was_open =
+            self.popup.is_some() || self.search.is_some() || self.report.is_some() || self.layout.help;
+        (self.popup, self.search, self.report, self.layout.help) = (None, None, None, false);
         was_open | self.dialog.close() | self.rename.take().is_some()
     }
 
@@ -170,7 +192,7 @@ impl Editor {
         if self.popup.take().is_some() {
             return Taken::Yes;
         }
-        if self.layout.emulates_mouse && hands.modifiers.contains(Modifiers::ALT) {
+        if self.preferences.get().emulates_mouse && hands.modifiers.contains(Modifiers::ALT) {
             // A drag moves the camera, and a click is reported as such.
             return Taken::No;
         }

@@ -6,6 +6,7 @@
 mod actions;
 mod button_start;
 mod dialog;
+mod dropped;
 mod editor;
 mod file_version;
 mod files;
@@ -23,6 +24,8 @@ mod panes;
 mod pick;
 mod placing;
 mod pointing;
+mod popup;
+mod preferences;
 mod recovery;
 mod running;
 mod settings;
@@ -57,6 +60,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     notes.iter().for_each(|note| crate::report("warning", note));
     let mut application = Application::new("trigon");
     let mut editor = Editor::new(keys, state_folder(), arguments.files.clone());
+    editor.notes = notes;
     editor.dialog.exchange = Exchange::new(arguments);
     if let Some(bytes) = arguments.memory {
         editor.document.set_memory(bytes);

@@ -2,7 +2,7 @@
 
 use trigon_document::scene::NodeId;
 use trigon_document::{Document, ObjectName, Rotation, SetTransform, TransformSpace};
-use trigon_window::scene::camera::{Camera, DEFAULT_MARGIN, Orbit};
+use trigon_window::scene::camera::{AxisView, Camera, DEFAULT_MARGIN, Orbit};
 use trigon_window::scene::math::{DVec2, DVec3, Vec3};
 use trigon_window::{Area, Stage};
 
@@ -14,9 +14,12 @@ impl Editor {
     pub(super) fn navigate(&mut self, stage: &mut Stage, request: ViewRequest) {
         let editor = self;
         match request {
-            ViewRequest::Axis(view) => stage.orbit.set_view(view),
+            ViewRequest::Axis(view) => look_at_side(editor, stage, view),
             ViewRequest::Opposite => stage.orbit.orbit(std::f64::consts::PI, 0.0),
-            ViewRequest::ToggleOrthographic => stage.orbit.toggle_orthographic(),
+            ViewRequest::ToggleOrthographic => {
+                stage.orbit.toggle_orthographic();
+                editor.view.side = None;
+            }
             ViewRequest::Orbit(right, up) => stage.orbit.orbit(right.to_radians(), up.to_radians()),
             ViewRequest::Roll(angle) => stage.orbit.roll(angle.to_radians()),
             ViewRequest::Zoom(factor) => stage.orbit.zoom(factor),
@@ -38,6 +41,29 @@ impl Editor {
     }
 }
 
+/// Sides are looked at in parallel projection, as drawings show them.
+fn look_at_side(editor: &mut Editor, stage: &mut Stage, view: AxisView) {
+    stage.orbit.set_view(view);
+    if !stage.orbit.is_orthographic() || editor.view.side.is_some() {
+        editor.view.side = Some(stage.orbit.orientation());
+    }
+    if !stage.orbit.is_orthographic() {
+        stage.orbit.toggle_orthographic();
+    }
+}
+
+impl Editor {
+    /// A side that is left is seen in perspective again, if it was before.
+    pub(super) fn leave_side(&mut self, stage: &mut Stage) {
+        if self.view.side.is_some_and(|side| side != stage.orbit.orientation()) {
+            self.view.side = None;
+            if stage.orbit.is_orthographic() {
+                stage.orbit.toggle_orthographic();
+            }
+        }
+    }
+}
+
 fn toggle_wireframe(editor: &mut Editor) {
     let view = &mut editor.view;
     if view.display == DisplayMode::Wireframe {
@@ -50,7 +76,7 @@ fn toggle_wireframe(editor: &mut Editor) {
     }
 }
 
-fn frame_selected(editor: &mut Editor, stage: &mut Stage) {
+pub(crate) fn frame_selected(editor: &Editor, stage: &mut Stage) {
     let points = selected_points(&editor.document);
     match &points[..] {
         [] => frame_all(editor, stage),
@@ -93,6 +119,12 @@ fn frame(editor: &Editor, stage: &mut Stage, points: &[DVec3]) {
 fn selected_points(document: &Document) -> Vec<DVec3> {
     let (scene, selection) = (document.nodes(), document.selection());
     let mut points = Vec::new();
+    // An empty object stands for what hangs on it.
+    let has_mesh = |id: NodeId| scene.node(id).is_some_and(|node| node.mesh.is_some());
+    let is_selected = |id: NodeId| {
+        let mut above = scene.ancestors(id);
+        above.any(|at| selection.objects.contains(&at) && (at == id || !has_mesh(at)))
+    };
     for (id, node) in scene.nodes().iter() {
         let world = scene.world_transform(id);
         let mut add = |position: Vec3| points.push(world.transform_point3(position.as_dvec3()));
@@ -103,14 +135,14 @@ fn selected_points(document: &Document) -> Vec<DVec3> {
                     vertices.into_iter().for_each(|vertex| add(edited.position(vertex)));
                 }
             }
-            Some(mesh) if selection.objects.contains(&id) => {
+            Some(mesh) if is_selected(id) => {
                 let asset = scene.meshes().get(mesh);
                 asset
                     .into_iter()
                     .flat_map(|asset| asset.mesh().positions())
                     .for_each(|position| add(*position));
             }
-            None if selection.objects.contains(&id) => add(Vec3::ZERO),
+            None if is_selected(id) => add(Vec3::ZERO),
             _ => {}
         }
     }
@@ -119,13 +151,18 @@ fn selected_points(document: &Document) -> Vec<DVec3> {
 
 fn toggle_local(editor: &mut Editor, stage: &mut Stage) {
     let selected = &editor.document.selection().objects;
-    if editor.view.local.take().is_none() {
+    if editor.view.local.take().is_some() {
+        if let Some(before) = editor.view.before_local.take() {
+            stage.orbit = before;
+        }
+    } else {
         if selected.is_empty() {
             let text = "Local View: needs an object: click one first";
             editor.message = Message::Refusal(text.into());
             return;
         }
         editor.view.local = Some(selected.clone());
+        editor.view.before_local = Some(stage.orbit);
         frame_selected(editor, stage);
     }
 }

@@ -1,24 +1,16 @@
 //! What parts of the interface remember.
 
 use trigon_document::{Document, ObjectName};
-use trigon_window::egui::Pos2;
 use trigon_window::matches_search;
 
 use crate::panel::{AddState, DevelopmentState, InformationState, OutlinerState, PropertiesState};
 use crate::window::actions::{self, Action};
 
-/// A menu that a key opened.
+/// What an export could not write.
 #[derive(Debug)]
-pub(crate) struct Popup {
-    pub(super) menu: &'static str,
-    /// Where; at the pointer, once it is shown.
-    pub(super) at: Option<Pos2>,
-}
-
-impl Popup {
-    pub(crate) fn new(menu: &'static str) -> Self {
-        Self { menu, at: None }
-    }
+pub(crate) struct Report {
+    pub(super) title: String,
+    pub(super) lines: Vec<String>,
 }
 
 /// The name that is being typed.

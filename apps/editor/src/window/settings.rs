@@ -7,7 +7,7 @@ use std::time::Duration;
 use trigon_document::scene::{NodeId, Reach};
 use trigon_document::{DisplayMarks, Proportional};
 use trigon_window::scene::camera::{Orbit, Viewport};
-use trigon_window::scene::math::DVec3;
+use trigon_window::scene::math::{DQuat, DVec3};
 use trigon_window::{
     Action, DragAction, DragBinding, Key, Keymap, Modifiers, PointerButton, Refinement, Stage,
 };
@@ -74,6 +74,10 @@ pub(crate) struct ViewState {
     pub(crate) x_ray: bool,
     /// The only objects that are shown.
     pub(crate) local: Option<BTreeSet<NodeId>>,
+    /// The view before that.
+    pub(crate) before_local: Option<Orbit>,
+    /// While a side is looked at in parallel projection for that alone: the direction that it was set to.
+    pub(crate) side: Option<DQuat>,
     /// The view that the scene's camera replaced.
     pub(crate) before_camera: Option<Orbit>,
     /// Whether what lies over the image is drawn: grid, axes, lights, cameras, the gizmo.
@@ -83,7 +87,16 @@ pub(crate) struct ViewState {
 impl Default for ViewState {
     fn default() -> Self {
         let (display, before_wireframe) = (DisplayMode::default(), DisplayMode::default());
-        Self { display, before_wireframe, x_ray: false, local: None, before_camera: None, overlays: true }
+        Self {
+            display,
+            before_wireframe,
+            x_ray: false,
+            local: None,
+            before_local: None,
+            side: None,
+            before_camera: None,
+            overlays: true,
+        }
     }
 }
 
@@ -94,14 +107,11 @@ pub(crate) struct Layout {
     pub(crate) side_bar: bool,
     pub(crate) adjust: bool,
     pub(crate) help: bool,
-    /// Whether Alt and the left button stand for the middle one.
-    pub(crate) emulates_mouse: bool,
 }
 
 impl Default for Layout {
     fn default() -> Self {
-        // Touchpads and thin clients have no middle button, and nothing is lost by helping them.
-        Self { tool_bar: true, side_bar: true, adjust: true, help: false, emulates_mouse: true }
+        Self { tool_bar: true, side_bar: true, adjust: true, help: false }
     }
 }
 

@@ -55,6 +55,10 @@ pub(crate) fn outliner(
         egui::TextEdit::singleline(&mut state.search).hint_text("Search").desired_width(f32::INFINITY);
     ui.add(field).accessible_name("Search objects");
     state.rows.update(document, &state.search);
+    if state.rows.is_empty() {
+        let text = if state.search.is_empty() { "The scene is empty." } else { "No object has this name." };
+        ui.add(egui::Label::new(text).wrap());
+    }
     let height = ui.spacing().interact_size.y;
     // The rows are taken out while the rest of the state is changed.
     let rows = std::mem::take(&mut state.rows);
@@ -74,10 +78,6 @@ pub(crate) fn outliner(
     let below = shown.inner_rect.with_min_y(last.min(shown.inner_rect.bottom()));
     drop::below_all(ui, below, document, requests);
     keys(ui, shown.inner_rect, document, state, requests);
-    if state.rows.is_empty() {
-        let text = if state.search.is_empty() { "The scene is empty." } else { "No object has this name." };
-        ui.add(egui::Label::new(text).wrap());
-    }
 }
 
 /// F2 and Delete, while the pointer is over the list.

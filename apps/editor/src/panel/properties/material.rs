@@ -1,9 +1,9 @@
 //! The materials of an object: its slots, their values, their textures.
 
-use trigon_document::scene::{AlphaMode, Arena, Material, MaterialId, Shading};
+use trigon_document::mesh::math::Vec3;
+use trigon_document::scene::{AlphaMode, Material, MaterialId, MetallicRoughness, Shading};
 use trigon_document::{
-    AddMaterial, AssignTexture, Document, MaterialName, ObjectName, SetMaterial, SetMaterialSlot,
-    SurfaceAlpha, SurfaceShading, TextureSlot,
+    AssignTexture, Document, MaterialName, SetMaterial, SurfaceAlpha, SurfaceShading, TextureSlot,
 };
 use trigon_window::egui::{self, Ui};
 
@@ -11,70 +11,35 @@ use super::super::parameters::check_box;
 use super::super::row::{choice, color, number, positive, row, text};
 use super::super::unit::Unit;
 use super::ShownObject;
+use super::preview::Preview;
+use super::slots::slots;
 use crate::panel::row::submit;
 use crate::request::Request;
 
+/// Which slot is shown, and its picture.
+#[derive(Debug, Default)]
+pub(super) struct MaterialState {
+    slot: usize,
+    preview: Preview,
+}
+
 /// Shows the slots and the material of the chosen one.
-pub(super) fn material(ui: &mut Ui, shown: ShownObject<'_>, slot: &mut usize, requests: &mut Vec<Request>) {
-    let ShownObject { document, id, node } = shown;
-    let object = Some(ObjectName::of(id));
-    *slot = (*slot).min(node.materials.len().saturating_sub(1));
-    slots(ui, shown, slot, requests);
-    if ui.button("Add material").on_hover_text("Adds a slot with a new material").clicked() {
-        requests.push(Request::Run(AddMaterial { object, ..AddMaterial::default() }.into()));
-    }
+pub(super) fn material(
+    ui: &mut Ui,
+    shown: ShownObject<'_>,
+    state: &mut MaterialState,
+    requests: &mut Vec<Request>,
+) {
+    let ShownObject { document, node, .. } = shown;
+    slots(ui, shown, &mut state.slot, requests);
     let materials = &document.nodes().materials;
-    if let Some((id, material)) = node.materials.get(*slot).and_then(|&id| Some((id, materials.get(id)?))) {
+    if let Some((id, material)) =
+        node.materials.get(state.slot).and_then(|&id| Some((id, materials.get(id)?)))
+    {
+        state.preview.show(ui, document, id, material);
         let fields = Fields { document, id, material };
         fields.show(ui, requests);
     }
-}
-
-/// Which slot is shown, and which material is in it.
-fn slots(ui: &mut Ui, shown: ShownObject<'_>, slot: &mut usize, requests: &mut Vec<Request>) {
-    let ShownObject { document, id, node } = shown;
-    let materials = &document.nodes().materials;
-    if node.materials.len() > 1 {
-        let names: Vec<String> = node
-            .materials
-            .iter()
-            .enumerate()
-            .map(|(at, &id)| format!("{at}: {}", name(materials, id)))
-            .collect();
-        let choices: Vec<_> = names.iter().enumerate().map(|(at, name)| (at, name.as_str(), "")).collect();
-        choice(ui, "Slot", "Faces name their slot.", slot, &choices);
-    }
-    let Some(&current) = node.materials.get(*slot) else { return };
-    if let Some(chosen) = choose_material(ui, materials, current) {
-        let (object, material) = (Some(ObjectName::of(id)), MaterialName::of(chosen));
-        requests.push(Request::Run(SetMaterialSlot { object, slot: *slot as u32, material }.into()));
-    }
-}
-
-fn name(materials: &Arena<Material>, id: MaterialId) -> String {
-    match materials.get(id) {
-        Some(material) if !material.name.is_empty() => material.name.clone(),
-        Some(_) => format!("Material {}", id.index()),
-        None => "Default".to_owned(),
-    }
-}
-
-/// All materials of the scene. Their names are made only while the list is open: there may be
-/// thousands.
-fn choose_material(ui: &mut Ui, materials: &Arena<Material>, current: MaterialId) -> Option<MaterialId> {
-    let mut chosen = None;
-    row(ui, "Material", "The material in this slot.", |ui, width| {
-        let list = egui::ComboBox::from_id_salt("material").width(width).truncate();
-        let shown = list.selected_text(name(materials, current)).show_ui(ui, |ui| {
-            for (id, _) in materials.iter() {
-                if ui.selectable_label(id == current, name(materials, id)).clicked() && id != current {
-                    chosen = Some(id);
-                }
-            }
-        });
-        shown.response
-    });
-    chosen
 }
 
 /// A number from 0 to 1, and its label.
@@ -99,21 +64,12 @@ impl Fields<'_> {
         }
         self.shading(ui, requests);
         self.base_color(ui, requests);
-        if let Shading::MetallicRoughness(model) = self.material.shading {
-            let given = |metallic| SetMaterial { metallic: Some(metallic), ..self.unchanged() };
-            self.share(
-                ui,
-                ShareRow { label: "Metallic", hover: "0 is a dielectric, 1 a metal.", value: model.metallic },
-                &given,
-                requests,
-            );
-            let given = |roughness| SetMaterial { roughness: Some(roughness), ..self.unchanged() };
-            self.share(
-                ui,
-                ShareRow { label: "Roughness", hover: "0 is a mirror, 1 is matt.", value: model.roughness },
-                &given,
-                requests,
-            );
+        match self.material.shading {
+            Shading::MetallicRoughness(model) => self.physical(ui, &model, requests),
+            Shading::BlinnPhong { specular, shininess, .. } => {
+                self.highlight(ui, specular, shininess, requests);
+            }
+            Shading::Lambert | Shading::Unlit => {}
         }
         let mut emissive = self.material.emissive.to_array();
         if let Some(response) = color(ui, "Emission", "The colour of emitted light.", &mut emissive) {
@@ -149,6 +105,33 @@ impl Fields<'_> {
         if choice(ui, "Surface", "How the surface reflects light.", &mut chosen, &choices).changed() {
             let command = SetMaterial { shading: Some(chosen), ..self.unchanged() };
             requests.push(Request::Run(command.into()));
+        }
+    }
+
+    fn physical(&self, ui: &mut Ui, model: &MetallicRoughness, requests: &mut Vec<Request>) {
+        let given = |metallic| SetMaterial { metallic: Some(metallic), ..self.unchanged() };
+        let metallic =
+            ShareRow { label: "Metallic", hover: "0 is a dielectric, 1 a metal.", value: model.metallic };
+        self.share(ui, metallic, &given, requests);
+        let given = |roughness| SetMaterial { roughness: Some(roughness), ..self.unchanged() };
+        let roughness =
+            ShareRow { label: "Roughness", hover: "0 is a mirror, 1 is matt.", value: model.roughness };
+        self.share(ui, roughness, &given, requests);
+    }
+
+    fn highlight(&self, ui: &mut Ui, specular: Vec3, shininess: f32, requests: &mut Vec<Request>) {
+        let mut chosen = specular.to_array();
+        if let Some(response) = color(ui, "Highlight", "The colour of the highlight.", &mut chosen) {
+            let command = SetMaterial { specular: Some(chosen), ..self.unchanged() };
+            submit(ui, self.document, &response, command.into(), requests);
+        }
+        let mut exponent = f64::from(shininess);
+        let form = positive(1e4, Unit::None);
+        let hover = "The exponent of the highlight: the larger, the smaller it is.";
+        let response = row(ui, "Shininess", hover, |ui, width| number(ui, width, &mut exponent, &form, ""));
+        if response.changed() {
+            let command = SetMaterial { shininess: Some(exponent as f32), ..self.unchanged() };
+            submit(ui, self.document, &response, command.into(), requests);
         }
     }
 

@@ -2,6 +2,8 @@
 
 mod elements;
 mod material;
+mod preview;
+mod slots;
 #[cfg(test)]
 mod tests;
 mod transform;
@@ -19,8 +21,7 @@ pub(crate) struct PropertiesState {
     transform: transform::TransformState,
     /// Of the selected elements.
     elements: elements::Values,
-    /// Which material slot is shown.
-    slot: usize,
+    material: material::MaterialState,
 }
 
 /// The object whose properties are shown.
@@ -62,7 +63,7 @@ pub(crate) fn properties(
         }
         if node.mesh.is_some() {
             section(ui, "Material", |ui| {
-                material::material(ui, object, &mut state.slot, requests);
+                material::material(ui, object, &mut state.material, requests);
             });
         }
     });

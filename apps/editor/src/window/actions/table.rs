@@ -5,7 +5,7 @@ use trigon_window::scene::camera::AxisView;
 
 use super::{Action, Does::*, Needs, actions};
 use crate::request::{
-    DisplayMode, FileAction, Orientation, Pivot, SnapTarget, ToolKind, UiRequest, ViewRequest,
+    DisplayMode, FileAction, Orientation, Pivot, Placing, SnapTarget, ToolKind, UiRequest, ViewRequest,
 };
 
 actions! {
@@ -65,6 +65,16 @@ actions! {
     "Edit" "edit.hide" "Hide Objects" "H" Objects Run(r#"{"op":"show_objects","visible":false}"#) => "Hides the selected objects.";
     "Edit" "edit.hide_others" "Hide Other Objects" "Shift+H" Objects Run(r#"{"op":"hide_others"}"#) => "Hides all objects except the selected ones.";
     "Edit" "edit.reveal" "Show Hidden Objects" "Alt+H" ObjectMode Run(r#"{"op":"reveal_objects"}"#) => "Shows all hidden objects, and selects them.";
+    "Edit/Set Origin" "origin.cursor" "Origin to 3D Cursor" "" Objects Ui(UiRequest::OriginToCursor) => "Moves origins to the 3D cursor; nothing is seen to move.";
+    "Edit" "edit.copy" "Copy" "Ctrl+C" Selected Ui(UiRequest::Copy) => "Remembers objects, or elements in edit mode.";
+    "Edit" "edit.paste" "Paste" "Ctrl+V" Nothing Ui(UiRequest::Paste) => "Adds what was copied; in edit mode it joins the edited mesh.";
+    "Edit/Snap" "snap.menu" "Snap Menu" "Shift+S" Nothing Ui(UiRequest::Popup("Edit/Snap")) => "Chooses where the 3D cursor or the selection goes.";
+    "Edit/Snap" "snap.selection_to_cursor" "Selection to Cursor" "" Selected Ui(UiRequest::Snapped(Placing::SelectionToCursor)) => "Moves the middle of the selection to the 3D cursor.";
+    "Edit/Snap" "snap.selection_to_grid" "Selection to Grid" "" Selected Ui(UiRequest::Snapped(Placing::SelectionToGrid)) => "Moves the middle of the selection to whole metres.";
+    "Edit/Snap" "snap.cursor_to_origin" "Cursor to World Origin" "Shift+C" Nothing Ui(UiRequest::Snapped(Placing::CursorToOrigin)) => "Moves the 3D cursor to the origin of the world.";
+    "Edit/Snap" "snap.cursor_to_selected" "Cursor to Selected" "" Selected Ui(UiRequest::Snapped(Placing::CursorToSelected)) => "Moves the 3D cursor to the middle of the selection.";
+    "Edit/Snap" "snap.cursor_to_active" "Cursor to Active" "" Selected Ui(UiRequest::Snapped(Placing::CursorToActive)) => "Moves the 3D cursor to what was selected last.";
+    "Edit/Snap" "snap.cursor_to_grid" "Cursor to Grid" "" Nothing Ui(UiRequest::Snapped(Placing::CursorToGrid)) => "Moves the 3D cursor to whole metres.";
     "Edit" "edit.delete" "Delete Objects" "X Delete" Objects Run(r#"{"op":"delete_objects"}"#) => "Deletes the selected objects and their descendants.";
 
     "Edit/Snap To" "snap.toggle" "Snapping" "Shift+Tab" Nothing Ui(UiRequest::Snapping) => "Toggles snapping; Ctrl inverts it while moving.";
@@ -193,7 +203,7 @@ actions! {
     "Mesh/Edge" "edge.crease" "Crease" "Shift+E" Elements Run(r#"{"op":"crease","crease":1.0}"#) => "Keeps edges sharp in subdivision.";
     "Mesh/Edge" "edge.clear_crease" "Clear Crease" "" Elements Run(r#"{"op":"crease"}"#) => "Makes edges smooth in subdivision again.";
 
-    "Mesh/Vertex" "vertex.menu" "Vertex Menu" "Ctrl+V" EditMode Ui(UiRequest::Popup("Mesh/Vertex")) => "Lists operations on vertices.";
+    "Mesh/Vertex" "vertex.menu" "Vertex Menu" "Ctrl+Shift+V" EditMode Ui(UiRequest::Popup("Mesh/Vertex")) => "Lists operations on vertices.";
 
     "Mesh/Face" "face.menu" "Face Menu" "Ctrl+F" EditMode Ui(UiRequest::Popup("Mesh/Face")) => "Lists operations on faces.";
     "Mesh/Face" "face.smooth" "Shade Smooth" "" Elements Run(r#"{"op":"shade"}"#) => "Shades faces smooth.";
@@ -246,6 +256,7 @@ actions! {
     "View" "view.overlays" "Overlays" "Alt+Shift+Z" Nothing View(ViewRequest::ToggleOverlays) => "Shows or hides grid, axes, lights, cameras and the gizmo.";
     "View" "view.tool_bar" "Tool Bar" "T" Nothing Ui(UiRequest::ToolBar) => "Shows or hides the tools on the left.";
     "View" "view.side_bar" "Side Bar" "N" Nothing Ui(UiRequest::SideBar) => "Shows or hides the panels on the right.";
+    "View" "view.development" "Development Tab" "" Nothing Ui(UiRequest::Development) => "Shows or hides how the image is made, on the right.";
     "View/Input" "input.mouse" "Emulate Three-Button Mouse" "" Nothing Ui(UiRequest::EmulateMouse) => "Alt+left drag orbits, with Shift it pans, with Ctrl it zooms.";
     "View/Input" "input.numpad" "Emulate Numpad" "" Nothing Ui(UiRequest::EmulateNumpad) => "The digit row acts as the number pad.";
     "View/Text" "view.larger_text" "Larger Text" "Ctrl+=" Nothing Ui(UiRequest::LargerText) => "Makes text and buttons larger.";

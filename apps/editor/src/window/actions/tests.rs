@@ -34,7 +34,8 @@ fn no_chord_means_two_things_in_one_mode() {
 }
 
 /// Those that an element of the window runs with values of its own: clicks, tools, panels.
-const BY_OTHER_MEANS: [&str; 14] = [
+const BY_OTHER_MEANS: [&str; 15] = [
+    "paste",
     "import_file",
     "select_elements",
     "edit_objects",

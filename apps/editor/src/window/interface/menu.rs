@@ -1,17 +1,19 @@
 //! Menus, generated from the table of actions, and the command search: every action by its name.
 
+use trigon_document::Document;
 use trigon_window::egui::containers::menu::menu_style;
+use trigon_window::egui::text::{LayoutJob, TextFormat};
 use trigon_window::egui::{
-    Align, Align2, Area, Button, Context, Frame, Id, Key, Layout, MenuBar, Order, Response, RichText,
-    ScrollArea, TextEdit, Ui,
+    Align, Align2, Area, Button, Color32, Context, Event, EventFilter, Frame, Id, Key, Layout, MenuBar,
+    Order, Response, RichText, ScrollArea, Stroke, TextEdit, TextStyle, Ui,
 };
 use trigon_window::{Stage, egui};
 
-use super::bars::{focus_first, label};
+use super::bars::label;
 use crate::window::actions;
-use crate::window::actions::{Action, CONTEXT_MENU, MENUS};
+use crate::window::actions::{Action, MENUS};
 use crate::window::editor::Editor;
-use crate::window::panels::Popup;
+use crate::window::popup::Popup;
 
 /// In points.
 const POPUP_WIDTH: f32 = 220.0;
@@ -36,7 +38,7 @@ fn entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> 
     let mut within: Vec<&str> = Vec::new();
     for action in actions::all().filter(|action| !action.opens_menu()) {
         if action.menu == menu {
-            if entry(ui, editor, action).clicked() {
+            if entry(ui, editor, action, None).clicked() {
                 ui.close();
                 chosen = Some(action);
             }
@@ -53,84 +55,101 @@ fn entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> 
     chosen
 }
 
-/// One action with its key; greyed, with the reason, while it cannot run.
-fn entry(ui: &mut Ui, editor: &Editor, action: &Action) -> Response {
+/// One action with its key; greyed, with the reason, while it cannot run. The letter that chooses it is underlined.
+fn entry(ui: &mut Ui, editor: &Editor, action: &Action, letter: Option<char>) -> Response {
     let refusal = action.refusal(&editor.document);
     let shortcut = RichText::new(editor.keys.text_of(action)).weak();
-    let shown = ui.add_enabled(refusal.is_none(), Button::new(action.label).right_text(shortcut));
+    let text = underlined(ui, action.label, letter);
+    let shown = ui.add_enabled(refusal.is_none(), Button::new(text).right_text(shortcut));
     label(&shown, action.label);
     let reason = refusal.map_or_else(String::new, |reason| format!("{}\n{reason}", action.help));
     shown.on_hover_text(action.help).on_disabled_hover_text(reason)
 }
 
-/// A menu with those within it below one another, as few movements of the hand as can be.
-fn all_entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> {
-    if menu == CONTEXT_MENU {
-        return context_entries(ui, editor);
-    }
-    let (mut chosen, mut current) = (None, menu);
-    ui.strong(menu.rsplit('/').next().unwrap_or(menu));
-    for action in actions::also_in(menu) {
-        chosen = focusable_entry(ui, editor, action).or(chosen);
-    }
-    for action in actions::all().filter(|action| !action.opens_menu()) {
-        let within = action.menu.strip_prefix(menu);
-        if !within.is_some_and(|rest| rest.is_empty() || rest.starts_with('/')) {
-            continue;
-        }
-        if action.menu != current {
-            current = action.menu;
-            ui.separator();
-        }
-        chosen = focusable_entry(ui, editor, action).or(chosen);
-    }
-    chosen
-}
-
-/// An entry that arrows and Enter choose, too; itself if it was chosen.
-fn focusable_entry(ui: &mut Ui, editor: &Editor, action: &'static Action) -> Option<&'static Action> {
-    let shown = entry(ui, editor, action);
-    if shown.enabled() {
-        focus_first(&shown);
-    }
-    shown.clicked().then_some(action)
-}
-
-/// What is often done with what is selected.
-fn context_entries(ui: &mut Ui, editor: &Editor) -> Option<&'static Action> {
-    let (mut chosen, is_editing) = (None, editor.document.selection().is_editing());
-    for action in actions::context(is_editing) {
-        chosen = focusable_entry(ui, editor, action).or(chosen);
-    }
-    chosen
+/// A text in which the first of these letters is underlined.
+fn underlined(ui: &Ui, text: &str, letter: Option<char>) -> LayoutJob {
+    let font = TextStyle::Button.resolve(ui.style());
+    let plain = TextFormat::simple(font, Color32::PLACEHOLDER);
+    let is_it = |found: char| letter.is_some_and(|letter| found.to_lowercase().eq([letter]));
+    let mut job = LayoutJob::default();
+    let at = text.find(is_it).unwrap_or(text.len());
+    let width = text[at..].chars().next().map_or(0, char::len_utf8);
+    let line = Stroke::new(1.0, ui.visuals().text_color());
+    job.append(&text[..at], 0.0, plain.clone());
+    job.append(&text[at..at + width], 0.0, TextFormat { underline: line, ..plain.clone() });
+    job.append(&text[at + width..], 0.0, plain);
+    job
 }
 
 /// The menu that a key or the right button opened, at the pointer.
 pub(super) fn popup(context: &Context, editor: &mut Editor, stage: &mut Stage) {
-    let Some(Popup { menu, at }) = &mut editor.popup else { return };
-    let is_new = at.is_none();
+    let Some(mut popup) = editor.popup.take() else { return };
+    let is_new = popup.at.is_none();
     let pointer = || context.pointer_latest_pos().unwrap_or_else(|| context.content_rect().center());
-    let (menu, at) = (*menu, *at.get_or_insert_with(pointer));
-    let mut chosen = None;
-    let area = Area::new(Id::unique(("popup", menu))).fixed_pos(at).order(Order::Foreground);
+    let at = *popup.at.get_or_insert_with(pointer);
+    let mut chosen = popup_keys(context, &mut popup, &editor.document);
+    let area = Area::new(Id::unique(("popup", popup.menu))).fixed_pos(at).order(Order::Foreground);
     let shown = area.constrain(true).fade_in(false).show(context, |ui| {
         Frame::menu(ui.style()).show(ui, |ui| {
             menu_style(ui.style_mut());
             ui.set_max_width(POPUP_WIDTH);
             ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| {
-                chosen = all_entries(ui, editor, menu);
+                chosen = popup_entries(ui, editor, &mut popup).or(chosen);
             });
         });
     });
     let beside = !is_new && shown.response.clicked_elsewhere();
     let escaped = context.input(|input| input.key_pressed(Key::Escape));
-    if chosen.is_some() || beside || escaped {
-        editor.popup = None;
-    }
     if let Some(action) = chosen {
         editor.choose(stage, action);
         context.request_repaint();
+    } else if !beside && !escaped {
+        editor.popup = Some(popup);
     }
+}
+
+/// Letters, Backspace, and arrows.
+fn popup_keys(context: &Context, popup: &mut Popup, document: &Document) -> Option<&'static Action> {
+    let mut chosen = None;
+    let count = popup.entries(document).len();
+    let events = context.input(|input| input.events.clone());
+    for event in events {
+        match event {
+            Event::Text(text) => chosen = popup.typed(&text, document).or(chosen),
+            Event::Key { key: Key::Backspace, pressed: true, .. } => drop(popup.text.pop()),
+            Event::Key { key: Key::ArrowDown, pressed: true, .. } => popup.step(1, count),
+            Event::Key { key: Key::ArrowUp, pressed: true, .. } => popup.step(-1, count),
+            _ => {}
+        }
+    }
+    chosen
+}
+
+/// The lines of the menu; the one that was chosen. The current one has the keyboard, so that Enter chooses it.
+fn popup_entries(ui: &mut Ui, editor: &Editor, popup: &mut Popup) -> Option<&'static Action> {
+    let (mut chosen, mut section) = (None, popup.menu);
+    let title = popup.menu.rsplit('/').next().unwrap_or(popup.menu);
+    ui.strong(if popup.text.is_empty() { title } else { &popup.text });
+    let entries = popup.entries(&editor.document);
+    if entries.is_empty() {
+        let nothing =
+            ui.add(Button::new("no entry has this name").sense(egui::Sense::focusable_noninteractive()));
+        nothing.request_focus();
+    }
+    for (index, entry) in entries.iter().enumerate() {
+        if std::mem::replace(&mut section, entry.section) != entry.section {
+            ui.separator();
+        }
+        let shown = self::entry(ui, editor, entry.action, entry.letter);
+        if index == popup.index && !shown.has_focus() {
+            shown.request_focus();
+            shown.scroll_to_me(None);
+        }
+        let filter = EventFilter { vertical_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(shown.id, filter));
+        chosen = shown.clicked().then_some(entry.action).or(chosen);
+    }
+    chosen
 }
 
 /// Shows it, and does what was chosen.

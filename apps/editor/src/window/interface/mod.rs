@@ -16,6 +16,7 @@ use crate::request::Request;
 /// Shows all of it; returns what is to be done.
 pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<Request> {
     let mut requests = Vec::new();
+    editor.leave_side(stage);
     view::show_view(ui, editor, stage);
     Panel::top("menus").show(ui, |ui| menu::bar(ui, editor, stage));
     Panel::top("modes").show(ui, |ui| bars::top(ui, editor, stage, &mut requests));
@@ -37,6 +38,7 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
     let waker = stage.waker();
     let chosen = editor.dialog.show(ui.ctx(), &editor.recent, move || waker.wake());
     requests.extend(chosen.map(Request::File));
+    overlays::report(ui.ctx(), editor);
     overlays::loading(ui.ctx(), editor, stage);
     overlays::saving(ui.ctx(), editor);
     overlays::show_questions(ui.ctx(), editor, stage);

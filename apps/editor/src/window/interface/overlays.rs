@@ -29,6 +29,9 @@ const MOUSE: [(&str, &str); 9] = [
 /// All keys, menu by menu.
 pub(super) fn help(context: &Context, editor: &mut Editor) {
     let mut is_open = editor.layout.help;
+    if is_open && context.input(|input| input.key_pressed(Key::Escape)) {
+        is_open = false;
+    }
     let height = (context.content_rect().height() - 160.0).max(60.0);
     let window = egui::Window::new("Keys and Mouse").open(&mut is_open).collapsible(false).resizable(false);
     window.anchor(Align2::CENTER_CENTER, [0.0; 2]).show(context, |ui| {
@@ -78,6 +81,28 @@ pub(super) fn rename(context: &Context, editor: &mut Editor, requests: &mut Vec<
     }
     if is_done || !is_open || context.input(|input| input.key_pressed(Key::Escape)) {
         editor.rename = None;
+    }
+}
+
+/// What an export could not write, until that is read.
+pub(super) fn report(context: &Context, editor: &mut Editor) {
+    let Some(report) = &editor.report else { return };
+    let height = (context.content_rect().height() - 200.0).max(60.0);
+    let modal = Modal::new(Id::unique("report")).show(context, |ui| {
+        ui.set_max_width(520.0);
+        ui.heading(&report.title);
+        ScrollArea::vertical().max_height(height).show(ui, |ui| {
+            for line in &report.lines {
+                ui.add(egui::Label::new(format!("• {line}")).wrap());
+            }
+        });
+        ui.add_space(8.0);
+        let button = ui.button("Close");
+        focus_first(&button);
+        button.clicked()
+    });
+    if modal.inner || context.input(|input| input.key_pressed(Key::Escape)) {
+        editor.report = None;
     }
 }
 

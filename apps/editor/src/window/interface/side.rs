@@ -2,9 +2,9 @@
 //! left of the view, and the status line: the keys and numbers of the active tool, results and errors, and
 //! the selection.
 
-use trigon_document::{Document, ElementKind};
+use trigon_document::{Command, Document, ElementKind};
 use trigon_window::egui::{
-    Align, Align2, Color32, Context, Id, Layout, Panel, Rect, RichText, ScrollArea, Ui,
+    Align, Align2, Color32, Context, Id, Layout, Panel, Rect, RichText, ScrollArea, Ui, UiBuilder,
 };
 use trigon_window::{Stage, egui};
 
@@ -20,29 +20,47 @@ use crate::window::panels::Tab;
 const WIDTH: f32 = 280.0;
 const LEAST_WIDTH: f32 = 200.0;
 const ADJUST_WIDTH: f32 = 260.0;
+/// What the outliner leaves to the tabs, in points.
+const LEAST_TABS: f32 = 160.0;
+const LEAST_OUTLINER: f32 = 60.0;
 
-/// The outliner above, the tabs below.
+/// The outliner above, the tabs below. Their sizes are the user's: what they show does not change them.
 pub(super) fn show(ui: &mut Ui, editor: &mut Editor, stage: &Stage, requests: &mut Vec<Request>) {
-    let side = Panel::right("side").default_size(WIDTH).min_size(LEAST_WIDTH);
+    let most = (ui.available_width() * 0.6).max(LEAST_WIDTH);
+    let side = Panel::right("side").default_size(WIDTH).size_range(LEAST_WIDTH..=most);
     side.show(ui, |ui| {
-        let height = ui.available_height();
-        let upper = Panel::top("outliner").resizable(true).default_size(height * 0.3);
-        upper.show(ui, |ui| {
-            panel::outliner(ui, &editor.document, &mut editor.panels.outliner, requests);
+        within_bounds(ui, |ui| {
+            let height = ui.available_height();
+            let most = (height - LEAST_TABS).max(LEAST_OUTLINER);
+            let upper = Panel::top("outliner").resizable(true).default_size(height * 0.3);
+            upper.size_range(LEAST_OUTLINER..=most).show(ui, |ui| {
+                within_bounds(ui, |ui| {
+                    panel::outliner(ui, &editor.document, &mut editor.panels.outliner, requests);
+                });
+            });
+            tabs(ui, editor, stage, requests);
         });
-        tabs(ui, editor, stage, requests);
     });
 }
 
+/// Shows contents in all the room that there is, which they do not make larger: a panel would keep the size of what it
+/// once showed.
+fn within_bounds(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
+    let bounds = ui.available_rect_before_wrap();
+    let mut within = ui.new_child(UiBuilder::new().max_rect(bounds));
+    within.set_clip_rect(within.clip_rect().intersect(bounds));
+    contents(&mut within);
+    ui.advance_cursor_after_rect(bounds);
+}
+
 fn tabs(ui: &mut Ui, editor: &mut Editor, stage: &Stage, requests: &mut Vec<Request>) {
-    let all = [
-        (Tab::Properties, "Properties"),
-        (Tab::Add, "Add"),
-        (Tab::Information, "Information"),
-        (Tab::Development, "Development"),
-    ];
+    let all = [(Tab::Properties, "Properties"), (Tab::Add, "Add"), (Tab::Information, "Information")];
+    let development = editor.preferences.get().development.then_some((Tab::Development, "Development"));
+    if development.is_none() && editor.panels.tab == Tab::Development {
+        editor.panels.tab = Tab::Properties;
+    }
     ui.horizontal_wrapped(|ui| {
-        for (tab, name) in all {
+        for (tab, name) in all.into_iter().chain(development) {
             ui.selectable_value(&mut editor.panels.tab, tab, name);
         }
     });
@@ -74,7 +92,8 @@ fn tabs(ui: &mut Ui, editor: &mut Editor, stage: &Stage, requests: &mut Vec<Requ
 pub(super) fn adjust(context: &Context, editor: &Editor, free: Rect, requests: &mut Vec<Request>) {
     let last = editor.document.history().done().last().map(|entry| entry.command());
     let is_over = editor.tool.is_none() && editor.question.is_none() && editor.loading.is_none();
-    let can_adjust = last.is_some_and(|last| !last.is_selection());
+    // What was pasted has no values, and may be large.
+    let can_adjust = last.is_some_and(|last| !last.is_selection() && !matches!(last, Command::Paste(_)));
     if !(can_adjust && is_over && editor.layout.adjust) {
         return;
     }

@@ -276,7 +276,7 @@ fn meshes_come_apart_and_together_by_keys() {
     worked.editor.run(serde_json::from_value(command.clone()).expect("a command"));
     worked.chords("Y");
     assert_eq!(worked.cube(), [12, 16, 6], "split off");
-    worked.chords("Ctrl+Z P");
+    worked.chords("Ctrl+Z P S");
     assert_eq!(worked.objects(), 3, "an object of its own");
     worked.chords("Tab A Ctrl+J");
     assert_eq!(worked.objects(), 2, "joined");
@@ -306,7 +306,9 @@ fn faces_turn_over_and_become_smooth() {
 #[test]
 fn menus_of_elements_offer_their_tools() {
     let mut harness = harness();
-    for (key, label) in [("Ctrl+V", "Connect Vertices"), ("Ctrl+E", "Loop Cut"), ("Ctrl+F", "Triangulate")] {
+    for (key, label) in
+        [("Ctrl+Shift+V", "Connect Vertices"), ("Ctrl+E", "Loop Cut"), ("Ctrl+F", "Triangulate")]
+    {
         let worked = harness.state_mut();
         if !worked.editor.document.selection().is_editing() {
             worked.chords("Tab A");

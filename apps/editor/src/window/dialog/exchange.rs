@@ -1,0 +1,154 @@
+//! How files of other programs are read and written: which axis is up in them, their unit, and what of the document
+//! they get.
+
+use std::path::Path;
+
+use trigon_document::Document;
+use trigon_io::{Encoding, ExportOptions, FaceExport, Format, UpAxis, writers};
+use trigon_window::egui;
+use trigon_window::egui::{ComboBox, Ui};
+
+use crate::arguments::Arguments;
+use crate::export::format_by_ending;
+
+/// The choices in the file window. They stay until the editor is closed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Exchange {
+    /// In files that are opened and imported; none for that of their format.
+    pub(crate) import_up: Option<UpAxis>,
+    /// In files that are exported, likewise.
+    pub(crate) export_up: Option<UpAxis>,
+    /// Units of exported files per metre.
+    pub(crate) scale: f64,
+    /// Whether only what is selected is exported.
+    pub(crate) selection_only: bool,
+    pub(crate) triangulate: bool,
+    /// Whether numbers are written as text where a format has both.
+    pub(crate) text: bool,
+}
+
+/// Units of files, by how many there are in a metre.
+const UNITS: [(&str, f64); 4] =
+    [("metres", 1.0), ("centimetres", 100.0), ("millimetres", 1000.0), ("inches", 1.0 / 0.0254)];
+
+impl Default for Exchange {
+    fn default() -> Self {
+        Self {
+            import_up: None,
+            export_up: None,
+            scale: 1.0,
+            selection_only: false,
+            triangulate: false,
+            text: false,
+        }
+    }
+}
+
+impl Exchange {
+    /// The choices of the command line.
+    pub(crate) fn new(arguments: &Arguments) -> Self {
+        Self {
+            import_up: arguments.import_up,
+            export_up: arguments.up,
+            scale: arguments.scale.unwrap_or(1.0),
+            selection_only: arguments.selection_only,
+            triangulate: arguments.triangulate,
+            text: arguments.ascii,
+        }
+    }
+
+    /// What is written of a document.
+    pub(crate) fn export_options(&self, document: &Document) -> ExportOptions<'static> {
+        let selected = || document.selection().objects.iter().copied().collect();
+        ExportOptions {
+            nodes: self.selection_only.then(selected),
+            up: self.export_up,
+            scale: self.scale,
+            faces: if self.triangulate { FaceExport::Triangles } else { FaceExport::Polygons },
+            encoding: if self.text { Encoding::Text } else { Encoding::Binary },
+            ..ExportOptions::default()
+        }
+    }
+
+    /// For files that are read.
+    pub(super) fn show_import(&mut self, ui: &mut Ui) {
+        up_list(ui, &mut self.import_up);
+    }
+
+    /// For a file that is written: its format, which is the ending of its name, and what goes into it.
+    pub(super) fn show_export(&mut self, ui: &mut Ui, name: &mut String) {
+        let format = format_by_ending(Path::new(name)).unwrap_or(Format::Glb);
+        if let Some(chosen) = format_list(ui, format) {
+            *name = Path::new(name).with_extension(chosen).to_string_lossy().into_owned();
+        }
+        ui.add(egui::Label::new(held_by(format)).wrap());
+        ui.horizontal_wrapped(|ui| {
+            ui.checkbox(&mut self.selection_only, "Selection only");
+            if has_polygons(format) {
+                ui.checkbox(&mut self.triangulate, "Triangulate");
+            }
+            if matches!(format, Format::Ply | Format::Stl) {
+                ui.checkbox(&mut self.text, "As text");
+            }
+        });
+        up_list(ui, &mut self.export_up);
+        unit_list(ui, &mut self.scale);
+    }
+}
+
+/// The formats that can be written. Returns the ending of another one that was chosen.
+fn format_list(ui: &mut Ui, current: Format) -> Option<&'static str> {
+    let mut chosen = None;
+    let text = |name: &str, ending: &str| format!("{name} (.{ending})");
+    let named = writers().find(|writer| writer.format == current);
+    let selected = named.map_or_else(String::new, |writer| text(writer.name, writer.extensions[0]));
+    ComboBox::from_label("Format").selected_text(selected).width(220.0).show_ui(ui, |ui| {
+        for writer in writers() {
+            let is_current = writer.format == current;
+            if ui.selectable_label(is_current, text(writer.name, writer.extensions[0])).clicked() {
+                chosen = Some(writer.extensions[0]);
+            }
+        }
+    });
+    chosen
+}
+
+/// What a format holds, and what it does not.
+fn held_by(format: Format) -> &'static str {
+    match format {
+        Format::Obj => {
+            "Keeps polygons, texture coordinates, normals, and materials with their images. Loses the tree of objects, lights, cameras and marks of edges."
+        }
+        Format::Ply => {
+            "Keeps polygons, normals, texture coordinates and colours of vertices, as one mesh. Loses materials, objects, lights and cameras."
+        }
+        Format::Stl => "Keeps triangles alone, as one mesh, for printing: +Z is up. Loses everything else.",
+        Format::Off => "Keeps polygons alone, as one mesh. Loses everything else.",
+        _ => "Keeps objects, materials, images, lights and cameras. Loses polygons: they become triangles.",
+    }
+}
+
+fn has_polygons(format: Format) -> bool {
+    matches!(format, Format::Obj | Format::Ply | Format::Off)
+}
+
+fn up_list(ui: &mut Ui, up: &mut Option<UpAxis>) {
+    let name =
+        |up: Option<UpAxis>| up.map_or_else(|| "as usual in the format".to_owned(), |up| up.to_string());
+    let axes = ["+X", "-X", "+Y", "-Y", "+Z", "-Z"].into_iter().map(|axis| axis.parse().ok());
+    ComboBox::from_label("up axis of the file").selected_text(name(*up)).show_ui(ui, |ui| {
+        for choice in std::iter::once(None).chain(axes) {
+            ui.selectable_value(up, choice, name(choice));
+        }
+    });
+}
+
+fn unit_list(ui: &mut Ui, scale: &mut f64) {
+    let known = UNITS.iter().find(|(_, units)| units == scale);
+    let name = known.map_or_else(|| format!("{scale} per metre"), |(name, _)| (*name).to_owned());
+    ComboBox::from_label("unit of the file").selected_text(name).show_ui(ui, |ui| {
+        for (name, units) in UNITS {
+            ui.selectable_value(scale, units, name);
+        }
+    });
+}

@@ -1,0 +1,69 @@
+//! Images that are dropped onto the window: textures of what they are dropped on, or pictures in the scene.
+
+use std::path::{Path, PathBuf};
+
+use trigon_document::{
+    AddMaterial, AddObject, AssignTexture, MaterialName, ObjectName, SetMaterial, Shape, SurfaceShading,
+    TextureSource,
+};
+use trigon_io::{Limits, load_image};
+use trigon_window::Stage;
+
+use super::editor::{Editor, Message};
+use crate::request::DisplayMode;
+
+/// Whether a file is an image, by the ending of its name.
+pub(super) fn is_image(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    ["png", "jpg", "jpeg", "webp"].contains(&ending.as_str())
+}
+
+impl Editor {
+    /// The object under the pointer gets the image as its base colour; where there is none, a picture is added.
+    pub(super) fn drop_image(&mut self, stage: &mut Stage, path: PathBuf) {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let source = TextureSource::File { path: path.to_string_lossy().into_owned() };
+        let under = self.pointer.and_then(|at| stage.pick(at)).map(|(hit, _)| hit.node);
+        let scene = self.document.nodes();
+        let material = under.and_then(|id| scene.node(id)?.materials.first().copied());
+        let material = match (under, material) {
+            (_, Some(material)) => Some(MaterialName::of(material)),
+            (Some(object), None) => {
+                let object = Some(ObjectName::of(object));
+                self.run(AddMaterial { object, name }.into());
+                None
+            }
+            (None, None) => {
+                self.add_picture(&name, &path);
+                None
+            }
+        };
+        if matches!(self.message, Message::Info(_)) || material.is_some() {
+            self.run(AssignTexture { material, texture: Some(source), ..AssignTexture::default() }.into());
+            self.show_images();
+        }
+        self.show(stage);
+    }
+
+    /// Shows textures, which a plain display mode does not.
+    pub(super) fn show_images(&mut self) {
+        if !matches!(self.view.display, DisplayMode::Textured | DisplayMode::Rendered) {
+            self.view.display = DisplayMode::Textured;
+        }
+    }
+
+    /// A plane as wide as 2 m and as high as its image, at the 3D cursor, which no light changes.
+    fn add_picture(&mut self, name: &str, path: &Path) {
+        let image = match load_image(path, &Limits::default()) {
+            Ok(image) => image,
+            Err(error) => return self.message = Message::Refusal(error.to_string()),
+        };
+        let depth = 2.0 * image.height as f32 / image.width as f32;
+        let object = Shape::Plane { width: 2.0, depth };
+        let position = self.tools.cursor.to_array();
+        self.run(AddObject { object, name: Some(name.to_owned()), position }.into());
+        let (name, shading) = (Some(name.to_owned()), Some(SurfaceShading::Unlit));
+        let look = SetMaterial { name, shading, ..SetMaterial::default() };
+        self.run(look.into());
+    }
+}
