@@ -11,6 +11,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use trigon_io::{Format, LoadOptions, NativeDocument};
+use trigon_mesh::Mesh;
+use trigon_mesh::math::{DAffine3, DVec3};
 use trigon_modelling::{EditMesh, Refusal};
 use trigon_scene::{MaterialId, MaterialTexture, MeshId, NodeId, Scene, TextureAsset, TextureId};
 
@@ -235,6 +237,24 @@ fn paste_elements(change: &mut Change<'_>, copied: DocumentFile) -> Result<Outco
     let count = vertices.len();
     select(change, into, vertices);
     Ok(Outcome::counted("pasted", count, ["vertex", "vertices"]))
+}
+
+/// Adds a mesh to the active object's while that is edited, in its first material slot, at a point of the world and along
+/// the world's axes. What was added is selected.
+pub(super) fn add_to_edited(
+    change: &mut Change<'_>,
+    mesh: &Mesh,
+    position: DVec3,
+) -> Result<Outcome, EditError> {
+    let into = edited_mesh(change)?;
+    let object = change.state().owner(into).ok_or(EditError::NotEditing(COMMAND))?;
+    let from_world = inverse(change.scene().world_transform(object), COMMAND)?;
+    let transform = from_world * DAffine3::from_translation(position);
+    let (added, _) = EditMesh::from_mesh(mesh);
+    let joined = change.edit(into, |edited| Ok(edited.join_mesh(&added, &transform)?))?;
+    let count = joined.vertices.len();
+    select(change, into, joined.vertices);
+    Ok(Outcome::counted("added", count, ["vertex", "vertices"]))
 }
 
 /// The mesh of the active object if it is edited, or the first edited one.

@@ -8,11 +8,12 @@ use trigon_mesh::math::{DVec3, Vec3};
 use trigon_mesh::{Mesh, primitives};
 use trigon_scene::{Light, Material, Node, NodeId};
 
+use super::paste::add_to_edited;
 use super::{Action, ObjectName, Outcome};
 use crate::error::EditError;
 use crate::state::{Change, Names};
 
-/// Adds a standard object and selects it.
+/// Adds a standard object and selects it; in edit mode its elements, which join the active mesh.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AddObject {
@@ -28,13 +29,13 @@ pub struct AddObject {
 
 impl Action for AddObject {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let (mesh, position) = (self.object.mesh(), DVec3::from(self.position));
         if change.selection().is_editing() {
-            return Err(EditError::Editing("adding an object"));
+            return add_to_edited(change, &mesh, position);
         }
         let name = change.free_name(self.name.as_deref().unwrap_or(self.object.name()));
         let scene = change.scene_mut();
-        let id = scene.add_object(name, self.object.mesh(), Material::default());
-        let position = DVec3::from(self.position);
+        let id = scene.add_object(name, mesh, Material::default());
         scene.node_mut(id).expect("it was just added").transform.set_translation(position);
         select_only(change, id);
         Ok(Outcome::silent())

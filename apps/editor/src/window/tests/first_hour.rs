@@ -328,3 +328,16 @@ fn exports_list_all_that_they_cannot_hold() {
     harness.run();
     assert!(harness.state().editor.report.is_none(), "read");
 }
+
+#[test]
+fn a_shape_that_is_added_in_edit_mode_joins_the_mesh() {
+    let mut worked = Worked::new();
+    worked.run(json!({ "op": "set_transform", "location": [5.0, 0.0, 0.0], "scale": [2.0, 2.0, 2.0] }));
+    worked.chord("Tab");
+    worked.menu("add.cube");
+    assert_eq!(worked.objects(), 2, "no object more: {:?}", worked.editor.message);
+    assert_eq!(worked.selected_elements(), 8, "the new vertices are selected");
+    let points: Vec<DVec3> = worked.stage.scene.visible_points().collect();
+    let has = |at: DVec3| points.iter().any(|point| point.distance(at) < 1e-6);
+    assert!(points.len() == 16 && has(DVec3::ONE) && has(DVec3::new(7.0, 2.0, 2.0)), "both: {points:?}");
+}
