@@ -94,8 +94,12 @@ mod unix {
     }
 
     fn end(mut child: Child, signal: &str) -> std::process::ExitStatus {
+        // Waiting closes the child's input, which would let it write the other half before the signal comes.
+        let input = child.stdin.take();
         send(&child, signal);
-        child.wait().expect("a child")
+        let status = child.wait().expect("a child");
+        drop(input);
+        status
     }
 
     fn names(folder: &Path) -> Vec<String> {
