@@ -3,10 +3,49 @@
 use std::path::{Path, PathBuf};
 
 use trigon_document::{Disk, Document, SetFile, save_set};
-use trigon_io::{Encoding, ExportOptions, FaceExport, FileIdentity, Format, writers};
+use trigon_io::{Encoding, ExportOptions, FaceExport, FileIdentity, Format, UpAxis, writers};
 
 use crate::arguments::Arguments;
 use crate::report;
+
+/// What a file for other programs gets of a document, and how.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ExportChoices {
+    /// The axis that is up in the file; none for that of its format.
+    pub(crate) up: Option<UpAxis>,
+    /// Units of the file per metre.
+    pub(crate) scale: f64,
+    /// Whether it gets only what is selected.
+    pub(crate) selection_only: bool,
+    pub(crate) triangulate: bool,
+    /// Whether numbers are written as text where a format has both.
+    pub(crate) text: bool,
+}
+
+impl ExportChoices {
+    /// Those of the command line.
+    pub(crate) fn new(arguments: &Arguments) -> Self {
+        Self {
+            up: arguments.up,
+            scale: arguments.scale.unwrap_or(1.0),
+            selection_only: arguments.selection_only,
+            triangulate: arguments.triangulate,
+            text: arguments.ascii,
+        }
+    }
+
+    pub(crate) fn options(&self, document: &Document) -> ExportOptions<'static> {
+        let selected = || document.selection().objects.iter().copied().collect();
+        ExportOptions {
+            nodes: self.selection_only.then(selected),
+            up: self.up,
+            scale: self.scale,
+            faces: if self.triangulate { FaceExport::Triangles } else { FaceExport::Polygons },
+            encoding: if self.text { Encoding::Text } else { Encoding::Binary },
+            ..ExportOptions::default()
+        }
+    }
+}
 
 /// The format of the result; none if it is the editor's own file.
 pub(crate) fn format_of(arguments: &Arguments, output: &Path) -> Result<Option<Format>, String> {
@@ -36,15 +75,7 @@ pub(crate) fn write(
     output: &Path,
     arguments: &Arguments,
 ) -> Result<(), String> {
-    let selected = || document.selection().objects.iter().copied().collect();
-    let options = ExportOptions {
-        nodes: arguments.selection_only.then(selected),
-        scale: arguments.scale.unwrap_or(1.0),
-        up: arguments.up,
-        faces: if arguments.triangulate { FaceExport::Triangles } else { FaceExport::Polygons },
-        encoding: if arguments.ascii { Encoding::Text } else { Encoding::Binary },
-        ..ExportOptions::default()
-    };
+    let options = ExportChoices::new(arguments).options(document);
     let losses = write_as(document, format, output, &options)?;
     if !arguments.quiet {
         losses.iter().for_each(|loss| report("warning", loss));

@@ -175,7 +175,7 @@ pub(crate) enum UiRequest {
     /// Adds what was copied last.
     Paste,
     /// Moves the 3D cursor, or what is selected to it.
-    Snapped(Placing),
+    Placing(Placing),
     /// Puts the origins of objects at the 3D cursor.
     OriginToCursor,
     /// Shows or hides the tab *Development*.
@@ -212,7 +212,7 @@ impl UiRequest {
                 | Self::LinkedAtPointer
                 | Self::Parent { .. }
                 | Self::Paste
-                | Self::Snapped(_)
+                | Self::Placing(_)
                 | Self::OriginToCursor
         )
     }

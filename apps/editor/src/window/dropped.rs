@@ -9,13 +9,14 @@ use trigon_document::{
 use trigon_io::{Limits, load_image};
 use trigon_window::Stage;
 
+use super::dialog::IMAGES;
 use super::editor::{Editor, Message};
 use crate::request::DisplayMode;
 
 /// Whether a file is an image, by the ending of its name.
 pub(super) fn is_image(path: &Path) -> bool {
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    ["png", "jpg", "jpeg", "webp"].contains(&ending.as_str())
+    IMAGES.contains(&ending.as_str())
 }
 
 impl Editor {

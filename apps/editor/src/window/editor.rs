@@ -254,7 +254,7 @@ impl Editor {
             UiRequest::SideBar => self.layout.side_bar = !self.layout.side_bar,
             UiRequest::Copy => self.copy(),
             UiRequest::Paste => self.paste(),
-            UiRequest::Snapped(placing) => self.snap(placing),
+            UiRequest::Placing(placing) => self.snap(placing),
             UiRequest::OriginToCursor => self.origin_to_cursor(),
             UiRequest::Development
             | UiRequest::EmulateMouse

@@ -311,7 +311,7 @@ impl Editor {
     }
 
     fn export(&mut self, path: &Path) {
-        let options = self.dialog.exchange.export_options(&self.document);
+        let options = self.dialog.exchange.export.options(&self.document);
         let written = export::format_by_ending(path)
             .and_then(|format| export::write_as(&self.document, format, path, &options));
         self.message = match written {

@@ -3,28 +3,19 @@
 
 use std::path::Path;
 
-use trigon_document::Document;
-use trigon_io::{Encoding, ExportOptions, FaceExport, Format, UpAxis, writers};
+use trigon_io::{Format, UpAxis, writers};
 use trigon_window::egui;
 use trigon_window::egui::{ComboBox, Ui};
 
 use crate::arguments::Arguments;
-use crate::export::format_by_ending;
+use crate::export::{ExportChoices, format_by_ending};
 
 /// The choices in the file window. They stay until the editor is closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Exchange {
     /// In files that are opened and imported; none for that of their format.
     pub(crate) import_up: Option<UpAxis>,
-    /// In files that are exported, likewise.
-    pub(crate) export_up: Option<UpAxis>,
-    /// Units of exported files per metre.
-    pub(crate) scale: f64,
-    /// Whether only what is selected is exported.
-    pub(crate) selection_only: bool,
-    pub(crate) triangulate: bool,
-    /// Whether numbers are written as text where a format has both.
-    pub(crate) text: bool,
+    pub(crate) export: ExportChoices,
 }
 
 /// Units of files, by how many there are in a metre.
@@ -33,41 +24,16 @@ const UNITS: [(&str, f64); 4] =
 
 impl Default for Exchange {
     fn default() -> Self {
-        Self {
-            import_up: None,
-            export_up: None,
-            scale: 1.0,
-            selection_only: false,
-            triangulate: false,
-            text: false,
-        }
+        let export =
+            ExportChoices { up: None, scale: 1.0, selection_only: false, triangulate: false, text: false };
+        Self { import_up: None, export }
     }
 }
 
 impl Exchange {
     /// The choices of the command line.
     pub(crate) fn new(arguments: &Arguments) -> Self {
-        Self {
-            import_up: arguments.import_up,
-            export_up: arguments.up,
-            scale: arguments.scale.unwrap_or(1.0),
-            selection_only: arguments.selection_only,
-            triangulate: arguments.triangulate,
-            text: arguments.ascii,
-        }
-    }
-
-    /// What is written of a document.
-    pub(crate) fn export_options(&self, document: &Document) -> ExportOptions<'static> {
-        let selected = || document.selection().objects.iter().copied().collect();
-        ExportOptions {
-            nodes: self.selection_only.then(selected),
-            up: self.export_up,
-            scale: self.scale,
-            faces: if self.triangulate { FaceExport::Triangles } else { FaceExport::Polygons },
-            encoding: if self.text { Encoding::Text } else { Encoding::Binary },
-            ..ExportOptions::default()
-        }
+        Self { import_up: arguments.import_up, export: ExportChoices::new(arguments) }
     }
 
     /// For files that are read.
@@ -83,16 +49,16 @@ impl Exchange {
         }
         ui.add(egui::Label::new(held_by(format)).wrap());
         ui.horizontal_wrapped(|ui| {
-            ui.checkbox(&mut self.selection_only, "Selection only");
+            ui.checkbox(&mut self.export.selection_only, "Selection only");
             if has_polygons(format) {
-                ui.checkbox(&mut self.triangulate, "Triangulate");
+                ui.checkbox(&mut self.export.triangulate, "Triangulate");
             }
             if matches!(format, Format::Ply | Format::Stl) {
-                ui.checkbox(&mut self.text, "As text");
+                ui.checkbox(&mut self.export.text, "As text");
             }
         });
-        up_list(ui, &mut self.export_up);
-        unit_list(ui, &mut self.scale);
+        up_list(ui, &mut self.export.up);
+        unit_list(ui, &mut self.export.scale);
     }
 }
 

@@ -24,6 +24,9 @@ const WIDTH: f32 = 560.0;
 const LIST_HEIGHT: f32 = 220.0;
 const RECENT_HEIGHT: f32 = 90.0;
 
+/// The endings of images that can be textures.
+pub(crate) const IMAGES: [&str; 4] = ["png", "jpg", "jpeg", "webp"];
+
 /// What a file is chosen for.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) enum Purpose {
@@ -86,7 +89,7 @@ impl Purpose {
             Self::Open | Self::Import => readers().flat_map(|reader| reader.extensions).copied().collect(),
             Self::SaveAs => vec!["glb"],
             Self::Export => trigon_io::writers().flat_map(|writer| writer.extensions).copied().collect(),
-            Self::Texture(..) => vec!["png", "jpg", "jpeg", "webp"],
+            Self::Texture(..) => IMAGES.to_vec(),
         }
     }
 
