@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 use trigon_math::Vec3;
 
 use crate::edit_mesh::EditMesh;
-use crate::ids::{EdgeId, FaceId, NONE, VertexId};
+use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::refusal::Refusal;
 use crate::slots::NewElements;
 
@@ -94,23 +94,25 @@ impl EditMesh {
     /// from it to the next.
     pub(crate) fn face_along(&mut self, outline: &[(VertexId, EdgeId)]) -> FaceId {
         let face = self.new_face();
-        let mut first = NONE;
-        let mut last = NONE;
+        let mut corners = SmallVec::<[u32; 8]>::with_capacity(outline.len());
         for &(vertex, edge) in outline {
             let corner = self.new_corner(vertex.0, face);
             self.link_at_edge(corner, edge.0);
-            if last == NONE {
-                first = corner;
-            } else {
-                self.link_in_face(last, corner);
-            }
-            last = corner;
+            corners.push(corner);
         }
-        self.link_in_face(last, first);
-        let record = self.faces.write(face);
-        record.corner = first;
-        record.size = outline.len() as u32;
+        self.link_outline(face, &corners);
         FaceId(face)
+    }
+
+    /// Makes corners, in their order, the outline of a face.
+    pub(super) fn link_outline(&mut self, face: u32, corners: &[u32]) {
+        for (i, &corner) in corners.iter().enumerate() {
+            let next = if i + 1 == corners.len() { 0 } else { i + 1 };
+            self.link_in_face(corner, corners[next]);
+        }
+        let record = self.faces.write(face);
+        record.corner = corners[0];
+        record.size = corners.len() as u32;
     }
 
     /// Whether there is room for some more elements; an operation that adds many asks for each.

@@ -1,5 +1,7 @@
 //! Dividing a face into parts.
 
+use smallvec::SmallVec;
+
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 
@@ -77,7 +79,7 @@ impl EditMesh {
         points: &mut [PartPoint],
         divided: &mut Divided,
     ) {
-        let (mut first, mut last) = (NONE, NONE);
+        let mut corners = SmallVec::<[u32; 8]>::with_capacity(outline.len());
         for (i, &index) in outline.iter().enumerate() {
             let next = points[outline[if i + 1 == outline.len() { 0 } else { i + 1 }] as usize].vertex;
             let corner = self.take_corner(&mut points[index as usize], part).0;
@@ -89,17 +91,9 @@ impl EditMesh {
                 }
                 self.link_at_edge(corner, edge);
             }
-            if last == NONE {
-                first = corner;
-            } else {
-                self.link_in_face(last, corner);
-            }
-            last = corner;
+            corners.push(corner);
         }
-        self.link_in_face(last, first);
-        let record = self.faces.write(part.0);
-        record.corner = first;
-        record.size = outline.len() as u32;
+        self.link_outline(part.0, &corners);
         self.reveal_outline(part);
     }
 
