@@ -19,6 +19,8 @@ mod show;
 #[cfg(feature = "window")]
 mod tool;
 #[cfg(feature = "window")]
+mod up;
+#[cfg(feature = "window")]
 mod window;
 
 use std::process::ExitCode;

@@ -7,6 +7,8 @@ use trigon_document::{Command, ElementKind, MaterialName, TextureSlot};
 use trigon_window::scene::camera::AxisView;
 use trigon_window::{Comparison, Refinement};
 
+use crate::up::Up;
+
 pub(crate) use crate::overlay::GizmoKind;
 pub(crate) use crate::tool::{Orientation, Pivot, SnapSource, SnapTarget};
 
@@ -163,6 +165,8 @@ pub(crate) enum UiRequest {
         kind: ElementKind,
         extend: bool,
     },
+    /// Extrudes, and then moves what came of it along its normals.
+    ExtrudeAlongNormals,
     /// Opens the mesh on the pointer's side of the selection.
     Rip {
         /// Whether faces fill the gap.
@@ -197,6 +201,8 @@ pub(crate) enum UiRequest {
     },
     /// Selects what hangs together with what is under the pointer.
     LinkedAtPointer,
+    /// Shows this axis as up.
+    Up(Up),
     LargerText,
     SmallerText,
 }
@@ -209,6 +215,7 @@ impl UiRequest {
             Self::ToggleEditMode
                 | Self::Select { .. }
                 | Self::Rip { .. }
+                | Self::ExtrudeAlongNormals
                 | Self::LinkedAtPointer
                 | Self::Parent { .. }
                 | Self::Paste

@@ -17,8 +17,11 @@ const BALL: f32 = 9.0;
 /// One end of an axis.
 struct End {
     at: Pos2,
+    /// As it is shown: 0 to 2.
     axis: usize,
     is_positive: bool,
+    /// In the document.
+    direction: DVec3,
     /// Towards the eye: larger is nearer.
     nearness: f64,
 }
@@ -29,10 +32,10 @@ fn ends(view: &OverlayView, center: Pos2) -> Vec<End> {
     let mut ends: Vec<End> = (0..6)
         .map(|index| {
             let (axis, is_positive) = (index / 2, index % 2 == 0);
-            let direction = DVec3::AXES[axis] * if is_positive { 1.0 } else { -1.0 };
+            let direction = view.up().axes().col(axis) * if is_positive { 1.0 } else { -1.0 };
             let in_view = camera.orientation.conjugate() * direction;
             let at = center + ARM * vec2(in_view.x as f32, -in_view.y as f32);
-            End { at, axis, is_positive, nearness: in_view.z }
+            End { at, axis, is_positive, direction, nearness: in_view.z }
         })
         .collect();
     ends.sort_by(|a, b| a.nearness.total_cmp(&b.nearness));
@@ -58,13 +61,13 @@ pub(crate) fn draw_axes(painter: &Painter, view: &OverlayView, center: Pos2) {
 /// The view along the axis whose ball is under the pointer: from where the ball is.
 pub(crate) fn axis_view_at(view: &OverlayView, center: Pos2, pointer: Pos2) -> Option<AxisView> {
     let end = ends(view, center).into_iter().rev().find(|end| end.at.distance(pointer) <= BALL)?;
-    Some(match (end.axis, end.is_positive) {
-        (0, true) => AxisView::Right,
-        (0, false) => AxisView::Left,
-        (1, true) => AxisView::Top,
-        (1, false) => AxisView::Bottom,
-        (_, true) => AxisView::Front,
-        (_, false) => AxisView::Back,
+    Some(match end.direction.to_array() {
+        [1.0, _, _] => AxisView::Right,
+        [-1.0, _, _] => AxisView::Left,
+        [_, 1.0, _] => AxisView::Top,
+        [_, -1.0, _] => AxisView::Bottom,
+        [_, _, 1.0] => AxisView::Front,
+        _ => AxisView::Back,
     })
 }
 

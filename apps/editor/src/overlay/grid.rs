@@ -10,6 +10,7 @@ use trigon_window::egui::{Color32, Painter, Pos2, Stroke};
 
 use super::AXIS_COLORS;
 use super::view::OverlayView;
+use crate::up::Up;
 
 /// Lines to each side of the middle.
 const LINES: i64 = 30;
@@ -29,7 +30,7 @@ pub(crate) type Depths<'a> = &'a dyn Fn(&[DVec2]) -> Vec<Option<f64>>;
 pub(crate) fn draw_grid(painter: &Painter, view: &OverlayView, depths: Depths<'_>) {
     let Some(grid) = Grid::of(view) else { return };
     let floor = FloorDepth::of(view, grid.plane);
-    for (line, color, width) in grid.lines() {
+    for (line, color, width) in grid.lines(view.up()) {
         for piece in visible(view, line, &floor, depths) {
             painter.line_segment(piece, Stroke::new(width, color));
         }
@@ -109,7 +110,7 @@ impl Grid {
     }
 
     /// All lines, the axes last: they lie over the others. Every tenth goes ten times as far.
-    fn lines(&self) -> Vec<([DVec3; 2], Color32, f32)> {
+    fn lines(&self, up: Up) -> Vec<([DVec3; 2], Color32, f32)> {
         let mut lines = Vec::new();
         let mut axes = Vec::new();
         for along in [0, 1] {
@@ -117,9 +118,8 @@ impl Grid {
             self.add_lines(along, 10, &mut lines);
             let axis = self.line(along, 0, 10);
             let is_near = (self.middle[1 - along] / 10).abs() <= LINES;
-            axes.extend(
-                is_near.then(|| (axis, AXIS_COLORS[self.plane.axes[along]].gamma_multiply(0.8), 1.5)),
-            );
+            let color = AXIS_COLORS[up.shown_axis(self.plane.axes[along])].gamma_multiply(0.8);
+            axes.extend(is_near.then_some((axis, color, 1.5)));
         }
         lines.extend(axes);
         lines
@@ -263,7 +263,7 @@ mod tests {
                 (point, 1e-3 / per_metre * (reach + 0.3 * (a.abs() + 1.0) * reach * reach))
             };
             let mut checked = [0; 2];
-            for (line, ..) in grid.lines() {
+            for (line, ..) in grid.lines(Up::Y) {
                 let across = if line[0].x == line[1].x { 0 } else { 2 };
                 let number = ((line[0][across] - target[across]) * 10.0).round() / 10.0;
                 for end in view.line(line[0], line[1]).into_iter().flatten() {
@@ -309,7 +309,7 @@ mod tests {
             let grid = Grid::of(&view).expect("it is seen");
             assert_eq!(grid.plane.normal, normal, "from {eye}");
             let on_plane = |line: &[DVec3; 2]| line.iter().all(|end| end[normal] == 0.0);
-            assert!(grid.lines().iter().all(|(line, ..)| on_plane(line)), "all lines lie on it");
+            assert!(grid.lines(Up::Y).iter().all(|(line, ..)| on_plane(line)), "all lines lie on it");
             let perspective = OverlayView::new(&camera, viewport, 1.0);
             assert_eq!(Plane::of(&perspective), Plane::FLOOR, "the floor in perspective");
         }
@@ -321,7 +321,7 @@ mod tests {
     #[test]
     fn the_axes_are_there_and_in_their_colours() {
         let grid = Grid { plane: Plane::FLOOR, gap: 1.0, middle: [3, 0], share: 0.5 };
-        let lines = grid.lines();
+        let lines = grid.lines(Up::Y);
         let has = |x: f64| lines.iter().any(|(line, ..)| line.iter().all(|end| end.x == x));
         assert!(
             has(4.0) && has(-20.0) && has(290.0) && !has(34.5) && !has(41.0),

@@ -5,6 +5,8 @@ use trigon_document::scene::math::{DVec2, DVec3};
 use trigon_window::clip_line;
 use trigon_window::egui::{Pos2, Rect, pos2};
 
+use crate::up::Up;
+
 /// A camera, the image that it sees, and how large its pixels are.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct OverlayView {
@@ -13,17 +15,28 @@ pub(crate) struct OverlayView {
     scale: f64,
     /// Where the image is in the window, in physical pixels.
     origin: DVec2,
+    /// In which axes it is shown.
+    up: Up,
 }
 
 impl OverlayView {
     /// For an image in physical pixels.
     pub(crate) fn new(camera: &Camera, viewport: Viewport, scale: f64) -> Self {
-        Self { projector: Projector::new(camera, viewport), scale, origin: DVec2::ZERO }
+        Self { projector: Projector::new(camera, viewport), scale, origin: DVec2::ZERO, up: Up::Y }
     }
 
     /// The same image at another position in the window, in physical pixels.
     pub(crate) fn placed_at(self, origin: DVec2) -> Self {
         Self { origin, ..self }
+    }
+
+    /// The same image in other axes.
+    pub(crate) fn with_up(self, up: Up) -> Self {
+        Self { up, ..self }
+    }
+
+    pub(crate) fn up(&self) -> Up {
+        self.up
     }
 
     pub(crate) fn camera(&self) -> &Camera {

@@ -1,10 +1,10 @@
 //! The tab *Add*: standard objects with their dimensions, lights, empties.
 
-use trigon_document::{AddEmpty, AddLight, AddObject, Command, Document, LeaveEditMode, LightShape, Shape};
+use trigon_document::{AddEmpty, AddLight, AddObject, Command, LeaveEditMode, LightShape, Shape};
 use trigon_window::egui::{self, Ui};
 
 use super::adjust::changed;
-use super::form;
+use super::{ShownDocument, form};
 use crate::request::Request;
 
 /// The state of the tab: the requested image.
@@ -41,7 +41,7 @@ fn object(object: Shape, position: [f64; 3]) -> Command {
 /// typed.
 pub(crate) fn add(
     ui: &mut Ui,
-    document: &Document,
+    shown: ShownDocument<'_>,
     state: &mut AddState,
     cursor: [f64; 3],
     requests: &mut Vec<Request>,
@@ -61,14 +61,14 @@ pub(crate) fn add(
     });
     ui.separator();
     ui.push_id(&chosen, |ui| {
-        if let Some(mut command) = changed(ui, document, &state.command) {
+        if let Some(mut command) = changed(ui, shown, &state.command) {
             state.is_placed |= position(&mut command) != position(&mut state.command);
             state.command = command;
         }
     });
     let button = egui::Button::new(format!("Add {}", chosen.to_lowercase())).wrap();
     if ui.add(button).clicked() {
-        if document.selection().is_editing() {
+        if shown.document.selection().is_editing() {
             requests.push(Request::Run(LeaveEditMode {}.into()));
         }
         requests.push(Request::Run(state.command.clone()));
@@ -100,19 +100,15 @@ fn name_of(command: &Command) -> String {
 #[cfg(test)]
 mod tests {
     use egui_kittest::kittest::Queryable;
+    use trigon_document::Document;
 
     use super::super::testing::Case;
     use super::*;
 
     fn case(width: f32) -> Case<AddState> {
-        Case::new(
-            [width, 620.0],
-            Document::default(),
-            AddState::default(),
-            |ui, document, state, requests| {
-                add(ui, document, state, [1.0, 0.0, 0.0], requests);
-            },
-        )
+        Case::new([width, 620.0], Document::default(), AddState::default(), |ui, shown, state, requests| {
+            add(ui, shown, state, [1.0, 0.0, 0.0], requests);
+        })
     }
 
     #[test]

@@ -5,13 +5,15 @@ use trigon_document::{Command, Document, Entry};
 use trigon_window::egui;
 use trigon_window::egui::Ui;
 
+use super::ShownDocument;
 use super::form::KeyOrder;
 use super::{form, parameters};
 use crate::request::Request;
 
 /// Shows the last command with its parameters. A change requests the same command with other parameters
 /// instead.
-pub(crate) fn adjust(ui: &mut Ui, document: &Document, requests: &mut Vec<Request>) {
+pub(crate) fn adjust(ui: &mut Ui, shown: ShownDocument<'_>, requests: &mut Vec<Request>) {
+    let document = shown.document;
     let Some(entry) = document.history().done().last() else {
         ui.add(egui::Label::new("Nothing was done yet.").wrap());
         return;
@@ -21,15 +23,15 @@ pub(crate) fn adjust(ui: &mut Ui, document: &Document, requests: &mut Vec<Reques
     // Positions in the history: another command is no edit of the one before.
     let entry_index = document.history().done().len() + document.history().dropped();
     ui.push_id((command.name(), entry_index), |ui| {
-        requests.extend(changed(ui, document, command).map(Request::Adjust));
+        requests.extend(changed(ui, shown, command).map(Request::Adjust));
     });
 }
 
 /// Shows the parameters of a command. Returns the command with those that a user changed.
-pub(super) fn changed(ui: &mut Ui, document: &Document, command: &Command) -> Option<Command> {
+pub(super) fn changed(ui: &mut Ui, shown: ShownDocument<'_>, command: &Command) -> Option<Command> {
     let mut value = serde_json::to_value(command).expect("commands have string keys");
     let schema = form::of_command(value["op"].as_str()?)?;
-    let is_changed = parameters::group(ui, document, schema, &mut value, &KeyOrder::of(command));
+    let is_changed = parameters::group(ui, shown, schema, &mut value, &KeyOrder::of(command));
     // A text that a command does not take, such as no name at all, changes nothing.
     serde_json::from_value(value).ok().filter(|_| is_changed)
 }
@@ -76,6 +78,8 @@ mod tests {
     use trigon_document::mesh::primitives;
     use trigon_document::scene::{Material, Scene};
 
+    use crate::up::Up;
+
     fn document() -> Document {
         let mut scene = Scene::new();
         scene.add_object("Cube", primitives::cube(2.0), Material::default());
@@ -84,8 +88,8 @@ mod tests {
 
     /// The panel after some commands.
     fn case(width: f32, commands: &[Value]) -> Case<()> {
-        let mut case = Case::new([width, 600.0], document(), (), |ui, document, (), requests| {
-            adjust(ui, document, requests);
+        let mut case = Case::new([width, 600.0], document(), (), |ui, shown, (), requests| {
+            adjust(ui, shown, requests);
         });
         commands.iter().for_each(|json| case.command(json.clone()));
         case
@@ -121,16 +125,17 @@ mod tests {
     fn every_command_has_its_panel_and_stays_as_it_is() {
         let commands = all_commands();
         assert!(commands.len() > 70, "{} commands", commands.len());
-        for width in [160.0, 300.0] {
+        for (width, up) in [(160.0, Up::Y), (300.0, Up::Z)] {
             let state = (commands[0].clone(), Vec::new());
             let panel = |ui: &mut Ui,
-                         document: &Document,
+                         shown: ShownDocument<'_>,
                          state: &mut (Command, Vec<Command>),
                          _: &mut Vec<Request>| {
                 let (command, changes) = state;
-                ui.push_id(command.name(), |ui| changes.extend(changed(ui, document, command)));
+                ui.push_id(command.name(), |ui| changes.extend(changed(ui, shown, command)));
             };
             let mut case = Case::new([width, 900.0], document(), state, panel);
+            case.harness.state_mut().up = up;
             for command in &commands {
                 case.harness.state_mut().state.0 = command.clone();
                 case.run();
@@ -229,8 +234,8 @@ mod tests {
     #[test]
     fn a_click_leads_back_and_forth() {
         let document = Document::new(Scene::new());
-        let mut case = Case::new([260.0, 400.0], document, (), |ui, document, (), requests| {
-            history(ui, document, requests);
+        let mut case = Case::new([260.0, 400.0], document, (), |ui, shown, (), requests| {
+            history(ui, shown.document, requests);
         });
         for op in ["add_empty", "add_light", "select_all", "delete_objects"] {
             case.command(json!({ "op": op }));

@@ -34,6 +34,17 @@ pub(super) enum Form<'s> {
     ReadOnly,
 }
 
+impl Form<'_> {
+    /// How many numbers it has, given or not.
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::Vector(count, _) => *count,
+            Self::Optional(inner) => inner.count(),
+            _ => 0,
+        }
+    }
+}
+
 /// A number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct NumberForm {

@@ -15,6 +15,7 @@ mod outliner;
 mod parameters;
 mod properties;
 mod row;
+mod spatial;
 #[cfg(test)]
 mod testing;
 mod unit;
@@ -26,3 +27,15 @@ pub(crate) use information::{InformationState, information};
 pub(crate) use outliner::{OutlinerState, outliner};
 pub(crate) use properties::{PropertiesState, properties};
 pub(crate) use row::select_all_at_first;
+
+use trigon_document::Document;
+
+use crate::up::Up;
+
+/// What panels show.
+#[derive(Clone, Copy)]
+pub(crate) struct ShownDocument<'d> {
+    pub(crate) document: &'d Document,
+    /// In which axes positions, directions and rotations are shown and typed.
+    pub(crate) up: Up,
+}

@@ -1,28 +1,30 @@
 //! Widgets for the parameters of any command, by their forms.
 
 use serde_json::Value;
-use trigon_document::{Document, ElementKind};
+use trigon_document::ElementKind;
 use trigon_window::egui::{self, Response, Ui};
 
+use super::ShownDocument;
 use super::form::KeyOrder;
 use super::form::{self, Form, NumberForm, Variant};
 use super::row::{hovered, number, row, text, vector};
+use super::spatial::Spatial;
 use super::unit::Unit;
 
 /// Shows the parameters of a group in their order. Tells whether one was changed.
 pub(super) fn group(
     ui: &mut Ui,
-    document: &Document,
+    shown: ShownDocument<'_>,
     schema: &'static Value,
     value: &mut Value,
     order: &KeyOrder,
 ) -> bool {
-    group_in(ui, document, schema, value, order, Unit::None)
+    group_in(ui, shown, schema, value, order, Unit::None)
 }
 
 fn group_in(
     ui: &mut Ui,
-    document: &Document,
+    shown: ShownDocument<'_>,
     schema: &'static Value,
     value: &mut Value,
     order: &KeyOrder,
@@ -35,10 +37,10 @@ fn group_in(
     properties.sort_by_key(|(name, _)| order.index_of(name));
     let mut is_changed = false;
     for (name, property) in properties {
-        let parameter = Parameter { name, property, document, order: order.within(name) };
-        ui.push_id(name, |ui| {
-            is_changed |= parameter.show(ui, &form::form(property, unit), &mut value[name]);
-        });
+        let form = form::form(property, unit);
+        let spatial = Spatial::of(name, form.count(), value);
+        let parameter = Parameter { name, property, shown, spatial, order: order.within(name) };
+        ui.push_id(name, |ui| is_changed |= parameter.show(ui, &form, &mut value[name]));
     }
     is_changed
 }
@@ -47,7 +49,9 @@ fn group_in(
 struct Parameter<'p> {
     name: &'p str,
     property: &'static Value,
-    document: &'p Document,
+    shown: ShownDocument<'p>,
+    /// What the numbers of a vector mean.
+    spatial: Spatial,
     order: &'p KeyOrder,
 }
 
@@ -59,11 +63,11 @@ impl Parameter<'_> {
             Form::Switch => show_switch(ui, &label, hover, value),
             Form::Text => show_text(ui, &label, hover, value),
             Form::Choice(names) => show_choice(ui, &label, hover, value, names),
-            Form::Vector(count, number) => show_vector(ui, &label, hover, value, *count, number),
+            Form::Vector(_, number) => self.show_vector(ui, &label, value, number),
             Form::Variants(tag, variants) => self.show_variants(ui, &label, value, tag, variants),
             Form::Group(schema) => {
                 hovered(ui.strong(&label), hover);
-                ui.indent(self.name, |ui| group(ui, self.document, schema, value, self.order)).inner
+                ui.indent(self.name, |ui| group(ui, self.shown, schema, value, self.order)).inner
             }
             Form::Optional(inner) => self.show_optional(ui, &label, inner, value),
             Form::ReadOnly => {
@@ -90,7 +94,7 @@ impl Parameter<'_> {
         if is_given {
             let inner = |ui: &mut Ui| match inner {
                 // The check box is its title.
-                Form::Group(schema) => group(ui, self.document, schema, value, self.order),
+                Form::Group(schema) => group(ui, self.shown, schema, value, self.order),
                 inner => self.show(ui, inner, value),
             };
             is_changed |= ui.indent(self.name, inner).inner;
@@ -120,10 +124,27 @@ impl Parameter<'_> {
         if let Some(variant) = variants.iter().find(|variant| value[tag] == variant.name) {
             let unit = form::unit(self.property);
             let unit = if unit == Unit::None { Unit::of_comment(variant.description) } else { unit };
-            let inner = |ui: &mut Ui| group_in(ui, self.document, variant.schema, value, self.order, unit);
+            let inner = |ui: &mut Ui| group_in(ui, self.shown, variant.schema, value, self.order, unit);
             is_changed |= ui.indent(self.name, inner).inner;
         }
         is_changed
+    }
+
+    fn show_vector(&self, ui: &mut Ui, label: &str, value: &mut Value, form: &NumberForm) -> bool {
+        let stored: Vec<f64> = value.as_array().into_iter().flatten().filter_map(Value::as_f64).collect();
+        let mut numbers = stored.clone();
+        self.spatial.shown(self.shown.up, &mut numbers);
+        if vector(ui, label, form::description(self.property), &mut numbers, form).is_none() {
+            return false;
+        }
+        self.spatial.stored(self.shown.up, &mut numbers);
+        for (index, (now, before)) in numbers.into_iter().zip(stored).enumerate() {
+            // The others keep their digits.
+            if now != before {
+                value[index] = form::number_value(now, form);
+            }
+        }
+        true
     }
 
     /// "12 faces", "Cube", "the selected".
@@ -131,7 +152,7 @@ impl Parameter<'_> {
         match value {
             Value::Array(list) if list.is_empty() => "none named".to_owned(),
             Value::Array(list) => {
-                let noun = match (self.name, self.document.selection().kind()) {
+                let noun = match (self.name, self.shown.document.selection().kind()) {
                     ("elements", ElementKind::Vertex) => "vertices",
                     ("elements", ElementKind::Edge) => "edges",
                     ("elements", ElementKind::Face) => "faces",
@@ -149,7 +170,7 @@ impl Parameter<'_> {
 
     /// The name of an object that is given by its number.
     fn named(&self, value: &Value) -> String {
-        let nodes = self.document.nodes().nodes();
+        let nodes = self.shown.document.nodes().nodes();
         let id = value.as_u64().filter(|_| self.name.starts_with("object") || self.name == "parent");
         let node = id.and_then(|index| nodes.get(nodes.id_at(index as usize)?));
         match (node, value.as_str()) {
@@ -215,19 +236,4 @@ fn show_choice(ui: &mut Ui, label: &str, hover: &str, value: &mut Value, names: 
         *value = name.into();
     }
     chosen.is_some()
-}
-
-fn show_vector(
-    ui: &mut Ui,
-    label: &str,
-    hover: &str,
-    value: &mut Value,
-    count: usize,
-    form: &NumberForm,
-) -> bool {
-    let mut numbers: Vec<f64> = (0..count).map(|index| value[index].as_f64().unwrap_or(0.0)).collect();
-    let Some((index, _)) = vector(ui, label, hover, &mut numbers, form) else { return false };
-    // The others keep their digits.
-    value[index] = form::number_value(numbers[index], form);
-    true
 }

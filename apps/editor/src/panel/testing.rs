@@ -6,12 +6,15 @@ use trigon_document::{Command, Document};
 use trigon_window::EguiTestRenderer;
 use trigon_window::egui::{self, Key, Role, Shape, Ui};
 
+use super::ShownDocument;
 use crate::request::Request;
+use crate::up::Up;
 
 /// All that a pass of a panel sees.
 pub(super) struct Shown<S> {
     pub(super) document: Document,
     pub(super) state: S,
+    pub(super) up: Up,
     pub(super) requests: Vec<Request>,
 }
 
@@ -26,17 +29,19 @@ impl<S> Case<S> {
         size: [f32; 2],
         document: Document,
         state: S,
-        panel: impl Fn(&mut Ui, &Document, &mut S, &mut Vec<Request>) + 'static,
+        panel: impl Fn(&mut Ui, ShownDocument<'_>, &mut S, &mut Vec<Request>) + 'static,
     ) -> Self {
         let builder: HarnessBuilder<Shown<S>> = Harness::builder();
         let builder = builder.with_size(size).with_max_steps(32).renderer(EguiTestRenderer::default());
         let show = move |ui: &mut Ui, shown: &mut Shown<S>| {
             let mut requests = Vec::new();
-            panel(ui, &shown.document, &mut shown.state, &mut requests);
+            let subject = ShownDocument { document: &shown.document, up: shown.up };
+            panel(ui, subject, &mut shown.state, &mut requests);
             requests.iter().for_each(|request| apply(&mut shown.document, request));
             shown.requests.extend(requests);
         };
-        let mut harness = builder.build_ui_state(show, Shown { document, state, requests: Vec::new() });
+        let mut harness =
+            builder.build_ui_state(show, Shown { document, state, up: Up::Y, requests: Vec::new() });
         harness.run();
         Self { harness }
     }

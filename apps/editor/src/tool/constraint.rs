@@ -76,16 +76,17 @@ impl Frames {
     /// The axes of an orientation for a selection with these own axes and normals.
     pub(crate) fn new(orientation: Orientation, local: DMat3, normal: DMat3, view: &ToolView) -> Self {
         let camera = &view.camera;
-        let (global, is_global) = ((DMat3::IDENTITY, "global"), orientation == Orientation::Global);
+        let axes = view.up.axes();
+        let (global, local) = ((axes, "global"), (local * axes, "local"));
         let (chosen, name) = match orientation {
             Orientation::Global => global,
-            Orientation::Local => (local, "local"),
+            Orientation::Local => local,
             Orientation::Normal => (normal, "normal"),
             Orientation::View => {
                 (DMat3::from_cols(camera.right(), camera.up(), view.towards_viewer()), "view")
             }
         };
-        let (other, other_name) = if is_global { (local, "local") } else { global };
+        let (other, other_name) = if orientation == Orientation::Global { local } else { global };
         Self { chosen, other, names: [name, other_name] }
     }
 }

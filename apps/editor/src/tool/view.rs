@@ -3,6 +3,8 @@
 use trigon_document::mesh::math::{DVec2, DVec3};
 use trigon_document::scene::camera::{Camera, Projector, Viewport};
 
+use crate::up::Up;
+
 /// How a tool sees the world while it runs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ToolView {
@@ -12,6 +14,8 @@ pub(crate) struct ToolView {
     pub(crate) viewport: Viewport,
     /// Physical pixels per logical one.
     pub(crate) scale: f64,
+    /// In which axes positions and directions are shown.
+    pub(crate) up: Up,
 }
 
 /// A ray and an axis, or a ray and a plane, that enclose a smaller angle than this are too nearly
@@ -122,7 +126,7 @@ pub(in crate::tool) mod tests {
         let camera = Camera::look_at(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y);
         let projection = Projection::orthographic(6.0, 0.1, 100.0).expect("valid");
         let viewport = Viewport { width: 800, height: 600 };
-        ToolView { camera: camera.with_projection(projection), viewport, scale: 1.0 }
+        ToolView { camera: camera.with_projection(projection), viewport, scale: 1.0, up: Up::Y }
     }
 
     fn vector(range: f64) -> impl Strategy<Value = DVec3> {
@@ -140,7 +144,7 @@ pub(in crate::tool) mod tests {
                     false => Projection::perspective(fov, 0.01, None),
                 };
                 let camera = camera.with_projection(projection.expect("valid"));
-                ToolView { camera, viewport: Viewport { width: 1280, height: 720 }, scale: 1.0 }
+                ToolView { camera, viewport: Viewport { width: 1280, height: 720 }, scale: 1.0, up: Up::Y }
             },
         )
     }

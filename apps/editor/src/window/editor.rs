@@ -28,6 +28,7 @@ use super::running::Running;
 use super::settings::Look;
 use super::settings::{self, Layout, ToolSettings, ViewState};
 use crate::request::{Request, ToolKind, UiRequest};
+use crate::up::Up;
 
 /// What the status line says until the next action.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -250,13 +251,15 @@ impl Editor {
             UiRequest::ToggleEditMode => self.toggle_edit_mode(stage),
             UiRequest::Select { kind, extend } => self.run(SetElementKind { kind, extend }.into()),
             UiRequest::Rip { fill } => self.rip(stage, fill),
+            UiRequest::ExtrudeAlongNormals => self.extrude_along_normals(stage),
             UiRequest::ToolBar => self.layout.tool_bar = !self.layout.tool_bar,
             UiRequest::SideBar => self.layout.side_bar = !self.layout.side_bar,
             UiRequest::Copy => self.copy(),
             UiRequest::Paste => self.paste(),
             UiRequest::Placing(placing) => self.snap(placing),
             UiRequest::OriginToCursor => self.origin_to_cursor(),
-            UiRequest::Development
+            UiRequest::Up(_)
+            | UiRequest::Development
             | UiRequest::EmulateMouse
             | UiRequest::EmulateNumpad
             | UiRequest::LargerText
@@ -276,6 +279,7 @@ impl Editor {
 
     fn change_preferences(&mut self, stage: &mut Stage, request: UiRequest) {
         self.preferences.change(|settings| match request {
+            UiRequest::Up(up) => settings.up = Some(up),
             UiRequest::Development => settings.development = !settings.development,
             UiRequest::EmulateMouse => settings.emulates_mouse = !settings.emulates_mouse,
             UiRequest::EmulateNumpad => settings.emulates_numpad = !settings.emulates_numpad,
@@ -284,6 +288,11 @@ impl Editor {
             _ => {}
         });
         self.apply_preferences(stage);
+    }
+
+    /// The axis that is up on the screen.
+    pub(crate) fn up(&self) -> Up {
+        self.preferences.get().up.unwrap_or_default()
     }
 
     /// Sets up the stage and the keys as users have it.
@@ -322,7 +331,7 @@ impl Editor {
             None => {
                 let before = self.entries();
                 let request = match action.request() {
-                    Request::Run(command) => Request::Run(self.at_cursor(command)),
+                    Request::Run(command) => Request::Run(self.in_space(command)),
                     request => request,
                 };
                 self.perform(stage, request);

@@ -359,6 +359,7 @@ impl Editor {
             }
             (Question::Recover(left), Answer::Yes) => self.recover(stage, &left),
             (Question::Recover(left), Answer::No) => left.discard(),
+            (Question::Up, Answer::Up(up)) => self.preferences.change(|settings| settings.up = Some(up)),
             (_, _) => {}
         }
         self.show(stage);

@@ -12,7 +12,7 @@ use super::dropped::is_image;
 use super::editor::{Editor, Message};
 use super::loading::Loading;
 use super::loading::Saving;
-use super::open_file::{Answer, Next};
+use super::open_file::{Answer, Next, Question};
 use super::panes::pane_of;
 use super::pointing::Prefetch;
 use super::popup::Popup;
@@ -125,6 +125,9 @@ impl Editor {
         files.for_each(|file| self.file_request(stage, FileRequest::Import(file)));
         if self.question.is_none() {
             self.question = files::offer_recovery(self.recovery_folder.as_deref());
+        }
+        if self.question.is_none() && self.preferences.asks_for_up() {
+            self.question = Some(Question::Up);
         }
         if let Some(damaged) = files::damaged_recovery(self.recovery_folder.as_deref()) {
             self.message = Message::Refusal(damaged);

@@ -8,7 +8,7 @@ use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, Pane, PointerButto
 use super::button_start::Click;
 use super::button_start::{ButtonStart, Passed};
 use super::editor::{Editor, Message};
-use super::panes::{in_pane, pane_of, tool_view};
+use super::panes::{in_pane, pane_of};
 use super::pointing::Prefetch;
 use super::running::{Running, What, gesture_kind, transform_kind};
 use crate::request::{Request, ToolKind};
@@ -38,7 +38,7 @@ impl Editor {
     }
 
     fn started(&mut self, stage: &Stage, pane: &Pane, kind: ToolKind, hands: Hands) -> Option<What> {
-        let (view, reach) = (tool_view(stage, pane), self.reach());
+        let (view, reach) = (self.tool_view(stage, pane), self.reach());
         let document = &mut self.document;
         if let Some(gesture) = gesture_kind(kind) {
             return Some(What::Gesture(Gesture::waiting(gesture, hands, stage.scale())));
@@ -86,7 +86,7 @@ impl Editor {
     ) {
         let pane = stage.pane_at(press.at);
         let hands = in_pane(Hands { pointer: Some(press.at), modifiers: press.modifiers }, &pane);
-        let (view, settings) = (tool_view(stage, &pane), self.tools.transform(self.reach()));
+        let (view, settings) = (self.tool_view(stage, &pane), self.tools.transform(self.reach()));
         let tool = transform_kind(kind)
             .and_then(|transform| TransformTool::start(transform, settings, &self.document, hands, &view));
         if let Some(tool) = tool {
@@ -140,7 +140,7 @@ impl Editor {
                     return Taken::Yes;
                 }
             };
-        let view = tool_view(stage, &pane);
+        let view = self.tool_view(stage, &pane);
         let before = self.entries();
         let state = match &mut running.what {
             What::Tool(tool) => tool.input(input, hands, &view, &mut self.document),

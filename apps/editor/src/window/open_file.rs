@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::file_version::FileVersion;
 use super::loading::SaveOrder;
 use super::recovery::Left;
+use crate::up::Up;
 
 /// The file of the document, and whether it holds what was done.
 #[derive(Debug, Default)]
@@ -124,6 +125,8 @@ pub(crate) enum Question {
     ChangedOnDisk(SaveOrder),
     /// A crash has left a document.
     Recover(Left),
+    /// Which axis is up on the screen, at the first start.
+    Up,
 }
 
 /// How a question was answered.
@@ -137,6 +140,8 @@ pub(crate) enum Answer {
     SaveAs,
     /// Open the file as another program has written it.
     Reload,
+    /// Show this axis as up.
+    Up(Up),
     Cancel,
 }
 

@@ -15,16 +15,6 @@ use crate::tool::ToolView;
 /// Of the names of views, in points.
 const NAME: f32 = 13.0;
 
-/// A view in points, as everything over the image is drawn.
-pub(crate) fn overlay_view(stage: &Stage, pane: &Pane) -> OverlayView {
-    OverlayView::new(&stage.camera_of(pane), pane.area.size, points(stage)).placed_at(pane.area.origin())
-}
-
-/// How tools see a view.
-pub(crate) fn tool_view(stage: &Stage, pane: &Pane) -> ToolView {
-    ToolView { camera: stage.camera_of(pane), viewport: pane.area.size, scale: stage.scale() }
-}
-
 /// The view that shows a side, or the camera's own; that of the camera where no view shows the side any more.
 pub(crate) fn pane_of(stage: &Stage, side: Option<AxisView>) -> Pane {
     let panes = stage.panes();
@@ -64,6 +54,18 @@ pub(crate) fn draw_name(painter: &Painter, visuals: &Visuals, view: &OverlayView
 }
 
 impl Editor {
+    /// A view in points, as everything over the image is drawn.
+    pub(crate) fn overlay_view(&self, stage: &Stage, pane: &Pane) -> OverlayView {
+        let view = OverlayView::new(&stage.camera_of(pane), pane.area.size, points(stage));
+        view.placed_at(pane.area.origin()).with_up(self.up())
+    }
+
+    /// How tools see a view.
+    pub(crate) fn tool_view(&self, stage: &Stage, pane: &Pane) -> ToolView {
+        let (camera, viewport) = (stage.camera_of(pane), pane.area.size);
+        ToolView { camera, viewport, scale: stage.scale(), up: self.up() }
+    }
+
     /// Shows four views, or one again.
     pub(crate) fn toggle_four_views(&mut self, stage: &mut Stage) {
         stage.four_views = match stage.four_views {

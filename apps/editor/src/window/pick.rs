@@ -2,14 +2,16 @@
 //! the mesh on the pointer's side of the selection.
 
 use trigon_document::scene::NodeId;
-use trigon_document::{Command, ObjectName, PICK_RADIUS, Picks, Rip, Select, SelectAction, TransformSpace};
+use trigon_document::{
+    Command, Extrude, ObjectName, PICK_RADIUS, Picks, Rip, Select, SelectAction, TransformSpace,
+};
 use trigon_window::egui::{Pos2, Rect, vec2};
 use trigon_window::scene::math::DVec2;
 use trigon_window::{Hands, Modifiers, Pane, Stage};
 
 use super::button_start::Click;
 use super::editor::{Editor, Message};
-use super::panes::{overlay_view, pane_of, tool_view};
+use super::panes::pane_of;
 use crate::overlay::{Gizmo, GizmoKind, Handle, axis_view_at, camera_at, light_at};
 use crate::request::{Request, ToolKind, ViewRequest};
 use crate::tool::{Axis, Frames, Freedom, Selected};
@@ -53,7 +55,7 @@ fn ask<T>(
 /// The light or the camera whose lines are at a place.
 fn overlay_at(editor: &Editor, stage: &Stage, at: DVec2) -> Option<NodeId> {
     let pane = stage.pane_at(at);
-    let view = overlay_view(stage, &pane);
+    let view = editor.overlay_view(stage, &pane);
     let position = view.logical(at - pane.area.origin());
     light_at(&editor.document, &view, position).or_else(|| camera_at(&editor.document, &view, position))
 }
@@ -86,7 +88,7 @@ impl Editor {
         let kind = self.tools.gizmo.filter(|_| self.tool.is_none() && self.view.overlays)?;
         let (pivot, orientation) = (self.tools.pivot, self.tools.orientation);
         let basis = self.gizmo_cache.basis(&self.document, pivot, self.tools.cursor, orientation)?;
-        let view = tool_view(stage, pane);
+        let view = self.tool_view(stage, pane);
         let axes = Frames::new(orientation, basis.local, basis.normal, &view).chosen;
         Some(Gizmo { kind, center: basis.center, axes })
     }
@@ -102,7 +104,7 @@ impl Editor {
     pub(crate) fn press_gizmo(&mut self, stage: &mut Stage, hands: Hands) -> bool {
         let Some(press) = Click::new(hands) else { return false };
         let pane = stage.pane_at(press.at);
-        let view = overlay_view(stage, &pane);
+        let view = self.overlay_view(stage, &pane);
         let at = view.logical(press.at - pane.area.origin());
         if let Some(axis) = self
             .axes_center()
@@ -134,7 +136,7 @@ impl Editor {
     pub(super) fn rip(&mut self, stage: &mut Stage, fill: bool) {
         let Some(selected) = Selected::of(&self.document) else { return };
         let pane = self.pointer.map_or_else(|| pane_of(stage, None), |at| stage.pane_at(at));
-        let (view, middle) = (tool_view(stage, &pane), selected.median());
+        let (view, middle) = (self.tool_view(stage, &pane), selected.median());
         let to_pointer = self.pointer.zip(view.screen(middle));
         let way = to_pointer.map_or(DVec2::X, |(at, from)| at - pane.area.origin() - from);
         let direction = view.dragged(middle, way).to_array();
@@ -142,6 +144,15 @@ impl Editor {
         self.run(Rip { direction, space: TransformSpace::World, fill }.into());
         if self.entries() > before {
             self.start_tool(stage, ToolKind::Move);
+        }
+    }
+
+    /// Extrudes, and moves the result along its normals.
+    pub(super) fn extrude_along_normals(&mut self, stage: &mut Stage) {
+        let before = self.entries();
+        self.run(Extrude::default().into());
+        if self.entries() > before {
+            self.start_tool(stage, ToolKind::ShrinkFatten);
         }
     }
 }

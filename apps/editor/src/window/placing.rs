@@ -7,13 +7,18 @@ use super::editor::{Editor, Message};
 use crate::request::{Orientation, Pivot, Placing};
 
 impl Editor {
-    /// A command of the menu Add that puts its object beside the 3D cursor as its own place is beside the origin.
-    pub(super) fn at_cursor(&self, mut command: Command) -> Command {
+    /// A command of a menu as it is meant: one that adds something puts that beside the 3D cursor as its own position is
+    /// beside the origin, and one that mirrors does so in the shown axes.
+    pub(super) fn in_space(&self, mut command: Command) -> Command {
         let position = match &mut command {
             Command::AddObject(add) => &mut add.position,
             Command::AddLight(add) => &mut add.position,
             Command::AddEmpty(add) => &mut add.position,
             Command::AddCamera(add) => &mut add.position,
+            Command::Mirror(mirror) => {
+                mirror.plane.normal = self.up().stored(mirror.plane.normal.into()).to_array();
+                return command;
+            }
             _ => return command,
         };
         *position = (DVec3::from(*position) + self.tools.cursor).to_array();

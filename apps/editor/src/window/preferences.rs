@@ -6,6 +6,8 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 use trigon_io::write_atomically;
 
+use crate::up::Up;
+
 /// The settings.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -16,6 +18,8 @@ pub(crate) struct Settings {
     pub(crate) emulates_mouse: bool,
     /// Whether the digits above the letters stand for those of the number pad.
     pub(crate) emulates_numpad: bool,
+    /// Which axis is shown as up; `None` before anybody was asked.
+    pub(crate) up: Option<Up>,
     /// By how much text and buttons are larger than usual.
     pub(crate) text_scale: f32,
 }
@@ -23,7 +27,7 @@ pub(crate) struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         // Touchpads and thin clients have no middle button, and nothing is lost by helping them.
-        Self { development: false, emulates_mouse: true, emulates_numpad: false, text_scale: 1.0 }
+        Self { development: false, emulates_mouse: true, emulates_numpad: false, up: None, text_scale: 1.0 }
     }
 }
 
@@ -45,6 +49,11 @@ impl Preferences {
 
     pub(crate) fn get(&self) -> Settings {
         self.settings
+    }
+
+    /// Whether which axis is up is a question still. Nobody is asked whose answer would be forgotten.
+    pub(crate) fn asks_for_up(&self) -> bool {
+        self.settings.up.is_none() && self.file.is_some()
     }
 
     /// Changes settings, and writes them down if they are others now. A file that cannot be written is no reason to stop:

@@ -6,6 +6,7 @@ use trigon_window::scene::math::Vec3;
 use trigon_window::scene::{Material, mesh::primitives, render};
 use trigon_window::{Comparison, Refinement};
 
+use super::super::ShownDocument;
 use super::super::testing::Case;
 use super::*;
 
@@ -19,19 +20,21 @@ fn scene() -> Scene {
 fn case(width: f32) -> Case<DevelopmentState> {
     let scene = scene();
     let camera = scene.overview(1.0);
-    let panel =
-        move |ui: &mut Ui, _: &Document, state: &mut DevelopmentState, requests: &mut Vec<Request>| {
-            let view = DrawnView {
-                scene: &scene,
-                camera,
-                settings: RenderSettings::new(64, 64),
-                report: FrameReport::default(),
-                quality: None,
-                comparison: Comparison::Off,
-                refinement: Refinement::Settings,
-            };
-            development(ui, &view, state, requests);
+    let panel = move |ui: &mut Ui,
+                      _: ShownDocument<'_>,
+                      state: &mut DevelopmentState,
+                      requests: &mut Vec<Request>| {
+        let view = DrawnView {
+            scene: &scene,
+            camera,
+            settings: RenderSettings::new(64, 64),
+            report: FrameReport::default(),
+            quality: None,
+            comparison: Comparison::Off,
+            refinement: Refinement::Settings,
         };
+        development(ui, &view, state, requests);
+    };
     Case::new([width, 1500.0], Document::default(), DevelopmentState::default(), panel)
 }
 

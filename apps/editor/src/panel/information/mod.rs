@@ -8,6 +8,7 @@ mod tests;
 use trigon_document::{Document, ElementKind};
 use trigon_window::egui::{self, CollapsingHeader, Grid, Ui};
 
+use super::ShownDocument;
 use super::row::{is_narrow, written};
 use counts::{Counts, counted};
 use measures::{Finding, measured};
@@ -24,10 +25,11 @@ pub(crate) struct InformationState {
 /// Shows it. `controls` are keys and what they do, as the keymap has them now.
 pub(crate) fn information(
     ui: &mut Ui,
-    document: &Document,
+    shown: ShownDocument<'_>,
     state: &mut InformationState,
     controls: &[(String, String)],
 ) {
+    let document = shown.document;
     let revision = document.revision();
     if state.counts.as_ref().is_none_or(|(known, _)| *known != revision) {
         // While something is dragged, each pass has another revision: counted is when it rests.
@@ -41,7 +43,7 @@ pub(crate) fn information(
     if let Some((_, counts)) = &state.counts {
         ui.add(egui::Label::new(selected(document, counts)).wrap());
         section(ui, "Counts", |ui| show_counts(ui, counts));
-        section(ui, "Dimensions", |ui| show_dimensions(ui, document, counts));
+        section(ui, "Dimensions", |ui| show_dimensions(ui, shown, counts));
     }
     section(ui, "Measures", |ui| show_measures(ui, document, &mut state.measures));
     section(ui, "Controls", |ui| show_controls(ui, controls));
@@ -107,7 +109,8 @@ fn table(ui: &mut Ui, titles: [&str; 2], rows: &[[String; 3]]) {
     });
 }
 
-fn show_dimensions(ui: &mut Ui, document: &Document, counts: &Counts) {
+fn show_dimensions(ui: &mut Ui, shown: ShownDocument<'_>, counts: &Counts) {
+    let ShownDocument { document, up } = shown;
     let whose = if document.selection().is_editing() {
         "Of the selected, in the space of the mesh:"
     } else {
@@ -118,7 +121,8 @@ fn show_dimensions(ui: &mut Ui, document: &Document, counts: &Counts) {
     if nothing {
         return;
     }
-    let (from, size) = (counts.bounds.min.to_array(), counts.bounds.size().to_array());
+    let [a, b] = [counts.bounds.min, counts.bounds.max].map(|corner| up.shown(corner));
+    let (from, size) = (a.min(b), up.exchanged(counts.bounds.size()));
     let rows = [0, 1, 2].map(|axis| {
         let name = ["X", "Y", "Z"][axis];
         [name.to_owned(), meters(size[axis]), meters(from[axis])]

@@ -18,8 +18,8 @@ fn case(width: f32) -> Case<InformationState> {
         [width, 640.0],
         Document::new(scene),
         InformationState::default(),
-        move |ui, document, state, _| {
-            information(ui, document, state, &controls);
+        move |ui, shown, state, _| {
+            information(ui, shown, state, &controls);
         },
     )
 }

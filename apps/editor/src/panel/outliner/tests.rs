@@ -5,6 +5,7 @@ use trigon_document::mesh::primitives;
 use trigon_document::scene::{Light, Material, Node, Scene};
 use trigon_document::{RenameObject, ShowObjects};
 
+use super::super::ShownDocument;
 use super::super::testing::Case;
 use super::*;
 
@@ -20,7 +21,11 @@ fn document() -> (Document, [NodeId; 3]) {
 
 fn case(width: f32) -> (Case<OutlinerState>, [NodeId; 3]) {
     let (document, ids) = document();
-    (Case::new([width, 320.0], document, OutlinerState::default(), outliner), ids)
+    (Case::new([width, 320.0], document, OutlinerState::default(), panel), ids)
+}
+
+fn panel(ui: &mut Ui, shown: ShownDocument<'_>, state: &mut OutlinerState, requests: &mut Vec<Request>) {
+    outliner(ui, shown.document, state, requests);
 }
 
 fn selected(case: &mut Case<OutlinerState>) -> Vec<NodeId> {
@@ -169,7 +174,7 @@ fn of_ten_thousand_rows_only_those_in_view_are_laid_out() {
     for index in 0..10_000 {
         scene.add(Node::default().with_name(format!("Object {index}")));
     }
-    let case = Case::new([200.0, 300.0], Document::new(scene), OutlinerState::default(), outliner);
+    let case = Case::new([200.0, 300.0], Document::new(scene), OutlinerState::default(), panel);
     let texts = case.harness.output().shapes.iter();
     let texts = texts.filter(|clipped| matches!(clipped.shape, egui::Shape::Text(_))).count();
     // A name in each of the rows of some 20 points.

@@ -7,6 +7,7 @@ use trigon_window::egui::{self, Response, Ui};
 
 use super::super::row::{number, plain, positive, row, vector};
 use super::super::unit::Unit;
+use crate::panel::ShownDocument;
 use crate::panel::row::{is_same_drag, submit};
 use crate::request::Request;
 
@@ -31,7 +32,13 @@ struct Mean<T> {
 }
 
 /// Shows it, and requests changes.
-pub(super) fn elements(ui: &mut Ui, document: &Document, known: &mut Values, requests: &mut Vec<Request>) {
+pub(super) fn elements(
+    ui: &mut Ui,
+    shown: ShownDocument<'_>,
+    known: &mut Values,
+    requests: &mut Vec<Request>,
+) {
+    let document = shown.document;
     let count: usize = document.selection().meshes().map(|(_, selection)| selection.len()).sum();
     if count == 0 {
         ui.add(egui::Label::new("Select vertices, edges or faces to see their values.").wrap());
@@ -42,7 +49,7 @@ pub(super) fn elements(ui: &mut Ui, document: &Document, known: &mut Values, req
     } else {
         let (middle, mean_crease) = (known.middle(document), known.crease(document));
         if middle.count > 0 {
-            median(ui, document, middle, requests);
+            median(ui, shown, middle, requests);
         }
         if mean_crease.count > 0 {
             crease(ui, document, mean_crease, requests);
@@ -102,12 +109,13 @@ fn mean_crease(document: &Document) -> Mean<f64> {
 }
 
 /// The middle of the selected vertices, or the one selected vertex.
-fn median(ui: &mut Ui, document: &Document, middle: Mean<DVec3>, requests: &mut Vec<Request>) {
-    let mut shown = middle.value.to_array();
+fn median(ui: &mut Ui, shown: ShownDocument<'_>, middle: Mean<DVec3>, requests: &mut Vec<Request>) {
+    let ShownDocument { document, up } = shown;
+    let mut typed = up.shown(middle.value).to_array();
     let label = if middle.count == 1 { "Vertex" } else { "Median" };
     let hover = "In the space of the mesh: the vertex, or the mean of the selected ones.";
-    if let Some((_, response)) = vector(ui, label, hover, &mut shown, &plain(Unit::Metres)) {
-        let offset = DVec3::from(shown) - middle.value + moved_before(ui, document, &response);
+    if let Some((_, response)) = vector(ui, label, hover, &mut typed, &plain(Unit::Metres)) {
+        let offset = up.stored(typed.into()) - middle.value + moved_before(ui, document, &response);
         let command = Translate { offset: offset.into(), ..Translate::default() };
         submit(ui, document, &response, command.into(), requests);
     }

@@ -12,8 +12,10 @@ use trigon_document::scene::{Node, NodeId};
 use trigon_document::{Document, ObjectName, RenameObject};
 use trigon_window::egui::{self, CollapsingHeader, Ui};
 
+use super::ShownDocument;
 use super::row::{row, text};
 use crate::request::Request;
+use crate::up::Up;
 
 /// The state of the tab: the requested image.
 #[derive(Debug, Default)]
@@ -30,18 +32,20 @@ struct ShownObject<'d> {
     document: &'d Document,
     id: NodeId,
     node: &'d Node,
+    up: Up,
 }
 
 /// Shows it.
 pub(crate) fn properties(
     ui: &mut Ui,
-    document: &Document,
+    shown: ShownDocument<'_>,
     state: &mut PropertiesState,
     requests: &mut Vec<Request>,
 ) {
+    let ShownDocument { document, up } = shown;
     if document.selection().is_editing() {
         section(ui, "Selected elements", |ui| {
-            elements::elements(ui, document, &mut state.elements, requests);
+            elements::elements(ui, shown, &mut state.elements, requests);
         });
     }
     let active = document.selection().active;
@@ -49,7 +53,7 @@ pub(crate) fn properties(
         ui.add(egui::Label::new("Select an object to see its properties.").wrap());
         return;
     };
-    let object = ShownObject { document, id, node };
+    let object = ShownObject { document, id, node, up };
     ui.push_id(id, |ui| {
         let mut name = node.name.clone();
         if row(ui, "Name", "", |ui, width| text(ui, width, &mut name)).changed() {

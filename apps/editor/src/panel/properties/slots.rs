@@ -16,7 +16,7 @@ const SWATCH: f32 = 14.0;
 
 /// Shows the slots, of which one is chosen.
 pub(super) fn slots(ui: &mut Ui, shown: ShownObject<'_>, slot: &mut usize, requests: &mut Vec<Request>) {
-    let ShownObject { document, id, node } = shown;
+    let ShownObject { document, id, node, .. } = shown;
     let materials = &document.nodes().materials;
     *slot = (*slot).min(node.materials.len().saturating_sub(1));
     for (at, &id) in node.materials.iter().enumerate() {

@@ -11,6 +11,7 @@ use crate::panel::parameters::check_box;
 use crate::panel::row::{choice, color, hovered, number, plain, positive, row, submit, vector};
 use crate::panel::unit::Unit;
 use crate::request::Request;
+use crate::up::Up;
 
 /// How transforms are shown.
 #[derive(Debug, Default)]
@@ -39,15 +40,15 @@ pub(super) fn transform(
     state: &mut TransformState,
     requests: &mut Vec<Request>,
 ) {
-    let ShownObject { document, id, node } = object;
+    let ShownObject { document, id, node, up } = object;
     choose_space(ui, state);
     let (scale, rotation, location) = parts(document, id, node, state.space);
     let unchanged =
         SetTransform { object: Some(ObjectName::of(id)), space: state.space, ..SetTransform::default() };
-    let mut values = location.to_array();
+    let mut values = up.shown(location).to_array();
     let hover = "Position of the object's origin.";
     if let Some((_, response)) = vector(ui, "Location", hover, &mut values, &plain(Unit::Metres)) {
-        let command = SetTransform { location: Some(values), ..unchanged.clone() };
+        let command = SetTransform { location: Some(up.stored(values.into()).into()), ..unchanged.clone() };
         submit(ui, document, &response, command.into(), requests);
     }
     let forms = [
@@ -55,14 +56,14 @@ pub(super) fn transform(
         (RotationForm::Quaternion, "Quaternion", "Imaginary part x, y, z and real part w."),
     ];
     choice(ui, "Rotation as", "How the rotation is shown.", &mut state.shown, &forms);
-    if let Some((rotation, response)) = show_rotation(ui, state, rotation) {
+    if let Some((rotation, response)) = show_rotation(ui, state, rotation, up) {
         let command = SetTransform { rotation: Some(rotation), ..unchanged.clone() };
         submit(ui, document, &response, command.into(), requests);
     }
-    let mut values = scale.to_array();
+    let mut values = up.exchanged(scale).to_array();
     let hover = "Scale along its own axes; negative values mirror.";
     if let Some((_, response)) = vector(ui, "Scale", hover, &mut values, &plain(Unit::None)) {
-        let command = SetTransform { scale: Some(values), ..unchanged };
+        let command = SetTransform { scale: Some(up.exchanged(values.into()).into()), ..unchanged };
         submit(ui, document, &response, command.into(), requests);
     }
 }
@@ -79,7 +80,9 @@ fn show_rotation(
     ui: &mut Ui,
     state: &mut TransformState,
     rotation: DQuat,
+    up: Up,
 ) -> Option<(Rotation, egui::Response)> {
+    let rotation = up.shown_rotation(rotation);
     match state.shown {
         RotationForm::Euler => {
             // Typed angles stay as they are as long as they mean this rotation.
@@ -91,14 +94,23 @@ fn show_rotation(
             }
             let hover = "Rotations about the axes x, then y, then z.";
             let (_, response) = vector(ui, "Rotation", hover, &mut state.typed, &plain(Unit::Degrees))?;
-            Some((Rotation::Euler { angles: state.typed }, response))
+            let typed = Rotation::Euler { angles: state.typed };
+            Some((stored(typed, up), response))
         }
         RotationForm::Quaternion => {
             let mut xyzw = rotation.to_array();
             let hover = "The imaginary part x, y, z and the real part w.";
             let (_, response) = vector(ui, "Rotation", hover, &mut xyzw, &plain(Unit::None))?;
-            Some((Rotation::Quaternion { xyzw }, response))
+            Some((stored(Rotation::Quaternion { xyzw }, up), response))
         }
+    }
+}
+
+/// A shown rotation as the document has it. What needs no change keeps the form in which it was typed.
+fn stored(shown: Rotation, up: Up) -> Rotation {
+    match up {
+        Up::Y => shown,
+        Up::Z => Rotation::Quaternion { xyzw: up.stored_rotation(shown.to_quaternion()).to_array() },
     }
 }
 

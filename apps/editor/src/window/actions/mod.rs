@@ -130,7 +130,8 @@ const CONTEXT: [&str; 19] = [
 ];
 
 /// What menus at the pointer offer beside their own entries.
-const ALSO: [(&str, &[&str]); 3] = [
+const ALSO: [(&str, &[&str]); 4] = [
+    ("Mesh/Extrude", &["mesh.extrude"]),
     (
         "Mesh/Vertex",
         &[
@@ -150,6 +151,7 @@ const ALSO: [(&str, &[&str]); 3] = [
         "Mesh/Face",
         &[
             "mesh.extrude",
+            "extrude.along_normals",
             "mesh.extrude_individual",
             "mesh.inset",
             "mesh.fill",

@@ -7,6 +7,7 @@ use super::{Action, Does::*, Needs, actions};
 use crate::request::{
     DisplayMode, FileAction, Orientation, Pivot, Placing, SnapTarget, ToolKind, UiRequest, ViewRequest,
 };
+use crate::up::Up;
 
 actions! {
     "File" "file.new" "New" "Ctrl+N" Nothing File(FileAction::New) => "Starts a new document with a cube.";
@@ -151,7 +152,9 @@ actions! {
     "Select/Similar" "similar.faces" "Faces at Edges" "" Elements Run(r#"{"op":"select_similar","by":"faces"}"#) => "Edges with the same number of faces.";
     "Select/Similar" "similar.edges" "Edges at Vertices" "" Elements Run(r#"{"op":"select_similar","by":"edges"}"#) => "Vertices with the same number of edges.";
     "Mesh" "mesh.extrude" "Extrude" "E" Elements Tool(ToolKind::Extrude) => "Extrudes the selection.";
-    "Mesh" "mesh.extrude_individual" "Extrude Individual Faces" "Alt+E" Elements Tool(ToolKind::ExtrudeIndividual) => "Extrudes each face individually.";
+    "Mesh/Extrude" "extrude.menu" "Extrude Menu" "Alt+E" Elements Ui(UiRequest::Popup("Mesh/Extrude")) => "Chooses how the selection is extruded.";
+    "Mesh/Extrude" "extrude.along_normals" "Extrude Along Normals" "" Elements Ui(UiRequest::ExtrudeAlongNormals) => "Extrudes faces, each vertex along its own normal.";
+    "Mesh/Extrude" "mesh.extrude_individual" "Extrude Individual Faces" "" Elements Tool(ToolKind::ExtrudeIndividual) => "Extrudes each face individually.";
     "Mesh" "mesh.inset" "Inset Faces" "I" Elements Tool(ToolKind::Inset) => "Makes a border of faces inside the selected ones.";
     "Mesh" "mesh.bevel" "Bevel Edges" "Ctrl+B" Elements Tool(ToolKind::Bevel) => "Replaces edges with faces; the wheel changes the segments.";
     "Mesh" "mesh.bevel_vertices" "Bevel Vertices" "Ctrl+Shift+B" Elements Tool(ToolKind::BevelVertices) => "Replaces vertices with faces.";
@@ -176,9 +179,9 @@ actions! {
     "Mesh" "mesh.symmetrize" "Symmetrize" "" Elements Run(r#"{"op":"symmetrize"}"#) => "Makes faces symmetric about x = 0; adjust the plane with F9.";
     "Mesh" "mesh.repair" "Clean Up" "" EditMode Run(r#"{"op":"repair"}"#) => "Removes loose and duplicate elements.";
     "Mesh" "mesh.reset_vertices" "Reset to Original Positions" "" Elements Run(r#"{"op":"reset_vertices"}"#) => "Moves vertices back to their original positions.";
-    "Mesh/Mirror" "mesh.mirror_x" "X" "Ctrl+M" Elements Run(r#"{"op":"mirror"}"#) => "Mirrors the selection about x = 0.";
-    "Mesh/Mirror" "mesh.mirror_y" "Y" "" Elements Run(r#"{"op":"mirror","plane":{"normal":[0.0,1.0,0.0]}}"#) => "Mirrors the selection about y = 0.";
-    "Mesh/Mirror" "mesh.mirror_z" "Z" "" Elements Run(r#"{"op":"mirror","plane":{"normal":[0.0,0.0,1.0]}}"#) => "Mirrors the selection about z = 0.";
+    "Mesh/Mirror" "mesh.mirror_x" "X" "Ctrl+M" Elements Run(r#"{"op":"mirror"}"#) => "Mirrors the selection in x, about the origin of its object.";
+    "Mesh/Mirror" "mesh.mirror_y" "Y" "" Elements Run(r#"{"op":"mirror","plane":{"normal":[0.0,1.0,0.0]}}"#) => "Mirrors the selection in y, about the origin of its object.";
+    "Mesh/Mirror" "mesh.mirror_z" "Z" "" Elements Run(r#"{"op":"mirror","plane":{"normal":[0.0,0.0,1.0]}}"#) => "Mirrors the selection in z, about the origin of its object.";
 
     "Mesh/Delete" "delete.menu" "Delete Menu" "X Delete" Elements Ui(UiRequest::Popup("Mesh/Delete")) => "Chooses what to delete.";
     "Mesh/Delete" "delete.vertices" "Vertices" "" Elements Run(r#"{"op":"delete","what":"vertices"}"#) => "Deletes vertices with their edges and faces.";
@@ -216,7 +219,7 @@ actions! {
     "Mesh" "mesh.hide_others" "Hide Unselected" "Shift+H" Elements Run(r#"{"op":"hide","unselected":true}"#) => "Hides everything except the selection.";
     "Mesh" "mesh.reveal" "Reveal Hidden" "Alt+H" EditMode Run(r#"{"op":"reveal"}"#) => "Shows everything hidden.";
 
-    "UV" "uv.project" "Project from Front" "" Elements Run(r#"{"op":"project_uvs"}"#) => "Projects texture coordinates along z; adjust the direction with F9.";
+    "UV" "uv.project" "Project from Front" "" Elements Run(r#"{"op":"project_uvs"}"#) => "Projects texture coordinates from the front; adjust the direction with F9.";
     "UV" "uv.box" "Box Projection" "" Elements Run(r#"{"op":"project_uvs_on_box"}"#) => "Projects texture coordinates from the six sides of a box.";
     "View" "view.frame_selected" "Frame Selected" "Numpad." Nothing View(ViewRequest::FrameSelected) => "Frames the selection.";
     "View" "view.frame_all" "Frame All" "Home" Nothing View(ViewRequest::FrameAll) => "Frames the whole scene.";
@@ -257,6 +260,8 @@ actions! {
     "View" "view.tool_bar" "Tool Bar" "T" Nothing Ui(UiRequest::ToolBar) => "Shows or hides the tools on the left.";
     "View" "view.side_bar" "Side Bar" "N" Nothing Ui(UiRequest::SideBar) => "Shows or hides the panels on the right.";
     "View" "view.development" "Development Tab" "" Nothing Ui(UiRequest::Development) => "Shows or hides how the image is made, on the right.";
+    "View/Up Axis" "up.z" "Z Is Up" "" Nothing Ui(UiRequest::Up(Up::Z)) => "Shows and types positions with +Z up, as Blender does; files keep their own.";
+    "View/Up Axis" "up.y" "Y Is Up" "" Nothing Ui(UiRequest::Up(Up::Y)) => "Shows and types positions with +Y up, as glTF has it.";
     "View/Input" "input.mouse" "Emulate Three-Button Mouse" "" Nothing Ui(UiRequest::EmulateMouse) => "Alt+left drag orbits, with Shift it pans, with Ctrl it zooms.";
     "View/Input" "input.numpad" "Emulate Numpad" "" Nothing Ui(UiRequest::EmulateNumpad) => "The digit row acts as the number pad.";
     "View/Text" "view.larger_text" "Larger Text" "Ctrl+=" Nothing Ui(UiRequest::LargerText) => "Makes text and buttons larger.";

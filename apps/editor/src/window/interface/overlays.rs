@@ -8,6 +8,7 @@ use trigon_window::{Stage, egui};
 use super::bars::{focus_first, label};
 use crate::panel::select_all_at_first;
 use crate::request::Request;
+use crate::up::Up;
 use crate::window::actions;
 use crate::window::actions::MENUS;
 use crate::window::editor::{Editor, Message};
@@ -181,6 +182,13 @@ fn content(ui: &mut Ui, question: &Question) -> Option<Answer> {
                 ("Reload", Answer::Reload),
                 ("Cancel", Answer::Cancel),
             ];
+            buttons(ui, &choices)
+        }
+        Question::Up => {
+            ui.heading("Which axis is up?");
+            ui.label("Files keep their own; View, Up Axis changes it later.");
+            let choices =
+                [("Z is up, as in Blender", Answer::Up(Up::Z)), ("Y is up, as in glTF", Answer::Up(Up::Y))];
             buttons(ui, &choices)
         }
         Question::Recover(left) => {

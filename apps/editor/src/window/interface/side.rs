@@ -9,7 +9,7 @@ use trigon_window::egui::{
 use trigon_window::{Stage, egui};
 
 use crate::panel;
-use crate::panel::DrawnView;
+use crate::panel::{DrawnView, ShownDocument};
 use crate::request::Request;
 use crate::window::actions;
 use crate::window::editor::{Editor, Message};
@@ -65,7 +65,9 @@ fn tabs(ui: &mut Ui, editor: &mut Editor, stage: &Stage, requests: &mut Vec<Requ
         }
     });
     ui.separator();
+    let up = editor.up();
     let Editor { document, panels, tools, keys, .. } = editor;
+    let shown = ShownDocument { document, up };
     ScrollArea::vertical().id_salt(panels.tab as usize).auto_shrink([false, false]).show(
         ui,
         |ui| match panels.tab {
@@ -74,13 +76,13 @@ fn tabs(ui: &mut Ui, editor: &mut Editor, stage: &Stage, requests: &mut Vec<Requ
                 let of_mode = actions::tools().filter(|action| action.fits_mode(is_editing));
                 let controls = of_mode.map(|action| (keys.text_of(action), action.label.to_owned()));
                 let controls: Vec<_> = controls.filter(|(keys, _)| !keys.is_empty()).collect();
-                panel::information(ui, document, &mut panels.information, &controls);
+                panel::information(ui, shown, &mut panels.information, &controls);
                 egui::CollapsingHeader::new("History").default_open(true).show_unindented(ui, |ui| {
                     panel::history(ui, document, requests);
                 });
             }
-            Tab::Add => panel::add(ui, document, &mut panels.add, tools.cursor.to_array(), requests),
-            Tab::Properties => panel::properties(ui, document, &mut panels.properties, requests),
+            Tab::Add => panel::add(ui, shown, &mut panels.add, tools.cursor.to_array(), requests),
+            Tab::Properties => panel::properties(ui, shown, &mut panels.properties, requests),
             Tab::Development => {
                 panel::development(ui, &DrawnView::of(stage), &mut panels.development, requests);
             }
@@ -103,7 +105,8 @@ pub(super) fn adjust(context: &Context, editor: &Editor, free: Rect, requests: &
     window.show(context, |ui| {
         ui.set_width(ADJUST_WIDTH);
         ScrollArea::vertical().max_height((free.height() * 0.6).max(80.0)).show(ui, |ui| {
-            panel::adjust(ui, &editor.document, requests);
+            let shown = ShownDocument { document: &editor.document, up: editor.up() };
+            panel::adjust(ui, shown, requests);
         });
     });
 }

@@ -11,7 +11,7 @@ use crate::overlay::{
 };
 use crate::tool::ToolMarks;
 use crate::window::editor::Editor;
-use crate::window::panes::{draw_name, overlay_view};
+use crate::window::panes::draw_name;
 
 /// Of what tools draw.
 const INK: Color32 = Color32::from_rgb(255, 240, 120);
@@ -22,7 +22,7 @@ const SNAPPED: f32 = 7.0;
 pub(super) fn show_view(ui: &Ui, editor: &mut Editor, stage: &Stage) {
     let panes = stage.panes();
     for pane in &panes {
-        let view = overlay_view(stage, pane);
+        let view = editor.overlay_view(stage, pane);
         let painter = ui.painter().with_clip_rect(view.rect());
         show_pane(&painter, editor, stage, pane, &view);
         if panes.len() > 1 {

@@ -8,6 +8,7 @@ mod saving;
 mod selections;
 mod sessions;
 mod tools;
+mod up;
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};

@@ -7,7 +7,6 @@ use trigon_window::scene::math::{DVec2, DVec3};
 use trigon_window::{InputOwner, PointerButton};
 
 use super::*;
-use crate::window::panes::overlay_view;
 use crate::window::pointing::Pointing;
 
 impl Worked {
@@ -39,7 +38,7 @@ impl Worked {
         self.input(Input::Released(PointerButton::Left), to, modifiers);
     }
 
-    fn keys(&mut self, keys: &str) {
+    pub(super) fn keys(&mut self, keys: &str) {
         for key in keys.chars() {
             let key = match key {
                 '!' => WindowKey::Enter,
@@ -52,7 +51,7 @@ impl Worked {
     }
 
     /// In edit mode, with faces to be selected and none selected.
-    fn on_faces() -> Self {
+    pub(super) fn on_faces() -> Self {
         let mut worked = Self::new();
         worked.keys(">3");
         worked.key(WindowKey::Character('a'), Modifiers::ALT);
@@ -64,14 +63,14 @@ impl Worked {
         self.editor.document.selection().meshes().map(|(_, elements)| elements.len()).sum()
     }
 
-    fn place(&self) -> DVec3 {
+    pub(super) fn place(&self) -> DVec3 {
         let scene = self.editor.document.nodes();
         let cube = self.editor.document.selection().active.expect("the cube");
         assert_eq!(self.stage.scene.world_transform(cube), scene.world_transform(cube), "on the stage");
         scene.world_transform(cube).translation
     }
 
-    fn bytes(&self) -> Vec<u8> {
+    pub(super) fn bytes(&self) -> Vec<u8> {
         self.editor.document.to_native().encode().expect("it is small").to_bytes().to_vec()
     }
 }
@@ -239,7 +238,7 @@ fn a_handle_of_the_gizmo_moves_along_its_axis() {
     let mut worked = Worked::new();
     let gizmo =
         worked.editor.gizmo(&worked.stage, &worked.stage.pane_at(DVec2::ZERO)).expect("the cube is selected");
-    let view = overlay_view(&worked.stage, &worked.stage.pane_at(DVec2::ZERO));
+    let view = worked.editor.overlay_view(&worked.stage, &worked.stage.pane_at(DVec2::ZERO));
     let arm = gizmo.center + DVec3::X * view.pixel_size(gizmo.center) * 60.0;
     let from = worked.seen(arm);
     worked.drag(from, worked.seen(arm + DVec3::X), Modifiers::NONE);

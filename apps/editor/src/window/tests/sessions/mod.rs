@@ -90,7 +90,11 @@ pub(super) fn at_the_editor(
     settings::prepare(&mut stage);
     // The images' edges are not what is tested.
     stage.settings.samples_per_axis = 1;
-    let editor = Editor::new(Keys::default(), Some(folder.join("state")), files.to_vec());
+    // Whoever works here has answered the question of the first start.
+    let state = folder.join("state");
+    std::fs::create_dir_all(&state).expect("made");
+    std::fs::write(state.join("editor.json"), r#"{ "up": "Y" }"#).expect("written");
+    let editor = Editor::new(Keys::default(), Some(state), files.to_vec());
     let editor = Rc::new(RefCell::new(editor));
     let mut handler = Watched(Rc::clone(&editor));
     let window = HeadlessWindow::open(stage, &mut handler, size);
