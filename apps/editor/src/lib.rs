@@ -7,6 +7,8 @@
 mod arguments;
 mod export;
 #[cfg(feature = "window")]
+mod icon;
+#[cfg(feature = "window")]
 mod overlay;
 #[cfg(feature = "window")]
 mod panel;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use trigon_document::{Command, ElementKind, MaterialName, TextureSlot};
 use trigon_window::scene::camera::AxisView;
-use trigon_window::{Comparison, Refinement};
+use trigon_window::{Comparison, Refinement, Theme};
 
 use crate::up::Up;
 
@@ -201,6 +201,8 @@ pub(crate) enum UiRequest {
     },
     /// Selects what hangs together with what is under the pointer.
     LinkedAtPointer,
+    /// Shows light or dark panels.
+    Theme(Theme),
     /// Shows this axis as up.
     Up(Up),
     LargerText,

@@ -78,6 +78,7 @@ pub use handler::{AnimationState, Handler, Tick};
 pub use headless::{DrawnFrame, HeadlessWindow, LiveFrame, Widget};
 pub use input::{Chord, ChordError, Hands, Input, InputOwner, Key, Modifiers, PointerButton, Taken};
 pub use interaction::{Interaction, InteractionError};
+pub use interface::Theme;
 pub use keymap::{
     Action, Binding, CameraMotion, ClickAction, ClickBinding, DragAction, DragBinding, Keymap, MenuEntry,
     Motion, ObjectMotion, SheetRow, matches_search,

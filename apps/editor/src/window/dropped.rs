@@ -39,7 +39,7 @@ impl Editor {
                 None
             }
         };
-        if matches!(self.message, Message::Info(_)) || material.is_some() {
+        if !matches!(self.message, Message::Refusal(_)) || material.is_some() {
             self.run(AssignTexture { material, texture: Some(source), ..AssignTexture::default() }.into());
             self.show_images();
         }

@@ -15,6 +15,7 @@ use super::actions;
 use super::button_start::Click;
 use super::dialog::{FileWindow, Purpose};
 use super::gizmo_cache::GizmoCache;
+use super::interface::Toast;
 use super::keys::Keys;
 use super::loading::Loading;
 use super::loading::{SaveOrder, Saving};
@@ -33,6 +34,9 @@ use crate::up::Up;
 /// What the status line says until the next action.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Message {
+    /// What is not worth a look: how to begin, and what a click selected.
+    Hint(String),
+    /// What was done.
     Info(String),
     /// Why something was not done.
     Refusal(String),
@@ -52,6 +56,7 @@ pub(crate) struct Editor {
     pub(crate) layout: Layout,
     pub(crate) preferences: Preferences,
     pub(crate) message: Message,
+    pub(crate) toast: Toast,
     pub(crate) popup: Option<Popup>,
     pub(crate) search: Option<Search>,
     pub(crate) report: Option<Report>,
@@ -106,7 +111,8 @@ impl Editor {
             view: ViewState::default(),
             layout: Layout::default(),
             preferences: Preferences::load(folder.as_ref().map(|folder| folder.join("editor.json"))),
-            message: Message::Info(WELCOME.into()),
+            message: Message::Hint(WELCOME.into()),
+            toast: Toast::default(),
             popup: None,
             search: None,
             report: None,
@@ -185,6 +191,9 @@ impl Editor {
             Ok(outcome) => {
                 self.file.ran(selects);
                 self.done(name, &outcome.message);
+                if let (true, Message::Info(text)) = (selects, &self.message) {
+                    self.message = Message::Hint(text.clone());
+                }
             }
             Err(refusal) => self.message = Message::Refusal(refusal.to_string()),
         }
@@ -259,6 +268,7 @@ impl Editor {
             UiRequest::Placing(placing) => self.snap(placing),
             UiRequest::OriginToCursor => self.origin_to_cursor(),
             UiRequest::Up(_)
+            | UiRequest::Theme(_)
             | UiRequest::Development
             | UiRequest::EmulateMouse
             | UiRequest::EmulateNumpad
@@ -280,6 +290,7 @@ impl Editor {
     fn change_preferences(&mut self, stage: &mut Stage, request: UiRequest) {
         self.preferences.change(|settings| match request {
             UiRequest::Up(up) => settings.up = Some(up),
+            UiRequest::Theme(theme) => settings.theme = theme,
             UiRequest::Development => settings.development = !settings.development,
             UiRequest::EmulateMouse => settings.emulates_mouse = !settings.emulates_mouse,
             UiRequest::EmulateNumpad => settings.emulates_numpad = !settings.emulates_numpad,
@@ -299,6 +310,7 @@ impl Editor {
     pub(crate) fn apply_preferences(&mut self, stage: &mut Stage) {
         let settings = self.preferences.get();
         stage.keymap = settings::drags(settings.emulates_mouse);
+        stage.theme = settings.theme;
         stage.text_scale = settings.text_scale.clamp(0.5, 4.0);
         self.keys.emulates_numpad = settings.emulates_numpad;
     }

@@ -57,7 +57,7 @@ impl Editor {
         self.tools = ToolSettings::default();
         // So that Tab and G work at once.
         self.run(Select { objects: vec![ObjectName::of(cube)], ..Select::default() }.into());
-        self.message = Message::Info(WELCOME.into());
+        self.message = Message::Hint(WELCOME.into());
     }
 
     /// Another document replaces the open one.

@@ -186,7 +186,7 @@ impl Editor {
             // A handle that was pressed and not dragged hides what it lies on no longer.
             super::pick::click(self, stage, at, modifiers);
         } else {
-            self.message = Message::Info(String::new());
+            self.message = Message::Hint(String::new());
         }
     }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 use trigon_io::write_atomically;
+use trigon_window::Theme;
 
 use crate::up::Up;
 
@@ -20,6 +21,8 @@ pub(crate) struct Settings {
     pub(crate) emulates_numpad: bool,
     /// Which axis is shown as up; `None` before anybody was asked.
     pub(crate) up: Option<Up>,
+    /// Whether panels are light or dark.
+    pub(crate) theme: Theme,
     /// By how much text and buttons are larger than usual.
     pub(crate) text_scale: f32,
 }
@@ -27,7 +30,14 @@ pub(crate) struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         // Touchpads and thin clients have no middle button, and nothing is lost by helping them.
-        Self { development: false, emulates_mouse: true, emulates_numpad: false, up: None, text_scale: 1.0 }
+        Self {
+            development: false,
+            emulates_mouse: true,
+            emulates_numpad: false,
+            up: None,
+            theme: Theme::System,
+            text_scale: 1.0,
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use crate::tool::{Gesture, GestureKind, LoopCutTool, Tool, ToolMarks, TransformK
 
 /// A tool or a gesture that runs.
 pub(crate) struct Running {
-    pub(super) kind: ToolKind,
+    pub(crate) kind: ToolKind,
     pub(super) what: What,
     /// Where a press of the left button started it.
     pub(super) pressed: Option<Click>,

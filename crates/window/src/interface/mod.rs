@@ -7,10 +7,13 @@ mod legend;
 mod menu;
 mod outline;
 mod sheet;
+mod theme;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
+
+pub use theme::Theme;
 
 use egui::{Context, Event, LayerId, Order, Pos2, Ui};
 use trigon_camera::{Camera, Viewport};
@@ -35,6 +38,8 @@ pub(crate) struct Interface {
     pub(crate) painter: EguiPainter,
     events: Vec<Event>,
     focused: bool,
+    /// Whether the system has light or dark windows, if it says.
+    system_theme: Option<egui::Theme>,
     /// The area that no panel covers, in points.
     free: egui::Rect,
     /// When it needs to change by itself.
@@ -48,19 +53,23 @@ pub(crate) struct Interface {
 impl Interface {
     pub(crate) fn new() -> Self {
         let context = Context::default();
-        context.set_theme(egui::Theme::Dark);
-        // While nothing changes, nothing runs.
-        context.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
+        theme::set_colors(&context);
         Self {
             context,
             painter: EguiPainter::new(ChannelOrder::Bgra),
             events: Vec::new(),
             focused: true,
+            system_theme: None,
             free: egui::Rect::EVERYTHING,
             due: None,
             output: egui::PlatformOutput::default(),
             in_pass: Arc::default(),
         }
+    }
+
+    /// Follows the system. Tells whether that is another theme than before.
+    pub(crate) fn follow(&mut self, system_theme: Option<egui::Theme>) -> bool {
+        std::mem::replace(&mut self.system_theme, system_theme) != system_theme
     }
 
     pub(crate) fn context(&self) -> &Context {
@@ -143,6 +152,7 @@ impl Interface {
         application: &mut dyn FnMut(&mut Stage, &mut Ui),
     ) -> Option<Binding> {
         self.context.set_zoom_factor(stage.text_scale.clamp(0.5, 4.0));
+        theme::choose(&self.context, stage.theme);
         let input = self.input(moment);
         let (mut chosen, mut free) = (None, egui::Rect::EVERYTHING);
         self.in_pass.store(true, Ordering::Relaxed);
@@ -181,6 +191,7 @@ impl Interface {
             max_texture_side: Some(MAX_TEXTURE_SIDE),
             time: Some(now.as_secs_f64()),
             focused: self.focused,
+            system_theme: self.system_theme,
             events: std::mem::take(&mut self.events),
             ..egui::RawInput::default()
         };

@@ -140,6 +140,7 @@ impl<'a> Shell<'a> {
             window.set_visible(true);
         }
         let now = self.now();
+        self.session.interface().follow(egui.egui_input().system_theme);
         self.session.event(InputEvent::Scaled(window.scale_factor()), now);
         let size = window.inner_size();
         self.session.event(InputEvent::Resized { width: size.width, height: size.height }, now);
@@ -201,6 +202,9 @@ impl<'a> Shell<'a> {
         let now = self.started.elapsed();
         // Its response refers to the last pass; the session queries the interface itself.
         let _ = open.egui.on_window_event(&open.window, event);
+        if self.session.interface().follow(open.egui.egui_input().system_theme) {
+            self.session.interface_requested_redraw(now);
+        }
         let played = !self.played.is_empty();
         for event in open.egui.egui_input_mut().events.drain(..).filter(|_| !played) {
             self.session.event(InputEvent::Interface(event), now);

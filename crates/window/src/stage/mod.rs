@@ -11,6 +11,7 @@ use trigon_scene::{Hit, NodeId, RenderSettings, Scene, Shadows, SightRays, Snap,
 
 use crate::drawer::{Drawer, DrawnBy};
 use crate::input::InputOwner;
+use crate::interface::Theme;
 use crate::keymap::Keymap;
 use crate::moves::Moves;
 use crate::overlay::Overlay;
@@ -119,6 +120,8 @@ pub struct Stage {
     pub columns: u32,
     /// Whether the time of each of its stages is shown.
     pub stage_times: Visibility,
+    /// Whether panels are light or dark.
+    pub theme: Theme,
     /// The size of text and widgets, in addition to the display's own scale: 0.5 to 4.
     pub text_scale: f32,
     /// The search text of the key list.
@@ -186,6 +189,7 @@ impl Stage {
             covered_below: 0.0,
             columns: 1,
             stage_times: Visibility::Hidden,
+            theme: Theme::System,
             text_scale: 1.0,
             command_search: String::new(),
             menu: None,

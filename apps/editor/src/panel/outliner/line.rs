@@ -1,17 +1,16 @@
-//! One row of the outliner: fold, kind, name, visibility. Its icons are painted: the interface's fonts have
-//! letters only.
+//! One row of the outliner: fold, kind, name, visibility.
 
 use trigon_document::scene::{Node, NodeId};
 use trigon_document::{Document, ObjectName, RenameObject, SelectAction, ShowObjects};
 use trigon_window::egui;
 use trigon_window::egui::{
-    Color32, Key, Painter, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, Vec2,
-    WidgetInfo, collapsing_header, vec2,
+    Key, Rect, Response, RichText, Role, Sense, Ui, Vec2, WidgetInfo, collapsing_header, vec2,
 };
 
 use super::drop::menu;
 use super::rows::{Row, Rows};
 use super::{OutlinerState, drop, select};
+use crate::icon::Icon;
 use crate::panel::row::select_all_at_first;
 use crate::request::Request;
 
@@ -42,7 +41,7 @@ impl Line<'_> {
             self.fold(ui, state);
             let kind = Kind::of(node);
             let (icon, response) = ui.allocate_exact_size(ICON_SIZE, Sense::hover());
-            kind.paint(ui.painter(), icon, ui.visuals().text_color());
+            kind.icon().paint(ui.painter(), icon, ui.visuals().text_color());
             response.on_hover_text(kind.name());
             let eye = ui.spacing().interact_size.y;
             let width = (ui.available_width() - eye - 4.0).max(eye);
@@ -140,7 +139,8 @@ fn visibility(ui: &mut Ui, size: f32, node: &Node, id: NodeId, requests: &mut Ve
     let (rect, response) = ui.allocate_exact_size(vec2(size, size), Sense::click());
     let visuals = ui.style().interact(&response);
     let color = if node.visible { visuals.text_color() } else { ui.visuals().weak_text_color() };
-    paint_eye(ui.painter(), rect, node.visible, color);
+    let eye = if node.visible { Icon::Shown } else { Icon::Hidden };
+    eye.paint(ui.painter(), rect, color);
     let what = if node.visible { "Hide" } else { "Show" };
     let name = format!("{what} {}", node.name);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
@@ -178,62 +178,12 @@ impl Kind {
         }
     }
 
-    /// A cube, a sun, a camera, a cross.
-    pub(super) fn paint(self, painter: &Painter, rect: Rect, color: Color32) {
-        let stroke = Stroke::new(1.0, color);
-        let center = rect.center();
-        let at = |x: f32, y: f32| center + vec2(x, y);
-        let lines = |lines: &[[Pos2; 2]]| {
-            for &line in lines {
-                painter.line_segment(line, stroke);
-            }
-        };
+    pub(super) fn icon(self) -> Icon {
         match self {
-            Self::Mesh => {
-                let outline = [(0.0, -5.0), (4.5, -2.5), (4.5, 2.5), (0.0, 5.0), (-4.5, 2.5), (-4.5, -2.5)];
-                let outline = outline.map(|(x, y)| at(x, y));
-                for corner in 0..6 {
-                    lines(&[[outline[corner], outline[(corner + 1) % 6]]]);
-                }
-                [1, 3, 5].into_iter().for_each(|corner| lines(&[[center, outline[corner]]]));
-            }
-            Self::Light => {
-                painter.circle_filled(center, 2.0, color);
-                for (x, y) in [(1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7)] {
-                    for side in [-1.0, 1.0] {
-                        lines(&[[at(3.2 * side * x, 3.2 * side * y), at(5.0 * side * x, 5.0 * side * y)]]);
-                    }
-                }
-            }
-            Self::Camera => {
-                let body = Rect::from_min_max(at(-5.0, -3.0), at(1.5, 3.0));
-                painter.rect_stroke(body, 1.0, stroke, StrokeKind::Middle);
-                lines(&[
-                    [at(1.5, 0.0), at(5.0, -3.0)],
-                    [at(5.0, -3.0), at(5.0, 3.0)],
-                    [at(5.0, 3.0), at(1.5, 0.0)],
-                ]);
-            }
-            Self::Empty => lines(&[[at(-4.0, 0.0), at(4.0, 0.0)], [at(0.0, -4.0), at(0.0, 4.0)]]),
+            Self::Mesh => Icon::Mesh,
+            Self::Light => Icon::Light,
+            Self::Camera => Icon::Camera,
+            Self::Empty => Icon::Empty,
         }
-    }
-}
-
-/// An open eye, or a closed one.
-pub(super) fn paint_eye(painter: &Painter, rect: Rect, is_open: bool, color: Color32) {
-    let center = rect.center();
-    let stroke = Stroke::new(1.0, color);
-    let lid = |height: f32| {
-        // A flat arch through both corners of the eye.
-        let points = (-4..=4).map(|step| {
-            let x = step as f32 / 4.0;
-            center + vec2(6.0 * x, height * (1.0 - x * x))
-        });
-        painter.line(points.collect(), stroke);
-    };
-    lid(3.5);
-    if is_open {
-        lid(-3.5);
-        painter.circle_filled(center, 2.0, color);
     }
 }

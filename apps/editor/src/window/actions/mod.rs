@@ -195,6 +195,11 @@ impl Action {
         }
     }
 
+    /// Whether it starts this tool.
+    pub(crate) fn starts(&self, tool: ToolKind) -> bool {
+        matches!(self.does, Does::Tool(own) if own == tool)
+    }
+
     /// Why it cannot run now; `None` if it can.
     pub(crate) fn refusal(&self, document: &Document) -> Option<&'static str> {
         let is_editing = document.selection().is_editing();

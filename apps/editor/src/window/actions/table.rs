@@ -1,6 +1,7 @@
 //! The actions of all menus: File and Help, Edit with the settings, Add, Select, Mesh and UV, and View.
 
 use trigon_document::ElementKind;
+use trigon_window::Theme;
 use trigon_window::scene::camera::AxisView;
 
 use super::{Action, Does::*, Needs, actions};
@@ -260,6 +261,9 @@ actions! {
     "View" "view.tool_bar" "Tool Bar" "T" Nothing Ui(UiRequest::ToolBar) => "Shows or hides the tools on the left.";
     "View" "view.side_bar" "Side Bar" "N" Nothing Ui(UiRequest::SideBar) => "Shows or hides the panels on the right.";
     "View" "view.development" "Development Tab" "" Nothing Ui(UiRequest::Development) => "Shows or hides how the image is made, on the right.";
+    "View/Theme" "theme.system" "As the System" "" Nothing Ui(UiRequest::Theme(Theme::System)) => "Shows light or dark panels as the system does.";
+    "View/Theme" "theme.dark" "Dark" "" Nothing Ui(UiRequest::Theme(Theme::Dark)) => "Shows light text on dark panels.";
+    "View/Theme" "theme.light" "Light" "" Nothing Ui(UiRequest::Theme(Theme::Light)) => "Shows dark text on light panels.";
     "View/Up Axis" "up.z" "Z Is Up" "" Nothing Ui(UiRequest::Up(Up::Z)) => "Shows and types positions with +Z up, as Blender does; files keep their own.";
     "View/Up Axis" "up.y" "Y Is Up" "" Nothing Ui(UiRequest::Up(Up::Y)) => "Shows and types positions with +Y up, as glTF has it.";
     "View/Input" "input.mouse" "Emulate Three-Button Mouse" "" Nothing Ui(UiRequest::EmulateMouse) => "Alt+left drag orbits, with Shift it pans, with Ctrl it zooms.";

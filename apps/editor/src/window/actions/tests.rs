@@ -4,6 +4,7 @@ use trigon_document::command_reference;
 use trigon_window::Chord;
 
 use super::*;
+use crate::icon::Icon;
 
 #[test]
 fn every_row_of_the_table_can_be_used() {
@@ -17,6 +18,16 @@ fn every_row_of_the_table_can_be_used() {
         for key in action.keys.split_whitespace() {
             assert!(key.parse::<Chord>().is_ok(), "{}: {key}", action.name);
         }
+    }
+}
+
+#[test]
+fn every_tool_of_the_bar_has_an_icon_of_its_own() {
+    let icon =
+        |action: &Action| Icon::of_action(action.name).unwrap_or_else(|| panic!("{} has none", action.name));
+    let icons: Vec<Icon> = tools().map(icon).collect();
+    for (index, icon) in icons.iter().enumerate() {
+        assert!(!icons[..index].contains(icon), "{icon:?} stands for two tools");
     }
 }
 

@@ -1,9 +1,10 @@
 //! The top bar with modes and settings, and the tools on the left.
 
 use trigon_document::ElementKind;
-use trigon_window::egui::{Button, Ui};
+use trigon_window::egui::{Atom, Atoms, Button, Ui};
 use trigon_window::{Stage, egui};
 
+use crate::icon::Icon;
 use crate::request::{
     DisplayMode, GizmoKind, Orientation, Pivot, Request, SnapSource, SnapTarget, UiRequest, ViewRequest,
 };
@@ -33,9 +34,14 @@ fn mode(ui: &mut Ui, editor: &Editor, requests: &mut Vec<Request>) {
         return;
     }
     ui.separator();
-    let kinds = [("Vertex", ElementKind::Vertex), ("Edge", ElementKind::Edge), ("Face", ElementKind::Face)];
-    for (name, kind) in kinds {
-        let shown = ui.selectable_label(selection.kinds().contains(kind), name);
+    let kinds = [
+        ("Vertex", ElementKind::Vertex, Icon::Vertex),
+        ("Edge", ElementKind::Edge, Icon::Edge),
+        ("Face", ElementKind::Face, Icon::Face),
+    ];
+    for (name, kind, icon) in kinds {
+        let is_chosen = selection.kinds().contains(kind);
+        let shown = ui.add(Button::selectable(is_chosen, (icon.atom(), name)));
         if shown.on_hover_text("Shift adds or removes this kind of element").clicked() {
             let extend = ui.input(|input| input.modifiers.shift);
             requests.push(Request::Ui(UiRequest::Select { kind, extend }));
@@ -140,7 +146,12 @@ pub(super) fn tools(ui: &mut Ui, editor: &mut Editor, stage: &mut Stage) {
         let refusal = action.refusal(&editor.document);
         let text = format!("{} ({})\n{}", action.label, editor.keys.text_of(action), action.help);
         let width = ui.available_width();
-        let button = Button::new(action.label).min_size(egui::vec2(width, 26.0)).truncate();
+        let is_active = editor.tool.as_ref().is_some_and(|tool| action.starts(tool.kind));
+        let mut atoms = Atoms::new((action.label, Atom::grow()));
+        if let Some(icon) = Icon::of_action(action.name) {
+            atoms.push_left(icon.atom());
+        }
+        let button = Button::new(atoms).min_size(egui::vec2(width, 26.0)).truncate().selected(is_active);
         let shown = ui.add_enabled(refusal.is_none(), button).on_hover_text(&text);
         let reason = refusal.unwrap_or_default();
         if shown.on_disabled_hover_text(format!("{text}\n{reason}")).clicked() {

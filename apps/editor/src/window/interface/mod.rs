@@ -5,6 +5,7 @@ mod bars;
 mod menu;
 mod overlays;
 mod side;
+mod toast;
 mod view;
 
 use trigon_window::Stage;
@@ -12,6 +13,8 @@ use trigon_window::egui::{Panel, Ui};
 
 use super::editor::Editor;
 use crate::request::Request;
+
+pub(crate) use toast::Toast;
 
 /// Shows all of it; returns what is to be done.
 pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<Request> {
@@ -35,6 +38,7 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
     menu::popup(ui.ctx(), editor, stage);
     overlays::help(ui.ctx(), editor);
     overlays::rename(ui.ctx(), editor, &mut requests);
+    toast::show(ui.ctx(), editor, free);
     let waker = stage.waker();
     let chosen = editor.dialog.show(ui.ctx(), &editor.recent, move || waker.wake());
     requests.extend(chosen.map(Request::File));

@@ -4,10 +4,11 @@
 
 use trigon_document::{Command, Document, ElementKind};
 use trigon_window::egui::{
-    Align, Align2, Color32, Context, Id, Layout, Panel, Rect, RichText, ScrollArea, Ui, UiBuilder,
+    Align, Align2, Button, Context, Id, Layout, Panel, Rect, RichText, ScrollArea, Ui, UiBuilder,
 };
 use trigon_window::{Stage, egui};
 
+use crate::icon::Icon;
 use crate::panel;
 use crate::panel::{DrawnView, ShownDocument};
 use crate::request::Request;
@@ -54,14 +55,23 @@ fn within_bounds(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
 }
 
 fn tabs(ui: &mut Ui, editor: &mut Editor, stage: &Stage, requests: &mut Vec<Request>) {
-    let all = [(Tab::Properties, "Properties"), (Tab::Add, "Add"), (Tab::Information, "Information")];
-    let development = editor.preferences.get().development.then_some((Tab::Development, "Development"));
+    let all = [
+        (Tab::Properties, "Properties", Icon::Properties),
+        (Tab::Add, "Add", Icon::Add),
+        (Tab::Information, "Information", Icon::Information),
+    ];
+    let development = (Tab::Development, "Development", Icon::Development);
+    let development = editor.preferences.get().development.then_some(development);
     if development.is_none() && editor.panels.tab == Tab::Development {
         editor.panels.tab = Tab::Properties;
     }
     ui.horizontal_wrapped(|ui| {
-        for (tab, name) in all.into_iter().chain(development) {
-            ui.selectable_value(&mut editor.panels.tab, tab, name);
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for (tab, name, icon) in all.into_iter().chain(development) {
+            let shown = ui.add(Button::selectable(editor.panels.tab == tab, (icon.atom(), name)));
+            if shown.clicked() {
+                editor.panels.tab = tab;
+            }
         }
     });
     ui.separator();
@@ -111,9 +121,6 @@ pub(super) fn adjust(context: &Context, editor: &Editor, free: Rect, requests: &
     });
 }
 
-/// Readable on the panel's dark grey.
-const REFUSAL: Color32 = Color32::from_rgb(255, 170, 90);
-
 /// Shows it.
 pub(super) fn line(ui: &mut Ui, editor: &Editor) {
     ui.horizontal(|ui| {
@@ -127,8 +134,8 @@ pub(super) fn line(ui: &mut Ui, editor: &Editor) {
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 let text = match (&editor.tool, &editor.message) {
                     (Some(tool), _) => RichText::new(tool.status()),
-                    (None, Message::Info(text)) => RichText::new(text),
-                    (None, Message::Refusal(text)) => RichText::new(text).color(REFUSAL),
+                    (None, Message::Hint(text) | Message::Info(text)) => RichText::new(text),
+                    (None, Message::Refusal(text)) => RichText::new(text).color(ui.visuals().warn_fg_color),
                 };
                 ui.add(egui::Label::new(text).truncate());
             });

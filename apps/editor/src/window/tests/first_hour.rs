@@ -341,3 +341,35 @@ fn a_shape_that_is_added_in_edit_mode_joins_the_mesh() {
     let has = |at: DVec3| points.iter().any(|point| point.distance(at) < 1e-6);
     assert!(points.len() == 16 && has(DVec3::ONE) && has(DVec3::new(7.0, 2.0, 2.0)), "both: {points:?}");
 }
+
+/// What a key did was said in small letters at the border only.
+#[test]
+fn what_was_done_is_said_over_the_view_for_some_seconds() {
+    let mut harness = harness();
+    harness.run();
+    // In the status line, and over the view.
+    let texts = |harness: &Harness<'_, Worked>| {
+        let (Message::Hint(said) | Message::Info(said) | Message::Refusal(said)) =
+            &harness.state().editor.message;
+        let shapes = harness.output().shapes.iter();
+        let is_it = |shape: &trigon_window::egui::Shape| match shape {
+            trigon_window::egui::Shape::Text(text) => text.galley.text() == said,
+            _ => false,
+        };
+        shapes.filter(|clipped| is_it(&clipped.shape)).count()
+    };
+    assert_eq!(texts(&harness), 1, "how to begin is a hint");
+    for key in ['x', 'x'] {
+        // The second finds nothing to delete, which is said, too.
+        harness.state_mut().character(key);
+        harness.step();
+        assert_eq!(texts(&harness), 2, "it is said");
+        // A quarter of a second each.
+        harness.run_steps(30);
+        assert_eq!(texts(&harness), 1, "and not for ever");
+    }
+    harness.state_mut().chord("Ctrl+Z");
+    harness.state_mut().chord("A");
+    harness.step();
+    assert_eq!(texts(&harness), 1, "a selection is seen anyway");
+}

@@ -56,7 +56,7 @@ impl Worked {
     fn refusal(&self) -> &str {
         match &self.editor.message {
             Message::Refusal(text) => text,
-            Message::Info(text) => panic!("done: {text}"),
+            Message::Hint(text) | Message::Info(text) => panic!("done: {text}"),
         }
     }
 }
