@@ -494,7 +494,7 @@ mod tests {
         let mut scene = scene();
         let projection = Projection::perspective(1.0, 0.1, None).expect("in range");
         let mut holder = Node::default().at(DVec3::new(1e6, 5.0, 9.0));
-        holder.camera = Some(projection);
+        holder.camera = Some(Box::new(projection));
         scene.add(holder);
         let through = |index| Framing { eye: Eye::SceneCamera(index), ..default() }.shot(&scene, 1.0);
         let shot = through(0).expect("it is there");

@@ -40,11 +40,13 @@ pub(crate) fn load(
                 scene_names.extend(loaded.scene_names);
                 variant_names.extend(loaded.variant_names);
                 read.extend(loaded.files);
+                // The first one is not copied: it may have millions of nodes.
                 if before == 0 {
-                    scene.up = loaded.scene.up;
+                    scene = loaded.scene;
+                } else {
+                    odd.extend(stand_upright(&mut loaded.scene, &scene, file, request));
+                    scene.append(&loaded.scene);
                 }
-                odd.extend(stand_upright(&mut loaded.scene, &scene, file, request));
-                scene.append(&loaded.scene);
             }
         }
     }

@@ -105,11 +105,11 @@ fn objects(document: &mut Document) -> Vec<Object> {
         let material = |&id| scene.materials.get(id).expect("it is in use").clone();
         let asset = node.mesh.and_then(|mesh| scene.meshes().get(mesh));
         let mut bare = Node::default().with_name(node.name.as_str()).with_transform(node.transform);
-        (bare.light, bare.visible) = (node.light, node.visible);
+        (bare.light, bare.visible) = (node.light.clone(), node.visible);
         Object {
             depth,
             node: bare,
-            camera: node.camera.map(lens),
+            camera: node.camera.as_deref().copied().map(lens),
             materials: node.materials.iter().map(material).collect(),
             mesh: asset.map(|asset| (asset.name.clone(), asset.mesh().clone())),
             edited: node.mesh.and_then(|mesh| document.mesh(mesh)).map(as_edited),

@@ -5,6 +5,7 @@
 //! The logarithm is the series of the inverse hyperbolic tangent, whose relative error stays small near 1, where powers
 //! with large exponents have their highlights.
 
+use trigon_math::glam::Affine3;
 use trigon_math::{Mat3, Mat4, Vec3};
 use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{F32, I32, InlineMap, LANES, Simd, greater, lesser};
@@ -120,9 +121,8 @@ pub(crate) fn turned<S: Simd>(matrix: &Mat3, [x, y, z]: V3<S>) -> V3<S> {
 
 /// An affine map of points.
 #[inline(always)]
-pub(crate) fn moved<S: Simd>(matrix: &Mat4, point: V3<S>) -> V3<S> {
-    let [x, y, z, _] = mapped(matrix, point);
-    [x, y, z]
+pub(crate) fn moved<S: Simd>(map: &Affine3, point: V3<S>) -> V3<S> {
+    sum(turned(&map.matrix3, point), splat(point[0].token(), map.translation))
 }
 
 /// A projective map of points.

@@ -15,6 +15,8 @@ use crate::transform::Transform;
 pub type NodeId = Id<Node>;
 
 /// A placement in the scene. Its content moves, rotates and scales with it, and so do its children.
+///
+/// A scene may have millions: what few nodes have is in a box.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
     /// A display name; need not be unique.
@@ -33,9 +35,9 @@ pub struct Node {
     /// difference. Targets beyond the list have weight 0.
     pub morph_weights: Vec<f32>,
     /// The light at this node, shining along −Z if it has a direction.
-    pub light: Option<Light>,
+    pub light: Option<Box<Light>>,
     /// The camera at this node, looking along −Z with +Y up.
-    pub camera: Option<Projection>,
+    pub camera: Option<Box<Projection>>,
     /// Whether the node is drawn; a hidden node also hides its children and turns off its light.
     pub visible: bool,
     pub(crate) parent: Option<NodeId>,
@@ -70,7 +72,7 @@ impl Node {
     /// A node that holds a light at the origin; place it with [`Node::at`].
     #[must_use]
     pub fn from_light(light: Light) -> Self {
-        Self { light: Some(light), ..Self::default() }
+        Self { light: Some(Box::new(light)), ..Self::default() }
     }
 
     /// The same node under another name.

@@ -1,6 +1,7 @@
 //! The transforms of one node: computed once per node in f64, cast once to f32.
 
 use trigon_camera::{Camera, Projection};
+use trigon_math::glam::Affine3;
 use trigon_math::{Bounds3, DAffine3, DMat3, DMat4, DVec3, Frustum, Mat3, Mat4, Vec3};
 use trigon_raster::Culling;
 use trigon_raster::simd::{F32, Simd};
@@ -17,7 +18,7 @@ pub(crate) struct Placement {
     /// From the anchor.
     pub(crate) to_clip: Mat4,
     /// From the anchor.
-    to_camera: Mat4,
+    to_camera: Affine3,
     /// Transforms normals; the result has any length.
     pub(crate) normal_to_camera: Mat3,
     /// The culled side for back faces: a mirroring placement flips the winding.
@@ -41,7 +42,7 @@ impl Placement {
 
     /// Transforms tangents; the result has any length.
     pub(crate) fn tangent_to_camera(&self) -> Mat3 {
-        Mat3::from_mat4(self.to_camera)
+        self.to_camera.matrix3
     }
 
     /// The factor on the handedness of the bitangent: a mirror exchanges sides.
@@ -119,7 +120,7 @@ impl Eye {
         Placement {
             anchor,
             to_clip: (self.projection * DMat4::from(from_anchor)).as_mat4(),
-            to_camera: DMat4::from(from_anchor).as_mat4(),
+            to_camera: from_anchor.as_affine3(),
             normal_to_camera: normal_matrix(&to_camera.matrix3, node.is_mirrored),
             cull_back: if node.is_mirrored { Culling::Front } else { Culling::Back },
             front: if node.is_mirrored { Side::Back } else { Side::Front },

@@ -58,8 +58,8 @@ fn lights(document: &Document) -> impl Iterator<Item = (NodeId, Light, DAffine3)
     let scene = document.nodes();
     let transforms = scene.visible_transforms();
     scene.nodes().iter().filter_map(move |(id, node)| {
-        let light = node.light.filter(|light| light.kind != LightKind::Ambient)?;
-        Some((id, light, transforms[id.index()]?))
+        let light = node.light.as_deref().filter(|light| light.kind != LightKind::Ambient)?;
+        Some((id, *light, transforms[id.index()]?))
     })
 }
 
@@ -194,7 +194,7 @@ mod tests {
     fn a_camera_is_found_by_its_lines() {
         let mut scene = Scene::new();
         let mut node = Node::default();
-        node.camera = Some(Projection::default());
+        node.camera = Some(Box::default());
         let id = scene.add(node);
         let document = Document::new(scene);
         let view = front();

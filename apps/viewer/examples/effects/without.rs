@@ -23,7 +23,7 @@ pub(crate) fn without(effect: Effect, scene: &Scene, settings: &RenderSettings) 
 
 fn put_out(scene: &mut Scene, is_meant: impl Fn(LightKind) -> bool) {
     for (_, node) in scene.nodes_mut() {
-        node.light = node.light.filter(|light| !is_meant(light.kind));
+        node.light.take_if(|light| is_meant(light.kind));
     }
 }
 

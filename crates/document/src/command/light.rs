@@ -3,7 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_mesh::math::{DVec3, Vec3};
-use trigon_scene::camera::Projection;
 use trigon_scene::{Light, LightKind, Node, Transform};
 
 use super::scene::select_only;
@@ -40,11 +39,11 @@ pub struct SetLight {
 impl Action for SetLight {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let id = named_or_active(change, self.object.as_ref(), "changing a light")?;
-        let light = change.scene().node(id).and_then(|node| node.light);
+        let light = change.scene().node(id).and_then(|node| node.light.as_deref());
         let needed = "an object that is a light";
         let light = light.ok_or(EditError::NothingSelected { command: "changing a light", needed })?;
-        let changed = self.changed(light);
-        change.scene_mut().node_mut(id).expect("it was just found").light = Some(changed);
+        let changed = self.changed(*light);
+        change.scene_mut().node_mut(id).expect("it was just found").light = Some(Box::new(changed));
         Ok(Outcome::silent())
     }
 }
@@ -104,7 +103,7 @@ impl Action for AddCamera {
         let (turn, position) = (self.rotation.to_quaternion(), DVec3::from(self.position));
         let transform = Transform::from_scale_rotation_translation(DVec3::ONE, turn, position);
         let mut node = Node::default().with_name(change.free_name(&self.name)).with_transform(transform);
-        node.camera = Some(Projection::default());
+        node.camera = Some(Box::default());
         let id = change.scene_mut().add(node);
         select_only(change, id);
         Ok(Outcome::silent())
@@ -126,7 +125,7 @@ mod tests {
         let mut document = Document::new(scene);
         let mut run = |json: serde_json::Value| {
             document.run(serde_json::from_value(json).expect("a command")).expect("it can be done");
-            document.nodes().node(id).and_then(|node| node.light).expect("it is a light")
+            document.nodes().node(id).and_then(|node| node.light.clone()).expect("it is a light")
         };
         let lamp = run(
             serde_json::json!({ "op": "set_light", "object": "lamp", "light": "spot", "inner_angle": 60.0 }),

@@ -179,6 +179,16 @@ impl<T: Stored> Stored for Arc<T> {
     }
 }
 
+impl<T: Stored> Stored for Box<T> {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
+        T::write(self, to);
+    }
+
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
+        T::read(from).map(Self::new)
+    }
+}
+
 impl<T: Stored> Stored for Vec<T> {
     fn write(&self, to: &mut CaptureWriter<'_>) {
         (self.len() as u64).write(to);

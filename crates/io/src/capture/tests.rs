@@ -22,7 +22,7 @@ fn capture() -> Capture {
     let parent = scene.add_object("cube", primitives::cube(1.0), Material::from_texture(texture));
     let child = scene.add_child(parent, Node::from_light(Light::spot(1.0))).expect("just added");
     let stand = scene.add(Node::default().at(DVec3::X));
-    scene.node_mut(stand).expect("just added").camera = Some(Camera::default().projection);
+    scene.node_mut(stand).expect("just added").camera = Some(Box::new(Camera::default().projection));
     let skin = scene.skins.insert(Skin { joints: vec![child], ..Skin::default() });
     scene.node_mut(parent).expect("just added").skin = Some(skin);
     let curve = Curve::new(Interpolation::Linear, 3, vec![0.0, 1.0], vec![0.5; 6]).expect("two keyframes");

@@ -348,17 +348,25 @@ fn cameras_and_lights_stand_on_nodes() {
         {"camera": 1, "extensions": {"KHR_lights_punctual": {"light": 1}}}, {"camera": 2, "extensions": {"KHR_lights_punctual": {"light": 2}}}]);
     let loaded = doc.load();
     let nodes: Vec<_> = loaded.scene.nodes().iter().map(|(_, node)| node).collect();
-    assert_eq!(nodes[1].camera, Projection::perspective(0.5, 0.25, None).ok(), "no far plane");
-    assert_eq!(nodes[2].camera, Projection::orthographic(6.0, 0.0, 8.0).ok(), "half extents");
+    assert_eq!(
+        nodes[1].camera.as_deref().copied(),
+        Projection::perspective(0.5, 0.25, None).ok(),
+        "no far plane"
+    );
+    assert_eq!(
+        nodes[2].camera.as_deref().copied(),
+        Projection::orthographic(6.0, 0.0, 8.0).ok(),
+        "half extents"
+    );
     assert_eq!(nodes[3].camera, None, "a camera at no distance sees nothing");
     warns_once(&loaded, "camera 2");
-    let light = nodes[1].light.expect("a light");
+    let light = nodes[1].light.as_ref().expect("a light");
     assert_eq!((light.kind, light.color), (LightKind::Directional, Vec3::X), "the sun");
     assert!((light.intensity - 1.0).abs() < 1e-6, "π lux show white: {}", light.intensity);
     assert_eq!(light.range, f32::INFINITY, "no range");
-    let spot = nodes[2].light.expect("a light");
+    let spot = nodes[2].light.as_ref().expect("a light");
     assert_eq!((spot.kind, spot.range), (LightKind::Spot { inner: 0.25, outer: 0.5 }, 20.0), "a cone");
-    let mended = nodes[3].light.expect("a light").kind;
+    let mended = nodes[3].light.as_ref().expect("a light").kind;
     assert_eq!(
         mended,
         LightKind::Spot { inner: 0.0, outer: std::f32::consts::FRAC_PI_2 },

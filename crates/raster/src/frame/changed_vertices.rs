@@ -123,8 +123,6 @@ impl ChangedVertices {
                     tasks.push(task);
                 }
             }
-            // The slot of vertices that do not exist.
-            split_mut(&mut screen_vertices, 1);
         }
         let shared = tasks.len() > 1;
         let queue = Mutex::new(tasks.into_iter());

@@ -86,7 +86,7 @@ impl SetUpContext<'_> {
     fn part<'s>(&'s self, draw: &DrawPlan, chunk: &'s mut Chunk) -> Setup<'s> {
         let vertices = DrawVertices {
             slots: self.plan.slots(draw),
-            screen_vertices: &self.screen_vertices[draw.screen_vertices.clone()],
+            screen_vertices: &self.screen_vertices[draw.screen_vertices()],
             pipeline: self.pass[draw.draw].pipeline,
             token: self.token,
         };

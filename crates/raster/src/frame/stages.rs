@@ -88,7 +88,7 @@ pub(crate) fn prepare<'f>(
     let Arena { plan, screen_vertices, varyings, chunks, .. } = arena;
     let used = plan.make(&pass.draws, chunks, options.workers.count(), layout.axis);
     let chunks = &mut chunks[..used];
-    screen_vertices.resize(plan.screen_vertices, ScreenVertex::MISSING);
+    screen_vertices.resize(plan.vertices, ScreenVertex::MISSING);
     varyings.resize(plan.varyings, 0.0);
     let mut clock = Clock::new(options.timed);
     run_vertices(&pass.draws, plan, grid.viewport, options, VertexValues { screen_vertices, varyings });
@@ -169,9 +169,6 @@ fn run_vertices(
         let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
         while plan.draws.get(queue.draw).is_some_and(|draw| queue.slot == draw.used.len()) {
             (queue.draw, queue.slot) = (queue.draw + 1, 0);
-            let (missing, others) = std::mem::take(&mut queue.screen_vertices).split_first_mut()?;
-            *missing = ScreenVertex::MISSING;
-            queue.screen_vertices = others;
         }
         let draw = plan.draws.get(queue.draw)?;
         let slots = queue.slot..draw.used.len().min(queue.slot + VERTICES);

@@ -210,7 +210,6 @@ fn search(listed: &[u32], index: u32) -> usize {
 #[derive(Clone, Copy)]
 pub(crate) struct DrawVertices<'a> {
     pub(crate) slots: Slots<'a>,
-    /// The last is that of vertices that do not exist.
     pub(crate) screen_vertices: &'a [ScreenVertex],
     pub(crate) pipeline: &'a dyn VertexProgram,
     pub(crate) token: Token,
@@ -220,9 +219,7 @@ impl<'a> DrawVertices<'a> {
     /// The vertex of an index; one that is not snapped and invalid if there is none.
     #[inline(always)]
     pub(crate) fn get(&self, index: u32) -> &'a ScreenVertex {
-        let missing =
-            self.screen_vertices.len().checked_sub(1).expect("there is one place more than vertices");
-        &self.screen_vertices[self.slots.of(index).min(missing)]
+        self.screen_vertices.get(self.slots.of(index)).unwrap_or(&ScreenVertex::MISSING)
     }
 
     /// The planes beyond which a vertex lies; none for one that needs no cutting.

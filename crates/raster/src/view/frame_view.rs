@@ -126,7 +126,7 @@ impl<'f> FrameView<'f> {
     #[inline(always)]
     pub(crate) fn vertices(&self, draw: usize) -> DrawVertices<'f> {
         let plan = &self.plan.draws[draw];
-        let screen_vertices = &self.screen_vertices[plan.screen_vertices.clone()];
+        let screen_vertices = &self.screen_vertices[plan.screen_vertices()];
         let pipeline = self.pass[plan.draw].pipeline;
         DrawVertices { slots: self.plan.slots(plan), screen_vertices, pipeline, token: self.token }
     }

@@ -24,13 +24,20 @@ pub(crate) struct DrawPlan {
     /// Ordinals of its primitives in the frame.
     pub(crate) ordinals: Range<u32>,
     pub(crate) used: UsedVertices,
-    /// Where its vertices are in the frame's array, and one more, for those that do not
-    /// exist.
-    pub(crate) screen_vertices: Range<usize>,
+    /// Where its vertices begin in the frame's array.
+    first_vertex: usize,
     /// The same for its varyings.
     pub(crate) varyings: usize,
     /// Where the plan says how its points look, if they are drawn from their vertices.
     points: Option<u32>,
+}
+
+impl DrawPlan {
+    /// Where its vertices are in the frame's array.
+    #[inline(always)]
+    pub(crate) fn screen_vertices(&self) -> Range<usize> {
+        self.first_vertex..self.first_vertex + self.used.len()
+    }
 }
 
 /// The draws of a frame in the order of their ordinals: opaque, masked, translucent; within each, the smaller
@@ -43,9 +50,8 @@ pub(crate) struct Plan {
     listed: Vec<u32>,
     /// The looks of points: few draws have any.
     points: Vec<PlainPoints>,
-    /// How many vertices, screen vertices and varyings there are in all.
+    /// How many vertices and varyings there are in all.
     pub(crate) vertices: usize,
-    pub(crate) screen_vertices: usize,
     pub(crate) varyings: usize,
     /// How many chunks its primitives are cut into.
     pub(crate) chunks: usize,
@@ -68,7 +74,7 @@ impl Plan {
         self.draws.clear();
         self.listed.clear();
         self.points.clear();
-        (self.vertices, self.screen_vertices, self.varyings) = (0, 0, 0);
+        (self.vertices, self.varyings) = (0, 0);
         self.draws.extend((0..recorded.len()).map(|draw| {
             let RecordedDraw { geometry, pipeline } = &recorded[draw];
             let used = UsedVertices::new(geometry.indices(), pipeline.vertex_count(), &mut self.listed);
@@ -76,7 +82,7 @@ impl Plan {
                 self.points.push(looks);
                 self.points.len() as u32 - 1
             });
-            DrawPlan { draw, ordinals: 0..0, used, screen_vertices: 0..0, varyings: 0, points }
+            DrawPlan { draw, ordinals: 0..0, used, first_vertex: 0, varyings: 0, points }
         }));
         // Equal keys stay in the order of the pass.
         self.draws.sort_unstable_by_key(|plan| {
@@ -89,9 +95,7 @@ impl Plan {
             let end = ordinal + geometry.len() as u32;
             plan.ordinals = ordinal..end;
             ordinal = end;
-            plan.screen_vertices = self.screen_vertices..self.screen_vertices + plan.used.len() + 1;
-            self.screen_vertices = plan.screen_vertices.end;
-            plan.varyings = self.varyings;
+            (plan.first_vertex, plan.varyings) = (self.vertices, self.varyings);
             self.vertices += plan.used.len();
             self.varyings += plan.used.len() * pipeline.stride();
         }

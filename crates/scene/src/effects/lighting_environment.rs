@@ -4,7 +4,8 @@
 //! shown: a clear pane must not be visible.
 
 use trigon_camera::FisheyeLens;
-use trigon_math::{DMat4, Mat3, Mat4, Vec3, Vec4};
+use trigon_math::glam::Affine3;
+use trigon_math::{DMat4, Mat3, Vec3, Vec4};
 use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{F32, Simd};
 
@@ -216,7 +217,7 @@ impl VisibleBackdrop {
     }
 
     /// Its light where a ray runs to, in the space of the rays.
-    pub(super) fn light(&self, to_camera: &Mat4, origin: Vec3, direction: Vec3) -> Vec3 {
+    pub(super) fn light(&self, to_camera: &Affine3, origin: Vec3, direction: Vec3) -> Vec3 {
         if self.top == self.bottom {
             return self.top;
         }
@@ -237,7 +238,7 @@ impl VisibleBackdrop {
 }
 
 /// How far below the upper edge of the image a ray runs to: 1 is the lower edge.
-fn down_on_plane(rows: &[Vec4; 2], to_camera: &Mat4, origin: Vec3, direction: Vec3) -> f32 {
+fn down_on_plane(rows: &[Vec4; 2], to_camera: &Affine3, origin: Vec3, direction: Vec3) -> f32 {
     // The divisor of an orthographic camera does not depend on the place.
     let at = match rows[1].w != 0.0 {
         true => to_camera.transform_point3(origin).extend(1.0),

@@ -194,7 +194,7 @@ impl Shown {
     fn new(scene: &Scene, settings: &RenderSettings) -> Self {
         let effects = &settings.effects;
         let has_ambient =
-            scene.nodes().iter().any(|(_, node)| node.light.is_some_and(|light| light.is_ambient()));
+            scene.nodes().iter().any(|(_, node)| node.light.as_ref().is_some_and(|light| light.is_ambient()));
         let adds = settings.lighting() == Lighting::Automatic && !has_ambient;
         let factor = scene.exposed_by(settings).map_or(1.0, |reading| reading.factor());
         let lights = f64::from(settings.light_factor());

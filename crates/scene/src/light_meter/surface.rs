@@ -150,11 +150,11 @@ impl Lamps {
     pub(super) fn of(scene: &Scene, transforms: &[Option<DAffine3>]) -> Option<Self> {
         let mut all = Self { ambient: DVec3::ZERO, lamps: Vec::new() };
         for (id, node) in scene.nodes().iter() {
-            let (Some(light), Some(world)) = (node.light, &transforms[id.index()]) else { continue };
+            let (Some(light), Some(world)) = (&node.light, &transforms[id.index()]) else { continue };
             if light.kind == LightKind::Ambient {
                 all.ambient += light.radiance().as_dvec3();
             } else {
-                all.lamps.push(MeteredLamp::new(light, world));
+                all.lamps.push(MeteredLamp::new(**light, world));
             }
         }
         (!all.lamps.is_empty()).then_some(all)

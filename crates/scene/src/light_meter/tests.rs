@@ -233,7 +233,7 @@ fn an_animation_keeps_one_exposure() {
         })
         .to_vec();
     assert_eq!(exposures, [-8.83; 3], "one after the other");
-    scene.node_mut(lamp).expect("it is there").light = Some(Light::point(1.0));
+    scene.node_mut(lamp).expect("it is there").light = Some(Box::new(Light::point(1.0)));
     assert!(scene.light_reading().expect("there is light").is_in_range(), "another lamp is measured anew");
 }
 

@@ -73,7 +73,7 @@ impl Lights {
         if lighting != Lighting::Studio {
             for (&index, world) in transforms {
                 let node = scene.nodes().id_at(index as usize).and_then(|id| scene.node(id));
-                let Some(light) = node.and_then(|node| node.light.as_ref()) else { continue };
+                let Some(light) = node.and_then(|node| node.light.as_deref()) else { continue };
                 if light.kind == LightKind::Ambient {
                     let radiance = light.radiance();
                     lights.ambient += radiance;

@@ -149,7 +149,7 @@ impl<'s> PreparedScene<'s> {
     /// The scene's light that a lamp is; `None` for a lamp of the studio.
     fn light(&self, lamp: &Lamp) -> Option<&Light> {
         let node = self.scene.nodes().id_at(lamp.node? as usize)?;
-        self.scene.node(node)?.light.as_ref()
+        self.scene.node(node)?.light.as_deref()
     }
 }
 

@@ -10,7 +10,7 @@ use trigon_math::{Mat3, Vec3, Vec4};
 use trigon_raster::{BlendMode, Culling, EdgeFlags};
 
 use super::looks::{LookKey, Looks, SharedLook};
-use super::record::{Dots, MarkNumbers, ObjectMarks, PointList, Record, Segments, TriangleDraw};
+use super::record::{Dots, MarkNumbers, ObjectMarks, PointList, Record, Segments, TriangleDraw, TriangleRun};
 use super::wire::{ColoredLines, HiddenLine, PointColors, Wire, WireMarks, WirePaint};
 use super::wire::{VertexList, VertexLists};
 use crate::display::Display;
@@ -298,7 +298,7 @@ impl<'s> Composer<'s> {
             Illumination::AtVertices => geometry.with_vertex_normals(object.asset.mesh()),
             _ => geometry,
         };
-        SharedLook::new(geometry, run, material, bound, &self.context())
+        SharedLook::new(self.triangle_run(object, geometry, run), material, bound, &self.context())
     }
 
     /// Whether a normal map can be seen: tangents are made for no other.
@@ -343,7 +343,7 @@ impl<'s> Composer<'s> {
         if bare.alpha_mode == AlphaMode::Opaque {
             bound.strip();
         }
-        SharedLook::new(object.geometry, run, &bare, bound, &context)
+        SharedLook::new(self.triangle_run(object, object.geometry, run), &bare, bound, &context)
     }
 
     /// Triangles at their node.
@@ -356,17 +356,21 @@ impl<'s> Composer<'s> {
     where
         's: 'c,
     {
-        let flags = self.shows_edges().then(|| &self.edge_flags(object)[run.triangles.clone()]);
         Box::new(TriangleDraw {
             pipeline: Surface::<FLAT>::new(object.placement, shared.look),
-            geometry: shared.geometry,
-            range: run.triangles.clone(),
-            edge_flags: flags,
+            run: shared.run,
             marks: self.marks_of(object, &run.triangles),
             object: object.index,
             culling: if shared.double_sided { Culling::None } else { object.placement.cull_back },
             blend_mode: self.blend_mode(object, run.slot, shared.alpha_mode),
         })
+    }
+
+    /// The triangles of one slot, of a geometry of the object.
+    fn triangle_run(&self, object: &DrawnObject<'s>, geometry: &'s Geometry, run: &Run) -> TriangleRun<'s> {
+        let range = run.triangles.clone();
+        let edge_flags = self.shows_edges().then(|| &self.edge_flags(object)[range.clone()]);
+        TriangleRun { geometry, range, edge_flags }
     }
 
     /// Whether faces show their edges.
@@ -383,12 +387,13 @@ impl<'s> Composer<'s> {
         let geometry = object.geometry;
         let pipeline =
             HiddenLine { columns: &geometry.columns, placement: object.placement, backdrop: self.backdrop };
+        let range = 0..geometry.triangles.len();
+        let marks = self.marks_of(object, &range);
+        let edge_flags = Some(self.edge_flags(object));
         Box::new(TriangleDraw {
             pipeline,
-            geometry,
-            range: 0..geometry.triangles.len(),
-            edge_flags: Some(self.edge_flags(object)),
-            marks: self.marks_of(object, &(0..geometry.triangles.len())),
+            run: Arc::new(TriangleRun { geometry, range, edge_flags }),
+            marks,
             object: object.index,
             culling: Culling::None,
             blend_mode: BlendMode::Opaque,

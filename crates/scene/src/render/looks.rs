@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::record::TriangleRun;
 use crate::geometry::{Geometry, Run};
 use crate::material::{AlphaMode, Material, MaterialId};
 use crate::surface::{BoundMaterial, DrawTriangles, Look, MaterialContext};
@@ -24,8 +25,8 @@ pub(super) struct LookKey {
 #[derive(Clone)]
 pub(super) struct SharedLook<'s> {
     pub(super) look: Arc<Look<'s>>,
-    /// With all that the look reads.
-    pub(super) geometry: &'s Geometry,
+    /// Of a geometry with all that the look reads.
+    pub(super) run: Arc<TriangleRun<'s>>,
     /// Whether a triangle has a single colour.
     pub(super) is_flat: bool,
     pub(super) double_sided: bool,
@@ -51,20 +52,20 @@ impl LookKey {
 impl<'s> SharedLook<'s> {
     /// The look of a run of triangles in a material.
     pub(super) fn new(
-        geometry: &'s Geometry,
-        run: &Run,
+        run: TriangleRun<'s>,
         material: &Material,
         bound: BoundMaterial<'s>,
         context: &MaterialContext<'s>,
     ) -> Self {
+        let TriangleRun { geometry, ref range, .. } = run;
         let drawn = DrawTriangles {
             columns: &geometry.columns,
-            triangles: &geometry.triangles[run.triangles.clone()],
-            faces: geometry.faces_of(run.triangles.clone()),
+            triangles: &geometry.triangles[range.clone()],
+            faces: geometry.faces_of(range.clone()),
         };
         let (is_flat, alpha_mode) = (bound.is_flat(), material.alpha_mode);
         let look = Arc::new(Look::new(drawn, bound, context));
-        Self { look, geometry, is_flat, double_sided: material.double_sided, alpha_mode }
+        Self { look, run: Arc::new(run), is_flat, double_sided: material.double_sided, alpha_mode }
     }
 }
 

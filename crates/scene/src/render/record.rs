@@ -49,13 +49,19 @@ pub(super) struct WireNumbers<'s> {
     pub(super) large: Option<&'s Arc<FixedBitSet>>,
 }
 
-/// Triangles of one mesh.
-pub(super) struct TriangleDraw<'s, P> {
-    pub(super) pipeline: P,
+/// Triangles of one mesh, wherever they are: nodes that draw the same share them.
+pub(super) struct TriangleRun<'s> {
     pub(super) geometry: &'s Geometry,
     /// Those of the geometry's triangles that are drawn.
     pub(super) range: Range<usize>,
+    /// Of those that are drawn.
     pub(super) edge_flags: Option<&'s [EdgeFlags]>,
+}
+
+/// Triangles of one mesh at one node. A scene may have millions: what does not depend on the node is shared.
+pub(super) struct TriangleDraw<'s, P> {
+    pub(super) pipeline: P,
+    pub(super) run: Arc<TriangleRun<'s>>,
     /// Few draws have any.
     pub(super) marks: Option<Box<ObjectMarks<'s>>>,
     pub(super) object: u32,
@@ -96,9 +102,10 @@ impl Faces for HiddenLine<'_> {
 
 impl<P: Faces> Record for TriangleDraw<'_, P> {
     fn record<'a>(&'a self, pass: &mut Pass<'a>) {
+        let TriangleRun { geometry, ref range, edge_flags } = *self.run;
         pass.triangles(Draw {
-            faces: self.geometry.faces_of(self.range.clone()),
-            edge_flags: self.edge_flags,
+            faces: geometry.faces_of(range.clone()),
+            edge_flags,
             marks: self.marks.as_ref().map(|marks| Marks {
                 sides: marks.sides,
                 edges: &marks.numbers.edges,
@@ -107,18 +114,14 @@ impl<P: Faces> Record for TriangleDraw<'_, P> {
             object: self.object,
             culling: self.culling,
             blend_mode: self.blend_mode,
-            ..Draw::new(&self.pipeline, &self.geometry.triangles[self.range.clone()])
+            ..Draw::new(&self.pipeline, &geometry.triangles[range.clone()])
         });
     }
 
     fn source(&self) -> DrawSource<'_> {
         let marked = Marked::Faces(self.marks.as_deref());
-        DrawSource {
-            geometry: self.geometry,
-            triangles: self.range.clone(),
-            placement: self.pipeline.placement(),
-            marked,
-        }
+        let (geometry, triangles) = (self.run.geometry, self.run.range.clone());
+        DrawSource { geometry, triangles, placement: self.pipeline.placement(), marked }
     }
 }
 

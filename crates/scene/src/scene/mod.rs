@@ -331,7 +331,7 @@ impl Scene {
     /// camera's scale is ignored.
     #[must_use]
     pub fn cameras(&self) -> Vec<(NodeId, Camera)> {
-        let holders = self.nodes.iter().filter_map(|(id, node)| Some((id, node.camera?)));
+        let holders = self.nodes.iter().filter_map(|(id, node)| Some((id, **node.camera.as_ref()?)));
         holders.map(|(id, projection)| (id, camera_at(&self.world_transform(id), projection))).collect()
     }
 

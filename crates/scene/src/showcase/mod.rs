@@ -201,7 +201,9 @@ fn add_camera(scene: &mut Scene) {
     let transform =
         Transform::from_scale_rotation_translation(DVec3::ONE, camera.orientation, camera.position);
     scene.add(
-        Node { camera: Some(projection), ..Node::default() }.with_name("camera").with_transform(transform),
+        Node { camera: Some(Box::new(projection)), ..Node::default() }
+            .with_name("camera")
+            .with_transform(transform),
     );
 }
 

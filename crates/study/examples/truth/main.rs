@@ -106,7 +106,7 @@ fn surface(scene: &Scene, material: &Material, name: &str, folder: &Path) -> Res
 }
 
 fn light(scene: &Scene, id: NodeId) -> Option<Value> {
-    let light = scene.node(id)?.light?;
+    let light = scene.node(id)?.light.as_ref()?;
     let world = scene.world_transform(id);
     let along = world.transform_vector3(DVec3::NEG_Z).normalize().to_array();
     let place = world.translation.to_array();

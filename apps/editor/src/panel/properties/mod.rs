@@ -62,7 +62,7 @@ pub(crate) fn properties(
         section(ui, "Transform", |ui| {
             transform::transform(ui, object, &mut state.transform, requests);
         });
-        if let Some(light) = node.light {
+        if let Some(light) = node.light.as_deref().copied() {
             section(ui, "Light", |ui| transform::light(ui, object, light, requests));
         }
         if node.mesh.is_some() {

@@ -77,7 +77,8 @@ fn a_light_has_its_parameters() {
     case.type_number("Outer angle", "30");
     case.click("Limited range");
     case.type_number("Range", "4");
-    let light = case.document().nodes().node(lamp).and_then(|node| node.light).expect("it is a light");
+    let light =
+        case.document().nodes().node(lamp).and_then(|node| node.light.clone()).expect("it is a light");
     assert_eq!((light.intensity, light.range), (7.5, 4.0), "as typed");
     let trigon_document::scene::LightKind::Spot { outer, .. } = light.kind else { panic!("it is a spot") };
     assert_eq!(outer, 30f32.to_radians(), "shown in degrees");

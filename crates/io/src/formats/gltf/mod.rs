@@ -105,10 +105,10 @@ fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<Arc<[u8]>>)
     let used: Vec<Option<usize>> = used.into_iter().collect();
     let materials = materials::add_materials(import, &document, &mut buffers, &used)?;
     let primitives = keep::take_primitives(import, &mut meshes);
-    let placed = nodes::add_nodes(import, &document, &hierarchy, meshes, &materials);
+    let placed = nodes::add_nodes(import, &mut document, &hierarchy, meshes, &materials);
     keep::keep_placed(import, &placed, primitives, &materials);
     keep::keep_scene(import, hierarchy.scene);
-    let mut reader = AccessorReader { root, buffers, spent };
+    let mut reader = AccessorReader { root: &placed.document.root, buffers, spent };
     nodes::add_instances(import, &mut reader, &placed)?;
     skins::add_skins(import, &mut reader, &placed)?;
     animations::add_animations(import, &mut reader, &placed)?;

@@ -37,9 +37,10 @@ impl Placed<'_> {
     }
 }
 
+/// Adds them, with their names taken out of the document: there may be millions.
 pub(crate) fn add_nodes<'d>(
     import: &mut Import<'_>,
-    document: &'d Document,
+    document: &'d mut Document,
     hierarchy: &Hierarchy,
     meshes: Vec<Option<BuiltMesh>>,
     materials: &BTreeMap<Option<usize>, MaterialId>,
@@ -61,11 +62,12 @@ pub(crate) fn add_nodes<'d>(
             })
         })
         .collect();
-    let included = (0..document.root.nodes.len()).filter(|&node| hierarchy.included[node]);
     let mut ids: Vec<Option<NodeId>> = vec![None; document.root.nodes.len()];
+    let included = (0..ids.len()).filter(|&node| hierarchy.included[node]);
     for index in included {
+        let name = document.root.nodes[index].name.take().unwrap_or_else(|| format!("node {index}"));
         let node = convert_node(import, document, index, &meshes);
-        ids[index] = Some(import.scene.add(node));
+        ids[index] = Some(import.scene.add(node.with_name(name)));
     }
     hang_up(import, document, hierarchy, &ids);
     if !hierarchy.roots.is_sorted() {
@@ -114,6 +116,7 @@ fn hang_up(import: &mut Import<'_>, document: &Document, hierarchy: &Hierarchy, 
     }
 }
 
+/// All but the name.
 fn convert_node(
     import: &mut Import<'_>,
     document: &Document,
@@ -124,8 +127,7 @@ fn convert_node(
     let plain = RawTransform::default();
     let raw = document.transforms.get(index).unwrap_or(&plain);
     let transform = convert_transform(raw, index, &mut import.warnings);
-    let name = from.name.clone().unwrap_or_else(|| format!("node {index}"));
-    let mut node = Node::default().with_name(name).with_transform(transform);
+    let mut node = Node::default().with_transform(transform);
     if let Some((mesh, materials)) = from.mesh.and_then(|mesh| meshes[mesh.value()].clone()) {
         (node.mesh, node.materials) = (Some(mesh), materials);
     }
@@ -133,11 +135,12 @@ fn convert_node(
         let own = from.weights.as_deref().map(sound_weights);
         node.morph_weights = own.unwrap_or_else(|| default_weights(&document.root, mesh.value()));
     }
-    node.light = convert_light(&document.root, from, &mut import.warnings);
-    node.camera = convert_camera(&document.root, from, &mut import.warnings);
+    node.light = convert_light(&document.root, from, &mut import.warnings).map(Box::new);
+    node.camera = convert_camera(&document.root, from, &mut import.warnings).map(Box::new);
     if let Some(extras) = raw.native.get() {
         node.visible = !extras.hidden;
-        let ambient = |from: &AmbientExtras| Light::ambient(from.intensity).with_color(from.color.into());
+        let ambient =
+            |from: &AmbientExtras| Box::new(Light::ambient(from.intensity).with_color(from.color.into()));
         node.light = extras.ambient.as_ref().map(ambient).or(node.light);
     }
     node

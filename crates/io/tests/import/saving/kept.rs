@@ -221,10 +221,10 @@ fn whatever_changes_of_a_copy_is_saved() {
         ("nothing", |_, _| {}),
         ("name", |scene, id| scene.node_mut(id).expect("there").name = "renamed".to_owned()),
         ("visibility", |scene, id| scene.node_mut(id).expect("there").visible = false),
-        ("light", |scene, id| scene.node_mut(id).expect("there").light = Some(Light::point(3.0))),
+        ("light", |scene, id| scene.node_mut(id).expect("there").light = Some(Box::new(Light::point(3.0)))),
         ("camera", |scene, id| {
             let camera = trigon_camera::Projection::perspective(0.5, 0.25, Some(9.0)).expect("valid");
-            scene.node_mut(id).expect("there").camera = Some(camera);
+            scene.node_mut(id).expect("there").camera = Some(Box::new(camera));
         }),
         ("material", |scene, id| {
             let red = scene.add_material(Material::from_color(Vec3::X));

@@ -239,8 +239,8 @@ fn transforms_lights_and_shading_come_back_to_the_bit() {
     assert_eq!(warned, [], "nothing to warn of");
     for ((_, was), (_, now)) in scene.nodes().iter().zip(second.scene.nodes().iter()) {
         assert_eq!(
-            (now.transform, now.light, now.visible),
-            (was.transform, was.light, was.visible),
+            (now.transform, &now.light, now.visible),
+            (was.transform, &was.light, was.visible),
             "{}",
             was.name
         );

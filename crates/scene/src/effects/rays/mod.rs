@@ -12,7 +12,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use surface_hit::CasterSurfaces;
-use trigon_math::{Bvh, DAffine3, DMat4, DVec3, Mat4, Ray, Vec3};
+use trigon_math::glam::Affine3;
+use trigon_math::{Bvh, DAffine3, DVec3, Ray, Vec3};
 use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{F32, InlineMap, LANES, Simd, lanes_of};
 
@@ -74,9 +75,9 @@ impl RayTriangles {
 pub(crate) struct RayScene {
     triangles: Arc<RayTriangles>,
     /// From camera space to the triangles'.
-    to_scene: Mat4,
+    to_scene: Affine3,
     /// And back.
-    pub(super) from_scene: Mat4,
+    pub(super) from_scene: Affine3,
     /// Shadow, occlusion and sight rays.
     pub(super) cast: [AtomicU64; 3],
 }
@@ -85,7 +86,7 @@ impl RayScene {
     fn new(triangles: Arc<RayTriangles>, camera_to_world: &DAffine3) -> Self {
         let shifted =
             DAffine3 { translation: camera_to_world.translation - triangles.middle, ..*camera_to_world };
-        let [to_scene, from_scene] = [shifted, shifted.inverse()].map(|map| DMat4::from(map).as_mat4());
+        let [to_scene, from_scene] = [shifted, shifted.inverse()].map(|map| map.as_affine3());
         Self { triangles, to_scene, from_scene, cast: Default::default() }
     }
 
@@ -157,7 +158,7 @@ impl RayScene {
 
     /// From camera directions to the triangles'.
     pub(super) fn turn(&self) -> trigon_math::Mat3 {
-        trigon_math::Mat3::from_mat4(self.to_scene)
+        self.to_scene.matrix3
     }
 
     /// Camera directions as the triangles have them.

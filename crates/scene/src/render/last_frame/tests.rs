@@ -231,7 +231,7 @@ impl Sequence {
             }
             Event::LightDimmed(intensity) => {
                 let node = model.scene.node_mut(model.nodes[4]).expect("it is there");
-                node.light = Some(Light::directional(*intensity));
+                node.light = Some(Box::new(Light::directional(*intensity)));
             }
             Event::Cancelled => {
                 let cancel = Cancel::default();

@@ -31,7 +31,7 @@ fn a_light_is_moved_by_key_and_gizmo_and_made_brighter() {
     saved_and_reopened(LIGHT, |document| {
         let scene = document.nodes();
         let (id, node) = scene.nodes().iter().find(|(_, node)| node.name == "Light").expect("a light");
-        assert_eq!(node.light.expect("it shines").intensity, 250.0, "as typed");
+        assert_eq!(node.light.as_ref().expect("it shines").intensity, 250.0, "as typed");
         let DVec3 { x, y, z } = scene.world_transform(id).translation;
         assert_eq!([x, z], [5.0, 3.0], "moved by 1 m, and not at all");
         assert!((3.0..5.9).contains(&y), "and down by the gizmo: {y}");

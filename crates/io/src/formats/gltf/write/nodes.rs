@@ -33,7 +33,7 @@ pub(super) fn write_node(
         object.set_or_remove("weights", weights);
     }
     if now.camera != was.camera {
-        let camera = now.camera.as_ref().and_then(camera).map(|camera| draft.push("cameras", &camera));
+        let camera = now.camera.as_deref().and_then(camera).map(|camera| draft.push("cameras", &camera));
         object.set_or_remove("camera", camera.as_ref());
     }
     if now.light != was.light {
@@ -101,13 +101,13 @@ pub(super) fn camera(projection: &Projection) -> Option<serde_json::Value> {
 }
 
 fn ambient(node: &Node) -> Option<AmbientExtras> {
-    let light = node.light.filter(|light| light.kind == LightKind::Ambient)?;
+    let light = node.light.as_deref().filter(|light| light.kind == LightKind::Ambient)?;
     Some(AmbientExtras { color: light.color.to_array(), intensity: light.intensity })
 }
 
 fn write_light(draft: &mut Draft<'_>, object: &mut RawObject, node: &Node) {
     let mut extensions = object.object("extensions");
-    match node.light.as_ref().and_then(punctual) {
+    match node.light.as_deref().and_then(punctual) {
         Some(light) => {
             let index = draft.light(&light);
             extensions.set(LIGHTS, &json!({"light": index}));
@@ -211,5 +211,5 @@ fn same_node(now: &Node, was: &Node) -> bool {
         && now.children() == was.children()
         && (&now.name, now.transform, now.mesh, now.skin, now.visible)
             == (&was.name, was.transform, was.mesh, was.skin, was.visible)
-        && (&now.morph_weights, now.light, now.camera) == (&was.morph_weights, was.light, was.camera)
+        && (&now.morph_weights, &now.light, &now.camera) == (&was.morph_weights, &was.light, &was.camera)
 }

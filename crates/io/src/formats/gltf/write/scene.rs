@@ -338,7 +338,8 @@ impl<'a> SceneWriter<'a> {
             };
             write_node(&mut self.draft, &mut object, was, now, animated.contains(&id));
             self.keep_empty_name(&mut object, &now.name);
-            if now.camera != was.camera && now.camera.is_some_and(|projection| camera(&projection).is_none())
+            if now.camera != was.camera
+                && now.camera.as_deref().is_some_and(|projection| camera(projection).is_none())
             {
                 self.lose(&[(id, now)], "its camera, which is of a kind that glTF does not have");
             }
