@@ -141,7 +141,7 @@ mod tests {
     fn an_image_is_shown_no_larger_than_the_screen_needs() {
         // Black and white columns: their mean in linear light is one half, which is 188 in sRGB.
         let (width, height) = (2 * SHOWN as u32 - 1, 2);
-        let pixel = |index: u32| if index % width % 2 == 0 { [0, 0, 0, 255] } else { [255; 4] };
+        let pixel = |index: u32| if (index % width).is_multiple_of(2) { [0, 0, 0, 255] } else { [255; 4] };
         let color = (0..width * height).flat_map(pixel).collect();
         let image = RenderedImage::new(Frame { width, height, color, ..Frame::default() });
         assert_eq!(image.shown.size, [SHOWN, 1], "half of it");

@@ -1,5 +1,6 @@
 //! The window of the rendered image: what is rendered and how, the progress, and the image.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use trigon_document::scene::quality::Preset;
@@ -135,7 +136,7 @@ fn name_of(preset: Preset) -> &'static str {
     }
 }
 
-/// The progress while an image is rendered; otherwise the image, or why there is none.
+/// The progress while an image is rendered, or else what the last one is or why there is none; and the image.
 fn content(ui: &mut Ui, images: &mut Images, has_camera: bool) -> Option<Did> {
     let mut did = None;
     if let Some(rendering) = &images.rendering {
@@ -157,21 +158,22 @@ fn content(ui: &mut Ui, images: &mut Images, has_camera: bool) -> Option<Did> {
                 did = Some(Did::Render(RenderFrom::View));
             }
         }
+    } else if let Some(rendered) = &images.rendered {
+        ui.weak(format!("{} × {} pixels", rendered.frame.width, rendered.frame.height));
     }
     image(ui, images);
     did
 }
 
-/// The last image, as large as there is room, and what it is.
+/// The last image, as large as there is room.
 fn image(ui: &mut Ui, images: &mut Images) {
     let Some(rendered) = &images.rendered else { return };
-    let (width, height) = (rendered.frame.width, rendered.frame.height);
-    ui.weak(format!("{width} × {height} pixels"));
     let texture = images.texture.get_or_insert_with(|| {
-        ui.ctx().load_texture("rendered", std::sync::Arc::clone(&rendered.shown), TextureOptions::LINEAR)
+        ui.ctx().load_texture("rendered", Arc::clone(&rendered.shown), TextureOptions::LINEAR)
     });
     let room = ui.available_size().max(Vec2::splat(64.0));
-    let points = Vec2::new(width as f32, height as f32) / ui.ctx().pixels_per_point();
+    let pixels = Vec2::new(rendered.frame.width as f32, rendered.frame.height as f32);
+    let points = pixels / ui.ctx().pixels_per_point();
     let scale = (room.x / points.x).min(room.y / points.y).min(1.0);
     ui.add(Image::new((texture.id(), points * scale)));
 }

@@ -73,8 +73,12 @@ fn rendered_display_shows_shadows_of_the_lights_of_the_document_alone() {
     settings.effects.shadows = Shadows::Off;
     let without = draw(&settings);
     assert!(with.color.iter().zip(&without.color).all(|(with, without)| with <= without), "shadows are dark");
-    let darker =
-        with.color.iter().zip(&without.color).filter(|(with, without)| with.saturating_add(20) < **without).count();
+    let darker = with
+        .color
+        .iter()
+        .zip(&without.color)
+        .filter(|(with, without)| with.saturating_add(20) < **without)
+        .count();
     assert!(darker > 3 * 50, "the cube's shadow on the plane: {darker}");
     let light = json!({ "op": "select", "objects": ["Light"] });
     worked.run_all(&[light, json!({ "op": "delete_objects" })]);
