@@ -93,8 +93,14 @@ pub(crate) enum ViewRequest {
     CameraToView,
     Display(DisplayMode),
     ToggleWireframe,
+    /// What colours surfaces in the mode Solid.
+    Solid(SolidColor),
     ToggleXRay,
     ToggleOverlays,
+    /// Renders an image through the scene's camera.
+    Render,
+    /// Asks where to write what the view shows.
+    Screenshot,
 }
 
 /// How surfaces are shown.
@@ -112,6 +118,25 @@ pub(crate) enum DisplayMode {
     Rendered,
 }
 
+/// What gives surfaces their colours in the mode Solid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum SolidColor {
+    /// The colour of the material, without images.
+    #[default]
+    Material,
+    /// The material with the image of its base colour.
+    Texture,
+}
+
+/// An image that is written to a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ImageKind {
+    /// What the view shows.
+    Screenshot,
+    /// What was rendered last.
+    Render,
+}
+
 /// What happens to files.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum FileRequest {
@@ -124,6 +149,11 @@ pub(crate) enum FileRequest {
     Texture {
         material: MaterialName,
         slot: TextureSlot,
+        path: PathBuf,
+    },
+    /// Writes an image, in the format that the ending of its name says.
+    SaveImage {
+        kind: ImageKind,
         path: PathBuf,
     },
 }

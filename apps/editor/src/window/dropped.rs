@@ -11,7 +11,7 @@ use trigon_window::Stage;
 
 use super::dialog::IMAGES;
 use super::editor::{Editor, Message};
-use crate::request::DisplayMode;
+use crate::request::{DisplayMode, SolidColor};
 
 /// Whether a file is an image, by the ending of its name.
 pub(super) fn is_image(path: &Path) -> bool {
@@ -46,10 +46,12 @@ impl Editor {
         self.show(stage);
     }
 
-    /// Shows textures, which a plain display mode does not.
+    /// Shows textures, which edges and clay do not.
     pub(super) fn show_images(&mut self) {
-        if !matches!(self.view.display, DisplayMode::Textured | DisplayMode::Rendered) {
-            self.view.display = DisplayMode::Textured;
+        match self.view.display {
+            DisplayMode::Solid => self.view.solid = SolidColor::Texture,
+            DisplayMode::Wireframe | DisplayMode::Matcap => self.view.display = DisplayMode::Textured,
+            DisplayMode::Textured | DisplayMode::Rendered => {}
         }
     }
 

@@ -15,6 +15,7 @@ use super::actions;
 use super::button_start::Click;
 use super::dialog::{FileWindow, Purpose};
 use super::gizmo_cache::GizmoCache;
+use super::images::Images;
 use super::interface::Toast;
 use super::keys::Keys;
 use super::loading::Loading;
@@ -63,6 +64,8 @@ pub(crate) struct Editor {
     pub(crate) rename: Option<Rename>,
     pub(crate) question: Option<Question>,
     pub(crate) dialog: FileWindow,
+    /// What is rendered, and images that are written.
+    pub(crate) images: Images,
     /// The file that is being loaded.
     pub(crate) loading: Option<Loading>,
     /// Files to be imported after it.
@@ -119,6 +122,7 @@ impl Editor {
             rename: None,
             question: None,
             dialog: FileWindow::default(),
+            images: Images::default(),
             loading: None,
             to_import: VecDeque::new(),
             saving: None,

@@ -99,6 +99,7 @@ impl Editor {
                 self.show(stage);
             }
             FileRequest::Export(path) => self.export(&with_extension(path)),
+            FileRequest::SaveImage { kind, path } => self.save_image(stage, kind, path),
         }
     }
 
@@ -121,11 +122,12 @@ impl Editor {
     }
 
     /// Under which name something is written first; for what is read none is better than another.
-    fn suggestion(&self, purpose: &Purpose) -> PathBuf {
+    pub(super) fn suggestion(&self, purpose: &Purpose) -> PathBuf {
         let path = self.file.path.as_deref().unwrap_or(Path::new("untitled"));
         match purpose {
             Purpose::SaveAs => path.with_extension("glb"),
             Purpose::Export => path.with_extension("obj"),
+            Purpose::Image(_) => path.with_extension("png"),
             _ => PathBuf::new(),
         }
     }

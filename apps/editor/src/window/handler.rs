@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use trigon_window::scene::Frame;
 use trigon_window::scene::camera::Projector;
 use trigon_window::scene::math::DVec2;
 use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton, Stage, Taken, egui};
@@ -76,9 +77,14 @@ impl Handler for Editor {
         if let Some(outcome) = self.saving.as_ref().and_then(Saving::outcome) {
             self.saved(stage, outcome);
         }
+        self.collect_images();
         if let Some(request) = self.dialog.picked() {
             self.perform(stage, Request::File(request));
         }
+    }
+
+    fn image(&mut self, stage: &mut Stage, frame: Frame) {
+        self.screenshot_taken(stage, frame);
     }
 
     fn close_requested(&mut self, stage: &mut Stage) {
@@ -188,7 +194,8 @@ impl Editor {
         let was_open =
             self.popup.is_some() || self.search.is_some() || self.report.is_some() || self.layout.help;
         (self.popup, self.search, self.report, self.layout.help) = (None, None, None, false);
-        was_open | self.dialog.close() | self.rename.take().is_some()
+        let was_open = was_open | self.dialog.close() | self.rename.take().is_some();
+        was_open || self.images.leave()
     }
 
     fn pressed(&mut self, stage: &mut Stage, hands: Hands) -> Taken {

@@ -7,7 +7,7 @@ use trigon_window::scene::math::{DVec2, DVec3, Vec3};
 use trigon_window::{Area, Stage};
 
 use super::editor::{Editor, Message};
-use crate::request::{DisplayMode, ViewRequest};
+use crate::request::{DisplayMode, ImageKind, ViewRequest};
 
 impl Editor {
     /// Does what is asked for.
@@ -35,6 +35,9 @@ impl Editor {
             ViewRequest::Display(mode) => editor.view.display = mode,
             ViewRequest::ToggleWireframe => toggle_wireframe(editor),
             ViewRequest::ToggleFourViews => editor.toggle_four_views(stage),
+            ViewRequest::Solid(color) => editor.view.solid = color,
+            ViewRequest::Render => editor.render_camera(stage),
+            ViewRequest::Screenshot => editor.ask_for_image(ImageKind::Screenshot),
             ViewRequest::ToggleXRay => editor.view.x_ray = !editor.view.x_ray,
             ViewRequest::ToggleOverlays => editor.view.overlays = !editor.view.overlays,
         }
@@ -181,7 +184,7 @@ fn look_through_camera(editor: &mut Editor, stage: &mut Stage) {
 }
 
 /// The active object, if it is a camera, or else the first camera of the scene.
-fn camera(document: &Document) -> Option<(NodeId, Camera)> {
+pub(super) fn camera(document: &Document) -> Option<(NodeId, Camera)> {
     let (cameras, active) = (document.nodes().cameras(), document.selection().active);
     let is_active = |(id, _): &&(NodeId, Camera)| Some(*id) == active;
     cameras.iter().find(is_active).or(cameras.first()).copied()

@@ -1,11 +1,12 @@
 //! The document on the stage: its scene, its selection, and its display settings.
 
 use trigon_document::X_RAY;
-use trigon_document::scene::{Reach, Style};
+use trigon_document::scene::{Reach, Shadows, Style};
 use trigon_window::Stage;
 use trigon_window::scene::{Display, Lighting, Reflection};
 
 use super::editor::Editor;
+use super::images;
 use super::surfaces::Surfaces;
 use crate::request::DisplayMode;
 use crate::show::show;
@@ -16,7 +17,7 @@ impl Editor {
         let editor = self;
         editor.pointing.wait();
         let changed = show(&mut editor.document, &mut stage.scene);
-        let (local, surfaces) = (&editor.view.local, Surfaces::of(editor.view.display));
+        let (local, surfaces) = (&editor.view.local, Surfaces::of(editor.view.display, editor.view.solid));
         let is_same_part = editor.look.local == *local;
         let is_same = is_same_part && editor.look.surfaces == surfaces;
         let is_own = local.is_none() && surfaces == Surfaces::Own;
@@ -51,6 +52,9 @@ fn show_partly(editor: &mut Editor, stage: &mut Stage, surfaces: Surfaces) {
     surfaces.dress(&mut stage.scene);
 }
 
+/// The shadows of the document's lights in the view. The studio's lights move with the camera, and have none.
+const SHADOWS: Shadows = Shadows::Maps { resolution: 2048 };
+
 /// Style, lights and marks of the mode that the editor is in.
 fn set_look(editor: &Editor, stage: &mut Stage) {
     let is_editing = editor.document.selection().is_editing();
@@ -63,6 +67,8 @@ fn set_look(editor: &Editor, stage: &mut Stage) {
     };
     settings.display = if display == DisplayMode::Matcap { Display::Matcap } else { Display::Shaded };
     settings.lighting = if display == DisplayMode::Rendered { Lighting::Automatic } else { Lighting::Studio };
+    let has_shadows = display == DisplayMode::Rendered && images::has_lamps(editor.document.nodes());
+    settings.effects.shadows = if has_shadows { SHADOWS } else { Shadows::Off };
     settings.reflection =
         if display == DisplayMode::Solid { Reflection::Lambert } else { Reflection::Material };
     editor.look.marks.apply(settings, editor.reach());

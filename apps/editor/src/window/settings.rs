@@ -13,7 +13,7 @@ use trigon_window::{
 };
 
 use super::surfaces::Surfaces;
-use crate::request::{DisplayMode, GizmoKind, Orientation, Pivot, SnapSource, SnapTarget};
+use crate::request::{DisplayMode, GizmoKind, Orientation, Pivot, SnapSource, SnapTarget, SolidColor};
 use crate::tool::{SnapSettings, TransformSettings};
 
 /// How tools work.
@@ -71,6 +71,7 @@ pub(crate) struct ViewState {
     pub(crate) display: DisplayMode,
     /// What was shown before the wireframe.
     pub(crate) before_wireframe: DisplayMode,
+    pub(crate) solid: SolidColor,
     pub(crate) x_ray: bool,
     /// The only objects that are shown.
     pub(crate) local: Option<BTreeSet<NodeId>>,
@@ -90,6 +91,7 @@ impl Default for ViewState {
         Self {
             display,
             before_wireframe,
+            solid: SolidColor::default(),
             x_ray: false,
             local: None,
             before_local: None,

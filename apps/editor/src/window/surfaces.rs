@@ -3,7 +3,7 @@
 use trigon_document::scene::{Material, Scene};
 use trigon_window::scene::math::Vec3;
 
-use crate::request::DisplayMode;
+use crate::request::{DisplayMode, SolidColor};
 
 /// In what surfaces are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -13,15 +13,16 @@ pub(super) enum Surfaces {
     Own,
     /// The same without images.
     Plain,
+    /// The same with the images of their base colours alone.
+    BaseColor,
 }
 
 impl Surfaces {
-    pub(super) fn of(mode: DisplayMode) -> Self {
-        match mode {
-            DisplayMode::Solid => Self::Plain,
-            DisplayMode::Wireframe | DisplayMode::Matcap | DisplayMode::Textured | DisplayMode::Rendered => {
-                Self::Own
-            }
+    pub(super) fn of(mode: DisplayMode, solid: SolidColor) -> Self {
+        match (mode, solid) {
+            (DisplayMode::Solid, SolidColor::Material) => Self::Plain,
+            (DisplayMode::Solid, SolidColor::Texture) => Self::BaseColor,
+            _ => Self::Own,
         }
     }
 
@@ -30,6 +31,11 @@ impl Surfaces {
         match self {
             Self::Own => {}
             Self::Plain => scene.materials.iter_mut().for_each(|(_, material)| take_images_off(material)),
+            Self::BaseColor => scene.materials.iter_mut().for_each(|(_, material)| {
+                let base_color = material.base_color_texture;
+                take_images_off(material);
+                material.base_color_texture = base_color;
+            }),
         }
     }
 }
@@ -64,12 +70,21 @@ mod tests {
     #[test]
     fn solid_shows_no_images() {
         let mut plain = scene();
-        Surfaces::of(DisplayMode::Solid).dress(&mut plain);
+        Surfaces::of(DisplayMode::Solid, SolidColor::Material).dress(&mut plain);
         let (_, material) = plain.materials.iter().next().expect("one");
         assert!(material.base_color_texture.is_none() && material.emissive_texture.is_none(), "no images");
         assert_eq!(material.emissive, Vec3::ZERO, "and no light in their place");
         let mut own = scene();
-        Surfaces::of(DisplayMode::Textured).dress(&mut own);
+        Surfaces::of(DisplayMode::Textured, SolidColor::Material).dress(&mut own);
         assert!(own.materials.iter().all(|(_, material)| material.base_color_texture.is_some()), "as it is");
+    }
+
+    #[test]
+    fn solid_shows_images_of_base_colours_on_request() {
+        let mut textured = scene();
+        Surfaces::of(DisplayMode::Solid, SolidColor::Texture).dress(&mut textured);
+        let (_, material) = textured.materials.iter().next().expect("one");
+        assert!(material.base_color_texture.is_some(), "the image");
+        assert!(material.emissive_texture.is_none() && material.emissive == Vec3::ZERO, "and no other");
     }
 }

@@ -5,7 +5,7 @@ use trigon_modelling::{ElementMap, ElementNumbers};
 use trigon_scene::{MeshId, Scene};
 
 use super::Document;
-use crate::state::{MarkedElements, Outdated, SceneChange, State, Untold};
+use crate::state::{MarkedElements, Outdated, SceneChange, State, Untold, shown_levels};
 
 impl Document {
     /// The scene as it is now, for drawing. Its meshes follow the edits since the last call: in
@@ -15,6 +15,21 @@ impl Document {
         let State { file, shown, selection, .. } = &mut self.state;
         shown.update(&mut file.native.scene, &file.edited, selection);
         &file.native.scene
+    }
+
+    /// The scene as an image shows it: subdivision surfaces instead of the meshes that they follow, in as many
+    /// levels as a view shows, and what is hidden of meshes. Copies the nodes, and no mesh that is shown as it is.
+    pub fn scene_to_render(&mut self) -> Scene {
+        let mut scene = self.scene().clone();
+        for (&id, edited) in &self.state.file.edited {
+            let levels = shown_levels(edited);
+            if levels > 0
+                && let Ok(surface) = edited.to_subdivided_mesh(levels)
+            {
+                scene.replace_mesh(id, surface).expect("an edited mesh is in the scene");
+            }
+        }
+        scene
     }
 
     /// The changes of [`Self::scene`] since the last call, for a displayed copy; apply them in this

@@ -3,6 +3,7 @@
 pub(crate) mod commands;
 mod overflow;
 mod parts;
+mod rendered;
 mod single_commands;
 mod told;
 

@@ -6,7 +6,8 @@ use trigon_window::scene::camera::AxisView;
 
 use super::{Action, Does::*, Needs, actions};
 use crate::request::{
-    DisplayMode, FileAction, Orientation, Pivot, Placing, SnapTarget, ToolKind, UiRequest, ViewRequest,
+    DisplayMode, FileAction, Orientation, Pivot, Placing, SnapTarget, SolidColor, ToolKind, UiRequest,
+    ViewRequest,
 };
 use crate::up::Up;
 
@@ -254,10 +255,14 @@ actions! {
     "View/Display" "display.solid" "Solid" "" Nothing View(ViewRequest::Display(DisplayMode::Solid)) => "Shows surfaces in plain shading.";
     "View/Display" "display.matcap" "Matcap" "" Nothing View(ViewRequest::Display(DisplayMode::Matcap)) => "Shows all surfaces as clay, shaded by their direction only.";
     "View/Display" "display.textured" "Textured" "" Nothing View(ViewRequest::Display(DisplayMode::Textured)) => "Shows materials in studio lighting.";
-    "View/Display" "display.rendered" "Rendered" "" Nothing View(ViewRequest::Display(DisplayMode::Rendered)) => "Shows the scene with its own lights.";
+    "View/Display" "display.rendered" "Rendered" "" Nothing View(ViewRequest::Display(DisplayMode::Rendered)) => "Shows the scene with its own lights and their shadows.";
+    "View/Solid Color" "solid.material" "Material Color" "" Nothing View(ViewRequest::Solid(SolidColor::Material)) => "Solid display shows the colours of materials.";
+    "View/Solid Color" "solid.texture" "Texture Color" "" Nothing View(ViewRequest::Solid(SolidColor::Texture)) => "Solid display shows the images of base colours, too.";
     "View/Display" "display.toggle_wireframe" "Toggle Wireframe" "Shift+Z" Nothing View(ViewRequest::ToggleWireframe) => "Switches between wireframe and the previous mode.";
     "View" "view.x_ray" "X-Ray" "Alt+Z" Nothing View(ViewRequest::ToggleXRay) => "Shows and selects elements behind faces, too.";
     "View" "view.overlays" "Overlays" "Alt+Shift+Z" Nothing View(ViewRequest::ToggleOverlays) => "Shows or hides grid, axes, lights, cameras and the gizmo.";
+    "View" "view.render" "Render Image" "F12" Nothing View(ViewRequest::Render) => "Renders what the scene's camera sees, to be saved as a file.";
+    "View" "view.screenshot" "Save Screenshot…" "" Nothing View(ViewRequest::Screenshot) => "Writes the view to an image file as it is shown.";
     "View" "view.tool_bar" "Tool Bar" "T" Nothing Ui(UiRequest::ToolBar) => "Shows or hides the tools on the left.";
     "View" "view.side_bar" "Side Bar" "N" Nothing Ui(UiRequest::SideBar) => "Shows or hides the panels on the right.";
     "View" "view.development" "Development Tab" "" Nothing Ui(UiRequest::Development) => "Shows or hides how the image is made, on the right.";

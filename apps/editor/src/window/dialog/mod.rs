@@ -17,7 +17,9 @@ use trigon_window::{RecentFiles, egui};
 pub(crate) use exchange::Exchange;
 use folder::Folder;
 
-use crate::request::{FileAction, FileRequest};
+use super::images;
+use super::images::IMAGE_FORMATS;
+use crate::request::{FileAction, FileRequest, ImageKind};
 
 /// In points.
 const WIDTH: f32 = 560.0;
@@ -37,6 +39,8 @@ pub(crate) enum Purpose {
     Export,
     /// An image for a material.
     Texture(MaterialName, TextureSlot),
+    /// An image that was made of the scene.
+    Image(ImageKind),
 }
 
 impl Purpose {
@@ -58,6 +62,7 @@ impl Purpose {
             Self::Import => FileRequest::Import(path),
             Self::Export => FileRequest::Export(path),
             Self::Texture(material, slot) => FileRequest::Texture { material, slot, path },
+            Self::Image(kind) => FileRequest::SaveImage { kind, path },
         }
     }
 
@@ -68,6 +73,8 @@ impl Purpose {
             Self::Import => "Import",
             Self::Export => "Export",
             Self::Texture(..) => "Open Image",
+            Self::Image(ImageKind::Screenshot) => "Save Screenshot",
+            Self::Image(ImageKind::Render) => "Save Image",
         }
     }
 
@@ -78,6 +85,10 @@ impl Purpose {
             Self::SaveAs => dialog.add_filter("glTF", &["glb"]).save_file(),
             Self::Export => trigon_io::writers()
                 .fold(dialog, |dialog, writer| dialog.add_filter(writer.extensions[0], writer.extensions))
+                .save_file(),
+            Self::Image(_) => IMAGE_FORMATS
+                .iter()
+                .fold(dialog, |dialog, (name, endings)| dialog.add_filter(*name, endings))
                 .save_file(),
             Self::Open | Self::Import | Self::Texture(..) => dialog.pick_file(),
         }
@@ -90,11 +101,12 @@ impl Purpose {
             Self::SaveAs => vec!["glb"],
             Self::Export => trigon_io::writers().flat_map(|writer| writer.extensions).copied().collect(),
             Self::Texture(..) => IMAGES.to_vec(),
+            Self::Image(_) => IMAGE_FORMATS.iter().flat_map(|(_, endings)| *endings).copied().collect(),
         }
     }
 
     fn writes(&self) -> bool {
-        matches!(self, Self::SaveAs | Self::Export)
+        matches!(self, Self::SaveAs | Self::Export | Self::Image(_))
     }
 }
 
@@ -295,7 +307,10 @@ impl FileWindow {
         }
         crate::panel::select_all_at_first(&mut typed);
         if purpose.writes() && self.named().is_some_and(|path| path.is_file()) {
-            let text = "This file exists: it is replaced, and its old contents get the ending .bak.";
+            let text = match purpose {
+                Purpose::Image(_) => "This file exists: it is replaced.",
+                _ => "This file exists: it is replaced, and its old contents get the ending .bak.",
+            };
             ui.colored_label(ui.visuals().warn_fg_color, text);
         }
         self.named().filter(|_| entered).map_or(Did::Nothing, Did::Choose)
@@ -305,6 +320,7 @@ impl FileWindow {
         match purpose {
             Purpose::Open | Purpose::Import => self.exchange.show_import(ui),
             Purpose::Export => self.exchange.show_export(ui, &mut self.path),
+            Purpose::Image(_) => images::show_formats(ui, &mut self.path),
             Purpose::SaveAs | Purpose::Texture(..) => {}
         }
         if !self.note.is_empty() {

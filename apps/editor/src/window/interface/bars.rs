@@ -6,7 +6,8 @@ use trigon_window::{Stage, egui};
 
 use crate::icon::Icon;
 use crate::request::{
-    DisplayMode, GizmoKind, Orientation, Pivot, Request, SnapSource, SnapTarget, UiRequest, ViewRequest,
+    DisplayMode, GizmoKind, Orientation, Pivot, Request, SnapSource, SnapTarget, SolidColor, UiRequest,
+    ViewRequest,
 };
 use crate::window::actions;
 use crate::window::editor::Editor;
@@ -63,6 +64,11 @@ fn view(ui: &mut Ui, editor: &Editor, stage: &Stage, requests: &mut Vec<Request>
     ];
     let chosen = choice(ui, "Display", editor.view.display, &modes);
     requests.extend(chosen.map(|mode| Request::View(ViewRequest::Display(mode))));
+    if editor.view.display == DisplayMode::Solid {
+        let colors = [("Material", SolidColor::Material), ("Texture", SolidColor::Texture)];
+        let chosen = choice(ui, "Color", editor.view.solid, &colors);
+        requests.extend(chosen.map(|color| Request::View(ViewRequest::Solid(color))));
+    }
     if ui.selectable_label(editor.view.x_ray, "X-Ray").clicked() {
         requests.push(Request::View(ViewRequest::ToggleXRay));
     }

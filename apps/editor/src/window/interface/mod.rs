@@ -4,6 +4,7 @@
 mod bars;
 mod menu;
 mod overlays;
+mod render;
 mod side;
 mod toast;
 mod view;
@@ -38,6 +39,7 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
     menu::popup(ui.ctx(), editor, stage);
     overlays::help(ui.ctx(), editor);
     overlays::rename(ui.ctx(), editor, &mut requests);
+    render::show(ui.ctx(), editor, stage);
     toast::show(ui.ctx(), editor, free);
     let waker = stage.waker();
     let chosen = editor.dialog.show(ui.ctx(), &editor.recent, move || waker.wake());

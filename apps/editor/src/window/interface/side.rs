@@ -146,7 +146,8 @@ pub(super) fn line(ui: &mut Ui, editor: &Editor) {
 /// What other threads are at.
 fn under_way(editor: &Editor) -> Option<String> {
     let loading = editor.loading.as_ref().map(Loading::text);
-    loading.or_else(|| editor.saving.as_ref().map(|saving| format!("Saving {}", saving.order.path.display())))
+    let saving = || Some(format!("Saving {}", editor.saving.as_ref()?.order.path.display()));
+    loading.or_else(saving).or_else(|| editor.images.under_way())
 }
 
 /// As "3 of 8 vertices".

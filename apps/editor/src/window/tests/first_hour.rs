@@ -6,7 +6,7 @@ use serde_json::json;
 use trigon_document::scene::math::DVec3;
 
 use super::*;
-use crate::request::{DisplayMode, FileAction, FileRequest};
+use crate::request::{DisplayMode, FileAction, FileRequest, SolidColor};
 use crate::window::actions;
 
 impl Worked {
@@ -250,7 +250,8 @@ fn dropped_images_become_textures_and_several_models_are_all_there() {
     editor.dropped(stage, vec![image], Modifiers::NONE);
     assert_eq!(worked.objects(), 3, "a picture in the scene: {:?}", worked.editor.message);
     assert_eq!(worked.editor.document.nodes().textures.iter().count(), 1, "with its image");
-    assert_eq!(worked.editor.view.display, DisplayMode::Textured, "which is shown");
+    let view = &worked.editor.view;
+    assert_eq!((view.display, view.solid), (DisplayMode::Solid, SolidColor::Texture), "which is shown");
     let paths: Vec<_> = ["a.obj", "b.obj"].iter().map(|name| folder.path().join(name)).collect();
     for path in &paths {
         std::fs::write(path, "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").expect("written");

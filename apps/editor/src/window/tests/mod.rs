@@ -2,6 +2,7 @@
 
 mod first_hour;
 mod four_views;
+mod images;
 mod keys;
 mod rows;
 mod saving;
