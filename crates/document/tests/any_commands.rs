@@ -168,7 +168,8 @@ fn start(arguments: &mut Arguments, is_closed: bool) -> Document {
         }
     }
     let shapes = schema()["$defs"]["Shape"]["examples"].as_array().expect("of each shape one");
-    let closed: Vec<&Value> = shapes.iter().filter(|shape| OPEN_SHAPES.iter().all(|name| shape["shape"] != *name)).collect();
+    let closed: Vec<&Value> =
+        shapes.iter().filter(|shape| OPEN_SHAPES.iter().all(|name| shape["shape"] != *name)).collect();
     for name in ["Cube", "Plane"] {
         let shape = match is_closed {
             true => closed[arguments.0.below(closed.len())],

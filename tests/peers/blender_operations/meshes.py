@@ -19,6 +19,14 @@ class Mesh:
     def __post_init__(self):
         self.positions = numpy.asarray(self.positions, dtype=numpy.float32).astype(numpy.float64).reshape(-1, 3)
 
+    def in_order_of_use(self):
+        """With the vertices in the order in which faces use them, as a reader of OBJ may number them, and no others."""
+        used = dict.fromkeys(vertex for face in [*self.faces, *self.loose] for vertex in face)
+        numbers = {vertex: number for number, vertex in enumerate(used)}
+        faces = [[numbers[vertex] for vertex in face] for face in self.faces]
+        loose = [(numbers[a], numbers[b]) for a, b in self.loose]
+        return Mesh(self.name, self.positions[list(used)], faces, loose)
+
     def edges(self):
         """Pairs of vertices, the smaller first: in the order in which the faces use them, then the loose ones. trigon
         numbers edges in this order."""
@@ -329,4 +337,4 @@ def make(family, n):
     rough = ROUGH.get(family, 0.02 if n % 2 else 0.0)
     if rough:
         points += random.uniform(-rough, rough, points.shape)
-    return Mesh(f"{family} {n}", points, [list(face) for face in faces])
+    return Mesh(f"{family} {n}", points, [list(face) for face in faces]).in_order_of_use()

@@ -83,8 +83,11 @@ def loop_cut(cuts):
 
 
 def mirror_copy(edited, chosen):
+    """Blender's copy winds as the original does, so that its outside is inside."""
     geometry = edited.verts[:] + edited.edges[:] + edited.faces[:]
-    bmesh.ops.mirror(edited, geom=geometry, axis="X", merge_dist=1e-4)
+    made = bmesh.ops.mirror(edited, geom=geometry, axis="X", merge_dist=1e-4)["geom"]
+    faces = [element for element in made if isinstance(element, bmesh.types.BMFace)]
+    bmesh.ops.reverse_faces(edited, faces=faces)
 
 
 def split_edges(edited, chosen):
@@ -170,7 +173,7 @@ add(
     [op("separate", by="loose_parts"), op("leave_edit_mode"), op("select_all"), op("join_objects")],
     separate_and_join,
 )
-add("rip a border's edges, one edge", "edge", on.one_edge, op("rip", direction=[1, 0.3, 0.2]), split_edges)
+add("rip around a patch", "edge", on.outline_of_patch, op("rip", direction=[1, 0.3, 0.2]), split_edges)
 
 # Extruding and insetting.
 each("extrude by a vector", "face", FACES, op("extrude", offset=VECTOR), moved("extrude_region_move", VECTOR))
@@ -188,11 +191,12 @@ each(
     op("extrude", distance=0.2, individual=True),
     plain(ops.extrude_faces_move, TRANSFORM_OT_shrink_fatten={"value": 0.2}),
 )
-each("extrude edges", "edge", EDGES, op("extrude", offset=VECTOR), moved("extrude_edges_move", VECTOR))
-add("extrude a border", "edge", on.one_border, op("extrude", offset=VECTOR), moved("extrude_edges_move", VECTOR))
-each("extrude vertices", "vertex", VERTICES, op("extrude", offset=VECTOR), moved("extrude_vertices_move", VECTOR))
+each("extrude edges", "edge", EDGES, op("extrude", offset=VECTOR), moved("extrude_context_move", VECTOR))
+add("extrude a border", "edge", on.one_border, op("extrude", offset=VECTOR), moved("extrude_context_move", VECTOR))
+each("extrude vertices", "vertex", VERTICES, op("extrude", offset=VECTOR), moved("extrude_context_move", VECTOR))
 INSET = {"thickness": 0.04}
-each("inset", "face", FACES, op("inset", depth=0.03, **INSET), plain(ops.inset, depth=0.03, **INSET))
+each("inset", "face", FACES, op("inset", **INSET), plain(ops.inset, **INSET))
+each("inset with depth", "face", FACES[:3], op("inset", depth=0.03, **INSET), plain(ops.inset, depth=0.03, **INSET))
 each(
     "inset without borders",
     "face",
@@ -213,6 +217,13 @@ each("outset", "face", FACES[:2], op("inset", mode="outset", **INSET), plain(ops
 OURS = {"width": 0.06}
 BEVELED = (on.one_edge, on.apart_edges, on.edges_of_face, on.some_edges, on.all_edges)
 for segments in (1, 2, 3):
+    each(
+        f"bevel without loop slide, {segments} segments",
+        "edge",
+        BEVELED,
+        op("bevel", segments=segments, **OURS),
+        plain(ops.bevel, segments=segments, loop_slide=False, **BEVEL),
+    )
     each(
         f"bevel, {segments} segments",
         "edge",
@@ -270,14 +281,9 @@ for segments in (1, 3):
 # Cutting.
 CUT = (on.one_edge, on.some_edges, on.all_edges)
 for cuts in (1, 2, 3):
-    each(f"subdivide, {cuts} cuts", "edge", CUT, op("subdivide", cuts=cuts), plain(ops.subdivide, number_cuts=cuts))
-each(
-    "subdivide, 2 cuts, inner vertices",
-    "edge",
-    CUT[1:],
-    op("subdivide", cuts=2),
-    plain(ops.subdivide, number_cuts=2, quadcorner="INNERVERT"),
-)
+    theirs = plain(ops.subdivide, number_cuts=cuts, ngon=False, quadcorner="INNERVERT")
+    each(f"subdivide, {cuts} cuts", "edge", CUT, op("subdivide", cuts=cuts), theirs)
+add("subdivide with n-gons, some edges", "edge", on.some_edges, op("subdivide"), plain(ops.subdivide))
 for cuts in (1, 3):
     add(f"loop cut, {cuts} cuts", "edge", on.quad_edge, op("loop_cut", cuts=cuts), loop_cut(cuts))
 each("triangulate", "face", (on.some_faces, on.all_faces), op("triangulate"), triangulate)
@@ -463,7 +469,7 @@ def selecting(name, kind, select, commands, blender):
     add(f"select {name}", kind, select, [*commands, GONE[kind]], then_all(blender, gone))
 
 
-selecting("more", "vertex", on.some_vertices, op("select_more"), plain(ops.select_more, use_face_step=False))
+selecting("more", "vertex", on.some_vertices, op("select_more"), plain(ops.select_more))
 selecting("more faces", "face", on.one_face, op("select_more"), plain(ops.select_more))
 selecting("less", "face", on.some_faces, [op("select_more"), op("select_less")], then_all(plain(ops.select_more), plain(ops.select_less)))
 selecting("inverse", "face", on.some_faces, op("select_inverse"), plain(ops.select_all, action="INVERT"))

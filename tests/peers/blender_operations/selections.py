@@ -156,6 +156,15 @@ def patch(mesh):
     return sorted({user for a, b in outline for user in users[(min(a, b), max(a, b))]})
 
 
+def outline_of_patch(mesh):
+    """The edges between a patch and other faces: one loop that does not touch itself or the border of the mesh."""
+    inside, users = set(patch(mesh)), mesh.faces_of_edges()
+    outline = [pair for pair, faces in users.items() if len(faces) == 2 and len(inside & set(faces)) == 1]
+    ends = [end for pair in outline for end in pair]
+    is_loop = ends and all(ends.count(end) == 2 for end in ends) and not set(ends) & outer_ends(mesh)
+    return outline if is_loop else None
+
+
 def two_far_faces(mesh):
     """Two faces with as many corners and no common vertex."""
     first = mesh.faces[0]
