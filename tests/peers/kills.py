@@ -21,13 +21,12 @@ import shutil
 import signal
 import struct
 import subprocess
-import sys
 import tempfile
 import time
 import zlib
 
 # Enough that a save takes a while.
-SEGMENTS = 200
+SEGMENTS = 300
 KEYMAP = {"file.export": "F9"}
 DEADLINE = 60.0
 # What is beside a model when no save is under way; a save that was cut short leaves other files.
@@ -92,7 +91,9 @@ class Rounds:
         """Two documents that differ in their mesh, their material and their image."""
         self.documents = []
         for number, color in enumerate([(200, 30, 30), (20, 60, 220)]):
-            picture = self.folder / f"picture{number}.png"
+            # The same name, so that both exports replace each other's image.
+            picture = self.folder / f"pictures{number}/picture.png"
+            picture.parent.mkdir()
             picture.write_bytes(image(color))
             document = self.folder / f"document{number}.glb"
             commands = [
@@ -105,6 +106,7 @@ class Rounds:
             ]
             self.run(commands, None, document)
             self.documents.append(document)
+        self.run([], self.documents[-1], self.folder / "out/model.obj")
 
     # The window.
 
@@ -150,44 +152,58 @@ class Rounds:
         base, target = self.folder / "base.glb", self.folder / name
         base.write_bytes(records.base)
         self.run(self.commands(records)[:count], base, target)
-        files = [target] if target.suffix == ".glb" else [target, target.with_suffix(".mtl"), *sorted(target.parent.glob(f"{target.stem}*.png"))]
-        return {path.suffix: path.read_bytes() for path in files}
+        return self.set_of(target)
 
     # A round.
 
     def set_of(self, model):
-        if model.suffix == ".glb":
-            return {".glb": model.read_bytes()}
-        paths = [model, model.with_suffix(".mtl"), *sorted(model.parent.glob(f"{model.stem}*.png"))]
-        return {path.suffix: path.read_bytes() for path in paths if path.exists()}
+        paths = [model]
+        if model.suffix == ".obj":
+            paths += [model.with_suffix(".mtl"), model.parent / f"{model.stem}_picture.png"]
+        return {path.suffix: path.read_bytes() for path in paths}
 
     def round(self, number):
         shutil.rmtree(self.state, ignore_errors=True)
-        document = self.documents[number // 2 % 2]
+        document = self.documents[number // 4 % 2]
         model = document if number % 2 == 0 else self.folder / "out/model.obj"
+        for path in self.unfinished(model.parent):
+            (model.parent / path).unlink()
         old = self.set_of(model)
         self.start(document)
         for step in range(self.random.randrange(1, 4)):
             self.move(number + step)
         done = len(self.records().events)
-        if model.suffix == ".glb":
-            self.do("key", "ctrl+s")
-        else:
+        if model.suffix == ".obj":
             self.keys("F9")
             time.sleep(0.3)
             self.keys("ctrl+a")
             self.do("type", "--delay", "5", str(model))
             time.sleep(0.1)
-            self.do("key", "Return")
-        time.sleep(self.random.random() * self.longest)
+        key = "Return" if model.suffix == ".obj" else "ctrl+s"
+        presser = subprocess.Popen(["xdotool", "key", key], env=self.environment)
+        self.await_moment(model.parent, number)
         self.kill()
+        presser.wait()
         records = self.records()
         assert len(records.events) >= done, "commands that were recorded are there"
         self.check_files(model, old, records)
         self.check_recovery(document, records)
 
+    def await_moment(self, folder, number):
+        """Two rounds in four end at any time after the key, the others soon after the save has begun to write."""
+        if number // 2 % 2:
+            end = time.monotonic() + self.longest
+            while time.monotonic() < end and not self.unfinished(folder):
+                pass
+            time.sleep(self.random.random() * self.longest / 50)
+        else:
+            time.sleep(self.random.random() * self.longest)
+
+    def unfinished(self, folder):
+        return [name for name in os.listdir(folder) if pathlib.PurePath(name).suffix not in FINISHED]
+
     def check_files(self, model, old, records):
-        left = [path.name for path in model.parent.iterdir() if path.suffix not in FINISHED]
+        left = self.unfinished(model.parent)
         self.tally["cut short"] += bool(left)
         if model.suffix == ".obj":
             # Opening the model completes what was begun.
@@ -239,7 +255,7 @@ def main():
         rounds.make_documents()
         for number in range(arguments.kills):
             rounds.round(number)
-            if number % 10 == 9:
+            if number % 10 == 9 or number + 1 == arguments.kills:
                 print(f"{number + 1} kills: {rounds.tally}", flush=True)
     finally:
         if rounds.process and rounds.process.poll() is None:
