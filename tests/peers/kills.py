@@ -77,7 +77,8 @@ class Rounds:
         }
         self.environment.pop("WAYLAND_DISPLAY", None)
         self.process = None
-        self.tally = {"old": 0, "new": 0, "cut short": 0, "recovered": 0, "nothing to recover": 0}
+        kinds = [f"{kind} {ending}" for ending in ("glb", "obj") for kind in ("old", "new", "cut short")]
+        self.tally = dict.fromkeys([*kinds, "recovered", "nothing to recover"], 0)
 
     # Scripts without a window.
 
@@ -125,6 +126,17 @@ class Rounds:
 
     def keys(self, *names):
         self.do("key", "--delay", "25", *names)
+
+    def press_until(self, key, what, is_done):
+        """A key that comes before the window is ready for it is pressed again."""
+        end = time.monotonic() + DEADLINE
+        while not is_done():
+            if time.monotonic() > end:
+                raise RuntimeError(f"{what}: not after {DEADLINE} s")
+            self.keys(key)
+            wait = time.monotonic() + 2.0
+            while not is_done() and time.monotonic() < wait:
+                time.sleep(0.02)
 
     def kill(self):
         self.process.send_signal(signal.SIGKILL)
@@ -174,11 +186,12 @@ class Rounds:
             self.move(number + step)
         done = len(self.records().events)
         if model.suffix == ".obj":
+            # Nothing outside tells that the dialog is there.
             self.keys("F9")
-            time.sleep(0.3)
+            time.sleep(1.0)
             self.keys("ctrl+a")
             self.do("type", "--delay", "5", str(model))
-            time.sleep(0.1)
+            time.sleep(0.5)
         key = "Return" if model.suffix == ".obj" else "ctrl+s"
         presser = subprocess.Popen(["xdotool", "key", key], env=self.environment)
         self.await_moment(model.parent, number)
@@ -190,32 +203,34 @@ class Rounds:
         self.check_recovery(document, records)
 
     def await_moment(self, folder, number):
-        """Two rounds in four end at any time after the key, the others soon after the save has begun to write."""
+        """Every second round of a kind ends at any time after the key, the others soon after the save began to write."""
         if number // 2 % 2:
-            end = time.monotonic() + self.longest
+            end = time.monotonic() + DEADLINE / 10
             while time.monotonic() < end and not self.unfinished(folder):
                 pass
-            time.sleep(self.random.random() * self.longest / 50)
+            time.sleep(self.random.random() * self.longest / 10)
         else:
-            time.sleep(self.random.random() * self.longest)
+            # Writing the text of an OBJ takes longer.
+            time.sleep(self.random.random() * self.longest * (1 + 4 * (number % 2)))
 
     def unfinished(self, folder):
         return [name for name in os.listdir(folder) if pathlib.PurePath(name).suffix not in FINISHED]
 
     def check_files(self, model, old, records):
         left = self.unfinished(model.parent)
-        self.tally["cut short"] += bool(left)
+        ending = model.suffix[1:]
+        self.tally[f"cut short {ending}"] += bool(left)
         if model.suffix == ".obj":
             # Opening the model completes what was begun.
             self.run([], model, self.folder / "opened.glb")
         found = self.set_of(model)
         if found == old:
-            self.tally["old"] += 1
+            self.tally[f"old {ending}"] += 1
             return
         new = self.expected(records, len(records.events), f"expected/model{model.suffix}")
         what = {ending: found.get(ending) == new.get(ending) for ending in new}
         assert found == new, f"neither old nor new: {what}, left {left}"
-        self.tally["new"] += 1
+        self.tally[f"new {ending}"] += 1
 
     def check_recovery(self, document, records):
         """The document comes back as the last command left it."""
@@ -224,12 +239,10 @@ class Rounds:
             self.tally["nothing to recover"] += 1
             return
         before = document.read_bytes()
+        [left] = self.state.glob("*.recovery")
         self.start()
-        time.sleep(0.5)
-        self.keys("Return")
-        time.sleep(0.5)
-        self.keys("ctrl+s")
-        await_that("the recovered document in its file", lambda: document.read_bytes() != before)
+        self.press_until("Return", "the recovered document", lambda: not left.exists())
+        self.press_until("ctrl+s", "the recovered document in its file", lambda: document.read_bytes() != before)
         self.kill()
         assert document.read_bytes() == expected, "the recovered document is another one"
         self.tally["recovered"] += 1
@@ -249,7 +262,7 @@ def main():
     rounds = Rounds(arguments.editor.resolve(), folder, arguments.display, arguments.seed)
     rounds.longest = arguments.longest
     (folder / "config/trigon/editor-keymap.json").write_text(json.dumps(KEYMAP), encoding="ascii")
-    screen = subprocess.Popen(["Xvfb", arguments.display, "-screen", "0", "1400x900x24"], stderr=subprocess.DEVNULL)
+    screen = subprocess.Popen(["Xvfb", arguments.display, "-screen", "0", "1400x900x24", "-noreset"], stderr=subprocess.DEVNULL)
     try:
         time.sleep(1)
         rounds.make_documents()
