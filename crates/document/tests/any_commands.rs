@@ -1,10 +1,12 @@
 //! Random scripts over all commands, with arguments drawn from the commands' schema, some of them invalid: nothing
 //! panics, and what they leave is saved, opened again and exported to every format, with finite numbers in it.
 //!
-//! `PROPTEST_CASES=10000` makes it a sweep; see `docs/testing.md`.
+//! `PROPTEST_CASES=10000` makes it a sweep, and with `TRIGON_EXPORTS=folder` it writes what each script leaves in every
+//! format, for `tests/peers/check_exports.py`; see `docs/testing.md`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use proptest::prelude::*;
 use serde_json::{Map, Value, json};
@@ -27,6 +29,34 @@ fn resolved(value: &'static Value) -> &'static Value {
 /// Names of objects, materials and files; some are there.
 const NAMES: [&str; 7] = ["Cube", "Plane", "Cube.001", "Material", "nobody", "+Z", ""];
 
+/// Commands that leave closed meshes closed, whatever they are given: nothing is opened, removed or copied in part.
+const CLOSED_STAYS_CLOSED: [&str; 24] = [
+    "bevel",
+    "catmull_clark",
+    "connect_vertices",
+    "crease",
+    "dissolve",
+    "dissolve_flat",
+    "flip_normals",
+    "knife",
+    "loop_cut",
+    "push_pull",
+    "recalculate_normals",
+    "rotate",
+    "scale",
+    "select_less",
+    "select_more",
+    "select_sharp",
+    "set_element_kind",
+    "shear",
+    "shrink_fatten",
+    "slide_edges",
+    "subdivide",
+    "to_sphere",
+    "triangulate",
+    "tris_to_quads",
+];
+
 /// Draws arguments.
 struct Arguments(SplitMix64);
 
@@ -35,9 +65,15 @@ impl Arguments {
         self.0.below(one_in) == 0
     }
 
-    fn command(&mut self) -> Value {
+    /// One of all commands, or of those that leave closed meshes closed.
+    fn command(&mut self, is_closed: bool) -> Value {
         let variants = schema()["oneOf"].as_array().expect("the commands");
-        let variant = &variants[self.0.below(variants.len())];
+        let name = CLOSED_STAYS_CLOSED[self.0.below(CLOSED_STAYS_CLOSED.len())];
+        let named = || variants.iter().find(|variant| variant["properties"]["op"]["const"] == name);
+        let variant = match is_closed {
+            true => named().expect("the names are those of commands"),
+            false => &variants[self.0.below(variants.len())],
+        };
         let mut command = self.object(resolved(variant));
         command["op"] = variant["properties"]["op"]["const"].clone();
         command
@@ -99,6 +135,9 @@ impl Arguments {
     }
 }
 
+/// Shapes with a border, and the teapot, whose parts pass through each other.
+const OPEN_SHAPES: [&str; 4] = ["plane", "grid", "disc", "teapot"];
+
 /// Small models of the corpus.
 fn corpus() -> &'static [PathBuf] {
     static FILES: OnceLock<Vec<PathBuf>> = OnceLock::new();
@@ -120,17 +159,22 @@ fn run(document: &mut Document, json: Value) -> bool {
 }
 
 /// A document to begin with: a model of the corpus, or two primitives; then everything is selected, often in edit mode.
-fn start(arguments: &mut Arguments) -> Document {
+fn start(arguments: &mut Arguments, is_closed: bool) -> Document {
     let mut document = Document::default();
-    if arguments.chance(3) {
+    if !is_closed && arguments.chance(3) {
         let path = &corpus()[arguments.0.below(corpus().len())];
         if let Ok((opened, _)) = Document::open(path, &LoadOptions::default()) {
             document = opened;
         }
     }
     let shapes = schema()["$defs"]["Shape"]["examples"].as_array().expect("of each shape one");
+    let closed: Vec<&Value> =
+        shapes.iter().filter(|shape| OPEN_SHAPES.iter().all(|name| shape["shape"] != *name)).collect();
     for name in ["Cube", "Plane"] {
-        let shape = &shapes[arguments.0.below(shapes.len() - 1)];
+        let shape = match is_closed {
+            true => closed[arguments.0.below(closed.len())],
+            false => &shapes[arguments.0.below(shapes.len() - 1)],
+        };
         run(&mut document, json!({ "op": "add_object", "object": shape, "name": name }));
     }
     if arguments.chance(2) {
@@ -142,7 +186,45 @@ fn start(arguments: &mut Arguments) -> Document {
     document
 }
 
-fn check(document: &mut Document) -> Result<(), TestCaseError> {
+/// What a random script left.
+struct Case {
+    script: Vec<String>,
+    /// Whether all meshes were closed, and all commands leave them so.
+    is_closed: bool,
+    /// How many faces lay on others before the script.
+    doubled_faces: usize,
+}
+
+impl Case {
+    /// The case's files for another program: `TRIGON_EXPORTS` names the folder.
+    fn folder(&self) -> Option<PathBuf> {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let folder = PathBuf::from(std::env::var_os("TRIGON_EXPORTS")?).join(format!("{number:06}"));
+        std::fs::create_dir_all(&folder).expect("the folder can be made");
+        let facts = json!({
+            "closed": self.is_closed, "doubled_faces": self.doubled_faces, "script": self.script.join("\n"),
+        });
+        std::fs::write(folder.join("case.json"), facts.to_string()).expect("the folder can be written to");
+        Some(folder)
+    }
+}
+
+fn write(folder: Option<&Path>, name: &str, bytes: &[u8]) {
+    if let Some(folder) = folder {
+        std::fs::write(folder.join(name), bytes).expect("the folder can be written to");
+    }
+}
+
+fn doubled_faces(document: &Document) -> usize {
+    let meshes = document.scene().meshes().iter().filter_map(|(id, _)| document.mesh(id));
+    meshes.map(|mesh| mesh.doubled_faces().len()).sum()
+}
+
+fn check(document: &mut Document, case: &Case) -> Result<(), TestCaseError> {
+    let folder = case.folder();
+    let folder = folder.as_deref();
+
     let ids: Vec<_> = document.scene().meshes().iter().map(|(id, _)| id).collect();
     for id in ids {
         if let Some(mesh) = document.mesh(id) {
@@ -153,6 +235,7 @@ fn check(document: &mut Document) -> Result<(), TestCaseError> {
     }
     let native = document.to_native();
     let file = native.encode().map_err(|error| TestCaseError::fail(error.to_string()))?;
+    write(folder, "saved.glb", &file.to_bytes());
     let opened = Document::open_bytes("a.glb".as_ref(), &file.to_bytes(), &LoadOptions::default());
     let (again, _) = opened.map_err(|error| TestCaseError::fail(error.to_string()))?;
     prop_assert_eq!(again.nodes().nodes().len(), document.nodes().nodes().len());
@@ -160,6 +243,7 @@ fn check(document: &mut Document) -> Result<(), TestCaseError> {
         let name = format!("a.{}", writer.extensions[0]);
         // What a format cannot hold at all is refused.
         let Ok(export) = document.export(&name, writer.format, &ExportOptions::default()) else { continue };
+        export.files.iter().for_each(|file| write(folder, &file.name, &file.bytes));
         let model = export.files.last().expect("the model");
         let options = LoadOptions { may_be_empty: true, ..LoadOptions::default() };
         let loaded = load_from_slice(&name, &model.bytes, &options);
@@ -176,10 +260,11 @@ proptest! {
     #[test]
     fn whatever_a_script_says_the_document_is_saved_opened_and_exported(seed in any::<u64>(), length in 1_usize..12) {
         let mut arguments = Arguments(SplitMix64::new(seed));
-        let mut document = start(&mut arguments);
-        let mut script = Vec::new();
+        let is_closed = arguments.chance(4);
+        let mut document = start(&mut arguments, is_closed);
+        let mut case = Case { script: Vec::new(), is_closed, doubled_faces: doubled_faces(&document) };
         for _ in 0..length {
-            if arguments.chance(8) {
+            if !is_closed && arguments.chance(8) {
                 if let Ok(bytes) = document.copy() {
                     let _ = document.run(Paste { glb: bytes.into() }.into());
                 }
@@ -188,15 +273,15 @@ proptest! {
             if arguments.chance(4) {
                 run(&mut document, json!({ "op": "select_all" }));
             }
-            let command = arguments.command();
-            script.push(command.to_string());
+            let command = arguments.command(is_closed);
+            case.script.push(command.to_string());
             if run(&mut document, command) && arguments.chance(6) {
                 document.undo().expect("one was done");
                 document.redo().expect("it was undone");
             }
         }
-        if let Err(error) = check(&mut document) {
-            return Err(TestCaseError::fail(format!("{error}\n{}", script.join("\n"))));
+        if let Err(error) = check(&mut document, &case) {
+            return Err(TestCaseError::fail(format!("{error}\n{}", case.script.join("\n"))));
         }
     }
 }

@@ -37,6 +37,30 @@ pub(super) struct LiftedFaces {
     hinges: Vec<EdgeId>,
 }
 
+/// The unit normals of faces at a vertex, weighted by their angles there.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct NormalSum {
+    sum: DVec3,
+    angle: f64,
+}
+
+impl NormalSum {
+    /// The direction of the mean; zero if it has none.
+    pub(super) fn direction(self) -> DVec3 {
+        unit_or_zero(self.sum)
+    }
+
+    /// A vector along the mean whose component along each normal is 1, in the mean: a vertex that moves by it moves
+    /// the planes of its faces by 1, exactly where all are at the same angle to the mean. Zero if that has no direction.
+    pub(super) fn even(self) -> DVec3 {
+        /// Almost folded faces would need endless vectors.
+        const LONGEST: f64 = 20.0;
+        let direction = self.direction();
+        let component = direction.dot(self.sum) / self.angle;
+        direction * if component > 1.0 / LONGEST { 1.0 / component } else { LONGEST }
+    }
+}
+
 impl EditMesh {
     /// Refuses a region for which there is no room once it is lifted.
     pub(super) fn check_capacity_for_lift(
@@ -242,14 +266,13 @@ impl EditMesh {
         unit_or_zero(area_vector(self.face_vertices(face).map(|vertex| self.point(vertex))))
     }
 
-    /// For each vertex of a region the angle-weighted mean of the region's normals there; zero if
-    /// it has no direction.
-    pub(super) fn region_normals(&self, region: &Region, vertices: &[VertexId]) -> Vec<DVec3> {
+    /// For each vertex of a region the normals of the region's faces there.
+    pub(super) fn region_normals(&self, region: &Region, vertices: &[VertexId]) -> Vec<NormalSum> {
         let mut indices = IndexTable::new(self.vertex_capacity(), vertices.len());
         for (index, vertex) in (0..).zip(vertices) {
             indices.insert(vertex.0, index);
         }
-        let mut sums = vec![DVec3::ZERO; vertices.len()];
+        let mut sums = vec![NormalSum::default(); vertices.len()];
         for &face in &region.faces {
             let normal = self.unit_normal(face);
             for corner in self.face_corners(face).filter(|_| normal != DVec3::ZERO) {
@@ -257,9 +280,12 @@ impl EditMesh {
                 let here = point(corner);
                 let [back, ahead] = [self.previous_corner(corner), self.next_corner(corner)].map(point);
                 let index = indices.get(self.corner_vertex(corner).0);
-                sums[index.expect("all are listed") as usize] += normal * angle(back - here, ahead - here);
+                let angle = angle(back - here, ahead - here);
+                let sum = &mut sums[index.expect("all are listed") as usize];
+                sum.sum += normal * angle;
+                sum.angle += angle;
             }
         }
-        sums.into_iter().map(unit_or_zero).collect()
+        sums
     }
 }

@@ -10,6 +10,8 @@
 //! Arrangement and names follow Blender's bevel (Howard Trickey); the positions within patches
 //! are our own.
 
+#[cfg(test)]
+mod between_tests;
 mod build;
 mod chosen;
 mod fans;

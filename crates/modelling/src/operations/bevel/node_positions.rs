@@ -73,6 +73,51 @@ impl Nodes<'_> {
         (out * rim, self.parts_on_edge(corner, true, rim))
     }
 
+    /// Where the rims of two beveled edges meet that have several faces between them: the one along which the first
+    /// corner is left, and the one by which the last is entered. Each rim runs in the plane of the face beside its
+    /// edge; if these planes differ, in the middle of the points of both that are nearest to each other.
+    pub(super) fn meeting_across(
+        &mut self,
+        first: CornerId,
+        last: CornerId,
+    ) -> (DVec3, SmallVec<[WeightTerm; 4]>) {
+        let [one, other] = [self.way(first, true).0, self.way(last, false).0];
+        let rims = [self.rim(first, true), self.rim(last, false)];
+        let (beside_one, mut parts) = self.frames.beside(self.mesh, first, one);
+        let (beside_other, parts_other) = self.frames.beside(self.mesh, last, -other);
+        let [offset_one, offset_other] = [beside_one * rims[0], beside_other * rims[1]];
+        let along = nearest([one, other], offset_other - offset_one);
+        parts.iter_mut().for_each(|part| part.slope *= rims[0]);
+        parts.extend(parts_other.into_iter().map(|part| WeightTerm { slope: part.slope * rims[1], ..part }));
+        for (corner, is_out, along) in [(first, true, along[0]), (last, false, along[1])] {
+            // Without the corner itself, which is there already.
+            parts.extend(
+                self.parts_on_edge(corner, is_out, along)
+                    .into_iter()
+                    .map(|part| WeightTerm { base: 0.0, ..part }),
+            );
+        }
+        for part in &mut parts {
+            (part.base, part.slope) = (0.5 * part.base, 0.5 * part.slope);
+        }
+        (0.5 * (offset_one + one * along[0] + offset_other + other * along[1]), parts)
+    }
+
+    /// In the middle of the places on the first and the last edge between two beveled ones.
+    pub(super) fn middle_between(
+        &self,
+        first: CornerId,
+        last: CornerId,
+    ) -> (DVec3, SmallVec<[WeightTerm; 4]>) {
+        let (one, other) = (self.rim_distance(first, true), self.rim_distance(last, false));
+        let mut parts = self.parts_on_edge(first, false, one);
+        parts.extend(self.parts_on_edge(last, true, other));
+        for part in &mut parts {
+            (part.base, part.slope) = (0.5 * part.base, 0.5 * part.slope);
+        }
+        (0.5 * (self.way(first, false).0 * one + self.way(last, true).0 * other), parts)
+    }
+
     fn toward(&self, corner: CornerId, is_out: bool, slope: f64) -> WeightTerm {
         WeightTerm { corner: self.far_corner(corner, is_out), base: 0.0, slope }
     }
@@ -105,4 +150,16 @@ impl Nodes<'_> {
         let parts = self.parts_on_edge(corner, is_out, distance);
         self.sum(&parts)
     }
+}
+
+/// How far along two unit directions two lines are nearest to each other, from the first points of both, which are
+/// apart by `between`. Zero where the lines are almost parallel.
+fn nearest([one, other]: [DVec3; 2], between: DVec3) -> [f64; 2] {
+    let cosine = one.dot(other);
+    let squared_sine = 1.0 - cosine * cosine;
+    if squared_sine <= STRAIGHT * STRAIGHT {
+        return [0.0; 2];
+    }
+    let (a, b) = (between.dot(one), between.dot(other));
+    [(a - b * cosine) / squared_sine, (a * cosine - b) / squared_sine]
 }

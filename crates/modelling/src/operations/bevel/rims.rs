@@ -33,6 +33,11 @@ impl Rims {
         Self { width_type, of_edges, outer_miter, inner_miter }
     }
 
+    /// Whether the width is measured along the edges beside a beveled one, instead of from that.
+    pub(super) fn measures_along_edges(&self) -> bool {
+        matches!(self.width_type, BevelWidth::Percent | BevelWidth::Absolute)
+    }
+
     /// How many edges are beveled.
     pub(super) fn count(&self) -> usize {
         self.of_edges.len()

@@ -124,17 +124,16 @@ impl Nodes<'_> {
                 (self.way(last, true).0 * distance, sums)
             }
             _ => {
-                // In the middle of the places on the first and the last edge between them.
-                let (one, other) = (self.rim_distance(first, true), self.rim_distance(last, false));
-                self.limit(layout.stops[from + 1].edge, one);
-                self.limit(layout.stops[to - 1].edge, other);
-                let mut parts = self.parts_on_edge(first, false, one);
-                parts.extend(self.parts_on_edge(last, true, other));
-                for part in &mut parts {
-                    (part.base, part.slope) = (0.5 * part.base, 0.5 * part.slope);
+                let (offset, parts) = match self.rims.measures_along_edges() {
+                    true => self.middle_between(first, last),
+                    false => self.meeting_across(first, last),
+                };
+                for i in from + 1..to {
+                    let distance = self.way(layout.corners[i], true).0.dot(offset);
+                    self.limit(layout.stops[i].edge, distance.max(0.0));
                 }
                 let sum = self.sum(&parts);
-                (0.5 * (self.way(first, false).0 * one + self.way(last, true).0 * other), [sum, sum])
+                (offset, [sum, sum])
             }
         }
     }
@@ -144,6 +143,8 @@ impl Nodes<'_> {
         // Where two beveled edges meet, their bevels meet in a plane through the vertex and share
         // a curve, unless a miter parts them.
         let is_miter = count == 2 && round.fan.is_closed && layout.miters.is_empty();
+        // One face opposite the only beveled edge: the curve stays in its plane, in which the vertex is, too.
+        let ends_in_face = count == 1 && round.fan.is_closed && layout.corners.len() == 3;
         let mut is_second = false;
         for i in 0..layout.stops.len() {
             if layout.stops[i].beveled == NONE {
@@ -152,7 +153,7 @@ impl Nodes<'_> {
             let (left, stop) = (layout.corners[i], layout.stops[i]);
             let direction = self.way(left, true).0;
             let along = [stop.left, stop.right].map(|node| self.nodes[node as usize].offset.dot(direction));
-            let control = if is_miter { 0.0 } else { 0.5 * (along[0] + along[1]) };
+            let control = if is_miter || ends_in_face { 0.0 } else { 0.5 * (along[0] + along[1]) };
             let control_sum = self.sum_on_edge(left, true, control);
             if !is_second {
                 let (control, home) = (direction * control, CornerId(NONE));
@@ -164,7 +165,7 @@ impl Nodes<'_> {
             self.add_end(&stop, along, end);
             is_second = is_miter;
         }
-        if count == 1 && round.fan.is_closed && layout.corners.len() == 3 {
+        if ends_in_face {
             // The face opposite the beveled edge is cut along the curve.
             self.insertions.last_mut().expect("that face has two nodes").arc = self.arcs.len() as u32 - 1;
         }

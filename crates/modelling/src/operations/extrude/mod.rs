@@ -90,7 +90,7 @@ impl EditMesh {
             ExtrudeOffset::Zero => {}
             ExtrudeOffset::Along(distance) => {
                 for (&vertex, normal) in vertices.iter().zip(normals) {
-                    self.move_by(vertex, normal * distance);
+                    self.move_by(vertex, normal.direction() * distance);
                 }
             }
             ExtrudeOffset::By(by) => vertices.iter().for_each(|&vertex| self.move_by(vertex, by)),

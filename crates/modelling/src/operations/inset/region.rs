@@ -40,7 +40,8 @@ impl EditMesh {
     /// vertex between two such edges goes to where both are right. The region keeps its ids, and what
     /// is outside gets new vertices along the border; parts that touch in one vertex get one each.
     /// Values of the faces that shrink are interpolated in each of them. With a depth, all vertices of
-    /// the region move along the mean of its normals there.
+    /// the region move along the mean of its normals there, so far that the faces move by the depth: exactly
+    /// where the normals at a vertex are all at the same angle to their mean, as at the corner of a cube.
     ///
     /// # Errors
     /// No face is given, or one does not exist; a parameter is out of its range; the region ends
@@ -90,7 +91,7 @@ impl EditMesh {
         });
         self.dress_moved(&border, &lifted.walls, shrinks);
         for (&vertex, normal) in vertices.iter().zip(normals) {
-            self.set_position(vertex, (self.point(vertex) + normal * inset.depth).as_vec3());
+            self.set_position(vertex, (self.point(vertex) + normal.even() * inset.depth).as_vec3());
         }
         Ok(InsetFaces { rim: lifted.walls, vertices })
     }

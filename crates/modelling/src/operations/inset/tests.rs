@@ -223,6 +223,25 @@ fn vertices_move_along_in_morph_targets() {
     }
 }
 
+/// The vertices at an edge or a corner of a solid used to move by the depth, and the faces by less.
+#[test]
+fn the_depth_of_a_region_is_how_far_each_of_its_faces_moves() {
+    let start = primitives::cube(2.0);
+    let corner = |vertex: VertexId| start.positions()[vertex.0 as usize] == Vec3::ONE;
+    let before = EditMesh::from_mesh(&start).0;
+    let faces: Vec<FaceId> = before.faces().filter(|&face| before.face_vertices(face).any(corner)).collect();
+    let inset = Inset { depth: 0.25, ..thickness(0.5) };
+    let (mesh, _) = check_change(&start, |mesh| mesh.inset_region(&faces, inset)).expect("it has a border");
+    assert_eq!(faces.len(), 3, "those at one corner");
+    for &face in &faces {
+        let normal = before.face_normal(face);
+        for vertex in mesh.face_vertices(face) {
+            let height = mesh.position(vertex).as_dvec3().dot(normal);
+            assert!((height - 1.25).abs() < 1e-6, "{height} instead of 1.25");
+        }
+    }
+}
+
 #[test]
 fn what_cannot_be_inset_is_refused() {
     let start = primitives::cube(2.0);
