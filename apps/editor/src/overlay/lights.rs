@@ -152,7 +152,6 @@ fn frame(camera: &Camera) -> Viewport {
 mod tests {
     use super::super::view::tests::front;
     use super::*;
-    use trigon_document::scene::camera::Projection;
     use trigon_document::scene::{Node, Scene};
     use trigon_window::egui::pos2;
 

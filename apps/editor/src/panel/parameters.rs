@@ -7,7 +7,7 @@ use trigon_window::egui::{self, Response, Ui};
 use super::ShownDocument;
 use super::form::KeyOrder;
 use super::form::{self, Form, NumberForm, Variant};
-use super::row::{hovered, number, row, text, vector};
+use super::row::{AXES, CHANNELS, hovered, number, row, text, vector};
 use super::spatial::Spatial;
 use super::unit::Unit;
 
@@ -134,7 +134,9 @@ impl Parameter<'_> {
         let stored: Vec<f64> = value.as_array().into_iter().flatten().filter_map(Value::as_f64).collect();
         let mut numbers = stored.clone();
         self.spatial.shown(self.shown.up, &mut numbers);
-        if vector(ui, label, form::description(self.property), &mut numbers, form).is_none() {
+        let is_color = ["base_color", "color", "emissive", "specular"].contains(&self.name);
+        let names = if is_color { CHANNELS } else { AXES };
+        if vector(ui, label, form::description(self.property), &mut numbers, form, names).is_none() {
             return false;
         }
         self.spatial.stored(self.shown.up, &mut numbers);

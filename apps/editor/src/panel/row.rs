@@ -129,6 +129,12 @@ pub(super) fn positive(most: f64, unit: Unit) -> NumberForm {
     NumberForm { least: 0.0, most, is_integer: false, unit }
 }
 
+/// What numbers of a position, a direction or a rotation are called.
+pub(super) const AXES: [&str; 4] = ["X", "Y", "Z", "W"];
+
+/// What those of a colour are called.
+pub(super) const CHANNELS: [&str; 4] = ["R", "G", "B", "A"];
+
 /// Three or more numbers under one label, each on its own line. Returns which one was changed, and its
 /// response.
 pub(super) fn vector(
@@ -137,13 +143,13 @@ pub(super) fn vector(
     hover: &str,
     values: &mut [f64],
     form: &NumberForm,
+    names: [&str; 4],
 ) -> Option<(usize, Response)> {
-    const AXES: [&str; 4] = ["X", "Y", "Z", "W"];
     let mut changed = None;
     row(ui, label, hover, |ui, width| {
         let fields = ui.vertical(|ui| {
             for (index, value) in values.iter_mut().enumerate() {
-                let axis = AXES.get(index).copied().unwrap_or_default();
+                let axis = names.get(index).copied().unwrap_or_default();
                 let response = number(ui, width, value, form, &format!("{axis} "));
                 let response = response.accessible_name(format!("{label} {axis}"));
                 if response.changed() {

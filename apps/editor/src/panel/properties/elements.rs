@@ -5,7 +5,7 @@ use trigon_document::modelling::EditMesh;
 use trigon_document::{Command, Crease, Document, MeshSelection, ResetVertices, Selection, Translate};
 use trigon_window::egui::{self, Response, Ui};
 
-use super::super::row::{number, plain, positive, row, vector};
+use super::super::row::{AXES, number, plain, positive, row, vector};
 use super::super::unit::Unit;
 use crate::panel::ShownDocument;
 use crate::panel::row::{is_same_drag, submit};
@@ -114,7 +114,7 @@ fn median(ui: &mut Ui, shown: ShownDocument<'_>, middle: Mean<DVec3>, requests: 
     let mut typed = up.shown(middle.value).to_array();
     let label = if middle.count == 1 { "Vertex" } else { "Median" };
     let hover = "In the space of the mesh: the vertex, or the mean of the selected ones.";
-    if let Some((_, response)) = vector(ui, label, hover, &mut typed, &plain(Unit::Metres)) {
+    if let Some((_, response)) = vector(ui, label, hover, &mut typed, &plain(Unit::Metres), AXES) {
         let offset = up.stored(typed.into()) - middle.value + moved_before(ui, document, &response);
         let command = Translate { offset: offset.into(), ..Translate::default() };
         submit(ui, document, &response, command.into(), requests);

@@ -8,7 +8,7 @@ use trigon_window::egui::Ui;
 
 use super::ShownObject;
 use crate::panel::parameters::check_box;
-use crate::panel::row::{choice, color, hovered, number, plain, positive, row, submit, vector};
+use crate::panel::row::{AXES, choice, color, hovered, number, plain, positive, row, submit, vector};
 use crate::panel::unit::Unit;
 use crate::request::Request;
 use crate::up::Up;
@@ -47,7 +47,7 @@ pub(super) fn transform(
         SetTransform { object: Some(ObjectName::of(id)), space: state.space, ..SetTransform::default() };
     let mut values = up.shown(location).to_array();
     let hover = "Position of the object's origin.";
-    if let Some((_, response)) = vector(ui, "Location", hover, &mut values, &plain(Unit::Metres)) {
+    if let Some((_, response)) = vector(ui, "Location", hover, &mut values, &plain(Unit::Metres), AXES) {
         let command = SetTransform { location: Some(up.stored(values.into()).into()), ..unchanged.clone() };
         submit(ui, document, &response, command.into(), requests);
     }
@@ -62,7 +62,7 @@ pub(super) fn transform(
     }
     let mut values = up.exchanged(scale).to_array();
     let hover = "Scale along its own axes; negative values mirror.";
-    if let Some((_, response)) = vector(ui, "Scale", hover, &mut values, &plain(Unit::None)) {
+    if let Some((_, response)) = vector(ui, "Scale", hover, &mut values, &plain(Unit::None), AXES) {
         let command = SetTransform { scale: Some(up.exchanged(values.into()).into()), ..unchanged };
         submit(ui, document, &response, command.into(), requests);
     }
@@ -93,14 +93,14 @@ fn show_rotation(
                 state.typed = angles;
             }
             let hover = "Rotations about the axes x, then y, then z.";
-            let (_, response) = vector(ui, "Rotation", hover, &mut state.typed, &plain(Unit::Degrees))?;
+            let (_, response) = vector(ui, "Rotation", hover, &mut state.typed, &plain(Unit::Degrees), AXES)?;
             let typed = Rotation::Euler { angles: state.typed };
             Some((stored(typed, up), response))
         }
         RotationForm::Quaternion => {
             let mut xyzw = rotation.to_array();
             let hover = "The imaginary part x, y, z and the real part w.";
-            let (_, response) = vector(ui, "Rotation", hover, &mut xyzw, &plain(Unit::None))?;
+            let (_, response) = vector(ui, "Rotation", hover, &mut xyzw, &plain(Unit::None), AXES)?;
             Some((stored(Rotation::Quaternion { xyzw }, up), response))
         }
     }

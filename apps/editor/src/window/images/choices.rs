@@ -66,7 +66,7 @@ impl RenderChoices {
 /// Whether any light of a scene can cast shadows.
 pub(crate) fn has_lamps(scene: &Scene) -> bool {
     let casts = |light: &Light| light.kind != LightKind::Ambient;
-    scene.nodes().iter().any(|(_, node)| node.visible && node.light.as_ref().is_some_and(casts))
+    scene.nodes().iter().any(|(_, node)| node.visible && node.light.as_deref().is_some_and(casts))
 }
 
 #[cfg(test)]

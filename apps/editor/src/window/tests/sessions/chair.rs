@@ -53,7 +53,7 @@ const CHAIR: &str = "
 
 #[test]
 fn a_chair_is_made_from_a_cube_and_saved() {
-    saved_and_reopened(CHAIR, |document| {
+    saved_and_reopened(CHAIR, |document, _| {
         let chair = mesh(document, "chair");
         assert_eq!((euler(chair), open_edges(chair)), (2, 0), "one closed surface");
         let drawn = 2.0 * 0.2 * 2.0 + 4.0 * 0.3 * 0.3 * 1.8 + 2.0 * 0.3 * 2.0;

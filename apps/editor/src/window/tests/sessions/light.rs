@@ -28,7 +28,7 @@ const LIGHT: &str = "
 
 #[test]
 fn a_light_is_moved_by_key_and_gizmo_and_made_brighter() {
-    saved_and_reopened(LIGHT, |document| {
+    saved_and_reopened(LIGHT, |document, _| {
         let scene = document.nodes();
         let (id, node) = scene.nodes().iter().find(|(_, node)| node.name == "Light").expect("a light");
         assert_eq!(node.light.as_ref().expect("it shines").intensity, 250.0, "as typed");

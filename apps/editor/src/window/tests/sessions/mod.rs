@@ -1,13 +1,16 @@
 //! Recorded sessions: whole models made by mouse and keyboard alone, in a window without a display. A session is a
 //! text with one action in each line, as `script` describes; what it asserts is what its user would see.
 
+mod bottle;
 mod chair;
 mod elements;
 mod habits;
+mod house;
 mod light;
 mod mug;
 mod newcomer;
 mod script;
+mod table;
 mod tour;
 
 use std::cell::RefCell;
@@ -101,24 +104,58 @@ pub(super) fn at_the_editor(
     work(&mut User { window, editor, folder, images: None });
 }
 
-/// Does what a script says, which ends with the document saved as `$FOLDER/saved.glb`, and opens that in another
+/// Does what a script says, which may use the image `$FOLDER/wood.png`, and ends with the document saved as `$FOLDER/saved.glb`, and opens that in another
 /// editor: it is the same to the last byte.
-fn saved_and_reopened(script: &str, finished: impl Fn(&Document)) {
+fn saved_and_reopened(script: &str, finished: impl Fn(&Document, &Path)) {
     let folder = tempfile::tempdir().expect("a folder");
+    let wood: Vec<u8> = (0..64).flat_map(|pixel| [150 + pixel % 8 * 10, 100, 60]).collect();
+    trigon_io::write_png(&folder.path().join("wood.png"), 8, 8, trigon_io::Pixels::Rgb8(&wood))
+        .expect("written");
     let mut before = Vec::new();
     at_the_editor(folder.path(), &[], SIZE, |user| {
         user.play(script);
-        finished(&user.editor.borrow().document);
+        finished(&user.editor.borrow().document, folder.path());
         before = user.bytes();
     });
     at_the_editor(folder.path(), &[folder.path().join("saved.glb")], SIZE, |user| {
         user.wait_for_title("saved.glb - trigon");
-        finished(&user.editor.borrow().document);
+        finished(&user.editor.borrow().document, folder.path());
         assert!(user.bytes() == before, "what was saved is what was opened");
     });
 }
 
+/// What leaves an empty document with the same cube in it: everything is deleted, and the cube is added by the menu.
+const FROM_NOTHING: &str = "
+    keys A X
+    objects 0
+    see The scene is empty.
+    keys Shift+A
+    type cube                                       # searches the menu
+    keys Enter
+    objects 1
+";
+
+/// Plays a script that begins with the default cube, once from there and once from an empty document; see
+/// [`saved_and_reopened`].
+fn from_the_cube_and_from_nothing(script: &str, finished: impl Fn(&Document, &Path)) {
+    for start in ["", FROM_NOTHING] {
+        saved_and_reopened(&format!("{start}{script}"), &finished);
+    }
+}
+
 impl User<'_> {
+    /// Lets other threads do what they are at until no image is rendered or written any more.
+    fn wait_for_images(&mut self) {
+        loop {
+            let editor = self.editor.borrow();
+            if editor.images.rendering.is_none() && editor.images.under_way().is_none() {
+                return;
+            }
+            drop(editor);
+            self.window.wait();
+        }
+    }
+
     /// All that a file holds of the document.
     fn bytes(&self) -> Vec<u8> {
         self.editor.borrow().document.to_native().encode().expect("it is small").to_bytes().to_vec()

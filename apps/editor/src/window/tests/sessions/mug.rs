@@ -58,7 +58,7 @@ const MUG: &str = "
 
 #[test]
 fn a_mug_with_a_handle_is_closed_and_as_large_as_drawn() {
-    saved_and_reopened(MUG, |document| {
+    saved_and_reopened(MUG, |document, _| {
         let mug = mesh(document, "Cylinder");
         assert_eq!((euler(mug), open_edges(mug)), (0, 0), "a closed surface with one handle");
         let (sin, cos) = elementary::sin_cos(std::f64::consts::PI / 16.0);

@@ -76,7 +76,7 @@ const CHAIR: &str = "
 
 #[test]
 fn a_newcomer_makes_the_chair_with_the_mouse() {
-    saved_and_reopened(CHAIR, |document| {
+    saved_and_reopened(CHAIR, |document, _| {
         let chair = mesh(document, "chair");
         assert_eq!((euler(chair), open_edges(chair)), (2, 0), "one closed surface");
         let drawn = 2.0 * 0.2 * 2.0 + 4.0 * 0.3 * 0.3 * 1.8 + 2.0 * 0.3 * 2.0;

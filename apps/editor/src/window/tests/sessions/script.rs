@@ -12,9 +12,11 @@
 //! | `pull X by N` | drags the gizmo's arm of an axis outwards by pixels |
 //! | `wheel N` | turns the wheel away from the user |
 //! | `press Add` | clicks the first widget of this name |
+//! | `scroll Alpha` | scrolls a panel until the first widget of this name is in view |
 //! | `enter Intensity 250` | types a value into the field of this name |
 //! | `see 1 of 6 faces selected` | asserts that a text of the interface contains this |
 //! | `hidden Torus` | asserts that none is called so |
+//! | `wait` | lets an image be rendered or written |
 //! | `title *untitled - trigon` | asserts what is written on the window, once other threads have ended |
 //! | `mesh Cube 8 12 6` | asserts vertices, edges and faces |
 //! | `objects 2` | asserts how many there are |
@@ -73,6 +75,8 @@ impl User<'_> {
             "pull" => self.pull(rest)?,
             "wheel" => self.window.wheel(number(rest)?),
             "press" => self.press(rest)?,
+            "scroll" => self.scroll(rest)?,
+            "wait" => self.wait_for_images(),
             "enter" => self.enter(rest)?,
             "image" => {
                 if let Some(folder) = &self.images {
@@ -203,6 +207,20 @@ impl User<'_> {
         self.window.move_to(widget.center);
         self.button(PointerButton::Left);
         Ok(())
+    }
+
+    fn scroll(&mut self, label: &str) -> Result<(), String> {
+        let height = self.window.stage().viewport().size().y;
+        let in_view = 0.5 * height..height - 60.0;
+        for _ in 0..100 {
+            let at = self.widget(label, |_| true)?.center;
+            if in_view.contains(&at.y) {
+                return Ok(());
+            }
+            self.window.move_to(DVec2::new(at.x, 0.7 * height));
+            self.window.wheel(if at.y < in_view.start { 1.0 } else { -1.0 });
+        }
+        Err("it does not come into view".into())
     }
 
     fn enter(&mut self, rest: &str) -> Result<(), String> {
