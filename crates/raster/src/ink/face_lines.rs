@@ -53,9 +53,9 @@ impl<S: Simd> LineColumns<S> {
     #[inline(always)]
     pub(crate) fn outlined(self, simd: S, ink: &Ink, radius: F32<S>) -> [F32<S>; 3] {
         let fading = radius * radius * (SHARE / (FADING * ink.scale));
-        let room = lesser(radius * SHARE, fading);
-        let whole = lesser(F32::splat(simd, ink.outlined_half), room);
-        let core = lesser(F32::splat(simd, ink.core_half), room);
+        let limit = lesser(radius * SHARE, fading);
+        let whole = lesser(F32::splat(simd, ink.outlined_half), limit);
+        let core = lesser(F32::splat(simd, ink.core_half), limit);
         [(whole + 0.5) * self.weight, (core + 0.5) * self.weight, self.weight]
     }
 }
@@ -72,8 +72,8 @@ impl OutlinedHalves {
     /// On a face with this inner radius.
     pub(crate) fn on(ink: &Ink, radius: f32) -> Self {
         let least = |a: f32, b: f32| if b < a { b } else { a };
-        let room = least(radius * SHARE, radius * radius * (SHARE / (FADING * ink.scale)));
-        Self { whole: least(ink.outlined_half, room), core: least(ink.core_half, room) }
+        let limit = least(radius * SHARE, radius * radius * (SHARE / (FADING * ink.scale)));
+        Self { whole: least(ink.outlined_half, limit), core: least(ink.core_half, limit) }
     }
 }
 

@@ -38,7 +38,7 @@ use trigon_math::{Vec3, Vec4};
 ///
 /// The width of a line beyond its own face follows from that face's r, and fades out from r = 2 pixels of the
 /// finer grid to 1. On a face that shares a corner with it, the width follows from the smaller r of the two.
-/// An edge whose mark is [outlined](MarkColors::outlined) is as wide as two lines, with an outline of half a line on each
+/// An edge whose mark is [outlined](MarkColors::outlined) is as wide as two lines, with an outline of one line on each
 /// side, which is the first to go: on a face, half of all that and half of the coloured part obey the same limits.
 /// Beyond the ends of such an edge its line is no wider than others, so that nothing sticks out where it ends.
 ///
@@ -65,7 +65,7 @@ impl FaceEdges {
 const MAX_INNER_WIDTH: f32 = 31.0;
 
 /// The width of an outlined edge with its outline, and of its coloured core, in widths of other edges.
-const OUTLINED: f32 = 3.0;
+const OUTLINED: f32 = 4.0;
 const CORE: f32 = 2.0;
 
 /// [`FaceEdges`] on the finer grid, in its pixels, and [`MarkColors`].

@@ -104,7 +104,7 @@ fn the_edge_that_covers_most_of_a_pixel_gives_it_its_colour() {
     }
 }
 
-/// Twice as wide, with a black rim of half a line on each side; beyond its ends no wider than others.
+/// Twice as wide, with a black rim of a line on each side; beyond its ends no wider than others.
 #[test]
 fn an_outlined_edge_is_wide_with_a_black_rim_and_nothing_sticks_out_at_its_ends() {
     let (low, high) = (8.25, 40.0);
@@ -130,7 +130,7 @@ fn an_outlined_edge_is_wide_with_a_black_rim_and_nothing_sticks_out_at_its_ends(
                 .map(|((across, along, at), mark)| {
                     let beyond = (low - along).max(along - high).max(0.0);
                     let distance = Vec2::new(across - at, beyond).length();
-                    let halves = if mark == 1 && beyond == 0.0 { [1.5, 1.0] } else { [0.5, 0.5] };
+                    let halves = if mark == 1 && beyond == 0.0 { [2.0, 1.0] } else { [0.5, 0.5] };
                     let [share, core] = halves.map(|half| covered(half * width, distance));
                     (share + core, mark, share, core)
                 })
@@ -162,7 +162,7 @@ fn the_rim_of_an_outlined_edge_goes_before_its_core() {
     let black = FaceEdges { width: 1.0, color: Vec3::ZERO, opacity: 1.0 };
     let ink = Ink::new(Some(&black), Some(&colors), 1).unwrap();
     for (radius, whole, core) in
-        [(9.0, 1.5, 1.0), (4.5, 1.5, 1.0), (3.75, 1.25, 1.0), (3.0, 1.0, 1.0), (1.5, 0.5, 0.5)]
+        [(9.0, 2.0, 1.0), (6.0, 2.0, 1.0), (4.5, 1.5, 1.0), (3.0, 1.0, 1.0), (1.5, 0.5, 0.5)]
     {
         assert_eq!(OutlinedHalves::on(&ink, radius), OutlinedHalves { whole, core }, "at {radius}");
     }
