@@ -280,6 +280,9 @@ pub struct MarkColors {
     /// Linear RGB of what is mixed into the colours of faces, and its share. The first is not
     /// used.
     pub faces: [Vec4; Self::COUNT],
+    /// Edges that are seen on any surface: twice as wide as others and with a black outline, as far as their faces have
+    /// room for that. [`FaceEdges`](crate::FaceEdges) defines how much. The first is not used.
+    pub outlined: [bool; Self::COUNT],
 }
 
 impl MarkColors {
@@ -287,7 +290,11 @@ impl MarkColors {
     pub const COUNT: usize = 16;
 
     /// Marks that are invisible.
-    pub const NONE: Self = Self { edges: [Vec4::ZERO; Self::COUNT], faces: [Vec4::ZERO; Self::COUNT] };
+    pub const NONE: Self = Self {
+        edges: [Vec4::ZERO; Self::COUNT],
+        faces: [Vec4::ZERO; Self::COUNT],
+        outlined: [false; Self::COUNT],
+    };
 }
 
 impl Marks<'_> {
@@ -313,18 +320,26 @@ fn mark(marks: &[u8], element: u32) -> u8 {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Overlap {
     pub(crate) share: f32,
+    /// The part of the share that has the line's colour. The rest of it is the outline.
+    pub(crate) core: f32,
     pub(crate) mark: u8,
 }
 
 impl Overlap {
-    /// The one that covers more; of equal ones that with the greater mark.
+    /// Of a line without an outline.
+    pub(crate) fn plain(share: f32, mark: u8) -> Self {
+        Self { share, core: share, mark }
+    }
+
+    /// The one that covers more, its core counted twice; of equal ones that with the greater mark.
     pub(crate) fn or(self, other: Self) -> Self {
         if other.is_above(self) { other } else { self }
     }
 
     /// Whether it is drawn above the other where the two overlap.
     pub(crate) fn is_above(self, other: Self) -> bool {
-        match self.share.partial_cmp(&other.share) {
+        let [own, others] = [self, other].map(|overlap| overlap.share + overlap.core);
+        match own.partial_cmp(&others) {
             Some(Ordering::Greater) => true,
             Some(Ordering::Equal) => self.mark > other.mark,
             Some(Ordering::Less) | None => false,
@@ -347,9 +362,12 @@ mod tests {
 
     #[test]
     fn the_greater_mark_decides_between_equal_shares_only() {
-        let [thin, low, high] = [(0.5, 9), (1.0, 1), (1.0, 2)].map(|(share, mark)| Overlap { share, mark });
+        let [thin, low, high] =
+            [(0.5, 9), (1.0, 1), (1.0, 2)].map(|(share, mark)| Overlap::plain(share, mark));
         assert_eq!(thin.or(low), low, "more is covered");
         assert_eq!(low.or(high), high, "equally much");
         assert_eq!(high.or(low), high, "in any order");
+        let outline = Overlap { share: 1.0, core: 0.0, mark: 9 };
+        assert_eq!([outline.or(low), low.or(outline)], [low; 2], "an outline is below every line");
     }
 }

@@ -75,7 +75,7 @@ impl ElementSet {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks {
     /// Edges, by their numbers in the mesh: see [`Mesh::edges`](trigon_mesh::Mesh::edges). Marked edges have
-    /// the same width as all edges, and are shown in styles with edges.
+    /// the same width as all edges unless they are [outlined](Mark::outlined), and are shown in styles with edges.
     pub edges: Vec<Mark>,
     /// Faces; their colours are mixed with the mark's.
     pub faces: Vec<Mark>,
@@ -94,6 +94,9 @@ pub struct Mark {
     /// colour. Lines of [`Style::Wireframe`](crate::Style::Wireframe) and other vertices are always
     /// opaque.
     pub opacity: f32,
+    /// Whether marked edges of faces are twice as wide as others, with a black outline, so that they are seen on any
+    /// surface. Faces, vertices, loose edges and wireframes have no outlines.
+    pub outlined: bool,
 }
 
 /// How vertices are shown.
@@ -125,7 +128,11 @@ impl Marks {
 
     /// The colours of edges and faces.
     pub(crate) fn colors(&self) -> MarkColors {
-        MarkColors { edges: colors(&self.edges), faces: colors(&self.faces) }
+        let mut outlined = [false; MarkColors::COUNT];
+        for (mark, outlined) in self.edges.iter().zip(outlined[1..].iter_mut().rev()) {
+            *outlined = mark.outlined;
+        }
+        MarkColors { edges: colors(&self.edges), faces: colors(&self.faces), outlined }
     }
 }
 
@@ -209,7 +216,7 @@ mod tests {
         bits.extend(elements.iter().copied());
         let mut set = ElementSet::default();
         set.add(node, bits);
-        Mark { elements: Arc::new(set), color: Vec3::new(red, 0.0, 0.0), opacity: 1.0 }
+        Mark { elements: Arc::new(set), color: Vec3::new(red, 0.0, 0.0), opacity: 1.0, outlined: false }
     }
 
     #[test]
@@ -235,7 +242,7 @@ mod tests {
                 bits.extend((0..counts[set]).filter(|&element| is_in(set, element)));
                 let mut elements = ElementSet::default();
                 elements.add(node, bits);
-                Mark { elements: Arc::new(elements), color: Vec3::ONE, opacity: 1.0 }
+                Mark { elements: Arc::new(elements), color: Vec3::ONE, opacity: 1.0, outlined: false }
             })
             .into();
         let expected = (0..counts[0]).map(|element| match [0, 1].map(|set| is_in(set, element)) {

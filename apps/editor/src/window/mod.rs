@@ -12,6 +12,7 @@ mod file_version;
 mod files;
 mod gizmo_cache;
 mod handler;
+mod image_requests;
 mod images;
 mod interface;
 mod keys;

@@ -88,7 +88,7 @@ impl Stored for SkinWeights {
 const BITS: usize = u32::BITS as usize;
 
 record!(Marks { edges, faces, vertices });
-record!(Mark { elements, color, opacity });
+record!(Mark { elements, color, opacity, outlined });
 record!(VertexPoints { size, marked_size, color });
 
 /// For each node its number of elements, and a bit for each, from the lowest of a word on.

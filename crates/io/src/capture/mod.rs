@@ -43,7 +43,7 @@ use super::write::{WriteError, write_atomically};
 const MAGIC: [u8; 8] = *b"\x93TRIGON\n";
 
 /// The version of the format.
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 
 /// A scene, a camera, settings and the resulting image.
 ///

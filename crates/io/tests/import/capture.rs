@@ -314,7 +314,7 @@ fn marked_elements_are_captured() {
     let mut bits = trigon_scene::FixedBitSet::with_capacity(80);
     bits.extend([0, 33, 79]);
     elements.add(node, bits);
-    let mark = trigon_scene::Mark { elements: elements.into(), color: Vec3::X, opacity: 0.5 };
+    let mark = trigon_scene::Mark { elements: elements.into(), color: Vec3::X, opacity: 0.5, outlined: true };
     let mut settings = settings();
     settings.marks.faces = vec![mark];
     check("marks", &scene, &scene.overview(1.5), &settings);

@@ -5,7 +5,7 @@
 //! between broadcast numbers of these few records instead of gathering eight.
 
 use super::context::ShadeContext;
-use super::layout::{CutColumns, RecordShape, cold, hot, lined};
+use super::layout::{CutColumns, RecordShape, cold, hot, lined, outlined};
 use super::perspective::WeightedPoints;
 use super::records::Records;
 use super::task::FragmentBatch;
@@ -65,7 +65,8 @@ impl<S: Simd> TrianglesOfLanes<S> {
 }
 
 /// Rows for the longest record, in whole records' rows.
-const ROWS: usize = (hot::COUNT + 3 * MAX_VARYINGS + lined::COUNT + 1).next_multiple_of(LANES);
+const ROWS: usize =
+    (hot::COUNT + 3 * MAX_VARYINGS + lined::COUNT + 1 + outlined::COUNT).next_multiple_of(LANES);
 
 /// Aligned so that no row crosses the end of a cache line.
 #[repr(align(64))]
@@ -144,6 +145,12 @@ impl Columns {
     #[inline(always)]
     pub(crate) fn marks(&self, shape: RecordShape) -> Option<&Row> {
         Some(&self.rows.0[shape.marks?])
+    }
+
+    /// The columns of outlined edges, of a frame that has any.
+    #[inline(always)]
+    pub(crate) fn outlined(&self, shape: RecordShape) -> Option<&[Row; outlined::COUNT]> {
+        self.rows.0[shape.outlined?..].first_chunk()
     }
 
     /// What is special, if a triangle is wide or cut.

@@ -1,6 +1,7 @@
 //! How the record of a visible triangle is laid out: which number stands in which column.
 
 use super::context::ShadeContext;
+use crate::ink::Ink;
 use crate::simd::LANES;
 
 /// The columns that every vector loads before those of varyings.
@@ -49,6 +50,15 @@ pub(crate) mod lined {
     pub(crate) const COUNT: usize = 6;
 }
 
+/// Columns of outlined edges, in frames that have any: see `LineColumns::outlined`.
+pub(crate) mod outlined {
+    pub(crate) const WHOLE: usize = 0;
+    pub(crate) const CORE: usize = 1;
+    pub(crate) const WEIGHT: usize = 2;
+    /// How many there are.
+    pub(crate) const COUNT: usize = 3;
+}
+
 /// Bits of a record's flags. The lowest six tell which corners the vertices are,
 /// two bits each.
 pub(crate) mod flag {
@@ -83,6 +93,8 @@ pub(crate) struct RecordShape {
     /// The column of the marks, where there are any: of the sides opposite the corners and of
     /// the face, a byte each from the lowest on.
     pub(crate) marks: Option<usize>,
+    /// The first column of [`outlined`], where there are lines and marks and some of these are outlined.
+    pub(crate) outlined: Option<usize>,
 }
 
 impl RecordShape {
@@ -99,8 +111,11 @@ impl RecordShape {
         let columns = lines.map_or(hot::COUNT + 3 * varyings, |first| first + lined::COUNT);
         let marks = context.marks().map(|_| columns);
         let columns = columns + usize::from(marks.is_some());
+        let has_outlines = context.ink().is_some_and(Ink::has_outlines) && marks.is_some();
+        let outlined = has_outlines.then_some(columns);
+        let columns = columns + if has_outlines { outlined::COUNT } else { 0 };
         let loaded = columns.div_ceil(LANES);
         let size = loaded + if context.reads_all { cold::COUNT / LANES } else { 0 };
-        Self { first: [0; 2], size, loaded, varyings, lines, marks }
+        Self { first: [0; 2], size, loaded, varyings, lines, marks, outlined }
     }
 }

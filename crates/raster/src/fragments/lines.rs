@@ -1,7 +1,7 @@
 //! The edges that are painted on eight triangles, computed for their records.
 
 use super::context::ShadeContext;
-use super::layout::{RecordShape, lined};
+use super::layout::{RecordShape, lined, outlined};
 use super::perspective::perspective;
 use super::sorted::SortedTriangles;
 use crate::EdgeFlags;
@@ -22,6 +22,8 @@ const LEAST: f32 = 1e-6;
 pub(crate) struct FaceLines {
     /// Those of [`lined`], and two that only fill up the eight that are transposed.
     columns: [Row; LANES],
+    /// Those of outlined edges, if there are any.
+    outlined: Option<[Row; outlined::COUNT]>,
     half: [f32; LANES],
     beyond: [f32; LANES],
     radius: [f32; LANES],
@@ -56,8 +58,15 @@ impl FaceLines {
         let line = LineColumns::new(simd, ink, radius);
         let inverse = inverses(simd, sorted, lengths);
         let columns = Self::columns(simd, inverse, is_edge, &line);
+        let outlined = ink.has_outlines().then(|| {
+            line.outlined(simd, ink, radius).each(
+                #[inline(always)]
+                |column| column.bitcast::<I32<S>>().into(),
+            )
+        });
         let mut lines = Self {
             columns,
+            outlined,
             half: line.half.into(),
             beyond: line.beyond.into(),
             radius: radius.into(),
@@ -138,6 +147,12 @@ impl FaceLines {
             let values = record.as_flattened_mut()[first..].first_chunk_mut().expect("there is room");
             let made: &[i32; lined::COUNT] = turned.first_chunk().expect("there are as many");
             *values = *made;
+        }
+        if let (Some(first), Some(columns)) = (shape.outlined, &self.outlined) {
+            for (lane, record) in rows.chunks_exact_mut(shape.rows()).take(count).enumerate() {
+                let values = &mut record.as_flattened_mut()[first..first + outlined::COUNT];
+                values.iter_mut().zip(columns).for_each(|(value, column)| *value = column[lane]);
+            }
         }
     }
 

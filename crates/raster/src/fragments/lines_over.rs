@@ -2,12 +2,12 @@
 
 use super::columns::Columns;
 use super::context::{ShadeContext, ShadePoint};
-use super::layout::lined;
+use super::layout::{lined, outlined};
 use super::records::Records;
 use super::triangle_lanes::TriangleLanes;
 use crate::draw::Overlap;
 use crate::ink::Ink;
-use crate::simd::{F32, I32, InlineMap, LANES, Row, Simd, U32, greater, lesser, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Row, Simd, U32, greater, inlined, lesser, prelude::*};
 
 /// The inputs. Nothing that shading has computed is among them: its results stay in registers, and
 /// what is needed here is computed again.
@@ -28,6 +28,12 @@ impl LinesOver<'_> {
     /// The colours with what is painted over them.
     #[inline(always)]
     pub(crate) fn lay<S: Simd>(&self, simd: S, spots: U32<S>, color: [F32<S>; 4]) -> [F32<S>; 4] {
+        if self.ink.has_outlines() {
+            return simd.vectorize(
+                #[inline(always)]
+                || self.lay_outlined(simd, spots, color),
+            );
+        }
         if self.ink.has_marks() {
             // A separate function, so that edges without marks spend no registers on it.
             return simd.vectorize(
@@ -60,6 +66,71 @@ impl LinesOver<'_> {
             (Some(own), Some(beside)) => own.or(beside),
         };
         self.ink.over_marked(color, overlaps.shares, overlaps.marks)
+    }
+
+    /// [`lay_marked`](Self::lay_marked) where some edges have outlines.
+    #[inline(always)]
+    fn lay_outlined<S: Simd>(&self, simd: S, spots: U32<S>, color: [F32<S>; 4]) -> [F32<S>; 4] {
+        let shape = self.records.shape();
+        let marks = self.columns.marks(shape).map(|marks| I32::simd_from(simd, *marks).bitcast::<U32<S>>());
+        let marks = marks.unwrap_or_else(|| U32::splat(simd, 0));
+        let color = self.ink.tinted(color, marks >> 24);
+        let own = self.columns.lines(shape).map(|lines| match self.columns.outlined(shape) {
+            Some(wide) => self.own_outlined(simd, lines, wide, marks),
+            None => Strokes::plain(self.own_marked(simd, lines, marks)),
+        });
+        let beside = self.context.outer.map(|outer| Strokes::beside(simd, spots, outer));
+        let Strokes { cores, overlaps } = match (own, beside) {
+            (None, None) => return color,
+            (Some(alone), None) | (None, Some(alone)) => alone,
+            (Some(own), Some(beside)) => own.or(beside),
+        };
+        self.ink.over_outlined(color, [overlaps.shares, cores], overlaps.marks)
+    }
+
+    /// [`own_marked`](Self::own_marked) where some edges have outlines.
+    #[inline(always)]
+    fn own_outlined<S: Simd>(
+        &self,
+        simd: S,
+        lines: &[Row; lined::COUNT],
+        wide: &[Row; outlined::COUNT],
+        packed: U32<S>,
+    ) -> Strokes<S> {
+        let weights = self.raw_weights(simd);
+        let column = |index: usize| I32::simd_from(simd, lines[index]).bitcast::<F32<S>>();
+        let [whole, core, weight] = [outlined::WHOLE, outlined::CORE, outlined::WEIGHT].each(
+            #[inline(always)]
+            |index| I32::simd_from(simd, wide[index]).bitcast::<F32<S>>(),
+        );
+        let (zero, none) = (F32::splat(simd, 0.0), U32::splat(simd, 0));
+        let covered = inlined(
+            #[inline(always)]
+            |(reach, most, distance): (F32<S>, F32<S>, F32<S>)| greater(lesser(reach - distance, most), zero),
+        );
+        // Twice half of the width, and no more than the pixel.
+        let most = inlined(
+            #[inline(always)]
+            |reach: F32<S>| lesser(reach * 2.0 - weight, weight),
+        );
+        let (mut most_covered, mut greatest) = (Strokes::none(simd), none);
+        for (corner, raw) in weights.into_iter().enumerate() {
+            let inverse = column(lined::INVERSE + corner);
+            let is_edge = inverse.simd_ge(zero);
+            let distance = raw * inverse;
+            let marks = is_edge.select((packed >> (8 * corner as u32)) & 0xff, none);
+            let plain = covered((column(lined::REACH), column(lined::MOST), distance));
+            let is_wide = self.ink.outlined_lanes(marks);
+            let shares = is_wide.select(covered((whole, most(whole), distance)), plain);
+            let cores = is_wide.select(covered((core, most(core), distance)), plain);
+            greatest = greatest.max(marks);
+            let overlaps = Overlaps { shares: is_edge.select(shares, zero), marks };
+            most_covered = most_covered.or(Strokes { cores: is_edge.select(cores, zero), overlaps });
+        }
+        let (floor, Strokes { cores, overlaps }) = (column(lined::FLOOR), most_covered);
+        // Where single edges cannot be distinguished, the face shows its greatest mark.
+        let marks = floor.simd_gt(overlaps.shares).select(greatest, overlaps.marks);
+        Strokes { cores: cores + floor, overlaps: Overlaps { shares: overlaps.shares + floor, marks } }
     }
 
     /// What edges of the triangles themselves cover.
@@ -106,6 +177,47 @@ impl LinesOver<'_> {
         let triangle = TriangleLanes::load(simd, self.columns);
         let (edges, _) = triangle.edges(simd, self.columns.placed.point(simd));
         triangle.raw_weights(edges)
+    }
+}
+
+/// [`Overlap`]s of eight pixels with their cores.
+struct Strokes<S: Simd> {
+    cores: F32<S>,
+    overlaps: Overlaps<S>,
+}
+
+impl<S: Simd> Strokes<S> {
+    #[inline(always)]
+    fn none(simd: S) -> Self {
+        Self::plain(Overlaps { shares: F32::splat(simd, 0.0), marks: U32::splat(simd, 0) })
+    }
+
+    /// Of lines without outlines.
+    #[inline(always)]
+    fn plain(overlaps: Overlaps<S>) -> Self {
+        Self { cores: overlaps.shares, overlaps }
+    }
+
+    /// What edges of others cover.
+    #[inline(always)]
+    fn beside(simd: S, spots: U32<S>, outer: &[Overlap]) -> Self {
+        let lanes: [u32; LANES] = spots.into();
+        let cores = lanes.each(
+            #[inline(always)]
+            |spot| outer[ShadePoint::pixel_of(spot)].core,
+        );
+        Self { cores: F32::simd_from(simd, cores), overlaps: beside_marked(simd, spots, outer) }
+    }
+
+    /// See [`Overlap::or`].
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        let (own, others) = (self.overlaps.shares + self.cores, other.overlaps.shares + other.cores);
+        let equal = others.simd_eq(own) & other.overlaps.marks.simd_gt(self.overlaps.marks);
+        let above = others.simd_gt(own) | equal;
+        let shares = above.select(other.overlaps.shares, self.overlaps.shares);
+        let marks = above.select(other.overlaps.marks, self.overlaps.marks);
+        Self { cores: above.select(other.cores, self.cores), overlaps: Overlaps { shares, marks } }
     }
 }
 

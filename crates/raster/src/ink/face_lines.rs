@@ -47,6 +47,34 @@ impl<S: Simd> LineColumns<S> {
         let floor = (one - weight) * (one - inner * inner);
         Self { half, weight, floor, beyond: rising(BEYOND) }
     }
+
+    /// Of outlined edges on the same faces: the distances at which the whole and the core end to cover anything, and the
+    /// weight; the first two are multiplied by the third.
+    #[inline(always)]
+    pub(crate) fn outlined(self, simd: S, ink: &Ink, radius: F32<S>) -> [F32<S>; 3] {
+        let fading = radius * radius * (SHARE / (FADING * ink.scale));
+        let limit = lesser(radius * SHARE, fading);
+        let whole = lesser(F32::splat(simd, ink.outlined_half), limit);
+        let core = lesser(F32::splat(simd, ink.core_half), limit);
+        [(whole + 0.5) * self.weight, (core + 0.5) * self.weight, self.weight]
+    }
+}
+
+/// Half of the width of an outlined edge on a face, in pixels of the finer grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct OutlinedHalves {
+    /// With its outline.
+    pub(crate) whole: f32,
+    pub(crate) core: f32,
+}
+
+impl OutlinedHalves {
+    /// On a face with this inner radius.
+    pub(crate) fn on(ink: &Ink, radius: f32) -> Self {
+        let least = |a: f32, b: f32| if b < a { b } else { a };
+        let limit = least(radius * SHARE, radius * radius * (SHARE / (FADING * ink.scale)));
+        Self { whole: least(ink.outlined_half, limit), core: least(ink.core_half, limit) }
+    }
 }
 
 /// The point of an edge that is nearest to another point.
@@ -58,6 +86,8 @@ pub(crate) struct EdgePoint {
     pub(crate) point: [f64; 2],
     pub(crate) depth: f64,
     pub(crate) mark: u8,
+    /// Whether it is an end of the edge.
+    pub(crate) is_end: bool,
 }
 
 /// The lines on one face, as they show beyond it.
@@ -70,9 +100,13 @@ pub(crate) struct FaceLine {
 }
 
 impl FaceLine {
-    /// What it covers of a pixel along an edge.
-    pub(crate) fn overlap(self, edge: &EdgePoint) -> Overlap {
-        Overlap { share: self.coverage(edge.distance), mark: edge.mark }
+    /// What it covers of a pixel along an edge, which may be outlined.
+    pub(crate) fn overlap(self, edge: &EdgePoint, outlined: Option<OutlinedHalves>) -> Overlap {
+        let Some(OutlinedHalves { whole, core }) = outlined.filter(|_| !edge.is_end) else {
+            return Overlap::plain(self.coverage(edge.distance), edge.mark);
+        };
+        let [share, core] = [whole, core].map(|half| Self { half, ..self }.coverage(edge.distance));
+        Overlap { share, core, mark: edge.mark }
     }
 
     /// Of a triangle that belongs to no face with edges: it narrows no line of others.

@@ -15,10 +15,10 @@ mod face_lines;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use face_lines::{EdgePoint, FaceLine, LARGE, LineColumns, VisibleFaces};
+pub(crate) use face_lines::{EdgePoint, FaceLine, LARGE, LineColumns, OutlinedHalves, VisibleFaces};
 
 use crate::draw::{MarkColors, Overlap};
-use crate::simd::{F32, InlineMap, LANES, Simd, U32, prelude::*};
+use crate::simd::{F32, InlineMap, LANES, Mask, Simd, U32, prelude::*};
 use trigon_math::{Vec3, Vec4};
 
 /// How a pass paints the edges of faces: see [`Pass::edges`](crate::Pass::edges).
@@ -38,6 +38,10 @@ use trigon_math::{Vec3, Vec4};
 ///
 /// The width of a line beyond its own face follows from that face's r, and fades out from r = 2 pixels of the
 /// finer grid to 1. On a face that shares a corner with it, the width follows from the smaller r of the two.
+/// An edge whose mark is [outlined](MarkColors::outlined) is as wide as two lines, with an outline of one line on each
+/// side, which is the first to go: on a face, half of all that and half of the coloured part obey the same limits.
+/// Beyond the ends of such an edge its line is no wider than others, so that nothing sticks out where it ends.
+///
 /// Triangles tell the radius of their polygon by the edges that are flagged, and by
 /// [`EdgeFlags::with_radius_ratio`](crate::EdgeFlags::with_radius_ratio). A triangle that is cut by the near
 /// plane or far outside of the view counts as large.
@@ -60,11 +64,20 @@ impl FaceEdges {
 /// The greatest width in pixels of the finer grid: its reach leaves half of a tile's side.
 const MAX_INNER_WIDTH: f32 = 31.0;
 
+/// The width of an outlined edge with its outline, and of its coloured core, in widths of other edges.
+const OUTLINED: f32 = 4.0;
+const CORE: f32 = 2.0;
+
 /// [`FaceEdges`] on the finer grid, in its pixels, and [`MarkColors`].
 #[derive(Clone, Debug)]
 pub(crate) struct Ink {
     /// 0 if no edges are painted, only faces.
     half_width: f32,
+    /// The same of outlined edges, and of their cores; 0 if there are none.
+    outlined_half: f32,
+    core_half: f32,
+    /// A bit for each mark.
+    outlined: u32,
     /// Pixels of the finer grid for one of the target.
     scale: f32,
     /// Of edges by their marks, premultiplied by the opacity.
@@ -92,7 +105,44 @@ impl Ink {
         let width = (width.min(FaceEdges::MAX_WIDTH) * scale).min(MAX_INNER_WIDTH);
         let half_width = if has_lines { width * 0.5 } else { 0.0 };
         let is_painted = has_lines || is_visible(&tints[1..]);
-        is_painted.then_some(Self { half_width, scale, colors, tints, has_marks: marks.is_some() })
+        let outlined = marks.filter(|_| has_lines).map_or(0, |marks| bits(&marks.outlined));
+        let half_of =
+            |factor: f32| if outlined == 0 { 0.0 } else { (width * factor).min(MAX_INNER_WIDTH) * 0.5 };
+        let (outlined_half, core_half) = (half_of(OUTLINED), half_of(CORE));
+        let has_marks = marks.is_some();
+        is_painted.then_some(Self {
+            half_width,
+            outlined_half,
+            core_half,
+            outlined,
+            scale,
+            colors,
+            tints,
+            has_marks,
+        })
+    }
+
+    /// Whether some edges have outlines.
+    #[inline(always)]
+    pub(crate) fn has_outlines(&self) -> bool {
+        self.outlined != 0
+    }
+
+    /// Whether the edges with a mark have outlines.
+    pub(crate) fn is_outlined(&self, mark: u8) -> bool {
+        self.outlined >> mark & 1 != 0
+    }
+
+    /// The same of lanes.
+    #[inline(always)]
+    pub(crate) fn outlined_lanes<S: Simd>(&self, marks: U32<S>) -> Mask<S> {
+        let simd = marks.token();
+        let marks: [u32; LANES] = marks.into();
+        let bits = marks.each(
+            #[inline(always)]
+            |mark| self.outlined >> (mark % MarkColors::COUNT as u32) & 1,
+        );
+        U32::simd_from(simd, bits).simd_gt(U32::splat(simd, 0))
     }
 
     /// Whether edges are painted.
@@ -108,17 +158,19 @@ impl Ink {
 
     /// How far from an edge it may cover a part of a pixel, in whole pixels.
     pub(crate) fn reach(&self) -> u32 {
-        if self.has_lines() { (self.half_width + 0.5).ceil() as u32 } else { 0 }
+        let half = if self.has_outlines() { self.outlined_half } else { self.half_width };
+        if self.has_lines() { (half + 0.5).ceil() as u32 } else { 0 }
     }
 
     /// Laid over a colour with a share of 0 to 1.
     #[inline(always)]
-    pub(crate) fn over(&self, color: Vec4, Overlap { share, mark }: Overlap) -> Vec4 {
+    pub(crate) fn over(&self, color: Vec4, Overlap { share, core, mark }: Overlap) -> Vec4 {
         let (color, ink) = (color.to_array(), self.colors[usize::from(mark)]);
         let rest = 1.0 - ink[3] * share;
-        Vec4::from_array([0, 1, 2, 3].each(
+        // An outline is black: nothing but opacity.
+        Vec4::from_array([(0, core), (1, core), (2, core), (3, share)].each(
             #[inline(always)]
-            |channel| color[channel] * rest + ink[channel] * share,
+            |(channel, share)| color[channel] * rest + ink[channel] * share,
         ))
     }
 
@@ -149,6 +201,23 @@ impl Ink {
         )
     }
 
+    /// [`over`](Self::over), for lanes of which some have outlines.
+    #[inline(always)]
+    pub(crate) fn over_outlined<S: Simd>(
+        &self,
+        color: [F32<S>; 4],
+        [shares, cores]: [F32<S>; 2],
+        marks: U32<S>,
+    ) -> [F32<S>; 4] {
+        let ink = channels(&self.colors, marks);
+        let rest = 1.0 - shares * ink[3];
+        let [r, g, b] = [0, 1, 2].each(
+            #[inline(always)]
+            |channel| color[channel] * rest + cores * ink[channel],
+        );
+        [r, g, b, color[3] * rest + shares * ink[3]]
+    }
+
     /// The colours of faces with these marks. Their alpha stays.
     #[inline(always)]
     pub(crate) fn tinted<S: Simd>(&self, color: [F32<S>; 4], marks: U32<S>) -> [F32<S>; 4] {
@@ -160,6 +229,11 @@ impl Ink {
         );
         [r, g, b, color[3]]
     }
+}
+
+/// A bit for each that is set but the first.
+fn bits(flags: &[bool; MarkColors::COUNT]) -> u32 {
+    (1..MarkColors::COUNT).fold(0, |bits, mark| bits | u32::from(flags[mark]) << mark)
 }
 
 /// Linear RGB and opacity, held to 0 to 1, multiplied; nothing of what is not finite.
@@ -213,7 +287,10 @@ mod limits {
             let wide = FaceEdges { width: f32::INFINITY, color: Vec3::ZERO, opacity: 2.0 };
             let ink = Ink::new(Some(&wide), None, samples_per_axis).unwrap();
             assert!(ink.reach() <= 16, "{} with {samples_per_axis} per axis", ink.reach());
-            assert_eq!(ink.over(Vec4::ONE, Overlap { share: 1.0, mark: 0 }), Vec4::W, "no more than opaque");
+            let outlined = MarkColors { outlined: [true; MarkColors::COUNT], ..MarkColors::NONE };
+            let outlined = Ink::new(Some(&wide), Some(&outlined), samples_per_axis).unwrap();
+            assert!(outlined.reach() <= 16, "{} with outlines", outlined.reach());
+            assert_eq!(ink.over(Vec4::ONE, Overlap::plain(1.0, 0)), Vec4::W, "no more than opaque");
         }
     }
 }

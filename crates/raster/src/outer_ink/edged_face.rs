@@ -50,13 +50,15 @@ impl FaceEdge {
 
     fn nearest(&self, point: [f64; 2]) -> EdgePoint {
         let [x, y] = [0, 1].map(|axis| point[axis] - self.from[axis]);
-        let share = ((x * self.way[0] + y * self.way[1]) * self.inverse).clamp(0.0, 1.0);
+        let along = (x * self.way[0] + y * self.way[1]) * self.inverse;
+        let share = along.clamp(0.0, 1.0);
         let [dx, dy] = [x - self.way[0] * share, y - self.way[1] * share];
         EdgePoint {
             distance: (dx * dx + dy * dy).sqrt() / 256.0,
             point: [point[0] - dx, point[1] - dy],
             depth: self.depth + self.rise * share,
             mark: self.mark,
+            is_end: share != along,
         }
     }
 }

@@ -22,7 +22,7 @@ pub(crate) use edged_face::{parts, slots};
 
 use crate::bin::TriangleRef;
 use crate::draw::Overlap;
-use crate::ink::{Ink, LARGE, VisibleFaces};
+use crate::ink::{EdgePoint, Ink, LARGE, OutlinedHalves, VisibleFaces};
 use crate::simd::{F32, InlineMap, LANES, Simd, U32, at_level, inlined, prelude::*, unzipped};
 use crate::tile_buffer::{MAX_SIDE, NO_TRIANGLE, PIXELS, TileArea, TileRows, VisibilityBuffer};
 use crate::view::{FrameView, VisibleTile};
@@ -132,7 +132,7 @@ impl OuterInk {
             while rest != 0 {
                 let x = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
-                self.cover(frame, tile, &rows, [x, y], reach);
+                self.cover(frame, ink, tile, &rows, [x, y]);
             }
         }
         self.rows = Some(rows);
@@ -229,14 +229,15 @@ impl OuterInk {
     fn cover(
         &mut self,
         frame: &FrameView<'_>,
+        ink: &Ink,
         VisibleTile { area, triangles, .. }: VisibleTile<'_>,
         rows: &VisibleRows,
         [x, y]: [usize; 2],
-        reach: usize,
     ) {
+        let reach = ink.reach() as usize;
         let own = rows.farthest[y][x];
         let point = area.point([x as i32, y as i32], [128, 128]);
-        let mut most = self.cover_by_own(frame, triangles, own, point);
+        let mut most = self.cover_by_own(frame, ink, triangles, own, point);
         let mut last = own;
         let columns = x.saturating_sub(reach)..(x + reach + 1).min(area.size[0]);
         for row in y.saturating_sub(reach)..(y + reach + 1).min(area.size[1]) {
@@ -247,7 +248,7 @@ impl OuterInk {
                     continue;
                 }
                 last = other;
-                let covered = self.cover_by(frame, triangles, [other, own], point);
+                let covered = self.cover_by(frame, ink, triangles, [other, own], point);
                 most = most.or(covered);
             }
         }
@@ -263,6 +264,7 @@ impl OuterInk {
     fn cover_by_own(
         &mut self,
         frame: &FrameView<'_>,
+        ink: &Ink,
         triangles: &[TriangleRef],
         own: u32,
         point: [i32; 2],
@@ -275,13 +277,16 @@ impl OuterInk {
         if !ground.has_parts() {
             return Overlap::default();
         }
-        ground.nearest(point).map(|edge| line.overlap(&edge)).fold(Overlap::default(), Overlap::or)
+        let outlined = OutlinedHalves::on(ink, line.radius);
+        let overlap = |edge: EdgePoint| line.overlap(&edge, ink.is_outlined(edge.mark).then_some(outlined));
+        ground.nearest(point).map(overlap).fold(Overlap::default(), Overlap::or)
     }
 
     /// The coverage of a pixel by lines of a triangle other than its visible one.
     fn cover_by(
         &mut self,
         frame: &FrameView<'_>,
+        ink: &Ink,
         triangles: &[TriangleRef],
         [other, own]: [u32; 2],
         point: [i32; 2],
@@ -299,8 +304,10 @@ impl OuterInk {
         let ground = (own != NO_TRIANGLE).then(|| grounds.face(frame, triangles, own));
         let are_joined = ground.is_some_and(|ground| ground.shares_a_vertex(lined));
         let line = if are_joined { theirs.narrower(ours) } else { theirs };
+        let is_narrower = are_joined && ours.half.is_finite() && ours.radius < theirs.radius;
+        let outlined = OutlinedHalves::on(ink, if is_narrower { ours.radius } else { theirs.radius });
         lined.nearest(point).fold(Overlap::default(), |most, edge| {
-            let covered = line.overlap(&edge);
+            let covered = line.overlap(&edge, ink.is_outlined(edge.mark).then_some(outlined));
             let is_visible = || {
                 ground.is_none_or(
                     |ground| {

@@ -341,7 +341,7 @@ mod tests {
             bits.insert(hidden);
             let mut elements = ElementSet::default();
             elements.add(node, bits);
-            Mark { elements: Arc::new(elements), color: Vec3::ONE, opacity }
+            Mark { elements: Arc::new(elements), color: Vec3::ONE, opacity, outlined: false }
         };
         let (marked, transparent) = (vec![mark(2, 1.0)], vec![mark(2, 0.0)]);
         let mut lists = VertexLists::default();

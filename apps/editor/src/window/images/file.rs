@@ -19,12 +19,12 @@ fn ending(path: &Path) -> String {
 }
 
 /// A name without an ending gets that of PNG.
-pub(super) fn with_ending(path: PathBuf) -> PathBuf {
+pub(crate) fn with_ending(path: PathBuf) -> PathBuf {
     if path.extension().is_none() { path.with_extension("png") } else { path }
 }
 
 /// Whether a format has the ending of this name; otherwise what can be done.
-pub(super) fn check_ending(path: &Path) -> Result<(), String> {
+pub(crate) fn check_ending(path: &Path) -> Result<(), String> {
     let ending = ending(path);
     if IMAGE_FORMATS.iter().any(|(_, endings)| endings.contains(&ending.as_str())) {
         return Ok(());
@@ -70,14 +70,14 @@ fn write(path: &Path, frame: &Frame) -> Result<(), String> {
 
 /// A file that is being written: the old one or the whole new one is there at any time.
 #[derive(Debug)]
-pub(super) struct Writing {
-    pub(super) path: PathBuf,
+pub(crate) struct Writing {
+    pub(crate) path: PathBuf,
     outcome: Receiver<Result<(), String>>,
 }
 
 impl Writing {
     /// Starts to write; `wake` is called at the end.
-    pub(super) fn start(frame: Arc<Frame>, path: PathBuf, wake: impl FnOnce() + Send + 'static) -> Self {
+    pub(crate) fn start(frame: Arc<Frame>, path: PathBuf, wake: impl FnOnce() + Send + 'static) -> Self {
         let (sender, outcome) = channel();
         let file = path.clone();
         let begun = thread::Builder::new().name("trigon-write".into()).spawn(move || {
@@ -91,7 +91,7 @@ impl Writing {
     }
 
     /// What it ended with; `None` while it runs.
-    pub(super) fn outcome(&self) -> Option<Result<(), String>> {
+    pub(crate) fn outcome(&self) -> Option<Result<(), String>> {
         match self.outcome.try_recv() {
             Ok(outcome) => Some(outcome),
             Err(TryRecvError::Empty) => None,
@@ -101,7 +101,7 @@ impl Writing {
 
     /// The same, once it is there.
     #[cfg(test)]
-    pub(super) fn wait(&self) -> Result<(), String> {
+    pub(crate) fn wait(&self) -> Result<(), String> {
         self.outcome.recv().unwrap_or_else(|_| Err(NO_RESULT.into()))
     }
 }

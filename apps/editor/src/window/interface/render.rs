@@ -24,7 +24,7 @@ const INTERVAL: Duration = Duration::from_millis(100);
 
 /// What was done in the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Did {
+enum RenderAction {
     Render(RenderFrom),
     Cancel,
     Save,
@@ -55,18 +55,18 @@ pub(super) fn show(context: &Context, editor: &mut Editor, stage: &Stage) {
         editor.images.leave();
     }
     match did {
-        Some(Did::Render(from)) => {
+        Some(RenderAction::Render(from)) => {
             editor.images.choices.from = from;
             editor.render(stage);
         }
-        Some(Did::Cancel) => drop(editor.images.leave()),
-        Some(Did::Save) => editor.ask_for_image(ImageKind::Render),
+        Some(RenderAction::Cancel) => drop(editor.images.leave()),
+        Some(RenderAction::Save) => editor.ask_for_image(ImageKind::Render),
         None => {}
     }
 }
 
 /// What is rendered, how large and how well, and the buttons.
-fn choices(ui: &mut Ui, images: &mut Images, has_camera: bool) -> Option<Did> {
+fn choices(ui: &mut Ui, images: &mut Images, has_camera: bool) -> Option<RenderAction> {
     let mut did = None;
     ui.horizontal_wrapped(|ui| {
         let choices = &mut images.choices;
@@ -87,12 +87,12 @@ fn choices(ui: &mut Ui, images: &mut Images, has_camera: bool) -> Option<Did> {
         let is_running = images.rendering.is_some();
         let can = has_camera || choices.from == RenderFrom::View;
         if ui.add_enabled(can && !is_running, Button::new("Render")).clicked() {
-            did = Some(Did::Render(choices.from));
+            did = Some(RenderAction::Render(choices.from));
         }
         let can_save = images.rendered.is_some() && !is_running;
         let save = ui.add_enabled(can_save, Button::new("Save Image…"));
         if save.on_hover_text("PNG, JPEG, WebP or OpenEXR").clicked() {
-            did = Some(Did::Save);
+            did = Some(RenderAction::Save);
         }
     });
     did
@@ -137,7 +137,7 @@ fn name_of(preset: Preset) -> &'static str {
 }
 
 /// The progress while an image is rendered, or else what the last one is or why there is none; and the image.
-fn content(ui: &mut Ui, images: &mut Images, has_camera: bool) -> Option<Did> {
+fn content(ui: &mut Ui, images: &mut Images, has_camera: bool) -> Option<RenderAction> {
     let mut did = None;
     if let Some(rendering) = &images.rendering {
         ui.horizontal(|ui| {
@@ -145,7 +145,7 @@ fn content(ui: &mut Ui, images: &mut Images, has_camera: bool) -> Option<Did> {
             let bar = ui.add(bar.desired_width((ui.available_width() - 90.0).max(60.0)));
             label(&bar, "progress of the image");
             if ui.button("Cancel").on_hover_text("Escape").clicked() {
-                did = Some(Did::Cancel);
+                did = Some(RenderAction::Cancel);
             }
         });
         ui.ctx().request_repaint_after(INTERVAL);
@@ -155,7 +155,7 @@ fn content(ui: &mut Ui, images: &mut Images, has_camera: bool) -> Option<Did> {
             let button = ui.button("Render the View");
             focus_first(&button);
             if button.clicked() {
-                did = Some(Did::Render(RenderFrom::View));
+                did = Some(RenderAction::Render(RenderFrom::View));
             }
         }
     } else if let Some(rendered) = &images.rendered {
@@ -165,15 +165,15 @@ fn content(ui: &mut Ui, images: &mut Images, has_camera: bool) -> Option<Did> {
     did
 }
 
-/// The last image, as large as there is room.
+/// The last image, as large as it fits.
 fn image(ui: &mut Ui, images: &mut Images) {
     let Some(rendered) = &images.rendered else { return };
     let texture = images.texture.get_or_insert_with(|| {
         ui.ctx().load_texture("rendered", Arc::clone(&rendered.shown), TextureOptions::LINEAR)
     });
-    let room = ui.available_size().max(Vec2::splat(64.0));
+    let free = ui.available_size().max(Vec2::splat(64.0));
     let pixels = Vec2::new(rendered.frame.width as f32, rendered.frame.height as f32);
     let points = pixels / ui.ctx().pixels_per_point();
-    let scale = (room.x / points.x).min(room.y / points.y).min(1.0);
+    let scale = (free.x / points.x).min(free.y / points.y).min(1.0);
     ui.add(Image::new((texture.id(), points * scale)));
 }

@@ -197,14 +197,19 @@ impl Sets {
                 elements: Arc::new(elements),
                 color: linear(srgb),
                 opacity,
+                outlined: false,
             })
+        };
+        // These are to be seen on white and on black surfaces.
+        let outlined = |elements: ElementSet, srgb: [u8; 3]| {
+            mark(elements, srgb, 1.0).map(|mark| Mark { outlined: true, ..mark })
         };
         let [active_vertices, active_edges, active_faces] = self.active;
         let [vertices, edges, faces] = self.selected;
         let edges = [
             mark(self.plain_edges, [0; 3], 0.0),
-            mark(active_edges, ACTIVE, 1.0),
-            mark(edges, SELECTED_EDGE, 1.0),
+            outlined(active_edges, ACTIVE),
+            outlined(edges, SELECTED_EDGE),
             mark(self.sharp, SHARP, 1.0),
             mark(self.seams, SEAM, 1.0),
             mark(self.creases, CREASE, 1.0),

@@ -1,6 +1,7 @@
 //! Edges and faces in colours of their own.
 
 use super::*;
+use crate::ink::{Ink, OutlinedHalves};
 use crate::{MarkColors, Marks};
 use trigon_math::Vec2;
 
@@ -53,6 +54,13 @@ fn colors() -> MarkColors {
     colors
 }
 
+/// The same, of which one has outlined edges, if there are to be any.
+fn colors_with_outlines(has_outlines: bool) -> MarkColors {
+    let mut colors = colors();
+    colors.outlined[2] = has_outlines;
+    colors
+}
+
 fn premultiplied(color: Vec4) -> Vec4 {
     (color.truncate() * color.w).extend(color.w)
 }
@@ -96,6 +104,71 @@ fn the_edge_that_covers_most_of_a_pixel_gives_it_its_colour() {
     }
 }
 
+/// Twice as wide, with a black rim of a line on each side; beyond its ends no wider than others.
+#[test]
+fn an_outlined_edge_is_wide_with_a_black_rim_and_nothing_sticks_out_at_its_ends() {
+    let (low, high) = (8.25, 40.0);
+    let faces = Faces::rectangles(&[[low, low, high, high, 0.5]]);
+    let sides = vec![[0, 1, u32::MAX], [u32::MAX, 2, 3]];
+    // Of left, bottom, right, top.
+    let marks = [1_u8, 0, 2, 0];
+    let marked = Marked { faces, sides, of_edges: marks.to_vec(), of_faces: Vec::new() };
+    let mut colors = MarkColors::NONE;
+    colors.edges[1] = Vec4::new(1.0, 0.5, 0.0, 1.0);
+    colors.edges[2] = Vec4::new(0.0, 1.0, 0.0, 0.75);
+    colors.outlined[1] = true;
+    for width in [1.0, 3.0_f32] {
+        let found = marked.image((width, 1.0), colors, (PLAIN, ExecuteSettings::default()));
+        let covered = |half: f32, distance: f32| (half + 0.5 - distance).clamp(0.0, (2.0 * half).min(1.0));
+        let mut rims = 0;
+        for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
+            let [px, py] = [x, y].map(|v| v as f32 + 0.5);
+            let lines = [(px, py, low), (py, px, high), (px, py, high), (py, px, low)];
+            let mut strokes: Vec<_> = lines
+                .into_iter()
+                .zip(marks)
+                .map(|((across, along, at), mark)| {
+                    let beyond = (low - along).max(along - high).max(0.0);
+                    let distance = Vec2::new(across - at, beyond).length();
+                    let halves = if mark == 1 && beyond == 0.0 { [2.0, 1.0] } else { [0.5, 0.5] };
+                    let [share, core] = halves.map(|half| covered(half * width, distance));
+                    (share + core, mark, share, core)
+                })
+                .collect();
+            strokes.sort_by(|a, b| b.partial_cmp(a).unwrap());
+            let [(most, mark, share, core), (next, other, ..), ..] = strokes[..] else {
+                unreachable!("four")
+            };
+            if mark != other && most != next && most - next < ROUNDING {
+                // Rounding decides.
+                continue;
+            }
+            let ink = if mark == 0 { BLACK } else { colors.edges[usize::from(mark)] };
+            let painted = (ink.truncate() * ink.w * core).extend(ink.w * share);
+            let expected = Vec4::ONE * (1.0 - ink.w * share) + painted;
+            let found = found[(y * SIDE + x) as usize];
+            let difference = (found - expected).abs().max_element();
+            assert!(difference < 4.0 * ROUNDING, "{found} for {expected} at ({x}, {y}), {width} wide");
+            rims += u32::from(mark == 1 && share > core + 0.1);
+        }
+        assert!(rims > 40, "the rim is seen: {rims}");
+    }
+}
+
+/// On small faces the rim goes first, then the rest, as of other edges.
+#[test]
+fn the_rim_of_an_outlined_edge_goes_before_its_core() {
+    let colors = MarkColors { outlined: [true; MarkColors::COUNT], ..MarkColors::NONE };
+    let black = FaceEdges { width: 1.0, color: Vec3::ZERO, opacity: 1.0 };
+    let ink = Ink::new(Some(&black), Some(&colors), 1).unwrap();
+    for (radius, whole, core) in
+        [(9.0, 2.0, 1.0), (6.0, 2.0, 1.0), (4.5, 1.5, 1.0), (3.0, 1.0, 1.0), (1.5, 0.5, 0.5)]
+    {
+        assert_eq!(OutlinedHalves::on(&ink, radius), OutlinedHalves { whole, core }, "at {radius}");
+    }
+    assert_eq!([ink.is_outlined(0), ink.is_outlined(1)], [false, true], "the edges without a mark are plain");
+}
+
 #[test]
 fn marked_faces_are_tinted_below_their_edges_and_without_any() {
     let faces = Faces::rectangles(&[[4.0, 4.0, 20.0, 40.0, 0.5], [20.0, 4.0, 36.0, 40.0, 0.5]]);
@@ -128,11 +201,13 @@ proptest! {
     #[test]
     fn marks_are_the_same_bytes_for_all_tiles_threads_and_levels(
         marked in marked(), grid in grid(), width in width(), is_glass in any::<bool>(),
+        has_outlines in any::<bool>(),
     ) {
+        let colors = colors_with_outlines(has_outlines);
         let glass = Faces { color: Vec4::splat(0.5), blend_mode: BlendMode::Translucent, ..marked.faces };
         let faces = if is_glass { glass } else { Faces { color: Vec4::ONE, blend_mode: BlendMode::Opaque, ..glass } };
         let marked = Marked { faces, ..marked };
-        let draw = |settings| marked.image((width, 0.5), colors(), (grid, settings));
+        let draw = |settings| marked.image((width, 0.5), colors, (grid, settings));
         let expected = draw(ExecuteSettings::default());
         for tile_size in [TileSize::Pixels8, TileSize::Pixels16, TileSize::Pixels32, TileSize::Pixels64] {
             let settings = ExecuteSettings { tile_size, threads: NonZeroUsize::new(2), ..Default::default() };
@@ -177,10 +252,13 @@ proptest! {
     }
 
     #[test]
-    fn explained_pixels_show_their_marks(marked in marked(), grid in grid(), width in width(), x in 0..SIDE, y in 0..SIDE) {
-        let drawn = marked.image((width, 0.5), colors(), (grid, ExecuteSettings::default()));
+    fn explained_pixels_show_their_marks(
+        marked in marked(), grid in grid(), width in width(), x in 0..SIDE, y in 0..SIDE, has_outlines in any::<bool>(),
+    ) {
+        let colors = colors_with_outlines(has_outlines);
+        let drawn = marked.image((width, 0.5), colors, (grid, ExecuteSettings::default()));
         let mut pass = pass(&[], width);
-        pass.edges(FaceEdges { width, color: Vec3::ZERO, opacity: 0.5 }).marks(colors());
+        pass.edges(FaceEdges { width, color: Vec3::ZERO, opacity: 0.5 }).marks(colors);
         marked.record(&mut pass);
         let explained = Rasterizer::default().explain_pixel(&pass, &target(grid), x, y).unwrap();
         prop_assert_eq!(explained.color, drawn[(y * SIDE + x) as usize]);

@@ -348,7 +348,7 @@ fn every_other_edge(scene: &Scene) -> Marks {
     (0..asset(scene).1.mesh().edge_count()).step_by(2).for_each(|edge| bits.grow_and_insert(edge));
     let mut set = ElementSet::default();
     set.add(node, bits);
-    let mark = Mark { elements: set.into(), color: Vec3::X, opacity: 1.0 };
+    let mark = Mark { elements: set.into(), color: Vec3::X, opacity: 1.0, outlined: false };
     Marks { edges: vec![mark], ..Marks::default() }
 }
 

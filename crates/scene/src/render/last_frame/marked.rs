@@ -17,12 +17,13 @@ pub(super) struct MarkPalette {
     edges: [Vec4; MarkColors::COUNT],
     faces: [Vec4; MarkColors::COUNT],
     vertices: [Vec4; MarkColors::COUNT],
+    outlined: [bool; MarkColors::COUNT],
 }
 
 impl MarkPalette {
     pub(super) fn new(marks: &Marks) -> Self {
-        let MarkColors { edges, faces } = marks.colors();
-        Self { edges, faces, vertices: elements::colors(&marks.vertices) }
+        let MarkColors { edges, faces, outlined } = marks.colors();
+        Self { edges, faces, vertices: elements::colors(&marks.vertices), outlined }
     }
 }
 

@@ -158,7 +158,8 @@ fn mark(node: NodeId, elements: &[u8], level: f32) -> Mark {
     elements.iter().for_each(|&element| bits.grow_and_insert(usize::from(element)));
     let mut set = ElementSet::default();
     set.add(node, bits);
-    Mark { elements: Arc::new(set), color: Vec3::new(1.0, level, 0.0), opacity: 0.5 + 0.5 * level }
+    let color = Vec3::new(1.0, level, 0.0);
+    Mark { elements: Arc::new(set), color, opacity: 0.5 + 0.5 * level, outlined: level > 0.5 }
 }
 
 /// Where an image is drawn.

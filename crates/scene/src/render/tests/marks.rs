@@ -60,7 +60,7 @@ impl View {
         }
         let mut set = ElementSet::default();
         set.add(self.node, bits);
-        Mark { elements: Arc::new(set), color, opacity: 1.0 }
+        Mark { elements: Arc::new(set), color, opacity: 1.0, outlined: false }
     }
 
     fn frame(&self, settings: &RenderSettings) -> Frame {
