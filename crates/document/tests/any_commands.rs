@@ -13,6 +13,7 @@ use serde_json::{Map, Value, json};
 use trigon_document::mesh::math::SplitMix64;
 use trigon_document::{Command, Document, Paste, command_schema};
 use trigon_io::{ExportOptions, LoadOptions, load_from_slice, writers};
+use trigon_modelling::EditMesh;
 
 fn schema() -> &'static Value {
     static SCHEMA: OnceLock<Value> = OnceLock::new();
@@ -216,9 +217,10 @@ fn write(folder: Option<&Path>, name: &str, bytes: &[u8]) {
     }
 }
 
-fn doubled_faces(document: &Document) -> usize {
-    let meshes = document.scene().meshes().iter().filter_map(|(id, _)| document.mesh(id));
-    meshes.map(|mesh| mesh.doubled_faces().len()).sum()
+fn doubled_faces(document: &mut Document) -> usize {
+    let scene = document.scene();
+    let of_mesh = |mesh| EditMesh::from_mesh(mesh).0.doubled_faces().len();
+    scene.meshes().iter().map(|(_, asset)| of_mesh(asset.mesh())).sum()
 }
 
 fn check(document: &mut Document, case: &Case) -> Result<(), TestCaseError> {
@@ -262,7 +264,7 @@ proptest! {
         let mut arguments = Arguments(SplitMix64::new(seed));
         let is_closed = arguments.chance(4);
         let mut document = start(&mut arguments, is_closed);
-        let mut case = Case { script: Vec::new(), is_closed, doubled_faces: doubled_faces(&document) };
+        let mut case = Case { script: Vec::new(), is_closed, doubled_faces: doubled_faces(&mut document) };
         for _ in 0..length {
             if !is_closed && arguments.chance(8) {
                 if let Ok(bytes) = document.copy() {

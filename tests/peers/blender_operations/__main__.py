@@ -95,13 +95,16 @@ def compare_mesh(editor, mesh, table):
     with tempfile.TemporaryDirectory() as name, concurrent.futures.ThreadPoolExecutor(2) as pool:
         folder = pathlib.Path(name)
         meshes.write_obj(mesh, folder / "subject.obj")
-        chosen = [(operation, operation.select(mesh)) for operation in table if not operation.skip(mesh)]
+        chosen = [(operation, operation.select(mesh)) for operation in table]
         chosen = [pair for pair in chosen if pair[1] is not None]
         run = lambda pair: outcome(lambda: run_trigon(editor, folder, mesh, *pair))
         waiting = pool.map(run, chosen)
-        results = [outcome(lambda: blender.run(mesh, *pair)) for pair in chosen]
-        for (operation, _), ours, theirs in zip(chosen, waiting, results):
-            rows.append((operation.name, mesh.name, *compare(before, ours, theirs), ours, theirs))
+        for pair, ours in zip(chosen, waiting):
+            calls = [call for call in (pair[0].blender, pair[0].other) if call]
+            results = [outcome(lambda: blender.run(mesh, *pair, call)) for call in calls]
+            compared = [(*compare(before, ours, theirs), ours, theirs) for theirs in results]
+            best = next((row for row in compared if row[0] == "equal"), compared[0])
+            rows.append((pair[0].name, mesh.name, *best))
     return rows
 
 

@@ -80,12 +80,12 @@ def result(name):
     return Mesh(name, numpy.concatenate(positions) if positions else numpy.zeros((0, 3)), faces, loose)
 
 
-def run(mesh, operation, selected):
-    """The mesh afterwards. Raises Refused."""
+def run(mesh, operation, selected, call):
+    """The mesh after a call of an operation. Raises Refused."""
     edited = edit(mesh)
     chosen = choose(edited, operation.kind, selected)
     try:
-        operation.blender(edited, chosen)
+        call(edited, chosen)
     except RuntimeError as error:
         raise Refused(str(error).strip()) from error
     if bpy.context.mode != "OBJECT":

@@ -22,8 +22,8 @@ class Operation:
     commands: list
     # Called with the BMesh in edit mode and the selected elements.
     blender: Callable
-    # Whether the mesh has to be left out: what the operation is not for.
-    skip: Callable = lambda mesh: False
+    # Another call with which the result may agree.
+    other: Callable | None = None
 
 
 def op(name, **parameters):
@@ -83,11 +83,11 @@ def loop_cut(cuts):
 
 
 def mirror_copy(edited, chosen):
-    """Blender's copy winds as the original does, so that its outside is inside."""
-    geometry = edited.verts[:] + edited.edges[:] + edited.faces[:]
-    made = bmesh.ops.mirror(edited, geom=geometry, axis="X", merge_dist=1e-4)["geom"]
-    faces = [element for element in made if isinstance(element, bmesh.types.BMFace)]
-    bmesh.ops.reverse_faces(edited, faces=faces)
+    """The modifier: bmesh.ops.mirror leaves the copy inside out."""
+    bpy.ops.object.mode_set(mode="OBJECT")
+    modifier = bpy.context.object.modifiers.new("m", "MIRROR")
+    modifier.use_axis, modifier.merge_threshold = (True, False, False), 1e-4
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
 
 
 def split_edges(edited, chosen):
@@ -217,13 +217,6 @@ each("outset", "face", FACES[:2], op("inset", mode="outset", **INSET), plain(ops
 OURS = {"width": 0.06}
 BEVELED = (on.one_edge, on.apart_edges, on.edges_of_face, on.some_edges, on.all_edges)
 for segments in (1, 2, 3):
-    each(
-        f"bevel without loop slide, {segments} segments",
-        "edge",
-        BEVELED,
-        op("bevel", segments=segments, **OURS),
-        plain(ops.bevel, segments=segments, loop_slide=False, **BEVEL),
-    )
     each(
         f"bevel, {segments} segments",
         "edge",
@@ -456,6 +449,8 @@ add(
     on.quad_edge,
     op("slide_edges", factor=0.4),
     lambda edited, chosen: in_view(transform.edge_slide, value=0.4),
+    # Which side is positive depends on the view in Blender.
+    other=lambda edited, chosen: in_view(transform.edge_slide, value=-0.4),
 )
 
 # Selecting: what is selected is deleted, so that the counts tell.

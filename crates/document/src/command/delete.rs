@@ -82,15 +82,23 @@ pub struct Dissolve {}
 impl Action for Dissolve {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kind = change.selection().kind();
+        let mut left_edges = 0;
         change.edit_selected("dissolving", "something selected", |mesh, selection| {
             let made = match kind {
                 ElementKind::Vertex => mesh.dissolve_vertices(&selection.vertices(mesh, kind))?,
                 ElementKind::Edge => mesh.dissolve_edges(&selection.edges(mesh, kind))?,
                 ElementKind::Face => mesh.dissolve_faces(&selection.faces(mesh, kind))?,
             };
+            left_edges += made.left_edges;
             Ok(AfterEdit::Select(Elements::Faces(made.faces)))
         })?;
-        Ok(Outcome::silent())
+        let mut outcome = Outcome::silent();
+        if left_edges > 0 {
+            let warning =
+                format!("edges that are not between two faces with the same winding stay: {left_edges}");
+            outcome.warnings.push(warning);
+        }
+        Ok(outcome)
     }
 }
 

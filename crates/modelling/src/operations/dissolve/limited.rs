@@ -67,7 +67,7 @@ impl EditMesh {
                     mesh.join_edges(vertex).ok();
                 }
             }
-            Ok(Dissolved { faces, removed_vertices: before - mesh.vertex_count() })
+            Ok(Dissolved { faces, removed_vertices: before - mesh.vertex_count(), left_edges: 0 })
         })
     }
 

@@ -23,6 +23,8 @@ pub struct Dissolved {
     pub faces: Vec<FaceId>,
     /// The number of removed vertices.
     pub removed_vertices: usize,
+    /// The number of given edges that stay because they are not between exactly two faces with the same winding.
+    pub left_edges: usize,
 }
 
 impl EditMesh {
@@ -50,37 +52,41 @@ impl EditMesh {
                 let reason = "no two of the faces share an edge and have the same winding";
                 return Err(Refusal::NotPossible { operation: "dissolving faces", reason });
             }
-            Ok(Dissolved { faces, removed_vertices: vertices - mesh.vertex_count() })
+            Ok(Dissolved { faces, removed_vertices: vertices - mesh.vertex_count(), left_edges: 0 })
         })
     }
 
     /// Removes edges between two faces, which become one; vertices that are left between two edges are also
-    /// removed, if they had more before, as in Blender.
+    /// removed, if they had more before. Edges that are not between exactly two faces with the same winding stay.
     ///
     /// # Errors
-    /// No edge is given, or one does not exist, or is not between exactly two faces with the same winding; a
-    /// merged face would have a hole, be closed or have fewer than three vertices.
+    /// No edge is given, or one does not exist, or all of them stay; a merged face would have a hole, be closed or
+    /// have fewer than three vertices.
     pub fn dissolve_edges(&mut self, edges: &[EdgeId]) -> Result<Dissolved, Refusal> {
         require(edges, "dissolving edges", "at least one edge")?;
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
-        if edges.iter().any(|&edge| self.merging_pair(edge).is_none()) {
-            let reason = "an edge is not between exactly two faces with the same winding";
+        let given = edges.len();
+        let edges: Vec<EdgeId> =
+            edges.iter().copied().filter(|&edge| self.merging_pair(edge).is_some()).collect();
+        if edges.is_empty() {
+            let reason = "no edge is between exactly two faces with the same winding";
             return Err(Refusal::NotPossible { operation: "dissolving edges", reason });
         }
+        let left_edges = given - edges.len();
         let mut ends: Vec<VertexId> = edges.iter().flat_map(|&edge| self.edge_vertices(edge)).collect();
         ends.sort_unstable();
         ends.dedup();
         ends.retain(|&vertex| self.vertex_edges(vertex).nth(2).is_some());
         let vertices = self.vertex_count();
         self.whole(|mesh| {
-            let faces = mesh.merge_across(edges)?;
+            let faces = mesh.merge_across(&edges)?;
             for vertex in ends {
                 if mesh.has_vertex(vertex) {
                     // One that a face needs stays.
                     mesh.join_edges(vertex).ok();
                 }
             }
-            Ok(Dissolved { faces, removed_vertices: vertices - mesh.vertex_count() })
+            Ok(Dissolved { faces, removed_vertices: vertices - mesh.vertex_count(), left_edges })
         })
     }
 
@@ -111,7 +117,7 @@ impl EditMesh {
                 }
             }
             faces.retain(|&face| mesh.has_face(face));
-            Ok(Dissolved { faces, removed_vertices: before - mesh.vertex_count() })
+            Ok(Dissolved { faces, removed_vertices: before - mesh.vertex_count(), left_edges: 0 })
         })
     }
 

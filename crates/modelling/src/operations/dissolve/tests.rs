@@ -86,6 +86,18 @@ fn an_edge_of_a_grid_leaves_a_larger_face() {
     assert!(matches!(border, Err(Refusal::NotPossible { .. })), "there is nothing on its other side");
 }
 
+/// One edge of the border in the selection used to refuse all.
+#[test]
+fn edges_of_the_border_stay_when_others_are_dissolved() {
+    let start = primitives::grid(2.0, 2.0, 2, 2);
+    let (mesh, dissolved) = check_change(&start, |mesh| {
+        let all: Vec<EdgeId> = mesh.edges().collect();
+        mesh.dissolve_edges(&all)
+    })
+    .expect("four of them are inside");
+    assert_eq!((counts(&mesh), dissolved.left_edges), ([4, 4, 1], 8), "one square is left");
+}
+
 #[test]
 fn a_cut_cube_becomes_a_cube_again() {
     let (mut mesh, _) = EditMesh::from_mesh(&with_affine_values(primitives::cube(2.0)));

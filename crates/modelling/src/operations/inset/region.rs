@@ -168,6 +168,7 @@ impl EditMesh {
             return;
         }
         let inward = slide.sides.first;
+        let mut across = None;
         for edge in self.vertex_edges(slide.vertex).filter(|&edge| self.is_boundary(edge)) {
             let other = self.point(self.other_vertex(edge, slide.vertex));
             let along = unit_or_zero(other - self.point(slide.vertex));
@@ -177,6 +178,13 @@ impl EditMesh {
                 slide.sides.sum = along * sine;
                 return;
             }
+            if along != DVec3::ZERO {
+                across.get_or_insert(along);
+            }
+        }
+        // An open border that turns away from the rim: its vertex stays on it, as far away as the rim is wide.
+        if let Some(along) = across {
+            slide.sides.sum = along;
         }
     }
 

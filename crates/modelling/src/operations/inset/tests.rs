@@ -242,6 +242,22 @@ fn the_depth_of_a_region_is_how_far_each_of_its_faces_moves() {
     }
 }
 
+/// At the inner corner of an L the open border leads away from the rim: its vertex left the border, and area was lost.
+#[test]
+fn an_outset_keeps_open_borders_at_inner_corners() {
+    let (mut angle, _) = EditMesh::from_mesh(&primitives::grid(2.0, 2.0, 2, 2));
+    let faces: Vec<FaceId> = angle.faces().collect();
+    angle.delete_faces(&faces[3..]).expect("it is there");
+    let area = |mesh: &EditMesh| mesh.faces().map(|face| mesh.face_area(face)).sum::<f64>();
+    assert_eq!(area(&angle), 3.0, "three squares");
+    for &face in &faces[..3] {
+        let mut mesh = angle.clone();
+        mesh.outset_region(&[face], thickness(0.125)).expect("others are around it");
+        assert!((area(&mesh) - 3.0).abs() < 1e-6, "{face}: {}", area(&mesh));
+        mesh.check_structure().expect("whole");
+    }
+}
+
 #[test]
 fn what_cannot_be_inset_is_refused() {
     let start = primitives::cube(2.0);
