@@ -6,11 +6,13 @@
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::marker::PhantomData;
+use std::num::NonZeroU32;
 
 /// Identifies an item of an [`Arena`]. Copyable, and a different type for each kind of item.
 pub struct Id<T> {
     index: u32,
-    generation: u32,
+    /// From 1 on, so that no optional id takes more memory than an id.
+    generation: NonZeroU32,
     kind: PhantomData<fn() -> T>,
 }
 
@@ -52,13 +54,16 @@ impl<T> Ord for Id<T> {
 impl<T> fmt::Debug for Id<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "#{}", self.index)?;
-        if self.generation > 0 { write!(f, "v{}", self.generation) } else { Ok(()) }
+        match self.generation.get() - 1 {
+            0 => Ok(()),
+            removed => write!(f, "v{removed}"),
+        }
     }
 }
 
 #[derive(Clone, Debug, PartialEq)]
 struct Slot<T> {
-    generation: u32,
+    generation: NonZeroU32,
     item: Option<T>,
 }
 
@@ -89,15 +94,15 @@ impl<T> Arena<T> {
         }
         let index = u32::try_from(self.slots.len()).ok().filter(|&index| index < u32::MAX);
         let index = index.expect("an arena holds fewer than u32::MAX items");
-        self.slots.push(Slot { generation: 0, item: Some(item) });
-        Id { index, generation: 0, kind: PhantomData }
+        self.slots.push(Slot { generation: NonZeroU32::MIN, item: Some(item) });
+        Id { index, generation: NonZeroU32::MIN, kind: PhantomData }
     }
 
     /// Removes an item and returns it; `None` if it was already removed.
     pub fn remove(&mut self, id: Id<T>) -> Option<T> {
         let slot = self.slots.get_mut(id.index()).filter(|slot| slot.generation == id.generation)?;
         let item = slot.item.take()?;
-        slot.generation = slot.generation.wrapping_add(1);
+        slot.generation = slot.generation.checked_add(1).unwrap_or(NonZeroU32::MIN);
         self.free.push(id.index);
         Some(item)
     }

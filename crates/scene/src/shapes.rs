@@ -14,13 +14,26 @@ use crate::node::{Node, NodeId};
 use crate::placement::Eye;
 use crate::scene::{NodePlacement, Scene};
 
-/// A placed mesh.
+/// A placed mesh. There may be millions.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     pub(crate) geometry: Arc<Geometry>,
-    pub(crate) placement: NodePlacement,
+    /// As in its [placement](Self::placement).
+    pub(crate) world: DAffine3,
+    pub(crate) is_mirrored: bool,
     /// Whether a pose changed it.
     pub(crate) is_posed: bool,
+}
+
+impl Shape {
+    fn new(geometry: Arc<Geometry>, placement: NodePlacement, is_posed: bool) -> Self {
+        let NodePlacement { world, is_mirrored } = placement;
+        Self { geometry, world, is_mirrored, is_posed }
+    }
+
+    pub(crate) fn placement(&self) -> NodePlacement {
+        NodePlacement { world: self.world, is_mirrored: self.is_mirrored }
+    }
 }
 
 /// The shapes of all visible nodes, by their indices.
@@ -73,7 +86,7 @@ fn shape(
     placement: NodePlacement,
     onlookers: Onlookers<'_>,
 ) -> Option<Shape> {
-    let rest = Shape { geometry: Arc::clone(asset.geometry()), placement, is_posed: false };
+    let rest = Shape::new(Arc::clone(asset.geometry()), placement, false);
     let Some(bend) = scene.bend(id, asset) else { return Some(rest) };
     // Joints may have moved the mesh elsewhere.
     let placement = bend.joints.as_ref().map_or(placement, |pose| NodePlacement {
@@ -86,7 +99,7 @@ fn shape(
         return None;
     }
     let geometry = asset.geometry().posed(&node.morph_weights, bend.palette());
-    let posed = geometry.map(|geometry| Shape { geometry: Arc::new(geometry), placement, is_posed: true });
+    let posed = geometry.map(|geometry| Shape::new(Arc::new(geometry), placement, true));
     Some(posed.unwrap_or(rest))
 }
 

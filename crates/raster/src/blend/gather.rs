@@ -196,11 +196,11 @@ impl Segment {
     fn of(frame: &FrameView<'_>, triangle: TriangleRef) -> Option<Self> {
         triangle.part()?;
         let plan = &frame.plan.draws[frame.draw_of(triangle)];
-        let geometry = &frame.pass[plan.draw].geometry;
+        let geometry = &frame.pass[plan.draw()].geometry;
         let segment = || {
             let primitive = triangle.ordinal - plan.ordinals.start;
             let [from, to, _] = geometry.corners(primitive);
-            Self { draw: plan.draw as u32, primitive, vertices: [from, to] }
+            Self { draw: plan.draw() as u32, primitive, vertices: [from, to] }
         };
         matches!(geometry.shape, Shape::Lines { .. }).then(segment)
     }

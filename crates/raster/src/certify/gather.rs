@@ -21,7 +21,7 @@ pub(super) fn contenders(frame: &FrameView<'_>, tolerance: Tolerance) -> Contend
             frame,
             volume: &volume,
             vertices: frame.vertices(number),
-            blend_mode: frame.pass[plan.draw].geometry.blend_mode,
+            blend_mode: frame.pass[plan.draw()].geometry.blend_mode,
             drift: drift(tolerance.position() * f64::from(frame.supersampling)),
             depth_ulps: tolerance.depth_ulps(),
             contenders: &mut contenders,
@@ -50,7 +50,7 @@ struct Gather<'f> {
 impl Gather<'_> {
     fn draw(&mut self, plan: &DrawPlan) {
         let supersampling = self.frame.supersampling;
-        match self.frame.pass[plan.draw].geometry.shape {
+        match self.frame.pass[plan.draw()].geometry.shape {
             Shape::Triangles { triangles, culling, .. } => {
                 triangles.iter().for_each(|&indices| self.triangle(indices, culling));
             }

@@ -134,14 +134,14 @@ impl<'f> Trial<'f> {
     ) -> FragmentExplanation {
         let frame = self.frame;
         let plan = &frame.plan.draws[frame.draw_of(triangle_ref)];
-        let geometry = &frame.pass[plan.draw].geometry;
+        let geometry = &frame.pass[plan.draw()].geometry;
         let primitive = triangle_ref.ordinal - plan.ordinals.start;
         let order = order_of(triangle);
         // Each is opposite the vertex that it does not meet.
         let edges = Edge::of(triangle);
         let edges = [2, 0, 1].map(|vertex| explain_edge(&edges[order[vertex]], point));
         FragmentExplanation {
-            draw: plan.draw,
+            draw: plan.draw(),
             object: geometry.object,
             face: geometry.face(primitive),
             primitive,

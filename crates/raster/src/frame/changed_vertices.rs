@@ -65,7 +65,7 @@ impl ChangedVertices {
         self.draws.clear();
         let mut end = 0;
         for draw in &plan.draws {
-            let vertices = changes[draw.draw].vertices.iter().copied();
+            let vertices = changes[draw.draw()].vertices.iter().copied();
             let least = vertices.clone().min().unwrap_or(u32::MAX);
             let greatest = vertices.max().unwrap_or(0);
             let words = end..end + draw.used.len().div_ceil(64);
@@ -79,7 +79,7 @@ impl ChangedVertices {
         for (draw, of_draw) in plan.draws.iter().zip(&self.draws) {
             let slots = plan.slots(draw);
             let bits = &mut self.changed[of_draw.words.clone()];
-            for slot in changes[draw.draw].vertices.iter().map(|&vertex| slots.of(vertex)) {
+            for slot in changes[draw.draw()].vertices.iter().map(|&vertex| slots.of(vertex)) {
                 if slot < draw.used.len() {
                     bits[slot / 64] |= 1 << (slot % 64);
                 }
@@ -107,11 +107,11 @@ impl ChangedVertices {
         let mut tasks = Vec::new();
         let (mut changed, mut moved) = (self.changed.as_slice(), self.moved.as_mut_slice());
         for draw in &plan.draws {
-            let stride = pass[draw.draw].pipeline.stride();
+            let stride = pass[draw.draw()].pipeline.stride();
             for start in (0..draw.used.len()).step_by(VERTICES) {
                 let slots = start..draw.used.len().min(start + VERTICES);
                 let task = RunTask {
-                    recorded: &pass[draw.draw],
+                    recorded: &pass[draw.draw()],
                     used: plan.slots(draw),
                     changed: split(&mut changed, slots.len().div_ceil(64)),
                     moved: split_mut(&mut moved, slots.len().div_ceil(64)),
@@ -271,8 +271,8 @@ impl AffectedSearch<'_> {
             let number = self.plan.draws.partition_point(|other| other.ordinals.end <= draw.ordinals.start);
             let search = DrawSearch {
                 slots: self.plan.slots(draw),
-                geometry: &self.pass[draw.draw].geometry,
-                change: self.changes[draw.draw],
+                geometry: &self.pass[draw.draw()].geometry,
+                change: self.changes[draw.draw()],
                 vertices: self.vertices.of_draw(number),
                 first: (draw.ordinals.start + range.start - chunk.ordinals.start) as usize,
                 range,

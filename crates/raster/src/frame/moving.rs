@@ -57,7 +57,7 @@ impl MovingPrimitives {
     /// Whether primitives are listed apart, and all that moves or looks different in a frame was expected to.
     pub(super) fn covers(&self, vertices: &ChangedVertices, plan: &Plan, changes: &[DrawChange<'_>]) -> bool {
         let are_prepared = |draw: &DrawPlan| {
-            let change = changes[draw.draw];
+            let change = changes[draw.draw()];
             let moves = |&index: &u32| is_set(&self.primitives, (draw.ordinals.start + index) as usize);
             change.recolored.is_empty() && change.reshaped.iter().all(moves)
         };
@@ -123,7 +123,7 @@ impl MovingPrimitives {
     /// Adds all slots of the faces whose triangles move.
     fn add_slots(&mut self, pass: &[RecordedDraw<'_>], plan: &Plan) {
         for draw in &plan.draws {
-            let geometry = &pass[draw.draw].geometry;
+            let geometry = &pass[draw.draw()].geometry;
             if !matches!(geometry.shape, Shape::Triangles { .. }) {
                 continue;
             }
@@ -144,7 +144,7 @@ impl MovingPrimitives {
         chunks: &[Chunk],
         indices: &[Vec<u32>],
     ) -> bool {
-        let is_plain = |draw: &DrawPlan| match pass[draw.draw].geometry.shape {
+        let is_plain = |draw: &DrawPlan| match pass[draw.draw()].geometry.shape {
             Shape::Triangles { .. } => true,
             Shape::Points { .. } => plan.points(draw).is_some(),
             Shape::Lines { .. } => false,

@@ -67,7 +67,7 @@ impl SetUpContext<'_> {
             numbers.clear();
             numbers.extend(indices.iter().filter_map(number));
             let (token, mut setup) = (self.token, self.part(draw, listed));
-            match (&self.pass[draw.draw].geometry.shape, self.plan.points(draw)) {
+            match (&self.pass[draw.draw()].geometry.shape, self.plan.points(draw)) {
                 (&Shape::Triangles { triangles, culling, .. }, _) => {
                     setup.culling = culling;
                     at_level!(token, simd => set_up_listed_triangles(simd, &mut setup, &numbers, triangles));
@@ -87,7 +87,7 @@ impl SetUpContext<'_> {
         let vertices = DrawVertices {
             slots: self.plan.slots(draw),
             screen_vertices: &self.screen_vertices[draw.screen_vertices()],
-            pipeline: self.pass[draw.draw].pipeline,
+            pipeline: self.pass[draw.draw()].pipeline,
             token: self.token,
         };
         Setup {
@@ -105,7 +105,7 @@ impl SetUpContext<'_> {
         let Self { axis, token, .. } = *self;
         let multisampled = setup.grid.pattern.count() > 1;
         let indices = range.start as usize..range.end as usize;
-        match (&self.pass[draw.draw].geometry.shape, self.plan.points(draw)) {
+        match (&self.pass[draw.draw()].geometry.shape, self.plan.points(draw)) {
             (&Shape::Triangles { triangles, culling, .. }, _) => {
                 setup.culling = culling;
                 let triangles = &triangles[indices];

@@ -173,7 +173,7 @@ fn run_vertices(
         let draw = plan.draws.get(queue.draw)?;
         let slots = queue.slot..draw.used.len().min(queue.slot + VERTICES);
         queue.slot = slots.end;
-        let stride = pass[draw.draw].pipeline.stride();
+        let stride = pass[draw.draw()].pipeline.stride();
         let (screen_vertices, others) = std::mem::take(&mut queue.screen_vertices).split_at_mut(slots.len());
         queue.screen_vertices = others;
         let (varyings, others) = std::mem::take(&mut queue.varyings).split_at_mut(slots.len() * stride);
@@ -184,7 +184,7 @@ fn run_vertices(
         while let Some((draw, slots, screen_vertices, varyings)) = next()
             && !options.is_cancelled()
         {
-            let pipeline = pass[draw.draw].pipeline;
+            let pipeline = pass[draw.draw()].pipeline;
             pipeline.run_vertices(
                 options.token,
                 plan.slots(draw),

@@ -72,7 +72,7 @@ impl EdgedFace {
         self.has_parts = false;
         let draw = frame.draw_of(triangle_ref);
         let plan = &frame.plan.draws[draw];
-        let geometry = &frame.pass[plan.draw].geometry;
+        let geometry = &frame.pass[plan.draw()].geometry;
         if !geometry.shows_edges() {
             return;
         }

@@ -215,7 +215,7 @@ impl FrameView<'_> {
             visible => {
                 let triangle = state.triangles[visible as usize];
                 let plan = &self.plan.draws[self.draw_of(triangle)];
-                let geometry = &self.pass[plan.draw].geometry;
+                let geometry = &self.pass[plan.draw()].geometry;
                 let primitive = triangle.ordinal - plan.ordinals.start;
                 [geometry.object, geometry.face(primitive), primitive]
             }

@@ -66,7 +66,7 @@ impl MaskQueue {
             return;
         };
         let draw = &view.frame.plan.draws[view.frame.draw_of(view.triangles[triangle])];
-        let per_sample = view.frame.pass[draw.draw].geometry.blend_mode == BlendMode::MaskedPerSample;
+        let per_sample = view.frame.pass[draw.draw()].geometry.blend_mode == BlendMode::MaskedPerSample;
         let multisampled = view.frame.is_multisampled();
         let Self { waiting, jobs, points, .. } = self;
         let start = points.len();

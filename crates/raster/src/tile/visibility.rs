@@ -351,7 +351,7 @@ fn prepare_batch<S: Simd>(simd: S, pass: &TilePass<'_>, range: Range<usize>) -> 
 fn corners_of_one<'f>(frame: &FrameView<'f>, triangles: &[TriangleRef]) -> [[&'f ScreenVertex; LANES]; 3] {
     let draw = frame.draw_of(triangles[0]);
     let plan = &frame.plan.draws[draw];
-    let (vertices, geometry) = (frame.vertices(draw), &frame.pass[plan.draw].geometry);
+    let (vertices, geometry) = (frame.vertices(draw), &frame.pass[plan.draw()].geometry);
     let corners: [[u32; 3]; LANES] = lanes_of(
         #[inline(always)]
         |lane| {

@@ -106,9 +106,9 @@ impl<'a> VertexLanes<'a> {
 #[derive(Debug, PartialEq)]
 pub(crate) enum UsedVertices {
     /// All from the least to the greatest index.
-    Range(Range<usize>),
+    Range(Range<u32>),
     /// Few of many, ascending: this part of the frame's list.
-    Listed(Range<usize>),
+    Listed(Range<u32>),
 }
 
 impl UsedVertices {
@@ -121,22 +121,28 @@ impl UsedVertices {
         // Running a vertex costs about as much as a few look-ups in a list.
         const WORTH_LISTING: usize = 4;
         if count <= indices.len() {
-            return Self::Range(0..count);
+            return Self::all(count);
         }
-        let exists = |index: &u32| (*index as usize) < count;
-        let (mut least, mut beyond) = (usize::MAX, 0);
+        let exists = |index: &u32| (*index as usize) < count && *index < u32::MAX;
+        let (mut least, mut beyond) = (u32::MAX, 0);
         for &index in indices.iter().filter(|index| exists(index)) {
-            least = least.min(index as usize);
-            beyond = beyond.max(index as usize + 1);
+            least = least.min(index);
+            beyond = beyond.max(index + 1);
         }
         let range = least.min(beyond)..beyond;
-        if range.len() <= indices.len().saturating_mul(WORTH_LISTING) {
+        let is_full = listed.len() + indices.len() > u32::MAX as usize;
+        if is_full || range.len() <= indices.len().saturating_mul(WORTH_LISTING) {
             return Self::Range(range);
         }
         let start = listed.len();
         listed.extend(indices.iter().copied().filter(exists));
         sort_and_dedup(listed, start);
-        Self::Listed(start..listed.len())
+        Self::Listed(start as u32..listed.len() as u32)
+    }
+
+    /// All vertices of a pipeline that an index may name, the greatest index left out.
+    pub(crate) fn all(count: usize) -> Self {
+        Self::Range(0..u32::try_from(count).unwrap_or(u32::MAX))
     }
 
     /// How many there are.
@@ -149,8 +155,10 @@ impl UsedVertices {
     /// How slots are looked up, with the frame's list.
     pub(crate) fn slots<'a>(&self, listed: &'a [u32]) -> Slots<'a> {
         match self {
-            Self::Range(range) => Slots { start: range.start as u32, listed: None },
-            Self::Listed(part) => Slots { start: 0, listed: Some(&listed[part.clone()]) },
+            Self::Range(range) => Slots { start: range.start, listed: None },
+            Self::Listed(part) => {
+                Slots { start: 0, listed: Some(&listed[part.start as usize..part.end as usize]) }
+            }
         }
     }
 }

@@ -119,7 +119,7 @@ impl<'f> FrameView<'f> {
     }
 
     pub(crate) fn pipeline(&self, draw: usize) -> &'f dyn AnyPipeline {
-        self.pass[self.plan.draws[draw].draw].pipeline
+        self.pass[self.plan.draws[draw].draw()].pipeline
     }
 
     /// The vertices of a draw.
@@ -127,7 +127,7 @@ impl<'f> FrameView<'f> {
     pub(crate) fn vertices(&self, draw: usize) -> DrawVertices<'f> {
         let plan = &self.plan.draws[draw];
         let screen_vertices = &self.screen_vertices[plan.screen_vertices()];
-        let pipeline = self.pass[plan.draw].pipeline;
+        let pipeline = self.pass[plan.draw()].pipeline;
         DrawVertices { slots: self.plan.slots(plan), screen_vertices, pipeline, token: self.token }
     }
 
@@ -136,7 +136,7 @@ impl<'f> FrameView<'f> {
     pub(crate) fn draw_view(&self, draw: usize) -> DrawView<'f> {
         let plan = &self.plan.draws[draw];
         DrawView {
-            geometry: &self.pass[plan.draw].geometry,
+            geometry: &self.pass[plan.draw()].geometry,
             vertices: self.vertices(draw),
             first: plan.ordinals.start,
             points: self.plan.points(plan),
@@ -166,7 +166,7 @@ impl<'f> FrameView<'f> {
     #[inline]
     pub(crate) fn object_and_face(&self, draw: usize, triangle: TriangleRef) -> u64 {
         let plan = &self.plan.draws[draw];
-        let geometry = &self.pass[plan.draw].geometry;
+        let geometry = &self.pass[plan.draw()].geometry;
         let face = geometry.face(triangle.ordinal - plan.ordinals.start);
         u64::from(geometry.object) << 32 | u64::from(face)
     }
@@ -178,7 +178,7 @@ impl<'f> FrameView<'f> {
         let key = |triangle: TriangleRef| {
             let draw = self.draw_of(triangle);
             let plan = &self.plan.draws[draw];
-            (self.object_and_face(draw, triangle), triangle.ordinal - plan.ordinals.start, plan.draw)
+            (self.object_and_face(draw, triangle), triangle.ordinal - plan.ordinals.start, plan.draw())
         };
         key(a).cmp(&key(b))
     }

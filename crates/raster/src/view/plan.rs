@@ -17,10 +17,9 @@ const MOST: u32 = 65_536;
 /// chunks, so there should not be more.
 const SHARES: u32 = 16;
 
-/// One draw of the pass in the frame.
+/// One draw of the pass in the frame. There may be millions.
 pub(crate) struct DrawPlan {
-    /// Index of the draw in the pass.
-    pub(crate) draw: usize,
+    draw: u32,
     /// Ordinals of its primitives in the frame.
     pub(crate) ordinals: Range<u32>,
     pub(crate) used: UsedVertices,
@@ -33,6 +32,12 @@ pub(crate) struct DrawPlan {
 }
 
 impl DrawPlan {
+    /// Index of the draw in the pass.
+    #[inline(always)]
+    pub(crate) fn draw(&self) -> usize {
+        self.draw as usize
+    }
+
     /// Where its vertices are in the frame's array.
     #[inline(always)]
     pub(crate) fn screen_vertices(&self) -> Range<usize> {
@@ -75,10 +80,10 @@ impl Plan {
         self.listed.clear();
         self.points.clear();
         (self.vertices, self.varyings) = (0, 0);
-        self.draws.extend((0..recorded.len()).map(|draw| {
-            let RecordedDraw { geometry, pipeline } = &recorded[draw];
+        self.draws.extend(recorded.iter().zip(0..).map(|(draw_of_pass, draw)| {
+            let RecordedDraw { geometry, pipeline } = draw_of_pass;
             let used = UsedVertices::new(geometry.indices(), pipeline.vertex_count(), &mut self.listed);
-            let points = plain_points(&recorded[draw], supersampling).map(|looks| {
+            let points = plain_points(draw_of_pass, supersampling).map(|looks| {
                 self.points.push(looks);
                 self.points.len() as u32 - 1
             });
@@ -86,12 +91,12 @@ impl Plan {
         }));
         // Equal keys stay in the order of the pass.
         self.draws.sort_unstable_by_key(|plan| {
-            let geometry = &recorded[plan.draw].geometry;
+            let geometry = &recorded[plan.draw()].geometry;
             (geometry.blend_mode, geometry.object, plan.draw)
         });
         let mut ordinal = 0;
         for plan in &mut self.draws {
-            let RecordedDraw { geometry, pipeline } = &recorded[plan.draw];
+            let RecordedDraw { geometry, pipeline } = &recorded[plan.draw()];
             let end = ordinal + geometry.len() as u32;
             plan.ordinals = ordinal..end;
             ordinal = end;
@@ -109,7 +114,7 @@ impl Plan {
     /// holds.
     pub(crate) fn update_points(&mut self, recorded: &[RecordedDraw<'_>], supersampling: u32) {
         for plan in &self.draws {
-            let looks = plain_points(&recorded[plan.draw], supersampling);
+            let looks = plain_points(&recorded[plan.draw()], supersampling);
             if let (Some(index), Some(looks)) = (plan.points, looks) {
                 self.points[index as usize] = looks;
             }
@@ -118,9 +123,9 @@ impl Plan {
 
     /// Whether the same draws of a pass have points that are drawn from their vertices.
     pub(crate) fn has_points_of(&self, recorded: &[RecordedDraw<'_>], supersampling: u32) -> bool {
-        self.draws
-            .iter()
-            .all(|plan| plan.points.is_some() == plain_points(&recorded[plan.draw], supersampling).is_some())
+        self.draws.iter().all(|plan| {
+            plan.points.is_some() == plain_points(&recorded[plan.draw()], supersampling).is_some()
+        })
     }
 
     /// Whether equal depths can be decided by the ordinal among opaque draws.
@@ -128,7 +133,7 @@ impl Plan {
         let opaque = self
             .draws
             .iter()
-            .map(|plan| &recorded[plan.draw].geometry)
+            .map(|plan| &recorded[plan.draw()].geometry)
             .filter(|g| g.blend_mode == BlendMode::Opaque);
         let mut before: Option<((u32, u32), usize)> = None;
         for geometry in opaque.filter(|geometry| geometry.len() > 0) {
@@ -155,7 +160,7 @@ impl Plan {
             chunks[count].reset(ordinals, blend_mode);
             count += 1;
         };
-        let blend_mode = |plan: &DrawPlan| recorded[plan.draw].geometry.blend_mode;
+        let blend_mode = |plan: &DrawPlan| recorded[plan.draw()].geometry.blend_mode;
         for draws in self.draws.chunk_by(|a, b| blend_mode(a) == blend_mode(b)) {
             let end = draws[draws.len() - 1].ordinals.end;
             let mut start = draws[0].ordinals.start;

@@ -63,17 +63,22 @@ impl Casters {
     pub(crate) fn gather(scene: &Scene, shapes: &Shapes) -> Self {
         let mut casters = Self { list: Vec::new(), bounds: Bounds3::EMPTY };
         for (id, node) in scene.nodes().iter() {
-            let Some(Shape { geometry, placement, .. }) = shapes.get(id.index()) else { continue };
+            let Some(shape) = shapes.get(id.index()) else { continue };
+            let Shape { geometry, world, .. } = shape;
             let materials: Vec<Option<Material>> =
                 geometry.runs.iter().map(|run| cast_by(scene, node, run.slot)).collect();
             if materials.iter().all(Option::is_none) {
                 continue;
             }
-            let bounds = geometry.bounds().transformed(&placement.world);
+            let bounds = geometry.bounds().transformed(world);
             casters.bounds = casters.bounds.union(bounds);
             let textures = materials.iter().flatten().map(|material| textures(scene, material)).collect();
-            let shadow =
-                ShadowSource { geometry: geometry.state.clone(), placement: *placement, materials, textures };
+            let shadow = ShadowSource {
+                geometry: geometry.state.clone(),
+                placement: shape.placement(),
+                materials,
+                textures,
+            };
             let node = id.index() as u32;
             casters.list.push(Caster { node, geometry: Arc::clone(geometry), shadow, bounds });
         }

@@ -78,10 +78,10 @@ impl<'s> ObjectSource<'s> {
         Self {
             geometry,
             looks: looks.collect(),
-            to_camera: prepared.eye.to_camera(&shape.placement.world),
-            normal_to_world: normal_matrix(&shape.placement.world.matrix3, shape.placement.is_mirrored),
-            tangent_to_world: shape.placement.world.matrix3.as_mat3(),
-            mirrored: shape.placement.is_mirrored,
+            to_camera: prepared.eye.to_camera(&shape.world),
+            normal_to_world: normal_matrix(&shape.world.matrix3, shape.is_mirrored),
+            tangent_to_world: shape.world.matrix3.as_mat3(),
+            mirrored: shape.is_mirrored,
             draws_are_runs: prepared.settings.style != Style::HiddenLine,
         }
     }

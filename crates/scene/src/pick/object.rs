@@ -160,7 +160,7 @@ impl<'s> PickObject<'s> {
 
 impl DrawnTriangles {
     fn new(scene: &Scene, node: NodeId, shape: Shape, screen: &Screen) -> Option<Self> {
-        if !screen.eye.may_see(&shape.geometry.bounds(), &shape.placement.world) {
+        if !screen.eye.may_see(&shape.geometry.bounds(), &shape.world) {
             return None;
         }
         let materials = &scene.node(node)?.materials;
@@ -169,11 +169,11 @@ impl DrawnTriangles {
             Facing {
                 double_sided: material.is_none_or(|material| material.double_sided),
                 is_opaque: material.is_none_or(|material| material.alpha_mode == AlphaMode::Opaque),
-                is_mirrored: shape.placement.is_mirrored,
+                is_mirrored: shape.is_mirrored,
             }
         };
         let facings = shape.geometry.runs.iter().map(facing).collect();
-        Some(Self { map: screen.map(&shape.placement.world), facings, shape, corners: OnceLock::new() })
+        Some(Self { map: screen.map(&shape.world), facings, shape, corners: OnceLock::new() })
     }
 
     /// The triangles of each material.

@@ -140,7 +140,7 @@ impl<'s> Wires<'s> {
     }
 
     fn may_show(&self, shape: &Shape, prepared: &PreparedScene<'_>) -> bool {
-        prepared.eye.may_see(&self.asset.bounds(), &shape.placement.world)
+        prepared.eye.may_see(&self.asset.bounds(), &shape.world)
     }
 
     fn have(&self, effect: Effect) -> bool {

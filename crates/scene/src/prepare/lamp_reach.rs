@@ -57,7 +57,7 @@ impl PreparedScene<'_> {
             let Some(shape) = shape.filter(|shape| is_lit(self.scene, node, shape)).filter(is_visible) else {
                 continue;
             };
-            let bounds = shape.geometry.bounds().transformed(&shape.placement.world);
+            let bounds = shape.geometry.bounds().transformed(&shape.world);
             waiting.retain(|(_, reach)| !reach.may_light(&bounds));
         }
         waiting.into_iter().map(|(number, _)| number).collect()

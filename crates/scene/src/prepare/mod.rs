@@ -92,7 +92,7 @@ impl<'s> PreparedScene<'s> {
 
     /// Whether some of a shape's faces may be in view.
     pub(crate) fn may_show(&self, shape: &Shape) -> bool {
-        self.eye.may_see(&shape.geometry.bounds(), &shape.placement.world)
+        self.eye.may_see(&shape.geometry.bounds(), &shape.world)
     }
 
     /// The transform of a lamp.

@@ -138,7 +138,7 @@ impl<'s> Composer<'s> {
                 true => shape.geometry.bounds(),
                 false => shape.geometry.bounds().union(asset.bounds()),
             };
-            let (index, placement) = (id.index() as u32, self.eye.placement(&shape.placement, &bounds));
+            let (index, placement) = (id.index() as u32, self.eye.placement(&shape.placement(), &bounds));
             let (geometry, marks) = (&shape.geometry, self.marks(id));
             let object = DrawnObject { id, index, node, asset, geometry, placement, marks };
             self.object(&object, &mut draws, counts);
@@ -154,7 +154,7 @@ impl<'s> Composer<'s> {
         wires
             || self.settings.style == Style::Wireframe
             || self.settings.vertices.is_some()
-            || self.eye.may_see(&shape.geometry.bounds(), &shape.placement.world)
+            || self.eye.may_see(&shape.geometry.bounds(), &shape.world)
     }
 
     fn object<'c>(

@@ -89,12 +89,12 @@ pub(super) fn can_update(plan: &Plan, pass: &Pass<'_>, changes: &[DrawChange<'_>
     pass.scissor.is_none()
         && changes.len() == pass.draws.len()
         && plan.draws.iter().all(|draw| {
-            let RecordedDraw { geometry, pipeline } = &pass.draws[draw.draw];
+            let RecordedDraw { geometry, pipeline } = &pass.draws[draw.draw()];
             let is_mesh = matches!(geometry.shape, Shape::Triangles { .. });
             // Other corners could use other vertices.
-            let uses_all = draw.used == UsedVertices::Range(0..pipeline.vertex_count());
+            let uses_all = draw.used == UsedVertices::all(pipeline.vertex_count());
             let is_points = matches!(geometry.shape, Shape::Points { .. });
-            changes[draw.draw].reshaped.is_empty() || is_points || is_mesh && uses_all
+            changes[draw.draw()].reshaped.is_empty() || is_points || is_mesh && uses_all
         })
 }
 

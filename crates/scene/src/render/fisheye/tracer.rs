@@ -83,7 +83,7 @@ impl<'p> DrawnRun<'p> {
             triangles: source.triangles.start as u32..source.triangles.end as u32,
             blend_mode,
             culling,
-            to_camera: prepared.eye.to_camera(&shape.placement.world),
+            to_camera: prepared.eye.to_camera(&shape.world),
         })
     }
 }

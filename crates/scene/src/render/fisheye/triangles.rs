@@ -52,7 +52,7 @@ impl EyeTriangleCache {
             .map(|(node, shape)| PlacedGeometry {
                 node,
                 geometry: shape.geometry.state.clone(),
-                placement: shape.placement,
+                placement: shape.placement(),
             })
             .collect();
         let cached = self.cached.take().filter(|cached| cached.made_of == made_of);
@@ -71,13 +71,13 @@ fn shapes<'p>(prepared: &'p PreparedScene<'_>) -> impl Iterator<Item = (u32, &'p
 impl EyeTriangles {
     fn new(prepared: &PreparedScene<'_>) -> Self {
         let bounds = shapes(prepared).fold(Bounds3::EMPTY, |bounds, (_, shape)| {
-            bounds.union(shape.geometry.bounds().transformed(&shape.placement.world))
+            bounds.union(shape.geometry.bounds().transformed(&shape.world))
         });
         let middle = bounds.center().filter(|middle| middle.is_finite()).unwrap_or(DVec3::ZERO);
         let (mut triangles, mut nodes) = (Vec::new(), Vec::new());
         for (node, shape) in shapes(prepared) {
             nodes.push(NodeTriangles { node, first: triangles.len() as u32 });
-            let world = shape.placement.world;
+            let world = shape.world;
             let to_tree = DAffine3 { translation: world.translation - middle, ..world };
             let [x, y, z] = &shape.geometry.columns.positions;
             let position = |vertex: u32| {
