@@ -7,7 +7,7 @@ use trigon_scene::{RenderSettings, Scene, render};
 
 /// The most bytes at a time for each node while a file is read, and then while it is drawn. 10^6 of them are to
 /// stay in reach of small machines.
-const MOST: [usize; 2] = [1000, 1200];
+const MOST: [usize; 2] = [900, 1000];
 
 /// So many nodes fill the lists that grow by doubling.
 const COUNTS: [usize; 2] = [1 << 14, 1 << 15];

@@ -108,9 +108,9 @@ mod tests {
     fn what_each_of_many_nodes_takes_is_small() {
         let draw = size_of::<TriangleDraw<'_, Surface<'_, true>>>();
         assert_eq!(draw, size_of::<TriangleDraw<'_, Surface<'_, false>>>(), "flat or not");
-        assert!(draw <= 272, "a draw: {draw} bytes");
-        assert!(size_of::<Option<Shape>>() <= 120, "a shape: {} bytes", size_of::<Option<Shape>>());
-        assert!(size_of::<Node>() <= 344, "a node: {} bytes", size_of::<Node>());
+        assert!(draw <= 200, "a draw: {draw} bytes");
+        assert!(size_of::<Option<Shape>>() <= 112, "a shape: {} bytes", size_of::<Option<Shape>>());
+        assert!(size_of::<Node>() <= 248, "a node: {} bytes", size_of::<Node>());
     }
 
     #[test]
