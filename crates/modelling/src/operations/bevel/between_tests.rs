@@ -55,6 +55,20 @@ fn rims_keep_the_width_where_several_faces_lie_between_two_edges() {
     }
 }
 
+/// On a round solid the planes of the faces beside the edges lie outside of it.
+#[test]
+fn rims_that_meet_across_faces_stay_on_a_round_solid() {
+    let (mut sphere, _) = EditMesh::from_mesh(&primitives::uv_sphere(1.0, 8, 6));
+    let side = sphere.faces().find(|&face| sphere.face_size(face) == 4).expect("quads between the poles");
+    let edges: Vec<EdgeId> = sphere.face_edges(side).collect();
+    let before = sphere.volume();
+    let settings = BevelSettings { width: 0.05, ..BevelSettings::default() };
+    let made = sphere.bevel_edges(&edges, &settings).expect("between two faces");
+    let farthest = made.vertices.iter().map(|&vertex| sphere.point(vertex).length()).fold(0.0, f64::max);
+    assert!(farthest < 1.0, "all new vertices are inside of the sphere: {farthest}");
+    assert!(sphere.volume() < before, "convex edges lose volume");
+}
+
 /// A width that is measured along edges ends on these.
 #[test]
 fn widths_along_edges_end_between_those_edges() {

@@ -73,34 +73,43 @@ impl Nodes<'_> {
         (out * rim, self.parts_on_edge(corner, true, rim))
     }
 
-    /// Where the rims of two beveled edges meet that have several faces between them: the one along which the first
-    /// corner is left, and the one by which the last is entered. Each rim runs in the plane of the face beside its
-    /// edge; if these planes differ, in the middle of the points of both that are nearest to each other.
-    pub(super) fn meeting_across(
-        &mut self,
-        first: CornerId,
-        last: CornerId,
-    ) -> (DVec3, SmallVec<[WeightTerm; 4]>) {
+    /// Where the rims of two beveled edges meet that have several faces between them, given their corners: the one
+    /// edge leaves the first, the other enters the last. The rims run in the planes of the faces beside their edges;
+    /// what is in the middle of the points of both that are nearest to each other is projected onto a face between
+    /// them, so that it stays on the surface.
+    pub(super) fn meeting_across(&mut self, corners: &[CornerId]) -> (DVec3, SmallVec<[WeightTerm; 4]>) {
+        let (first, last) = (corners[0], corners[corners.len() - 1]);
         let [one, other] = [self.way(first, true).0, self.way(last, false).0];
-        let rims = [self.rim(first, true), self.rim(last, false)];
-        let (beside_one, mut parts) = self.frames.beside(self.mesh, first, one);
-        let (beside_other, parts_other) = self.frames.beside(self.mesh, last, -other);
-        let [offset_one, offset_other] = [beside_one * rims[0], beside_other * rims[1]];
-        let along = nearest([one, other], offset_other - offset_one);
-        parts.iter_mut().for_each(|part| part.slope *= rims[0]);
-        parts.extend(parts_other.into_iter().map(|part| WeightTerm { slope: part.slope * rims[1], ..part }));
-        for (corner, is_out, along) in [(first, true, along[0]), (last, false, along[1])] {
-            // Without the corner itself, which is there already.
-            parts.extend(
-                self.parts_on_edge(corner, is_out, along)
-                    .into_iter()
-                    .map(|part| WeightTerm { base: 0.0, ..part }),
-            );
-        }
-        for part in &mut parts {
-            (part.base, part.slope) = (0.5 * part.base, 0.5 * part.slope);
-        }
-        (0.5 * (offset_one + one * along[0] + offset_other + other * along[1]), parts)
+        let beside_one = self.frames.beside(self.mesh, first, one).0 * self.rim(first, true);
+        let beside_other = self.frames.beside(self.mesh, last, -other).0 * self.rim(last, false);
+        let along = nearest([one, other], beside_other - beside_one);
+        let meeting = 0.5 * (beside_one + one * along[0] + beside_other + other * along[1]);
+        let in_corners = corners[1..corners.len() - 1].iter().filter_map(|&corner| {
+            let along = self.along_sides(corner, meeting)?;
+            Some((corner, along))
+        });
+        // The face in whose angle it is, or that it misses least.
+        let best = in_corners.max_by(|(_, a), (_, b)| a[0].min(a[1]).total_cmp(&b[0].min(b[1])));
+        let Some((corner, along)) = best else { return self.middle_between(first, last) };
+        let sides = [true, false].map(|is_out| self.way(corner, is_out));
+        let slopes = [along[0] / sides[0].1, along[1] / sides[1].1];
+        let parts = smallvec![
+            self.toward(corner, true, slopes[0]),
+            self.toward(corner, false, slopes[1]),
+            WeightTerm { corner, base: 1.0, slope: -slopes[0] - slopes[1] },
+        ];
+        (sides[0].0 * along[0] + sides[1].0 * along[1], parts)
+    }
+
+    /// How far along the two sides of a corner an offset is, projected onto their plane. `None` if they are almost one
+    /// line.
+    fn along_sides(&self, corner: CornerId, offset: DVec3) -> Option<[f64; 2]> {
+        let [out, into] = [true, false].map(|is_out| self.way(corner, is_out).0);
+        let cosine = out.dot(into);
+        let squared_sine = 1.0 - cosine * cosine;
+        let (a, b) = (offset.dot(out), offset.dot(into));
+        let along = [a - cosine * b, b - cosine * a].map(|value| value / squared_sine);
+        (squared_sine > STRAIGHT * STRAIGHT && out != DVec3::ZERO && into != DVec3::ZERO).then_some(along)
     }
 
     /// In the middle of the places on the first and the last edge between two beveled ones.

@@ -126,7 +126,7 @@ impl Nodes<'_> {
             _ => {
                 let (offset, parts) = match self.rims.measures_along_edges() {
                     true => self.middle_between(first, last),
-                    false => self.meeting_across(first, last),
+                    false => self.meeting_across(&layout.corners[from..to]),
                 };
                 for i in from + 1..to {
                     let distance = self.way(layout.corners[i], true).0.dot(offset);
