@@ -72,7 +72,7 @@ actions! {
     "Edit" "edit.copy" "Copy" "Ctrl+C" Selected Ui(UiRequest::Copy) => "Remembers objects, or elements in edit mode.";
     "Edit" "edit.paste" "Paste" "Ctrl+V" Nothing Ui(UiRequest::Paste) => "Adds what was copied; in edit mode it joins the edited mesh.";
     "Edit/Snap" "snap.menu" "Snap Menu" "Shift+S" Nothing Ui(UiRequest::Popup("Edit/Snap")) => "Chooses where the 3D cursor or the selection goes.";
-    "Edit/Snap" "snap.selection_to_cursor" "Selection to Cursor" "" Selected Ui(UiRequest::Placing(Placing::SelectionToCursor)) => "Moves the middle of the selection to the 3D cursor.";
+    "Edit/Snap" "snap.selection_to_cursor" "Selection to Cursor (Keep Offset)" "" Selected Ui(UiRequest::Placing(Placing::SelectionToCursor)) => "Moves the middle of the selection to the 3D cursor.";
     "Edit/Snap" "snap.selection_to_grid" "Selection to Grid" "" Selected Ui(UiRequest::Placing(Placing::SelectionToGrid)) => "Moves the middle of the selection to whole metres.";
     "Edit/Snap" "snap.cursor_to_origin" "Cursor to World Origin" "Shift+C" Nothing Ui(UiRequest::Placing(Placing::CursorToOrigin)) => "Moves the 3D cursor to the origin of the world.";
     "Edit/Snap" "snap.cursor_to_selected" "Cursor to Selected" "" Selected Ui(UiRequest::Placing(Placing::CursorToSelected)) => "Moves the 3D cursor to the middle of the selection.";
