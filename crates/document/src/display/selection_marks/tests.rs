@@ -197,6 +197,13 @@ fn contrast(frame: &Frame, surface: u8, at: DVec2) -> u8 {
     pixels.flat_map(|[r, g, b, _]| [r, g, b]).map(|value| value.abs_diff(surface)).max().unwrap_or(0)
 }
 
+/// Whether neither a pixel nor any of those around it shows the cube.
+fn is_beside(frame: &Frame, [x, y]: [u32; 2]) -> bool {
+    let ids = frame.object_ids.as_ref().expect("requested");
+    let around = |at: u32| at.saturating_sub(1)..(at + 2).min(SIDE);
+    around(y).all(|y| around(x).all(|x| ids[(y * SIDE + x) as usize] == u32::MAX))
+}
+
 #[test]
 fn a_selected_edge_is_seen_on_white_and_on_black_and_stays_by_its_edge() {
     for (surface, byte) in [(Vec3::ONE, 255), (Vec3::ZERO, 0)] {
@@ -213,13 +220,11 @@ fn a_selected_edge_is_seen_on_white_and_on_black_and_stays_by_its_edge() {
                 let along = (point - from).dot(way) / way.length_squared();
                 let distance = (from + way * along.clamp(0.0, 1.0)).distance(point);
                 // Half of the line, half of a pixel's diagonal, and of the finer grid. Beyond an end the line goes on
-                // within an obtuse corner of its face, and over the silhouette it is as narrow as all lines.
-                let is_beside =
-                    plain.object_ids.as_ref().expect("requested")[(y * SIDE + x) as usize] == u32::MAX;
+                // as far as an obtuse corner of its face leads, and beside the cube it is as narrow as all lines.
                 let most = match (0.0..=1.0).contains(&along) {
                     true => 2.0 + 1.1,
-                    false if is_beside => 0.5 + 1.6,
-                    false => 2.0 * std::f64::consts::SQRT_2 + 1.1,
+                    false if is_beside(&plain, [x, y]) => 0.5 + 1.6,
+                    false => 5.0,
                 };
                 assert!(distance < most, "edge {edge} on {byte} at ({x}, {y}), {distance} from it");
             }
