@@ -1,10 +1,8 @@
 //! What is selected and marked has its colour, under the numbers of the scene's mesh.
 
 use serde_json::json;
-use trigon_mesh::math::{DVec2, DVec3};
 use trigon_mesh::primitives;
-use trigon_scene::camera::{Camera, Projector, Viewport};
-use trigon_scene::{Frame, Material, Scene, Shading, render};
+use trigon_scene::{Material, Scene};
 
 use super::*;
 use crate::tests::commands::run;
@@ -157,71 +155,4 @@ fn a_face_of_a_cage_is_marked_by_all_its_parts_and_its_surface_has_no_edges() {
     assert_eq!(hidden, surface.face_edge_count(), "all edges of the surface");
     let cage = document.mesh(id).expect("it is edited").edge_count();
     assert_eq!(surface.edge_count() - hidden, cage, "those of the cage are seen");
-}
-
-/// The side of the images of cubes, in pixels.
-const SIDE: u32 = 160;
-
-/// A cube of 2 m in one unlit colour, seen from the right, above and before, in edit mode with an edge selected.
-fn cube(surface: Vec3, edge: Option<usize>) -> (Frame, Vec<[DVec2; 2]>) {
-    let mut scene = Scene::new();
-    let material =
-        Material { base_color: surface.extend(1.0), shading: Shading::Unlit, ..Material::default() };
-    scene.add_object("cube", primitives::cube(2.0), material);
-    let mut document = Document::new(scene);
-    run(&mut document, json!({ "op": "edit_objects", "objects": ["cube"] }));
-    run(&mut document, json!({ "op": "set_element_kind", "kind": "edge" }));
-    let (id, _) = document.selection().meshes().next().expect("the cube");
-    let mesh = document.mesh(id).expect("it is edited").clone();
-    let edges: Vec<EdgeId> = mesh.edges().collect();
-    match edge {
-        Some(edge) => run(&mut document, json!({ "op": "select", "elements": [edges[edge].index()] })),
-        None => run(&mut document, json!({ "op": "select_none" })),
-    }
-    let camera = Camera::look_at(DVec3::new(3.0, 2.5, 4.5), DVec3::ZERO, DVec3::Y);
-    let mut marks = DisplayMarks::default();
-    marks.update(&mut document);
-    let mut settings = RenderSettings { samples_per_axis: 2, ..RenderSettings::new(SIDE, SIDE) };
-    marks.apply(&mut settings, Reach::Visible);
-    let projector = Projector::new(&camera, Viewport { width: SIDE, height: SIDE });
-    let at = |vertex: VertexId| projector.to_screen(mesh.position(vertex).as_dvec3()).expect("in view");
-    let ends = edges.iter().map(|&edge| mesh.edge_vertices(edge).map(at)).collect();
-    (render(document.scene(), &camera, &settings).expect("it can be drawn"), ends)
-}
-
-/// The greatest difference of a channel from that of the surface within two pixels.
-fn contrast(frame: &Frame, surface: u8, at: DVec2) -> u8 {
-    let near = (-2..=2).flat_map(|y| (-2..=2).map(move |x| DVec2::new(x.into(), y.into())));
-    let pixels = near.map(|offset| frame.pixel((at + offset).x as u32, (at + offset).y as u32));
-    pixels.flat_map(|[r, g, b, _]| [r, g, b]).map(|value| value.abs_diff(surface)).max().unwrap_or(0)
-}
-
-#[test]
-fn a_selected_edge_is_seen_on_white_and_on_black_and_stays_by_its_edge() {
-    for (surface, byte) in [(Vec3::ONE, 255), (Vec3::ZERO, 0)] {
-        let (plain, ends) = cube(surface, None);
-        let mut seen = 0;
-        for (edge, &[from, to]) in ends.iter().enumerate() {
-            let (selected, _) = cube(surface, Some(edge));
-            let changed = (0..SIDE * SIDE).map(|pixel| [pixel % SIDE, pixel / SIDE]);
-            let changed: Vec<_> =
-                changed.filter(|&[x, y]| plain.pixel(x, y) != selected.pixel(x, y)).collect();
-            for &[x, y] in &changed {
-                let point = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-                let way = to - from;
-                let along = (point - from).dot(way) / way.length_squared();
-                let distance = (from + way * along.clamp(0.0, 1.0)).distance(point);
-                // Half of the line, half of a pixel's diagonal, and of the finer grid.
-                let most = if (0.0..=1.0).contains(&along) { 2.0 + 1.1 } else { 0.5 + 1.6 };
-                assert!(distance < most, "edge {edge} on {byte} at ({x}, {y}), {distance} from it");
-            }
-            if changed.is_empty() {
-                continue;
-            }
-            seen += 1;
-            let contrast = contrast(&selected, byte, from.lerp(to, 0.5));
-            assert!(contrast > 150, "edge {edge} on {byte}: {contrast}");
-        }
-        assert_eq!(seen, 9, "three edges of a cube are behind it");
-    }
 }

@@ -117,7 +117,7 @@ fn an_outlined_edge_is_wide_with_a_black_rim_and_nothing_sticks_out_at_its_ends(
     colors.edges[1] = Vec4::new(1.0, 0.5, 0.0, 1.0);
     colors.edges[2] = Vec4::new(0.0, 1.0, 0.0, 0.75);
     colors.outlined[1] = true;
-    for width in [1.0, 3.0_f32] {
+    for width in [1.0, 2.0_f32] {
         let found = marked.image((width, 1.0), colors, (PLAIN, ExecuteSettings::default()));
         let covered = |half: f32, distance: f32| (half + 0.5 - distance).clamp(0.0, (2.0 * half).min(1.0));
         let mut rims = 0;
