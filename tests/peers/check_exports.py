@@ -118,6 +118,9 @@ def check_case(folder, tally):
             for wrong in check_polygons(*read(path), case, tally):
                 yield f"{path.name}: {wrong}"
         try:
+            # What is not edited is saved as it came; exports replace what is no number.
+            if path.name == "saved.glb" and not case.get("finite", True):
+                continue
             check = check_with_meshlab if ending in (".ply", ".off") else check_triangles
             wrong = list(check(path, tally))
         except Exception as error:  # Whatever another library says of a file is a finding.
@@ -127,6 +130,10 @@ def check_case(folder, tally):
 
 def check_with_meshlab(path, tally):
     """Read by MeshLab, which cuts polygons."""
+    # MeshLab reads no lists with counts above 255.
+    if b"property list uint uint" in path.read_bytes()[:1000]:
+        tally["long lists"] += 1
+        return
     meshes = pymeshlab.MeshSet()
     meshes.load_new_mesh(str(path))
     mesh = meshes.current_mesh()

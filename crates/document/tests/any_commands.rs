@@ -194,9 +194,19 @@ struct Case {
     is_closed: bool,
     /// How many faces lay on others before the script.
     doubled_faces: usize,
+    /// Whether all positions were finite before: what is not edited is saved as it came.
+    is_finite: bool,
 }
 
 impl Case {
+    fn new(document: &mut Document, is_closed: bool) -> Self {
+        let scene = document.scene();
+        let meshes = || scene.meshes().iter().map(|(_, asset)| asset.mesh());
+        let doubled_faces = meshes().map(|mesh| EditMesh::from_mesh(mesh).0.doubled_faces().len()).sum();
+        let is_finite = meshes().all(|mesh| mesh.positions().iter().all(|position| position.is_finite()));
+        Self { script: Vec::new(), is_closed, doubled_faces, is_finite }
+    }
+
     /// The case's files for another program: `TRIGON_EXPORTS` names the folder.
     fn folder(&self) -> Option<PathBuf> {
         static COUNT: AtomicU32 = AtomicU32::new(0);
@@ -204,7 +214,7 @@ impl Case {
         let folder = PathBuf::from(std::env::var_os("TRIGON_EXPORTS")?).join(format!("{number:06}"));
         std::fs::create_dir_all(&folder).expect("the folder can be made");
         let facts = json!({
-            "closed": self.is_closed, "doubled_faces": self.doubled_faces, "script": self.script.join("\n"),
+            "closed": self.is_closed, "doubled_faces": self.doubled_faces, "finite": self.is_finite, "script": self.script.join("\n"),
         });
         std::fs::write(folder.join("case.json"), facts.to_string()).expect("the folder can be written to");
         Some(folder)
@@ -215,12 +225,6 @@ fn write(folder: Option<&Path>, name: &str, bytes: &[u8]) {
     if let Some(folder) = folder {
         std::fs::write(folder.join(name), bytes).expect("the folder can be written to");
     }
-}
-
-fn doubled_faces(document: &mut Document) -> usize {
-    let scene = document.scene();
-    let of_mesh = |mesh| EditMesh::from_mesh(mesh).0.doubled_faces().len();
-    scene.meshes().iter().map(|(_, asset)| of_mesh(asset.mesh())).sum()
 }
 
 fn check(document: &mut Document, case: &Case) -> Result<(), TestCaseError> {
@@ -264,7 +268,7 @@ proptest! {
         let mut arguments = Arguments(SplitMix64::new(seed));
         let is_closed = arguments.chance(4);
         let mut document = start(&mut arguments, is_closed);
-        let mut case = Case { script: Vec::new(), is_closed, doubled_faces: doubled_faces(&mut document) };
+        let mut case = Case::new(&mut document, is_closed);
         for _ in 0..length {
             if !is_closed && arguments.chance(8) {
                 if let Ok(bytes) = document.copy() {

@@ -163,7 +163,7 @@ impl EditMesh {
     /// A vertex where the rim ends at an open border slides along that.
     fn keep_on_border(&self, slide: &mut Slide) {
         /// Of an edge at a smaller angle, as its sine, to the open border, the meeting point is too far away.
-        const FLAT: f64 = 1e-5;
+        const FLAT: f64 = 0.05;
         if slide.sides.count != 1 {
             return;
         }
