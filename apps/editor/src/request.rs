@@ -237,6 +237,7 @@ pub(crate) enum UiRequest {
     Up(Up),
     LargerText,
     SmallerText,
+    NormalText,
 }
 
 impl UiRequest {

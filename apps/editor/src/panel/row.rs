@@ -1,15 +1,18 @@
 //! Rows of a panel: a label and a widget, side by side or, in a narrow panel, one above the other. A changed
 //! widget becomes a request.
 
+use std::cell::RefCell;
+
 use trigon_document::mesh::math::color::linear_to_srgb8;
 use trigon_document::scene::css_color;
 use trigon_document::{Command, Document};
 use trigon_window::egui;
-use trigon_window::egui::{DragValue, Response, Ui};
+use trigon_window::egui::{Context, DragValue, Id, Response, Ui};
 
 use super::form::NumberForm;
 use super::unit::Unit;
 use crate::request::Request;
+use crate::tool::evaluate;
 
 /// Below this width, in points, labels stand above their widgets.
 const NARROW: f32 = 230.0;
@@ -62,7 +65,14 @@ pub(super) fn number(ui: &mut Ui, width: f32, value: &mut f64, form: &NumberForm
     let mut shown = form.unit.shown(before);
     let text_of = |number| rounded(number, form.unit.digits());
     let bounds = form.unit.shown(form.least)..=form.unit.shown(form.most);
+    let rejected = RefCell::new(None);
+    let parse = |text: &str| {
+        let value = evaluate(text, form.unit.quantity());
+        *rejected.borrow_mut() = value.as_ref().err().map(|error| format!("{text:?}: {error}"));
+        value.ok()
+    };
     let drag = DragValue::new(&mut shown)
+        .custom_parser(parse)
         .range(bounds)
         .clamp_existing_to_range(false)
         .speed(speed(before, form))
@@ -71,12 +81,24 @@ pub(super) fn number(ui: &mut Ui, width: f32, value: &mut f64, form: &NumberForm
         .suffix(form.unit.suffix())
         .prefix(prefix);
     let mut response = ui.add_sized([width, ui.spacing().interact_size.y], drag);
+    if let Some(text) = rejected.into_inner() {
+        ui.data_mut(|data| data.insert_temp(rejected_id(), text));
+    }
     if response.changed() && text_of(shown) == text_of(form.unit.shown(before)) {
         response.flags.remove(egui::response::Flags::CHANGED);
     } else if response.changed() {
         *value = form.unit.value(shown);
     }
     response
+}
+
+fn rejected_id() -> Id {
+    Id::unique("the text that was no number")
+}
+
+/// Why what was typed last into a field for numbers counts for nothing, once.
+pub(crate) fn rejected_number(context: &Context) -> Option<String> {
+    context.data_mut(|data| data.remove_temp(rejected_id()))
 }
 
 /// Values that span a bounded range move through it in some hundred points.

@@ -1,5 +1,7 @@
 //! Units of numbers, shown after a field's value.
 
+use crate::tool::Quantity;
+
 /// What a number counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Unit {
@@ -27,6 +29,15 @@ impl Unit {
         ];
         let lower = comment.to_lowercase();
         words.into_iter().find(|(word, _)| lower.contains(word)).map_or(Self::None, |(_, unit)| unit)
+    }
+
+    /// Which units may be typed after a number, which is shown in metres or degrees.
+    pub(super) fn quantity(self) -> Quantity {
+        match self {
+            Self::Metres => Quantity::Length,
+            Self::Degrees | Self::Radians => Quantity::Angle,
+            Self::None | Self::SquareMetres => Quantity::Factor,
+        }
     }
 
     /// The suffix of the number.

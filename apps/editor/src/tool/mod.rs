@@ -24,6 +24,7 @@ mod view;
 
 pub(crate) use bevel::{BevelTool, InsetTool};
 pub(crate) use constraint::{Axis, Frames, Freedom, Orientation, TransformKind};
+pub(crate) use expression::{Quantity, evaluate};
 pub(crate) use extrude::ExtrudeTool;
 pub(crate) use gesture::{Gesture, GestureKind, GestureState, RegionMode};
 pub(crate) use loop_cut::LoopCutTool;

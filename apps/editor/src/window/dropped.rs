@@ -31,7 +31,7 @@ impl Editor {
             (_, Some(material)) => Some(MaterialName::of(material)),
             (Some(object), None) => {
                 let object = Some(ObjectName::of(object));
-                self.run(AddMaterial { object, name }.into());
+                self.run(AddMaterial { object, name, ..AddMaterial::default() }.into());
                 None
             }
             (None, None) => {

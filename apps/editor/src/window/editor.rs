@@ -47,6 +47,16 @@ pub(crate) enum Message {
 pub(crate) const WELCOME: &str =
     "Middle drag or Alt+left drag orbits, the wheel zooms; click selects, Tab edits; F3 finds every command";
 
+/// Sizes of text, as factors: above them the panels leave no room for the view.
+const TEXT_SIZES: [f32; 7] = [0.64, 0.8, 1.0, 1.25, 1.5, 1.75, 2.0];
+
+/// The size that is so many steps larger than the nearest one.
+fn next_size(size: f32, steps: isize) -> f32 {
+    let off = |at: &usize| (TEXT_SIZES[*at] - size).abs();
+    let nearest = (0..TEXT_SIZES.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or_default();
+    TEXT_SIZES[nearest.saturating_add_signed(steps).min(TEXT_SIZES.len() - 1)]
+}
+
 /// A document in a window.
 pub(crate) struct Editor {
     pub(crate) document: Document,
@@ -277,6 +287,7 @@ impl Editor {
             | UiRequest::EmulateMouse
             | UiRequest::EmulateNumpad
             | UiRequest::LargerText
+            | UiRequest::NormalText
             | UiRequest::SmallerText => self.change_preferences(stage, request),
             UiRequest::Snapping => self.tools.snapping = !self.tools.snapping,
             UiRequest::Snap(target) => self.tools.snap_target = target,
@@ -298,8 +309,9 @@ impl Editor {
             UiRequest::Development => settings.development = !settings.development,
             UiRequest::EmulateMouse => settings.emulates_mouse = !settings.emulates_mouse,
             UiRequest::EmulateNumpad => settings.emulates_numpad = !settings.emulates_numpad,
-            UiRequest::LargerText => settings.text_scale = (settings.text_scale * 1.25).min(4.0),
-            UiRequest::SmallerText => settings.text_scale = (settings.text_scale / 1.25).max(0.5),
+            UiRequest::LargerText => settings.text_scale = next_size(settings.text_scale, 1),
+            UiRequest::SmallerText => settings.text_scale = next_size(settings.text_scale, -1),
+            UiRequest::NormalText => settings.text_scale = 1.0,
             _ => {}
         });
         self.apply_preferences(stage);

@@ -48,7 +48,7 @@ impl Editor {
     fn start_new(&mut self) {
         let mut scene = Scene::new();
         let cube = scene.add_object("Cube", primitives::cube(2.0), Material::default());
-        let light = scene.add(Node::from_light(Light::point(100.0)));
+        let light = scene.add(Node::from_light(Light::point(45.0)));
         if let Some(node) = scene.node_mut(light) {
             node.name = "Light".into();
             node.transform.translate(DVec3::new(4.0, 6.0, 3.0));
@@ -77,6 +77,7 @@ impl Editor {
         self.document.set_memory(memory);
         // Its numbers may be those of the one before.
         self.look = Look::default();
+        self.images.forget();
         (self.view.local, self.view.before_local, self.view.before_camera) = (None, None, None);
     }
 
@@ -88,7 +89,16 @@ impl Editor {
             FileRequest::Open(path) => self.unless_unsaved(stage, Next::Open(path)),
             FileRequest::SaveAs(path) => {
                 let next = self.after_save.take();
-                self.save_to(stage, with_extension(path), next);
+                let path = with_extension(path);
+                if is_native(&path) {
+                    self.save_to(stage, path, next);
+                } else {
+                    // Under another ending no program would read it.
+                    let name = path.display();
+                    self.message = Message::Refusal(format!(
+                        "{name}: documents are saved as .glb; File, Export writes other formats"
+                    ));
+                }
             }
             FileRequest::Import(path) => self.import(stage, path),
             FileRequest::Texture { material, slot, path } => {
@@ -134,8 +144,7 @@ impl Editor {
 
     /// The document's file, if it is one that the editor writes.
     fn native_path(&self) -> Option<PathBuf> {
-        let is_native = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "glb");
-        self.file.path.clone().filter(is_native)
+        self.file.path.clone().filter(|path| is_native(path))
     }
 
     fn unless_unsaved(&mut self, stage: &mut Stage, next: Next) {
@@ -199,6 +208,7 @@ impl Editor {
                 self.recent.add(path);
                 let warned = match &warnings[..] {
                     [] => String::new(),
+                    [only] => format!(" with a warning: {only}"),
                     [first, ..] => format!(" with {} warnings: {first}", warnings.len()),
                 };
                 self.message = Message::Info(format!("Opened {}{warned}", path.display()));
@@ -396,12 +406,20 @@ impl Editor {
     }
 }
 
+/// Whether it is the name of a file that a document is saved to.
+fn is_native(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("glb"))
+}
+
 /// What is said of a document that has come back.
 fn recovered(left: &Left) -> String {
     let missing =
         if left.is_cut_off { " except the last actions, which the recovery file lacks" } else { "" };
     match &left.document {
-        Some(path) => format!("Recovered unsaved work{missing}; Save writes it to {}", path.display()),
+        Some(path) if is_native(path) => {
+            format!("Recovered unsaved work{missing}; Save writes it to {}", path.display())
+        }
+        Some(path) => format!("Recovered unsaved work{missing} on {}; Save asks for a GLB", path.display()),
         None => format!("Recovered unsaved work{missing}; it has no file yet, and Save asks for a name"),
     }
 }

@@ -176,7 +176,13 @@ impl Editor {
         let is_editing = self.document.selection().is_editing();
         let chords = keys.into_iter().flatten().map(|key| Chord::new(hands.modifiers, key));
         let found = chords.into_iter().find_map(|chord| self.keys.find(chord, is_editing));
-        let Some(action) = found else { return Taken::No };
+        let Some(action) = found else {
+            if let Some(key @ Key::Character(_)) = keys[0] {
+                let chord = Chord::new(hands.modifiers, key);
+                self.message = Message::Refusal(format!("{chord} does nothing here; F3 finds every command"));
+            }
+            return Taken::No;
+        };
         self.choose(stage, action);
         if let Some(tool) = &mut self.tool {
             tool.follow_at_once();

@@ -4,8 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Action, Outcome};
+use trigon_modelling::{EditMesh, FaceId};
+
 use crate::error::EditError;
-use crate::selection::ElementKind;
+use crate::selection::{ElementKind, Elements};
 use crate::state::{AfterEdit, Change};
 
 const EDGES: &str = "at least one selected edge";
@@ -87,7 +89,9 @@ impl Action for Crease {
     }
 }
 
-/// Shades the selected faces smooth or flat.
+const SHADING: &str = "shading faces";
+
+/// Shades the selected faces smooth or flat; in object mode all faces of the selected objects.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Shade {
@@ -104,10 +108,24 @@ impl Default for Shade {
 impl Action for Shade {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let mut count = 0;
-        change.edit_selected_faces("shading faces", FACES, |mesh, faces| {
+        let mut shade = |mesh: &mut EditMesh, faces: &[FaceId]| {
             count += if self.smooth { mesh.shade_smooth(faces)? } else { mesh.shade_flat(faces)? };
             Ok(())
-        })?;
+        };
+        if change.selection().is_editing() {
+            change.edit_selected_faces(SHADING, FACES, shade)?;
+        } else {
+            let meshes = change.meshes_of(change.selection().objects.clone());
+            if meshes.is_empty() {
+                return Err(EditError::NothingSelected { command: SHADING, needed: "an object with a mesh" });
+            }
+            for id in meshes {
+                change.edit(id, |mesh| {
+                    let faces: Vec<FaceId> = mesh.faces().collect();
+                    shade(mesh, &faces).map_err(EditError::from)
+                })?;
+            }
+        }
         Ok(Outcome::counted("changed", count, ["face", "faces"]))
     }
 }
@@ -168,7 +186,7 @@ fn but<T: Ord>(all: impl Iterator<Item = T>, left_out: &[T]) -> Vec<T> {
     all.filter(|element| left_out.binary_search(element).is_err()).collect()
 }
 
-/// Shows all hidden elements of the edited meshes.
+/// Shows all hidden elements of the edited meshes, and selects them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Reveal {}
@@ -179,8 +197,21 @@ impl Action for Reveal {
             return Err(EditError::NotEditing("showing hidden elements"));
         }
         let ids: Vec<_> = change.selection().meshes().map(|(id, _)| id).collect();
+        let kind = change.selection().kind();
         for id in ids {
-            change.edit(id, |mesh| Ok(mesh.reveal_all()))?;
+            let shown = change.edit(id, |mesh| Ok(mesh.reveal_all()))?;
+            if shown.vertices.is_empty() && shown.edges.is_empty() && shown.faces.is_empty() {
+                continue;
+            }
+            let elements = match kind {
+                ElementKind::Vertex => Elements::Vertices(shown.vertices),
+                ElementKind::Edge => Elements::Edges(shown.edges),
+                ElementKind::Face => Elements::Faces(shown.faces),
+            };
+            let (selections, meshes) = change.selection_and_meshes();
+            if let (Some(selection), Some(mesh)) = (selections.of_mut(id), meshes.get(&id)) {
+                selection.select(mesh, kind, &elements);
+            }
         }
         Ok(Outcome::silent())
     }

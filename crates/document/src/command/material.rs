@@ -66,11 +66,13 @@ pub struct AddMaterial {
     pub object: Option<ObjectName>,
     /// The name of the material.
     pub name: String,
+    /// The slot that it takes, from 0, instead of the material there; one beyond the last adds a slot. Default: a new slot.
+    pub slot: Option<u32>,
 }
 
 impl Default for AddMaterial {
     fn default() -> Self {
-        Self { object: None, name: "Material".to_owned() }
+        Self { object: None, name: "Material".to_owned(), slot: None }
     }
 }
 
@@ -80,7 +82,11 @@ impl Action for AddMaterial {
         let scene = change.scene_mut();
         let shading = Shading::MetallicRoughness(MetallicRoughness::default());
         let material = scene.add_material(Material::default().with_name(&self.name).with_shading(shading));
-        scene.node_mut(object).expect("it was just found").materials.push(material);
+        let slots = &mut scene.node_mut(object).expect("it was just found").materials;
+        match self.slot.and_then(|slot| slots.get_mut(slot as usize)) {
+            Some(slot) => *slot = material,
+            None => slots.push(material),
+        }
         Ok(Outcome::silent())
     }
 }

@@ -7,6 +7,7 @@ use trigon_document::{
 };
 use trigon_window::egui::{self, Ui};
 
+use super::super::form::NumberForm;
 use super::super::parameters::check_box;
 use super::super::row::{choice, color, number, positive, row, text};
 use super::super::unit::Unit;
@@ -117,6 +118,25 @@ impl Fields<'_> {
         let roughness =
             ShareRow { label: "Roughness", hover: "0 is a mirror, 1 is matt.", value: model.roughness };
         self.share(ui, roughness, &given, requests);
+        let given = |transmission| SetMaterial { transmission: Some(transmission), ..self.unchanged() };
+        let hover = "1 is glass: light goes through. Seen in Rendered and in images.";
+        let value = self.material.transmission;
+        self.share(ui, ShareRow { label: "Transmission", hover, value }, &given, requests);
+        if self.material.transmission > 0.0 {
+            self.index_of_refraction(ui, requests);
+        }
+    }
+
+    fn index_of_refraction(&self, ui: &mut Ui, requests: &mut Vec<Request>) {
+        let mut shown = f64::from(self.material.ior);
+        let form = NumberForm { least: 1.0, most: 10.0, is_integer: false, unit: Unit::None };
+        let hover = "How much light is bent: 1.33 is water, 1.5 glass.";
+        let response =
+            row(ui, "Refraction index", hover, |ui, width| number(ui, width, &mut shown, &form, ""));
+        if response.changed() {
+            let command = SetMaterial { ior: Some(shown as f32), ..self.unchanged() };
+            submit(ui, self.document, &response, command.into(), requests);
+        }
     }
 
     fn highlight(&self, ui: &mut Ui, specular: Vec3, shininess: f32, requests: &mut Vec<Request>) {
@@ -143,10 +163,20 @@ impl Fields<'_> {
             let command = SetMaterial { base_color: Some([red, green, blue, alpha]), ..self.unchanged() };
             submit(ui, self.document, &response, command.into(), requests);
         }
-        let given = |alpha| SetMaterial { base_color: Some([red, green, blue, alpha]), ..self.unchanged() };
+        // Who makes something translucent wants to see through it.
+        let is_ignored = self.material.alpha_mode == AlphaMode::Opaque;
+        let given = |alpha| SetMaterial {
+            base_color: Some([red, green, blue, alpha]),
+            alpha: (is_ignored && alpha < 1.0).then_some(SurfaceAlpha::Blend),
+            ..self.unchanged()
+        };
         self.share(
             ui,
-            ShareRow { label: "Alpha", hover: "Opacity, unless alpha is ignored.", value: alpha },
+            ShareRow {
+                label: "Alpha",
+                hover: "Opacity; below 1 the alpha mode becomes Blend.",
+                value: alpha,
+            },
             &given,
             requests,
         );

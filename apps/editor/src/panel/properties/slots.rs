@@ -25,10 +25,13 @@ pub(super) fn slots(ui: &mut Ui, shown: ShownObject<'_>, slot: &mut usize, reque
         }
     }
     ui.horizontal_wrapped(|ui| {
-        if ui.button("New").on_hover_text("Adds a slot with a new material, and chooses it").clicked() {
-            let object = Some(ObjectName::of(id));
-            requests.push(Request::Run(AddMaterial { object, ..AddMaterial::default() }.into()));
-            *slot = node.materials.len();
+        let is_editing = document.selection().is_editing();
+        let help = match is_editing {
+            true => "Adds a slot with a new material, and chooses it: Assign gives it to faces",
+            false => "Gives the chosen slot, and so its faces, a new material",
+        };
+        if ui.button("New").on_hover_text(help).clicked() {
+            new_material(shown, slot, requests);
         }
         for_faces(ui, shown, *slot, requests);
     });
@@ -36,6 +39,20 @@ pub(super) fn slots(ui: &mut Ui, shown: ShownObject<'_>, slot: &mut usize, reque
     if let Some(chosen) = choose_material(ui, materials, current) {
         let (object, material) = (Some(ObjectName::of(id)), MaterialName::of(chosen));
         requests.push(Request::Run(SetMaterialSlot { object, slot: *slot as u32, material }.into()));
+    }
+}
+
+/// A new material: in edit mode for faces that will be chosen, in object mode for those of the slot.
+fn new_material(shown: ShownObject<'_>, slot: &mut usize, requests: &mut Vec<Request>) {
+    let ShownObject { document, id, node, .. } = shown;
+    let object = Some(ObjectName::of(id));
+    if document.selection().is_editing() || node.materials.is_empty() {
+        requests.push(Request::Run(AddMaterial { object, ..AddMaterial::default() }.into()));
+        *slot = node.materials.len();
+    } else {
+        requests.push(Request::Run(
+            AddMaterial { slot: Some(*slot as u32), object, ..AddMaterial::default() }.into(),
+        ));
     }
 }
 

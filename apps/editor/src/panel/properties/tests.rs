@@ -110,11 +110,16 @@ fn a_material_has_its_values_and_images() {
     let blend = SetMaterial { alpha: Some(SurfaceAlpha::Blend), ..expected };
     assert_eq!(case.take_requests(), [Request::Run(blend.into())], "chosen");
     case.click("New");
-    let count = case.document().nodes().node(cube).expect("it is there").materials.len();
-    assert_eq!(count, 2, "there are two slots now, and the new one is chosen");
+    let slots = |case: &mut Case<PropertiesState>| {
+        case.document().nodes().node(cube).expect("it is there").materials.clone()
+    };
+    let new = slots(&mut case);
+    assert_eq!(new.len(), 1, "in object mode the new material takes the chosen slot");
     case.choose("Material", "Plastic");
-    let slots = case.document().nodes().node(cube).expect("it is there").materials.clone();
-    assert_eq!(slots[0], slots[1], "the second slot shows the first material, too");
+    assert_ne!(slots(&mut case), new, "the first material again");
+    case.command(json!({ "op": "edit_objects", "objects": ["Cube"] }));
+    case.click("New");
+    assert_eq!(slots(&mut case).len(), 2, "in edit mode it gets a slot for faces that are chosen later");
     case.image("properties_material");
 }
 
@@ -231,4 +236,24 @@ fn a_narrow_panel_clips_no_label() {
     case.command(json!({ "op": "edit_objects", "objects": ["Cube"] }));
     case.command(json!({ "op": "select_all" }));
     case.assert_nothing_is_clipped();
+}
+
+/// Nothing was seen of an alpha below 1.
+#[test]
+fn who_lowers_alpha_sees_through() {
+    let (mut case, _) = case(260.0, 900.0);
+    select(&mut case, "Cube");
+    case.type_number("Alpha", "0.5");
+    let requests = case.take_requests();
+    let [Request::Run(Command::SetMaterial(SetMaterial { alpha, base_color, .. }))] = &requests[..] else {
+        panic!("one command: {requests:?}")
+    };
+    assert_eq!((*alpha, base_color.map(|color| color[3])), (Some(SurfaceAlpha::Blend), Some(0.5)), "both");
+    case.choose("Alpha mode", "Mask");
+    case.take_requests();
+    case.type_number("Alpha", "0.25");
+    let requests = case.take_requests();
+    let [Request::Run(Command::SetMaterial(SetMaterial { alpha: None, .. }))] = &requests[..] else {
+        panic!("what was chosen stays: {requests:?}")
+    };
 }

@@ -107,7 +107,7 @@ const TOOLS: [&str; 12] = [
 pub(crate) const CONTEXT_MENU: &str = "Context";
 
 /// What that menu offers, of both modes.
-const CONTEXT: [&str; 19] = [
+const CONTEXT: [&str; 21] = [
     "edit.mode",
     "tool.move",
     "tool.rotate",
@@ -115,6 +115,8 @@ const CONTEXT: [&str; 19] = [
     "edit.duplicate",
     "edit.rename",
     "edit.join",
+    "face.smooth",
+    "face.flat",
     "edit.hide",
     "edit.delete",
     "mesh.extrude",

@@ -25,7 +25,7 @@ actions! {
     "Edit" "edit.undo" "Undo" "Ctrl+Z" SomethingDone Undo => "Undoes the last action.";
     "Edit" "edit.redo" "Redo" "Ctrl+Shift+Z Ctrl+Y" SomethingUndone Redo => "Redoes the last undone action.";
     "Edit" "edit.repeat" "Repeat Last" "Shift+R" SomethingToRepeat RepeatLast => "Runs the last command again.";
-    "Edit" "edit.adjust" "Adjust Last Operation" "F9" SomethingDone Ui(UiRequest::AdjustPanel) => "Shows the values of the last command for adjusting.";
+    "Edit" "edit.adjust" "Last Operation Panel" "F9" SomethingDone Ui(UiRequest::AdjustPanel) => "Shows or hides the values of the last command, to adjust them.";
     "Edit" "edit.mode" "Edit Mode" "Tab" Nothing Ui(UiRequest::ToggleEditMode) => "Edits the elements of the selected objects, or whole objects again.";
     "Edit" "edit.rename" "Rename…" "F2" Objects Ui(UiRequest::Rename) => "Renames the active object.";
 
@@ -211,8 +211,8 @@ actions! {
     "Mesh/Vertex" "vertex.menu" "Vertex Menu" "Ctrl+Shift+V" EditMode Ui(UiRequest::Popup("Mesh/Vertex")) => "Lists operations on vertices.";
 
     "Mesh/Face" "face.menu" "Face Menu" "Ctrl+F" EditMode Ui(UiRequest::Popup("Mesh/Face")) => "Lists operations on faces.";
-    "Mesh/Face" "face.smooth" "Shade Smooth" "" Elements Run(r#"{"op":"shade"}"#) => "Shades faces smooth.";
-    "Mesh/Face" "face.flat" "Shade Flat" "" Elements Run(r#"{"op":"shade","smooth":false}"#) => "Shades faces flat.";
+    "Mesh/Face" "face.smooth" "Shade Smooth" "" Meshes Run(r#"{"op":"shade"}"#) => "Shades the selected faces, or whole objects, smooth.";
+    "Mesh/Face" "face.flat" "Shade Flat" "" Meshes Run(r#"{"op":"shade","smooth":false}"#) => "Shades the selected faces, or whole objects, flat.";
     "Mesh/Face" "face.material" "Assign Material" "" Elements Run(r#"{"op":"assign_material"}"#) => "Assigns a material slot to faces; choose it with F9.";
     "Mesh/Normals" "normals.outside" "Recalculate Outside" "Shift+N" Elements Run(r#"{"op":"recalculate_normals"}"#) => "Makes faces point outwards.";
     "Mesh/Normals" "normals.inside" "Recalculate Inside" "Ctrl+Shift+N" Elements Run(r#"{"op":"recalculate_normals","inside":true}"#) => "Makes faces point inwards.";
@@ -262,7 +262,7 @@ actions! {
     "View" "view.x_ray" "X-Ray" "Alt+Z" Nothing View(ViewRequest::ToggleXRay) => "Shows and selects elements behind faces, too.";
     "View" "view.overlays" "Overlays" "Alt+Shift+Z" Nothing View(ViewRequest::ToggleOverlays) => "Shows or hides grid, axes, lights, cameras and the gizmo.";
     "View" "view.render" "Render Image" "F12" Nothing View(ViewRequest::Render) => "Renders what the scene's camera sees, to be saved as a file.";
-    "View" "view.screenshot" "Save Screenshot…" "" Nothing View(ViewRequest::Screenshot) => "Writes the view to an image file as it is shown.";
+    "View" "view.screenshot" "Save Screenshot…" "" Nothing View(ViewRequest::Screenshot) => "Writes the view to an image file, without the grid, the gizmo and the panels.";
     "View" "view.tool_bar" "Tool Bar" "T" Nothing Ui(UiRequest::ToolBar) => "Shows or hides the tools on the left.";
     "View" "view.side_bar" "Side Bar" "N" Nothing Ui(UiRequest::SideBar) => "Shows or hides the panels on the right.";
     "View" "view.development" "Development Tab" "" Nothing Ui(UiRequest::Development) => "Shows or hides how the image is made, on the right.";
@@ -274,5 +274,6 @@ actions! {
     "View/Input" "input.mouse" "Emulate Three-Button Mouse" "" Nothing Ui(UiRequest::EmulateMouse) => "Alt+left drag orbits, with Shift it pans, with Ctrl it zooms.";
     "View/Input" "input.numpad" "Emulate Numpad" "" Nothing Ui(UiRequest::EmulateNumpad) => "The digit row acts as the number pad.";
     "View/Text" "view.larger_text" "Larger Text" "Ctrl+=" Nothing Ui(UiRequest::LargerText) => "Makes text and buttons larger.";
+    "View/Text" "view.normal_text" "Normal Text" "" Nothing Ui(UiRequest::NormalText) => "Makes text and buttons as large as usual again.";
     "View/Text" "view.smaller_text" "Smaller Text" "Ctrl+-" Nothing Ui(UiRequest::SmallerText) => "Makes text and buttons smaller.";
 }

@@ -34,7 +34,13 @@ impl Folder {
         let listed = match fs::read_dir(&path) {
             Ok(listed) => listed,
             Err(error) => {
-                return Self { note: format!("{}: {error}", path.display()), path, entries: Vec::new() };
+                let note = format!("{}: {error}", path.display());
+                // The nearest folder that is there.
+                let folder = path.ancestors().skip(1).find(|folder| folder.is_dir());
+                return match folder {
+                    Some(folder) => Self { note, ..Self::read(folder) },
+                    None => Self { note, path, entries: Vec::new() },
+                };
             }
         };
         let visible =
@@ -89,6 +95,7 @@ mod tests {
         assert_eq!(names(&[]), ["models", "A.GLB", "b.obj", "c.txt"], "all that is not hidden");
         assert_eq!(read.note(), "", "all of it");
         let missing = Folder::read(&folder.path().join("not there"));
-        assert!(missing.shown(&[]).next().is_none() && missing.note().contains("not there"), "says so");
+        assert!(missing.note().contains("not there"), "says so");
+        assert_eq!(missing.path(), read.path(), "and shows the nearest folder that is there");
     }
 }

@@ -55,6 +55,12 @@ impl Images {
         std::mem::take(&mut self.is_open)
     }
 
+    /// Another document is open: the window is closed, and what was rendered of the one before is gone.
+    pub(crate) fn forget(&mut self) {
+        (self.is_open, self.rendering, self.rendered, self.texture) = (false, None, None, None);
+        self.note.clear();
+    }
+
     /// Rendering has ended.
     pub(crate) fn rendered(&mut self, outcome: Rendered) {
         self.rendering = None;

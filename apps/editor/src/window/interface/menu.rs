@@ -18,12 +18,21 @@ use crate::window::popup::Popup;
 /// In points.
 const POPUP_WIDTH: f32 = 220.0;
 
+/// What is left of the window above and below a menu of the bar, in points.
+const BAR_HEIGHT: f32 = 48.0;
+
 /// The bar of menus.
 pub(super) fn bar(ui: &mut Ui, editor: &mut Editor, stage: &mut Stage) {
     let mut chosen = None;
     MenuBar::new().ui(ui, |ui| {
         for menu in MENUS {
-            ui.menu_button(menu, |ui| chosen = entries(ui, editor, menu).or(chosen));
+            ui.menu_button(menu, |ui| {
+                // Where it is longer than the window, the wheel scrolls it.
+                let height = ui.ctx().content_rect().height() - BAR_HEIGHT;
+                ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
+                    chosen = entries(ui, editor, menu).or(chosen);
+                });
+            });
         }
     });
     if let Some(action) = chosen {

@@ -12,7 +12,8 @@ mod view;
 use trigon_window::Stage;
 use trigon_window::egui::{Panel, Ui};
 
-use super::editor::Editor;
+use super::editor::{Editor, Message};
+use crate::panel::rejected_number;
 use crate::request::Request;
 
 pub(crate) use toast::Toast;
@@ -39,6 +40,9 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
     menu::popup(ui.ctx(), editor, stage);
     overlays::help(ui.ctx(), editor);
     overlays::rename(ui.ctx(), editor, &mut requests);
+    if let Some(text) = rejected_number(ui.ctx()) {
+        editor.message = Message::Refusal(text);
+    }
     render::show(ui.ctx(), editor, stage);
     toast::show(ui.ctx(), editor, free);
     let waker = stage.waker();

@@ -28,12 +28,15 @@ const LEAST_OUTLINER: f32 = 60.0;
 /// The outliner above, the tabs below. Their sizes are the user's: what they show does not change them.
 pub(super) fn show(ui: &mut Ui, editor: &mut Editor, stage: &Stage, requests: &mut Vec<Request>) {
     let most = (ui.available_width() * 0.6).max(LEAST_WIDTH);
-    let side = Panel::right("side").default_size(WIDTH).size_range(LEAST_WIDTH..=most);
+    // Each size of text has widths and heights of its own.
+    let scale = (ui.ctx().pixels_per_point() * 100.0) as u32;
+    let side = Panel::right(Id::unique(("side", scale))).default_size(WIDTH).size_range(LEAST_WIDTH..=most);
     side.show(ui, |ui| {
         within_bounds(ui, |ui| {
             let height = ui.available_height();
             let most = (height - LEAST_TABS).max(LEAST_OUTLINER);
-            let upper = Panel::top("outliner").resizable(true).default_size(height * 0.3);
+            let upper =
+                Panel::top(Id::unique(("outliner", scale))).resizable(true).default_size(height * 0.3);
             upper.size_range(LEAST_OUTLINER..=most).show(ui, |ui| {
                 within_bounds(ui, |ui| {
                     panel::outliner(ui, &editor.document, &mut editor.panels.outliner, requests);

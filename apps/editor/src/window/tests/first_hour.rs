@@ -374,3 +374,114 @@ fn what_was_done_is_said_over_the_view_for_some_seconds() {
     harness.step();
     assert_eq!(texts(&harness), 1, "a selection is seen anyway");
 }
+
+/// A GLB was written under the name of an OBJ, which no program could read.
+#[test]
+fn a_document_is_saved_under_a_glbs_name_only() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut worked = Worked::new();
+    for name in ["cube.obj", "cube.doc"] {
+        let path = folder.path().join(name);
+        let request = Request::File(FileRequest::SaveAs(path.clone()));
+        worked.editor.perform(&mut worked.stage, request);
+        assert!(worked.refusal().contains("Export"), "{}", worked.refusal());
+        assert!(!path.exists() && worked.editor.saving.is_none(), "{name} is not written");
+    }
+    let path = folder.path().join("cube.GLB");
+    worked.editor.perform(&mut worked.stage, Request::File(FileRequest::SaveAs(path.clone())));
+    finish_save(&mut worked.editor, &mut worked.stage);
+    assert!(path.exists(), "{:?}", worked.editor.message);
+}
+
+/// The new material was chosen in the panel and seen on no face.
+#[test]
+fn a_new_material_of_an_object_is_seen_on_it() {
+    let mut harness = harness();
+    harness.run();
+    harness.get_by_label("New").click();
+    harness.run();
+    let worked = harness.state();
+    let cube = worked.editor.document.selection().active.expect("the cube");
+    let node = worked.editor.document.nodes().node(cube).expect("it is there");
+    assert_eq!(node.materials.len(), 1, "it has no slot more");
+    let material = worked.editor.document.nodes().materials.get(node.materials[0]).expect("it is there");
+    assert_eq!(material.name, "Material", "the new one");
+}
+
+/// Units and sums were thrown away without a word, as was nonsense.
+#[test]
+fn fields_for_numbers_take_units_and_sums_and_say_what_they_do_not_take() {
+    for (typed, expected) in [("50 cm", 0.5), ("1+2/4", 1.5), ("2 * (1 m + 20 cm)", 2.4), ("abc", 0.0)] {
+        let mut harness = harness();
+        harness.run();
+        harness.get_by_label("Location X").click();
+        harness.run();
+        harness.event(trigon_window::egui::Event::Text(typed.into()));
+        harness.run();
+        harness.key_press(Key::Enter);
+        harness.run();
+        let worked = harness.state();
+        let cube = worked.editor.document.selection().active.expect("the cube");
+        let at = worked.editor.document.nodes().world_transform(cube).translation;
+        assert!((at.x - expected).abs() < 1e-12, "{typed}: {at}");
+        if typed == "abc" {
+            assert!(worked.refusal().contains("\"abc\""), "{}", worked.refusal());
+        }
+    }
+}
+
+/// K and U did nothing, and nothing was said.
+#[test]
+fn a_key_without_a_command_says_so() {
+    let mut worked = Worked::new();
+    let key = |worked: &mut Worked, key| worked.key(WindowKey::Character(key), Modifiers::NONE);
+    assert_eq!(key(&mut worked, 'k'), Taken::No, "it is nobody's");
+    assert!(worked.refusal().starts_with('K') && worked.refusal().contains("F3"), "{}", worked.refusal());
+}
+
+/// It was offered in edit mode only.
+#[test]
+fn whole_objects_are_shaded_smooth() {
+    let mut worked = Worked::new();
+    worked.menu("face.smooth");
+    let smooth = |worked: &mut Worked| {
+        worked.chord("Tab");
+        let (id, _) = worked.editor.document.selection().meshes().next().expect("edited");
+        let mesh = worked.editor.document.mesh(id).expect("edited");
+        let all = mesh.faces().all(|face| mesh.is_smooth(face));
+        worked.chord("Tab");
+        all
+    };
+    assert!(smooth(&mut worked), "{:?}", worked.editor.message);
+    worked.menu("face.flat");
+    assert!(!smooth(&mut worked), "flat again");
+    worked.chord("Alt+A");
+    worked.menu("face.smooth");
+    assert!(worked.refusal().contains("mesh"), "{}", worked.refusal());
+}
+
+#[test]
+fn text_grows_and_shrinks_in_steps_and_comes_back() {
+    let mut worked = Worked::new();
+    for (name, expected) in [
+        ("view.larger_text", 1.25),
+        ("view.smaller_text", 1.0),
+        ("view.smaller_text", 0.8),
+        ("view.normal_text", 1.0),
+    ] {
+        worked.menu(name);
+        assert_eq!(worked.stage.text_scale, expected, "{name}");
+    }
+    (0..20).for_each(|_| worked.menu("view.larger_text"));
+    assert_eq!(worked.stage.text_scale, 2.0, "the panels leave room for the view");
+}
+
+#[test]
+fn what_was_hidden_is_selected_when_it_is_shown_again() {
+    let mut worked = Worked::new();
+    for chord in ["Tab", "3", "A", "H"] {
+        worked.chord(chord);
+    }
+    worked.chord("Alt+H");
+    assert_eq!(worked.selected_elements(), 6, "all faces");
+}
