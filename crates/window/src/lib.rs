@@ -62,6 +62,7 @@ mod shared_scene;
 mod shell;
 mod shown;
 mod stage;
+mod theme;
 mod waker;
 mod worker;
 
@@ -78,7 +79,6 @@ pub use handler::{AnimationState, Handler, Tick};
 pub use headless::{DrawnFrame, HeadlessWindow, LiveFrame, Widget};
 pub use input::{Chord, ChordError, Hands, Input, InputOwner, Key, Modifiers, PointerButton, Taken};
 pub use interaction::{Interaction, InteractionError};
-pub use interface::Theme;
 pub use keymap::{
     Action, Binding, CameraMotion, ClickAction, ClickBinding, DragAction, DragBinding, Keymap, MenuEntry,
     Motion, ObjectMotion, SheetRow, matches_search,
@@ -91,6 +91,7 @@ pub use recent::{RecentFiles, state_folder};
 pub use refinement::{Comparison, Difference, QualityReport, Refinement};
 pub use shared_scene::{Revision, SharedScene};
 pub use stage::{FrameReport, Stage, Visibility};
+pub use theme::Theme;
 pub use waker::Waker;
 
 /// Re-exports of the crates below, so that an application needs no others.

@@ -16,7 +16,6 @@ use super::button_start::Click;
 use super::dialog::{FileWindow, Purpose};
 use super::gizmo_cache::GizmoCache;
 use super::images::Images;
-use super::interface::Toast;
 use super::keys::Keys;
 use super::loading::Loading;
 use super::loading::{SaveOrder, Saving};
@@ -67,7 +66,6 @@ pub(crate) struct Editor {
     pub(crate) layout: Layout,
     pub(crate) preferences: Preferences,
     pub(crate) message: Message,
-    pub(crate) toast: Toast,
     pub(crate) popup: Option<Popup>,
     pub(crate) search: Option<Search>,
     pub(crate) report: Option<Report>,
@@ -125,7 +123,6 @@ impl Editor {
             layout: Layout::default(),
             preferences: Preferences::load(folder.as_ref().map(|folder| folder.join("editor.json"))),
             message: Message::Hint(WELCOME.into()),
-            toast: Toast::default(),
             popup: None,
             search: None,
             report: None,

@@ -67,9 +67,20 @@ pub(super) enum Tab {
     Development,
 }
 
+/// What was said last over the view.
+#[derive(Debug, Default)]
+pub(crate) struct Toast {
+    pub(super) text: String,
+    /// The number of entries in the history then: the same command again says the same again.
+    pub(super) entries: usize,
+    /// Until when it is shown, in seconds of the interface's own time.
+    pub(super) until: f64,
+}
+
 /// What panels remember.
 #[derive(Default)]
 pub(crate) struct Panels {
+    pub(super) toast: Toast,
     pub(super) tab: Tab,
     pub(super) outliner: OutlinerState,
     pub(super) information: InformationState,

@@ -13,8 +13,6 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-pub use theme::Theme;
-
 use egui::{Context, Event, LayerId, Order, Pos2, Ui};
 use trigon_camera::{Camera, Viewport};
 use trigon_math::DVec2;

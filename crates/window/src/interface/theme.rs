@@ -3,17 +3,7 @@
 
 use egui::{Color32, Context, Stroke, ThemePreference, Visuals};
 
-/// Whether panels are light or dark.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-pub enum Theme {
-    /// As the system has it; dark where it does not say.
-    #[default]
-    System,
-    /// Light text on dark panels.
-    Dark,
-    /// Dark text on light panels.
-    Light,
-}
+use crate::theme::Theme;
 
 /// Sets up the colours of both.
 pub(super) fn set_colors(context: &Context) {

@@ -11,7 +11,6 @@ use trigon_scene::{Hit, NodeId, RenderSettings, Scene, Shadows, SightRays, Snap,
 
 use crate::drawer::{Drawer, DrawnBy};
 use crate::input::InputOwner;
-use crate::interface::Theme;
 use crate::keymap::Keymap;
 use crate::moves::Moves;
 use crate::overlay::Overlay;
@@ -20,6 +19,7 @@ use crate::panes::{self, Area, Pane};
 use crate::refinement::{self, Comparison, QualityReport, Refinement, Wanted};
 use crate::shared_scene::{Revision, SharedScene};
 use crate::shown::{self, Shown};
+use crate::theme::Theme;
 use crate::waker::Waker;
 
 /// Size of a new window in logical pixels, as in F3D.

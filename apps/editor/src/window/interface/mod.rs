@@ -16,8 +16,6 @@ use super::editor::{Editor, Message};
 use crate::panel::rejected_number;
 use crate::request::Request;
 
-pub(crate) use toast::Toast;
-
 /// Shows all of it; returns what is to be done.
 pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<Request> {
     let mut requests = Vec::new();

@@ -18,30 +18,22 @@ const MARGIN: f32 = 8.0;
 /// It is wrapped at this width, in points.
 const WIDTH: f32 = 420.0;
 
-/// What was said last, and until when it is shown.
-#[derive(Debug, Default)]
-pub(crate) struct Toast {
-    /// With the number of entries in the history: the same command again says the same again.
-    said: Option<(Message, usize)>,
-    /// In seconds of the interface's own time.
-    until: f64,
-}
-
 /// Shows it at the lower edge of the view.
 pub(super) fn show(context: &Context, editor: &mut Editor, free: Rect) {
     let now = context.input(|input| input.time);
     let (message, entries) = (&editor.message, editor.entries());
-    if editor.toast.said.as_ref().is_none_or(|(said, then)| (said, *then) != (message, entries)) {
-        editor.toast.until = now
+    let (Message::Hint(text) | Message::Info(text) | Message::Refusal(text)) = message;
+    let toast = &mut editor.panels.toast;
+    if (&toast.text, toast.entries) != (text, entries) {
+        toast.until = now
             + match message {
                 Message::Hint(_) => 0.0,
                 Message::Info(_) => DONE,
                 Message::Refusal(_) => REFUSED,
             };
-        editor.toast.said = Some((message.clone(), entries));
+        (toast.text, toast.entries) = (text.clone(), entries);
     }
-    let left = editor.toast.until - now;
-    let (Message::Hint(text) | Message::Info(text) | Message::Refusal(text)) = message;
+    let left = toast.until - now;
     // While a tool runs, its numbers count.
     if left <= 0.0 || text.is_empty() || editor.tool.is_some() {
         return;
