@@ -109,7 +109,7 @@ pub(super) fn at_the_editor(
 fn saved_and_reopened(script: &str, finished: impl Fn(&Document, &Path)) {
     let folder = tempfile::tempdir().expect("a folder");
     let wood: Vec<u8> = (0..64).flat_map(|pixel| [150 + pixel % 8 * 10, 100, 60]).collect();
-    trigon_io::write_png(&folder.path().join("wood.png"), 8, 8, trigon_io::Pixels::Rgb8(&wood))
+    trigon_io::write_png(folder.path().join("wood.png"), 8, 8, trigon_io::Pixels::Rgb8(&wood))
         .expect("written");
     let mut before = Vec::new();
     at_the_editor(folder.path(), &[], SIZE, |user| {

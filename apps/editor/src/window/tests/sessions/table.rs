@@ -95,7 +95,7 @@ fn a_textured_table_is_exported_for_printing_with_z_up_in_millimetres() {
         let drawn = 2.0 * 0.2 * 2.0 + 4.0 * 0.3 * 0.3 * 1.4;
         assert!((volume(table) - drawn).abs() < 1e-5, "{} of {drawn} m³", volume(table));
         assert_eq!(document.nodes().textures.len(), 1, "the image of the wood");
-        let printed = load(&folder.join("table.stl"), &LoadOptions::default()).expect("it can be read");
+        let printed = load(folder.join("table.stl"), &LoadOptions::default()).expect("it can be read");
         let points: Vec<_> = printed.scene.visible_points().collect();
         let size = |axis: usize| {
             let along = points.iter().map(|point| point[axis]);
