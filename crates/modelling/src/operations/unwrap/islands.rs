@@ -118,7 +118,8 @@ impl EditMesh {
         let mut wrong = 0;
         for (Island { chart, layout }, corner) in islands.iter_mut().zip(arrangement.corners) {
             for point in layout.iter_mut() {
-                let uv = ((*point + corner) / arrangement.side).clamp(DVec2::ZERO, DVec2::ONE);
+                // The sum turns −0 into 0: which of them a comparison gives differs between machines.
+                let uv = ((*point + corner) / arrangement.side).clamp(DVec2::ZERO, DVec2::ONE) + DVec2::ZERO;
                 *point = DVec2::new(uv.x, 1.0 - uv.y).as_vec2().as_dvec2();
             }
             for &at in &chart.corners {
