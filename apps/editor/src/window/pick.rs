@@ -154,9 +154,9 @@ impl Editor {
         let pane = self.pointer.map_or_else(|| pane_of(stage, None), |at| stage.pane_at(at));
         let camera = stage.camera_of(&pane);
         let [right, up] = [camera.right(), camera.up()];
-        let seen = || selected.points.iter().map(|point| DVec2::new(right.dot(*point), up.dot(*point)));
-        let low = seen().fold(DVec2::INFINITY, DVec2::min);
-        let high = seen().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let projected = || selected.points.iter().map(|point| DVec2::new(right.dot(*point), up.dot(*point)));
+        let low = projected().fold(DVec2::INFINITY, DVec2::min);
+        let high = projected().fold(DVec2::NEG_INFINITY, DVec2::max);
         let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
         let projection = ProjectUvs {
             center: (right * middle.x + up * middle.y).into(),

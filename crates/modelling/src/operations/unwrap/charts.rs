@@ -15,7 +15,7 @@ const LEAST_HEIGHT: f64 = 1e-6;
 /// A connected part of a surface: a manifold with orientation, cut into triangles. Vertices of the mesh where
 /// it is cut occur several times.
 #[derive(Debug, Default)]
-pub(super) struct Chart {
+pub(super) struct UvChart {
     /// Its corners in the mesh, and the vertex of the chart at each.
     pub(super) corners: Vec<ChartCorner>,
     /// The positions of its vertices, relative to the first and divided by `size`: within −1…1.
@@ -63,7 +63,7 @@ impl FlatTriangle {
     }
 }
 
-impl Chart {
+impl UvChart {
     /// Its triangles, each laid flat for itself.
     pub(super) fn flat_triangles(&self) -> Vec<FlatTriangle> {
         let flat = |&vertices: &[u32; 3]| {
@@ -138,7 +138,7 @@ pub(super) fn charts(
     mesh: &EditMesh,
     faces: &[FaceId],
     joins: impl Fn(EdgeId, [CornerId; 2]) -> bool,
-) -> Vec<Chart> {
+) -> Vec<UvChart> {
     let faces = sorted_once(faces.to_vec());
     let mut joined = Joined::new(mesh, &faces);
     joined.join(mesh, joins);
@@ -192,7 +192,7 @@ impl Joined {
         }
     }
 
-    fn into_charts(mut self, mesh: &EditMesh, faces: &[FaceId]) -> Vec<Chart> {
+    fn into_charts(mut self, mesh: &EditMesh, faces: &[FaceId]) -> Vec<UvChart> {
         let mut chart_of = vec![u32::MAX; faces.len()];
         let mut parts: Vec<Part> = Vec::new();
         // By corner that is the least of its set: the vertex of the chart.
@@ -236,7 +236,7 @@ struct Polygon {
 /// A chart that is being made.
 #[derive(Default)]
 struct Part {
-    chart: Chart,
+    chart: UvChart,
     positions: Vec<Vec3>,
     border: Vec<[u32; 2]>,
 }
@@ -255,7 +255,7 @@ impl Part {
         }
     }
 
-    fn finish(mut self) -> Chart {
+    fn finish(mut self) -> UvChart {
         let points: Vec<DVec3> = self.positions.iter().map(|position| position.as_dvec3()).collect();
         let (mut low, mut high) = (points[0], points[0]);
         for &point in &points {
@@ -296,7 +296,7 @@ mod tests {
     use super::*;
     use crate::tests::meshes;
 
-    fn by_seams(mesh: &EditMesh) -> Vec<Chart> {
+    fn by_seams(mesh: &EditMesh) -> Vec<UvChart> {
         let faces: Vec<FaceId> = mesh.faces().collect();
         charts(mesh, &faces, |edge, _| !mesh.is_seam(edge))
     }
@@ -312,7 +312,7 @@ mod tests {
         let rims: Vec<EdgeId> = mesh.edges().filter(|&edge| is_rim(&mesh, edge)).collect();
         mesh.mark_seams(&rims).expect("they exist");
         let sizes = |mesh: &EditMesh| -> Vec<[usize; 3]> {
-            let of = |chart: Chart| [chart.points.len(), chart.loops.len(), chart.triangles.len()];
+            let of = |chart: UvChart| [chart.points.len(), chart.loops.len(), chart.triangles.len()];
             let mut sizes: Vec<[usize; 3]> = by_seams(mesh).into_iter().map(of).collect();
             sizes.sort_unstable();
             sizes
@@ -321,7 +321,7 @@ mod tests {
         let side = mesh.edges().find(|&edge| !is_rim(&mesh, edge)).expect("there are eight");
         mesh.mark_seams(&[side]).expect("it exists");
         assert_eq!(sizes(&mesh), [[8, 1, 6], [8, 1, 6], [18, 1, 16]], "two vertices more, and one loop");
-        assert!(by_seams(&mesh).iter().all(Chart::is_disc_with_holes), "all can be laid flat");
+        assert!(by_seams(&mesh).iter().all(UvChart::is_disc_with_holes), "all can be laid flat");
     }
 
     #[test]

@@ -7,13 +7,13 @@
 
 use trigon_math::DVec2;
 
-use super::charts::{Chart, FlatTriangle};
+use super::charts::{FlatTriangle, UvChart};
 use super::factor::{Entry, Factor, NoFactor, conjugate, times};
 
 /// The layout of a chart, up to a similarity.
-pub(super) fn conformal(chart: &Chart, memory: u64) -> Result<Vec<DVec2>, NoFactor> {
+pub(super) fn conformal(chart: &UvChart, memory: u64) -> Result<Vec<DVec2>, NoFactor> {
     let pins = Pins::new(chart);
-    let mut rows = Rows::new(chart.points.len(), &pins);
+    let mut rows = NormalEquations::new(chart.points.len(), &pins);
     chart.flat_triangles().iter().for_each(|triangle| rows.add(triangle));
     let factor = Factor::new(rows.right_hand_side.len(), &rows.entries, memory)?;
     let solution = factor.solve(&rows.right_hand_side);
@@ -33,7 +33,7 @@ struct Pins {
 impl Pins {
     /// The farthest pair of a small border; of a large one the ends of the longest of a few steps, each to the
     /// vertex that is farthest from the last.
-    fn new(chart: &Chart) -> Self {
+    fn new(chart: &UvChart) -> Self {
         const SMALL: usize = 256;
         const STEPS: usize = 4;
         let border: Vec<u32> = chart.loops.iter().flatten().copied().collect();
@@ -75,13 +75,13 @@ enum Fixed {
 }
 
 /// The normal equations.
-struct Rows {
+struct NormalEquations {
     vertices: Vec<Fixed>,
     entries: Vec<Entry>,
     right_hand_side: Vec<DVec2>,
 }
 
-impl Rows {
+impl NormalEquations {
     fn new(count: usize, pins: &Pins) -> Self {
         let mut free = 0;
         let mut fixed = |vertex: u32| {

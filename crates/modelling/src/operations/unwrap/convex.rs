@@ -6,13 +6,13 @@
 
 use trigon_math::{DVec2, elementary};
 
-use super::charts::Chart;
+use super::charts::UvChart;
 use super::factor::{Entry, Factor, NoFactor};
 use super::ordering::Graph;
 
 /// The layout of a chart that is a disc with holes: the longest loop of its border on a circle, with distances as
 /// long in relation to one another as on the surface. Other loops are closed by a vertex in the middle of each.
-pub(super) fn convex(chart: &Chart, memory: u64) -> Result<Vec<DVec2>, NoFactor> {
+pub(super) fn convex(chart: &UvChart, memory: u64) -> Result<Vec<DVec2>, NoFactor> {
     let outer = longest_loop(chart);
     let count = chart.points.len();
     let mut layout = vec![DVec2::ZERO; count];
@@ -49,17 +49,17 @@ pub(super) fn convex(chart: &Chart, memory: u64) -> Result<Vec<DVec2>, NoFactor>
 }
 
 /// The length of a loop of the border.
-fn length(chart: &Chart, border: &[u32]) -> f64 {
+fn length(chart: &UvChart, border: &[u32]) -> f64 {
     (0..border.len()).map(|i| edge_length(chart, border, i)).sum()
 }
 
-fn edge_length(chart: &Chart, border: &[u32], i: usize) -> f64 {
+fn edge_length(chart: &UvChart, border: &[u32], i: usize) -> f64 {
     let [from, to] = [border[i], border[(i + 1) % border.len()]];
     chart.points[from as usize].distance(chart.points[to as usize])
 }
 
 /// The first of the longest loops.
-fn longest_loop(chart: &Chart) -> usize {
+fn longest_loop(chart: &UvChart) -> usize {
     let mut longest = (0, length(chart, &chart.loops[0]));
     for (i, border) in chart.loops.iter().enumerate().skip(1) {
         let length = length(chart, border);
@@ -70,7 +70,7 @@ fn longest_loop(chart: &Chart) -> usize {
     longest.0
 }
 
-fn on_circle(chart: &Chart, border: &[u32], layout: &mut [DVec2]) {
+fn on_circle(chart: &UvChart, border: &[u32], layout: &mut [DVec2]) {
     // Vertices stay apart even where edges have no length.
     let least = (length(chart, border) / border.len() as f64 * 1e-2).max(f64::MIN_POSITIVE);
     let lengths: Vec<f64> = (0..border.len()).map(|i| edge_length(chart, border, i).max(least)).collect();
@@ -84,7 +84,7 @@ fn on_circle(chart: &Chart, border: &[u32], layout: &mut [DVec2]) {
 }
 
 /// The neighbours of all vertices, and of one more in each hole; with the number of all.
-fn with_filled_holes(chart: &Chart, outer: usize) -> (Graph, usize) {
+fn with_filled_holes(chart: &UvChart, outer: usize) -> (Graph, usize) {
     let sides = chart.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     let holes = chart.loops.iter().enumerate().filter(|&(i, _)| i != outer).map(|(_, hole)| hole);
     let first = chart.points.len() as u32;

@@ -5,10 +5,10 @@
 
 use trigon_math::{DVec2, Orientation, orientation};
 
-use super::charts::Chart;
+use super::charts::UvChart;
 
 /// How many triangles are turned over or have no area; decided without rounding.
-pub(super) fn turned_over(chart: &Chart, layout: &[DVec2]) -> usize {
+pub(super) fn turned_over(chart: &UvChart, layout: &[DVec2]) -> usize {
     let is_wrong = |triangle: &&[u32; 3]| {
         let [a, b, c] = triangle.map(|vertex| layout[vertex as usize]);
         orientation(a, b, c) != Orientation::CounterClockwise
@@ -17,7 +17,7 @@ pub(super) fn turned_over(chart: &Chart, layout: &[DVec2]) -> usize {
 }
 
 /// Whether no triangle is turned over and the border does not cross itself.
-pub(super) fn is_injective(chart: &Chart, layout: &[DVec2]) -> bool {
+pub(super) fn is_injective(chart: &UvChart, layout: &[DVec2]) -> bool {
     turned_over(chart, layout) == 0 && !border_crosses_itself(chart, layout)
 }
 
@@ -56,7 +56,7 @@ impl Segment {
     }
 }
 
-fn border_crosses_itself(chart: &Chart, layout: &[DVec2]) -> bool {
+fn border_crosses_itself(chart: &UvChart, layout: &[DVec2]) -> bool {
     let segment = |vertices: [u32; 2]| {
         let [from, to] = vertices.map(|vertex| layout[vertex as usize]);
         Segment { vertices, from, to }

@@ -2,7 +2,7 @@
 
 use trigon_math::DVec2;
 
-use super::charts::{Chart, charts};
+use super::charts::{UvChart, charts};
 use super::injective::turned_over;
 use super::pack::pack;
 use super::rectangle::{to_origin, turn_upright};
@@ -30,13 +30,13 @@ impl Default for PackSettings {
 
 /// A chart with its layout; v grows upwards in it.
 pub(super) struct Island {
-    pub(super) chart: Chart,
+    pub(super) chart: UvChart,
     pub(super) layout: Vec<DVec2>,
 }
 
 impl Island {
     /// An island of which the area is that of its chart.
-    pub(super) fn with_area_of(chart: Chart, mut layout: Vec<DVec2>) -> Self {
+    pub(super) fn with_area_of(chart: UvChart, mut layout: Vec<DVec2>) -> Self {
         let double = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|vertex| layout[vertex as usize]);
             (b - a).perp_dot(c - a)

@@ -19,7 +19,7 @@ mod tests;
 
 use trigon_math::DVec2;
 
-use self::charts::{Chart, charts};
+use self::charts::{UvChart, charts};
 use self::factor::NoFactor;
 use self::injective::is_injective;
 use self::islands::{Island, check_margin};
@@ -129,7 +129,7 @@ impl EditMesh {
 }
 
 /// A layout without overlaps, if one is found, and whether it is the one that was asked for.
-fn lay_flat(chart: &Chart, settings: &UnwrapSettings, memory: u64) -> Result<(Vec<DVec2>, bool), NoFactor> {
+fn lay_flat(chart: &UvChart, settings: &UnwrapSettings, memory: u64) -> Result<(Vec<DVec2>, bool), NoFactor> {
     let steps = settings.minimize_stretch;
     if settings.method == UnwrapMethod::Conformal {
         let found = match conformal::conformal(chart, memory) {
@@ -142,14 +142,14 @@ fn lay_flat(chart: &Chart, settings: &UnwrapSettings, memory: u64) -> Result<(Ve
             return Ok((layout, true));
         }
     }
-    let is_asked_for = settings.method == UnwrapMethod::Convex;
-    let steps = if is_asked_for { steps } else { steps.max(STEPS_FROM_CIRCLE) };
+    let is_requested = settings.method == UnwrapMethod::Convex;
+    let steps = if is_requested { steps } else { steps.max(STEPS_FROM_CIRCLE) };
     let mut layout = convex::convex(chart, memory)?;
     stretch::minimize_stretch(chart, &mut layout, steps, memory)?;
-    Ok((layout, is_asked_for))
+    Ok((layout, is_requested))
 }
 
-fn check_chart(chart: &Chart) -> Result<(), Refusal> {
+fn check_chart(chart: &UvChart) -> Result<(), Refusal> {
     let not_possible = |reason| Err(Refusal::NotPossible { operation: OPERATION, reason });
     if !chart.points.iter().all(|point| point.is_finite()) {
         return not_possible("a vertex has no finite position; move it");

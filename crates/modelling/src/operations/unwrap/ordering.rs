@@ -45,7 +45,7 @@ pub(super) fn elimination_order(graph: &Graph) -> Vec<u32> {
     let most = 16.max(10 * (count as f64).sqrt() as usize);
     let is_hub = |&node: &u32| graph.neighbors(node).len() > most;
     let (hubs, others): (Vec<u32>, Vec<u32>) = (0..count as u32).partition(is_hub);
-    let mut search = Search { graph, part: vec![0; count], next_part: 0 };
+    let mut search = LevelSearch { graph, part: vec![0; count], next_part: 0 };
     let mut order = vec![0; count];
     order[others.len()..].copy_from_slice(&hubs);
     let end = others.len();
@@ -72,22 +72,22 @@ struct Waiting {
 }
 
 /// Two parts that nothing but the separator joins.
-struct Divided {
+struct Dissection {
     first: Vec<u32>,
     second: Vec<u32>,
     separator: Vec<u32>,
 }
 
 /// Searches in breadth within parts of the graph.
-struct Search<'g> {
+struct LevelSearch<'g> {
     graph: &'g Graph,
     /// By node: the number of the last part or search that it belonged to.
     part: Vec<u32>,
     next_part: u32,
 }
 
-impl Search<'_> {
-    fn divide(&mut self, nodes: &[u32]) -> Divided {
+impl LevelSearch<'_> {
+    fn divide(&mut self, nodes: &[u32]) -> Dissection {
         let mut levels = self.levels(nodes, nodes[0]);
         // From the far end there are more levels, so that they are smaller.
         let far = *levels.nodes.last().expect("the first node is in it");
@@ -98,12 +98,12 @@ impl Search<'_> {
             // Another component: nothing separates them.
             let reached = self.next_part;
             let second = nodes.iter().copied().filter(|&node| self.part[node as usize] != reached).collect();
-            return Divided { first: levels.nodes, second, separator: Vec::new() };
+            return Dissection { first: levels.nodes, second, separator: Vec::new() };
         }
         let separator = levels.smallest_in_the_middle();
         let (first, rest) = levels.nodes.split_at(separator.start);
         let (separator, second) = rest.split_at(separator.len());
-        Divided { first: first.to_vec(), second: second.to_vec(), separator: separator.to_vec() }
+        Dissection { first: first.to_vec(), second: second.to_vec(), separator: separator.to_vec() }
     }
 
     /// The nodes that can be reached from one of them, by distance.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use trigon_math::{DVec2, DVec3, elementary, unit_or_zero};
 
-use super::charts::{Chart, charts};
+use super::charts::{UvChart, charts};
 use super::injective::is_injective;
 use super::islands::{Island, PackSettings, check_margin};
 use super::{UnwrapSettings, Unwrapped, lay_flat};
@@ -59,7 +59,7 @@ impl EditMesh {
             return Err(Refusal::OutOfRange { parameter, value: angle_limit, range });
         }
         let faces = sorted_once(faces.to_vec());
-        let groups = Groups::new(self, &faces, elementary::cos(angle_limit));
+        let groups = NormalGroups::new(self, &faces, elementary::cos(angle_limit));
         let joins = |edge, corners: [CornerId; 2]| {
             let [a, b] = corners.map(|corner| groups.number(self.corner_face(corner)));
             !self.is_seam(edge) && a == b
@@ -87,13 +87,13 @@ impl EditMesh {
 }
 
 /// A chart seen from a direction.
-fn projected(chart: &Chart, direction: DVec3) -> Vec<DVec2> {
+fn projected(chart: &UvChart, direction: DVec3) -> Vec<DVec2> {
     let (right, up) = direction.any_orthonormal_pair();
     chart.points.iter().map(|point| DVec2::new(right.dot(*point), up.dot(*point))).collect()
 }
 
 /// Faces by the direction from which they are projected.
-struct Groups {
+struct NormalGroups {
     directions: Vec<DVec3>,
     numbering: Numbering,
     /// By position of the face: the number of its direction.
@@ -109,7 +109,7 @@ struct Facing {
     cosine: f64,
 }
 
-impl Groups {
+impl NormalGroups {
     /// The first direction is that of the largest face, the others are those of faces that are farthest from all
     /// directions so far, until all faces are within the limit. Each is replaced by the mean of the normals within the
     /// limit of it, if that is within the limit, too.

@@ -8,7 +8,7 @@
 
 use trigon_math::DVec2;
 
-use super::charts::{Chart, FlatTriangle};
+use super::charts::{FlatTriangle, UvChart};
 use super::factor::{Entry, Factor, NoFactor, conjugate, times};
 use super::injective::{is_injective, turned_over};
 
@@ -21,7 +21,7 @@ const HALVINGS: usize = 12;
 /// Changes a layout in at most `iterations` steps. It is scaled to the area of the chart first. If triangles are
 /// turned over to begin with, nothing else happens.
 pub(super) fn minimize_stretch(
-    chart: &Chart,
+    chart: &UvChart,
     layout: &mut Vec<DVec2>,
     iterations: u32,
     memory: u64,
@@ -55,7 +55,7 @@ struct WeightedTriangle {
 }
 
 /// One side of a triangle.
-struct Side {
+struct TriangleSide {
     ends: [u32; 2],
     /// On the surface.
     shape: DVec2,
@@ -72,10 +72,10 @@ impl WeightedTriangle {
         Self { flat: *flat, weights: [0, 1, 2].map(weight) }
     }
 
-    fn sides(&self) -> [Side; 3] {
+    fn sides(&self) -> [TriangleSide; 3] {
         [0, 1, 2].map(|corner| {
             let [from, to] = [(corner + 1) % 3, (corner + 2) % 3];
-            Side {
+            TriangleSide {
                 ends: [self.flat.vertices[from], self.flat.vertices[to]],
                 shape: self.flat.points[to] - self.flat.points[from],
                 weight: self.weights[corner],
@@ -109,7 +109,7 @@ fn fit(triangles: &[WeightedTriangle], layout: &[DVec2], rotations: &mut [DVec2]
     let mut energy = 0.0;
     for (triangle, rotation) in triangles.iter().zip(rotations) {
         let sides = triangle.sides();
-        let laid = |side: &Side| layout[side.ends[1] as usize] - layout[side.ends[0] as usize];
+        let laid = |side: &TriangleSide| layout[side.ends[1] as usize] - layout[side.ends[0] as usize];
         let sum: DVec2 =
             sides.iter().map(|side| times(laid(side), conjugate(side.shape)) * side.weight).sum();
         *rotation = sum.normalize_or(DVec2::X);
@@ -129,7 +129,7 @@ struct Global {
 impl Global {
     fn new(count: usize, triangles: &[WeightedTriangle], memory: u64) -> Result<Self, NoFactor> {
         let mut entries = Vec::new();
-        for Side { ends, weight, .. } in triangles.iter().flat_map(WeightedTriangle::sides) {
+        for TriangleSide { ends, weight, .. } in triangles.iter().flat_map(WeightedTriangle::sides) {
             let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
             let value = DVec2::new(weight, 0.0);
             entries.push(Entry { row: high - 1, column: high - 1, value });
@@ -144,7 +144,7 @@ impl Global {
     fn solve(&self, triangles: &[WeightedTriangle], rotations: &[DVec2], first: DVec2) -> Vec<DVec2> {
         let mut sums = vec![DVec2::ZERO; self.count];
         for (triangle, &rotation) in triangles.iter().zip(rotations) {
-            for Side { ends: [from, to], shape, weight } in triangle.sides() {
+            for TriangleSide { ends: [from, to], shape, weight } in triangle.sides() {
                 let wanted = times(rotation, shape) * weight;
                 sums[from as usize] -= wanted;
                 sums[to as usize] += wanted;
@@ -164,7 +164,7 @@ struct Step {
 
 /// Goes towards a layout as far as possible; `None` if nothing is gained.
 fn step(
-    chart: &Chart,
+    chart: &UvChart,
     triangles: &[WeightedTriangle],
     layout: &[DVec2],
     wanted: &[DVec2],
