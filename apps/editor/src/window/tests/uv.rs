@@ -50,7 +50,7 @@ fn u_unwraps_along_seams_and_says_what_is_missing() {
     for (letter, message) in [
         ("M", "Unwrap: made 6 islands"),
         ("S", "Smart Projection: made 6 islands"),
-        ("P", "Pack Islands: packed 6 islands"),
+        ("I", "Pack Islands: packed 6 islands"),
     ] {
         press(&mut worked, "U");
         press(&mut worked, letter);
