@@ -202,6 +202,8 @@ pub(crate) enum UiRequest {
         /// Whether faces fill the gap.
         fill: bool,
     },
+    /// Projects texture coordinates in the direction of the view.
+    ProjectFromView,
     ToolBar,
     SideBar,
     /// Remembers what is selected.
@@ -249,6 +251,7 @@ impl UiRequest {
                 | Self::Select { .. }
                 | Self::Rip { .. }
                 | Self::ExtrudeAlongNormals
+                | Self::ProjectFromView
                 | Self::LinkedAtPointer
                 | Self::Parent { .. }
                 | Self::Paste

@@ -197,6 +197,11 @@ fn operations() -> Vec<Operation> {
         operation("bridge", Some("edge", 2), |_, _| json!({})),
         operation("project_uvs", Some("face", 3), |r, _| json!({ "normal": (vector(r)) })),
         operation("project_uvs_on_box", Some("face", 3), |r, _| json!({ "center": (vector(r)) })),
+        operation("project_uvs_cylinder", Some("face", 3), |r, _| json!({ "axis": (vector(r)) })),
+        operation("project_uvs_sphere", Some("face", 3), |r, _| json!({ "axis": (vector(r)) })),
+        operation("unwrap", Some("face", 3), |r, _| json!({ "minimize_stretch": r.below(3) })),
+        operation("smart_project", Some("face", 5), |r, _| json!({ "angle_limit": r.between(5.0, 89.0) })),
+        operation("pack_islands", Some("face", 5), |r, _| json!({ "rotate": r.below(2) == 0 })),
         operation("repair", Some("face", 1), |_, _| json!({ "zero_length": 0.3, "zero_area": 0.05 })),
         operation(
             "delete",

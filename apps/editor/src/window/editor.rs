@@ -272,6 +272,7 @@ impl Editor {
             UiRequest::Select { kind, extend } => self.run(SetElementKind { kind, extend }.into()),
             UiRequest::Rip { fill } => self.rip(stage, fill),
             UiRequest::ExtrudeAlongNormals => self.extrude_along_normals(stage),
+            UiRequest::ProjectFromView => self.project_from_view(stage),
             UiRequest::ToolBar => self.layout.tool_bar = !self.layout.tool_bar,
             UiRequest::SideBar => self.layout.side_bar = !self.layout.side_bar,
             UiRequest::Copy => self.copy(),

@@ -1,9 +1,9 @@
 //! Presses on the view: clicks that select, the gizmo and the axes in the corner, and V and Alt+V, which open
-//! the mesh on the pointer's side of the selection.
+//! the mesh on the pointer's side of the selection; and texture coordinates from the view.
 
 use trigon_document::scene::NodeId;
 use trigon_document::{
-    Command, Extrude, ObjectName, PICK_RADIUS, Picks, Rip, Select, SelectAction, TransformSpace,
+    Command, Extrude, ObjectName, PICK_RADIUS, Picks, ProjectUvs, Rip, Select, SelectAction, TransformSpace,
 };
 use trigon_window::egui::{Pos2, Rect, vec2};
 use trigon_window::scene::math::DVec2;
@@ -145,6 +145,28 @@ impl Editor {
         if self.entries() > before {
             self.start_tool(stage, ToolKind::Move);
         }
+    }
+
+    /// Projects texture coordinates of the selection in the direction of the view at the pointer, in parallel. The
+    /// longer side of the selection fills the image, and the middle of the selection is in its middle.
+    pub(super) fn project_from_view(&mut self, stage: &Stage) {
+        let Some(selected) = Selected::of(&self.document) else { return };
+        let pane = self.pointer.map_or_else(|| pane_of(stage, None), |at| stage.pane_at(at));
+        let camera = stage.camera_of(&pane);
+        let [right, up] = [camera.right(), camera.up()];
+        let projected = || selected.points.iter().map(|point| DVec2::new(right.dot(*point), up.dot(*point)));
+        let low = projected().fold(DVec2::INFINITY, DVec2::min);
+        let high = projected().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
+        let projection = ProjectUvs {
+            center: (right * middle.x + up * middle.y).into(),
+            normal: (-camera.forward()).into(),
+            up: up.into(),
+            height: if size > 0.0 { size } else { 1.0 },
+            space: TransformSpace::World,
+            ..ProjectUvs::default()
+        };
+        self.run(projection.into());
     }
 
     /// Extrudes, and moves the result along its normals.

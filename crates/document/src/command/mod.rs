@@ -17,6 +17,7 @@ mod material;
 mod mirror;
 mod parts;
 mod paste;
+mod project_around;
 mod reference;
 mod scene;
 mod select;
@@ -30,6 +31,7 @@ mod surface;
 mod texture;
 mod transform;
 mod translate;
+mod unwrap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -48,6 +50,7 @@ pub use material::{AddMaterial, MaterialName, SetMaterial, SetMaterialSlot, Surf
 pub use mirror::{FlipNormals, Mirror, MirrorPlane, RecalculateNormals, Repair, Symmetrize};
 pub use parts::{Duplicate, JoinObjects, Rip, SplitOff};
 pub use paste::{Glb, Paste};
+pub use project_around::{ProjectUvsCylinder, ProjectUvsSphere};
 pub use reference::{command_reference, command_schema};
 pub use scene::{
     AddEmpty, AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, Shape, ShowObjects,
@@ -75,7 +78,8 @@ pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
 pub use translate::{Rotate, Rotation, Scale, Translate};
-pub use trigon_modelling::{BevelWidth, InnerMiter, OuterMiter};
+pub use trigon_modelling::{BevelWidth, InnerMiter, OuterMiter, UnwrapMethod};
+pub use unwrap::{PackIslands, SmartProject, Unwrap};
 
 /// Lists all commands: variant, type, display name.
 macro_rules! commands {
@@ -260,7 +264,17 @@ commands! {
     /// Projects texture coordinates from one side.
     ProjectUvs("Project from View", false),
     /// Projects texture coordinates from the sides of a box.
-    ProjectUvsOnBox("Box Projection", false),
+    ProjectUvsOnBox("Cube Projection", false),
+    /// Projects texture coordinates from a cylinder around the faces.
+    ProjectUvsCylinder("Cylinder Projection", false),
+    /// Projects texture coordinates from a sphere around the faces.
+    ProjectUvsSphere("Sphere Projection", false),
+    /// Lays faces flat along seams.
+    Unwrap("Unwrap", false),
+    /// Projects faces that face similarly together.
+    SmartProject("Smart Projection", false),
+    /// Arranges islands of texture coordinates in the image.
+    PackIslands("Pack Islands", false),
     /// Repairs faults found by inspection.
     Repair("Repair", false),
     /// Adds the contents of a file.

@@ -1,21 +1,22 @@
 //! Textures of materials, by their slots, and laying out texture coordinates.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_io::{Limits, load_image};
-use trigon_mesh::math::DVec3;
+use trigon_mesh::math::{DAffine3, DVec3};
 use trigon_modelling::{BoxProjection, PlanarProjection};
 use trigon_scene::{
-    Material, MetallicRoughness, NormalMap, Occlusion, Scene, Shading, Texture, TextureBinding,
+    Material, MeshId, MetallicRoughness, NormalMap, Occlusion, Scene, Shading, Texture, TextureBinding,
     TextureFormat, TextureId,
 };
 
 use super::material::named_or_first;
-use super::{Action, MaterialName, Outcome};
+use super::{Action, MaterialName, Outcome, TransformSpace};
 use crate::error::EditError;
-use crate::state::Change;
+use crate::state::{AfterEdit, Change};
 
 /// The source of a texture.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -183,12 +184,15 @@ pub struct ProjectUvs {
     pub height: f64,
     /// Its aspect ratio, width divided by height.
     pub aspect: f64,
+    /// The space of all of these.
+    pub space: TransformSpace,
 }
 
 impl Default for ProjectUvs {
     fn default() -> Self {
         let PlanarProjection { center, normal, up, height, aspect } = PlanarProjection::default();
-        Self { uv_set: 0, center: center.into(), normal: normal.into(), up: up.into(), height, aspect }
+        let space = TransformSpace::Local;
+        Self { uv_set: 0, center: center.into(), normal: normal.into(), up: up.into(), height, aspect, space }
     }
 }
 
@@ -201,8 +205,19 @@ impl Action for ProjectUvs {
             height: self.height,
             aspect: self.aspect,
         };
-        change.edit_selected_faces("projecting texture coordinates", FACES, |mesh, faces| {
-            mesh.project_uvs(faces, self.uv_set as usize, &projection)
+        let to_world: BTreeMap<MeshId, DAffine3> = match self.space {
+            TransformSpace::Local => BTreeMap::new(),
+            TransformSpace::World => {
+                let meshes = change.selection().meshes();
+                meshes.map(|(id, _)| (id, change.state().mesh_transform(id))).collect()
+            }
+        };
+        let kind = change.selection().kind();
+        change.edit_selected_meshes("projecting texture coordinates", FACES, |id, mesh, selection| {
+            let map = to_world.get(&id).copied().unwrap_or(DAffine3::IDENTITY);
+            let faces = selection.faces(mesh, kind);
+            mesh.project_uvs_mapped(&faces, self.uv_set as usize, &projection, &map)?;
+            Ok(AfterEdit::Keep)
         })?;
         Ok(Outcome::silent())
     }

@@ -29,6 +29,7 @@ mod merge;
 mod mirror;
 mod outlines;
 mod parts;
+mod project_around;
 mod project_uvs;
 #[cfg(test)]
 mod random_tests;
@@ -46,6 +47,7 @@ mod tables;
 mod transform;
 mod triangulate;
 mod tris_to_quads;
+mod unwrap;
 
 pub use bevel::{BevelLeftOut, BevelSettings, BevelWidth, Beveled, InnerMiter, OuterMiter};
 pub use connect::Connected;
@@ -60,6 +62,7 @@ pub use knife::{KnifeCut, KnifePoint};
 pub use loop_cut::{LoopCut, LoopCutSettings};
 pub use merge::MergedVertices;
 pub use mirror::Mirrored;
+pub use project_around::{CylinderProjection, SphereProjection};
 pub use project_uvs::{BoxProjection, PlanarProjection};
 pub use recalculate_normals::RecalculatedNormals;
 pub use rip::Ripped;
@@ -68,3 +71,4 @@ pub use symmetrize::Symmetrized;
 pub use transform::{Falloff, FalloffDistance, FalloffShape, MoveSession, Transform};
 pub use triangulate::Triangulated;
 pub use tris_to_quads::QuadLimits;
+pub use unwrap::{PackSettings, SmartProjection, UnwrapMethod, UnwrapSettings, Unwrapped};

@@ -1,7 +1,7 @@
 //! Texture coordinates by projection: along one direction, or for each face along the axis that is closest
 //! to its normal.
 
-use trigon_math::{DVec2, DVec3, Vec2, unit_or_zero};
+use trigon_math::{DAffine3, DVec2, DVec3, Vec2, unit_or_zero};
 
 use crate::column::Column;
 use crate::edit_mesh::EditMesh;
@@ -80,6 +80,20 @@ impl EditMesh {
         uv_set: usize,
         projection: &PlanarProjection,
     ) -> Result<(), Refusal> {
+        self.project_uvs_mapped(faces, uv_set, projection, &DAffine3::IDENTITY)
+    }
+
+    /// [`Self::project_uvs`] with a projection in another space, to which `map` leads from that of the mesh.
+    ///
+    /// # Errors
+    /// Those of [`Self::project_uvs`].
+    pub fn project_uvs_mapped(
+        &mut self,
+        faces: &[FaceId],
+        uv_set: usize,
+        projection: &PlanarProjection,
+        map: &DAffine3,
+    ) -> Result<(), Refusal> {
         let &PlanarProjection { center, normal, up, height, aspect } = projection;
         let right = unit_or_zero(unit_or_zero(up).cross(unit_or_zero(normal)));
         if right == DVec3::ZERO {
@@ -89,7 +103,9 @@ impl EditMesh {
         let size = check_image(center, height, aspect)?;
         let up = unit_or_zero(normal).cross(right);
         let projector = Projector { center, right, up, size };
-        self.write_uvs(faces, uv_set, |mesh, _, corner| projector.uv(mesh.point(mesh.corner_vertex(corner))))
+        self.write_uvs(faces, uv_set, |mesh, _, corner| {
+            projector.uv(map.transform_point3(mesh.point(mesh.corner_vertex(corner))))
+        })
     }
 
     /// Gives the corners of faces texture coordinates by projecting each face along the axis that it mostly
@@ -133,14 +149,19 @@ impl EditMesh {
         Ok(())
     }
 
-    /// Adds a set of texture coordinates after the others if this is the number of the next one.
-    fn add_uv_set(&mut self, uv_set: usize) -> Result<(), Refusal> {
-        let count = self.uv_set_count();
-        if uv_set > count {
+    /// Refuses a set of texture coordinates beyond the next one.
+    pub(super) fn check_uv_set(&self, uv_set: usize) -> Result<(), Refusal> {
+        if uv_set > self.uv_set_count() {
             let (parameter, range) = ("the set of texture coordinates", "at most one more than there are");
             return Err(Refusal::OutOfRange { parameter, value: uv_set as f64, range });
         }
-        if uv_set == count {
+        Ok(())
+    }
+
+    /// Adds a set of texture coordinates after the others if this is the number of the next one.
+    pub(super) fn add_uv_set(&mut self, uv_set: usize) -> Result<(), Refusal> {
+        self.check_uv_set(uv_set)?;
+        if uv_set == self.uv_set_count() {
             let values = LayerValues::Vec2(Column::new(vec![Vec2::ZERO; self.corner_capacity()]));
             self.corner_layers.push(Layer { kind: LayerKind::Uv, values });
         }
@@ -229,6 +250,30 @@ mod tests {
             let point = cube.point(cube.corner_vertex(corner));
             let expected = DVec2::new(0.5 + (point.x - 1.0) / 2.0, 0.5 + point.z / 4.0).as_vec2();
             assert_eq!(cube.uv(0, corner), Some(expected), "at {point}");
+        }
+    }
+
+    #[test]
+    fn a_mapped_projection_is_that_of_the_moved_mesh() {
+        let map = DAffine3::from_scale_rotation_translation(
+            DVec3::new(1.0, 2.0, 4.0),
+            trigon_math::DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2),
+            DVec3::new(0.5, 0.0, -1.0),
+        );
+        let (mut cube, faces) = bare_cube();
+        let mut moved = cube.clone();
+        let vertices: Vec<_> = moved.vertices().collect();
+        for vertex in vertices {
+            let at = map.transform_point3(moved.point(vertex)).as_vec3();
+            moved.set_position(vertex, at);
+        }
+        let projection =
+            PlanarProjection { normal: DVec3::new(1.0, 2.0, 3.0), ..PlanarProjection::default() };
+        cube.project_uvs_mapped(&faces, 0, &projection, &map).expect("possible");
+        moved.project_uvs(&faces, 0, &projection).expect("possible");
+        for corner in cube.corners() {
+            let [here, there] = [&cube, &moved].map(|mesh| mesh.uv(0, corner).expect("it was added"));
+            assert!(here.abs_diff_eq(there, 1e-6), "{here} and {there}");
         }
     }
 

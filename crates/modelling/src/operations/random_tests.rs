@@ -21,7 +21,7 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
     let center = DVec3::new(a, b, 0.5);
     let plane = Plane::from_point_and_normal(center * 0.5, DVec3::new(1.0, b, a)).expect("a direction");
     let falloff = Falloff { radius: 1.0 + a, ..Falloff::default() };
-    match kind % 21 {
+    match kind % 26 {
         0 => mesh.transform_vertices(&vertices, &Transform::Translate { offset: center }, Some(&falloff)),
         1 => {
             let rotation = Transform::Rotate {
@@ -50,6 +50,21 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
         17 => mesh.symmetrize(&faces, &plane, b.abs() * 0.1).map(drop),
         18 => mesh.project_uvs_on_box(&faces, 1, &BoxProjection::default()),
         19 => mesh.hide_faces(&faces).map(drop),
+        20 => {
+            let steps = (bits % 4) as u32;
+            let settings = UnwrapSettings { minimize_stretch: steps, ..UnwrapSettings::default() };
+            mesh.unwrap_faces(&faces, &settings).map(drop)
+        }
+        21 => mesh.smart_project_uvs(&faces, &SmartProjection::default()).map(drop),
+        22 => {
+            mesh.pack_uv_islands(&faces, 0, &PackSettings { rotate: a > 0.0, ..Default::default() }).map(drop)
+        }
+        23 => mesh.project_uvs_on_cylinder(
+            &faces,
+            1,
+            &CylinderProjection { axis: center, ..Default::default() },
+        ),
+        24 => mesh.project_uvs_on_sphere(&faces, 1, &SphereProjection { axis: center, ..Default::default() }),
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }
 }
@@ -85,7 +100,7 @@ proptest! {
             }
             prop_assert_eq!(mesh.check_structure(), Ok(()), "after {:?}", s);
             // Marks and windings move no place, and no value from it.
-            if (5..15).contains(&(kind % 21)) {
+            if (5..15).contains(&(kind % 26)) {
                 prop_assert!(keeps_affine_values(&before).is_err() || keeps_affine_values(&mesh).is_ok(), "{:?}", s);
             }
         }

@@ -221,8 +221,16 @@ actions! {
     "Mesh" "mesh.hide_others" "Hide Unselected" "Shift+H" Elements Run(r#"{"op":"hide","unselected":true}"#) => "Hides everything except the selection.";
     "Mesh" "mesh.reveal" "Reveal Hidden" "Alt+H" EditMode Run(r#"{"op":"reveal"}"#) => "Shows everything hidden.";
 
+    "UV" "uv.menu" "UV Menu" "U" EditMode Ui(UiRequest::Popup("UV")) => "Chooses how faces get texture coordinates.";
+    "UV" "uv.unwrap" "Unwrap" "" Elements Run(r#"{"op":"unwrap"}"#) => "Lays faces flat along seams, with their angles.";
+    "UV" "uv.minimum_stretch" "Minimum Stretch" "" Elements Run(r#"{"op":"unwrap","minimize_stretch":50}"#) => "Lays faces flat along seams, with sizes and angles as even as possible.";
+    "UV" "uv.smart" "Smart Projection" "" Elements Run(r#"{"op":"smart_project"}"#) => "Projects faces that face similarly together; needs no seams.";
+    "UV" "uv.box" "Cube Projection" "" Elements Run(r#"{"op":"project_uvs_on_box"}"#) => "Projects texture coordinates from the six sides of a cube.";
+    "UV" "uv.cylinder" "Cylinder Projection" "" Elements Run(r#"{"op":"project_uvs_cylinder"}"#) => "Projects texture coordinates from an upright cylinder around the faces; adjust the axis with F9.";
+    "UV" "uv.sphere" "Sphere Projection" "" Elements Run(r#"{"op":"project_uvs_sphere"}"#) => "Projects texture coordinates from a sphere around the faces; adjust the axis with F9.";
+    "UV" "uv.view" "From View" "" Elements Ui(UiRequest::ProjectFromView) => "Projects texture coordinates in the direction of the view, as large as the selection.";
     "UV" "uv.project" "Project from Front" "" Elements Run(r#"{"op":"project_uvs"}"#) => "Projects texture coordinates from the front; adjust the direction with F9.";
-    "UV" "uv.box" "Box Projection" "" Elements Run(r#"{"op":"project_uvs_on_box"}"#) => "Projects texture coordinates from the six sides of a box.";
+    "UV" "uv.pack" "Pack Islands" "" Elements Run(r#"{"op":"pack_islands"}"#) => "Arranges islands of texture coordinates in the image, in even scale.";
     "View" "view.frame_selected" "Frame Selected" "Numpad." Nothing View(ViewRequest::FrameSelected) => "Frames the selection.";
     "View" "view.frame_all" "Frame All" "Home" Nothing View(ViewRequest::FrameAll) => "Frames the whole scene.";
     "View" "view.local" "Local View" "Numpad/ /" ObjectMode View(ViewRequest::ToggleLocal) => "Shows only the selection, or everything again.";

@@ -10,6 +10,7 @@ mod selections;
 mod sessions;
 mod tools;
 mod up;
+mod uv;
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};

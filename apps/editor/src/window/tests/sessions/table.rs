@@ -33,10 +33,10 @@ const TABLE: &str = "
     see 4 of 30 faces selected
     keys E 1 . 4 Enter
     mesh Cube 48 92 46
-    keys A U                                        # texture coordinates
+    keys A                                          # texture coordinates
     press UV
-    press Box Projection
-    see Project
+    press Cube Projection
+    see Cube Projection
     keys Tab
     scroll Open Base colour image
     press Open Base colour image
