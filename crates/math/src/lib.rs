@@ -33,6 +33,7 @@ mod bvh;
 pub mod clip;
 pub mod color;
 mod direction;
+mod disjoint_sets;
 pub mod elementary;
 mod fixed;
 mod frustum;
@@ -59,6 +60,7 @@ pub use bvh::{Bvh, Ray, RayHit};
 pub use clip::{Band, ClipPolygon, ClipVertex, ClipVolume, HalfSpace, Outcode, clip_segment, clip_triangle};
 
 pub use direction::{angle, cofactors, or_if_zero, transformed_delta, transformed_direction, unit_or_zero};
+pub use disjoint_sets::DisjointSets;
 pub use frustum::{Frustum, FrustumSide};
 pub use plane::Plane;
 pub use polygon::{AxisProjection, area_vector};

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use trigon_math::{DVec3, Vec3, area_vector, elementary, unit_or_zero};
+use trigon_math::{DVec3, DisjointSets, Vec3, area_vector, elementary, unit_or_zero};
 
 use super::{Attributes, Mesh};
 
@@ -114,11 +114,11 @@ impl Mesh {
     }
 
     /// Joins, at both ends of every smooth edge, the corners of its two faces.
-    fn smooth_regions(&self, face_normals: &[Vec3], angle: f64) -> Regions {
+    fn smooth_regions(&self, face_normals: &[Vec3], angle: f64) -> DisjointSets {
         let least_cosine = elementary::cos(angle.clamp(0.0, std::f64::consts::PI)) - COSINE_ROUNDING;
         let vertices = self.corner_vertices();
         let (faces, next) = self.faces_and_next_corners();
-        let mut regions = Regions::new(self.corner_count());
+        let mut regions = DisjointSets::new(self.corner_count());
         let meeting = self.edge_corners();
         for (&[a, b], &count) in meeting.corners.iter().zip(&meeting.counts) {
             if count != 2 || vertices[a as usize] == vertices[b as usize] {
@@ -148,27 +148,3 @@ impl Mesh {
 
 /// Normals are rounded to f32: faces that meet at exactly the angle are still smooth.
 const COSINE_ROUNDING: f64 = 1e-6;
-
-/// Sets of corners (union-find; the smallest corner represents its set).
-struct Regions(Vec<u32>);
-
-impl Regions {
-    fn new(corners: usize) -> Self {
-        Self((0..corners as u32).collect())
-    }
-
-    fn root(&mut self, mut corner: u32) -> u32 {
-        while self.0[corner as usize] != corner {
-            // Halves the path for the next look-up.
-            let above = self.0[self.0[corner as usize] as usize];
-            self.0[corner as usize] = above;
-            corner = above;
-        }
-        corner
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let [a, b] = [self.root(a), self.root(b)];
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-}

@@ -1,7 +1,7 @@
 //! Charts: the connected parts of a surface that are laid out one by one, with their vertices cut open along
 //! the borders of each.
 
-use trigon_math::{DVec2, DVec3, Vec3};
+use trigon_math::{DVec2, DVec3, DisjointSets, Vec3};
 use trigon_mesh::Triangulator;
 
 use crate::edit_mesh::EditMesh;
@@ -95,29 +95,6 @@ impl UvChart {
     }
 }
 
-/// Disjoint sets of numbers, each known by its least member.
-struct Sets(Vec<u32>);
-
-impl Sets {
-    fn new(count: usize) -> Self {
-        Self((0..count as u32).collect())
-    }
-
-    fn find(&mut self, mut member: u32) -> u32 {
-        while self.0[member as usize] != member {
-            let above = self.0[self.0[member as usize] as usize];
-            self.0[member as usize] = above;
-            member = above;
-        }
-        member
-    }
-
-    fn unite(&mut self, a: u32, b: u32) {
-        let [a, b] = [self.find(a), self.find(b)];
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-}
-
 /// The corners of some faces, by number, and what is joined of them.
 struct Joined {
     corners: Vec<CornerId>,
@@ -128,8 +105,8 @@ struct Joined {
     order: Vec<u32>,
     /// By corner: whether its edge joins two faces of a chart.
     is_joined: Vec<bool>,
-    vertex_sets: Sets,
-    face_sets: Sets,
+    vertex_sets: DisjointSets,
+    face_sets: DisjointSets,
 }
 
 /// The charts of faces, in the order of their first faces. Two faces belong together at an edge where exactly
@@ -163,8 +140,8 @@ impl Joined {
             numbering,
             order,
             is_joined: vec![false; count],
-            vertex_sets: Sets::new(count),
-            face_sets: Sets::new(faces.len()),
+            vertex_sets: DisjointSets::new(count),
+            face_sets: DisjointSets::new(faces.len()),
         }
     }
 
@@ -184,9 +161,9 @@ impl Joined {
             let number = |corner| self.number(corner).expect("corners of given faces are numbered");
             let [from, to] = [a, b].map(number);
             let [after_from, after_to] = [a, b].map(|corner| number(mesh.next_corner(corner)));
-            self.vertex_sets.unite(from, after_to);
-            self.vertex_sets.unite(to, after_from);
-            self.face_sets.unite(self.faces[from as usize], self.faces[to as usize]);
+            self.vertex_sets.join(from, after_to);
+            self.vertex_sets.join(to, after_from);
+            self.face_sets.join(self.faces[from as usize], self.faces[to as usize]);
             self.is_joined[from as usize] = true;
             self.is_joined[to as usize] = true;
         }
@@ -199,7 +176,7 @@ impl Joined {
         let mut vertex_of = vec![u32::MAX; self.corners.len()];
         let (mut first, mut polygon) = (0, Polygon::default());
         for (number, &face) in faces.iter().enumerate() {
-            let root = self.face_sets.find(number as u32) as usize;
+            let root = self.face_sets.root(number as u32) as usize;
             if chart_of[root] == u32::MAX {
                 chart_of[root] = parts.len() as u32;
                 parts.push(Part::default());
@@ -208,7 +185,7 @@ impl Joined {
             let size = mesh.face_size(face);
             polygon.vertices.clear();
             for position in first..first + size {
-                let set = self.vertex_sets.find(position as u32) as usize;
+                let set = self.vertex_sets.root(position as u32) as usize;
                 let corner = self.corners[position];
                 if vertex_of[set] == u32::MAX {
                     vertex_of[set] = part.positions.len() as u32;
