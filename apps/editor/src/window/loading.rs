@@ -5,12 +5,11 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::thread;
 
 use trigon_document::{Document, DocumentFile, Storage, save};
 use trigon_io::{LoadOptions, Loaded, Progress, UpAxis, Warning, load};
 
+use super::background::Background;
 use super::file_version::FileVersion;
 use super::open_file::Next;
 
@@ -40,7 +39,7 @@ pub(crate) struct Loading {
     /// What was on the disk before it was read.
     pub(crate) version: Option<FileVersion>,
     purpose: LoadPurpose,
-    outcome: Receiver<Outcome>,
+    work: Background<Found>,
     state: Arc<State>,
 }
 
@@ -60,25 +59,20 @@ impl Loading {
         wake: impl Fn() + Send + Sync + 'static,
     ) -> Self {
         let state = Arc::new(State::default());
-        let (sender, outcome) = channel();
         let version = FileVersion::of(&path);
-        let (theirs, file) = (Arc::clone(&state), path.clone());
-        thread::spawn(move || {
-            // Nobody waits for it any more when this fails.
+        let (theirs, file, wake) = (Arc::clone(&state), path.clone(), Arc::new(wake));
+        let at_end = Arc::clone(&wake);
+        let read = move || {
             let options = LoadOptions { up, ..LoadOptions::default() };
-            drop(sender.send(read(&file, purpose, options, &theirs, &wake)));
-            wake();
-        });
-        Self { path, version, purpose, outcome, state }
+            read(&file, purpose, options, &theirs, &*wake)
+        };
+        let work = Background::start(read, move || at_end(), NO_RESULT);
+        Self { path, version, purpose, work, state }
     }
 
     /// What it ended with; `None` while it runs.
     pub(crate) fn outcome(&self) -> Option<Outcome> {
-        match self.outcome.try_recv() {
-            Ok(outcome) => Some(outcome),
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err(NO_RESULT.into())),
-        }
+        self.work.result()
     }
 
     /// What is being done, for people.
@@ -93,7 +87,7 @@ impl Loading {
     /// What it ended with, once that is there.
     #[cfg(test)]
     pub(crate) fn wait(&self) -> Outcome {
-        self.outcome.recv().unwrap_or_else(|_| Err(NO_RESULT.into()))
+        self.work.wait()
     }
 }
 
@@ -157,7 +151,7 @@ pub(crate) enum Saved {
 #[derive(Debug)]
 pub(crate) struct Saving {
     pub(crate) order: SaveOrder,
-    outcome: Receiver<Saved>,
+    work: Background<Saved>,
 }
 
 impl Saving {
@@ -168,30 +162,20 @@ impl Saving {
         mut storage: Box<dyn Storage + Send>,
         wake: impl FnOnce() + Send + 'static,
     ) -> Self {
-        let (sender, outcome) = channel();
         let (path, accepts_losses) = (order.path.clone(), order.accepts_losses);
-        thread::spawn(move || {
-            let written = write(&document, &path, accepts_losses, &mut *storage);
-            // Nobody waits for it any more when this fails.
-            drop(sender.send(written.unwrap_or_else(Saved::Failed)));
-            wake();
-        });
-        Self { order, outcome }
+        let write = move || write(&document, &path, accepts_losses, &mut *storage);
+        Self { order, work: Background::start(write, wake, NO_SAVING_RESULT) }
     }
 
     /// What it ended with; `None` while it runs.
     pub(crate) fn outcome(&self) -> Option<Saved> {
-        match self.outcome.try_recv() {
-            Ok(outcome) => Some(outcome),
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Saved::Failed(NO_SAVING_RESULT.into())),
-        }
+        self.work.result().map(|saved| saved.unwrap_or_else(Saved::Failed))
     }
 
     /// The same, once it is there.
     #[cfg(test)]
     pub(crate) fn wait(&self) -> Saved {
-        self.outcome.recv().unwrap_or_else(|_| Saved::Failed(NO_SAVING_RESULT.into()))
+        self.work.wait().unwrap_or_else(Saved::Failed)
     }
 }
 

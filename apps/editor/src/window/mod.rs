@@ -4,6 +4,7 @@
 //! them on the document; [`onto_stage`] brings the document onto the stage.
 
 mod actions;
+mod background;
 mod button_start;
 mod dialog;
 mod dropped;

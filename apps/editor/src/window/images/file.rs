@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::thread;
 
 use trigon_document::scene::Frame;
 use trigon_io::{Pixels, write_exr, write_jpeg, write_png, write_webp};
 use trigon_window::egui::Ui;
+
+use crate::window::background::Background;
 
 /// The formats that are written, with the endings of their files.
 pub(crate) const IMAGE_FORMATS: [(&str, &[&str]); 4] =
@@ -72,37 +72,26 @@ fn write(path: &Path, frame: &Frame) -> Result<(), String> {
 #[derive(Debug)]
 pub(crate) struct Writing {
     pub(crate) path: PathBuf,
-    outcome: Receiver<Result<(), String>>,
+    work: Background<()>,
 }
 
 impl Writing {
     /// Starts to write; `wake` is called at the end.
     pub(crate) fn start(frame: Arc<Frame>, path: PathBuf, wake: impl FnOnce() + Send + 'static) -> Self {
-        let (sender, outcome) = channel();
         let file = path.clone();
-        let begun = thread::Builder::new().name("trigon-write".into()).spawn(move || {
-            // Nobody waits for it any more when this fails.
-            drop(sender.send(write(&file, &frame)));
-            wake();
-        });
-        // Without a thread the channel is closed, and the outcome says so.
-        drop(begun);
-        Self { path, outcome }
+        let work = Background::start(move || write(&file, &frame), wake, NO_RESULT);
+        Self { path, work }
     }
 
     /// What it ended with; `None` while it runs.
     pub(crate) fn outcome(&self) -> Option<Result<(), String>> {
-        match self.outcome.try_recv() {
-            Ok(outcome) => Some(outcome),
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err(NO_RESULT.into())),
-        }
+        self.work.result()
     }
 
     /// The same, once it is there.
     #[cfg(test)]
     pub(crate) fn wait(&self) -> Result<(), String> {
-        self.outcome.recv().unwrap_or_else(|_| Err(NO_RESULT.into()))
+        self.work.wait()
     }
 }
 

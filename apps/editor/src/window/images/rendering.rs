@@ -2,13 +2,13 @@
 
 use std::fmt;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::thread;
 
 use trigon_document::scene::camera::Camera;
 use trigon_document::scene::math::{Vec4, color};
 use trigon_document::scene::{Cancel, Frame, RenderSettings, Renderer, Scene};
 use trigon_window::egui::ColorImage;
+
+use crate::window::background::Background;
 
 /// The greatest side of an image on the screen, in pixels.
 const SHOWN: usize = 2048;
@@ -82,7 +82,7 @@ pub(crate) type Rendered = Result<RenderedImage, String>;
 #[derive(Debug)]
 pub(crate) struct Rendering {
     cancel: Cancel,
-    outcome: Receiver<Rendered>,
+    work: Background<RenderedImage>,
 }
 
 impl Rendering {
@@ -92,16 +92,9 @@ impl Rendering {
         wake: impl FnOnce() + Send + 'static,
     ) -> Self {
         let cancel = Cancel::for_drawings(1);
-        let (sender, outcome) = channel();
         let theirs = cancel.clone();
-        let begun = thread::Builder::new().name("trigon-image".into()).spawn(move || {
-            // Nobody waits for it any more when this fails.
-            drop(sender.send(draw(&theirs)));
-            wake();
-        });
-        // Without a thread the channel is closed, and the outcome says so.
-        drop(begun);
-        Self { cancel, outcome }
+        let work = Background::start(move || draw(&theirs), wake, NO_RESULT);
+        Self { cancel, work }
     }
 
     /// How much is drawn, 0 to 1.
@@ -111,17 +104,13 @@ impl Rendering {
 
     /// What it ended with; `None` while it runs.
     pub(crate) fn outcome(&self) -> Option<Rendered> {
-        match self.outcome.try_recv() {
-            Ok(outcome) => Some(outcome),
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err(NO_RESULT.into())),
-        }
+        self.work.result()
     }
 
     /// The same, once it is there.
     #[cfg(test)]
     pub(crate) fn wait(&self) -> Rendered {
-        self.outcome.recv().unwrap_or_else(|_| Err(NO_RESULT.into()))
+        self.work.wait()
     }
 }
 
@@ -135,6 +124,8 @@ const NO_RESULT: &str = "rendering ended without an image; try a smaller one, or
 
 #[cfg(test)]
 mod tests {
+    use std::sync::mpsc::channel;
+
     use super::*;
 
     #[test]
