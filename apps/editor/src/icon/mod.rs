@@ -3,7 +3,7 @@
 
 mod shapes;
 
-use trigon_window::egui::{Atom, Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
+use trigon_window::egui::{Atom, Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 
 /// What an icon stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,35 +44,39 @@ enum Part {
     Loop(&'static [[f32; 2]]),
     /// A convex area.
     Area(&'static [[f32; 2]]),
-    /// A circle: centre and radius.
-    Circle([f32; 2], f32),
+    /// A part of an ellipse.
+    Curve(Arc),
     /// A filled circle: centre and radius.
     Dot([f32; 2], f32),
+}
+
+/// A part of an ellipse whose axes are level and upright.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Arc {
+    center: [f32; 2],
+    /// Level and upright.
+    radii: [f32; 2],
+    /// From where to where, clockwise from the right.
+    degrees: [f32; 2],
+}
+
+impl Arc {
+    /// Points along it, as near to each other as an icon needs.
+    fn points(&self) -> Vec<[f32; 2]> {
+        let Self { center, radii, degrees: [from, to] } = *self;
+        let pieces = ((to - from) / 15.0).ceil();
+        let at = |piece: usize| {
+            let turn = Vec2::angled((from + (to - from) * piece as f32 / pieces).to_radians());
+            [center[0] + radii[0] * turn.x, center[1] + radii[1] * turn.y]
+        };
+        (0..=pieces as usize).map(at).collect()
+    }
 }
 
 /// Of an icon in a button or a row, in points.
 const SIZE: f32 = 14.0;
 
 impl Icon {
-    /// The icon of an action of the table that has one.
-    pub(crate) fn of_action(name: &str) -> Option<Self> {
-        Some(match name {
-            "select.box" => Self::SelectBox,
-            "select.circle" => Self::SelectCircle,
-            "select.lasso" => Self::SelectLasso,
-            "tool.move" => Self::Move,
-            "tool.rotate" => Self::Rotate,
-            "tool.scale" => Self::Scale,
-            "mesh.extrude" => Self::Extrude,
-            "mesh.inset" => Self::Inset,
-            "mesh.bevel" => Self::Bevel,
-            "mesh.loop_cut" => Self::LoopCut,
-            "mesh.edge_slide" => Self::Slide,
-            "tool.shrink_fatten" => Self::ShrinkFatten,
-            _ => return None,
-        })
-    }
-
     /// The icon within a button, beside its text.
     pub(crate) fn atom(self) -> Atom<'static> {
         Atom::paint(vec2(SIZE, SIZE), move |ui, args| {
@@ -91,7 +95,7 @@ impl Icon {
                 Part::Line(line) => Shape::line(points(line), stroke),
                 Part::Loop(line) => Shape::closed_line(points(line), stroke),
                 Part::Area(area) => Shape::convex_polygon(points(area), color, Stroke::NONE),
-                Part::Circle(center, radius) => Shape::circle_stroke(at(center), radius * half, stroke),
+                Part::Curve(arc) => Shape::line(points(&arc.points()), stroke),
                 Part::Dot(center, radius) => Shape::circle_filled(at(center), radius * half, color),
             });
         }
@@ -136,9 +140,8 @@ mod tests {
             for part in icon.parts() {
                 let is_inside = match part {
                     Part::Line(points) | Part::Loop(points) | Part::Area(points) => points.iter().all(inside),
-                    Part::Circle([x, y], radius) | Part::Dot([x, y], radius) => {
-                        x.abs().max(y.abs()) + radius <= 1.0
-                    }
+                    Part::Curve(arc) => arc.points().iter().all(inside),
+                    Part::Dot([x, y], radius) => x.abs().max(y.abs()) + radius <= 1.0,
                 };
                 assert!(is_inside, "{icon:?}: {part:?}");
             }

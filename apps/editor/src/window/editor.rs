@@ -56,6 +56,11 @@ fn next_size(size: f32, steps: isize) -> f32 {
     TEXT_SIZES[nearest.saturating_add_signed(steps).min(TEXT_SIZES.len() - 1)]
 }
 
+/// What is said of a command and its outcome.
+fn said(name: &str, message: &str) -> String {
+    if message.is_empty() { name.to_owned() } else { format!("{name}: {message}") }
+}
+
 /// A document in a window.
 pub(crate) struct Editor {
     pub(crate) document: Document,
@@ -201,18 +206,15 @@ impl Editor {
         match outcome {
             Ok(outcome) => {
                 self.file.ran(selects);
-                self.done(name, &outcome.message);
-                if let (true, Message::Info(text)) = (selects, &self.message) {
-                    self.message = Message::Hint(text.clone());
-                }
+                let text = said(name, &outcome.message);
+                self.message = if selects { Message::Hint(text) } else { Message::Info(text) };
             }
             Err(refusal) => self.message = Message::Refusal(refusal.to_string()),
         }
     }
 
     pub(crate) fn done(&mut self, name: &str, message: &str) {
-        let text = if message.is_empty() { name.to_owned() } else { format!("{name}: {message}") };
-        self.message = Message::Info(text);
+        self.message = Message::Info(said(name, message));
     }
 
     fn adjust(&mut self, command: Command) {

@@ -83,11 +83,16 @@ impl Action for AddMaterial {
         let shading = Shading::MetallicRoughness(MetallicRoughness::default());
         let material = scene.add_material(Material::default().with_name(&self.name).with_shading(shading));
         let slots = &mut scene.node_mut(object).expect("it was just found").materials;
-        match self.slot.and_then(|slot| slots.get_mut(slot as usize)) {
-            Some(slot) => *slot = material,
-            None => slots.push(material),
-        }
+        put(slots, self.slot.map_or(slots.len(), |slot| slot as usize), material);
         Ok(Outcome::silent())
+    }
+}
+
+/// Puts a material into a slot, or into a new one beyond the last.
+fn put(slots: &mut Vec<MaterialId>, slot: usize, material: MaterialId) {
+    match slots.get_mut(slot) {
+        Some(slot) => *slot = material,
+        None => slots.push(material),
     }
 }
 
@@ -124,10 +129,7 @@ impl Action for SetMaterialSlot {
         let object = with_surface(change, self.object.as_ref(), "setting a material slot")?;
         let material = self.material.find(change.scene())?;
         let slots = &mut change.scene_mut().node_mut(object).expect("it was just found").materials;
-        match slots.get_mut(self.slot as usize) {
-            Some(slot) => *slot = material,
-            None => slots.push(material),
-        }
+        put(slots, self.slot as usize, material);
         Ok(Outcome::silent())
     }
 }

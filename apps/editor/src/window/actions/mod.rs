@@ -5,6 +5,7 @@ mod table;
 
 use trigon_document::Document;
 
+use crate::icon::Icon;
 use crate::request::{FileAction, FileRequest, Request, ToolKind, UiRequest, ViewRequest};
 
 /// The menus of the bar, in their order. Others are opened by keys.
@@ -87,21 +88,27 @@ pub(crate) fn named(name: &str) -> Option<&'static Action> {
     all().find(|action| action.name == name)
 }
 
-/// The tools of the bar on the left.
-const TOOLS: [&str; 12] = [
-    "select.box",
-    "select.circle",
-    "select.lasso",
-    "tool.move",
-    "tool.rotate",
-    "tool.scale",
-    "mesh.extrude",
-    "mesh.inset",
-    "mesh.bevel",
-    "mesh.loop_cut",
-    "mesh.edge_slide",
-    "tool.shrink_fatten",
+/// The tools of the bar on the left, by the names of their actions.
+const TOOLS: [(&str, Icon); 12] = [
+    ("select.box", Icon::SelectBox),
+    ("select.circle", Icon::SelectCircle),
+    ("select.lasso", Icon::SelectLasso),
+    ("tool.move", Icon::Move),
+    ("tool.rotate", Icon::Rotate),
+    ("tool.scale", Icon::Scale),
+    ("mesh.extrude", Icon::Extrude),
+    ("mesh.inset", Icon::Inset),
+    ("mesh.bevel", Icon::Bevel),
+    ("mesh.loop_cut", Icon::LoopCut),
+    ("mesh.edge_slide", Icon::Slide),
+    ("tool.shrink_fatten", Icon::ShrinkFatten),
 ];
+
+/// A tool that has a button.
+pub(crate) struct ToolButton {
+    pub(crate) action: &'static Action,
+    pub(crate) icon: Icon,
+}
 
 /// The menu of a click with the right button.
 pub(crate) const CONTEXT_MENU: &str = "Context";
@@ -176,8 +183,8 @@ pub(crate) fn context(is_editing: bool) -> impl Iterator<Item = &'static Action>
 }
 
 /// The tools that have a button, of both modes.
-pub(crate) fn tools() -> impl Iterator<Item = &'static Action> {
-    TOOLS.iter().filter_map(|name| named(name))
+pub(crate) fn tools() -> impl Iterator<Item = ToolButton> {
+    TOOLS.iter().filter_map(|&(name, icon)| named(name).map(|action| ToolButton { action, icon }))
 }
 
 impl Action {

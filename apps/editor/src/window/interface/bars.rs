@@ -1,7 +1,7 @@
 //! The top bar with modes and settings, and the tools on the left.
 
 use trigon_document::ElementKind;
-use trigon_window::egui::{Atom, Atoms, Button, Ui};
+use trigon_window::egui::{Atom, Button, Ui};
 use trigon_window::{Stage, egui};
 
 use crate::icon::Icon;
@@ -10,6 +10,7 @@ use crate::request::{
     ViewRequest,
 };
 use crate::window::actions;
+use crate::window::actions::ToolButton;
 use crate::window::editor::Editor;
 
 /// Mode, element kinds, projection, display, snapping, pivot, orientation.
@@ -145,7 +146,7 @@ pub(super) fn tools(ui: &mut Ui, editor: &mut Editor, stage: &mut Stage) {
     let is_editing = editor.document.selection().is_editing();
     let mut chosen = None;
     ui.add_space(4.0);
-    for action in actions::tools() {
+    for ToolButton { action, icon } in actions::tools() {
         if !action.fits_mode(is_editing) {
             continue;
         }
@@ -153,11 +154,10 @@ pub(super) fn tools(ui: &mut Ui, editor: &mut Editor, stage: &mut Stage) {
         let text = format!("{} ({})\n{}", action.label, editor.keys.text_of(action), action.help);
         let width = ui.available_width();
         let is_active = editor.tool.as_ref().is_some_and(|tool| action.starts(tool.kind));
-        let mut atoms = Atoms::new((action.label, Atom::grow()));
-        if let Some(icon) = Icon::of_action(action.name) {
-            atoms.push_left(icon.atom());
-        }
-        let button = Button::new(atoms).min_size(egui::vec2(width, 26.0)).truncate().selected(is_active);
+        let button = Button::new((icon.atom(), action.label, Atom::grow()))
+            .min_size(egui::vec2(width, 26.0))
+            .truncate()
+            .selected(is_active);
         let shown = ui.add_enabled(refusal.is_none(), button).on_hover_text(&text);
         let reason = refusal.unwrap_or_default();
         if shown.on_disabled_hover_text(format!("{text}\n{reason}")).clicked() {

@@ -86,7 +86,8 @@ fn tabs(ui: &mut Ui, editor: &mut Editor, stage: &Stage, requests: &mut Vec<Requ
         |ui| match panels.tab {
             Tab::Information => {
                 let is_editing = document.selection().is_editing();
-                let of_mode = actions::tools().filter(|action| action.fits_mode(is_editing));
+                let of_mode =
+                    actions::tools().map(|tool| tool.action).filter(|action| action.fits_mode(is_editing));
                 let controls = of_mode.map(|action| (keys.text_of(action), action.label.to_owned()));
                 let controls: Vec<_> = controls.filter(|(keys, _)| !keys.is_empty()).collect();
                 panel::information(ui, shown, &mut panels.information, &controls);
