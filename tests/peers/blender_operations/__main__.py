@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every operation on meshes beside Blender's, on the same meshes with the same selections.
 
-usage: python tests/peers/blender_operations EDITOR [--meshes N] [--models FOLDER --model-count M] [--only TEXT] [--jobs N]
+usage: python tests/peers/blender_operations EDITOR [--meshes N] [--first K] [--models FOLDER --model-count M] [--only TEXT] [--jobs N]
 
 EDITOR is the program trigon-editor. Needs `bpy` (Blender 5.0.1 as a module) and numpy. For each operation it prints on how
 many meshes both programs have as many vertices, edges and faces and, within rounding, the same area and volume, on how
@@ -69,6 +69,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("editor")
     parser.add_argument("--meshes", type=int, default=200, help="how many generated meshes, at most 200")
+    parser.add_argument("--first", type=int, default=1, help="the first of the generated meshes that is compared")
     parser.add_argument("--models", type=pathlib.Path, help="a folder of models")
     parser.add_argument("--model-count", type=int, default=30)
     parser.add_argument("--jobs", type=int, default=2, help="how many processes")
@@ -76,7 +77,7 @@ def main():
     parser.add_argument("--details", type=pathlib.Path)
     arguments = parser.parse_args()
     table = table_of(arguments.only)
-    subjects = meshes.generated(arguments.meshes)
+    subjects = meshes.generated(arguments.meshes)[arguments.first - 1 :]
     if arguments.models:
         found = models(arguments.editor, arguments.models, arguments.model_count)
         print(f"{len(found)} models: " + ", ".join(mesh.name for mesh in found), flush=True)

@@ -1,6 +1,6 @@
 //! Triangulating faces.
 
-use trigon_math::Vec3;
+use trigon_math::{Vec3, area_vector};
 use trigon_mesh::Triangulator;
 
 use super::delete::require;
@@ -38,7 +38,8 @@ impl EditMesh {
     /// The triangles are those of [`triangulate_polygon`](trigon_mesh::triangulate_polygon), which are also drawn:
     /// a quad is cut along its shorter diagonal, a concave polygon inside its outline. Others join them where a
     /// polygon has no area or crosses itself, so that there are n − 2 in all and a closed mesh stays closed
-    /// ([`Triangulator::complete_polygon`]). Corners keep their values, and triangles the face's material.
+    /// ([`Triangulator::complete_polygon`]). Where one of them would lie on another face, on the same vertices, the
+    /// polygon is cut from one corner instead. Corners keep their values, and triangles the face's material.
     ///
     /// # Errors
     /// No face is given, one does not exist, or the mesh would have too many elements.
@@ -76,16 +77,49 @@ impl EditMesh {
         positions.extend(points.iter().map(|point| self.position(point.vertex)));
         triangles.clear();
         triangulator.complete_polygon(positions, triangles);
+        if self.doubles_face(face, points, triangles)
+            && let Some(fan) = self.fan_beside_faces(face, points)
+        {
+            *triangles = fan;
+        }
         parts.clear();
         triangles.iter().for_each(|&triangle| parts.push(triangle));
         self.divide_face(face, points, parts, divided);
+    }
+
+    /// Whether one of the triangles of a face has the vertices of another face.
+    fn doubles_face(&self, face: FaceId, points: &[PartPoint], triangles: &[[u32; 3]]) -> bool {
+        triangles.iter().any(|triangle| {
+            let [a, b, c] = triangle.map(|point| points[point as usize].vertex);
+            let Some(edge) = self.find_edge(a, b) else { return false };
+            self.edge_faces(edge).any(|other| {
+                other != face && self.face_size(other) == 3 && self.face_vertices(other).any(|at| at == c)
+            })
+        })
+    }
+
+    /// The triangles from one corner of a face to all its other edges, where none of them lies on another face: of those
+    /// from all corners the ones with the least area in sum, which fold the least.
+    fn fan_beside_faces(&self, face: FaceId, points: &[PartPoint]) -> Option<Vec<[u32; 3]>> {
+        let count = points.len() as u32;
+        let fan = |from: u32| -> Vec<[u32; 3]> {
+            let corner = |step: u32| (from + step) % count;
+            (1..count - 1).map(|step| [from, corner(step), corner(step + 1)]).collect()
+        };
+        let area = |fan: &Vec<[u32; 3]>| -> f64 {
+            let of = |triangle: &[u32; 3]| {
+                area_vector(triangle.map(|point| self.point(points[point as usize].vertex))).length()
+            };
+            fan.iter().map(of).sum()
+        };
+        let fans = (0..count).map(fan).filter(|fan| !self.doubles_face(face, points, fan));
+        fans.min_by(|a, b| area(a).total_cmp(&area(b)))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use trigon_math::area_vector;
     use trigon_mesh::primitives;
 
     use super::*;
@@ -139,6 +173,26 @@ mod tests {
         let mut mesh = polygon(&[[f32::NAN; 2], [1.0, 0.0], [2.0, 0.0], [f32::INFINITY; 2]]);
         mesh.triangulate_faces(&[FaceId(0)]).expect("a face");
         assert_eq!(counts(&mesh), [4, 5, 2], "places do not matter");
+    }
+
+    /// A cap of three vertices lies in a corner of a polygon that runs around its third one: as a cut corner of a solid
+    /// whose edge was dissolved.
+    #[test]
+    fn triangulating_laid_a_triangle_on_its_neighbour() {
+        let mut mesh = polygon(&[[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [2.0, 2.2], [0.0, 2.0]]);
+        let vertices: Vec<VertexId> = mesh.face_vertices(FaceId(0)).collect();
+        let cap = mesh.add_face(&[vertices[4], vertices[3], vertices[2]]).expect("on the other side");
+        let made = mesh.triangulate_faces(&[FaceId(0)]).expect("a face");
+        mesh.check_structure().expect("whole");
+        let set = |face: FaceId| {
+            let mut vertices: Vec<VertexId> = mesh.face_vertices(face).collect();
+            vertices.sort_unstable();
+            vertices
+        };
+        assert_eq!(made.faces.len(), 3);
+        assert!(made.faces.iter().all(|&face| set(face) != set(cap)), "none lies on the cap");
+        let area = |face| area_vector(mesh.face_vertices(face).map(|vertex| mesh.point(vertex))).z;
+        assert!(made.faces.iter().all(|&face| area(face) > 0.0), "and none is turned over");
     }
 
     proptest! {
