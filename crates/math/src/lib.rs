@@ -49,7 +49,8 @@ pub use glam;
 /// reversed depth without a far plane. `trigon-camera` has all others, in `f64`.
 pub use glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_at_mat4};
 pub use glam::{
-    DAffine3, DMat3, DMat4, DQuat, DVec2, DVec3, DVec4, IVec2, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec4,
+    DAffine2, DAffine3, DMat2, DMat3, DMat4, DQuat, DVec2, DVec3, DVec4, IVec2, Mat3, Mat4, Quat, UVec2,
+    Vec2, Vec3, Vec4,
 };
 
 pub use fixed::{Fixed, FixedPoint};

@@ -15,6 +15,7 @@ mod import;
 mod light;
 mod material;
 mod mirror;
+mod move_uvs;
 mod parts;
 mod paste;
 mod project_around;
@@ -48,6 +49,7 @@ pub use import::ImportFile;
 pub use light::{AddCamera, SetLight};
 pub use material::{AddMaterial, MaterialName, SetMaterial, SetMaterialSlot, SurfaceAlpha, SurfaceShading};
 pub use mirror::{FlipNormals, Mirror, MirrorPlane, RecalculateNormals, Repair, Symmetrize};
+pub use move_uvs::{FollowActiveQuad, RotateUvs, ScaleUvs, TranslateUvs};
 pub use parts::{Duplicate, JoinObjects, Rip, SplitOff};
 pub use paste::{Glb, Paste};
 pub use project_around::{ProjectUvsCylinder, ProjectUvsSphere};
@@ -78,7 +80,7 @@ pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
 pub use translate::{Rotate, Rotation, Scale, Translate};
-pub use trigon_modelling::{BevelWidth, InnerMiter, OuterMiter, UnwrapMethod};
+pub use trigon_modelling::{BevelWidth, InnerMiter, OuterMiter, QuadLength, UnwrapMethod};
 pub use unwrap::{PackIslands, SmartProject, Unwrap};
 
 /// Lists all commands: variant, type, display name.
@@ -275,6 +277,14 @@ commands! {
     SmartProject("Smart Projection", false),
     /// Arranges islands of texture coordinates in the image.
     PackIslands("Pack Islands", false),
+    /// Moves texture coordinates.
+    TranslateUvs("Move UVs", false),
+    /// Turns texture coordinates.
+    RotateUvs("Rotate UVs", false),
+    /// Scales texture coordinates.
+    ScaleUvs("Scale UVs", false),
+    /// Lays quads beside the active one.
+    FollowActiveQuad("Follow Active Quad", false),
     /// Repairs faults found by inspection.
     Repair("Repair", false),
     /// Adds the contents of a file.

@@ -230,6 +230,7 @@ actions! {
     "UV" "uv.sphere" "Sphere Projection" "" Elements Run(r#"{"op":"project_uvs_sphere"}"#) => "Projects texture coordinates from a sphere around the faces; adjust the axis with F9.";
     "UV" "uv.view" "From View" "" Elements Ui(UiRequest::ProjectFromView) => "Projects texture coordinates in the direction of the view, as large as the selection.";
     "UV" "uv.project" "Project from Front" "" Elements Run(r#"{"op":"project_uvs"}"#) => "Projects texture coordinates from the front; adjust the direction with F9.";
+    "UV" "uv.follow" "Follow Active Quad" "" Elements Run(r#"{"op":"follow_active_quad"}"#) => "Lays the selected quads beside the active one, as rows and columns.";
     "UV" "uv.pack" "Pack Islands" "" Elements Run(r#"{"op":"pack_islands"}"#) => "Arranges islands of texture coordinates in the image, in even scale.";
     "View" "view.frame_selected" "Frame Selected" "Numpad." Nothing View(ViewRequest::FrameSelected) => "Frames the selection.";
     "View" "view.frame_all" "Frame All" "Home" Nothing View(ViewRequest::FrameAll) => "Frames the whole scene.";
@@ -264,14 +265,15 @@ actions! {
     "View/Display" "display.matcap" "Matcap" "" Nothing View(ViewRequest::Display(DisplayMode::Matcap)) => "Shows all surfaces as clay, shaded by their direction only.";
     "View/Display" "display.textured" "Textured" "" Nothing View(ViewRequest::Display(DisplayMode::Textured)) => "Shows materials in studio lighting.";
     "View/Display" "display.rendered" "Rendered" "" Nothing View(ViewRequest::Display(DisplayMode::Rendered)) => "Shows the scene with its own lights and their shadows.";
-    "View/Solid Color" "solid.material" "Material Color" "" Nothing View(ViewRequest::Solid(SolidColor::Material)) => "Solid display shows the colours of materials.";
-    "View/Solid Color" "solid.texture" "Texture Color" "" Nothing View(ViewRequest::Solid(SolidColor::Texture)) => "Solid display shows the images of base colours, too.";
+    "View/Solid Color" "solid.material" "Material Color" "" Nothing View(ViewRequest::Solid(SolidColor::Material)) => "Solid display shows the colors of materials.";
+    "View/Solid Color" "solid.texture" "Texture Color" "" Nothing View(ViewRequest::Solid(SolidColor::Texture)) => "Solid display shows the images of base colors, too.";
     "View/Display" "display.toggle_wireframe" "Toggle Wireframe" "Shift+Z" Nothing View(ViewRequest::ToggleWireframe) => "Switches between wireframe and the previous mode.";
     "View" "view.x_ray" "X-Ray" "Alt+Z" Nothing View(ViewRequest::ToggleXRay) => "Shows and selects elements behind faces, too.";
     "View" "view.overlays" "Overlays" "Alt+Shift+Z" Nothing View(ViewRequest::ToggleOverlays) => "Shows or hides grid, axes, lights, cameras and the gizmo.";
     "View" "view.render" "Render Image" "F12" Nothing View(ViewRequest::Render) => "Renders what the scene's camera sees, to be saved as a file.";
     "View" "view.screenshot" "Save Screenshot…" "" Nothing View(ViewRequest::Screenshot) => "Writes the view to an image file, without the grid, the gizmo and the panels.";
     "View" "view.tool_bar" "Tool Bar" "T" Nothing Ui(UiRequest::ToolBar) => "Shows or hides the tools on the left.";
+    "View" "view.uv" "UV View" "Shift+F10" Nothing Ui(UiRequest::UvView) => "Shows or hides texture coordinates beside the view: G, R, S and L work there.";
     "View" "view.side_bar" "Side Bar" "N" Nothing Ui(UiRequest::SideBar) => "Shows or hides the panels on the right.";
     "View" "view.development" "Development Tab" "" Nothing Ui(UiRequest::Development) => "Shows or hides how the image is made, on the right.";
     "View/Theme" "theme.system" "As the System" "" Nothing Ui(UiRequest::Theme(Theme::System)) => "Shows light or dark panels as the system does.";

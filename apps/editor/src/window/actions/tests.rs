@@ -76,7 +76,18 @@ const BY_PANELS: [&str; 7] = [
 const BY_SCRIPTS: [&str; 1] = ["knife"];
 
 /// Those that a tool of this name in the table runs.
-const BY_TOOLS: [&str; 7] = ["extrude", "inset", "bevel", "loop_cut", "slide_edges", "slide_vertices", "rip"];
+const BY_TOOLS: [&str; 10] = [
+    "extrude",
+    "inset",
+    "bevel",
+    "loop_cut",
+    "slide_edges",
+    "slide_vertices",
+    "rip",
+    "translate_uvs",
+    "rotate_uvs",
+    "scale_uvs",
+];
 
 #[test]
 fn every_command_is_reachable() {

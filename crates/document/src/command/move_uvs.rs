@@ -1,0 +1,158 @@
+//! Moving, turning and scaling texture coordinates, and laying quads beside each other.
+
+use std::f64::consts::PI;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_mesh::math::{DAffine2, DMat2, DVec2, elementary};
+use trigon_modelling::{EditMesh, FaceId, QuadLength, UvElements};
+
+use super::{Action, Outcome};
+use crate::error::EditError;
+use crate::selection::{ElementKind, MeshSelection};
+use crate::state::{AfterEdit, Change};
+
+const SOMETHING: &str = "at least one selected element";
+
+/// Moves the texture coordinates of the selected elements, and of corners that share them.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct TranslateUvs {
+    /// The set of texture coordinates, from 0.
+    pub uv_set: u32,
+    /// To the right and upwards, in sides of the image.
+    pub offset: [f64; 2],
+}
+
+impl Action for TranslateUvs {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let [right, up] = self.offset;
+        let map = |_| DAffine2::from_translation(DVec2::new(right, -up));
+        transform(change, "moving texture coordinates", self.uv_set, map)
+    }
+}
+
+/// Turns the texture coordinates of the selected elements, and of corners that share them.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RotateUvs {
+    /// The set of texture coordinates, from 0.
+    pub uv_set: u32,
+    /// Counter-clockwise, in degrees.
+    pub angle: f64,
+    /// The point that stays, from the upper left corner of the image to the right and downwards. Default: the middle of
+    /// the coordinates.
+    pub center: Option<[f64; 2]>,
+}
+
+impl Action for RotateUvs {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let (sin, cos) = elementary::sin_cos(self.angle * (PI / 180.0));
+        // v grows downwards.
+        let turn = DMat2::from_cols(DVec2::new(cos, -sin), DVec2::new(sin, cos));
+        let map = |center| about(turn, self.center, center);
+        transform(change, "turning texture coordinates", self.uv_set, map)
+    }
+}
+
+/// Scales the texture coordinates of the selected elements, and of corners that share them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ScaleUvs {
+    /// The set of texture coordinates, from 0.
+    pub uv_set: u32,
+    /// The factors of width and height; negative ones mirror, and 0 aligns.
+    pub factors: [f64; 2],
+    /// The point that stays, from the upper left corner of the image to the right and downwards. Default: the middle of
+    /// the coordinates.
+    pub center: Option<[f64; 2]>,
+}
+
+impl Default for ScaleUvs {
+    fn default() -> Self {
+        Self { uv_set: 0, factors: [1.0; 2], center: None }
+    }
+}
+
+impl Action for ScaleUvs {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let scale = DMat2::from_diagonal(self.factors.into());
+        let map = |center| about(scale, self.center, center);
+        transform(change, "scaling texture coordinates", self.uv_set, map)
+    }
+}
+
+/// A map that leaves a point where it is.
+fn about(matrix: DMat2, given: Option<[f64; 2]>, middle: DVec2) -> DAffine2 {
+    let center = given.map_or(middle, DVec2::from);
+    DAffine2 { matrix2: matrix, translation: center - matrix * center }
+}
+
+/// Changes the coordinates of the selected elements of all meshes, by a map that knows the middle of all of them.
+fn transform(
+    change: &mut Change<'_>,
+    command: &'static str,
+    uv_set: u32,
+    map: impl Fn(DVec2) -> DAffine2,
+) -> Result<Outcome, EditError> {
+    let (uv_set, kind) = (uv_set as usize, change.selection().kind());
+    let map = map(selected_uv_center(change, uv_set));
+    change.edit_selected(command, SOMETHING, |mesh, selection| {
+        let corners = selected_corners(mesh, selection, kind, uv_set);
+        mesh.transform_uvs(uv_set, &corners, &map)?;
+        Ok(AfterEdit::Keep)
+    })?;
+    Ok(Outcome::silent())
+}
+
+/// The middle of the box around what is selected in all meshes; the origin without coordinates, which is then refused.
+fn selected_uv_center(change: &Change<'_>, uv_set: usize) -> DVec2 {
+    let (selection, kind) = (change.selection(), change.selection().kind());
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for (id, selected) in selection.meshes() {
+        let Some(mesh) = change.state().mesh(id) else { continue };
+        for corner in selected_corners(mesh, selected, kind, uv_set) {
+            let uv = mesh.uv(uv_set, corner).unwrap_or_default().as_dvec2();
+            (low, high) = (low.min(uv), high.max(uv));
+        }
+    }
+    if low.x <= high.x { (low + high) / 2.0 } else { DVec2::ZERO }
+}
+
+fn selected_corners(
+    mesh: &EditMesh,
+    selection: &MeshSelection,
+    kind: ElementKind,
+    uv_set: usize,
+) -> Vec<trigon_modelling::CornerId> {
+    match kind {
+        ElementKind::Vertex => mesh.uv_corners(uv_set, UvElements::Vertices(&selection.vertices(mesh, kind))),
+        ElementKind::Edge => mesh.uv_corners(uv_set, UvElements::Edges(&selection.edges(mesh, kind))),
+        ElementKind::Face => mesh.uv_corners(uv_set, UvElements::Faces(&selection.faces(mesh, kind))),
+    }
+}
+
+/// Lays the selected quads beside the active one, which keeps its texture coordinates, as rows and columns.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct FollowActiveQuad {
+    /// The set of texture coordinates, from 0.
+    pub uv_set: u32,
+    /// How far each quad reaches.
+    pub length: QuadLength,
+}
+
+impl Action for FollowActiveQuad {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        let mut count = 0;
+        change.edit_selected("following a quad", "a selected face that is active", |mesh, selection| {
+            let faces = selection.faces(mesh, kind);
+            let active = (kind == ElementKind::Face).then(|| selection.order().last().copied()).flatten();
+            let active = active.map(FaceId::new).or(faces.first().copied()).expect("something is selected");
+            count += mesh.follow_quad(&faces, active, self.uv_set as usize, self.length)?;
+            Ok(AfterEdit::Keep)
+        })?;
+        Ok(Outcome::counted("laid", count, ["face", "faces"]))
+    }
+}
