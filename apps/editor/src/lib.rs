@@ -23,6 +23,8 @@ mod tool;
 #[cfg(feature = "window")]
 mod up;
 #[cfg(feature = "window")]
+mod uv;
+#[cfg(feature = "window")]
 mod window;
 
 use std::process::ExitCode;

@@ -206,6 +206,8 @@ pub(crate) enum UiRequest {
     ProjectFromView,
     ToolBar,
     SideBar,
+    /// Shows or hides texture coordinates beside the view.
+    UvView,
     /// Remembers what is selected.
     Copy,
     /// Adds what was copied last.

@@ -5,10 +5,12 @@ use std::ops::Range;
 use std::sync::{Arc, Weak};
 
 use rayon::prelude::*;
+use trigon_camera::Viewport;
 use trigon_raster::paint2d::Rect;
 use trigon_scene::Frame;
 
 use crate::egui_painter::{ChannelOrder, EguiPainter};
+use crate::panes::Area;
 use crate::refinement;
 use crate::worker::Redrawn;
 
@@ -25,26 +27,34 @@ pub(crate) struct Canvas {
     painted: Vec<Rect>,
     /// The frame whose pixels lie beneath the interface, if each is one of the canvas.
     frame: Weak<Frame>,
+    /// Where it lies.
+    area: Option<Area>,
+}
+
+/// An image of the scene in a window.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed<'f> {
+    pub(crate) frame: Option<&'f Arc<Frame>>,
+    /// How it may differ from the one before, if that is known.
+    pub(crate) redrawn: Option<&'f Redrawn>,
+    /// The part of the window that it fills.
+    pub(crate) area: Area,
 }
 
 impl Canvas {
     /// Takes this size and puts the frame's colours under the interface; calls `changed` with each
-    /// part that differs from what was there. A frame of another size, as drafts are, is stretched bilinearly;
-    /// transparent parts become black. Without a frame it is dark. If it is known in which parts the
-    /// frame may differ from the one that was there, only these are compared.
-    pub(crate) fn show(
-        &mut self,
-        frame: Option<&Arc<Frame>>,
-        redrawn: Option<&Redrawn>,
-        size: [u32; 2],
-        mut changed: impl FnMut(Rect),
-    ) {
-        let frame = frame.filter(|frame| !frame.color.is_empty());
-        let own = frame.filter(|frame| [frame.width, frame.height] == size);
+    /// part that differs from what was there. A frame of another size than its part of the window, as drafts are, is
+    /// stretched bilinearly; transparent parts become black. Beside it, and without a frame, it is dark. If it is
+    /// known in which parts the frame may differ from the one that was there, only these are compared.
+    pub(crate) fn show(&mut self, placed: Placed<'_>, size: [u32; 2], mut changed: impl FnMut(Rect)) {
+        let area = placed.area.within(Viewport { width: size[0], height: size[1] });
+        let is_empty = area.size.width == 0 || area.size.height == 0;
+        let frame = placed.frame.filter(|frame| !frame.color.is_empty() && !is_empty);
+        let own = frame.filter(|frame| [frame.width, frame.height] == [area.size.width, area.size.height]);
         let before = std::mem::replace(&mut self.frame, own.map_or_else(Weak::new, Arc::downgrade));
-        let parts = redrawn.zip(own).and_then(|(redrawn, own)| redrawn.between(&before, own));
-        let parts = parts.filter(|_| self.size == size);
-        self.size = size;
+        let parts = placed.redrawn.zip(own).and_then(|(redrawn, own)| redrawn.between(&before, own));
+        let parts = parts.filter(|_| self.size == size && self.area == Some(area));
+        (self.size, self.area) = (size, Some(area));
         let count = size[0] as usize * size[1] as usize;
         self.pixels.resize(count, EMPTY);
         self.beneath.resize(count, EMPTY);
@@ -52,15 +62,15 @@ impl Canvas {
         let band = size[0].max(1) * BAND;
         let differing: Vec<Vec<Rect>> = match (parts, own) {
             (Some(parts), Some(frame)) => {
-                let bands = self.beneath.par_chunks_mut(band).zip(frame.color.as_chunks().0.par_chunks(band));
-                bands
-                    .enumerate()
-                    .map(|(band, (shown, frame))| show_parts(band * BAND, shown, frame, size[0], parts))
-                    .collect()
+                let bands = self.beneath.par_chunks_mut(band).enumerate();
+                let show = |(band, shown): (usize, &mut [_])| {
+                    show_parts(band * BAND, shown, size[0], Own { frame, area }, parts)
+                };
+                bands.map(show).collect()
             }
             _ => {
-                let columns = frame.and_then(|frame| source_columns(frame, size));
-                let rows = || Rows::new(frame.map(Arc::as_ref), size, columns.as_deref());
+                let columns = frame.and_then(|frame| source_columns(frame, area.size));
+                let rows = || Rows::new(frame.map(Arc::as_ref), size[0], area, columns.as_deref());
                 let bands = self.beneath.par_chunks_mut(band).enumerate();
                 bands.map(|(band, shown)| show_band(band * BAND, shown, rows())).collect()
             }
@@ -98,7 +108,7 @@ const BAND: usize = 32;
 /// Puts rows of a frame into those of the window from `top` on. The parts that differ from what was there.
 fn show_band(top: usize, shown: &mut [[u8; 4]], mut rows: Rows<'_>) -> Vec<Rect> {
     let mut parts = Vec::new();
-    for (shown, y) in shown.chunks_exact_mut(rows.size[0]).zip(top..) {
+    for (shown, y) in shown.chunks_exact_mut(rows.width).zip(top..) {
         let row = rows.row(y);
         for columns in differing(shown, row) {
             shown[columns.clone()].copy_from_slice(&row[columns.clone()]);
@@ -109,26 +119,37 @@ fn show_band(top: usize, shown: &mut [[u8; 4]], mut rows: Rows<'_>) -> Vec<Rect>
     parts
 }
 
-/// The same, of a frame of the window's size, in those parts of its rows alone.
+/// A frame of the size of its part of the window.
+#[derive(Clone, Copy)]
+struct Own<'f> {
+    frame: &'f Frame,
+    area: Area,
+}
+
+/// The same, of a frame of the size of its part of the window, in those parts of its rows alone.
 fn show_parts(
     top: usize,
     shown: &mut [[u8; 4]],
-    frame: &[[u8; 4]],
     width: usize,
+    Own { frame, area }: Own<'_>,
     parts: &[Rect],
 ) -> Vec<Rect> {
     let rows = top as i32..(top + shown.len() / width) as i32;
-    let (mut differing_parts, mut row) = (Vec::new(), vec![EMPTY; width]);
+    let [left, above] = area.min.map(|side| side as i32);
+    let (colors, mut differing_parts, mut row) =
+        (frame.color.as_chunks().0, Vec::new(), vec![EMPTY; frame.width as usize]);
     for part in parts {
-        for y in part.min[1].max(rows.start)..part.max[1].min(rows.end) {
-            let start = (y - rows.start) as usize * width;
-            let [left, right] = [part.min[0], part.max[0]].map(|x| start + x as usize);
-            let (shown, row) = (&mut shown[left..right], &mut row[..right - left]);
-            over_black(&frame[left..right], row);
+        for y in (part.min[1] + above).max(rows.start)..(part.max[1] + above).min(rows.end) {
+            let columns = part.min[0] as usize..part.max[0] as usize;
+            let of_frame = (y - above) as usize * frame.width as usize;
+            let of_window = (y - rows.start) as usize * width + left as usize;
+            let shown = &mut shown[of_window + columns.start..of_window + columns.end];
+            let row = &mut row[..columns.len()];
+            over_black(&colors[of_frame + columns.start..of_frame + columns.end], row);
             for columns in differing(shown, row) {
                 shown[columns.clone()].copy_from_slice(&row[columns.clone()]);
-                let [left, right] = [columns.start, columns.end].map(|x| part.min[0] + x as i32);
-                differing_parts.push(Rect::new([left, y], [right, y + 1]));
+                let [from, to] = [columns.start, columns.end].map(|x| left + part.min[0] + x as i32);
+                differing_parts.push(Rect::new([from, y], [to, y + 1]));
             }
         }
     }
@@ -154,15 +175,18 @@ fn differing(a: &[[u8; 4]], b: &[[u8; 4]]) -> Vec<Range<usize>> {
     ranges
 }
 
-/// The rows of a frame as an image of some size shows them, from the top.
+/// The rows of a window with a frame in a part of it, from the top.
 struct Rows<'f> {
     frame: Option<&'f Frame>,
-    size: [usize; 2],
-    /// For each column what it shows, if the frame has another width.
+    width: usize,
+    area: Area,
+    /// For each column of the part what it shows, if the frame has another size.
     columns: Option<&'f [Blend]>,
+    /// A row above or below the frame.
+    beside: Vec<[u8; 4]>,
     /// The last row.
     row: Vec<[u8; 4]>,
-    /// The frame's rows around it, as wide as the image, with their numbers.
+    /// The frame's rows around it, as wide as the part, with their numbers.
     around: [Stretched; 2],
 }
 
@@ -177,25 +201,31 @@ struct Stretched {
 }
 
 impl<'f> Rows<'f> {
-    fn new(frame: Option<&'f Frame>, size: [usize; 2], columns: Option<&'f [Blend]>) -> Self {
+    fn new(frame: Option<&'f Frame>, width: usize, area: Area, columns: Option<&'f [Blend]>) -> Self {
         Self {
             frame,
-            size,
+            width,
+            area,
             columns,
-            row: vec![EMPTY; size[0]],
+            beside: vec![EMPTY; width],
+            row: vec![EMPTY; width],
             around: [(); 2].map(|()| Stretched::default()),
         }
     }
 
     fn row(&mut self, y: usize) -> &[[u8; 4]] {
-        let Some(frame) = self.frame else { return &self.row };
+        let Area { min, size } = self.area;
+        let (height, left) = (size.height as usize, min[0] as usize);
+        let y = y.checked_sub(min[1] as usize).filter(|&y| y < height);
+        let Some((frame, y)) = self.frame.zip(y) else { return &self.beside };
         let width = frame.width as usize;
         let source = |y: usize| &frame.color.as_chunks::<4>().0[y * width..][..width];
+        let part = &mut self.row[left..left + size.width as usize];
         let Some(columns) = self.columns else {
-            over_black(source(y), &mut self.row);
+            over_black(source(y), part);
             return &self.row;
         };
-        let Blend { pair, share } = Blend::at(y, self.size[1], frame.height as usize);
+        let Blend { pair, share } = Blend::at(y, height, frame.height as usize);
         if self.around[0].number != Some(pair[0]) {
             // Going down, the lower one mostly becomes the upper one.
             self.around.swap(0, 1);
@@ -207,7 +237,7 @@ impl<'f> Rows<'f> {
             }
         }
         let [upper, lower] = &self.around;
-        blend_rows(&mut self.row, [&upper.pixels, &lower.pixels], share);
+        blend_rows(part, [&upper.pixels, &lower.pixels], share);
         &self.row
     }
 }
@@ -256,9 +286,10 @@ impl Blend {
 }
 
 /// What each column of an image of some size shows of a frame, unless they are of one size.
-fn source_columns(frame: &Frame, size: [usize; 2]) -> Option<Vec<Blend>> {
-    let (across, down) = (frame.width as usize, frame.height as usize);
-    ([across, down] != size).then(|| (0..size[0]).map(|x| Blend::at(x, size[0], across)).collect())
+fn source_columns(frame: &Frame, size: Viewport) -> Option<Vec<Blend>> {
+    let (width, across) = (size.width as usize, frame.width as usize);
+    let is_same = [frame.width, frame.height] == [size.width, size.height];
+    (!is_same).then(|| (0..width).map(|x| Blend::at(x, width, across)).collect())
 }
 
 /// From straight alpha to opaque pixels over black, as windows have them.
@@ -282,10 +313,19 @@ mod tests {
         Arc::new(Frame { width, height, color, ..Frame::default() })
     }
 
+    /// In all of a window.
+    fn whole<'f>(
+        frame: Option<&'f Arc<Frame>>,
+        redrawn: Option<&'f Redrawn>,
+        [width, height]: [u32; 2],
+    ) -> Placed<'f> {
+        Placed { frame, redrawn, area: Area { min: [0, 0], size: Viewport { width, height } } }
+    }
+
     fn shown(frame: Option<&Arc<Frame>>, size: [u32; 2]) -> Vec<[u8; 4]> {
         let mut canvas = Canvas::default();
         let mut painter = EguiPainter::new(ChannelOrder::Bgra);
-        canvas.show(frame, None, size, |part| painter.invalidate_part(part));
+        canvas.show(whole(frame, None, size), size, |part| painter.invalidate_part(part));
         assert!(canvas.paint(&mut painter), "all of it is new");
         assert!(!canvas.paint(&mut painter), "and then nothing");
         canvas.pixels().to_vec()
@@ -340,6 +380,47 @@ mod tests {
     }
 
     #[test]
+    fn beside_its_part_of_the_window_a_frame_shows_nothing() {
+        let color = |seed: usize| -> Vec<u8> {
+            (0..4 * 90 * 40).map(|i| if i % 4 == 3 { 255 } else { ((i + seed) * 67 % 256) as u8 }).collect()
+        };
+        let (size, part) = ([120, 50], Viewport { width: 90, height: 40 });
+        let area = Area { min: [20, 7], size: part };
+        let first = frame(90, 40, color(0));
+        let mut second = color(0);
+        second[4 * (3 * 90 + 5)] = 1;
+        let second = frame(90, 40, second);
+        let redrawn = Redrawn {
+            images: [&first, &second].map(Arc::downgrade),
+            parts: vec![Rect::new([0, 0], [64, 8])],
+        };
+        let (mut canvas, mut painter) = (Canvas::default(), EguiPainter::new(ChannelOrder::Bgra));
+        canvas.show(Placed { frame: Some(&first), redrawn: None, area }, size, |_| {});
+        let mut parts = Vec::new();
+        let placed = Placed { frame: Some(&second), redrawn: Some(&redrawn), area };
+        canvas.show(placed, size, |part| parts.push(part));
+        assert_eq!(parts, [Rect::new([20, 10], [84, 11])], "the one row that differs");
+        canvas.paint(&mut painter);
+        for (index, &pixel) in canvas.pixels().iter().enumerate() {
+            let (x, y) = (index % 120, index / 120);
+            let is_inside = (20..110).contains(&x) && (7..47).contains(&y);
+            let expected = if is_inside {
+                let at = 4 * ((y - 7) * 90 + x - 20);
+                [second.color[at + 2], second.color[at + 1], second.color[at], 255]
+            } else {
+                EMPTY
+            };
+            assert_eq!(pixel, expected, "{x}, {y}");
+        }
+        let moved = Area { min: [25, 9], ..area };
+        let placed = Placed { area: moved, ..placed };
+        canvas.show(placed, size, |part| painter.invalidate_part(part));
+        canvas.paint(&mut painter);
+        assert_eq!(canvas.pixels()[120 * 20 + 22], EMPTY, "where it was before");
+        assert_eq!(canvas.pixels()[120 * 9 + 25][0], second.color[2], "its first pixel");
+    }
+
+    #[test]
     fn transparent_pixels_are_black() {
         let frame = frame(2, 1, vec![255, 255, 255, 0, 255, 255, 255, 51]);
         assert_eq!(
@@ -357,7 +438,7 @@ mod tests {
         let mut show = |color: &[u8]| {
             let frame = frame(200, 3, color.to_vec());
             let mut parts = Vec::new();
-            canvas.show(Some(&frame), None, size, |part| parts.push(part));
+            canvas.show(whole(Some(&frame), None, size), size, |part| parts.push(part));
             parts.iter().for_each(|part| painter.invalidate_part(*part));
             canvas.paint(&mut painter);
             (parts, canvas.painted().to_vec(), canvas.pixels().to_vec())
@@ -386,8 +467,8 @@ mod tests {
         };
         let differing = |known: &Redrawn, size: [u32; 2]| {
             let (mut canvas, mut parts) = (Canvas::default(), Vec::new());
-            canvas.show(Some(&first), None, size, |_| {});
-            canvas.show(Some(&second), Some(known), size, |part| parts.push(part));
+            canvas.show(whole(Some(&first), None, size), size, |_| {});
+            canvas.show(whole(Some(&second), Some(known), size), size, |part| parts.push(part));
             (parts, canvas.beneath)
         };
         let (parts, beneath) = differing(&redrawn(&first, &second), [200, 3]);

@@ -1,4 +1,4 @@
-//! Four views of the scene in one window: three orthographic ones along the axes, and the camera's own at the
+//! One view of the scene, or four in one window: three orthographic ones along the axes, and the camera's own at the
 //! upper right.
 //!
 //! There is still one camera, [`Stage::orbit`](crate::Stage::orbit). The other three look at the same target
@@ -50,7 +50,7 @@ impl Area {
     }
 
     /// What of it lies in a window of this size.
-    fn within(self, window: Viewport) -> Self {
+    pub(crate) fn within(self, window: Viewport) -> Self {
         let min = [self.min[0].min(window.width), self.min[1].min(window.height)];
         let width = self.size.width.min(window.width - min[0]);
         let height = self.size.height.min(window.height - min[1]);
@@ -71,11 +71,11 @@ impl Area {
     }
 }
 
-/// The views of a window: one in all of it, or four in a part.
-pub(crate) fn panes(orbit: Orbit, window: Viewport, four: Option<Area>) -> Vec<Pane> {
-    let Some(area) = four.map(|area| area.within(window)) else {
-        return vec![Pane { side: None, orbit, area: Area { min: [0, 0], size: window } }];
-    };
+/// The views in a part of a window: one or four.
+pub(crate) fn panes(orbit: Orbit, area: Area, four_views: bool) -> Vec<Pane> {
+    if !four_views {
+        return vec![Pane { side: None, orbit, area }];
+    }
     let Viewport { width, height } = area.size;
     let size = Viewport { width: width.saturating_sub(GAP) / 2, height: height.saturating_sub(GAP) / 2 };
     let [left, top] = area.min;
@@ -131,10 +131,11 @@ impl Views {
         Self { main, window, parts: if panes.len() > 1 { cameras } else { Vec::new() } }
     }
 
-    /// The world point at a point of the window, at a distance from the eye.
-    pub(crate) fn at_distance(&self, at: DVec2, window: Viewport, distance: f64) -> Option<DVec3> {
+    /// The world point at a point of the window, at a distance from the eye. `image` is the part of the window that the
+    /// image fills.
+    pub(crate) fn at_distance(&self, at: DVec2, image: Area, distance: f64) -> Option<DVec3> {
         if self.parts.is_empty() {
-            return Projector::new(&self.main, window).at_distance(at, distance);
+            return Projector::new(&self.main, image.size).at_distance(at - image.origin(), distance);
         }
         let (camera, area) = self.parts.iter().find(|(_, area)| area.contains(at))?;
         Projector::new(camera, area.size).at_distance(at - area.origin(), distance)
@@ -145,7 +146,7 @@ impl Views {
         self.parts.len().max(1) as u32
     }
 
-    /// Whether there is one view in all of the window.
+    /// Whether there is one view, in all of the image.
     pub(crate) fn is_one(&self) -> bool {
         self.parts.is_empty()
     }
@@ -224,9 +225,9 @@ mod tests {
     #[test]
     fn four_views_look_at_the_same_target_as_large() {
         let (orbit, window) = (Orbit::new(DVec3::Y), Viewport { width: 202, height: 102 });
-        assert_eq!(panes(orbit, window, None).len(), 1, "usually one");
         let area = Area { min: [0, 0], size: window };
-        let four = panes(orbit, window, Some(area));
+        assert_eq!(panes(orbit, area, false).len(), 1, "usually one");
+        let four = panes(orbit, area, true);
         let sides: Vec<_> = four.iter().map(|pane| pane.side).collect();
         assert_eq!(sides, [Some(AxisView::Top), None, Some(AxisView::Front), Some(AxisView::Right)]);
         for pane in &four {
@@ -253,7 +254,7 @@ mod tests {
     fn four() -> (Vec<Pane>, Viewport, Views) {
         let window = Viewport { width: 52, height: 38 };
         let area = Area { min: [10, 6], size: Viewport { width: 42, height: 32 } };
-        let panes = panes(Orbit::new(DVec3::Y), window, Some(area));
+        let panes = panes(Orbit::new(DVec3::Y), area, true);
         let bounds = Bounds3 { min: DVec3::splat(-1.0), max: DVec3::ONE };
         let views = Views::new(&panes, window, &bounds);
         (panes, window, views)
@@ -305,17 +306,20 @@ mod tests {
     #[test]
     fn points_of_a_window_are_seen_through_the_view_there() {
         let (panes, window, views) = four();
-        assert_eq!(views.at_distance(DVec2::new(5.0, 20.0), window, 1.0), None, "the panel shows nothing");
+        let whole = Area { min: [0, 0], size: window };
+        assert_eq!(views.at_distance(DVec2::new(5.0, 20.0), whole, 1.0), None, "the panel shows nothing");
         for (pane, (camera, area)) in panes.iter().zip(&views.parts) {
             assert_eq!(pane.area, *area);
             let middle = area.origin() + area.size.size() / 2.0;
             let expected = camera.position + camera.orientation * DVec3::NEG_Z * 2.5;
-            let found = views.at_distance(middle, window, 2.5).expect("it is in the view");
+            let found = views.at_distance(middle, whole, 2.5).expect("it is in the view");
             assert!(found.distance(expected) < 1e-6, "{:?}: {found}, not {expected}", pane.side);
         }
         let alone = Views::from(views.main);
         assert_eq!((alone.count(), alone.is_one()), (1, true));
-        let found = alone.at_distance(window.size() / 2.0, window, 2.5).expect("it is the middle");
+        let part = Area { min: [10, 6], size: window };
+        let middle = part.origin() + window.size() / 2.0;
+        let found = alone.at_distance(middle, part, 2.5).expect("it is the middle");
         let expected = views.main.position + views.main.orientation * DVec3::NEG_Z * 2.5;
         assert!(found.distance(expected) < 1e-6, "{found}, not {expected}");
     }
@@ -331,7 +335,7 @@ mod tests {
             let image = Viewport { width: image[0], height: image[1] };
             let area = Area { min, size: Viewport { width: size[0], height: size[1] } };
             let mut taken = vec![false; (image.width * image.height) as usize];
-            for pane in panes(Orbit::new(DVec3::Y), window, Some(area)) {
+            for pane in panes(Orbit::new(DVec3::Y), area.within(window), true) {
                 let Area { min, size } = pane.area.scaled(window, image);
                 prop_assert!(min[0] + size.width <= image.width && min[1] + size.height <= image.height);
                 for y in min[1]..min[1] + size.height {

@@ -11,7 +11,7 @@ use trigon_math::{DVec2, DVec3};
 use trigon_mesh::Mesh;
 use trigon_scene::{Frame, Hit, NodeId, Outputs, Picker, Scene, Snap};
 
-use crate::panes::Views;
+use crate::panes::{Area, Views};
 
 /// The outputs of the window's images.
 pub(crate) const OUTPUTS: Outputs = Outputs { color: true, depth: true, ids: true, ..Outputs::NONE };
@@ -40,28 +40,24 @@ pub(crate) struct Shown {
 }
 
 impl Shown {
-    /// The hit at a point of a window of this size, and its world position. Refers to the scene as
-    /// it is now: a node that was removed since is not found, and a polygon only if the node still
+    /// The hit at a point of a window, and its world position; `area` is the part of it that the image fills. Refers to
+    /// the scene as it is now: a node that was removed since is not found, and a polygon only if the node still
     /// has the same mesh.
-    pub(crate) fn pick(&self, at: DVec2, window: Viewport, scene: &Scene) -> Option<(Hit, DVec3)> {
-        let pixel = self.pixel(at, window)?;
+    pub(crate) fn pick(&self, at: DVec2, area: Area, scene: &Scene) -> Option<(Hit, DVec3)> {
+        let pixel = self.pixel(at, area)?;
         let value = |ids: &Option<Vec<u32>>| ids.as_ref().and_then(|ids| ids.get(pixel).copied());
         let (node, drawn) = self.nodes.0.get(value(&self.frame.object_ids)? as usize)?.as_ref()?;
         scene.node(*node)?;
         let face = value(&self.frame.face_ids).filter(|&face| face != u32::MAX);
         let face = face.filter(|_| drawn.ptr_eq(&mesh(scene, *node))).map(|face| face as usize);
-        let point = self.views.at_distance(at, window, self.depth(pixel)?)?;
+        let point = self.views.at_distance(at, area, self.depth(pixel)?)?;
         Some((Hit { node: *node, face }, point))
     }
 
-    /// How far away what is seen at points of a window of this size is, in metres along the line of sight. `None` for
+    /// How far away what is seen at points of a window is, in metres along the line of sight. `None` for
     /// background and outside the window.
-    pub(crate) fn distances(
-        &self,
-        points: impl Iterator<Item = DVec2>,
-        window: Viewport,
-    ) -> Vec<Option<f64>> {
-        let pixels: Vec<usize> = points.map(|at| self.pixel(at, window).unwrap_or(usize::MAX)).collect();
+    pub(crate) fn distances(&self, points: impl Iterator<Item = DVec2>, area: Area) -> Vec<Option<f64>> {
+        let pixels: Vec<usize> = points.map(|at| self.pixel(at, area).unwrap_or(usize::MAX)).collect();
         let depth = self.frame.depth.as_deref().unwrap_or_default();
         // Other cores have just written the depths, so each read waits for memory. In a loop that does nothing else, many
         // reads wait at the same time.
@@ -75,29 +71,28 @@ impl Shown {
     }
 
     /// The index of the frame's pixel that is shown at a point of the window; `None` outside.
-    fn pixel(&self, at: DVec2, window: Viewport) -> Option<usize> {
+    fn pixel(&self, at: DVec2, area: Area) -> Option<usize> {
         let Frame { width, height, .. } = *self.frame;
-        let inside = at.cmpge(DVec2::ZERO).all() && at.cmplt(window.size()).all();
-        if !inside || width == 0 || height == 0 {
+        if !area.contains(at) || width == 0 || height == 0 {
             return None;
         }
-        let [x, y] = [(at.x, window.width, width), (at.y, window.height, height)]
-            .map(|(at, window, frame)| source_pixel(at as usize, window as usize, frame as usize));
+        let (at, size) = (at - area.origin(), area.size);
+        let [x, y] = [(at.x, size.width, width), (at.y, size.height, height)]
+            .map(|(at, area, frame)| source_pixel(at as usize, area as usize, frame as usize));
         Some(y * width as usize + x)
     }
 }
 
 impl Shown {
-    /// What a pointer at a point of a window of this size snaps to, within a radius in the window's pixels. `None` while
+    /// What a pointer at a point of a window snaps to, within a radius in the window's pixels. `None` while
     /// the image is a draft, whose pixels are too large, and with four views.
-    pub(crate) fn snap(&self, at: DVec2, radius: f64, window: Viewport, scene: &Scene) -> Option<Snap> {
+    pub(crate) fn snap(&self, at: DVec2, radius: f64, area: Area, scene: &Scene) -> Option<Snap> {
         let size = Viewport { width: self.frame.width, height: self.frame.height };
-        let is_whole = size == window && self.views.is_one();
-        let is_inside = at.cmpge(DVec2::ZERO).all() && at.cmplt(window.size()).all();
+        let is_whole = size == area.size && self.views.is_one();
         // An image without ids is not of the scene.
         let shows_scene = self.frame.object_ids.is_some();
-        (is_whole && is_inside && shows_scene)
-            .then(|| Picker::new(scene, &self.views.main, &self.frame).snap(at, radius))
+        (is_whole && area.contains(at) && shows_scene)
+            .then(|| Picker::new(scene, &self.views.main, &self.frame).snap(at - area.origin(), radius))
             .flatten()
     }
 }

@@ -33,6 +33,8 @@ pub(crate) enum Icon {
     Empty,
     Shown,
     Hidden,
+    On,
+    Off,
 }
 
 /// A part of an icon. Coordinates go from −1 at the left and at the top to 1.
@@ -134,6 +136,8 @@ mod tests {
             Icon::Empty,
             Icon::Shown,
             Icon::Hidden,
+            Icon::On,
+            Icon::Off,
         ];
         for icon in all {
             let inside = |point: &[f32; 2]| point.iter().all(|at| at.abs() <= 1.0);

@@ -32,6 +32,8 @@ impl Icon {
             Self::Empty => EMPTY,
             Self::Shown => SHOWN,
             Self::Hidden => HIDDEN,
+            Self::On => ON,
+            Self::Off => &[],
         }
     }
 }
@@ -172,3 +174,4 @@ const HIDDEN: &[Part] = &[
     Line(&[[0.0, 0.55], [0.0, 0.8]]),
     Line(&[[0.57, 0.35], [0.6, 0.6]]),
 ];
+const ON: &[Part] = &[Line(&[[-0.7, 0.05], [-0.2, 0.55], [0.75, -0.55]])];

@@ -6,6 +6,7 @@
 //! Nothing here changes the document.
 
 mod axes;
+mod camera_frame;
 mod gesture;
 mod gizmo;
 mod grid;
@@ -13,6 +14,7 @@ mod lights;
 mod view;
 
 pub(crate) use axes::{axis_view_at, draw_axes, draw_cursor, draw_origins};
+pub(crate) use camera_frame::draw_camera_frame;
 pub(crate) use gesture::{GestureOutline, draw_gesture};
 pub(crate) use gizmo::{Gizmo, GizmoKind, Handle};
 pub(crate) use grid::draw_grid;

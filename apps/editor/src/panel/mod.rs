@@ -26,7 +26,7 @@ pub(crate) use development::{DevelopmentState, DrawnView, development};
 pub(crate) use information::{InformationState, information};
 pub(crate) use outliner::{OutlinerState, outliner};
 pub(crate) use properties::{PropertiesState, properties};
-pub(crate) use row::{rejected_number, select_all_at_first};
+pub(crate) use row::{rejected_number, select_all_at_first, written};
 
 use trigon_document::Document;
 

@@ -2,6 +2,7 @@
 //! widget becomes a request.
 
 use std::cell::RefCell;
+use std::ops::RangeInclusive;
 
 use trigon_document::mesh::math::color::linear_to_srgb8;
 use trigon_document::scene::css_color;
@@ -68,12 +69,16 @@ pub(super) fn number(ui: &mut Ui, width: f32, value: &mut f64, form: &NumberForm
     let rejected = RefCell::new(None);
     let parse = |text: &str| {
         let value = evaluate(text, form.unit.quantity());
-        *rejected.borrow_mut() = value.as_ref().err().map(|error| format!("{text:?}: {error}"));
+        let limit = value.as_ref().ok().and_then(|&value| beyond(value, &bounds)).map(&text_of);
+        *rejected.borrow_mut() = match &value {
+            Err(error) => Some(format!("{text:?}: {error}")),
+            Ok(_) => limit.map(|limit| format!("{text:?} is out of range: {limit} is the limit")),
+        };
         value.ok()
     };
     let drag = DragValue::new(&mut shown)
         .custom_parser(parse)
-        .range(bounds)
+        .range(bounds.clone())
         .clamp_existing_to_range(false)
         .speed(speed(before, form))
         .update_while_editing(false)
@@ -90,6 +95,12 @@ pub(super) fn number(ui: &mut Ui, width: f32, value: &mut f64, form: &NumberForm
         *value = form.unit.value(shown);
     }
     response
+}
+
+/// The end of a range beyond which a number lies.
+fn beyond(number: f64, range: &RangeInclusive<f64>) -> Option<f64> {
+    let limit = number.clamp(*range.start(), *range.end());
+    (limit != number).then_some(limit)
 }
 
 fn rejected_id() -> Id {
@@ -115,7 +126,7 @@ fn speed(value: f64, form: &NumberForm) -> f64 {
 const SIGNIFICANT: usize = 6;
 
 /// A number for people: six significant digits, no more than six after the point, and no zeros at the end.
-pub(super) fn written(number: f64) -> String {
+pub(crate) fn written(number: f64) -> String {
     rounded(number, Unit::None.digits())
 }
 

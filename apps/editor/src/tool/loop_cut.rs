@@ -217,7 +217,7 @@ impl Tool for LoopCutTool {
     fn status(&self) -> String {
         let typed = self.modal.typed();
         self.modal.status(match self.sliding {
-            None => format!("Loop Cut: {} {typed} Wheel or digits: cuts, click: cut", self.cuts),
+            None => format!("Loop Cut: {} {typed} Wheel or digits: how many, then click and move to slide", self.cuts),
             Some(_) => format!(
                 "Loop Cut: slide {:.4} {typed} E: even ({}), F: from the other side ({}), right button: in the \
                  middle",

@@ -20,6 +20,7 @@ mod snap;
 mod tests;
 mod transform;
 mod translate;
+mod uv;
 mod view;
 
 pub(crate) use bevel::{BevelTool, InsetTool};
@@ -32,4 +33,5 @@ pub(crate) use modal::{Tool, ToolMarks, ToolState};
 pub(crate) use selected::{Pivot, Selected};
 pub(crate) use snap::{SnapSettings, SnapSource, SnapTarget};
 pub(crate) use transform::{TransformSettings, TransformTool};
+pub(crate) use uv::{UvPixels, UvTool, UvTransform};
 pub(crate) use view::ToolView;

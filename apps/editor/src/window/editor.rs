@@ -30,6 +30,7 @@ use super::settings::Look;
 use super::settings::{self, Layout, ToolSettings, ViewState};
 use crate::request::{Request, ToolKind, UiRequest};
 use crate::up::Up;
+use crate::uv::UvView;
 
 /// What the status line says until the next action.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -98,6 +99,7 @@ pub(crate) struct Editor {
     pub(crate) tool: Option<Running>,
     pub(crate) look: Look,
     pub(crate) gizmo_cache: GizmoCache,
+    pub(crate) uv: UvView,
     /// What no panel covers of the window, in points, once that is known.
     pub(crate) free: Option<Rect>,
     pub(crate) pointing: Pointing,
@@ -147,6 +149,7 @@ impl Editor {
             tool: None,
             look: Look::default(),
             gizmo_cache: GizmoCache::default(),
+            uv: UvView::default(),
             free: None,
             pointing: Pointing::default(),
             click: None,
@@ -277,6 +280,7 @@ impl Editor {
             UiRequest::ProjectFromView => self.project_from_view(stage),
             UiRequest::ToolBar => self.layout.tool_bar = !self.layout.tool_bar,
             UiRequest::SideBar => self.layout.side_bar = !self.layout.side_bar,
+            UiRequest::UvView => self.uv.is_open = !self.uv.is_open,
             UiRequest::Copy => self.copy(),
             UiRequest::Paste => self.paste(),
             UiRequest::Placing(placing) => self.snap(placing),

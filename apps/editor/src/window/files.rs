@@ -8,7 +8,7 @@ use trigon_window::Stage;
 use trigon_window::scene::math::DVec3;
 use trigon_window::scene::mesh::primitives;
 
-use super::dialog::Purpose;
+use super::dialog::{Extents, Purpose};
 use super::editor::{Editor, Message, WELCOME};
 use super::file_version::FileVersion;
 use super::loading::{Found, LoadPurpose, Loading, Outcome};
@@ -78,7 +78,7 @@ impl Editor {
         // Its numbers may be those of the one before.
         self.look = Look::default();
         self.images.forget();
-        (self.view.local, self.view.before_local, self.view.before_camera) = (None, None, None);
+        (self.view.local, self.view.before_local, self.view.camera) = (None, None, None);
     }
 
     /// Carries out a request about files.
@@ -124,6 +124,7 @@ impl Editor {
             },
             other => {
                 if let Some(purpose) = Purpose::of(other) {
+                    self.dialog.exchange.extents = Extents::of(&mut self.document);
                     let suggestion = self.suggestion(&purpose);
                     self.dialog.ask(purpose, &suggestion);
                 }
@@ -183,7 +184,7 @@ impl Editor {
     pub(crate) fn look_at_all(&mut self, stage: &mut Stage) {
         self.show(stage);
         stage.orbit.look_along(HOME_DIRECTION);
-        navigation::frame_all(self, stage);
+        navigation::frame_all(stage);
         stage.set_home(stage.orbit);
     }
 
@@ -399,7 +400,7 @@ impl Editor {
                 left.discard();
                 self.message = Message::Info(recovered(left));
                 self.show(stage);
-                navigation::frame_all(self, stage);
+                navigation::frame_all(stage);
             }
             Err(error) => self.message = Message::Refusal(format!("Recovery: {error}")),
         }

@@ -35,6 +35,7 @@ mod settings;
 mod surfaces;
 #[cfg(test)]
 mod tests;
+mod uv_tool;
 
 use std::path::PathBuf;
 

@@ -26,6 +26,9 @@ impl Editor {
             return self.run(Shear::default().into());
         }
         let pane = hands.pointer.map_or_else(|| pane_of(stage, None), |at| stage.pane_at(at));
+        if let Some(tool) = self.uv_tool(stage, &pane, kind, hands) {
+            return self.follow(stage, Running::new(kind, What::Tool(tool), &pane));
+        }
         match self.started(stage, &pane, kind, in_pane(hands, &pane)) {
             Some(what) => {
                 let waits = matches!(what, What::Tool(_));

@@ -1,17 +1,23 @@
 //! View changes by keys and menus; the window itself handles drags.
 
-use trigon_document::scene::NodeId;
+use std::collections::BTreeSet;
+
+use trigon_document::scene::{MeshId, NodeId};
 use trigon_document::{Document, ObjectName, Rotation, SetTransform, TransformSpace};
-use trigon_window::scene::camera::{AxisView, Camera, DEFAULT_MARGIN, Orbit};
-use trigon_window::scene::math::{DVec2, DVec3, Vec3};
-use trigon_window::{Area, Stage};
+use trigon_window::Stage;
+use trigon_window::scene::camera::{AxisView, Camera, DEFAULT_MARGIN, Orbit, Projection, Viewport};
+use trigon_window::scene::math::{DVec3, Vec3, elementary};
 
 use super::editor::{Editor, Message};
+use super::settings::ThroughCamera;
 use crate::request::{DisplayMode, ImageKind, ViewRequest};
 
 impl Editor {
     /// Does what is asked for.
     pub(super) fn navigate(&mut self, stage: &mut Stage, request: ViewRequest) {
+        if self.frame_uvs(stage, request) {
+            return;
+        }
         let editor = self;
         match request {
             ViewRequest::Axis(view) => look_at_side(editor, stage, view),
@@ -28,13 +34,13 @@ impl Editor {
                 stage.orbit.pan(right * height, up * height);
             }
             ViewRequest::FrameSelected => frame_selected(editor, stage),
-            ViewRequest::FrameAll => frame_all(editor, stage),
+            ViewRequest::FrameAll => frame_all(stage),
             ViewRequest::ToggleLocal => toggle_local(editor, stage),
             ViewRequest::Camera => look_through_camera(editor, stage),
             ViewRequest::CameraToView => camera_to_view(editor, stage),
             ViewRequest::Display(mode) => editor.view.display = mode,
             ViewRequest::ToggleWireframe => toggle_wireframe(editor),
-            ViewRequest::ToggleFourViews => editor.toggle_four_views(stage),
+            ViewRequest::ToggleFourViews => stage.four_views = !stage.four_views,
             ViewRequest::Solid(color) => editor.view.solid = color,
             ViewRequest::Render => editor.render_camera(stage),
             ViewRequest::Screenshot => editor.ask_for_image(ImageKind::Screenshot),
@@ -65,6 +71,11 @@ impl Editor {
             }
         }
     }
+
+    /// Whoever turns or moves a view through the scene's camera has left it.
+    pub(super) fn leave_camera(&mut self, stage: &Stage) {
+        self.view.camera = self.view.camera.filter(|camera| camera.set == stage.orbit);
+    }
 }
 
 fn toggle_wireframe(editor: &mut Editor) {
@@ -82,40 +93,26 @@ fn toggle_wireframe(editor: &mut Editor) {
 pub(crate) fn frame_selected(editor: &Editor, stage: &mut Stage) {
     let points = selected_points(&editor.document);
     match &points[..] {
-        [] => frame_all(editor, stage),
+        [] => frame_all(stage),
         // A point has no size that the view could be fitted to.
         [point] => stage.orbit.set_target(*point),
-        _ => frame(editor, stage, &points),
+        _ => frame(stage, &points),
     }
 }
 
 /// Takes all meshes into the image, seen from the same side. Lights and empties may be far away.
-pub(crate) fn frame_all(editor: &Editor, stage: &mut Stage) {
+pub(crate) fn frame_all(stage: &mut Stage) {
     let points: Vec<DVec3> = stage.scene.visible_points().collect();
-    frame(editor, stage, &points);
+    frame(stage, &points);
 }
 
-/// Takes points into the part of the image that no panel covers. What the view turns around stays in
-/// the middle of the window, so that they get the room that is on both sides of it.
-fn frame(editor: &Editor, stage: &mut Stage, points: &[DVec3]) {
-    /// Before the panels were laid out, as shares of the window.
-    const USUAL: DVec2 = DVec2::new(0.55, 0.85);
-    /// However much is covered.
-    const LEAST: f64 = 0.2;
-    if let Some(Area { size, .. }) = stage.four_views {
-        // No panel covers any of them.
-        return stage.orbit.fit_points(points, size.aspect(), DEFAULT_MARGIN);
-    }
-    let points_to_pixels = stage.scale() * f64::from(stage.text_scale);
-    let (size, viewport) = (stage.viewport().size() / points_to_pixels, stage.viewport());
-    let free_share = editor.free.map_or(USUAL, |free| {
-        let (min, max) = (DVec2::new(free.min.x.into(), free.min.y.into()), free.max);
-        let max = DVec2::new(max.x.into(), max.y.into());
-        (size * 0.5 - min).min(max - size * 0.5) / (size * 0.5)
-    });
-    let free_share = free_share.clamp(DVec2::splat(LEAST), DVec2::ONE);
-    stage.orbit.fit_points(points, viewport.aspect() * free_share.x / free_share.y, DEFAULT_MARGIN);
-    stage.orbit.zoom(free_share.y);
+/// Takes points into the view.
+fn frame(stage: &mut Stage, points: &[DVec3]) {
+    /// The width of the view, as a share of the window's, before the panels were laid out.
+    const USUAL: f64 = 0.7;
+    let share = if stage.view_area.is_some() { 1.0 } else { USUAL };
+    let aspect = stage.visible_area().size.aspect() * share;
+    stage.orbit.fit_points(points, aspect, DEFAULT_MARGIN);
 }
 
 /// The places of all selected vertices in the world; of objects those of all their vertices, or their origins.
@@ -152,8 +149,18 @@ fn selected_points(document: &Document) -> Vec<DVec3> {
     points
 }
 
+/// The selected objects, or those that are edited.
+fn objects_at_hand(document: &Document) -> BTreeSet<NodeId> {
+    let selection = document.selection();
+    if !selection.is_editing() {
+        return selection.objects.clone();
+    }
+    let is_edited = |mesh: Option<MeshId>| mesh.is_some_and(|mesh| selection.of(mesh).is_some());
+    document.nodes().nodes().iter().filter(|(_, node)| is_edited(node.mesh)).map(|(id, _)| id).collect()
+}
+
 fn toggle_local(editor: &mut Editor, stage: &mut Stage) {
-    let selected = &editor.document.selection().objects;
+    let selected = objects_at_hand(&editor.document);
     if editor.view.local.take().is_some() {
         if let Some(before) = editor.view.before_local.take() {
             stage.orbit = before;
@@ -164,14 +171,14 @@ fn toggle_local(editor: &mut Editor, stage: &mut Stage) {
             editor.message = Message::Refusal(text.into());
             return;
         }
-        editor.view.local = Some(selected.clone());
+        editor.view.local = Some(selected);
         editor.view.before_local = Some(stage.orbit);
         frame_selected(editor, stage);
     }
 }
 
 fn look_through_camera(editor: &mut Editor, stage: &mut Stage) {
-    if let Some(before) = editor.view.before_camera.take() {
+    if let Some(ThroughCamera { before, .. }) = editor.view.camera.take() {
         stage.orbit = before;
         return;
     }
@@ -179,8 +186,31 @@ fn look_through_camera(editor: &mut Editor, stage: &mut Stage) {
         editor.message = Message::Refusal("Camera: the scene has no camera; Add has one".into());
         return;
     };
-    editor.view.before_camera = Some(stage.orbit);
-    stage.orbit = Orbit::from_camera(&camera, stage.orbit.distance(), DVec3::Y);
+    let before = stage.orbit;
+    stage.orbit = Orbit::from_camera(&camera, before.distance(), DVec3::Y);
+    let choices = &editor.images.choices;
+    let image = Viewport { width: choices.width, height: choices.height };
+    let wider = image.aspect() / stage.visible_area().size.aspect();
+    widen(&mut stage.orbit, wider);
+    editor.view.camera = Some(ThroughCamera { before, set: stage.orbit });
+}
+
+/// Sees more than a camera does, from the same eye, so that the frame of its image lies within the view. The image is
+/// wider than the view by this factor.
+fn widen(orbit: &mut Orbit, wider: f64) {
+    /// Of the view's height or width, for the frame.
+    const SHARE: f64 = 0.92;
+    let factor = wider.max(1.0) / SHARE;
+    if orbit.is_orthographic() {
+        return orbit.set_distance(orbit.distance() * factor);
+    }
+    // Twice the tangent of half the angle.
+    let height = orbit.perspective().height_at(1.0) * factor;
+    let angle = 2.0 * elementary::atan2(0.5 * height, 1.0);
+    let projection = Projection::perspective(angle, orbit.perspective().near(), orbit.perspective().far());
+    if let (None, Ok(projection)) = (orbit.perspective().own_aspect(), projection) {
+        orbit.set_projection(projection);
+    }
 }
 
 /// The active object, if it is a camera, or else the first camera of the scene.

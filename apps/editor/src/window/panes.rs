@@ -38,19 +38,27 @@ pub(super) fn points(stage: &Stage) -> f64 {
     stage.scale() * f64::from(stage.text_scale.clamp(0.5, 4.0))
 }
 
-/// Names a view among four, and draws its border.
-pub(crate) fn draw_name(painter: &Painter, visuals: &Visuals, view: &OverlayView, pane: &Pane) {
-    let name = match pane.side {
+/// From where a view looks.
+pub(crate) fn name_of(pane: &Pane) -> &'static str {
+    match pane.side {
         Some(AxisView::Top) => "Top",
         Some(AxisView::Front) => "Front",
         Some(AxisView::Right) => "Right",
         _ if pane.orbit.is_orthographic() => "Orthographic",
         _ => "Perspective",
-    };
-    let (rect, color) = (view.rect(), visuals.strong_text_color());
+    }
+}
+
+/// Names a view in its upper left corner.
+pub(crate) fn draw_name(painter: &Painter, visuals: &Visuals, view: &OverlayView, name: &str) {
+    let (at, color) = (view.rect().min + vec2(8.0, 6.0), visuals.strong_text_color());
+    painter.text(at, Align2::LEFT_TOP, name, FontId::proportional(NAME), color);
+}
+
+/// Draws the border of one of several views.
+pub(crate) fn draw_border(painter: &Painter, visuals: &Visuals, view: &OverlayView) {
     let stroke = Stroke::new(1.0, visuals.window_stroke.color);
-    painter.rect_stroke(rect, 0.0, stroke, trigon_window::egui::StrokeKind::Inside);
-    painter.text(rect.min + vec2(8.0, 6.0), Align2::LEFT_TOP, name, FontId::proportional(NAME), color);
+    painter.rect_stroke(view.rect(), 0.0, stroke, trigon_window::egui::StrokeKind::Inside);
 }
 
 impl Editor {
@@ -66,32 +74,17 @@ impl Editor {
         ToolView { camera, viewport, scale: stage.scale(), up: self.up() }
     }
 
-    /// Shows four views, or one again.
-    pub(crate) fn toggle_four_views(&mut self, stage: &mut Stage) {
-        stage.four_views = match stage.four_views {
-            Some(_) => None,
-            None => Some(area(stage, self.free)),
-        };
-    }
-
     /// Whether the pointer is on the image, beside all panels.
     pub(super) fn is_in_view(&self, stage: &Stage, hands: Hands) -> bool {
         let Some((free, at)) = self.free.zip(hands.pointer) else { return true };
         free.contains(point(stage, at))
     }
-
-    /// Four views fill what no panel covers.
-    pub(crate) fn fit_four_views(&self, stage: &mut Stage) {
-        if stage.four_views.is_some() {
-            stage.four_views = Some(area(stage, self.free));
-        }
-    }
 }
 
-fn area(stage: &Stage, free: Option<Rect>) -> Area {
-    let Some(free) = free else { return Area { min: [0, 0], size: stage.viewport() } };
+/// The physical pixels of a part of the interface.
+pub(crate) fn area(stage: &Stage, part: Rect) -> Area {
     let pixels = |points_of: f32| (f64::from(points_of.max(0.0)) * points(stage)).round() as u32;
-    let (min, max) = (free.min, free.max);
+    let (min, max) = (part.min, part.max);
     let [left, top] = [pixels(min.x), pixels(min.y)];
     let (width, height) = (pixels(max.x).saturating_sub(left), pixels(max.y).saturating_sub(top));
     Area { min: [left, top], size: Viewport { width, height } }

@@ -63,6 +63,9 @@ fn overlay_at(editor: &Editor, stage: &Stage, at: DVec2) -> Option<NodeId> {
 impl Editor {
     /// Adds what hangs together with what is under the pointer.
     pub(super) fn select_linked(&mut self, stage: &Stage) {
+        if self.select_island(stage) {
+            return;
+        }
         match self.pointer.and_then(|at| linked(self, stage, at)) {
             Some(command) => self.run(command),
             None => self.message = Message::Refusal("Linked: point at a mesh that is edited".into()),

@@ -79,8 +79,8 @@ pub(crate) struct ViewState {
     pub(crate) before_local: Option<Orbit>,
     /// While a side is looked at in parallel projection for that alone: the direction that it was set to.
     pub(crate) side: Option<DQuat>,
-    /// The view that the scene's camera replaced.
-    pub(crate) before_camera: Option<Orbit>,
+    /// While the view looks through the scene's camera.
+    pub(crate) camera: Option<ThroughCamera>,
     /// Whether what lies over the image is drawn: grid, axes, lights, cameras, the gizmo.
     pub(crate) overlays: bool,
 }
@@ -96,10 +96,19 @@ impl Default for ViewState {
             local: None,
             before_local: None,
             side: None,
-            before_camera: None,
+            camera: None,
             overlays: true,
         }
     }
+}
+
+/// A view through the scene's camera.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ThroughCamera {
+    /// The view that it replaced.
+    pub(crate) before: Orbit,
+    /// What it was set to; another view has left the camera.
+    pub(crate) set: Orbit,
 }
 
 /// Which parts of the window are shown.

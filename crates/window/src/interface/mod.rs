@@ -160,7 +160,7 @@ impl Interface {
             name_view(ui.ctx(), free, stage);
             let bounds = stage.selection_bounds().filter(|_| stage.shows_scene());
             if let (Some(camera), Some(bounds)) = (shown_by, bounds) {
-                outline::show(ui, camera, moment.viewport, &bounds);
+                outline::show(ui, camera, stage.image_area(), &bounds);
             }
             let left = corners::show(ui.ctx(), free, stage, moment.now);
             legend::show(ui.ctx(), left, stage);

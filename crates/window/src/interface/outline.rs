@@ -1,10 +1,10 @@
 //! The outline box of the selected object, drawn by its twelve edges.
 
 use egui::{Color32, Stroke, Ui};
-use trigon_camera::{Camera, Projector, Viewport};
+use trigon_camera::{Camera, Projector};
 use trigon_math::{Bounds3, DVec2, DVec3};
 
-use crate::clip_line;
+use crate::{Area, clip_line};
 
 const COLOR: Color32 = Color32::from_rgba_premultiplied(200, 138, 50, 200);
 
@@ -12,14 +12,17 @@ const COLOR: Color32 = Color32::from_rgba_premultiplied(200, 138, 50, 200);
 const WIDTH: f32 = 1.5;
 
 /// Draws the edges of a box in front of the eye, where no panel is.
-pub(super) fn show(ui: &Ui, camera: &Camera, viewport: Viewport, bounds: &Bounds3) {
+pub(super) fn show(ui: &Ui, camera: &Camera, area: Area, bounds: &Bounds3) {
     let painter = ui.painter().with_clip_rect(ui.available_rect_before_wrap());
-    let projector = Projector::new(camera, viewport);
+    let projector = Projector::new(camera, area.size);
     let points = f64::from(ui.ctx().pixels_per_point());
-    let point = |pixel: DVec2| egui::pos2((pixel.x / points) as f32, (pixel.y / points) as f32);
+    let point = |pixel: DVec2| {
+        let pixel = pixel + area.origin();
+        egui::pos2((pixel.x / points) as f32, (pixel.y / points) as f32)
+    };
     for (from, to) in edges(bounds) {
         let ends = projector.to_screen(from).zip(projector.to_screen(to));
-        if let Some((from, to)) = ends.and_then(|(from, to)| clip_line(from, to, viewport.size())) {
+        if let Some((from, to)) = ends.and_then(|(from, to)| clip_line(from, to, area.size.size())) {
             painter.line_segment([point(from), point(to)], Stroke::new(WIDTH, COLOR));
         }
     }

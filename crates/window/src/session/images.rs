@@ -8,6 +8,7 @@ use trigon_math::Bounds3;
 use trigon_scene::RenderSettings;
 
 use super::Session;
+use crate::canvas::Placed;
 use crate::pacing::{Change, Quality};
 use crate::panes::Views;
 use crate::shown::{DrawnNodes, Shown};
@@ -100,10 +101,11 @@ impl Session<'_> {
         if !std::mem::take(&mut self.stale) {
             return;
         }
-        let Viewport { width, height } = self.stage.viewport();
+        let (Viewport { width, height }, area) = (self.stage.viewport(), self.stage.image_area());
         let painter = &mut self.interface.painter;
         let (shown, redrawn) = (self.shown.as_ref(), self.redrawn.as_ref());
-        self.canvas.show(shown, redrawn, [width, height], |changed| painter.invalidate_part(changed));
+        let placed = Placed { frame: shown, redrawn, area };
+        self.canvas.show(placed, [width, height], |changed| painter.invalidate_part(changed));
     }
 
     /// Begins an image that was asked for, if the worker has time. It need not wait for

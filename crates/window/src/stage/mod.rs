@@ -90,9 +90,12 @@ pub struct Stage {
     /// The time budget for an image while something moves: images are made as small as this
     /// requires. 33 ms by default; less than 1 ms counts as 1 ms.
     pub frame_budget: Duration,
-    /// The area of the window in which four views replace the single one, which otherwise fills the whole
-    /// window: from the top, the front and the right, and the camera's view at the upper right.
-    pub four_views: Option<Area>,
+    /// The part of the window in which the scene is seen, in physical pixels; by default all of it. Panels may cover
+    /// the rest.
+    pub view_area: Option<Area>,
+    /// Whether four views share that part: from the top, the front and the right, and the camera's view at the upper
+    /// right.
+    pub four_views: bool,
     /// The text over the image.
     pub overlay: Overlay,
     /// What keys and drags do.
@@ -176,7 +179,8 @@ impl Stage {
             comparison: Comparison::default(),
             drawer: None,
             frame_budget: USUAL_BUDGET,
-            four_views: None,
+            view_area: None,
+            four_views: false,
             overlay: Overlay::default(),
             keymap: Keymap::default(),
             input_owner: InputOwner::default(),
@@ -258,10 +262,22 @@ impl Stage {
         self.orbit.camera(&self.scene.bounds())
     }
 
+    /// The part of the window in which the scene is seen: [`Stage::view_area`], as far as it lies in the window.
+    #[must_use]
+    pub fn visible_area(&self) -> Area {
+        let whole = Area { min: [0, 0], size: self.viewport };
+        self.view_area.map_or(whole, |area| area.within(self.viewport))
+    }
+
+    /// The part of the window that its image fills. Four views are parts of one image in all of it.
+    pub(crate) fn image_area(&self) -> Area {
+        if self.four_views { Area { min: [0, 0], size: self.viewport } } else { self.visible_area() }
+    }
+
     /// The views in the window, without overlap: one, or four with [`Stage::four_views`].
     #[must_use]
     pub fn panes(&self) -> Vec<Pane> {
-        panes::panes(self.orbit, self.viewport, self.four_views)
+        panes::panes(self.orbit, self.visible_area(), self.four_views)
     }
 
     /// The view at a point of the window, in physical pixels; the camera's own between and outside views.
@@ -325,7 +341,7 @@ impl Stage {
     /// The width of the part of the window that views are fitted to, divided by its height.
     #[must_use]
     pub fn fit_aspect(&self) -> f64 {
-        self.viewport.aspect() / f64::from(self.columns.max(1))
+        self.visible_area().size.aspect() / f64::from(self.columns.max(1))
     }
 
     /// The share of the window's height for fitted views, with the middle of the window in its middle: see
@@ -346,7 +362,7 @@ impl Stage {
     /// an image.
     #[must_use]
     pub fn pick(&self, at: DVec2) -> Option<(Hit, DVec3)> {
-        self.shown.as_ref()?.pick(at, self.viewport, &self.scene)
+        self.shown.as_ref()?.pick(at, self.image_area(), &self.scene)
     }
 
     /// The distances of what the window shows at points, in physical pixels, in metres along the line of
@@ -355,7 +371,7 @@ impl Stage {
     #[must_use]
     pub fn distances_at(&self, points: impl Iterator<Item = DVec2>) -> Vec<Option<f64>> {
         match &self.shown {
-            Some(shown) => shown.distances(points, self.viewport),
+            Some(shown) => shown.distances(points, self.image_area()),
             None => points.map(|_| None).collect(),
         }
     }
@@ -364,7 +380,7 @@ impl Stage {
     /// the image in the window. `None` on the background, and while that image is a draft.
     #[must_use]
     pub fn snap(&self, at: DVec2, radius: f64) -> Option<Snap> {
-        self.shown.as_ref()?.snap(at, radius, self.viewport, &self.scene)
+        self.shown.as_ref()?.snap(at, radius, self.image_area(), &self.scene)
     }
 
     /// Whether the image in the window shows the scene where the camera sees it; see
@@ -557,16 +573,18 @@ impl Stage {
             points.marked_size *= larger;
         }
         let smaller = |size: u32| ((f64::from(size) / shrink) as u32).clamp(1, trigon_scene::MAX_SIZE);
-        (settings.width, settings.height) = (smaller(self.viewport.width), smaller(self.viewport.height));
+        let Viewport { width, height } = self.image_area().size;
+        (settings.width, settings.height) = (smaller(width), smaller(height));
         settings
     }
 
     /// Everything that the window's image depends on.
     pub(crate) fn subject(&self) -> Subject {
         let Self { orbit, viewport, scale, four_views, .. } = *self;
+        let area = self.visible_area();
         let (settings, drawer) = (self.settings.clone(), DrawnBy(self.drawer.clone()));
         let scene = self.scene.revision();
-        Subject { scene, orbit, four_views, settings, drawer, viewport, scale }
+        Subject { scene, orbit, area, four_views, settings, drawer, viewport, scale }
     }
 }
 
@@ -575,7 +593,8 @@ impl Stage {
 pub(crate) struct Subject {
     scene: Revision,
     orbit: Orbit,
-    four_views: Option<Area>,
+    area: Area,
+    four_views: bool,
     settings: RenderSettings,
     drawer: DrawnBy,
     viewport: Viewport,

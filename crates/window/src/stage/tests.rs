@@ -177,6 +177,8 @@ fn an_image_is_as_good_as_what_it_depends_on() {
     assert!(differs(&|stage| stage.settings.line_width += 1.0));
     assert!(differs(&|stage| stage.rescale(3.0)));
     assert!(differs(&|stage| stage.resize(Viewport { width: 9, height: 9 })));
-    assert!(differs(&|stage| stage.four_views = Some(Area { min: [0; 2], size: stage.viewport })));
+    assert!(differs(&|stage| stage.four_views = true));
+    let size = Viewport { width: 10, height: 9 };
+    assert!(differs(&|stage| stage.view_area = Some(Area { min: [1; 2], size })));
     assert!(!differs(&|stage| stage.text_scale = 2.0), "text is not in it");
 }

@@ -34,7 +34,7 @@ impl Buffer {
 
     pub(super) fn name(self) -> &'static str {
         match self {
-            Self::Color => "Colour",
+            Self::Color => "Color",
             Self::Depth => "Depth",
             Self::Objects => "Objects",
             Self::Faces => "Faces",

@@ -107,7 +107,7 @@ pub(super) fn explain(ui: &mut Ui, scene: &Scene, frame: &Frame, at: [u32; 2]) {
 pub(super) fn lines(scene: &Scene, frame: &Frame, [x, y]: [u32; 2]) -> Vec<String> {
     let at = y as usize * frame.width as usize + x as usize;
     let [red, green, blue, alpha] = frame.pixel(x, y);
-    let mut lines = vec![format!("Pixel {x}, {y}"), format!("Colour: {red} {green} {blue}, alpha {alpha}")];
+    let mut lines = vec![format!("Pixel {x}, {y}"), format!("Color: {red} {green} {blue}, alpha {alpha}")];
     let Some(hit) = frame.hit(scene.nodes(), x, y) else {
         lines.push("Background".to_owned());
         return lines;

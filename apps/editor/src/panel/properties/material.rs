@@ -73,7 +73,7 @@ impl Fields<'_> {
             Shading::Lambert | Shading::Unlit => {}
         }
         let mut emissive = self.material.emissive.to_array();
-        if let Some(response) = color(ui, "Emission", "The colour of emitted light.", &mut emissive) {
+        if let Some(response) = color(ui, "Emission", "The color of emitted light.", &mut emissive) {
             let command = SetMaterial { emissive: Some(emissive), ..self.unchanged() };
             submit(ui, self.document, &response, command.into(), requests);
         }
@@ -101,7 +101,7 @@ impl Fields<'_> {
             (SurfaceShading::MetallicRoughness, "Physical", "Metallic-roughness, as in glTF."),
             (SurfaceShading::BlinnPhong, "Blinn-Phong", "Diffuse with a highlight."),
             (SurfaceShading::Lambert, "Lambert", "Diffuse."),
-            (SurfaceShading::Unlit, "Unlit", "The base colour, independent of light."),
+            (SurfaceShading::Unlit, "Unlit", "The base color, independent of light."),
         ];
         if choice(ui, "Surface", "How the surface reflects light.", &mut chosen, &choices).changed() {
             let command = SetMaterial { shading: Some(chosen), ..self.unchanged() };
@@ -141,7 +141,7 @@ impl Fields<'_> {
 
     fn highlight(&self, ui: &mut Ui, specular: Vec3, shininess: f32, requests: &mut Vec<Request>) {
         let mut chosen = specular.to_array();
-        if let Some(response) = color(ui, "Highlight", "The colour of the highlight.", &mut chosen) {
+        if let Some(response) = color(ui, "Highlight", "The color of the highlight.", &mut chosen) {
             let command = SetMaterial { specular: Some(chosen), ..self.unchanged() };
             submit(ui, self.document, &response, command.into(), requests);
         }
@@ -158,7 +158,7 @@ impl Fields<'_> {
     fn base_color(&self, ui: &mut Ui, requests: &mut Vec<Request>) {
         let [red, green, blue, alpha] = self.material.base_color.to_array();
         let mut chosen = [red, green, blue];
-        if let Some(response) = color(ui, "Base colour", "Multiplies its texture.", &mut chosen) {
+        if let Some(response) = color(ui, "Base color", "Multiplies its texture.", &mut chosen) {
             let [red, green, blue] = chosen;
             let command = SetMaterial { base_color: Some([red, green, blue, alpha]), ..self.unchanged() };
             submit(ui, self.document, &response, command.into(), requests);
@@ -229,7 +229,7 @@ impl Fields<'_> {
 
     fn textures(&self, ui: &mut Ui, requests: &mut Vec<Request>) {
         let slots = [
-            (TextureSlot::BaseColor, "Base colour image"),
+            (TextureSlot::BaseColor, "Base color image"),
             (TextureSlot::MetallicRoughness, "Metallic-roughness image"),
             (TextureSlot::Normal, "Normal map"),
             (TextureSlot::Occlusion, "Occlusion map"),

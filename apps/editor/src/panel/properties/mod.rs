@@ -54,6 +54,9 @@ pub(crate) fn properties(
         return;
     };
     let object = ShownObject { document, id, node, up };
+    if !document.selection().is_editing() && !document.selection().objects.contains(&id) {
+        ui.weak("Nothing is selected; this is the active object.");
+    }
     ui.push_id(id, |ui| {
         let mut name = node.name.clone();
         if row(ui, "Name", "", |ui, width| text(ui, width, &mut name)).changed() {

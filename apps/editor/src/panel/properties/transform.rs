@@ -146,7 +146,7 @@ pub(super) fn light(ui: &mut Ui, object: ShownObject<'_>, light: Light, requests
         requests.push(Request::Run(SetLight { light: Some(shape), ..unchanged.clone() }.into()));
     }
     let mut chosen = light.color.to_array();
-    if let Some(response) = color(ui, "Colour", "Its colour.", &mut chosen) {
+    if let Some(response) = color(ui, "Color", "Its color.", &mut chosen) {
         let command = SetLight { color: Some(chosen), ..unchanged.clone() };
         submit(ui, document, &response, command.into(), requests);
     }

@@ -3,19 +3,46 @@
 
 use std::path::Path;
 
+use trigon_document::Document;
+use trigon_document::scene::NodeId;
 use trigon_io::{Format, UpAxis, writers};
 use trigon_window::egui;
 use trigon_window::egui::{ComboBox, Ui};
+use trigon_window::scene::math::{Bounds3, DVec3};
 
 use crate::arguments::Arguments;
 use crate::export::{ExportChoices, format_by_ending};
+use crate::panel::written;
 
 /// The choices in the file window. They stay until the editor is closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Exchange {
+    /// How large what can be exported is.
+    pub(crate) extents: Extents,
     /// In files that are opened and imported; none for that of their format.
     pub(crate) import_up: Option<UpAxis>,
     pub(crate) export: ExportChoices,
+}
+
+/// Widths, heights and depths, in metres; none where there is nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Extents {
+    pub(crate) all: Option<DVec3>,
+    pub(crate) selected: Option<DVec3>,
+}
+
+impl Extents {
+    /// Of the visible objects: all of them, and those that are selected with what hangs on them.
+    pub(crate) fn of(document: &mut Document) -> Self {
+        let selected: Vec<NodeId> = document.selection().objects.iter().copied().collect();
+        let scene = document.scene();
+        let size = |bounds: Bounds3| (!bounds.is_empty()).then(|| bounds.size());
+        let of_selected = selected.into_iter().flat_map(|id| scene.visible_points_below(id));
+        Self {
+            all: size(Bounds3::from_points(scene.visible_points())),
+            selected: size(Bounds3::from_points(of_selected)),
+        }
+    }
 }
 
 /// Units of files, by how many there are in a metre.
@@ -26,14 +53,15 @@ impl Default for Exchange {
     fn default() -> Self {
         let export =
             ExportChoices { up: None, scale: 1.0, selection_only: false, triangulate: false, text: false };
-        Self { import_up: None, export }
+        Self { extents: Extents::default(), import_up: None, export }
     }
 }
 
 impl Exchange {
     /// The choices of the command line.
     pub(crate) fn new(arguments: &Arguments) -> Self {
-        Self { import_up: arguments.import_up, export: ExportChoices::new(arguments) }
+        let export = ExportChoices::new(arguments);
+        Self { extents: Extents::default(), import_up: arguments.import_up, export }
     }
 
     /// For files that are read.
@@ -59,7 +87,26 @@ impl Exchange {
         });
         up_list(ui, &mut self.export.up);
         unit_list(ui, &mut self.export.scale);
+        self.show_size(ui, format);
     }
+
+    /// How large things will be in the file, in its numbers.
+    fn show_size(&self, ui: &mut Ui, format: Format) {
+        let Extents { all, selected } = self.extents;
+        let extent = if self.export.selection_only { selected } else { all };
+        let Some(size) = extent.map(|extent| extent * self.export.scale) else { return };
+        let [x, y, z] = size.to_array().map(written);
+        let unit = unit_name(self.export.scale);
+        ui.label(format!("Size in the file: {x} × {y} × {z} ({unit})"));
+        if format == Format::Stl {
+            ui.weak("STL has no unit. Programs for printing take its numbers as millimetres.");
+        }
+    }
+}
+
+fn unit_name(scale: f64) -> String {
+    let known = UNITS.iter().find(|(_, units)| *units == scale);
+    known.map_or_else(|| format!("{scale} per metre"), |(name, _)| (*name).to_owned())
 }
 
 /// The formats that can be written. Returns the ending of another one that was chosen.
@@ -86,7 +133,7 @@ fn held_by(format: Format) -> &'static str {
             "Keeps polygons, texture coordinates, normals, and materials with their images. Loses the tree of objects, lights, cameras and marks of edges."
         }
         Format::Ply => {
-            "Keeps polygons, normals, texture coordinates and colours of vertices, as one mesh. Loses materials, objects, lights and cameras."
+            "Keeps polygons, normals, texture coordinates and colors of vertices, as one mesh. Loses materials, objects, lights and cameras."
         }
         Format::Stl => "Keeps triangles alone, as one mesh, for printing: +Z is up. Loses everything else.",
         Format::Off => "Keeps polygons alone, as one mesh. Loses everything else.",
@@ -110,9 +157,7 @@ fn up_list(ui: &mut Ui, up: &mut Option<UpAxis>) {
 }
 
 fn unit_list(ui: &mut Ui, scale: &mut f64) {
-    let known = UNITS.iter().find(|(_, units)| units == scale);
-    let name = known.map_or_else(|| format!("{scale} per metre"), |(name, _)| (*name).to_owned());
-    ComboBox::from_label("unit of the file").selected_text(name).show_ui(ui, |ui| {
+    ComboBox::from_label("unit of the file").selected_text(unit_name(*scale)).show_ui(ui, |ui| {
         for (name, units) in UNITS {
             ui.selectable_value(scale, units, name);
         }

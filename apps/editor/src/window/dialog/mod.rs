@@ -14,7 +14,7 @@ use trigon_io::readers;
 use trigon_window::egui::{Align, Button, Context, Id, Key, Layout, Modal, Popup, ScrollArea, TextEdit, Ui};
 use trigon_window::{RecentFiles, egui};
 
-pub(crate) use exchange::Exchange;
+pub(crate) use exchange::{Exchange, Extents};
 use folder::Folder;
 
 use super::images;
@@ -275,7 +275,7 @@ impl FileWindow {
                         let path = || self.folder.path().join(&entry.name);
                         if row.clicked() && !entry.is_file {
                             did = Did::Enter(path());
-                        } else if row.double_clicked() {
+                        } else if row.double_clicked() && !purpose.writes() {
                             did = Did::Choose(path());
                         } else if row.clicked() {
                             clicked = Some(entry.name.clone());
@@ -333,7 +333,9 @@ impl FileWindow {
         ui.add_space(8.0);
         ui.horizontal(|ui| {
             let path = self.named();
-            if ui.add_enabled(path.is_some(), Button::new(purpose.title())).clicked() {
+            let replaces = purpose.writes() && path.as_ref().is_some_and(|path| path.is_file());
+            let title = if replaces { "Replace" } else { purpose.title() };
+            if ui.add_enabled(path.is_some(), Button::new(title)).clicked() {
                 did = path.map_or(Did::Nothing, Did::Choose);
             }
             if ui.button("Cancel").clicked() {

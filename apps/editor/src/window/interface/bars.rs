@@ -73,7 +73,7 @@ fn view(ui: &mut Ui, editor: &Editor, stage: &Stage, requests: &mut Vec<Request>
     if ui.selectable_label(editor.view.x_ray, "X-Ray").clicked() {
         requests.push(Request::View(ViewRequest::ToggleXRay));
     }
-    let four_views = ui.selectable_label(stage.four_views.is_some(), "Four Views");
+    let four_views = ui.selectable_label(stage.four_views, "Four Views");
     if four_views.on_hover_text("Four views: top, front, right and the current one").clicked() {
         requests.push(Request::View(ViewRequest::ToggleFourViews));
     }
@@ -90,14 +90,17 @@ fn tool_settings(ui: &mut Ui, editor: &Editor, requests: &mut Vec<Request>) {
         ("Edge", SnapTarget::Edge),
         ("Face", SnapTarget::Face),
     ];
-    ask(choice(ui, "Snap to", tools.snap_target, &targets).map(UiRequest::Snap));
     let sources = [
         ("Closest", SnapSource::Closest),
         ("Center", SnapSource::Center),
         ("Median", SnapSource::Median),
         ("Active", SnapSource::Active),
     ];
-    ask(choice(ui, "Snap with", tools.snap_source, &sources).map(UiRequest::SnapWith));
+    // Without snapping they would only take room.
+    if tools.snapping {
+        ask(choice(ui, "Snap to", tools.snap_target, &targets).map(UiRequest::Snap));
+        ask(choice(ui, "Snap with", tools.snap_source, &sources).map(UiRequest::SnapWith));
+    }
     let pivots = [
         ("Bounding Box Center", Pivot::Bounds),
         ("Origin", Pivot::Origin),
@@ -126,7 +129,12 @@ fn tool_settings(ui: &mut Ui, editor: &Editor, requests: &mut Vec<Request>) {
 }
 
 /// A list of which one is chosen. Returns another choice.
-fn choice<T: Copy + PartialEq>(ui: &mut Ui, name: &str, current: T, all: &[(&str, T)]) -> Option<T> {
+pub(super) fn choice<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    current: T,
+    all: &[(&str, T)],
+) -> Option<T> {
     let text = all.iter().find(|(_, value)| *value == current).map_or("", |(text, _)| *text);
     let mut chosen = None;
     let shown = egui::ComboBox::from_id_salt(name).selected_text(text).width(0.0).show_ui(ui, |ui| {

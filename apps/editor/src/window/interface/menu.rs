@@ -10,6 +10,8 @@ use trigon_window::egui::{
 use trigon_window::{Stage, egui};
 
 use super::bars::label;
+use super::state::state_of;
+use crate::icon::Icon;
 use crate::window::actions;
 use crate::window::actions::{Action, MENUS};
 use crate::window::editor::Editor;
@@ -30,7 +32,7 @@ pub(super) fn bar(ui: &mut Ui, editor: &mut Editor, stage: &mut Stage) {
                 // Where it is longer than the window, the wheel scrolls it.
                 let height = ui.ctx().content_rect().height() - BAR_HEIGHT;
                 ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
-                    chosen = entries(ui, editor, menu).or(chosen);
+                    chosen = entries(ui, editor, stage, menu).or(chosen);
                 });
             });
         }
@@ -42,12 +44,14 @@ pub(super) fn bar(ui: &mut Ui, editor: &mut Editor, stage: &mut Stage) {
 }
 
 /// The entries of a menu: its actions, and the menus within it where they first come up.
-fn entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> {
+fn entries(ui: &mut Ui, editor: &Editor, stage: &Stage, menu: &str) -> Option<&'static Action> {
     let mut chosen = None;
     let mut within: Vec<&str> = Vec::new();
     for action in actions::all().filter(|action| !action.opens_menu()) {
         if action.menu == menu {
-            if entry(ui, editor, action, None).clicked() {
+            if entry(ui, editor, action, Shown { letter: None, is_on: state_of(action, editor, stage) })
+                .clicked()
+            {
                 ui.close();
                 chosen = Some(action);
             }
@@ -58,18 +62,33 @@ fn entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> 
         };
         if !within.contains(&name) {
             within.push(name);
-            ui.menu_button(name, |ui| chosen = entries(ui, editor, action.menu).or(chosen));
+            ui.menu_button(name, |ui| chosen = entries(ui, editor, stage, action.menu).or(chosen));
         }
     }
     chosen
 }
 
-/// One action with its key; greyed, with the reason, while it cannot run. The letter that chooses it is underlined.
-fn entry(ui: &mut Ui, editor: &Editor, action: &Action, letter: Option<char>) -> Response {
+/// How an entry of a menu looks.
+#[derive(Clone, Copy)]
+struct Shown {
+    /// The letter that chooses it.
+    letter: Option<char>,
+    /// Whether it is on, if it is a switch.
+    is_on: Option<bool>,
+}
+
+/// One action with its key; greyed, with the reason, while it cannot run. The letter that chooses it is underlined, and
+/// a switch that is on has a mark.
+fn entry(ui: &mut Ui, editor: &Editor, action: &Action, Shown { letter, is_on }: Shown) -> Response {
     let refusal = action.refusal(&editor.document);
     let shortcut = RichText::new(editor.keys.text_of(action)).weak();
     let text = underlined(ui, action.label, letter);
-    let shown = ui.add_enabled(refusal.is_none(), Button::new(text).right_text(shortcut));
+    let button = match is_on {
+        Some(true) => Button::new((Icon::On.atom(), text)).selected(true),
+        Some(false) => Button::new((Icon::Off.atom(), text)),
+        None => Button::new(text),
+    };
+    let shown = ui.add_enabled(refusal.is_none(), button.right_text(shortcut));
     label(&shown, action.label);
     let reason = refusal.map_or_else(String::new, |reason| format!("{}\n{reason}", action.help));
     shown.on_hover_text(action.help).on_disabled_hover_text(reason)
@@ -103,7 +122,7 @@ pub(super) fn popup(context: &Context, editor: &mut Editor, stage: &mut Stage) {
             menu_style(ui.style_mut());
             ui.set_max_width(POPUP_WIDTH);
             ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| {
-                chosen = popup_entries(ui, editor, &mut popup).or(chosen);
+                chosen = popup_entries(ui, editor, stage, &mut popup).or(chosen);
             });
         });
     });
@@ -135,7 +154,7 @@ fn popup_keys(context: &Context, popup: &mut Popup, document: &Document) -> Opti
 }
 
 /// The lines of the menu; the one that was chosen. The current one has the keyboard, so that Enter chooses it.
-fn popup_entries(ui: &mut Ui, editor: &Editor, popup: &mut Popup) -> Option<&'static Action> {
+fn popup_entries(ui: &mut Ui, editor: &Editor, stage: &Stage, popup: &mut Popup) -> Option<&'static Action> {
     let (mut chosen, mut section) = (None, popup.menu);
     let title = popup.menu.rsplit('/').next().unwrap_or(popup.menu);
     ui.strong(if popup.text.is_empty() { title } else { &popup.text });
@@ -149,7 +168,8 @@ fn popup_entries(ui: &mut Ui, editor: &Editor, popup: &mut Popup) -> Option<&'st
         if std::mem::replace(&mut section, entry.section) != entry.section {
             ui.separator();
         }
-        let shown = self::entry(ui, editor, entry.action, entry.letter);
+        let looks = Shown { letter: entry.letter, is_on: state_of(entry.action, editor, stage) };
+        let shown = self::entry(ui, editor, entry.action, looks);
         if index == popup.index && !shown.has_focus() {
             shown.request_focus();
             shown.scroll_to_me(None);

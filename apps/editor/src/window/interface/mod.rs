@@ -6,13 +6,16 @@ mod menu;
 mod overlays;
 mod render;
 mod side;
+mod state;
 mod toast;
+mod uv;
 mod view;
 
 use trigon_window::Stage;
 use trigon_window::egui::{Panel, Ui};
 
 use super::editor::{Editor, Message};
+use super::panes::area;
 use crate::panel::rejected_number;
 use crate::request::Request;
 
@@ -20,6 +23,7 @@ use crate::request::Request;
 pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<Request> {
     let mut requests = Vec::new();
     editor.leave_side(stage);
+    editor.leave_camera(stage);
     view::show_view(ui, editor, stage);
     Panel::top("menus").show(ui, |ui| menu::bar(ui, editor, stage));
     Panel::top("modes").show(ui, |ui| bars::top(ui, editor, stage, &mut requests));
@@ -30,9 +34,10 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
     if editor.layout.side_bar {
         side::show(ui, editor, stage, &mut requests);
     }
+    uv::show(ui, editor, &mut requests);
     let free = ui.available_rect_before_wrap();
     editor.free = Some(free);
-    editor.fit_four_views(stage);
+    stage.view_area = Some(area(stage, free));
     side::adjust(ui.ctx(), editor, free, &mut requests);
     menu::show_search(ui.ctx(), editor, stage);
     menu::popup(ui.ctx(), editor, stage);

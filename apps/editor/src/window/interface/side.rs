@@ -21,6 +21,8 @@ use crate::window::panels::Tab;
 const WIDTH: f32 = 280.0;
 const LEAST_WIDTH: f32 = 200.0;
 const ADJUST_WIDTH: f32 = 260.0;
+/// A view in which the panel of the last operation is open at first, in points.
+const LEAST_VIEW: f32 = 700.0;
 /// What the outliner leaves to the tabs, in points.
 const LEAST_TABS: f32 = 160.0;
 const LEAST_OUTLINER: f32 = 60.0;
@@ -116,6 +118,8 @@ pub(super) fn adjust(context: &Context, editor: &Editor, free: Rect, requests: &
     let at = free.left_bottom() + egui::vec2(8.0, -8.0);
     let window = egui::Window::new("Last Operation").id(Id::unique("adjust")).resizable(false);
     let window = window.pivot(Align2::LEFT_BOTTOM).fixed_pos(at).default_width(ADJUST_WIDTH);
+    // In a small view it would lie over what is modelled.
+    let window = window.default_open(free.width() > LEAST_VIEW);
     window.show(context, |ui| {
         ui.set_width(ADJUST_WIDTH);
         ScrollArea::vertical().max_height((free.height() * 0.6).max(80.0)).show(ui, |ui| {

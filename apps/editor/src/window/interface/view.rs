@@ -3,15 +3,18 @@
 
 use trigon_document::scene::Region;
 use trigon_window::egui::{Color32, Painter, Shape, Stroke, Ui};
+use trigon_window::scene::camera::Viewport;
 use trigon_window::{Pane, Stage};
 
 use crate::overlay::{
-    GestureOutline, OverlayView, draw_axes, draw_cameras, draw_cursor, draw_gesture, draw_grid, draw_lights,
-    draw_origins,
+    GestureOutline, OverlayView, draw_axes, draw_camera_frame, draw_cameras, draw_cursor, draw_gesture,
+    draw_grid, draw_lights, draw_origins,
 };
 use crate::tool::ToolMarks;
 use crate::window::editor::Editor;
-use crate::window::panes::draw_name;
+use crate::window::images::RenderChoices;
+use crate::window::navigation;
+use crate::window::panes::{draw_border, draw_name, name_of};
 
 /// Of what tools draw.
 const INK: Color32 = Color32::from_rgb(255, 240, 120);
@@ -25,8 +28,9 @@ pub(super) fn show_view(ui: &Ui, editor: &mut Editor, stage: &Stage) {
         let view = editor.overlay_view(stage, pane);
         let painter = ui.painter().with_clip_rect(view.rect());
         show_pane(&painter, editor, stage, pane, &view);
+        draw_name(&painter, ui.visuals(), &view, &name(editor, pane));
         if panes.len() > 1 {
-            draw_name(&painter, ui.visuals(), &view, pane);
+            draw_border(&painter, ui.visuals(), &view);
         }
     }
 }
@@ -34,6 +38,13 @@ pub(super) fn show_view(ui: &Ui, editor: &mut Editor, stage: &Stage) {
 /// Draws what lies over one view.
 fn show_pane(painter: &Painter, editor: &mut Editor, stage: &Stage, pane: &Pane, view: &OverlayView) {
     let origin = pane.area.origin();
+    if let Some((_, camera)) = navigation::camera(&editor.document)
+        && editor.view.camera.is_some()
+        && pane.side.is_none()
+    {
+        let RenderChoices { width, height, .. } = editor.images.choices;
+        draw_camera_frame(painter, view, &camera, Viewport { width, height });
+    }
     if editor.view.overlays {
         draw_grid(painter, view, &|points| stage.distances_at(points.iter().map(|&at| at + origin)));
         draw_lights(painter, &editor.document, view);
@@ -54,6 +65,16 @@ fn show_pane(painter: &Painter, editor: &mut Editor, stage: &Stage, pane: &Pane,
     }
     if let Some(center) = editor.axes_center().filter(|_| pane.side.is_none()) {
         draw_axes(painter, view, center);
+    }
+}
+
+/// From where a view looks, and, in the camera's own, the active object: many operations are about that one.
+fn name(editor: &Editor, pane: &Pane) -> String {
+    let side = name_of(pane);
+    let (nodes, active) = (editor.document.nodes(), editor.document.selection().active);
+    match active.and_then(|id| nodes.node(id)).filter(|_| pane.side.is_none()) {
+        Some(node) => format!("{side} · {}", node.name),
+        None => side.into(),
     }
 }
 

@@ -93,7 +93,7 @@ fn four_views_fill_what_no_panel_covers() {
     harness.run();
     let worked = harness.state();
     let free = worked.editor.free.expect("it is laid out");
-    let area = worked.stage.four_views.expect("there are four");
+    let area = worked.stage.view_area.expect("it is known");
     assert_eq!(area.min, [free.min.x, free.min.y].map(|at| at.round() as u32), "beside the tools");
     assert!((f64::from(free.width()) - f64::from(area.size.width)).abs() <= 1.0, "up to the panels");
 }

@@ -1,10 +1,13 @@
 //! Texture coordinates by keys and menus.
 
-use trigon_window::Chord;
-use trigon_window::scene::math::{Vec2, Vec3};
+use trigon_window::scene::camera::Viewport;
+use trigon_window::scene::math::{DVec2, Vec2, Vec3};
+use trigon_window::{Chord, PointerButton};
 
+use super::sessions::{User, at_the_editor};
 use super::*;
 use crate::window::actions;
+use crate::window::panes::points;
 
 /// Presses chords with spaces between them; what they do may be refused.
 fn press(worked: &mut Worked, chords: &str) {
@@ -76,4 +79,75 @@ fn texture_coordinates_are_those_of_the_view() {
             assert!(uv.abs_diff_eq(expected, 1e-6), "{view}: {uv} for {expected}");
         }
     }
+}
+
+/// The middle of the texture coordinates of each face of the cube.
+fn middles(user: &User<'_>) -> Vec<Vec2> {
+    let editor = user.editor.borrow();
+    let (id, _) = editor.document.selection().meshes().next().expect("the cube is edited");
+    let mesh = editor.document.mesh(id).expect("it is");
+    let middle = |face| {
+        let uvs = mesh.face_corners(face).map(|corner| mesh.uv(0, corner).expect("a set"));
+        uvs.sum::<Vec2>() / mesh.face_size(face) as f32
+    };
+    mesh.faces().map(middle).collect()
+}
+
+/// Where coordinates are seen in the window, in physical pixels.
+fn seen(user: &User<'_>, uv: Vec2) -> DVec2 {
+    let canvas = user.editor.borrow().uv.canvas.expect("the view is open");
+    let at = canvas.point(uv.as_dvec2());
+    DVec2::new(at.x.into(), at.y.into()) * points(user.window.stage())
+}
+
+#[test]
+fn islands_are_picked_and_moved_in_the_uv_view_by_the_keys_of_the_3d_view() {
+    let folder = tempfile::tempdir().expect("a folder");
+    at_the_editor(folder.path(), &[], Viewport { width: 1200, height: 700 }, |user| {
+        user.play("keys Tab 3 A U S Shift+F10\nsee 6 of 6 faces selected");
+        let before = middles(user);
+        let at = seen(user, before[2]);
+        user.window.move_to(at);
+        user.window.press(PointerButton::Left);
+        user.window.release(PointerButton::Left);
+        user.play("see 1 of 6 faces selected\nkeys G . 2 5 Tab . 5 Enter");
+        let moved = middles(user);
+        // v grows downwards, and what is typed upwards.
+        assert!(
+            (moved[2] - before[2]).abs_diff_eq(Vec2::new(0.25, -0.5), 1e-6),
+            "{} to {}",
+            before[2],
+            moved[2]
+        );
+        for other in [0, 1, 3, 4, 5] {
+            assert_eq!(moved[other], before[other], "it is another island");
+        }
+        user.play("keys Alt+A");
+        let at = seen(user, moved[4]);
+        user.window.move_to(at);
+        user.play("keys L\nsee 1 of 6 faces selected\nkeys R 9 0 Enter");
+        assert!(middles(user)[4].abs_diff_eq(moved[4], 1e-6), "it turns around its middle");
+        user.play("keys S X 0 Enter Ctrl+Z Ctrl+Z Ctrl+Z");
+        // A box around everything.
+        let (from, to) = (seen(user, Vec2::splat(-0.05)), seen(user, Vec2::splat(1.05)));
+        user.window.move_to(from);
+        user.window.press(PointerButton::Left);
+        user.window.move_to((from + to) / 2.0);
+        user.window.move_to(to);
+        user.window.release(PointerButton::Left);
+        assert!(user.editor.borrow().document.selection().meshes().all(|(_, faces)| faces.len() >= 5));
+    });
+}
+
+#[test]
+fn the_uv_view_leaves_the_scene_its_own_part_of_the_window() {
+    let folder = tempfile::tempdir().expect("a folder");
+    at_the_editor(folder.path(), &[], Viewport { width: 1200, height: 700 }, |user| {
+        let before = user.window.stage().visible_area();
+        user.play("keys Shift+F10");
+        let after = user.window.stage().visible_area();
+        assert!(after.size.width < before.size.width * 3 / 4 && after.min == before.min, "{after:?}");
+        user.play("keys Shift+F10");
+        assert_eq!(user.window.stage().visible_area(), before, "and back");
+    });
 }

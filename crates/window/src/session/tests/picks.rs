@@ -130,12 +130,33 @@ fn what_another_drawer_shows_is_picked_all_the_same() {
     assert!(before.is_some() && session.stage.pick(AT) == before, "the renderer tells what is where");
 }
 
+/// In a part of the window the point is where it was asked for, too.
+#[test]
+fn a_view_in_a_part_of_the_window_shows_and_picks_the_scene_there() {
+    let mut handler = Recorder::default();
+    let mut session = begun(&mut handler);
+    let size = trigon_camera::Viewport { width: SIZE.width / 2, height: SIZE.height - 20 };
+    session.stage.view_area = Some(crate::Area { min: [15, 10], size });
+    session.note(ms(1000));
+    run(&mut session, ms(1000));
+    let pane = session.stage.panes()[0];
+    assert_eq!((pane.area.min, pane.area.size), ([15, 10], size));
+    let projector = Projector::new(&session.stage.camera_of(&pane), size);
+    let at = projector.to_screen(DVec3::X * 2.0).expect("before the eye") + pane.area.origin();
+    let (name, point) = picked(&session, at).expect("a cube");
+    let seen = projector.to_screen(point).expect("before the eye") + pane.area.origin();
+    assert!(seen.distance(at) < 1e-3, "{at} and {seen}");
+    assert_eq!(name, "right");
+    let beside = trigon_math::DVec2::new(12.0, at.y);
+    assert_eq!(session.stage.pick(beside), None, "a panel is there");
+}
+
 /// In each of four views the point is where it was asked for, as that view's camera sees it.
 #[test]
 fn each_of_four_views_shows_and_picks_the_scene_from_its_side() {
     let mut handler = Recorder::default();
     let mut session = begun(&mut handler);
-    session.stage.four_views = Some(crate::Area { min: [0, 0], size: SIZE });
+    session.stage.four_views = true;
     session.note(ms(1000));
     run(&mut session, ms(1000));
     let panes = session.stage.panes();

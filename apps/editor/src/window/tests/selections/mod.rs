@@ -37,7 +37,7 @@ fn of_model(file: Option<&Path>) -> Result<Tally, String> {
     let mut result = Err("it was not opened".into());
     at_the_editor(folder.path(), &files, SIZE, |user| {
         if files.is_empty() {
-            user.play("keys X Shift+A\npress Teapot\nenter Subdivisions 4");
+            user.play("keys X Shift+A\npress Teapot\npress Show\nenter Subdivisions 4");
         }
         while user.editor.borrow().loading.is_some() {
             user.window.wait();

@@ -47,7 +47,7 @@ pub(super) struct Oracle {
 impl Oracle {
     /// Of what a stage shows. An error says why this oracle knows nothing of it.
     pub(super) fn new(stage: &Stage) -> Result<Self, String> {
-        let size = stage.viewport().size();
+        let size = stage.visible_area().size.size();
         let lens = Lens::new(&stage.camera(), size).ok_or("it has no perspective")?;
         let (vertices, edges, faces, triangles) = Default::default();
         let cells = vec![Vec::new(); columns(size) * (size.y as usize / CELL + 1)];

@@ -49,6 +49,11 @@ pub(super) fn select_everywhere(user: &mut User<'_>) -> Result<Tally, String> {
 }
 
 impl Session<'_, '_> {
+    /// A place of the window in the view.
+    fn in_view(&self, place: DVec2) -> DVec2 {
+        place - self.user.window.stage().visible_area().origin()
+    }
+
     /// Places spread over the middle of the view.
     fn places(&self) -> Vec<DVec2> {
         let middle = DVec2::new(320.0, 265.0);
@@ -77,12 +82,12 @@ impl Session<'_, '_> {
     fn regions(&mut self) {
         let corner = |x, y| DVec2::new(x, y);
         let boxed = [corner(60.5, 110.25), corner(330.75, 270.5)];
-        let circle = Shape::Circle(self.places()[2], 25.0);
+        let circle = Shape::Circle(self.in_view(self.places()[2]), 25.0);
         let lasso =
             vec![corner(90.0, 120.0), corner(500.0, 200.5), corner(420.25, 400.0), corner(310.0, 220.0)];
         self.nothing();
         self.drag(&boxed, Modifiers::NONE);
-        self.check_region("box", &Shape::Box(boxed));
+        self.check_region("box", &Shape::Box(boxed.map(|place| self.in_view(place))));
         self.nothing();
         self.user.play("keys C");
         self.click(self.places()[2], Modifiers::NONE);
@@ -90,6 +95,7 @@ impl Session<'_, '_> {
         self.check_region("circle", &circle);
         self.nothing();
         self.drag(&lasso, Modifiers::CTRL);
+        let lasso = lasso.into_iter().map(|place| self.in_view(place)).collect();
         self.check_region("lasso", &Shape::Lasso(lasso));
     }
 
@@ -112,7 +118,7 @@ impl Session<'_, '_> {
         for (place, held) in
             self.places().into_iter().zip([Modifiers::NONE].into_iter().chain([Modifiers::SHIFT; 4]))
         {
-            let may = self.oracle.nearest(self.kind, place, PICK_RADIUS, self.through);
+            let may = self.oracle.nearest(self.kind, self.in_view(place), PICK_RADIUS, self.through);
             self.click(place, held);
             let selected = self.selected();
             let toggled: Vec<Key> = selected.symmetric_difference(&expected).copied().collect();
@@ -135,7 +141,8 @@ impl Session<'_, '_> {
             .into_iter()
             .flat_map(|place| [(place, Modifiers::ALT), (place, Modifiers::ALT | Modifiers::CTRL)])
         {
-            let [(id, edge)] = self.oracle.nearest(Kind::Edge, place, PICK_RADIUS, false)[..] else {
+            let [(id, edge)] = self.oracle.nearest(Kind::Edge, self.in_view(place), PICK_RADIUS, false)[..]
+            else {
                 continue;
             };
             self.nothing();
@@ -166,8 +173,8 @@ impl Session<'_, '_> {
     fn paths(&mut self) {
         let places = self.places();
         for pair in places.windows(2) {
-            let ends =
-                [pair[0], pair[1]].map(|place| self.oracle.nearest(self.kind, place, PICK_RADIUS, false));
+            let ends = [pair[0], pair[1]]
+                .map(|place| self.oracle.nearest(self.kind, self.in_view(place), PICK_RADIUS, false));
             let ([(id, from)], [(other, to)]) = (&ends[0][..], &ends[1][..]) else { continue };
             if id != other {
                 continue;

@@ -29,8 +29,8 @@ const BOTTLE: &str = "
     keys F2
     type bottle
     keys Enter
-    scroll Base colour hex
-    enter Base colour hex 103018
+    scroll Base color hex
+    enter Base color hex 103018
     press Information
     see Dimensions
     press Properties

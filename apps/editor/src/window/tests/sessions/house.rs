@@ -49,8 +49,8 @@ const HOUSE: &str = "
     press New                                       # glass for the faces that are selected
     scroll Assign
     press Assign
-    scroll Base colour hex
-    enter Base colour hex 3060a0
+    scroll Base color hex
+    enter Base color hex 3060a0
     keys Alt+A
     hover 0 0 1
     keys L

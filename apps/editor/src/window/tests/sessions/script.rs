@@ -131,8 +131,11 @@ impl User<'_> {
     /// Where a place in the world is seen.
     fn seen(&self, place: DVec3) -> Result<DVec2, String> {
         let stage = self.window.stage();
-        let projector = Projector::new(&stage.camera(), stage.viewport());
-        projector.to_screen(place).ok_or_else(|| "it is behind the eye".into())
+        let panes = stage.panes();
+        let pane = panes.iter().find(|pane| pane.side.is_none()).ok_or("no view is the camera's own")?;
+        let projector = Projector::new(&stage.camera(), pane.area.size);
+        let at = projector.to_screen(place).ok_or("it is behind the eye")?;
+        Ok(at + pane.area.origin())
     }
 
     fn hover(&mut self, place: &str) -> Result<(), String> {

@@ -38,11 +38,11 @@ const TABLE: &str = "
     press Cube Projection
     see Cube Projection
     keys Tab
-    scroll Open Base colour image
-    press Open Base colour image
+    scroll Open Base color image
+    press Open Base color image
     type $FOLDER/wood.png
     keys Enter
-    see Base colour image: wood
+    see Base color image: wood
     press Information
     press Properties
     press View

@@ -1,0 +1,62 @@
+//! Keys over the UV view: what they move, select and frame there.
+
+use trigon_document::SelectAction;
+use trigon_window::scene::math::DVec2;
+use trigon_window::{Hands, Pane, Stage};
+
+use super::editor::Editor;
+use super::panes::{in_pane, point, points};
+use crate::request::{ToolKind, ViewRequest};
+use crate::tool::{Tool, UvPixels, UvTool, UvTransform};
+use crate::uv;
+use crate::uv::UvCanvas;
+
+impl Editor {
+    /// The UV view under the pointer.
+    fn uv_canvas(&self, stage: &Stage) -> Option<(UvCanvas, DVec2)> {
+        let at = point(stage, self.pointer?);
+        let canvas = self.uv.canvas_at(at)?;
+        Some((*canvas, canvas.uv(at)))
+    }
+
+    /// The tool that a key starts over the UV view. `hands` are in the window.
+    pub(super) fn uv_tool(
+        &self,
+        stage: &Stage,
+        pane: &Pane,
+        kind: ToolKind,
+        hands: Hands,
+    ) -> Option<Box<dyn Tool>> {
+        let transform = match kind {
+            ToolKind::Move => UvTransform::Move,
+            ToolKind::Rotate => UvTransform::Rotate,
+            ToolKind::Scale => UvTransform::Scale,
+            _ => return None,
+        };
+        let (canvas, _) = self.uv_canvas(stage)?;
+        let [low, high] = uv::bounds(&self.document)?;
+        let (scale, at) = (points(stage), canvas.point((low + high) / 2.0));
+        let center = DVec2::new(at.x.into(), at.y.into()) * scale - pane.area.origin();
+        let pixels = UvPixels { center, side: canvas.side * scale };
+        Some(Box::new(UvTool::start(transform, pixels, in_pane(hands, pane))))
+    }
+
+    /// Adds the island under the pointer to the selection. Returns whether the pointer is over the UV view.
+    pub(super) fn select_island(&mut self, stage: &Stage) -> bool {
+        let Some((_, at)) = self.uv_canvas(stage) else { return false };
+        if let Some(command) = uv::island(&self.document, at, SelectAction::Add) {
+            self.run(command);
+        }
+        true
+    }
+
+    /// Frames in the UV view what a request would in the 3D view. Returns whether the pointer is over the UV view.
+    pub(super) fn frame_uvs(&mut self, stage: &Stage, request: ViewRequest) -> bool {
+        let is_framing = matches!(request, ViewRequest::FrameSelected | ViewRequest::FrameAll);
+        let Some((canvas, _)) = self.uv_canvas(stage).filter(|_| is_framing) else { return false };
+        let selected = uv::bounds(&self.document).filter(|_| request == ViewRequest::FrameSelected);
+        let [low, high] = selected.unwrap_or([DVec2::ZERO, DVec2::ONE]);
+        self.uv.camera.frame(canvas.rect, low, high);
+        true
+    }
+}
