@@ -56,6 +56,15 @@ fn command() -> impl Strategy<Value = Value> {
         json!({"op": "subdivide"}),
         json!({"op": "merge", "at": "center"}),
         json!({"op": "set_subdivision", "levels": 2}),
+        json!({"op": "add_modifier", "modifier": {"kind": "mirror", "merge_distance": null, "axes": [true, false, true]}}),
+        json!({"op": "add_modifier", "modifier": {"kind": "array", "offset": [0.1, 1e-300, -3.0]}, "index": 0}),
+        json!({"op": "add_modifier", "modifier": {"kind": "bevel", "edges": "creased", "width": 0.30000000000000004}}),
+        json!({"op": "add_modifier", "modifier": {"kind": "weld"}}),
+        json!({"op": "add_modifier", "modifier": {"kind": "triangulate"}}),
+        json!({"op": "show_modifier", "index": 0, "on": false}),
+        json!({"op": "move_modifier", "index": 1, "to": 0}),
+        json!({"op": "remove_modifier", "index": 1}),
+        json!({"op": "apply_modifier"}),
     ]);
     prop_oneof![
         6 => plain,

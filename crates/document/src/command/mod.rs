@@ -15,6 +15,7 @@ mod import;
 mod light;
 mod material;
 mod mirror;
+mod modifier;
 mod parts;
 mod paste;
 mod project_around;
@@ -48,6 +49,10 @@ pub use import::ImportFile;
 pub use light::{AddCamera, SetLight};
 pub use material::{AddMaterial, MaterialName, SetMaterial, SetMaterialSlot, SurfaceAlpha, SurfaceShading};
 pub use mirror::{FlipNormals, Mirror, MirrorPlane, RecalculateNormals, Repair, Symmetrize};
+pub use modifier::{
+    AddModifier, ApplyModifier, ApplySubdivision, MoveModifier, RemoveModifier, SetModifier, SetSubdivision,
+    ShowModifier,
+};
 pub use parts::{Duplicate, JoinObjects, Rip, SplitOff};
 pub use paste::{Glb, Paste};
 pub use project_around::{ProjectUvsCylinder, ProjectUvsSphere};
@@ -69,16 +74,16 @@ pub use set_origin::{GeometryCenter, OriginTarget, SetOrigin};
 pub(crate) use set_transform::transform_of;
 pub use set_transform::{ClearTransform, SetTransform};
 pub use space::TransformSpace;
-pub use surface::{
-    ApplySubdivision, Bridge, CatmullClark, ConnectVertices, Fill, GridFill, SetSubdivision, Triangulate,
-    TrisToQuads,
-};
+pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, GridFill, Triangulate, TrisToQuads};
 pub use texture::{AssignTexture, ProjectUvs, ProjectUvsOnBox, TextureSlot, TextureSource};
 pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
 pub use translate::{Rotate, Rotation, Scale, Translate};
-pub use trigon_modelling::{BevelWidth, InnerMiter, OuterMiter, UnwrapMethod};
+pub use trigon_modelling::{
+    ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, InnerMiter, MirrorModifier, Modifier, OuterMiter,
+    SubdivisionModifier, TriangulateModifier, UnwrapMethod, WeldModifier,
+};
 pub use unwrap::{PackIslands, SmartProject, Unwrap};
 
 /// Lists all commands: variant, type, display name.
@@ -211,6 +216,18 @@ commands! {
     SetSubdivision("Subdivision Surface", false),
     /// Replaces meshes with their subdivision surfaces.
     ApplySubdivision("Apply Subdivision", false),
+    /// Adds a modifier to the stack of an object's mesh.
+    AddModifier("Add Modifier", false),
+    /// Gives a modifier other parameters.
+    SetModifier("Set Modifier", false),
+    /// Switches a modifier on or off.
+    ShowModifier("Show/Hide Modifier", false),
+    /// Changes the order of modifiers.
+    MoveModifier("Move Modifier", false),
+    /// Removes a modifier.
+    RemoveModifier("Remove Modifier", false),
+    /// Changes a mesh as a modifier says.
+    ApplyModifier("Apply Modifier", false),
     /// Cuts faces into triangles.
     Triangulate("Triangulate", false),
     /// Joins triangles into quads.

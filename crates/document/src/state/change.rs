@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use trigon_modelling::{Difference, EdgeId, EditMesh, FaceId, Refusal, VertexId};
+use trigon_modelling::{Difference, EdgeId, EditMesh, Evaluation, FaceId, Refusal, VertexId};
 use trigon_scene::{MeshId, NodeId, Scene, SceneError, SceneParts};
 
 use super::{Names, State};
@@ -90,6 +90,12 @@ impl Change<'_> {
         }
         self.state.shown.note_edited(id);
         self.state.file.edited.get(&id)
+    }
+
+    /// An edited mesh after its modifiers, as a view shows it.
+    pub(crate) fn evaluate(&mut self, id: MeshId) -> Option<&Evaluation> {
+        let mesh = self.state.file.edited.get(&id)?;
+        Some(self.state.shown.evaluate(id, mesh))
     }
 
     /// Changes a mesh. On an error that mesh is unchanged.

@@ -44,6 +44,13 @@ actions! {
     "Edit/Subdivision Surface" "subdivision.4" "4 Levels" "Ctrl+4" Meshes Run(r#"{"op":"set_subdivision","levels":4}"#) => "Shows meshes as smooth surfaces of 4 levels, with their cage over them.";
     "Edit/Subdivision Surface" "subdivision.5" "5 Levels" "Ctrl+5" Meshes Run(r#"{"op":"set_subdivision","levels":5}"#) => "Shows meshes as smooth surfaces of 5 levels, with their cage over them.";
     "Edit/Subdivision Surface" "subdivision.apply" "Apply" "" Meshes Run(r#"{"op":"apply_subdivision"}"#) => "Makes meshes the smooth surfaces that they are shown as.";
+    "Edit/Add Modifier" "modifier.subdivision" "Subdivision Surface" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"subdivision"}}"#) => "Shows the active object as a smooth surface, with its cage over it.";
+    "Edit/Add Modifier" "modifier.mirror" "Mirror" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"mirror"}}"#) => "Shows a mirrored copy beside the active object, which follows its edits.";
+    "Edit/Add Modifier" "modifier.array" "Array" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"array"}}"#) => "Shows copies of the active object in a row, which follow its edits.";
+    "Edit/Add Modifier" "modifier.bevel" "Bevel" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"bevel"}}"#) => "Shows the active object with beveled edges.";
+    "Edit/Add Modifier" "modifier.weld" "Weld" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"weld"}}"#) => "Shows the active object with vertices merged that are close to one another.";
+    "Edit/Add Modifier" "modifier.triangulate" "Triangulate" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"triangulate"}}"#) => "Shows the active object in triangles.";
+    "Edit/Add Modifier" "modifier.apply" "Apply First" "" Meshes Run(r#"{"op":"apply_modifier"}"#) => "Changes the mesh of the active object as its first modifier says, and removes that.";
     "Edit" "edit.duplicate" "Duplicate Objects" "Shift+D" Objects Run(r#"{"op":"duplicate_objects"}"#) => "Copies objects with their meshes, and moves the copies.";
     "Edit" "edit.duplicate_linked" "Duplicate Linked" "Alt+D" Objects Run(r#"{"op":"duplicate_objects","linked":true}"#) => "Copies objects that go on sharing their meshes.";
     "Edit" "edit.join" "Join Objects" "Ctrl+J" TwoObjects Run(r#"{"op":"join_objects"}"#) => "Puts the selected objects into the active one.";

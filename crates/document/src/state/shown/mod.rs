@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 use trigon_mesh::{ChangedElements, Mesh};
-use trigon_modelling::{ChangedValues, Difference, EditMesh, ElementMap, ElementNumbers};
+use trigon_modelling::{ChangedValues, Difference, EditMesh, ElementMap, ElementNumbers, Evaluation};
 use trigon_scene::{MeshId, Scene};
 
 use super::MarkedElements;
@@ -55,6 +55,8 @@ pub(crate) struct Shown {
     pub(crate) untold: Option<Untold>,
     /// What a copy shows instead of the scene's mesh.
     pub(crate) visible: BTreeMap<MeshId, VisibleMesh>,
+    /// Meshes after their modifiers.
+    evaluations: BTreeMap<MeshId, Evaluation>,
     /// Another one after each change that affects marks, other than of the selection.
     pub(crate) marks_revision: u64,
 }
@@ -69,8 +71,11 @@ impl Shown {
             }
             self.note_visible(id);
         }
-        if difference.changes_subdivision() {
+        if difference.changes_modifiers() {
             self.note_visible(id);
+        }
+        if difference.changes_elements() {
+            self.forget_evaluation(id);
         }
         let values = mesh.changed_values(difference).filter(|_| self.meshes.contains_key(&id));
         match (values, self.outdated.get_mut(&id)) {
@@ -89,8 +94,23 @@ impl Shown {
         }
     }
 
+    /// What modifiers made of a mesh is outdated.
+    fn forget_evaluation(&mut self, id: MeshId) {
+        if let Some(evaluation) = self.evaluations.get_mut(&id) {
+            evaluation.forget();
+        }
+    }
+
+    /// A mesh after its modifiers, up to date.
+    pub(crate) fn evaluate(&mut self, id: MeshId, mesh: &EditMesh) -> &Evaluation {
+        let evaluation = self.evaluations.entry(id).or_default();
+        evaluation.update(mesh);
+        evaluation
+    }
+
     /// The scene's mesh must be rebuilt.
     pub(crate) fn note_mesh(&mut self, id: MeshId) {
+        self.forget_evaluation(id);
         self.outdated.insert(id, Outdated::Whole);
     }
 
@@ -147,14 +167,15 @@ impl Shown {
         let Some(mut untold) = self.untold.take() else { return };
         let candidates: BTreeSet<MeshId> = edited
             .iter()
-            .filter(|(id, mesh)| mesh.subdivision() > 0 || selection.of(**id).is_some())
+            .filter(|(id, mesh)| !mesh.modifiers().is_empty() || selection.of(**id).is_some())
             .map(|(id, _)| *id)
             .chain(self.visible.keys().copied())
             .collect();
         for id in candidates {
             let sight = edited.get(&id).map_or(Sight::Whole, |mesh| {
                 let is_edited = selection.of(id).is_some();
-                Sight::of(mesh, is_edited, is_edited && self.marked(id, mesh).has_hidden)
+                let has_hidden = is_edited && self.marked(id, mesh).has_hidden;
+                Sight::of(self.evaluate(id, mesh), is_edited, has_hidden)
             });
             let known = self.visible.get(&id);
             let is_current = match known {
@@ -170,12 +191,28 @@ impl Shown {
                 untold.visible.remove(&id);
                 untold.meshes.insert(id);
             } else {
-                let (visible, mesh) = VisibleMesh::new(sight, &edited[&id]);
+                let (visible, mesh) = VisibleMesh::new(sight, &edited[&id], self.evaluate(id, &edited[&id]));
                 self.visible.insert(id, visible);
                 untold.visible.insert(id, mesh);
             }
         }
         self.untold = Some(untold);
+    }
+
+    /// The changes of meshes that the copy shows in another way than the scene, since the last call.
+    pub(crate) fn take_visible(&mut self, edited: &BTreeMap<MeshId, EditMesh>) -> Vec<SceneChange> {
+        let mut changes = Vec::new();
+        for (&id, visible) in &mut self.visible {
+            let Some(mesh) = edited.get(&id) else { continue };
+            let evaluation = self.evaluations.entry(id).or_default();
+            evaluation.update(mesh);
+            let change = visible.take(id, mesh, evaluation);
+            if matches!(change, Some(SceneChange::Visible(..))) {
+                self.marks_revision = next_revision();
+            }
+            changes.extend(change);
+        }
+        changes
     }
 
     pub(crate) fn marked(&self, id: MeshId, edited: &EditMesh) -> &MarkedElements {
