@@ -31,7 +31,7 @@ fn plane() -> Plane {
 }
 
 /// Each on a tube without its ends.
-const OPERATIONS: [(&str, Operation); 20] = [
+const OPERATIONS: [(&str, Operation); 23] = [
     ("Catmull-Clark", |mesh| mesh.catmull_clark(3)),
     ("subdivide", |mesh| mesh.subdivide(&edges(mesh), 9).map(drop)),
     ("triangulate", |mesh| mesh.triangulate_faces(&faces(mesh)).map(drop)),
@@ -56,6 +56,12 @@ const OPERATIONS: [(&str, Operation); 20] = [
     ("inset a region", |mesh| {
         let inset = Inset { thickness: 0.01, open_borders: true, ..Inset::default() };
         mesh.inset_region(&faces(mesh), inset).map(drop)
+    }),
+    ("decimate", |mesh| mesh.decimate(&faces(mesh), &DecimateSettings::default()).map(drop)),
+    ("solidify", |mesh| mesh.solidify_faces(&faces(mesh), &SolidifySettings::default()).map(drop)),
+    ("spin", |mesh| {
+        let settings = SpinSettings { center: [3.0, 0.0, 0.0], ..SpinSettings::default() };
+        mesh.spin(&rims(mesh), &[], &settings).map(drop)
     }),
     ("duplicate", |mesh| mesh.duplicate(&[], &[], &faces(mesh)).map(drop)),
     ("mirror a copy", |mesh| mesh.mirror_copy(&faces(mesh), &[], &plane(), None).map(drop)),

@@ -78,7 +78,7 @@ fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-const OPERATIONS: [Operation; 37] = [
+const OPERATIONS: [Operation; 40] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -129,6 +129,16 @@ const OPERATIONS: [Operation; 37] = [
     }),
     operation("outset a region", Promise::Nothing, |mesh, on| {
         mesh.outset_region(&on.faces, Inset { thickness: 0.1, ..Inset::default() }).map(drop)
+    }),
+    operation("spin", Promise::Nothing, |mesh, on| {
+        let settings = SpinSettings { axis: [1.0, 0.0, 1.0], steps: 3, ..Default::default() };
+        mesh.spin(&on.edges, &on.vertices, &settings).map(drop)
+    }),
+    operation("decimate", Promise::Closed, |mesh, on| {
+        mesh.decimate(&on.faces, &DecimateSettings::default()).map(drop)
+    }),
+    operation("solidify", Promise::Nothing, |mesh, on| {
+        mesh.solidify_faces(&on.faces, &SolidifySettings { thickness: 0.1, ..Default::default() }).map(drop)
     }),
     operation("bevel edges", Promise::Closed, |mesh, on| {
         let settings = BevelSettings { segments: 1 + on.number as usize % 3, ..BevelSettings::default() };
