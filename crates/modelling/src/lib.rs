@@ -51,7 +51,7 @@ pub use inspect::{
     BoundaryLoop, DoubledFace, DoubledVertex, Inspection, InspectionSettings, NonPlanarFace, TouchingFaces,
 };
 pub use operations::*;
-pub use refusal::Refusal;
+pub use refusal::{Refusal, SolidFault};
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;
 
