@@ -57,7 +57,7 @@ pub use modifier::{
     SubdivisionModifier, TriangulateModifier, WeldModifier,
 };
 pub use operations::*;
-pub use refusal::Refusal;
+pub use refusal::{Refusal, SolidFault};
 pub use stack::{Evaluation, ModifierState};
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

@@ -4,6 +4,7 @@
 //! what it changes, and returns what it made. Ids given twice count once. On an error the mesh is unchanged.
 
 mod bevel;
+mod boolean;
 mod bridge;
 mod bridge_faces;
 mod catmull_clark;
@@ -53,6 +54,7 @@ mod tris_to_quads;
 mod unwrap;
 
 pub use bevel::{BevelLeftOut, BevelSettings, BevelWidth, Beveled, InnerMiter, OuterMiter};
+pub use boolean::{BooleanOperation, BooleanTool, Combined};
 pub use connect::Connected;
 pub use copy::CopiedElements;
 pub use decimate::{DecimateGoal, DecimateSettings, Decimated};

@@ -19,12 +19,10 @@ use crate::ids::FaceId;
 use crate::refusal::Refusal;
 
 /// When a reduction ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
 )]
+#[serde(rename_all = "snake_case")]
 pub enum DecimateGoal {
     /// At a part of the triangles.
     #[default]
@@ -36,12 +34,8 @@ pub enum DecimateGoal {
 }
 
 /// Parameters of [`EditMesh::decimate`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(default, deny_unknown_fields)
-)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct DecimateSettings {
     /// When to end; the other goals' values are not used.
     pub goal: DecimateGoal,

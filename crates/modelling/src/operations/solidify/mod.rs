@@ -13,12 +13,8 @@ use crate::refusal::Refusal;
 use crate::slots::NewElements;
 
 /// Parameters of [`EditMesh::solidify_faces`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(default, deny_unknown_fields)
-)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct SolidifySettings {
     /// The distance between both layers, in metres; at least 0.
     pub thickness: f64,

@@ -14,12 +14,8 @@ use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::refusal::Refusal;
 
 /// Parameters of [`EditMesh::spin`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(default, deny_unknown_fields)
-)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct SpinSettings {
     /// A point on the axis, in metres.
     pub center: [f64; 3],
