@@ -60,6 +60,7 @@ fn command() -> impl Strategy<Value = Value> {
         json!({"op": "add_modifier", "modifier": {"kind": "array", "offset": [0.1, 1e-300, -3.0]}, "index": 0}),
         json!({"op": "add_modifier", "modifier": {"kind": "bevel", "edges": "creased", "width": 0.30000000000000004}}),
         json!({"op": "add_modifier", "modifier": {"kind": "weld"}}),
+        json!({"op": "add_modifier", "modifier": {"kind": "solidify", "rim_material": 1}}),
         json!({"op": "add_modifier", "modifier": {"kind": "triangulate"}}),
         json!({"op": "show_modifier", "index": 0, "on": false}),
         json!({"op": "move_modifier", "index": 1, "to": 0}),

@@ -53,8 +53,8 @@ pub use inspect::{
     BoundaryLoop, DoubledFace, DoubledVertex, Inspection, InspectionSettings, NonPlanarFace, TouchingFaces,
 };
 pub use modifier::{
-    ArrayModifier, BevelModifier, BeveledEdges, MirrorModifier, Modifier, StackedModifier,
-    SubdivisionModifier, TriangulateModifier, WeldModifier,
+    ArrayModifier, BevelModifier, BeveledEdges, DecimateModifier, MirrorModifier, Modifier, ScrewModifier,
+    SolidifyModifier, StackedModifier, SubdivisionModifier, TriangulateModifier, WeldModifier,
 };
 pub use operations::*;
 pub use refusal::{Refusal, SolidFault};

@@ -5,13 +5,15 @@
 
 mod copies;
 mod surfaces;
+mod walls;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::refusal::Refusal;
 pub use copies::{ArrayModifier, MirrorModifier, WeldModifier};
-pub use surfaces::{BevelModifier, BeveledEdges, SubdivisionModifier, TriangulateModifier};
+pub use surfaces::{BevelModifier, BeveledEdges, DecimateModifier, SubdivisionModifier, TriangulateModifier};
+pub use walls::{ScrewModifier, SolidifyModifier};
 
 /// An operation on a whole mesh that stays alive. In JSON an object whose `kind` is the name in lower case with underscores,
 /// as `{ "kind": "mirror" }`; missing parameters have their defaults, unknown ones are errors.
@@ -27,12 +29,18 @@ pub enum Modifier {
     Mirror(MirrorModifier),
     /// Copies in a row.
     Array(ArrayModifier),
+    /// Faces get a second layer at a distance.
+    Solidify(SolidifyModifier),
     /// Edges become faces.
     Bevel(BevelModifier),
     /// Vertices that are close to one another become one.
     Weld(WeldModifier),
     /// Faces become triangles.
     Triangulate(TriangulateModifier),
+    /// Fewer triangles.
+    Decimate(DecimateModifier),
+    /// Edges are swept around an axis.
+    Screw(ScrewModifier),
 }
 
 /// A modifier in the stack of a mesh.
@@ -94,9 +102,12 @@ kinds! {
     Subdivision(SubdivisionModifier) "Subdivision Surface",
     Mirror(MirrorModifier) "Mirror",
     Array(ArrayModifier) "Array",
+    Solidify(SolidifyModifier) "Solidify",
     Bevel(BevelModifier) "Bevel",
     Weld(WeldModifier) "Weld",
     Triangulate(TriangulateModifier) "Triangulate",
+    Decimate(DecimateModifier) "Decimate",
+    Screw(ScrewModifier) "Screw",
 }
 
 /// Refuses a number out of its range, or not finite.

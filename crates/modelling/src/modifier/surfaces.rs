@@ -1,4 +1,4 @@
-//! Modifiers that give the same surface other faces: smoother, beveled, or of triangles.
+//! Modifiers that give the same surface other faces: smoother, beveled, of triangles, or fewer.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -111,5 +111,26 @@ impl TriangulateModifier {
 impl Default for TriangulateModifier {
     fn default() -> Self {
         Self { least_corners: 4 }
+    }
+}
+
+/// Cuts faces into triangles and reduces their number, with as little change of the surface as possible.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct DecimateModifier {
+    /// How many triangles to leave, in parts of all.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub ratio: f64,
+}
+
+impl DecimateModifier {
+    pub(super) fn check(&self) -> Result<(), Refusal> {
+        check_range("the ratio of triangles", self.ratio, 0.0..=1.0, "0 to 1")
+    }
+}
+
+impl Default for DecimateModifier {
+    fn default() -> Self {
+        Self { ratio: 0.5 }
     }
 }

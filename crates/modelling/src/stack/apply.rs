@@ -6,10 +6,10 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::layers::{LayerKind, LayerValues};
 use crate::modifier::{
-    ArrayModifier, BevelModifier, BeveledEdges, MirrorModifier, Modifier, SubdivisionModifier,
-    TriangulateModifier,
+    ArrayModifier, BevelModifier, BeveledEdges, DecimateModifier, MirrorModifier, Modifier, ScrewModifier,
+    SolidifyModifier, SubdivisionModifier, TriangulateModifier,
 };
-use crate::operations::BevelSettings;
+use crate::operations::{BevelSettings, DecimateGoal, DecimateSettings, SolidifySettings, SpinSettings};
 use crate::refusal::Refusal;
 
 impl EditMesh {
@@ -21,9 +21,12 @@ impl EditMesh {
             Modifier::Subdivision(settings) => self.modify_by_subdivision(settings),
             Modifier::Mirror(settings) => self.modify_by_mirror(settings),
             Modifier::Array(settings) => self.modify_by_array(settings),
+            Modifier::Solidify(settings) => self.modify_by_solidify(settings),
             Modifier::Bevel(settings) => self.modify_by_bevel(settings),
             Modifier::Weld(settings) => self.weld(settings.distance),
             Modifier::Triangulate(settings) => self.modify_by_triangles(settings),
+            Modifier::Decimate(settings) => self.modify_by_decimate(settings),
+            Modifier::Screw(settings) => self.modify_by_screw(settings),
         }
     }
 
@@ -91,6 +94,13 @@ impl EditMesh {
         if vertices.is_empty() { Ok(()) } else { self.merge_by_distance(&vertices, distance).map(drop) }
     }
 
+    fn modify_by_solidify(&mut self, settings: &SolidifyModifier) -> Result<(), Refusal> {
+        let &SolidifyModifier { thickness, offset, even, rim, rim_material, inner_material } = settings;
+        let of_operation = SolidifySettings { thickness, offset, even, rim, rim_material, inner_material };
+        let faces: Vec<FaceId> = self.faces().collect();
+        if faces.is_empty() { Ok(()) } else { self.solidify_faces(&faces, &of_operation).map(drop) }
+    }
+
     fn modify_by_bevel(&mut self, settings: &BevelModifier) -> Result<(), Refusal> {
         let edges = self.edges_to_bevel(settings);
         if edges.is_empty() {
@@ -131,6 +141,34 @@ impl EditMesh {
             self.is_sharp(edge) || between.is_some_and(differs)
         };
         self.edges().filter(is_sharp).collect()
+    }
+
+    fn modify_by_decimate(&mut self, settings: &DecimateModifier) -> Result<(), Refusal> {
+        let goal = DecimateGoal::Ratio;
+        let of_operation = DecimateSettings { goal, ratio: settings.ratio, ..DecimateSettings::default() };
+        let faces: Vec<FaceId> = self.faces().collect();
+        if faces.is_empty() { Ok(()) } else { self.decimate(&faces, &of_operation).map(drop) }
+    }
+
+    fn modify_by_screw(&mut self, settings: &ScrewModifier) -> Result<(), Refusal> {
+        let &ScrewModifier { axis, angle, steps, height, turns } = settings;
+        let angle = angle.to_radians();
+        let of_operation = SpinSettings { center: [0.0; 3], axis, angle, steps, height, turns };
+        let (edges, vertices) = (self.edges_to_sweep(), self.vertices_to_sweep());
+        if edges.is_empty() && vertices.is_empty() {
+            return Ok(());
+        }
+        self.spin(&edges, &vertices, &of_operation).map(drop)
+    }
+
+    /// The edges that are not between faces.
+    pub(super) fn edges_to_sweep(&self) -> Vec<EdgeId> {
+        self.edges().filter(|&edge| self.edge_corners(edge).nth(1).is_none()).collect()
+    }
+
+    /// The vertices without edges.
+    pub(super) fn vertices_to_sweep(&self) -> Vec<VertexId> {
+        self.vertices().filter(|&vertex| self.vertex_edges(vertex).next().is_none()).collect()
     }
 
     fn modify_by_triangles(&mut self, settings: &TriangulateModifier) -> Result<(), Refusal> {

@@ -60,6 +60,7 @@ impl Evaluation {
     }
 
     /// What became of each modifier, in the order of the stack.
+    #[must_use]
     pub fn states(&self) -> impl ExactSizeIterator<Item = &ModifierState> {
         self.steps.iter().map(|step| &step.state)
     }

@@ -32,7 +32,15 @@ impl EditMesh {
             }
             Modifier::Array(settings) => size.saturating_mul(u64::from(settings.count)),
             Modifier::Bevel(settings) => size.saturating_add(self.bevel_size(settings)),
-            Modifier::Triangulate(_) => (self.corner_count() as u64).max(size),
+            // Two layers, and a rim along each edge.
+            Modifier::Solidify(_) => 2 * size + self.edge_count() as u64,
+            Modifier::Triangulate(_) | Modifier::Decimate(_) => (self.corner_count() as u64).max(size),
+            Modifier::Screw(settings) => {
+                let swept = self.edges_to_sweep().len() + self.vertices_to_sweep().len();
+                let steps = u64::from(settings.steps) * u64::from(settings.turns);
+                // A step adds as many vertices as edges, and one more for each outline.
+                size.saturating_add(steps.saturating_mul(2 * swept as u64))
+            }
             Modifier::Subdivision(_) | Modifier::Weld(_) => size,
         }
     }

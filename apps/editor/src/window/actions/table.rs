@@ -50,6 +50,9 @@ actions! {
     "Edit/Add Modifier" "modifier.bevel" "Bevel" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"bevel"}}"#) => "Shows the active object with beveled edges.";
     "Edit/Add Modifier" "modifier.weld" "Weld" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"weld"}}"#) => "Shows the active object with vertices merged that are close to one another.";
     "Edit/Add Modifier" "modifier.triangulate" "Triangulate" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"triangulate"}}"#) => "Shows the active object in triangles.";
+    "Edit/Add Modifier" "modifier.solidify" "Solidify" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"solidify"}}"#) => "Shows the faces of the active object as walls.";
+    "Edit/Add Modifier" "modifier.decimate" "Decimate" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"decimate"}}"#) => "Shows the active object with fewer triangles.";
+    "Edit/Add Modifier" "modifier.screw" "Screw" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"screw"}}"#) => "Shows the outline of the active object swept around an axis.";
     "Edit/Add Modifier" "modifier.apply" "Apply First" "" Meshes Run(r#"{"op":"apply_modifier"}"#) => "Changes the mesh of the active object as its first modifier says, and removes that.";
     "Edit" "edit.duplicate" "Duplicate Objects" "Shift+D" Objects Run(r#"{"op":"duplicate_objects"}"#) => "Copies objects with their meshes, and moves the copies.";
     "Edit" "edit.duplicate_linked" "Duplicate Linked" "Alt+D" Objects Run(r#"{"op":"duplicate_objects","linked":true}"#) => "Copies objects that go on sharing their meshes.";
